@@ -1,0 +1,36 @@
+/// Why a core value could not be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CoreError {
+    /// Two sizes that must agree do not.
+    #[error("{what}: expected {expected}, found {found}")]
+    Size {
+        /// What was counted.
+        what: &'static str,
+        /// How many there should be.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// A value that must be finite is not.
+    #[error("{what}: expected a finite number, found {found} at sample {sample} of channel `{channel}`")]
+    NotFinite {
+        /// What holds the value.
+        what: &'static str,
+        /// The channel's name.
+        channel: String,
+        /// Index of the sample.
+        sample: usize,
+        /// The value.
+        found: f64,
+    },
+    /// A value is out of its range.
+    #[error("{what}: expected {expected}, found {found}")]
+    Range {
+        /// What the value is.
+        what: &'static str,
+        /// The legal values.
+        expected: &'static str,
+        /// The value.
+        found: f64,
+    },
+}

@@ -1,0 +1,46 @@
+//! Points, surfaces, responses, drives and the conventions they share.
+//!
+//! # Conventions
+//!
+//! - SI units and `f64` everywhere. Files and the command line speak millimetres and milliseconds; nothing here does.
+//! - Origin at the lower-left corner of the outline's bounding box, x to the right, y up. Displacement is positive
+//!   towards the finger.
+//! - Time factor e^{+jωt}. A decay time τ is that of the *amplitude*, e^{-t/τ}; a decay rate is σ = 1/τ.
+//! - A response `h[actuator][point][sample]` is the normal velocity at the point, in m/s, per unit impulse of drive at
+//!   the actuator. Sample 0 is the value just after the impulse, whole.
+//! - A drive `d[actuator][sample]` makes `v[i] = Σ_j h[i-j] d[j] / rate`.
+//! - A window of T holds samples 0 … n with `n = round(T · rate)`, so n + 1 samples; the focal instant is sample n.
+//!
+//! # In reading order
+//!
+//! [`Point`], [`Outline`] and [`Surface`] say what there is; [`Responses`] is what the surface does; [`Drive`] is what
+//! we send. The two last are the waists of the whole: models and measurements meet in the one, virtual and real
+//! devices in the other.
+//!
+//! ```
+//! use unripple_core::{Outline, Point, Shape};
+//!
+//! let sheet = Outline::new(Shape::Rectangle { width: 0.15, height: 0.10 });
+//! assert!(sheet.contains(Point::new(0.062, 0.090)));
+//! assert_eq!(sheet.area(), 0.015);
+//! ```
+
+mod drive;
+mod error;
+mod material;
+mod outline;
+mod point;
+mod pole;
+mod responses;
+mod surface;
+
+pub use drive::Drive;
+pub use error::CoreError;
+pub use material::{MATERIALS, Material};
+pub use outline::{Edge, Edges, Outline, Shape};
+pub use point::Point;
+pub use pole::Pole;
+pub use responses::{Conditions, ModalResponses, Port, Responses, SampledResponses, Shapes};
+pub use surface::{
+    Actuator, ActuatorKind, Air, CoilDrive, Decay, Emission, Finger, Sheet, Surface, window_samples,
+};

@@ -1,0 +1,137 @@
+use crate::{CoreError, Outline, Point, Pole};
+use faer::Mat;
+use std::sync::Arc;
+
+/// What the surface does: a linear system seen from outside, sampled or factored into decaying oscillations.
+#[derive(Clone, Debug)]
+pub enum Responses {
+    /// Poles, an input weight per actuator, a readout weight per point: a readout anywhere is one product.
+    Modal(ModalResponses),
+    /// Samples at a fixed set of points.
+    Sampled(SampledResponses),
+}
+
+impl Responses {
+    /// Band, rate, λ_min and region.
+    pub fn conditions(&self) -> &Conditions {
+        match self {
+            Self::Modal(r) => &r.conditions,
+            Self::Sampled(r) => &r.conditions,
+        }
+    }
+
+    /// The actuators, in channel order.
+    pub fn ports(&self) -> &[Port] {
+        match self {
+            Self::Modal(r) => &r.ports,
+            Self::Sampled(r) => &r.ports,
+        }
+    }
+}
+
+/// Where and at what rate responses hold.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Conditions {
+    /// Samples per second.
+    pub rate: f64,
+    /// Lowest and highest frequency, in Hz.
+    pub band: [f64; 2],
+    /// Shortest wavelength of the band, in metres: 2π/k at its top.
+    pub lambda_min: f64,
+    /// The region that points may lie in.
+    pub outline: Outline,
+}
+
+/// An actuator as the responses know it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Port {
+    /// Its name.
+    pub name: String,
+    /// Where it acts.
+    pub at: Point,
+}
+
+/// Readout weights anywhere: mass-normalised mode shapes, or whatever stands for them. In 1/√kg.
+pub trait Shapes: Send + Sync + std::fmt::Debug {
+    /// Number of modes.
+    fn modes(&self) -> usize;
+
+    /// Weights of every mode at one point, into `row` of length [`Shapes::modes`].
+    fn at(&self, point: Point, row: &mut [f64]);
+
+    /// Weights at many points, as points x modes.
+    fn at_all(&self, points: &[Point]) -> Mat<f64> {
+        let mut weights = Mat::zeros(points.len(), self.modes());
+        let mut row = vec![0.0; self.modes()];
+        for (i, point) in points.iter().enumerate() {
+            self.at(*point, &mut row);
+            row.iter().enumerate().for_each(|(m, w)| weights[(i, m)] = *w);
+        }
+        weights
+    }
+}
+
+/// Responses factored mode by mode: `h(t) = Σ_m input[a, m] · shapes[m](x) · velocity_m(t)`.
+#[derive(Clone, Debug)]
+pub struct ModalResponses {
+    /// The actuators.
+    pub ports: Vec<Port>,
+    /// The decaying oscillations, frequencies ascending.
+    pub poles: Vec<Pole>,
+    /// Input weights, actuators x modes.
+    pub input: Mat<f64>,
+    /// Readout weights at any point.
+    pub shapes: Arc<dyn Shapes>,
+    /// Where they hold.
+    pub conditions: Conditions,
+}
+
+/// Responses at fixed points, as float32 samples in the order `[point][actuator][sample]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SampledResponses {
+    /// The actuators.
+    pub ports: Vec<Port>,
+    /// The points.
+    pub points: Vec<Point>,
+    /// Where they hold.
+    pub conditions: Conditions,
+    samples: usize,
+    data: Vec<f32>,
+}
+
+impl SampledResponses {
+    /// Responses from `points · ports · samples` values.
+    ///
+    /// # Errors
+    /// [`CoreError::Size`] if `data` has another length.
+    pub fn new(
+        ports: Vec<Port>,
+        points: Vec<Point>,
+        conditions: Conditions,
+        samples: usize,
+        data: Vec<f32>,
+    ) -> Result<Self, CoreError> {
+        let expected = ports.len() * points.len() * samples;
+        if data.len() != expected {
+            return Err(CoreError::Size { what: "response samples", expected, found: data.len() });
+        }
+        Ok(Self { ports, points, conditions, samples, data })
+    }
+
+    /// Samples per response.
+    pub fn samples(&self) -> usize {
+        self.samples
+    }
+
+    /// The response of one actuator at one point.
+    pub fn response(&self, actuator: usize, point: usize) -> &[f32] {
+        let start = (point * self.ports.len() + actuator) * self.samples;
+        &self.data[start..start + self.samples]
+    }
+
+    /// Index of the stored point nearest to a place; `None` without points.
+    pub fn nearest(&self, place: Point) -> Option<usize> {
+        (0..self.points.len())
+            .min_by(|&a, &b| self.points[a].distance(place).total_cmp(&self.points[b].distance(place)))
+    }
+}

@@ -1,0 +1,165 @@
+use crate::{Outline, Point};
+
+/// A whole surface: sheet, rim, actuators, band and finger. What a surface file says, in SI.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface {
+    /// What people call it.
+    pub name: String,
+    /// The rim.
+    pub outline: Outline,
+    /// The sheet inside it.
+    pub sheet: Sheet,
+    /// Band, rate and limits of what is sent.
+    pub emission: Emission,
+    /// The finger that touches it.
+    pub finger: Finger,
+    /// The actuators, in channel order.
+    pub actuators: Vec<Actuator>,
+}
+
+/// The sheet: an isotropic thin plate under uniform tension.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sheet {
+    /// Name of the material, for reports.
+    pub material: String,
+    /// Young's modulus E, in Pa.
+    pub young: f64,
+    /// Density ρ, in kg/m³.
+    pub density: f64,
+    /// Poisson's ratio ν.
+    pub poisson: f64,
+    /// Stress at yield or fracture, in Pa; `None` where unknown.
+    pub strength: Option<f64>,
+    /// Thickness h, in metres.
+    pub thickness: f64,
+    /// Tension R, in N/m; 0 for a plate.
+    pub tension: f64,
+    /// How vibration dies out.
+    pub decay: Decay,
+    /// Air that moves with the sheet.
+    pub air: Air,
+}
+
+/// How vibration dies out.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Decay {
+    /// One amplitude decay time for all modes, in seconds.
+    Time(f64),
+    /// Amplitude decay time against frequency: (Hz, s), frequencies ascending; held constant beyond both ends.
+    Table(Vec<(f64, f64)>),
+    /// Loss factor η of the material; only bending dissipates.
+    LossFactor(f64),
+}
+
+/// Air beside the sheet, as added mass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Air {
+    /// Vacuum.
+    None,
+    /// Air on one side.
+    OneSide,
+    /// Air on both sides.
+    BothSides,
+}
+
+impl Air {
+    /// Number of sides in contact with air.
+    pub fn sides(self) -> f64 {
+        match self {
+            Self::None => 0.0,
+            Self::OneSide => 1.0,
+            Self::BothSides => 2.0,
+        }
+    }
+}
+
+/// What may be sent: band, sample rate and limits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Emission {
+    /// Lowest and highest frequency, in Hz. Modes outside are left out of responses.
+    pub band: [f64; 2],
+    /// Samples per second.
+    pub rate: f64,
+    /// Largest drive per actuator, in the drive's unit.
+    pub limit: f64,
+    /// Largest rms of the drive per actuator, in the drive's unit.
+    pub rms_limit: Option<f64>,
+}
+
+/// A fingertip lumped into mass, damper and spring over a contact disc.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Finger {
+    /// Moving mass μ, in kg.
+    pub mass: f64,
+    /// Damping β, in N·s/m.
+    pub damping: f64,
+    /// Stiffness κ, in N/m.
+    pub stiffness: f64,
+    /// Radius of the contact disc, in metres.
+    pub contact_radius: f64,
+}
+
+impl Default for Finger {
+    /// The paper's fingertip (section 3.5), with a contact disc of 5 mm radius.
+    fn default() -> Self {
+        Self { mass: 0.2e-3, damping: 1.0, stiffness: 1e3, contact_radius: 5e-3 }
+    }
+}
+
+/// One actuator: a channel of the drive.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Actuator {
+    /// Its name, unique on the surface.
+    pub name: String,
+    /// Where it acts.
+    pub at: Point,
+    /// What it is.
+    pub kind: ActuatorKind,
+}
+
+/// What an actuator is, and the unit of its drive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ActuatorKind {
+    /// An ideal point force; its drive is in N.
+    Force,
+    /// A coil with a magnet that rides on the sheet; its drive is in A or V.
+    MovingMagnet {
+        /// Force constant bl, in N/A.
+        force_constant: f64,
+        /// Coil resistance, in Ω.
+        resistance: f64,
+        /// Coil inductance, in H.
+        inductance: f64,
+        /// Mass that rides on the sheet, in kg.
+        moving_mass: f64,
+        /// Whether the amplifier sets the current or the voltage.
+        driven_by: CoilDrive,
+    },
+    /// A piezo patch; its drive is in V.
+    Piezo,
+}
+
+impl ActuatorKind {
+    /// The name surface files use.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Force => "force",
+            Self::MovingMagnet { .. } => "moving-magnet",
+            Self::Piezo => "piezo",
+        }
+    }
+}
+
+/// What an amplifier holds on a coil.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CoilDrive {
+    /// The current.
+    Current,
+    /// The voltage.
+    Voltage,
+}
+
+/// Index n of the focal instant of a window: `round(window · rate)`; the window holds n + 1 samples.
+pub fn window_samples(window: f64, rate: f64) -> usize {
+    (window * rate).round().max(0.0) as usize
+}

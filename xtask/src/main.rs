@@ -1,0 +1,66 @@
+//! House rules and documentation checks: `cargo xtask tidy` and `cargo xtask docs`.
+
+mod docs;
+mod floors;
+mod sizes;
+mod words;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let task = std::env::args().nth(1).unwrap_or_default();
+    let root = root();
+    let faults = match task.as_str() {
+        "tidy" => tidy(&root),
+        "docs" => docs::run_all(&root),
+        _ => {
+            eprintln!("usage: cargo xtask tidy | docs");
+            return ExitCode::from(2);
+        }
+    };
+    faults.iter().for_each(|fault| eprintln!("{fault}"));
+    if faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+/// Every breach of the house rules, one line each.
+fn tidy(root: &Path) -> Vec<String> {
+    let mut faults = floors::check(root);
+    faults.extend(sizes::check(root));
+    faults.extend(words::check(root));
+    faults
+}
+
+/// The checkout's top folder.
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// Files below `folder` whose name ends in one of `endings`, build output and version control left out.
+fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
+    let mut found = Vec::new();
+    for path in entries.flatten().map(|entry| entry.path()) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if path.is_dir() {
+            if !matches!(name.as_str(), "target" | ".git" | "out" | "corpus" | "artifacts") {
+                found.extend(files(&path, endings));
+            }
+        } else if endings.iter().any(|ending| name.ends_with(ending)) {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_house_is_tidy() {
+        let root = super::root();
+        assert!(super::files(&root, &[".rs"]).len() > 10, "the walk found no code");
+        let faults = super::tidy(&root);
+        assert!(faults.is_empty(), "\n{}", faults.join("\n"));
+    }
+}
