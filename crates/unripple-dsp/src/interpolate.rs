@@ -1,0 +1,80 @@
+use faer::traits::RealField;
+use pulp::NullaryFnOnce;
+
+/// Taps added at once.
+const TAPS: usize = 4;
+
+/// A number that multiplies and adds in one instruction where the processor can.
+pub(crate) trait Sample: RealField + Copy {
+    /// `sum + self · factor`.
+    fn added(self, factor: Self, sum: Self) -> Self;
+}
+
+impl Sample for f32 {
+    #[inline(always)]
+    fn added(self, factor: Self, sum: Self) -> Self {
+        self.mul_add(factor, sum)
+    }
+}
+
+impl Sample for f64 {
+    #[inline(always)]
+    fn added(self, factor: Self, sum: Self) -> Self {
+        self.mul_add(factor, sum)
+    }
+}
+
+/// Rows to interpolate: out[n · step + p] = Σ_k weights[p][k] x[n + k] for each.
+pub(crate) struct Rows<'a, T> {
+    /// A sample for each block of `step` outputs, begun or whole, and taps - 1 more; row by row.
+    pub(crate) x: &'a [T],
+    /// Taps, phase by phase.
+    pub(crate) weights: &'a [T],
+    /// Number of phases.
+    pub(crate) step: usize,
+    /// `samples` outputs, row by row.
+    pub(crate) out: &'a mut [T],
+    /// Outputs of a row.
+    pub(crate) samples: usize,
+}
+
+impl<T: Sample> NullaryFnOnce for Rows<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let blocks = self.samples.div_ceil(self.step);
+        let taps = self.weights.len() / self.step;
+        let mut sums = vec![T::zero_impl(); blocks];
+        let rows = self.x.chunks_exact(blocks + taps - 1).zip(self.out.chunks_exact_mut(self.samples));
+        for (x, out) in rows {
+            for (phase, weights) in self.weights.chunks_exact(taps).enumerate() {
+                sums.fill(T::zero_impl());
+                for (first, weights) in weights.chunks(TAPS).enumerate() {
+                    add(&x[first * TAPS..], weights, &mut sums);
+                }
+                for (out, sum) in out[phase.min(self.samples)..].iter_mut().step_by(self.step).zip(&sums) {
+                    *out = *sum;
+                }
+            }
+        }
+    }
+}
+
+/// Adds up to [`TAPS`] taps to all sums: sums[n] += Σ_k weights[k] x[n + k].
+#[inline(always)]
+fn add<T: Sample>(x: &[T], weights: &[T], sums: &mut [T]) {
+    let n = sums.len();
+    if let [a, b, c, d] = *weights {
+        let shifted = x[..n].iter().zip(&x[1..=n]).zip(&x[2..n + 2]).zip(&x[3..n + 3]);
+        for (sum, (((xa, xb), xc), xd)) in sums.iter_mut().zip(shifted) {
+            *sum = xd.added(d, xc.added(c, xb.added(b, xa.added(a, *sum))));
+        }
+        return;
+    }
+    for (k, weight) in weights.iter().enumerate() {
+        for (sum, x) in sums.iter_mut().zip(&x[k..k + n]) {
+            *sum = x.added(*weight, *sum);
+        }
+    }
+}

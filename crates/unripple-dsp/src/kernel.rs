@@ -1,0 +1,140 @@
+use faer::Mat;
+use std::f64::consts::PI;
+use unripple_core::Pole;
+
+/// Interpolation between samples taken at a `step`-th of the rate: `taps` weights for each of `step` phases.
+///
+/// A Kaiser-windowed sinc (Kaiser, in *System Analysis by Digital Computer*, 1966, chapter 7), for signals that stay below
+/// half the reduced rate by a margin.
+#[derive(Debug)]
+pub(crate) struct Kernel {
+    /// Full-rate samples from one reduced sample to the next.
+    pub(crate) step: usize,
+    /// Weights, taps x phases.
+    pub(crate) weights: Mat<f64>,
+}
+
+impl Kernel {
+    /// A kernel of `2 · half` taps.
+    pub(crate) fn new(step: usize, half: usize, beta: f64) -> Self {
+        let weights = Mat::from_fn(2 * half, step, |tap, phase| {
+            let t = phase as f64 / step as f64 - (tap as f64 - half as f64 + 1.0);
+            sinc(t) * kaiser(t / half as f64, beta)
+        });
+        Self { step, weights }
+    }
+
+    /// Number of taps.
+    pub(crate) fn taps(&self) -> usize {
+        self.weights.nrows()
+    }
+
+    /// Reduced samples needed before the first.
+    pub(crate) fn lead(&self) -> usize {
+        (self.taps() / 2).saturating_sub(1)
+    }
+
+    /// Half the taps that bring the error of a signal up to `fill` of half the reduced rate down to `accuracy`, and the
+    /// window's β, by Kaiser's rules, shared among the images that fold onto it.
+    pub(crate) fn size(fill: f64, accuracy: f64) -> (usize, f64) {
+        let attenuation = (-20.0 * (accuracy / 2.5).log10()).max(21.0);
+        let beta = if attenuation > 50.0 {
+            0.1102 * (attenuation - 8.7)
+        } else {
+            0.5842 * (attenuation - 21.0).powf(0.4) + 0.07886 * (attenuation - 21.0)
+        };
+        let taps = 1.0 + (attenuation - 8.0) / (2.285 * 2.0 * PI * (1.0 - fill));
+        ((taps / 2.0).ceil().max(1.0) as usize, beta)
+    }
+
+    /// Largest error on e^{zt}, relative to its own size at that time, z the pole's complex frequency.
+    pub(crate) fn error(&self, pole: Pole, rate: f64) -> f64 {
+        let square = (pole.omega - pole.sigma) * (pole.omega + pole.sigma);
+        if square < 0.0 {
+            return f64::INFINITY;
+        }
+        let (angle, decay) = (square.sqrt() * self.step as f64 / rate, pole.sigma * self.step as f64 / rate);
+        let turn = ((-decay).exp() * angle.cos(), (-decay).exp() * angle.sin());
+        (0..self.step)
+            .map(|phase| {
+                let first = -(phase as f64 / self.step as f64 + self.lead() as f64);
+                let size = (-decay * first).exp();
+                let (mut x, mut y) = (size * (angle * first).cos(), size * (angle * first).sin());
+                let (mut re, mut im) = (-1.0, 0.0);
+                for weight in self.weights.col(phase).iter() {
+                    re += weight * x;
+                    im += weight * y;
+                    (x, y) = (x * turn.0 - y * turn.1, x * turn.1 + y * turn.0);
+                }
+                re.hypot(im)
+            })
+            .fold(0.0, f64::max)
+    }
+}
+
+fn sinc(t: f64) -> f64 {
+    if t.abs() < 1e-9 { 1.0 } else { (PI * t).sin() / (PI * t) }
+}
+
+/// The Kaiser window at `u` of its half-width, 1 at the middle.
+fn kaiser(u: f64, beta: f64) -> f64 {
+    if u.abs() > 1.0 { 0.0 } else { bessel_i0(beta * (1.0 - u * u).sqrt()) / bessel_i0(beta) }
+}
+
+/// The modified Bessel function I_0, by its power series.
+fn bessel_i0(x: f64) -> f64 {
+    let quarter = x * x / 4.0;
+    let (mut term, mut sum, mut k) = (1.0, 1.0, 1.0);
+    while term > sum * 1e-17 {
+        term *= quarter / (k * k);
+        sum += term;
+        k += 1.0;
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reaches_its_accuracy_over_its_band_with_a_tap_or_two_to_spare() {
+        for accuracy in [1e-3, 1e-6, 1e-9, 1e-12] {
+            for fill in [0.2, 0.5, 0.8] {
+                let (half, beta) = Kernel::size(fill, accuracy);
+                let worst = |half: usize| {
+                    let kernel = Kernel::new(5, half, beta);
+                    (0..=40)
+                        .map(|part| Pole {
+                            omega: fill * f64::from(part) / 40.0 * PI * 1e3 / 5.0,
+                            sigma: 0.0,
+                        })
+                        .map(|pole| kernel.error(pole, 1e3))
+                        .fold(0.0, f64::max)
+                };
+                let best = (half..half + 3).map(worst).fold(f64::INFINITY, f64::min);
+                assert!(best <= accuracy, "{accuracy} {fill}: {best}");
+            }
+        }
+    }
+
+    #[test]
+    fn says_its_error() {
+        let kernel = Kernel::new(3, 6, 5.0);
+        let pole = Pole { omega: 700.0, sigma: 20.0 };
+        let exact = |t: f64| (-pole.sigma * t).exp() * ((pole.omega * pole.omega - 400.0).sqrt() * t).cos();
+        for phase in 0..3 {
+            let found: f64 =
+                (0..12).map(|tap| kernel.weights[(tap, phase)] * exact((tap as f64 - 5.0) * 3.0 / 1e3)).sum();
+            let error = (found - exact(phase as f64 / 1e3)).abs();
+            assert!(error <= kernel.error(pole, 1e3), "{phase}: {error}");
+        }
+    }
+
+    #[test]
+    fn knows_the_bessel_function() {
+        // Abramowitz and Stegun, table 9.8.
+        assert!((bessel_i0(1.0) - 1.266_065_877_752_008_4).abs() < 1e-15);
+        assert!((bessel_i0(5.0) / 27.239_871_823_604_44 - 1.0).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,14 @@
+//! Signal processing: synthesis of modal responses, spectra, convolution.
+
+mod convolve;
+mod error;
+mod interpolate;
+mod kernel;
+mod spectrum;
+mod synth;
+
+pub use convolve::{Convolver, convolve};
+pub use error::DspError;
+pub use realfft::num_complex::Complex;
+pub use spectrum::share_above;
+pub use synth::ModalSynth;

@@ -1,0 +1,260 @@
+use super::closed::{DISC, exposure};
+use crate::Medium;
+use crate::damping::decay_rate;
+use std::f64::consts::{PI, TAU};
+use unripple_core::{Outline, Shape, Surface};
+
+/// Frequencies that a band is divided into.
+const BINS: usize = 400;
+
+/// A surface as the statistics of focusing see it: how many modes ring at each frequency, how long, and how strongly.
+///
+/// It refines [`super::closed::contrast`] in five ways, none of them fitted:
+/// - modes crowd towards the top of the band, so sums over neighbours carry ∫n²df and not B n̄²;
+/// - modes vanish (or swell) at the rim, so that inside, where targets are, they count S k²/4π and not M;
+/// - the shapes of a rectangle are products of two sines, whose squares scatter by 5/4 and not by the 2 of Gaussian
+///   waves;
+/// - before the first waves return, modes are as good as evenly spaced: a mode and its neighbours together leak as n
+///   says, and the mode itself must not be counted twice;
+/// - every frequency has its own decay time.
+///
+/// With I(T) = ∫_0^T e^{-2t/τ}/2 and V = ∫_0^T e^{-4t/τ}/8, dM modes in a bin of which dℓ at the target, n per hertz:
+/// 1/C² = Σ dℓ [n V / N + (s - ρ) I² / N + e (ℓ/M) I²] / (Σ dℓ I)², where s is 5/4 or 2, ℓ = Σ dℓ, M = Σ dM, and
+/// ρ = 1 - e^{-2t_0/τ} I(T - t_0)²/I(T)² the share of the beats of a mode with its neighbours that is over by the time
+/// t_0 = 2πS/P c_g of a return trip along the mean chord πS/P. For one decay time and an even density, with ρ = 0 and
+/// s = 2, it is the plain form again.
+///
+/// ```
+/// # use unripple_core::*;
+/// # let surface = unripple_physics::design::papers_surface();
+/// let cavity = unripple_physics::design::Cavity::of(&surface, 3000.0);
+/// let (once, repeated) = (cavity.contrast(8.0, 0.030), cavity.repeated(8.0, 0.030, 0.070));
+/// assert!(once > 20.0 && repeated < once);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cavity {
+    bins: Vec<Bin>,
+    /// Scatter s of the squared mode shapes, ⟨φ⁴⟩/⟨φ²⟩² - 1.
+    scatter: f64,
+    /// Share e of a focus beyond its disc.
+    exposure: f64,
+    /// Width of the band, in Hz.
+    bandwidth: f64,
+}
+
+/// A slice of the band.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Bin {
+    hz: f64,
+    /// Modes in it.
+    modes: f64,
+    /// Modes in it as a point away from the rim counts them.
+    local: f64,
+    /// Modes per hertz.
+    density: f64,
+    /// Decay rate of the amplitude, in 1/s.
+    sigma: f64,
+    /// Time of a return trip along the mean chord, in s.
+    trip: f64,
+}
+
+impl Bin {
+    /// ∫_0^T e^{-2t/τ}/2 dt: what the window gathers of a mode.
+    fn gathered(&self, window: f64) -> f64 {
+        ring(2.0 * self.sigma, window) / 2.0
+    }
+
+    /// ∫_0^T e^{-4t/τ}/8 dt: what leaks into a mode, squared, from one neighbour per hertz.
+    fn leaked(&self, window: f64) -> f64 {
+        ring(4.0 * self.sigma, window) / 8.0
+    }
+
+    /// Share ρ of a mode's beats with its neighbours that is over by the first return.
+    fn regular(&self, window: f64) -> f64 {
+        let left = self.gathered((window - self.trip).max(0.0)) / self.gathered(window);
+        1.0 - (-2.0 * self.sigma * self.trip).exp() * left * left
+    }
+}
+
+impl Cavity {
+    /// The statistics of a surface in a band that ends at `top_hz`, from Weyl's law.
+    pub fn of(surface: &Surface, top_hz: f64) -> Self {
+        let medium = Medium::of(&surface.sheet);
+        let [low_hz, _] = surface.emission.band;
+        let first = medium.wavenumber(TAU * low_hz.max(0.0));
+        let last = medium.wavenumber(TAU * top_hz);
+        let width = (last - first) / BINS as f64;
+        let bins = (0..BINS)
+            .map(|i| {
+                let k = first + (i as f64 + 0.5) * width;
+                let omega = medium.omega(k);
+                let per_wavenumber = modes_per_wavenumber(&surface.outline, k).max(0.0);
+                let group = medium.group_celerity(k);
+                Bin {
+                    hz: omega / TAU,
+                    modes: per_wavenumber * width,
+                    local: surface.outline.area() * k * width / TAU,
+                    density: per_wavenumber * TAU / group,
+                    sigma: decay_rate(&surface.sheet.decay, omega, medium.bending_share(k)),
+                    trip: TAU * surface.outline.area() / (surface.outline.perimeter() * group),
+                }
+            })
+            .collect();
+        let scatter = if matches!(surface.outline.shape, Shape::Rectangle { .. }) { 1.25 } else { 2.0 };
+        Self { bins, scatter, exposure: exposure(TAU * DISC), bandwidth: top_hz - low_hz }
+    }
+
+    /// The same with the modes scaled to an exact count.
+    pub fn counted(mut self, modes: f64) -> Self {
+        let ratio = modes / self.modes();
+        if ratio.is_finite() && ratio > 0.0 {
+            self.bins.iter_mut().for_each(|bin| {
+                bin.modes *= ratio;
+                bin.density *= ratio;
+            });
+        }
+        self
+    }
+
+    /// The same with one decay time, in seconds, at all frequencies.
+    pub fn with_decay_time(mut self, decay_time: f64) -> Self {
+        self.bins.iter_mut().for_each(|bin| bin.sigma = 1.0 / decay_time);
+        self
+    }
+
+    /// Modes in the band, M.
+    pub fn modes(&self) -> f64 {
+        self.bins.iter().map(|bin| bin.modes).sum()
+    }
+
+    /// Modes as a point away from the rim counts them, S k²/4π.
+    pub fn local_modes(&self) -> f64 {
+        self.bins.iter().map(|bin| bin.local).sum()
+    }
+
+    /// Width of the band, in Hz.
+    pub fn bandwidth(&self) -> f64 {
+        self.bandwidth
+    }
+
+    /// Width of the band of even density with the same leakage, M²/∫n²df, in Hz.
+    pub fn effective_bandwidth(&self) -> f64 {
+        self.modes().powi(2) / self.sum(|bin| bin.modes * bin.density)
+    }
+
+    /// Decay time of the amplitude, averaged over the modes' rates, in s.
+    pub fn decay_time(&self) -> f64 {
+        self.modes() / self.sum(|bin| bin.modes * bin.sigma)
+    }
+
+    /// Exponent p of a mode density that grows as f^p from the bottom of the band, with the same mean frequency.
+    pub fn growth(&self) -> f64 {
+        let top = self.bins.last().map_or(1.0, |bin| bin.hz);
+        let low = top - self.bandwidth;
+        let mean = (self.sum(|bin| bin.modes * bin.hz) / self.modes() - low) / self.bandwidth;
+        ((2.0 * mean - 1.0) / (1.0 - mean)).clamp(0.0, 4.0)
+    }
+
+    /// Contrast of one focus of `actuators` actuators and a window in seconds.
+    pub fn contrast(&self, actuators: f64, window: f64) -> f64 {
+        self.noise(actuators, window, |_| 0.0, |_| 0.0).powf(-0.5)
+    }
+
+    /// Contrast of a focus repeated every `period` seconds, once as many pulses came before as matter and more follow.
+    ///
+    /// With x = e^{-2T_r/τ}, the field at a focal instant holds, beside that pulse,
+    /// - from the pulse k periods before: its leakage times x^k, for each pair of modes in a new phase;
+    /// - from the pulse k periods after, begun if kT_r < T: x^k times the leakage of a window T - kT_r;
+    /// - from both, each mode's focus again, no longer in phase with the others. The earlier is down by x^{k/2}, the
+    ///   later by x^{k/2} r with r = I(T - kT_r)/I(T), and both swing as cos ω_m kT_r: together ½ x^k (1 + r)².
+    pub fn repeated(&self, actuators: f64, window: f64, period: f64) -> f64 {
+        let begun = (window / period).ceil().clamp(1.0, 1e6) as u32;
+        let later = move |bin: &Bin, f: &dyn Fn(f64, f64) -> f64| -> f64 {
+            (1..begun)
+                .map(|k| f64::from(k) * period)
+                .map(|lag| f((-2.0 * bin.sigma * lag).exp(), window - lag))
+                .sum()
+        };
+        let earlier = move |bin: &Bin| 1.0 / (2.0 * bin.sigma * period).exp_m1();
+        let leakage =
+            |bin: &Bin| earlier(bin) + later(bin, &|x, left| x * bin.leaked(left) / bin.leaked(window));
+        let echo = |bin: &Bin| {
+            let whole = bin.gathered(window);
+            let begun = later(bin, &|x, left| {
+                let r = bin.gathered(left) / whole;
+                x * r * (2.0 + r)
+            });
+            (earlier(bin) + begun) / 2.0
+        };
+        self.noise(actuators, window, leakage, echo).powf(-0.5)
+    }
+
+    /// Contrast when the responses were recorded, or the drive emitted, with noise of `ratio` times their rms over the
+    /// window, both within the band.
+    pub fn noisy(&self, actuators: f64, window: f64, ratio: f64) -> f64 {
+        let noise = super::closed::noise_share(actuators, self.bandwidth, window, ratio);
+        let heard = self.modes() / self.local_modes();
+        (self.contrast(actuators, window).powi(-2) + noise * heard).powf(-0.5)
+    }
+
+    /// The window in seconds at which contrast reaches a share of what an endless one gives.
+    pub fn window_for(&self, actuators: f64, share: f64) -> f64 {
+        let slowest = self.bins.iter().map(|bin| bin.sigma).fold(f64::INFINITY, f64::min);
+        let density = self.bins.iter().map(|bin| bin.density).fold(0.0, f64::max);
+        let endless = 50.0 * (1.0 / slowest).min(100.0 * density);
+        let aim = share * self.contrast(actuators, endless);
+        let (mut low, mut high) = (0.0, endless);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if self.contrast(actuators, middle) < aim {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        high
+    }
+
+    /// 1/C², with what repetition adds to the leakage and to the modes' own focus as multiples of the first.
+    fn noise(
+        &self,
+        actuators: f64,
+        window: f64,
+        leakage: impl Fn(&Bin) -> f64,
+        echo: impl Fn(&Bin) -> f64,
+    ) -> f64 {
+        let peak = self.sum(|bin| bin.local * bin.gathered(window));
+        let tail = self.exposure * self.local_modes() / self.modes();
+        let noise = self.sum(|bin| {
+            let leaked = bin.density * bin.leaked(window) * (1.0 + leakage(bin)) / actuators;
+            let uneven = (self.scatter - bin.regular(window)) / actuators;
+            let own = uneven + tail + echo(bin) * (1.0 + uneven);
+            bin.local * (leaked + own * bin.gathered(window).powi(2))
+        });
+        noise / (peak * peak)
+    }
+
+    fn sum(&self, f: impl Fn(&Bin) -> f64) -> f64 {
+        self.bins.iter().map(f).sum()
+    }
+}
+
+/// Length of the rim that counts in Weyl's law: fixed (clamped or supported) minus free, in metres.
+pub(super) fn signed_perimeter(outline: &Outline) -> f64 {
+    outline.perimeter() - 2.0 * outline.free_length()
+}
+
+/// Modes per unit wavenumber, dM/dk = (2Sk - P)/4π, P the fixed rim minus the free.
+pub(super) fn modes_per_wavenumber(outline: &Outline, k: f64) -> f64 {
+    (2.0 * outline.area() * k - signed_perimeter(outline)) / (4.0 * PI)
+}
+
+/// Modes below wavenumber `k` by Weyl's law, M = Sk²/4π - Pk/4π, P the fixed rim minus the free.
+pub(super) fn modes_below(outline: &Outline, k: f64) -> f64 {
+    (outline.area() * k - signed_perimeter(outline)) * k / (4.0 * PI)
+}
+
+/// ∫_0^T e^{-rate·t} dt, also for no decay.
+fn ring(rate: f64, window: f64) -> f64 {
+    if rate * window > 1e-9 { -(-rate * window).exp_m1() / rate } else { window }
+}

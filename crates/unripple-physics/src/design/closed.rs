@@ -1,0 +1,188 @@
+//! Closed forms of the tradeoffs of time-reversed focusing, as pure functions.
+//!
+//! Symbols: N actuators, bandwidth B, M modes in it, n̄ = M/B modes per hertz (the Heisenberg time), decay time τ of the
+//! amplitude, window T. Contrast is the focal velocity over the rms velocity outside the focal disc at the focal instant.
+//!
+//! Where they come from. A mode m rings as g_m(t) ≈ e^{-t/τ} cos ω_m t and is seen through φ_m. Time reversal of the
+//! responses at A leaves at T the state Σ_n W_mn I_mn φ_n(A) with W_mn = Σ_a φ_m(a) φ_n(a) and
+//! I_mn = ∫_0^T g_m g_n dt. Its diagonal is the focus. Pairs of neighbouring modes that T cannot tell apart leak into
+//! each other: by Parseval Σ_n I_mn² = (n̄/8) ∫_0^T e^{-4t/τ} dt, of random sign for each actuator, hence a variance
+//! coth(T/τ)/2NBτ of the peak's square. The actuators' own gains W_mm scatter by 2/N for Gaussian mode shapes, hence
+//! 2/NM. The rest, e/M, is the ringed tail 2J_1(kr)/kr of a perfect focus outside the disc.
+//!
+//! ```
+//! use unripple_physics::design::closed;
+//!
+//! let (bandwidth, decay_time, modes) = (3000.0, 0.070, 306.0);
+//! let contrast = closed::contrast(8.0, bandwidth, decay_time, 0.030, modes);
+//! assert!((contrast - 23.6).abs() < 0.1);
+//! ```
+
+use std::f64::consts::{PI, TAU};
+
+/// Radius of the focal disc in shortest wavelengths.
+pub const DISC: f64 = 4.0 / 3.0;
+
+/// τ tanh(T/τ), in s: the window that counts when ringing dies out; T when T ≪ τ, τ when T ≫ τ.
+pub fn effective_window(window: f64, decay_time: f64) -> f64 {
+    if decay_time.is_finite() { decay_time * (window / decay_time).tanh() } else { window }
+}
+
+/// Contrast C_TR of time reversal, the tail of the focus apart: C_TR² = 2NBτ / (coth(T/τ) + 4τ/n̄).
+///
+/// Its limits are 2NBT (the √(NT) law of section 3.1 with its constant), 2NBτ for long windows and NM/2 for long decay.
+pub fn contrast_tr(actuators: f64, bandwidth: f64, decay_time: f64, window: f64, modes: f64) -> f64 {
+    let reach = effective_window(window, decay_time);
+    let heisenberg = modes / bandwidth;
+    (2.0 * actuators * bandwidth * reach / (1.0 + 4.0 * reach / heisenberg)).sqrt()
+}
+
+/// Contrast C of time reversal outside the focal disc: 1/C² = 1/C_TR² + e/M.
+pub fn contrast(actuators: f64, bandwidth: f64, decay_time: f64, window: f64, modes: f64) -> f64 {
+    let noise = contrast_tr(actuators, bandwidth, decay_time, window, modes).powi(-2);
+    (noise + exposure(TAU * DISC) / modes).powf(-0.5)
+}
+
+/// Contrast of each of `foci` equal foci made at once: their backgrounds add in power.
+pub fn foci(contrast: f64, foci: f64) -> f64 {
+    contrast / foci.sqrt()
+}
+
+/// Contrast of a focus repeated every `period`, in the simplest form, with q = coth(T_r/τ):
+/// 1/C² = q/C_TR² + e/M + (q - 1)/2M.
+///
+/// It counts every later pulse in full and adds the echoes of both as if they swung apart; [`super::Cavity::repeated`] is the better form.
+pub fn repeated(
+    actuators: f64,
+    bandwidth: f64,
+    decay_time: f64,
+    window: f64,
+    modes: f64,
+    period: f64,
+) -> f64 {
+    let q = 1.0 / (period / decay_time).tanh();
+    let noise = contrast_tr(actuators, bandwidth, decay_time, window, modes).powi(-2);
+    (q * noise + exposure(TAU * DISC) / modes + (q - 1.0) / (2.0 * modes)).powf(-0.5)
+}
+
+/// What noise adds to 1/C²: r²/2NBT, r the rms of the noise over that of a response, both in the band and over T.
+///
+/// The drive is a matched filter: white noise of density r² h²_rms/2B on each of N responses of energy T h²_rms reaches
+/// the surface through those responses with variance N (r² h²_rms/2B) T h²_rms, against a peak of N T h²_rms. It is the same whether the noise came in
+/// when recording or when emitting.
+pub fn noise_share(actuators: f64, bandwidth: f64, window: f64, ratio: f64) -> f64 {
+    ratio * ratio / (2.0 * actuators * bandwidth * window)
+}
+
+/// e = J_0²(x) + J_1²(x): share of the energy of a focus 2J_1(kr)/kr beyond r = x/k; about 2/πx.
+pub fn exposure(x: f64) -> f64 {
+    bessel(0, x).powi(2) + bessel(1, x).powi(2)
+}
+
+/// Full width at half maximum of a focus of one wavelength, J_0(kr): 0.484 λ, in metres.
+pub fn spot_of_one_frequency(wavelength: f64) -> f64 {
+    wavelength * 1.521_0 / PI
+}
+
+/// Full width at half maximum of a focus whose band fills the k-plane evenly, 2J_1(kr)/kr: 0.705 λ_min, in metres.
+pub fn spot_diameter(lambda_min: f64) -> f64 {
+    lambda_min * 2.215_1 / PI
+}
+
+/// Full width at half maximum in time of a focus from 0 to B hertz whose mode density grows as f^p, in seconds.
+///
+/// The velocity at the focus is ∫_0^1 s^p cos(ys) ds with y = 2πBt. It is half its peak at y = 1.5069 for p = 1
+/// (membranes), a width of 0.480/B, and at y = 1.8955 for p = 0 (plates), a width of 0.603/B.
+pub fn pulse_duration(bandwidth: f64, growth: f64) -> f64 {
+    let (mut low, mut high) = (0.0, PI);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if pulse_at(middle, growth) > 0.5 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    high / (PI * bandwidth)
+}
+
+/// (p+1) ∫_0^1 s^p cos(ys) ds by its power series Σ (-y²)^j (p+1) / (2j)! (p+1+2j), which converges fast up to y = π.
+fn pulse_at(y: f64, growth: f64) -> f64 {
+    let (mut sum, mut term) = (0.0, 1.0);
+    for j in 0..30 {
+        let order = 2.0 * f64::from(j);
+        sum += term * (growth + 1.0) / (growth + 1.0 + order);
+        term *= -y * y / ((order + 1.0) * (order + 2.0));
+    }
+    sum
+}
+
+/// Bessel function J_n(x) = (1/π) ∫_0^π cos(nθ - x sin θ) dθ, by the trapezoidal rule, which converges geometrically.
+pub fn bessel(order: u32, x: f64) -> f64 {
+    let steps = 64 + (2.0 * x.abs()).min(1e6) as usize;
+    let angle = |i: usize| PI * i as f64 / steps as f64;
+    let value = |i: usize| (f64::from(order) * angle(i) - x * angle(i).sin()).cos();
+    let inner: f64 = (1..steps).map(value).sum();
+    (inner + 0.5 * (value(0) + value(steps))) / steps as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn contrast_has_its_three_limits() {
+        let (n, b, m) = (4.0, 3000.0, 300.0);
+        let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 2e-3, "{a} {b}");
+        close(contrast_tr(n, b, 1.0, 1e-5, 1e9).powi(2), 2.0 * n * b * 1e-5);
+        close(contrast_tr(n, b, 0.01, 10.0, 1e9).powi(2), 2.0 * n * b * 0.01);
+        close(contrast_tr(n, b, 1e5, 1e5, m).powi(2), n * m / 2.0);
+        assert_eq!(contrast_tr(n, b, f64::INFINITY, 1e5, m), contrast_tr(n, b, f64::INFINITY, 1e5, m));
+    }
+
+    #[test]
+    fn bessel_agrees_with_tables() {
+        // Abramowitz and Stegun, table 9.1.
+        for (order, x, value) in [
+            (0, 1.0, 0.765_197_686_6),
+            (1, 1.0, 0.440_050_585_7),
+            (0, 10.0, -0.245_935_764_5),
+            (1, 10.0, 0.043_472_746_2),
+        ] {
+            assert!((bessel(order, x) - value).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn spots_are_half_high_at_half_their_width() {
+        let x = PI * spot_of_one_frequency(1.0);
+        assert!((bessel(0, x) - 0.5).abs() < 1e-4);
+        let x = PI * spot_diameter(1.0);
+        assert!((2.0 * bessel(1, x) / x - 0.5).abs() < 1e-4);
+    }
+
+    #[test]
+    fn pulses_are_half_high_at_half_their_width() {
+        let y = PI * pulse_duration(1.0, 0.0);
+        assert!((y.sin() / y - 0.5).abs() < 1e-9);
+        let y = PI * pulse_duration(1.0, 1.0);
+        assert!((2.0 * (y.sin() / y - (1.0 - y.cos()) / (y * y)) - 0.5).abs() < 1e-9);
+    }
+
+    #[test]
+    fn exposure_is_the_energy_outside() {
+        // ∫_x^∞ (2J_1(r)/r)² r dr against ∫_0^∞ = 2, by the midpoint rule.
+        let (start, end, steps) = (TAU * DISC, 4000.0, 400_000);
+        let width = (end - start) / f64::from(steps);
+        let tail: f64 = (0..steps)
+            .map(|i| start + (f64::from(i) + 0.5) * width)
+            .map(|r| {
+                let asymptotic =
+                    (2.0 / (PI * r)).sqrt() * ((r - 0.75 * PI).cos() - 0.375 / r * (r - 0.75 * PI).sin());
+                4.0 * asymptotic * asymptotic / r * width
+            })
+            .sum();
+        let beyond = 4.0 / (PI * end);
+        assert!((exposure(start) - (tail + beyond) / 2.0).abs() < 1e-4);
+    }
+}

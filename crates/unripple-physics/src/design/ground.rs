@@ -1,0 +1,131 @@
+use super::Cavity;
+use super::cavity::{modes_below, modes_per_wavenumber, signed_perimeter};
+use super::paper::WAVELENGTH;
+use crate::{Medium, Modes, PhysicsError};
+use std::f64::consts::{PI, TAU};
+use unripple_core::Surface;
+
+/// Share of the contrast of an endless window at which more window is no longer worth its wait.
+pub(super) const WORTHWHILE: f64 = 0.9;
+
+/// Relative accuracy of the frequencies that are counted.
+const ACCURACY: f64 = 1e-4;
+
+/// What every figure of a design stands on.
+pub(super) struct Ground<'a> {
+    pub surface: &'a Surface,
+    pub medium: Medium,
+    /// Statistics of the band, its modes scaled to the exact count where there is one.
+    pub cavity: Cavity,
+    /// Exact mode count over Weyl's.
+    pub scale: f64,
+    /// Modes in the band, counted, or why they are not.
+    pub counted: Result<usize, String>,
+    pub first_mode_hz: f64,
+    /// Wavenumber at the top of the band, in rad/m.
+    pub k_top: f64,
+    /// Number of actuators.
+    pub actuators: f64,
+    /// The window recommended, in seconds.
+    pub window: f64,
+}
+
+impl<'a> Ground<'a> {
+    pub fn of(surface: &'a Surface) -> Result<Self, PhysicsError> {
+        check(surface)?;
+        let top = surface.emission.band[1];
+        let medium = Medium::of(&surface.sheet);
+        let counted = count(surface);
+        let by_law = Cavity::of(surface, top);
+        let first = counted.as_ref().ok().and_then(|(_, first)| *first);
+        let first_mode_hz = first.unwrap_or_else(|| medium.omega(first_wavenumber(surface)) / TAU);
+        if by_law.modes() < 1.0 || matches!(counted, Ok((0, _))) {
+            return Err(PhysicsError::Range {
+                what: "top of the band, in Hz".into(),
+                expected: format!("more than the first mode, at about {first_mode_hz:.1} Hz"),
+                found: top,
+            });
+        }
+        let scale = counted.as_ref().map_or(1.0, |(count, _)| *count as f64 / by_law.modes());
+        let modes = scale * by_law.modes();
+        let cavity = by_law.counted(modes);
+        let actuators = surface.actuators.len() as f64;
+        Ok(Self {
+            surface,
+            medium,
+            scale,
+            counted: counted.map(|(count, _)| count),
+            first_mode_hz,
+            k_top: medium.wavenumber(TAU * top),
+            actuators,
+            window: cavity.window_for(actuators, WORTHWHILE),
+            cavity,
+        })
+    }
+
+    /// Weyl's count from the bottom to the top of the band.
+    pub fn weyl_count(&self) -> f64 {
+        let below = |hz: f64| modes_below(&self.surface.outline, self.medium.wavenumber(TAU * hz)).max(0.0);
+        below(self.surface.emission.band[1]) - below(self.surface.emission.band[0])
+    }
+
+    /// Modes per hertz at the top of the band.
+    pub fn density_at_top(&self) -> f64 {
+        let density = TAU * modes_per_wavenumber(&self.surface.outline, self.k_top);
+        density.max(0.0) / self.medium.group_celerity(self.k_top)
+    }
+
+    /// Phase celerity at the bottom of the band, or at the first mode where it is 0 at the bottom.
+    pub fn celerity_min(&self) -> f64 {
+        let at = |hz: f64| self.medium.phase_celerity(self.medium.wavenumber(TAU * hz));
+        let bottom = at(self.surface.emission.band[0]);
+        if bottom > 0.0 { bottom } else { at(self.first_mode_hz) }
+    }
+
+    /// The paper's window (2S k_max + P)/(2 N c_min), k_max = 2π/15 mm.
+    pub fn window_paper(&self) -> f64 {
+        let (area, rim) = (self.surface.outline.area(), self.surface.outline.perimeter());
+        (2.0 * area * TAU / WAVELENGTH + rim) / (2.0 * self.actuators * self.celerity_min())
+    }
+
+    /// Exponent of T in the contrast around the window.
+    pub fn exponent(&self) -> f64 {
+        let step = 1.01;
+        let at = |window: f64| self.cavity.contrast(self.actuators, window);
+        (at(self.window * step) / at(self.window / step)).ln() / (2.0 * f64::ln(step))
+    }
+}
+
+fn check(surface: &Surface) -> Result<(), PhysicsError> {
+    let [low, top] = surface.emission.band;
+    if !(low >= 0.0 && top > low && top.is_finite()) {
+        return Err(PhysicsError::Range {
+            what: "top of the band, in Hz".into(),
+            expected: format!("a number above its bottom of {low}"),
+            found: top,
+        });
+    }
+    if surface.actuators.is_empty() {
+        return Err(PhysicsError::Range {
+            what: "actuators".into(),
+            expected: "at least 1".into(),
+            found: 0.0,
+        });
+    }
+    Ok(())
+}
+
+/// Number of modes in the band and the first of all, in Hz, or why there is none.
+fn count(surface: &Surface) -> Result<(usize, Option<f64>), String> {
+    let [low, top] = surface.emission.band;
+    let modes = Modes::solve(surface, top, ACCURACY).map_err(|e| e.to_string())?;
+    let frequencies = modes.frequencies_hz();
+    let inside = frequencies.iter().filter(|hz| (low..=top).contains(*hz)).count();
+    Ok((inside, frequencies.iter().copied().find(|hz| *hz > 0.0)))
+}
+
+/// The wavenumber below which Weyl's law counts one mode.
+fn first_wavenumber(surface: &Surface) -> f64 {
+    let (area, rim) = (surface.outline.area(), signed_perimeter(&surface.outline));
+    (rim + (rim * rim + 16.0 * PI * area).sqrt()) / (2.0 * area)
+}

@@ -1,0 +1,59 @@
+//! What a surface can do before anything is built: waves, modes, window, contrast, spot, deformation and touch.
+
+mod cavity;
+pub mod closed;
+mod deformation;
+mod figures;
+mod ground;
+mod notes;
+mod paper;
+mod strip;
+mod text;
+mod touch;
+mod tradeoffs;
+mod waves;
+
+pub use cavity::Cavity;
+pub use deformation::{Bend, Deformation, deformation};
+pub use figures::Design;
+pub use notes::Note;
+pub use paper::{film_strip, glass_strip, papers_surface};
+pub use strip::{Scattering, Strip, finger_impedance};
+pub use touch::{Touch, table1};
+pub use tradeoffs::{ACTUATORS, ByBand, ByNoise, ByRate, ByWindow, WINDOWS};
+pub use waves::Wave;
+
+use crate::PhysicsError;
+use unripple_core::Surface;
+
+/// The tradeoffs of a surface.
+///
+/// # Errors
+/// [`PhysicsError::Range`] without actuators or with an empty band or one without a mode. A surface whose modes cannot be computed is no
+/// error: its counts are Weyl's, and [`Design::mode_count_exact_reason`] says why.
+///
+/// ```
+/// let design = unripple_physics::design(&unripple_physics::design::papers_surface())?;
+/// assert!((design.celerity_max_m_s - 43.65).abs() < 0.01);
+/// assert!((design.window_paper_s - 0.0360).abs() < 1e-4);
+/// println!("{design}");
+/// # Ok::<(), unripple_physics::PhysicsError>(())
+/// ```
+pub fn design(surface: &Surface) -> Result<Design, PhysicsError> {
+    let ground = ground::Ground::of(surface)?;
+    let mut design = Design::on(&ground);
+    design.notes = notes::notes(surface, &design);
+    Ok(design)
+}
+
+/// The window that [`design()`] recommends, in seconds: where contrast reaches nine tenths of what an endless one gives.
+///
+/// `modes` is the number of modes in the band where it is known already; otherwise Weyl's law counts them.
+pub fn recommended_window(surface: &Surface, modes: Option<usize>) -> f64 {
+    let by_law = Cavity::of(surface, surface.emission.band[1]);
+    let cavity = match modes {
+        Some(count) => by_law.counted(count as f64),
+        None => by_law,
+    };
+    cavity.window_for(surface.actuators.len() as f64, ground::WORTHWHILE)
+}

@@ -1,0 +1,65 @@
+use super::Strip;
+use unripple_core::{
+    Actuator, ActuatorKind, Air, Decay, Emission, Finger, Outline, Point, Shape, Sheet, Surface,
+};
+
+/// Where the paper's table and window are taken: a wavelength of 15 mm.
+pub(super) const WAVELENGTH: f64 = 15e-3;
+
+/// Width of the contact in the paper's table, in metres.
+pub(super) const CONTACT: f64 = 10e-3;
+
+/// Displacement of the finger in the paper's table, in metres.
+pub(super) const DISPLACEMENT: f64 = 10e-6;
+
+/// The paper's membrane, with eight ideal force actuators placed without symmetry: the built-in `hudin-2012`.
+///
+/// The tension is 200 N/m: the 30 N/m printed contradicts the celerities, the first mode and the table printed beside it.
+pub fn papers_surface() -> Surface {
+    let places = [
+        (12.0, 31.0),
+        (9.0, 84.0),
+        (40.0, 140.0),
+        (95.0, 137.0),
+        (141.0, 106.0),
+        (138.0, 44.0),
+        (103.0, 11.0),
+        (50.0, 9.0),
+    ];
+    let actuators = (1..)
+        .zip(places)
+        .map(|(i, (x, y))| Actuator {
+            name: format!("a{i}"),
+            at: Point::from_mm(x, y),
+            kind: ActuatorKind::Force,
+        })
+        .collect();
+    Surface {
+        name: "hudin-2012".into(),
+        outline: Outline::new(Shape::Rectangle { width: 0.15, height: 0.15 }),
+        sheet: Sheet {
+            material: "BoPET".into(),
+            young: 4e9,
+            density: 1400.0,
+            poisson: 0.3,
+            strength: Some(100e6),
+            thickness: 0.125e-3,
+            tension: 200.0,
+            decay: Decay::Time(0.07),
+            air: Air::None,
+        },
+        emission: Emission { band: [0.0, 3000.0], rate: 48e3, limit: 1.0, rms_limit: None },
+        finger: Finger::default(),
+        actuators,
+    }
+}
+
+/// The glass strip of the paper's table 1: 69 GPa, 2300 kg/m³, 1 mm, slack.
+pub fn glass_strip() -> Strip {
+    Strip::of_sheet(69e9, 2300.0, 1e-3, 0.0, CONTACT)
+}
+
+/// The film strip of the paper's table 1: 4 GPa, 1400 kg/m³, 0.125 mm, pulled with 2 N.
+pub fn film_strip() -> Strip {
+    Strip::of_sheet(4e9, 1400.0, 0.125e-3, 2.0 / CONTACT, CONTACT)
+}

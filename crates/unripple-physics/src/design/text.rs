@@ -1,0 +1,198 @@
+use super::{ACTUATORS, Design};
+use std::fmt::{Display, Formatter, Result};
+
+impl Display for Design {
+    /// The design as people read it: a section per tradeoff, in millimetres, milliseconds and hertz.
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        writeln!(
+            f,
+            "{} · {} actuators · {} to {} Hz",
+            self.surface, self.actuators, self.band_hz[0], self.band_hz[1]
+        )?;
+        waves(self, f)?;
+        modes(self, f)?;
+        contrast(self, f)?;
+        repetition(self, f)?;
+        deformation(self, f)?;
+        touch(self, f)?;
+        notes(self, f)
+    }
+}
+
+fn section(f: &mut Formatter<'_>, title: &str) -> Result {
+    writeln!(f, "\n{title}")
+}
+
+/// A line of name, value and unit, the values in one column.
+fn line(f: &mut Formatter<'_>, name: &str, value: &str) -> Result {
+    writeln!(f, "  {name:<37}{value}")
+}
+
+fn waves(d: &Design, f: &mut Formatter<'_>) -> Result {
+    section(f, "Waves")?;
+    let (low, top) = (d.celerity_min_m_s, d.celerity_max_m_s);
+    line(f, "phase celerity, bottom to top", &format!("{low:.2} to {top:.2} m/s"))?;
+    line(f, "at a wavelength of 15 mm", &format!("{:.2} m/s", d.celerity_at_15mm_m_s))?;
+    line(f, "shortest wavelength", &format!("{:.2} mm", d.lambda_min_m * 1e3))?;
+    if let Some(hz) = d.coincidence_hz {
+        line(f, "outruns sound in air above", &format!("{hz:.0} Hz"))?;
+    }
+    line(f, "spot, full width at half maximum", &format!("{:.1} mm", d.spot_diameter_m * 1e3))?;
+    line(f, "pulse, full width at half maximum", &format!("{:.3} ms", d.pulse_duration_s * 1e3))?;
+    writeln!(
+        f,
+        "  {:>8} {:>9} {:>9} {:>9} {:>11} {:>9}",
+        "Hz", "λ mm", "c m/s", "c_g m/s", "spacing Hz", "τ ms"
+    )?;
+    for w in d.dispersion.iter().skip((d.dispersion.len() + 1) % 2).step_by(2) {
+        let spacing = w.mode_spacing_hz.map_or("-".into(), |hz| format!("{hz:.1}"));
+        writeln!(
+            f,
+            "  {:>8.0} {:>9.2} {:>9.2} {:>9.2} {:>11} {:>9.1}",
+            w.frequency_hz,
+            w.wavelength_m * 1e3,
+            w.phase_celerity_m_s,
+            w.group_celerity_m_s,
+            spacing,
+            w.decay_time_s * 1e3
+        )?;
+    }
+    Ok(())
+}
+
+fn modes(d: &Design, f: &mut Formatter<'_>) -> Result {
+    section(f, "Modes")?;
+    let exact = match (d.mode_count_exact, &d.mode_count_exact_reason) {
+        (Some(count), _) => count.to_string(),
+        (None, Some(reason)) => format!("unknown ({reason})"),
+        (None, None) => "unknown".into(),
+    };
+    line(f, "in the band, counted", &exact)?;
+    line(f, "in the band, by Weyl's law", &format!("{:.0}", d.mode_count_weyl))?;
+    line(f, "first", &format!("{:.1} Hz", d.first_mode_hz))?;
+    let top = d.heisenberg_time_top_s * 1e3;
+    let mean = d.heisenberg_time_s * 1e3;
+    line(f, "Heisenberg time", &format!("{mean:.0} ms over the band, {top:.0} ms at its top"))?;
+    line(f, "decay time", &format!("{:.1} ms", d.decay_time_s * 1e3))
+}
+
+fn contrast(d: &Design, f: &mut Formatter<'_>) -> Result {
+    section(f, "Window and contrast")?;
+    let recommended = d.window_recommended_s * 1e3;
+    line(
+        f,
+        "window recommended",
+        &format!("{recommended:.1} ms, for 0.9 of the contrast of an endless one"),
+    )?;
+    line(f, "window by the paper's formula", &format!("{:.1} ms", d.window_paper_s * 1e3))?;
+    let (here, endless) = (d.contrast_predicted, d.contrast_endless);
+    line(
+        f,
+        "contrast predicted",
+        &format!("{here:.1}, endless {endless:.1}, plain form {:.1}", d.contrast_plain),
+    )?;
+    write!(f, "  {:>8}", "T ms \\ N")?;
+    ACTUATORS.iter().try_for_each(|n| write!(f, " {n:>7}"))?;
+    writeln!(f)?;
+    for row in &d.contrast_by_window {
+        write!(f, "  {:>8.0}", row.window_s * 1e3)?;
+        row.contrast.iter().try_for_each(|c| write!(f, " {c:>7.1}"))?;
+        writeln!(f)?;
+    }
+    writeln!(
+        f,
+        "  {:>8} {:>9} {:>7} {:>9} {:>9} {:>9}",
+        "band Hz", "λ_min mm", "modes", "spot mm", "pulse ms", "contrast"
+    )?;
+    for row in &d.contrast_by_band {
+        writeln!(
+            f,
+            "  {:>8.0} {:>9.2} {:>7.0} {:>9.1} {:>9.3} {:>9.1}",
+            row.top_hz,
+            row.lambda_min_m * 1e3,
+            row.modes,
+            row.spot_diameter_m * 1e3,
+            row.pulse_duration_s * 1e3,
+            row.contrast
+        )?;
+    }
+    let noisy = |r: &super::ByNoise| format!("{:.1} at {}", r.contrast, r.noise_ratio);
+    let noise: Vec<_> = d.contrast_by_noise.iter().map(noisy).collect();
+    line(f, "with noise, as a share of rms", &noise.join(", "))
+}
+
+fn repetition(d: &Design, f: &mut Formatter<'_>) -> Result {
+    section(f, "Repetition")?;
+    let aim = d.decay_time_paper_s * 1e3;
+    line(f, "reverberation the paper aims for", &format!("T/N = {aim:.1} ms"))?;
+    writeln!(
+        f,
+        "  {:>8} {:>18} {:>18}",
+        "Hz",
+        format!("contrast, {:.0} ms", d.decay_time_s * 1e3),
+        format!("contrast, {aim:.1} ms")
+    )?;
+    for row in &d.contrast_by_rate {
+        writeln!(f, "  {:>8.0} {:>18.1} {:>18.1}", row.rate_hz, row.contrast, row.contrast_at_papers_decay)?;
+    }
+    Ok(())
+}
+
+fn deformation(d: &Design, f: &mut Formatter<'_>) -> Result {
+    section(f, "Deformation at the shortest wavelength")?;
+    writeln!(
+        f,
+        "  {:>8} {:>10} {:>10} {:>12} {:>10} {:>9}",
+        "µm", "radius mm", "bending", "stretching", "strain", "of yield"
+    )?;
+    for row in &d.deformation.rows {
+        let share = row.share_of_yield.map_or("-".into(), |s| format!("{:.1} %", s * 100.0));
+        writeln!(
+            f,
+            "  {:>8.0} {:>10.1} {:>10.2e} {:>12.2e} {:>10.2e} {:>9}{}",
+            row.amplitude_m * 1e6,
+            row.bending_radius_m * 1e3,
+            row.bending_strain,
+            row.stretching_strain,
+            row.strain,
+            share,
+            if row.linear { "" } else { "  past linear theory" }
+        )?;
+    }
+    let thickness = d.deformation.linear_limit_thickness_m * 1e6;
+    line(f, "linear up to the thickness", &format!("{thickness:.0} µm"))?;
+    if let Some(limit) = d.deformation.linear_limit_tension_m {
+        line(f, "a focus adds a tenth of tension at", &format!("{:.0} µm", limit * 1e6))?;
+    }
+    Ok(())
+}
+
+fn touch(d: &Design, f: &mut Formatter<'_>) -> Result {
+    section(f, "Power to move a finger by 10 µm")?;
+    writeln!(
+        f,
+        "  {:<24} {:>7} {:>8} {:>8} {:>9} {:>8} {:>8} {:>9}",
+        "strip", "λ mm", "c m/s", "Hz", "Z_S", "Z_F", "P W", "printed"
+    )?;
+    for row in d.table1.iter().chain(&d.touch) {
+        let printed = row.printed_power_w.map_or("-".into(), |p| format!("{p}"));
+        writeln!(
+            f,
+            "  {:<24} {:>7.2} {:>8.1} {:>8.0} {:>9.4} {:>8.2} {:>8.3} {:>9}",
+            row.strip,
+            row.wavelength_m * 1e3,
+            row.celerity_m_s,
+            row.frequency_hz,
+            row.impedance_n_s_per_m,
+            row.finger_impedance_n_s_per_m,
+            row.power_w,
+            printed
+        )?;
+    }
+    Ok(())
+}
+
+fn notes(d: &Design, f: &mut Formatter<'_>) -> Result {
+    section(f, "Where the paper slips")?;
+    d.notes.iter().try_for_each(|n| writeln!(f, "  {}: it says {}; {}", n.topic, n.paper, n.here))
+}

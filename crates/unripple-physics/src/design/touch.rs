@@ -1,0 +1,66 @@
+use super::Strip;
+use super::paper::{CONTACT, DISPLACEMENT, WAVELENGTH, film_strip, glass_strip};
+use super::strip::finger_impedance;
+use std::f64::consts::TAU;
+use unripple_core::{Finger, Surface};
+
+/// What it takes to move a finger by 10 µm through a strip of sheet as wide as the contact.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Touch {
+    /// Which strip.
+    pub strip: String,
+    /// Wavelength, in metres.
+    pub wavelength_m: f64,
+    /// Celerity, in m/s.
+    pub celerity_m_s: f64,
+    /// Frequency, in Hz.
+    pub frequency_hz: f64,
+    /// Impedance of the strip abs(Z_S), in N·s/m.
+    pub impedance_n_s_per_m: f64,
+    /// Impedance of the finger abs(Z_F) at that frequency, in N·s/m.
+    pub finger_impedance_n_s_per_m: f64,
+    /// Power of the incident wave, in W (equation 4).
+    pub power_w: f64,
+    /// Share of that power that the finger takes.
+    pub absorbed_power: f64,
+    /// The power that the paper prints, in W.
+    pub printed_power_w: Option<f64>,
+}
+
+/// The paper's table 1: glass and film at 15 mm, a contact of 10 mm and the paper's finger.
+pub fn table1() -> Vec<Touch> {
+    let finger = Finger::default();
+    let k = TAU / WAVELENGTH;
+    vec![
+        Touch { printed_power_w: Some(500.0), ..touch("glass 1 mm", &glass_strip(), &finger, k) },
+        Touch { printed_power_w: Some(1.5), ..touch("BoPET 0.125 mm, 2 N", &film_strip(), &finger, k) },
+    ]
+}
+
+/// The surface's own sheet under its own finger at 15 mm and at the wavelength given (m), the contact as wide as the finger's.
+pub(super) fn own_touches(surface: &Surface, lambda_min: f64) -> Vec<Touch> {
+    let sheet = &surface.sheet;
+    let width =
+        if surface.finger.contact_radius > 0.0 { 2.0 * surface.finger.contact_radius } else { CONTACT };
+    let strip = Strip::of_sheet(sheet.young, sheet.density, sheet.thickness, sheet.tension, width);
+    let name = format!("{} {} mm", sheet.material, sheet.thickness * 1e3);
+    [WAVELENGTH, lambda_min]
+        .map(|wavelength| touch(&name, &strip, &surface.finger, TAU / wavelength))
+        .to_vec()
+}
+
+fn touch(name: &str, strip: &Strip, finger: &Finger, k: f64) -> Touch {
+    let hz = k * strip.celerity(k) / TAU;
+    let (resistance, reactance) = finger_impedance(finger, TAU * hz);
+    Touch {
+        strip: name.into(),
+        wavelength_m: TAU / k,
+        celerity_m_s: strip.celerity(k),
+        frequency_hz: hz,
+        impedance_n_s_per_m: strip.impedance(k),
+        finger_impedance_n_s_per_m: resistance.hypot(reactance),
+        power_w: strip.power(finger, k, DISPLACEMENT),
+        absorbed_power: strip.scattering(finger, hz).absorbed_power,
+        printed_power_w: None,
+    }
+}

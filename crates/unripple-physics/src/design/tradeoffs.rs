@@ -1,0 +1,114 @@
+use super::Cavity;
+use super::closed;
+use crate::Medium;
+use unripple_core::Surface;
+
+/// Numbers of actuators that are tabulated.
+pub const ACTUATORS: [usize; 6] = [1, 2, 4, 8, 16, 32];
+
+/// Windows that are tabulated, in seconds.
+pub const WINDOWS: [f64; 8] = [0.005, 0.010, 0.020, 0.030, 0.050, 0.075, 0.100, 0.150];
+
+/// Shares of the band that are tabulated.
+const BANDS: [f64; 6] = [0.125, 0.25, 0.5, 0.75, 1.0, 1.5];
+
+/// Rates of repetition that are tabulated, in Hz.
+const RATES: [f64; 7] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0];
+
+/// Noise over responses, as a ratio of rms, that is tabulated.
+const NOISES: [f64; 5] = [0.01, 0.1, 0.3, 1.0, 3.0];
+
+/// Predicted contrast against window and number of actuators.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct ByWindow {
+    /// Window T, in seconds.
+    pub window_s: f64,
+    /// Contrast for 1, 2, 4, 8, 16 and 32 actuators.
+    pub contrast: Vec<f64>,
+}
+
+/// Predicted contrast against bandwidth.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct ByBand {
+    /// Top of the band, in Hz.
+    pub top_hz: f64,
+    /// Shortest wavelength, in metres.
+    pub lambda_min_m: f64,
+    /// Modes, by Weyl's law scaled to the exact count of the surface's own band.
+    pub modes: f64,
+    /// Contrast outside a disc of 4/3 of that wavelength.
+    pub contrast: f64,
+    /// Spot, in metres.
+    pub spot_diameter_m: f64,
+    /// Pulse, in seconds.
+    pub pulse_duration_s: f64,
+}
+
+/// Predicted contrast of a repeated focus against rate.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct ByRate {
+    /// Repetitions per second.
+    pub rate_hz: f64,
+    /// Contrast with the surface's own decay.
+    pub contrast: f64,
+    /// Contrast with the decay time the paper aims for, T/N.
+    pub contrast_at_papers_decay: f64,
+}
+
+/// Predicted contrast against noise in recording or emission.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct ByNoise {
+    /// Rms of the noise over rms of a response, in the band and over the window.
+    pub noise_ratio: f64,
+    /// Contrast.
+    pub contrast: f64,
+}
+
+/// Contrast for every tabulated window and number of actuators.
+pub(super) fn by_window(cavity: &Cavity) -> Vec<ByWindow> {
+    let row = |window: f64| ACTUATORS.map(|n| cavity.contrast(n as f64, window)).to_vec();
+    WINDOWS.iter().map(|&window_s| ByWindow { window_s, contrast: row(window_s) }).collect()
+}
+
+/// Contrast for bands of other widths, below half the sample rate; `scale` is the exact mode count over Weyl's.
+pub(super) fn by_band(surface: &Surface, scale: f64, actuators: f64, window: f64) -> Vec<ByBand> {
+    let [low, top] = surface.emission.band;
+    let medium = Medium::of(&surface.sheet);
+    let tops = BANDS.iter().map(|share| low + share * (top - low));
+    tops.filter(|hz| *hz < surface.emission.rate / 2.0)
+        .map(|top_hz| {
+            let by_law = Cavity::of(surface, top_hz);
+            let counted = scale * by_law.modes();
+            let cavity = by_law.counted(counted);
+            let lambda_min_m = medium.lambda_min(top_hz);
+            ByBand {
+                top_hz,
+                lambda_min_m,
+                modes: cavity.modes(),
+                contrast: cavity.contrast(actuators, window),
+                spot_diameter_m: closed::spot_diameter(lambda_min_m),
+                pulse_duration_s: closed::pulse_duration(top_hz - low, cavity.growth()),
+            }
+        })
+        .collect()
+}
+
+/// Contrast for the tabulated rates, with the surface's decay and with another.
+pub(super) fn by_rate(cavity: &Cavity, actuators: f64, window: f64, decay_time: f64) -> Vec<ByRate> {
+    let dead = cavity.clone().with_decay_time(decay_time);
+    RATES
+        .iter()
+        .map(|&rate_hz| ByRate {
+            rate_hz,
+            contrast: cavity.repeated(actuators, window, 1.0 / rate_hz),
+            contrast_at_papers_decay: dead.repeated(actuators, window, 1.0 / rate_hz),
+        })
+        .collect()
+}
+
+/// Contrast for the tabulated levels of noise.
+pub(super) fn by_noise(cavity: &Cavity, actuators: f64, window: f64) -> Vec<ByNoise> {
+    let row =
+        |&noise_ratio: &f64| ByNoise { noise_ratio, contrast: cavity.noisy(actuators, window, noise_ratio) };
+    NOISES.iter().map(row).collect()
+}

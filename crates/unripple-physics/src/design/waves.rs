@@ -1,0 +1,50 @@
+use super::cavity::modes_per_wavenumber;
+use crate::Medium;
+use crate::damping::decay_rate;
+use std::f64::consts::TAU;
+use unripple_core::Surface;
+
+/// A wave of the band: one row of the dispersion relation.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Wave {
+    /// Frequency, in Hz.
+    pub frequency_hz: f64,
+    /// Wavelength λ = 2π/k, in metres.
+    pub wavelength_m: f64,
+    /// Phase celerity ω/k, in m/s.
+    pub phase_celerity_m_s: f64,
+    /// Group celerity dω/dk, in m/s.
+    pub group_celerity_m_s: f64,
+    /// Modes per hertz by Weyl's law, dM/df = (2Sk - P)/2c_g, P the fixed rim minus the free.
+    pub modes_per_hz: f64,
+    /// Spacing of modes 1/(dM/df), in Hz; `None` below the first.
+    pub mode_spacing_hz: Option<f64>,
+    /// Decay time of the amplitude, in seconds.
+    pub decay_time_s: f64,
+}
+
+/// The waves at `steps` even frequencies up to the top of the band.
+pub(super) fn waves(surface: &Surface, steps: usize) -> Vec<Wave> {
+    let [low, top] = surface.emission.band;
+    (0..=steps)
+        .map(|i| low + (top - low) * i as f64 / steps as f64)
+        .filter(|hz| *hz > 0.0)
+        .map(|hz| wave(surface, hz))
+        .collect()
+}
+
+fn wave(surface: &Surface, hz: f64) -> Wave {
+    let medium = Medium::of(&surface.sheet);
+    let k = medium.wavenumber(TAU * hz);
+    let group = medium.group_celerity(k);
+    let density = TAU * modes_per_wavenumber(&surface.outline, k) / group;
+    Wave {
+        frequency_hz: hz,
+        wavelength_m: TAU / k,
+        phase_celerity_m_s: medium.phase_celerity(k),
+        group_celerity_m_s: group,
+        modes_per_hz: density.max(0.0),
+        mode_spacing_hz: (density > 0.0).then(|| 1.0 / density),
+        decay_time_s: 1.0 / decay_rate(&surface.sheet.decay, TAU * hz, medium.bending_share(k)),
+    }
+}

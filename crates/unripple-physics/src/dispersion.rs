@@ -1,0 +1,247 @@
+use std::f64::consts::{PI, TAU};
+use unripple_core::{Air, Sheet};
+
+/// Density of air ρ_0 at 20 °C, in kg/m³.
+pub const AIR_DENSITY: f64 = 1.204;
+
+/// Celerity of sound in air c_0 at 20 °C, in m/s.
+pub const AIR_CELERITY: f64 = 343.2;
+
+/// What bending waves on a sheet see: mass, tension, stiffness and the air beside it.
+///
+/// A tensioned, isotropic Kirchhoff plate carries waves e^{j(ωt - kx)} with
+/// ω² ρ_eff = k² (R + D k²). In vacuum ρ_eff is the mass per area ρ_s = ρh. Air on n sides adds the mass of its
+/// evanescent layer, ρ_eff = ρ_s + n ρ_0 / √(k² - (ω/c_0)²), as long as waves are slower than sound; from the
+/// coincidence frequency on, where they radiate instead, it adds none (Fahy and Gardonio, *Sound and Structural
+/// Vibration*, 2007, section 4).
+///
+/// ```
+/// use unripple_physics::Medium;
+///
+/// let film = Medium { areal_density: 0.175, tension: 200.0, bending_stiffness: 7.15e-4, air_sides: 0.0 };
+/// let k = film.wavenumber(std::f64::consts::TAU * 3000.0);
+/// assert!((film.omega(k) / std::f64::consts::TAU - 3000.0).abs() < 1e-9);
+/// assert!((film.phase_celerity(0.0) - 33.81).abs() < 0.01);
+/// assert!((film.lambda_min(3000.0) - 0.01455).abs() < 1e-5);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Medium {
+    /// Mass per area ρ_s = ρh, in kg/m².
+    pub areal_density: f64,
+    /// Tension R, in N/m.
+    pub tension: f64,
+    /// Bending stiffness D = E h³ / 12(1 - ν²), in N·m.
+    pub bending_stiffness: f64,
+    /// Number of sides in contact with air: 0, 1 or 2.
+    pub air_sides: f64,
+}
+
+impl Medium {
+    /// The medium a sheet is.
+    pub fn of(sheet: &Sheet) -> Self {
+        Self {
+            areal_density: sheet.density * sheet.thickness,
+            tension: sheet.tension,
+            bending_stiffness: sheet.young * sheet.thickness.powi(3) / (12.0 * (1.0 - sheet.poisson.powi(2))),
+            air_sides: sheet.air.sides(),
+        }
+    }
+
+    /// The same medium with air on the sides given.
+    pub fn with_air(mut self, air: Air) -> Self {
+        self.air_sides = air.sides();
+        self
+    }
+
+    /// Restoring force per displacement R k² + D k⁴ of a wave of wavenumber `k` (rad/m), in N/m³.
+    pub fn stiffness(&self, k: f64) -> f64 {
+        k * k * (self.tension + self.bending_stiffness * k * k)
+    }
+
+    /// Angular frequency ω of a wave of wavenumber `k` (rad/m), in rad/s.
+    pub fn omega(&self, k: f64) -> f64 {
+        let vacuum = self.omega_in_vacuum(k);
+        if !(self.air_sides > 0.0 && k > 0.0) || vacuum >= AIR_CELERITY * k {
+            return vacuum;
+        }
+        let stiffness = self.stiffness(k);
+        root(0.0, vacuum, |omega| omega * omega * self.effective_density(k, omega) - stiffness)
+    }
+
+    /// Wavenumber k of a wave at angular frequency `omega` (rad/s), in rad/m: the inverse of [`Medium::omega`].
+    ///
+    /// With air, `omega` jumps by a per cent or so at coincidence; frequencies inside the jump return its wavenumber.
+    pub fn wavenumber(&self, omega: f64) -> f64 {
+        let vacuum = self.wavenumber_in_vacuum(omega);
+        if !(self.air_sides > 0.0 && omega > 0.0) {
+            return vacuum;
+        }
+        let lowest = vacuum.max(omega / AIR_CELERITY);
+        let residual = |k: f64| self.stiffness(k) - omega * omega * self.effective_density(k, omega);
+        let mut highest = 2.0 * lowest;
+        while residual(highest) < 0.0 && highest.is_finite() {
+            highest *= 2.0;
+        }
+        let loaded = root(lowest, highest, residual);
+        if self.omega_in_vacuum(loaded) < AIR_CELERITY * loaded {
+            loaded
+        } else if omega >= AIR_CELERITY * vacuum {
+            vacuum
+        } else {
+            self.coincidence_wavenumber().unwrap_or(vacuum)
+        }
+    }
+
+    /// Phase celerity c = ω/k, in m/s. At k = 0 it is the limit: √(R/ρ_s) in vacuum, 0 in air.
+    pub fn phase_celerity(&self, k: f64) -> f64 {
+        if k > 0.0 {
+            self.omega(k) / k
+        } else if self.air_sides > 0.0 {
+            0.0
+        } else {
+            (self.tension / self.areal_density).sqrt()
+        }
+    }
+
+    /// Group celerity dω/dk, in m/s; in vacuum (R + 2Dk²)k/(ρ_s ω).
+    pub fn group_celerity(&self, k: f64) -> f64 {
+        if k <= 0.0 {
+            return self.phase_celerity(k);
+        }
+        let omega = self.omega(k);
+        let slope = 2.0 * k * (self.tension + 2.0 * self.bending_stiffness * k * k);
+        let gap = k * k - (omega / AIR_CELERITY).powi(2);
+        if self.air_sides == 0.0 || gap <= 0.0 || self.omega_in_vacuum(k) >= AIR_CELERITY * k {
+            return slope / (2.0 * self.areal_density * omega);
+        }
+        let layer = self.air_sides * AIR_DENSITY * omega * omega / gap.powf(1.5);
+        let density = self.effective_density(k, omega);
+        (slope + layer * k) / (2.0 * omega * density + layer * omega / AIR_CELERITY.powi(2))
+    }
+
+    /// Frequency from which waves outrun sound in air and radiate, in Hz, for the sheet in vacuum:
+    /// k_c² = (ρ_s c_0² - R)/D, f_c = c_0 k_c / 2π. `None` if they always or never do.
+    pub fn coincidence_hz(&self) -> Option<f64> {
+        self.coincidence_wavenumber().map(|k| AIR_CELERITY * k / TAU)
+    }
+
+    /// Shortest wavelength 2π/k of a band that ends at `top_hz`, in metres.
+    pub fn lambda_min(&self, top_hz: f64) -> f64 {
+        2.0 * PI / self.wavenumber(TAU * top_hz)
+    }
+
+    /// Share of the elastic energy that is bending, D k²/(R + D k²): the share of the material's losses that a wave feels.
+    pub fn bending_share(&self, k: f64) -> f64 {
+        let bending = self.bending_stiffness * k * k;
+        if bending > 0.0 { bending / (self.tension + bending) } else { 0.0 }
+    }
+
+    /// Mass per area that moves, air included, in kg/m²; infinite where waves catch up with sound.
+    pub fn effective_density(&self, k: f64, omega: f64) -> f64 {
+        if self.air_sides == 0.0 {
+            return self.areal_density;
+        }
+        let gap = (k * k - (omega / AIR_CELERITY).powi(2)).max(0.0);
+        self.areal_density + self.air_sides * AIR_DENSITY / gap.sqrt()
+    }
+
+    fn omega_in_vacuum(&self, k: f64) -> f64 {
+        (self.stiffness(k) / self.areal_density).sqrt()
+    }
+
+    /// The root of D k⁴ + R k² = ρ_s ω² written so that neither R = 0 nor D = 0 loses digits.
+    fn wavenumber_in_vacuum(&self, omega: f64) -> f64 {
+        if omega <= 0.0 || omega.is_nan() {
+            return 0.0;
+        }
+        let inertia = self.areal_density * omega * omega;
+        let discriminant = self.tension * self.tension + 4.0 * self.bending_stiffness * inertia;
+        (2.0 * inertia / (self.tension + discriminant.sqrt())).sqrt()
+    }
+
+    fn coincidence_wavenumber(&self) -> Option<f64> {
+        let excess = self.areal_density * AIR_CELERITY * AIR_CELERITY - self.tension;
+        (excess > 0.0 && self.bending_stiffness > 0.0).then(|| (excess / self.bending_stiffness).sqrt())
+    }
+}
+
+/// The root of an increasing function between `low` and `high`, to the last bits, by bisection.
+fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            break;
+        }
+        if f(middle) < 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn media() -> Vec<Medium> {
+        let film =
+            Medium { areal_density: 0.175, tension: 200.0, bending_stiffness: 7.154e-4, air_sides: 0.0 };
+        let glass = Medium { areal_density: 2.3, tension: 0.0, bending_stiffness: 6.04, air_sides: 0.0 };
+        let membrane = Medium { bending_stiffness: 0.0, ..film };
+        [film, glass, membrane]
+            .into_iter()
+            .flat_map(|m| [0.0, 1.0, 2.0].map(|air_sides| Medium { air_sides, ..m }))
+            .collect()
+    }
+
+    #[test]
+    fn wavenumber_inverts_omega() {
+        for medium in media() {
+            for hz in [1.0, 100.0, 3e3, 5e3, 3e4, 1e5] {
+                let k = medium.wavenumber(TAU * hz);
+                let back = medium.omega(k) / TAU;
+                assert!((back / hz - 1.0).abs() < 1e-9, "{medium:?} {hz}: {back}");
+            }
+        }
+    }
+
+    #[test]
+    fn group_celerity_is_the_slope() {
+        for medium in media() {
+            for k in [3.0, 30.0, 100.0, 400.0] {
+                let d = 1e-5 * k;
+                let slope = (medium.omega(k + d) - medium.omega(k - d)) / (2.0 * d);
+                assert!((medium.group_celerity(k) / slope - 1.0).abs() < 1e-6, "{medium:?} {k}");
+            }
+        }
+    }
+
+    #[test]
+    fn glass_coincides_near_twelve_kilohertz() {
+        let glass = Medium { areal_density: 2.5, tension: 0.0, bending_stiffness: 6.3, air_sides: 0.0 };
+        // f_c = c_0²/2π √(ρ_s/D), the textbook form.
+        let textbook = AIR_CELERITY.powi(2) / TAU * (2.5f64 / 6.3).sqrt();
+        assert!((glass.coincidence_hz().unwrap() / textbook - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn no_wave_without_frequency() {
+        for medium in media() {
+            assert_eq!((medium.wavenumber(0.0), medium.omega(0.0)), (0.0, 0.0));
+            assert!(medium.wavenumber(f64::NAN).abs() < 1.0);
+        }
+    }
+
+    #[test]
+    fn air_lowers_the_first_mode_of_the_papers_film() {
+        // physics: about 160 Hz in vacuum towards 132 Hz with air on two sides, supported square of 150 mm.
+        let k = 2f64.sqrt() * PI / 0.15;
+        let film =
+            Medium { areal_density: 0.175, tension: 200.0, bending_stiffness: 7.154e-4, air_sides: 0.0 };
+        assert!((film.omega(k) / TAU - 159.614).abs() < 2e-3);
+        let loaded = film.with_air(Air::BothSides).omega(k) / TAU;
+        assert!((loaded - 132.0).abs() < 1.0, "{loaded}");
+    }
+}

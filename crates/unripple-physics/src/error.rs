@@ -1,0 +1,61 @@
+/// Why the physics of a surface could not be computed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PhysicsError {
+    /// Something the models here do not cover.
+    #[error("{what}: expected {expected}, found {found}")]
+    Unsupported {
+        /// What was asked about.
+        what: &'static str,
+        /// What is supported.
+        expected: &'static str,
+        /// What was found.
+        found: String,
+    },
+    /// A value is out of its range.
+    #[error("{what}: expected {expected}, found {found}")]
+    Range {
+        /// What the value is.
+        what: String,
+        /// The legal values, the nearest among them.
+        expected: String,
+        /// The value.
+        found: f64,
+    },
+    /// The band reaches the frequency where the sheet's waves run as fast as sound in air.
+    #[error(
+        "top of the band: expected less than the coincidence frequency {coincidence_hz:.1} Hz, where air is no longer an added mass, found {found_hz} Hz"
+    )]
+    Coincidence {
+        /// The coincidence frequency, in Hz.
+        coincidence_hz: f64,
+        /// The frequency asked for, in Hz.
+        found_hz: f64,
+    },
+    /// The problem is too large for the memory it is allowed.
+    #[error(
+        "modes up to {max_hz} Hz: expected at most {limit_gib:.1} GiB, found {needed_gib:.1} GiB for {unknowns} unknowns; about {nearest_hz:.0} Hz fits"
+    )]
+    TooLarge {
+        /// The frequency asked for, in Hz.
+        max_hz: f64,
+        /// The unknowns it takes.
+        unknowns: usize,
+        /// The memory they take, in GiB.
+        needed_gib: f64,
+        /// The memory allowed, in GiB.
+        limit_gib: f64,
+        /// A top frequency that fits, in Hz.
+        nearest_hz: f64,
+    },
+    /// The accuracy asked for was not reached.
+    #[error("modes up to {max_hz} Hz: expected an error of at most {expected:e}, found {found:e}")]
+    NotConverged {
+        /// The frequency asked for, in Hz.
+        max_hz: f64,
+        /// The relative accuracy asked for.
+        expected: f64,
+        /// The relative error estimated.
+        found: f64,
+    },
+}

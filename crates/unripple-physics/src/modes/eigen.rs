@@ -1,0 +1,60 @@
+use faer::diag::Diag;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::evd::{
+    ComputeEigenvectors, SelfAdjointEvdParams, self_adjoint_evd, self_adjoint_evd_scratch,
+};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Auto, Mat, MatRef, Par};
+
+/// How a symmetric matrix is decomposed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Method {
+    /// Divide and conquer: fast, but vectors may be off by 1e-5 where eigenvalues differ by orders of magnitude.
+    Fast,
+    /// QR iteration: to machine precision of the largest eigenvalue.
+    Exact,
+}
+
+/// Eigenvalues, ascending, and orthonormal eigenvectors of a symmetric matrix given by its lower triangle; `None` if
+/// the iteration does not converge.
+pub(crate) fn symmetric(matrix: MatRef<f64>, method: Method, par: Par) -> Option<(Vec<f64>, Mat<f64>)> {
+    let n = matrix.nrows();
+    let mut values = Diag::<f64>::zeros(n);
+    let mut vectors = Mat::zeros(n, n);
+    let mut params: SelfAdjointEvdParams = Auto::<f64>::auto();
+    if method == Method::Exact {
+        params.recursion_threshold = usize::MAX;
+    }
+    let needed = self_adjoint_evd_scratch::<f64>(n, ComputeEigenvectors::Yes, par, params.into());
+    let mut buffer = MemBuffer::try_new(needed).ok()?;
+    self_adjoint_evd(
+        matrix,
+        values.as_mut(),
+        Some(vectors.as_mut()),
+        par,
+        MemStack::new(&mut buffer),
+        params.into(),
+    )
+    .ok()?;
+    Some((values.column_vector().iter().copied().collect(), vectors))
+}
+
+/// The product of two matrices.
+pub(crate) fn product(left: MatRef<f64>, right: MatRef<f64>, par: Par) -> Mat<f64> {
+    let mut out = Mat::zeros(left.nrows(), right.ncols());
+    matmul(out.as_mut(), Accum::Replace, left, right, 1.0, par);
+    out
+}
+
+/// Nearly orthonormal columns made orthonormal without a change of their span: X ← X (3 - XᵀX)/2, twice (Björck and
+/// Bowie, *SIAM J. Numer. Anal.* 8, 358, 1971).
+pub(crate) fn orthonormalised(mut columns: Mat<f64>, par: Par) -> Mat<f64> {
+    for _ in 0..2 {
+        let gram = product(columns.transpose(), columns.as_ref(), par);
+        let step = Mat::from_fn(gram.nrows(), gram.ncols(), |i, j| {
+            if i == j { 1.5 - 0.5 * gram[(i, j)] } else { -0.5 * gram[(i, j)] }
+        });
+        columns = product(columns.as_ref(), step.as_ref(), par);
+    }
+    columns
+}

@@ -1,0 +1,26 @@
+use super::ritz::BlockModes;
+use faer::ColRef;
+
+/// Frequencies closer than this, relatively in ω², are taken for one.
+const DOUBLE: f64 = 1e-9;
+
+/// Ascending squares and the block and column of each mode; equal ones are ordered by block, then column.
+pub(crate) fn ascending(blocks: &[BlockModes]) -> (Vec<f64>, Vec<(usize, usize)>) {
+    let mut modes: Vec<(f64, usize, usize)> = blocks
+        .iter()
+        .enumerate()
+        .flat_map(|(b, block)| block.squares.iter().enumerate().map(move |(m, s)| (*s, b, m)))
+        .collect();
+    modes.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    let squares: Vec<f64> = modes.iter().map(|m| m.0).collect();
+    for cluster in modes.chunk_by_mut(|a, b| b.0 - a.0 <= DOUBLE * b.0) {
+        cluster.sort_by_key(|m| (m.1, m.2));
+    }
+    (squares, modes.iter().map(|m| (m.1, m.2)).collect())
+}
+
+/// +1 or -1, to make positive the first coefficient that is at least half the largest.
+pub(crate) fn sign(coefficients: ColRef<f64>) -> f64 {
+    let largest = coefficients.iter().fold(0.0, |a: f64, c| a.max(c.abs()));
+    coefficients.iter().find(|c| c.abs() >= 0.5 * largest).map_or(1.0, |c| c.signum())
+}

@@ -1,0 +1,89 @@
+use super::line::Line;
+use super::product::{Product, Symmetry};
+use faer::Mat;
+
+/// A rectangle's elastic energy per mass, in products of one function along x and one along y, both on [-1, 1].
+///
+/// Twice the energy of u over ρ_s is
+/// R/ρ_s ∫u_x² + u_y² + D/ρ_s ∫u_xx² + u_yy² + 2ν u_xx u_yy + 2(1-ν) u_xy²,
+/// so its matrix in orthonormal functions has the squares of the angular frequencies for eigenvalues (Leissa, *Vibration
+/// of Plates*, NASA SP-160, 1969).
+#[derive(Debug)]
+pub(crate) struct Plate {
+    /// Functions along x and along y.
+    pub(crate) lines: [Line; 2],
+    /// R/ρ_s · (2/side)², in 1/s².
+    pub(crate) tension: [f64; 2],
+    /// D/ρ_s · (2/side)⁴, in 1/s².
+    pub(crate) bending: [f64; 2],
+    /// Poisson's ratio.
+    pub(crate) poisson: f64,
+    /// Whether x and y may be exchanged.
+    pub(crate) square: bool,
+}
+
+impl Plate {
+    /// One element of the energy matrix, in 1/s².
+    fn element(&self, p: Product, q: Product) -> f64 {
+        if p.mirror == 0.0 {
+            return self.direct(p, q);
+        }
+        2.0 * p.weight() * q.weight() * (self.direct(p, q) + p.mirror * self.direct(p, q.mirrored()))
+    }
+
+    /// One element, mirror images aside.
+    fn direct(&self, Product { x: i, y: j, .. }: Product, Product { x: k, y: l, .. }: Product) -> f64 {
+        let [x, y] = &self.lines;
+        let mut sum = self.cross()
+            * (self.poisson * (x.mixed[(i, k)] * y.mixed[(l, j)] + x.mixed[(k, i)] * y.mixed[(j, l)])
+                + 2.0 * (1.0 - self.poisson) * x.slope[(i, k)] * y.slope[(j, l)]);
+        if j == l {
+            sum += self.tension[0] * x.slope[(i, k)] + self.bending[0] * x.curvature[(i, k)];
+        }
+        if i == k {
+            sum += self.tension[1] * y.slope[(j, l)] + self.bending[1] * y.curvature[(j, l)];
+        }
+        sum
+    }
+
+    fn cross(&self) -> f64 {
+        (self.bending[0] * self.bending[1]).sqrt()
+    }
+
+    /// The energy matrix between two sets of products.
+    pub(crate) fn stiffness(&self, rows: &[Product], columns: &[Product]) -> Mat<f64> {
+        Mat::from_fn(rows.len(), columns.len(), |r, c| self.element(rows[r], columns[c]))
+    }
+
+    /// The energy matrix of one set of products, minus `shift` times the identity; the lower triangle alone is filled.
+    pub(crate) fn lower_stiffness(&self, products: &[Product], shift: f64) -> Mat<f64> {
+        let n = products.len();
+        let mut matrix = Mat::zeros(n, n);
+        for c in 0..n {
+            for r in c..n {
+                matrix[(r, c)] = self.element(products[r], products[c]);
+            }
+            matrix[(c, c)] -= shift;
+        }
+        matrix
+    }
+
+    /// The same sheet with its tension alone.
+    pub(crate) fn without_bending(&self) -> Self {
+        Self { bending: [0.0; 2], lines: self.lines.clone(), ..*self }
+    }
+
+    /// Whether a product moves without strain: a constant, or with no tension anything linear in x and y.
+    pub(crate) fn is_rigid(&self, product: Product) -> bool {
+        let most = usize::from(self.tension[0] == 0.0);
+        match (self.lines[0].degree(product.x), self.lines[1].degree(product.y)) {
+            (Some(along_x), Some(along_y)) => along_x + along_y <= most,
+            _ => false,
+        }
+    }
+
+    /// The products of one symmetry, rigid ones left out.
+    pub(crate) fn products(&self, symmetry: Symmetry) -> Vec<Product> {
+        symmetry.products().filter(|p| !self.is_rigid(*p)).collect()
+    }
+}

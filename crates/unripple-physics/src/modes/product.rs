@@ -1,0 +1,108 @@
+use super::line::Class;
+use faer::{ColMut, Mat};
+use std::f64::consts::FRAC_1_SQRT_2;
+
+/// A deflection of norm 1: one function along x times one along y, alone or with its mirror image in the diagonal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Product {
+    /// Index of the function along x.
+    pub(crate) x: usize,
+    /// Index of the function along y.
+    pub(crate) y: usize,
+    /// What the mirror image is taken with: 0, 1 or -1.
+    pub(crate) mirror: f64,
+}
+
+impl Product {
+    /// The factor that makes the norm 1.
+    pub(crate) fn weight(self) -> f64 {
+        match (self.mirror == 0.0, self.x == self.y) {
+            (true, _) => 1.0,
+            (false, true) => 0.5,
+            (false, false) => FRAC_1_SQRT_2,
+        }
+    }
+
+    /// Its mirror image.
+    pub(crate) fn mirrored(self) -> Self {
+        Self { x: self.y, y: self.x, ..self }
+    }
+
+    /// Its value where the functions along x and y have these values.
+    pub(crate) fn at(self, along_x: &[f64], along_y: &[f64]) -> f64 {
+        let direct = along_x[self.x] * along_y[self.y];
+        if self.mirror == 0.0 {
+            return direct;
+        }
+        self.weight() * (direct + self.mirror * along_x[self.y] * along_y[self.x])
+    }
+
+    /// Its values at many points, from those of the functions along x and y (points x functions).
+    pub(crate) fn fill(self, [along_x, along_y]: &[Mat<f64>; 2], values: ColMut<f64>) {
+        let direct = along_x.col(self.x).iter().zip(along_y.col(self.y).iter());
+        if self.mirror == 0.0 {
+            values.iter_mut().zip(direct).for_each(|(value, (x, y))| *value = x * y);
+            return;
+        }
+        let mirrored = along_x.col(self.y).iter().zip(along_y.col(self.x).iter());
+        let weight = self.weight();
+        for ((value, (x, y)), (a, b)) in values.iter_mut().zip(direct).zip(mirrored) {
+            *value = weight * (x * y + self.mirror * a * b);
+        }
+    }
+}
+
+/// Products that couple among themselves only.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Symmetry {
+    /// Functions along x.
+    pub(crate) x: Class,
+    /// Functions along y.
+    pub(crate) y: Class,
+    /// Parity under the exchange of x and y, 0 without one.
+    pub(crate) mirror: f64,
+}
+
+impl Symmetry {
+    /// Its products, x-major.
+    pub(crate) fn products(self) -> impl Iterator<Item = Product> {
+        let Self { x, y, mirror } = self;
+        (0..x.len())
+            .flat_map(move |i| (0..y.len()).map(move |j| Product { x: x.index(i), y: y.index(j), mirror }))
+            .filter(move |p| mirror == 0.0 || p.x < p.y || (p.x == p.y && mirror > 0.0))
+    }
+
+    /// All symmetries of two sets of classes, and whether each stands for its mirror image too. `square` if x and y may be
+    /// exchanged.
+    pub(crate) fn all(x: &[Class], y: &[Class], square: bool) -> Vec<(Self, bool)> {
+        let pairs =
+            x.iter().enumerate().flat_map(|(i, x)| y.iter().enumerate().map(move |(j, y)| (i, j, *x, *y)));
+        pairs
+            .flat_map(|(i, j, x, y)| {
+                let parities: &[f64] = match (square, i.cmp(&j)) {
+                    (true, std::cmp::Ordering::Equal) => &[1.0, -1.0],
+                    (true, std::cmp::Ordering::Greater) => &[],
+                    _ => &[0.0],
+                };
+                parities.iter().map(move |mirror| (Self { x, y, mirror: *mirror }, square && i < j))
+            })
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn symmetries_share_out_all_products() {
+        let classes = [Class { first: 0, step: 2, end: 7 }, Class { first: 1, step: 2, end: 7 }];
+        for square in [false, true] {
+            let count: usize = Symmetry::all(&classes, &classes, square)
+                .into_iter()
+                .map(|(symmetry, twice)| symmetry.products().count() * (1 + usize::from(twice)))
+                .sum();
+            assert_eq!(count, 49);
+        }
+    }
+}

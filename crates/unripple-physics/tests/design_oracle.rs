@@ -1,0 +1,225 @@
+//! Design figures against the paper's numbers and against values worked out apart.
+
+use unripple_core::{Decay, Edge, Edges, Outline, Shape, Surface};
+use unripple_physics::design::{Cavity, closed, papers_surface};
+use unripple_physics::{Design, Modes, PhysicsError, design};
+
+fn close(found: f64, expected: f64, tolerance: f64) {
+    assert!((found / expected - 1.0).abs() < tolerance, "expected {expected}, found {found}");
+}
+
+fn paper() -> Design {
+    design(&papers_surface()).unwrap()
+}
+
+/// A slack glass plate, large enough for its rim not to matter.
+fn plate() -> Surface {
+    let mut surface = papers_surface();
+    surface.outline = Outline::new(Shape::Rectangle { width: 3.0, height: 2.0 });
+    surface.sheet.young = 69e9;
+    surface.sheet.density = 2300.0;
+    surface.sheet.thickness = 1e-3;
+    surface.sheet.poisson = 0.22;
+    surface.sheet.tension = 0.0;
+    surface
+}
+
+#[test]
+fn celerities_are_the_papers() {
+    let d = paper();
+    // Section 4: 34 m/s for long waves, 43 m/s at 15 mm; 43.65 at 3 kHz solves 0.175 ω² = 200 k² + 7.154e-4 k⁴.
+    close(d.celerity_min_m_s, 33.806, 1e-4);
+    close(d.celerity_at_15mm_m_s, 43.13, 1e-4);
+    close(d.celerity_max_m_s, 43.65, 1e-4);
+    close(d.lambda_min_m, 14.55e-3, 1e-3);
+    assert_eq!(d.dispersion.len(), 12);
+    assert!(d.dispersion.iter().all(|w| w.group_celerity_m_s > w.phase_celerity_m_s));
+}
+
+#[test]
+fn windows_are_worked_out_by_hand() {
+    let d = paper();
+    // (2 · 0.0225 · 418.88 + 0.6) / (2 · 8 · 33.806) s.
+    close(d.window_paper_s, 0.03596, 1e-3);
+    let cavity = Cavity::of(&papers_surface(), 3000.0).counted(306.0);
+    let endless = cavity.contrast(8.0, 1e3);
+    close(cavity.contrast(8.0, d.window_recommended_s) / endless, 0.9, 1e-6);
+    close(d.contrast_endless, endless, 1e-6);
+}
+
+#[test]
+fn modes_are_counted_and_estimated() {
+    let d = paper();
+    assert_eq!((d.mode_count_exact, d.mode_count_exact_reason.as_deref()), (Some(306), None));
+    // π · 0.0225 · (3000/43.649)² - 0.6 · 3000 / (2 · 43.649).
+    close(d.mode_count_weyl, 313.29, 1e-3);
+    close(d.first_mode_hz, 163.7436, 1e-4);
+}
+
+#[test]
+fn weyl_counts_fixed_and_free_rims() {
+    // Supported and free membranes of no stiffness are counted by their exact wavenumbers π√((m/a)² + (n/b)²).
+    let (a, b, k) = (0.15, 0.11, 600.0);
+    for (edge, first) in [(Edge::Supported, 1), (Edge::Free, 0)] {
+        let below = |m: i32, n: i32| {
+            (f64::from(m) / a).hypot(f64::from(n) / b) * std::f64::consts::PI < k && m + n > 0
+        };
+        let exact =
+            (first..100).flat_map(|m| (first..100).map(move |n| (m, n))).filter(|(m, n)| below(*m, *n));
+        let mut surface = papers_surface();
+        surface.outline = Outline::new(Shape::Rectangle { width: a, height: b }).with_edges(Edges::All(edge));
+        surface.sheet.young = 1.0;
+        surface.emission.band = [0.0, k * 33.806 / std::f64::consts::TAU];
+        surface.emission.rate = 96e3;
+        close(design(&surface).unwrap().mode_count_weyl, exact.count() as f64, 0.01);
+    }
+}
+
+#[test]
+fn table_1_is_the_papers_to_one_per_cent() {
+    let d = paper();
+    let rows: Vec<_> =
+        d.table1.iter().map(|r| (r.celerity_m_s, r.frequency_hz, r.impedance_n_s_per_m, r.power_w)).collect();
+    for (found, expected) in rows.iter().zip([(662.0, 44_155.0, 15.2, 514.0), (42.4, 2825.0, 0.0742, 1.44)]) {
+        close(found.0, expected.0, 1e-2);
+        close(found.1, expected.1, 1e-2);
+        close(found.2, expected.2, 1e-2);
+        close(found.3, expected.3, 1e-2);
+    }
+    // The same film under the same tension and finger, as wide as the contact.
+    close(d.touch[0].power_w, d.table1[1].power_w, 1e-9);
+}
+
+#[test]
+fn deformation_is_worked_out_by_hand() {
+    let d = paper().deformation;
+    // k = 431.84 rad/m: 200 µm bend the crest to 1/(2e-4 k²) and strain it by 2e-4 k² · 62.5 µm and (2e-4 k)²/2.
+    let row = d.rows.last().unwrap();
+    close(row.bending_radius_m, 26.81e-3, 1e-3);
+    close(row.bending_strain, 2.331e-3, 1e-3);
+    close(row.stretching_strain, 3.730e-3, 1e-3);
+    close(d.tension_strain, 0.7 * 200.0 / (4e9 * 0.125e-3), 1e-12);
+    close(d.yield_strain.unwrap(), 0.025, 1e-12);
+    // A² = 0.1 R · 2S (1 - ν) / πEh.
+    close(d.linear_limit_tension_m.unwrap(), 633e-6, 1e-3);
+}
+
+#[test]
+fn a_large_even_band_is_the_plain_form() {
+    // A slack plate has as many modes in every hertz; Gaussian shapes need an outline that is no rectangle.
+    let mut surface = plate();
+    surface.outline = Outline::new(Shape::Circle { radius: 1.4 });
+    let cavity = Cavity::of(&surface, 3000.0);
+    for (n, window) in [(1.0, 0.05), (1.0, 0.2), (8.0, 0.05), (32.0, 0.2)] {
+        let plain = closed::contrast(n, 3000.0, 0.07, window, cavity.modes());
+        close(cavity.contrast(n, window), plain, 0.03);
+    }
+    close(cavity.effective_bandwidth(), 3000.0, 0.01);
+    assert!(cavity.growth() < 0.05);
+}
+
+#[test]
+fn repetition_fades_into_single_pulses() {
+    let cavity = Cavity::of(&papers_surface(), 3000.0);
+    let once = cavity.contrast(8.0, 0.03);
+    close(cavity.repeated(8.0, 0.03, 1.0), once, 1e-9);
+    let rates = [0.5, 0.1, 0.05, 0.02, 0.01, 0.005];
+    let contrasts: Vec<f64> = rates.iter().map(|period| cavity.repeated(8.0, 0.03, *period)).collect();
+    assert!(contrasts.windows(2).all(|pair| pair[1] < pair[0] && pair[1] > 0.0), "{contrasts:?}");
+}
+
+#[test]
+fn decay_may_depend_on_frequency() {
+    let mut surface = papers_surface();
+    surface.sheet.decay = Decay::Table(vec![(0.0, 0.07), (3000.0, 0.07)]);
+    assert_eq!(design(&surface).unwrap().contrast_predicted, paper().contrast_predicted);
+    surface.sheet.decay = Decay::LossFactor(0.015);
+    let lossy = design(&surface).unwrap();
+    // σ = η ω Dk²/2(R + Dk²) at the top of the band.
+    let sigma = 0.015 * std::f64::consts::TAU * 3000.0 * 0.4 / 2.0;
+    close(lossy.dispersion.last().unwrap().decay_time_s, 1.0 / sigma, 0.01);
+    assert!(lossy.contrast_predicted < paper().contrast_predicted);
+}
+
+#[test]
+fn an_outline_without_modes_says_why() {
+    let mut surface = papers_surface();
+    surface.outline = Outline::new(Shape::Stadium { straight: 0.06, radius: 0.06 });
+    let d = design(&surface).unwrap();
+    match Modes::solve(&surface, 3000.0, 1e-4) {
+        Ok(modes) => assert_eq!(d.mode_count_exact, Some(modes.poles().len())),
+        Err(reason) => {
+            assert_eq!((d.mode_count_exact, d.mode_count_exact_reason), (None, Some(reason.to_string())));
+        }
+    }
+    assert!(d.contrast_predicted > 10.0 && d.mode_count_weyl > 100.0);
+}
+
+#[test]
+fn bad_surfaces_are_refused() {
+    let cases: [fn(&mut Surface); 4] = [
+        |s| s.actuators.clear(),
+        |s| s.emission.band = [3000.0, 100.0],
+        |s| s.emission.band = [0.0, f64::NAN],
+        |s| s.emission.band = [0.0, 50.0],
+    ];
+    for spoil in cases {
+        let mut surface = papers_surface();
+        spoil(&mut surface);
+        assert!(matches!(design(&surface), Err(PhysicsError::Range { .. })));
+    }
+}
+
+#[test]
+fn every_figure_is_a_number() {
+    let free = |mut s: Surface| {
+        s.outline.edges = Edges::All(Edge::Free);
+        s.sheet.strength = None;
+        s
+    };
+    for surface in [papers_surface(), free(papers_surface()), plate_band(plate())] {
+        let d = design(&surface).unwrap();
+        let json = serde_json::to_value(&d).unwrap();
+        let mut missing = Vec::new();
+        nulls("", &json, &mut missing);
+        let optional = [
+            "coincidence_hz",
+            "mode_count_exact_reason",
+            "printed_power_w",
+            "yield_strain",
+            "share_of_yield",
+            "yield_amplitude_m",
+            "linear_limit_tension_m",
+            "mode_spacing_hz",
+        ];
+        missing.retain(|key| !optional.contains(&key.as_str()));
+        assert!(missing.is_empty(), "{missing:?}");
+        assert!(!d.to_string().contains("NaN") && !d.to_string().contains("inf"));
+    }
+}
+
+/// A plate in a band whose modes are quick to count.
+fn plate_band(mut surface: Surface) -> Surface {
+    surface.outline = Outline::new(Shape::Rectangle { width: 0.3, height: 0.2 });
+    surface.emission.band = [100.0, 4000.0];
+    surface
+}
+
+/// Keys whose value is null: a number that is not finite is written so.
+fn nulls(key: &str, value: &serde_json::Value, found: &mut Vec<String>) {
+    match value {
+        serde_json::Value::Null => found.push(key.to_owned()),
+        serde_json::Value::Array(list) => list.iter().for_each(|v| nulls(key, v, found)),
+        serde_json::Value::Object(map) => map.iter().for_each(|(k, v)| nulls(k, v, found)),
+        _ => {}
+    }
+}
+
+#[test]
+fn the_text_fits_two_screens() {
+    let text = paper().to_string();
+    assert!(text.lines().count() < 90);
+    for part in ["43.13 m/s", "36.0 ms", "306", "513.88", "1.436", "past linear theory"] {
+        assert!(text.contains(part), "{part} is missing from\n{text}");
+    }
+}
