@@ -1,0 +1,109 @@
+use crate::{Field, FieldError};
+use std::ops::Range;
+use unripple_core::Point;
+
+/// What to measure at: a point or a set of points, and when it is in focus.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Aim {
+    /// Where, in metres.
+    pub points: Vec<Point>,
+    /// When, in seconds from the drive's first sample; rounded to a sample.
+    pub instant: f64,
+}
+
+impl Aim {
+    /// One point.
+    pub fn at(point: Point, instant: f64) -> Self {
+        Self { points: vec![point], instant }
+    }
+}
+
+/// How to measure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasureOptions {
+    /// Period of a repeated drive, in seconds: figures are then those of its last full period, the last samples of the
+    /// drive. `None` for a single pulse: figures are those from its start to twice the focal instant.
+    pub period: Option<f64>,
+    /// Cells of the grid per shortest wavelength along each side of the surface.
+    pub cells: f64,
+}
+
+impl Default for MeasureOptions {
+    /// A single pulse on eight cells per wavelength.
+    fn default() -> Self {
+        Self { period: None, cells: 8.0 }
+    }
+}
+
+/// An aim in samples, at points that have responses.
+#[derive(Clone, Debug)]
+pub(crate) struct Resolved {
+    /// Points that stand for those asked for.
+    pub points: Vec<Point>,
+    /// Focal sample T.
+    pub instant: usize,
+    /// Samples over which it is measured.
+    pub span: Range<usize>,
+    /// Whether the field is known over the whole of the span that was meant.
+    pub complete: bool,
+}
+
+impl Resolved {
+    /// The span of a single pulse is [0, 2T], cut where responses end; that of a repeated drive its last full period.
+    pub fn of(aim: &Aim, field: &Field<'_>, period: Option<usize>) -> Result<Self, FieldError> {
+        if aim.points.is_empty() {
+            return Err(FieldError::Count {
+                what: "points of a target",
+                expected: "at least 1".to_owned(),
+                found: 0,
+            });
+        }
+        let points = aim.points.iter().map(|p| field.source.locate(*p)).collect::<Result<_, _>>()?;
+        let Some(period) = period else {
+            let instant = field.sample(aim.instant)?;
+            let end = 2 * instant + 1;
+            let span = 0..end.min(field.known());
+            return Ok(Self { points, instant, complete: span.end == end, span });
+        };
+        let span = last_period(field, period);
+        let rate = field.drive.rate();
+        let instant = (aim.instant * rate).round();
+        if !(span.start as f64..span.end as f64).contains(&instant) {
+            let (first, last) = (span.start as f64 / rate, (span.end - 1) as f64 / rate);
+            let why = "the last full period of the drive";
+            return Err(FieldError::Instant { found: aim.instant, first, last, why });
+        }
+        Ok(Self { points, instant: instant as usize, complete: span.end <= field.known(), span })
+    }
+}
+
+/// The last `period` samples of the drive.
+pub(crate) fn last_period(field: &Field<'_>, period: usize) -> Range<usize> {
+    let end = field.drive.samples();
+    end.saturating_sub(period)..end
+}
+
+/// Cuts spans at each other's ends: every span is then a union of the segments.
+pub(crate) fn segments(spans: &[Range<usize>]) -> Vec<Range<usize>> {
+    let mut ends: Vec<usize> = spans.iter().flat_map(|span| [span.start, span.end]).collect();
+    ends.sort_unstable();
+    ends.dedup();
+    let pieces = ends.windows(2).map(|pair| pair[0]..pair[1]);
+    pieces
+        .filter(|piece| spans.iter().any(|span| span.start <= piece.start && piece.end <= span.end))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn segments_cover_every_span_once() {
+        let ends =
+            |spans: &[Range<usize>]| -> Vec<_> { segments(spans).iter().map(|s| (s.start, s.end)).collect() };
+        assert_eq!(ends(&[0..7, 0..7]), [(0, 7)]);
+        assert_eq!(ends(&[0..7, 0..3, 9..12]), [(0, 3), (3, 7), (9, 12)]);
+        assert_eq!(ends(&[]), []);
+    }
+}

@@ -1,0 +1,92 @@
+use unripple_core::{CoreError, Point};
+
+/// Why a field could not be computed or measured.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FieldError {
+    /// The drive's channels are not the surface's actuators.
+    #[error("channels: expected {expected}, found {found}")]
+    Channels {
+        /// How many actuators, and their names.
+        expected: String,
+        /// How many channels, and their names.
+        found: String,
+    },
+    /// The drive and the responses have different sample rates.
+    #[error("sample rate of the drive: expected {expected} Hz, as the responses have, found {found} Hz")]
+    Rate {
+        /// Rate of the responses, in Hz.
+        expected: f64,
+        /// Rate of the drive, in Hz.
+        found: f64,
+    },
+    /// A point lies outside the surface.
+    #[error("{at} is outside the surface, nearest legal point {nearest}")]
+    Outside {
+        /// The point asked for.
+        at: Point,
+        /// The nearest point of the surface.
+        nearest: Point,
+    },
+    /// A point lies too far from every point whose responses are known.
+    #[error(
+        "{at} is {:.3} mm from the nearest point with responses, expected at most {:.3} mm; \
+         nearest legal point {nearest}", distance * 1e3, reach * 1e3
+    )]
+    Unknown {
+        /// The point asked for.
+        at: Point,
+        /// The nearest point with responses.
+        nearest: Point,
+        /// How far that is, in metres.
+        distance: f64,
+        /// How far it may be, in metres.
+        reach: f64,
+    },
+    /// An instant at which the field is not known.
+    #[error(
+        "instant: expected {:.4} ms to {:.4} ms, {why}, found {:.4} ms", first * 1e3, last * 1e3, found * 1e3
+    )]
+    Instant {
+        /// The instant asked for, in seconds.
+        found: f64,
+        /// The first legal one, in seconds.
+        first: f64,
+        /// The last legal one, in seconds.
+        last: f64,
+        /// What sets these bounds.
+        why: &'static str,
+    },
+    /// A number is out of its range.
+    #[error("{what}: expected {expected}, found {found}")]
+    Range {
+        /// What the number is, with its unit.
+        what: &'static str,
+        /// The legal values.
+        expected: String,
+        /// The value.
+        found: f64,
+    },
+    /// A count is out of its range: of samples, points or cells.
+    #[error("{what}: expected {expected}, found {found}")]
+    Count {
+        /// What was counted.
+        what: &'static str,
+        /// The legal counts.
+        expected: String,
+        /// How many there are.
+        found: usize,
+    },
+    /// A value could not be made.
+    #[error(transparent)]
+    Core(#[from] CoreError),
+}
+
+/// Refuses a number outside `legal`.
+pub(crate) fn require(
+    what: &'static str,
+    legal: bool,
+    expected: impl Into<String>,
+    found: f64,
+) -> Result<(), FieldError> {
+    if legal { Ok(()) } else { Err(FieldError::Range { what, expected: expected.into(), found }) }
+}

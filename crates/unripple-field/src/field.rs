@@ -1,0 +1,153 @@
+use crate::error::require;
+use crate::modal::ModalField;
+use crate::sampled::SampledField;
+use crate::source::{Quantity, Source};
+use crate::{FieldError, Grid, Trace};
+use unripple_core::{Conditions, Drive, Point, Responses};
+
+/// Values that snapshots or traces may hold in all.
+const MOST_VALUES: usize = 100_000_000;
+
+/// What a drive does to a surface: velocity and displacement anywhere, at any time.
+///
+/// Modal responses are read on the cells of a [`Grid`], sampled ones on their own points. Velocity is
+/// `v[i] = Σ_j h[i−j] d[j] / rate` with `h[0]` whole; displacement is its exact integral over time, from rest.
+pub struct Field<'a> {
+    pub(crate) source: Box<dyn Source + 'a>,
+    pub(crate) conditions: &'a Conditions,
+    pub(crate) drive: &'a Drive,
+    grid: Option<Grid>,
+}
+
+impl std::fmt::Debug for Field<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Field").field("points", &self.points().len()).field("grid", &self.grid).finish()
+    }
+}
+
+/// The field at one instant, one value per point of the field.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Snapshot {
+    /// Seconds from the drive's first sample.
+    pub instant: f64,
+    /// Velocity, in m/s.
+    pub velocity: Vec<f32>,
+    /// Displacement, in metres.
+    pub displacement: Vec<f32>,
+}
+
+impl<'a> Field<'a> {
+    /// The field of `drive` through `responses`, on a grid of `cells` cells per shortest wavelength (8 for figures) or
+    /// on the library's own points.
+    ///
+    /// # Errors
+    /// [`FieldError::Channels`] and [`FieldError::Rate`] if the drive is not for these responses,
+    /// [`FieldError::Count`] if it is empty, [`FieldError::Range`] if the grid would have no or too many cells.
+    pub fn new(responses: &'a Responses, drive: &'a Drive, cells: f64) -> Result<Self, FieldError> {
+        let conditions = responses.conditions();
+        check(responses, drive)?;
+        let (source, grid): (Box<dyn Source + 'a>, _) = match responses {
+            Responses::Modal(modal) => {
+                let grid = Grid::new(conditions, cells)?;
+                (Box::new(ModalField::new(modal, drive, grid.points())), Some(grid))
+            }
+            Responses::Sampled(sampled) => (Box::new(SampledField::new(sampled, drive)), None),
+        };
+        Ok(Self { source, conditions, drive, grid })
+    }
+
+    /// The points that snapshots and maps have values for.
+    pub fn points(&self) -> &[Point] {
+        self.source.points()
+    }
+
+    /// The grid those points are on; `None` on a library.
+    pub fn grid(&self) -> Option<&Grid> {
+        self.grid.as_ref()
+    }
+
+    /// Number of samples from the drive's first for which the field is known.
+    pub fn known(&self) -> usize {
+        self.source.known()
+    }
+
+    /// Traces at points from the drive's first sample up to `until` (s), its own included.
+    ///
+    /// # Errors
+    /// [`FieldError::Outside`] and [`FieldError::Unknown`] for points without responses, [`FieldError::Instant`] and
+    /// [`FieldError::Count`] for too long a time.
+    pub fn traces(&self, points: &[Point], until: f64) -> Result<Vec<Trace>, FieldError> {
+        let sets = points
+            .iter()
+            .map(|p| Ok(vec![self.source.locate(*p)?]))
+            .collect::<Result<Vec<_>, FieldError>>()?;
+        let end = self.sample(until)? + 1;
+        bounded("values of the traces", end.saturating_mul(2 * points.len()))?;
+        Ok(self.source.traces(&sets, 0..end))
+    }
+
+    /// The whole field at instants (s), rounded to samples: frames of an animation.
+    ///
+    /// # Errors
+    /// [`FieldError::Instant`] and [`FieldError::Count`] for instants that are not known, or too many.
+    pub fn snapshots(&self, instants: &[f64]) -> Result<Vec<Snapshot>, FieldError> {
+        let samples = instants.iter().map(|t| self.sample(*t)).collect::<Result<Vec<_>, _>>()?;
+        bounded("values of the snapshots", samples.len().saturating_mul(2 * self.points().len()))?;
+        let found = self.source.survey(&[], &samples).snapshots;
+        Ok(samples.iter().zip(found).map(|(sample, values)| self.snapshot(*sample, values)).collect())
+    }
+
+    pub(crate) fn snapshot(&self, sample: usize, [velocity, displacement]: [Vec<f32>; 2]) -> Snapshot {
+        Snapshot { instant: sample as f64 / self.drive.rate(), velocity, displacement }
+    }
+
+    /// The sample nearest to an instant.
+    pub(crate) fn sample(&self, instant: f64) -> Result<usize, FieldError> {
+        let rate = self.drive.rate();
+        let last = (self.known().max(1) - 1) as f64;
+        let sample = (instant * rate).round();
+        if (0.0..=last).contains(&sample) {
+            return Ok(sample as usize);
+        }
+        let why = "as far as the field is known";
+        Err(FieldError::Instant { found: instant, first: 0.0, last: last / rate, why })
+    }
+
+    /// Spot diameters, for [`crate::measure()`].
+    pub(crate) fn spots(&self, requests: &[(Point, usize, Quantity)]) -> Vec<Option<f64>> {
+        self.source.spots(requests)
+    }
+}
+
+fn bounded(what: &'static str, found: usize) -> Result<(), FieldError> {
+    if found <= MOST_VALUES {
+        return Ok(());
+    }
+    Err(FieldError::Count { what, expected: format!("at most {MOST_VALUES}"), found })
+}
+
+/// Refuses a drive that is not for these responses.
+fn check(responses: &Responses, drive: &Drive) -> Result<(), FieldError> {
+    let list = |names: Vec<&str>| {
+        let more = if names.len() > 16 { ", …" } else { "" };
+        format!("{} ({}{more})", names.len(), names[..names.len().min(16)].join(", "))
+    };
+    let expected: Vec<&str> = responses.ports().iter().map(|port| port.name.as_str()).collect();
+    let found: Vec<&str> = drive.names().iter().map(String::as_str).collect();
+    if expected != found {
+        return Err(FieldError::Channels { expected: list(expected), found: list(found) });
+    }
+    let rate = responses.conditions().rate;
+    require("sample rate of the responses (Hz)", rate.is_finite() && rate > 0.0, "a positive number", rate)?;
+    if (drive.rate() / rate - 1.0).abs() > 1e-9 {
+        return Err(FieldError::Rate { expected: rate, found: drive.rate() });
+    }
+    if drive.samples() == 0 || drive.channels().is_empty() {
+        return Err(FieldError::Count {
+            what: "samples of the drive",
+            expected: "at least 1".to_owned(),
+            found: 0,
+        });
+    }
+    Ok(())
+}

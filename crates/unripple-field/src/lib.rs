@@ -1,0 +1,65 @@
+//! What a drive does to a surface, and how good it is.
+//!
+//! Only linear systems ([`Responses`](unripple_core::Responses)), a [`Drive`](unripple_core::Drive) and what was aimed
+//! at are known here: neither what the surface is made of nor how the drive was made.
+//!
+//! # In reading order
+//!
+//! [`Field`] is the motion a drive makes, as traces at points and snapshots on a [`Grid`]; [`Aim`] says where and when a
+//! focus should be; [`measure()`] judges it.
+//!
+//! ```
+//! use faer::Mat;
+//! use std::sync::Arc;
+//! use unripple_core::{Conditions, Drive, ModalResponses, Outline, Point, Pole, Port, Responses, Shape, Shapes};
+//! use unripple_field::{Aim, MeasureOptions, measure};
+//!
+//! #[derive(Debug)]
+//! struct Piston; // A single mode that moves the whole surface alike.
+//! impl Shapes for Piston {
+//!     fn modes(&self) -> usize {
+//!         1
+//!     }
+//!     fn at(&self, _: Point, row: &mut [f64]) {
+//!         row.fill(1.0);
+//!     }
+//! }
+//!
+//! let outline = Outline::new(Shape::Rectangle { width: 0.2, height: 0.1 });
+//! let piston = Responses::Modal(ModalResponses {
+//!     ports: vec![Port { name: "a1".into(), at: Point::new(0.1, 0.05) }],
+//!     poles: vec![Pole { omega: 0.0, sigma: 0.0 }],
+//!     input: Mat::full(1, 1, 1.0),
+//!     shapes: Arc::new(Piston),
+//!     conditions: Conditions { rate: 1000.0, band: [0.0, 100.0], lambda_min: 0.03, outline },
+//! });
+//! let push = Drive::new(1000.0, vec!["a1".into()], vec![vec![2.0; 11]])?;
+//! let aim = Aim::at(Point::new(0.05, 0.05), 0.010);
+//! let found = measure(&piston, &push, &[aim], &MeasureOptions::default())?;
+//! let target = &found.targets[0];
+//! assert!((target.peak_velocity_m_s - 2.0 * 11.0 / 1000.0).abs() < 1e-12);
+//! assert!((target.contrast.unwrap_or(0.0) - 1.0).abs() < 1e-6);
+//! assert!((found.drive.energy - 0.044).abs() < 1e-12);
+//! # Ok::<(), unripple_field::FieldError>(())
+//! ```
+
+mod aim;
+mod error;
+mod field;
+mod figures;
+mod grid;
+mod measure;
+mod modal;
+mod motion;
+mod pulse;
+mod sampled;
+mod source;
+mod spot;
+
+pub use aim::{Aim, MeasureOptions};
+pub use error::FieldError;
+pub use field::{Field, Snapshot};
+pub use figures::{DriveFigures, Maps, Measured, TakenOn, TargetFigures};
+pub use grid::Grid;
+pub use measure::measure;
+pub use source::Trace;

@@ -1,0 +1,289 @@
+use crate::aim::{Resolved, last_period, segments};
+use crate::error::require;
+use crate::figures::{DriveFigures, Maps, Measured, TakenOn, TargetFigures};
+use crate::source::{Quantity, Survey, Trace};
+use crate::{Aim, Field, FieldError, MeasureOptions, pulse};
+use rayon::prelude::*;
+use std::ops::Range;
+use unripple_core::{Drive, Point, Responses};
+
+/// Radius of the focal disc in shortest wavelengths.
+const FOCAL_RADIUS: f64 = 4.0 / 3.0;
+
+/// How good `drive` is at focusing on `aims` through `responses`: all figures, in velocity and in displacement.
+///
+/// "Outside" are the points of the field farther than (4/3) λ_min from every point of every aim; the span is [0, 2T] with
+/// T the aim's instant, or the last full period of a repeated drive. Without aims, the span is that of a focus at the
+/// drive's last sample, and only the drive's figures and the maps are made.
+///
+/// # Errors
+/// Those of [`Field::new`] and, for aims, [`FieldError::Outside`], [`FieldError::Unknown`], [`FieldError::Instant`].
+pub fn measure(
+    responses: &Responses,
+    drive: &Drive,
+    aims: &[Aim],
+    options: &MeasureOptions,
+) -> Result<Measured, FieldError> {
+    Field::new(responses, drive, options.cells)?.measure(aims, options.period)
+}
+
+impl Field<'_> {
+    /// All figures of this field at `aims`, as [`measure`](crate::measure()) gives them; `period` as in [`MeasureOptions`].
+    ///
+    /// # Errors
+    /// [`FieldError::Outside`], [`FieldError::Unknown`] and [`FieldError::Instant`] for aims, [`FieldError::Range`] for a
+    /// period longer than the drive.
+    pub fn measure(&self, aims: &[Aim], period: Option<f64>) -> Result<Measured, FieldError> {
+        let field = self;
+        let period = period.map(|period| whole_period(period, field.drive)).transpose()?;
+        let resolved =
+            aims.iter().map(|aim| Resolved::of(aim, field, period)).collect::<Result<Vec<_>, _>>()?;
+        let spans = spans(&resolved, field, period);
+        let traces = target_traces(&resolved, field, &spans, period);
+        let peaks: Vec<Peaks> =
+            resolved.iter().zip(&traces).map(|(aim, (first, t))| Peaks::of(aim, *first, t)).collect();
+        let radius = FOCAL_RADIUS * field.conditions.lambda_min;
+        let outside = outside(field.points(), &resolved, radius);
+        let segments = segments(&spans);
+        let instants: Vec<usize> =
+            resolved.iter().map(|aim| aim.instant).chain(peaks.iter().map(|p| p.extreme)).collect();
+        let survey = field.source.survey(&segments, &instants);
+        let spots = spots(&resolved, &peaks, field);
+        let judge = Judge {
+            field,
+            aims,
+            resolved: &resolved,
+            peaks: &peaks,
+            survey: &survey,
+            segments: &segments,
+            outside: &outside,
+        };
+        let targets = (0..aims.len()).map(|i| judge.figures(i, spots[i])).collect();
+        Ok(Measured {
+            targets,
+            drive: drive_figures(field, period),
+            lambda_min_m: field.conditions.lambda_min,
+            focal_radius_m: radius,
+            taken_on: if field.grid().is_some() { TakenOn::Grid } else { TakenOn::Library },
+            outside_points: outside.iter().filter(|out| **out).count(),
+            maps: maps(field, survey, outside, &instants),
+        })
+    }
+}
+
+/// A period in samples.
+fn whole_period(period: f64, drive: &Drive) -> Result<usize, FieldError> {
+    let samples = (period * drive.rate()).round();
+    let legal = (1.0..=drive.samples() as f64).contains(&samples);
+    let expected = format!("{} to {}, the drive's length", 1.0 / drive.rate(), drive.duration());
+    require("period (s)", legal, expected, period)?;
+    Ok(samples as usize)
+}
+
+fn spans(aims: &[Resolved], field: &Field<'_>, period: Option<usize>) -> Vec<Range<usize>> {
+    if !aims.is_empty() {
+        return aims.iter().map(|aim| aim.span.clone()).collect();
+    }
+    vec![match period {
+        Some(period) => last_period(field, period),
+        None => 0..(2 * field.drive.samples() - 1).min(field.known()),
+    }]
+}
+
+/// For each aim, the first sample of its trace and the trace itself: its span, and half a period beyond it.
+fn target_traces(
+    aims: &[Resolved],
+    field: &Field<'_>,
+    spans: &[Range<usize>],
+    period: Option<usize>,
+) -> Vec<(usize, Trace)> {
+    let margin = period.unwrap_or(0) / 2;
+    let first = spans.iter().map(|span| span.start).min().unwrap_or(0).saturating_sub(margin);
+    let end = spans.iter().map(|span| span.end).max().unwrap_or(0) + margin;
+    let sets: Vec<Vec<Point>> = aims.iter().map(|aim| aim.points.clone()).collect();
+    field.source.traces(&sets, first..end).into_iter().map(|trace| (first, trace)).collect()
+}
+
+/// What a target's own trace says.
+#[derive(Clone, Copy, Debug)]
+struct Peaks {
+    /// Velocity at T, displacement at its extreme.
+    levels: [f64; 2],
+    /// Sample at which the velocity is largest.
+    fastest: usize,
+    /// Sample at which the displacement is largest.
+    extreme: usize,
+    /// Widths in time, in samples.
+    widths: [Option<f64>; 2],
+}
+
+impl Peaks {
+    fn of(aim: &Resolved, first: usize, trace: &Trace) -> Self {
+        let largest = |values: &[f64]| {
+            let span = aim.span.start - first..aim.span.end - first;
+            let larger = |best: usize, i: usize| if values[i].abs() > values[best].abs() { i } else { best };
+            span.clone().fold(span.start, larger) + first
+        };
+        let (velocity, displacement) = (&trace.velocity, &trace.displacement);
+        let (fastest, extreme) = (largest(velocity), largest(displacement));
+        let (at_focus, at_extreme) = (aim.instant - first, extreme - first);
+        Self {
+            levels: [velocity[at_focus], displacement[at_extreme]],
+            fastest,
+            extreme,
+            widths: [pulse::width(velocity, at_focus), pulse::width(displacement, at_extreme)],
+        }
+    }
+}
+
+/// Which points are farther than `radius` from every point of every aim.
+fn outside(points: &[Point], aims: &[Resolved], radius: f64) -> Vec<bool> {
+    let centres: Vec<Point> = aims.iter().flat_map(|aim| aim.points.iter().copied()).collect();
+    points.par_iter().map(|p| centres.iter().all(|centre| centre.distance(*p) > radius)).collect()
+}
+
+/// Spot diameters of the aims that are single points.
+fn spots(aims: &[Resolved], peaks: &[Peaks], field: &Field<'_>) -> Vec<[Option<f64>; 2]> {
+    let requests = aims.iter().zip(peaks).flat_map(|(aim, peaks)| {
+        let at = aim.points[0];
+        [(at, aim.instant, Quantity::Velocity), (at, peaks.extreme, Quantity::Displacement)]
+    });
+    let found = field.spots(&requests.collect::<Vec<_>>());
+    let single = |aim: &Resolved, pair: &[Option<f64>]| {
+        if aim.points.len() == 1 { [pair[0], pair[1]] } else { [None; 2] }
+    };
+    aims.iter().zip(found.chunks_exact(2)).map(|(aim, pair)| single(aim, pair)).collect()
+}
+
+/// Everything that one target's figures are made from.
+struct Judge<'a> {
+    field: &'a Field<'a>,
+    aims: &'a [Aim],
+    resolved: &'a [Resolved],
+    peaks: &'a [Peaks],
+    survey: &'a Survey,
+    segments: &'a [Range<usize>],
+    outside: &'a [bool],
+}
+
+/// What a level is compared with.
+struct Surroundings {
+    /// Rms over outside points at the instant.
+    then: f64,
+    /// Rms over outside points and the span.
+    background: f64,
+    /// Largest magnitude over outside points and the span.
+    worst: f64,
+}
+
+impl Judge<'_> {
+    fn figures(&self, index: usize, spots: [Option<f64>; 2]) -> TargetFigures {
+        let (aim, resolved, peaks) = (&self.aims[index], &self.resolved[index], &self.peaks[index]);
+        let rate = self.field.drive.rate();
+        let seconds = |sample: usize| sample as f64 / rate;
+        let [velocity, displacement] = [0, 1].map(|q| self.surroundings(index, q));
+        let ranges = self.ranges(index);
+        let count = aim.points.len() as f64;
+        let mean = |of: fn(&Point) -> f64| aim.points.iter().map(of).sum::<f64>() / count;
+        let apart = aim.points.iter().zip(&resolved.points).map(|(a, b)| a.distance(*b)).sum::<f64>();
+        TargetFigures {
+            at_m: [mean(|p| p.x), mean(|p| p.y)],
+            points: aim.points.len(),
+            misplaced_m: apart / count,
+            instant_s: seconds(resolved.instant),
+            span_s: [seconds(resolved.span.start), seconds(resolved.span.end - 1)],
+            span_complete: resolved.complete,
+            peak_velocity_m_s: peaks.levels[0],
+            peak_time_s: seconds(peaks.fastest),
+            contrast: ratio(peaks.levels[0], velocity.then),
+            background_contrast: ratio(peaks.levels[0], velocity.background),
+            worst_spot: ratio(peaks.levels[0], velocity.worst),
+            spot_diameter_m: spots[0],
+            pulse_duration_s: peaks.widths[0].map(|width| width / rate),
+            peak_displacement_m: peaks.levels[1],
+            displacement_peak_time_s: seconds(peaks.extreme),
+            displacement_contrast: ratio(peaks.levels[1], displacement.then),
+            displacement_background_contrast: ratio(peaks.levels[1], displacement.background),
+            displacement_worst_spot: ratio(peaks.levels[1], displacement.worst),
+            displacement_spot_diameter_m: spots[1],
+            displacement_pulse_duration_s: peaks.widths[1].map(|width| width / rate),
+            velocity_range_m_s: ranges.map(|[velocity, _]| velocity),
+            displacement_range_m: ranges.map(|[_, displacement]| displacement),
+        }
+    }
+
+    fn surroundings(&self, index: usize, quantity: usize) -> Surroundings {
+        let span = &self.resolved[index].span;
+        let snapshot = &self.survey.snapshots[index + quantity * self.aims.len()][quantity];
+        let outside = || self.outside.iter().enumerate().filter(|(_, out)| **out).map(|(point, _)| point);
+        let count = outside().count().max(1) as f64;
+        let then = outside().map(|p| f64::from(snapshot[p]).powi(2)).sum::<f64>();
+        let (mut squares, mut worst) = (0.0, 0.0);
+        for (segment, pair) in self.segments.iter().zip(&self.survey.tallies) {
+            if span.start <= segment.start && segment.end <= span.end {
+                squares += outside().map(|p| pair[quantity].squares[p]).sum::<f64>();
+                worst = outside().map(|p| f64::from(pair[quantity].peak[p])).fold(worst, f64::max);
+            }
+        }
+        let background = (squares / (count * span.len() as f64)).sqrt();
+        Surroundings { then: (then / count).sqrt(), background, worst }
+    }
+
+    /// Least and greatest velocity at T and displacement at its extreme over a set of points.
+    fn ranges(&self, index: usize) -> Option<[[f64; 2]; 2]> {
+        let (resolved, peaks) = (&self.resolved[index], &self.peaks[index]);
+        if resolved.points.len() < 2 {
+            return None;
+        }
+        let singles: Vec<Vec<Point>> = resolved.points.iter().map(|p| vec![*p]).collect();
+        let range = |sample: usize, quantity| {
+            let traces = self.field.source.traces(&singles, sample..sample + 1);
+            let values = traces.iter().flat_map(|trace| trace.of(quantity).first().copied());
+            values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+        };
+        Some([range(resolved.instant, Quantity::Velocity), range(peaks.extreme, Quantity::Displacement)])
+    }
+}
+
+fn ratio(level: f64, surroundings: f64) -> Option<f64> {
+    (surroundings > 0.0).then(|| level.abs() / surroundings)
+}
+
+fn drive_figures(field: &Field<'_>, period: Option<usize>) -> DriveFigures {
+    let drive = field.drive;
+    let first = period.map_or(0, |period| last_period(field, period).start);
+    let channels: Vec<Vec<f64>> = drive.channels().iter().map(|channel| channel[first..].to_vec()).collect();
+    let samples = drive.samples() - first;
+    let squares: f64 = channels.iter().flatten().map(|d| d * d).sum();
+    DriveFigures {
+        peak: channels.iter().flatten().fold(0.0, |m, d| f64::max(m, d.abs())),
+        rms: (squares / (samples * channels.len()) as f64).sqrt(),
+        energy: squares / drive.rate(),
+        share_above_band: unripple_dsp::share_above(&channels, drive.rate(), field.conditions.band[1]),
+        duration_s: samples as f64 / drive.rate(),
+    }
+}
+
+fn maps(field: &Field<'_>, survey: Survey, outside: Vec<bool>, instants: &[usize]) -> Maps {
+    let peak = |quantity: usize| {
+        let mut peak = vec![0.0_f32; field.points().len()];
+        for pair in &survey.tallies {
+            peak.iter_mut().zip(&pair[quantity].peak).for_each(|(p, own)| *p = p.max(*own));
+        }
+        peak
+    };
+    let (peak_velocity, peak_displacement) = (peak(0), peak(1));
+    let snapshots =
+        instants.iter().zip(survey.snapshots).map(|(sample, values)| field.snapshot(*sample, values));
+    let mut at_peak: Vec<_> = snapshots.collect();
+    let at_displacement_peak = at_peak.split_off(at_peak.len() / 2);
+    Maps {
+        points: field.points().to_vec(),
+        grid: field.grid().cloned(),
+        outside,
+        peak_velocity,
+        peak_displacement,
+        at_peak,
+        at_displacement_peak,
+    }
+}

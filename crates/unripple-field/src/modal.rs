@@ -1,0 +1,245 @@
+use crate::motion::Motion;
+use crate::source::{Quantity, Source, Survey, Tally, Trace};
+use crate::spot::Around;
+use crate::{FieldError, spot};
+use faer::{Accum, Mat, MatRef, Par, linalg::matmul::matmul};
+use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::OnceLock;
+use unripple_core::{Drive, ModalResponses, Point};
+
+/// Most samples from the start of a drive.
+const MOST_SAMPLES: usize = 20_000_000;
+
+/// Points and samples of a block of the field: small enough to stay in cache while it is tallied.
+const POINTS: usize = 256;
+const SAMPLES: usize = 128;
+
+/// Values of states (modes x samples) that are held at once.
+const STATES: usize = 1 << 22;
+
+/// Readout weights that are kept between surveys; more are computed again for each block of time.
+const KEPT: usize = 1 << 27;
+
+/// The field of a modal system: states of all modes over time, read out in blocks and never stored as a whole.
+#[derive(Debug)]
+pub(crate) struct ModalField<'a> {
+    responses: &'a ModalResponses,
+    drive: &'a Drive,
+    points: Vec<Point>,
+    readout: OnceLock<Vec<Mat<f32>>>,
+}
+
+/// Displacement and velocity of every mode at one instant.
+#[derive(Clone, Debug)]
+struct State {
+    displacement: Vec<f64>,
+    velocity: Vec<f64>,
+}
+
+impl State {
+    fn of(&self, quantity: Quantity) -> &[f64] {
+        match quantity {
+            Quantity::Velocity => &self.velocity,
+            Quantity::Displacement => &self.displacement,
+        }
+    }
+}
+
+impl<'a> ModalField<'a> {
+    pub fn new(responses: &'a ModalResponses, drive: &'a Drive, points: Vec<Point>) -> Self {
+        Self { responses, drive, points, readout: OnceLock::new() }
+    }
+
+    fn modes(&self) -> usize {
+        self.responses.poles.len()
+    }
+
+    /// Samples whose states are held at once.
+    fn samples_at_once(&self) -> usize {
+        (STATES / self.modes().max(1)).max(SAMPLES)
+    }
+
+    /// Readout weights (points x modes) of one chunk of points, in single precision.
+    fn weights(&self, points: &[Point]) -> Mat<f32> {
+        let exact = self.responses.shapes.at_all(points);
+        Mat::from_fn(exact.nrows(), exact.ncols(), |p, m| exact[(p, m)] as f32)
+    }
+
+    /// Applies `work` to the weights of every chunk of points and what belongs to it, in parallel.
+    fn for_chunks<T: Send>(&self, owned: &mut [T], work: impl Fn(&Mat<f32>, &mut T) + Sync) {
+        if self.points.len() * self.modes() > KEPT {
+            let chunks = self.points.par_chunks(POINTS);
+            chunks.zip(owned.par_iter_mut()).for_each(|(points, own)| work(&self.weights(points), own));
+        } else {
+            let kept = self
+                .readout
+                .get_or_init(|| self.points.par_chunks(POINTS).map(|p| self.weights(p)).collect());
+            kept.par_iter().zip(owned.par_iter_mut()).for_each(|(weights, own)| work(weights, own));
+        }
+    }
+
+    /// States at instants, in the order given.
+    fn states(&self, instants: &[usize]) -> Vec<State> {
+        let mut order: Vec<usize> = (0..instants.len()).collect();
+        order.sort_by_key(|&i| instants[i]);
+        let rest = State { displacement: vec![0.0; self.modes()], velocity: vec![0.0; self.modes()] };
+        let mut states = vec![rest; instants.len()];
+        let mut motion = Motion::new(self.responses, self.drive);
+        for index in order {
+            motion.skip_to(instants[index] + 1, self.samples_at_once());
+            let (displacement, velocity) = motion.state();
+            states[index] = State { displacement: displacement.to_vec(), velocity: velocity.to_vec() };
+        }
+        states
+    }
+
+    fn snapshots(&self, instants: &[usize]) -> Vec<[Vec<f32>; 2]> {
+        let states = self.states(instants);
+        let both = Mat::from_fn(self.modes(), 2 * states.len(), |m, column| {
+            let state = &states[column / 2];
+            if column % 2 == 0 { state.velocity[m] as f32 } else { state.displacement[m] as f32 }
+        });
+        let mut read = vec![Mat::<f32>::zeros(0, 0); self.points.len().div_ceil(POINTS)];
+        self.for_chunks(&mut read, |weights, own| *own = weights * &both);
+        let column = |c: usize| read.iter().flat_map(|chunk| chunk.col_as_slice(c)).copied().collect();
+        (0..states.len()).map(|i| [column(2 * i), column(2 * i + 1)]).collect()
+    }
+}
+
+impl Source for ModalField<'_> {
+    fn points(&self) -> &[Point] {
+        &self.points
+    }
+
+    fn locate(&self, place: Point) -> Result<Point, FieldError> {
+        let outline = &self.responses.conditions.outline;
+        if outline.contains(place) {
+            return Ok(place);
+        }
+        Err(FieldError::Outside { at: place, nearest: outline.nearest(place) })
+    }
+
+    fn known(&self) -> usize {
+        MOST_SAMPLES
+    }
+
+    fn traces(&self, sets: &[Vec<Point>], range: Range<usize>) -> Vec<Trace> {
+        let mut weights = Mat::<f64>::zeros(sets.len(), self.modes());
+        for (row, set) in sets.iter().enumerate() {
+            let all = self.responses.shapes.at_all(set);
+            for m in 0..self.modes() {
+                weights[(row, m)] =
+                    (0..set.len()).map(|p| all[(p, m)]).sum::<f64>() / set.len().max(1) as f64;
+            }
+        }
+        let mut traces = vec![Trace::default(); sets.len()];
+        let mut motion = Motion::new(self.responses, self.drive);
+        motion.skip_to(range.start, self.samples_at_once());
+        while motion.next() < range.end {
+            let count = (range.end - motion.next()).min(self.samples_at_once());
+            let [velocity, displacement] = states::<f64>(&mut motion, count, self.modes(), |x| x);
+            let (velocity, displacement) = (&weights * velocity, &weights * displacement);
+            for (row, trace) in traces.iter_mut().enumerate() {
+                trace.velocity.extend((0..count).map(|i| velocity[(row, i)]));
+                trace.displacement.extend((0..count).map(|i| displacement[(row, i)]));
+            }
+        }
+        traces
+    }
+
+    fn survey(&self, segments: &[Range<usize>], instants: &[usize]) -> Survey {
+        let chunk =
+            |points: &[Point]| vec![[Tally::zeros(points.len()), Tally::zeros(points.len())]; segments.len()];
+        let mut tallies: Vec<Vec<[Tally; 2]>> = self.points.chunks(POINTS).map(chunk).collect();
+        let mut motion = Motion::new(self.responses, self.drive);
+        for (segment, range) in segments.iter().enumerate() {
+            motion.skip_to(range.start, self.samples_at_once());
+            while motion.next() < range.end {
+                let count = (range.end - motion.next()).min(self.samples_at_once());
+                let both = states::<f32>(&mut motion, count, self.modes(), |x| x as f32);
+                self.for_chunks(&mut tallies, |weights, own| {
+                    for (states, tally) in both.iter().zip(&mut own[segment]) {
+                        add_to(tally, weights.as_ref(), states.as_ref());
+                    }
+                });
+            }
+        }
+        Survey { tallies: joined(tallies, segments.len()), snapshots: self.snapshots(instants) }
+    }
+
+    fn spots(&self, requests: &[(Point, usize, Quantity)]) -> Vec<Option<f64>> {
+        let instants: Vec<usize> = requests.iter().map(|(_, sample, _)| *sample).collect();
+        let states = self.states(&instants);
+        let conditions = &self.responses.conditions;
+        let measure = |((at, _, quantity), state): (&(Point, usize, Quantity), &State)| {
+            let state = state.of(*quantity);
+            let field = |points: &[Point]| {
+                let weights = self.responses.shapes.at_all(points);
+                let value = |p| (0..state.len()).map(|m| weights[(p, m)] * state[m]).sum();
+                (0..points.len()).map(value).collect::<Vec<f64>>()
+            };
+            spot::diameter(
+                &Around { at: *at, outline: &conditions.outline, wavelength: conditions.lambda_min },
+                field,
+            )
+        };
+        requests.par_iter().zip(&states).map(measure).collect()
+    }
+}
+
+/// States over the next `count` samples, modes x samples: velocity and displacement.
+fn states<T: faer::traits::ComplexField>(
+    motion: &mut Motion<'_>,
+    count: usize,
+    modes: usize,
+    convert: impl Fn(f64) -> T,
+) -> [Mat<T>; 2] {
+    let mut both = [Mat::zeros(modes, count), Mat::zeros(modes, count)];
+    let mut column = 0;
+    motion.advance(count, |displacement, velocity| {
+        let [to_velocity, to_displacement] = &mut both;
+        to_velocity.col_as_slice_mut(column).iter_mut().zip(velocity).for_each(|(to, v)| *to = convert(*v));
+        to_displacement
+            .col_as_slice_mut(column)
+            .iter_mut()
+            .zip(displacement)
+            .for_each(|(to, u)| *to = convert(*u));
+        column += 1;
+    });
+    both
+}
+
+/// Adds the field of a block of states to a tally.
+fn add_to(tally: &mut Tally, weights: MatRef<'_, f32>, states: MatRef<'_, f32>) {
+    let mut field = Mat::<f32>::zeros(weights.nrows(), SAMPLES.min(states.ncols()));
+    let mut squares = vec![0.0_f32; weights.nrows()];
+    for first in (0..states.ncols()).step_by(SAMPLES) {
+        let count = SAMPLES.min(states.ncols() - first);
+        let mut block = field.as_mut().subcols_mut(0, count);
+        matmul(block.as_mut(), Accum::Replace, weights, states.subcols(first, count), 1.0, Par::Seq);
+        squares.fill(0.0);
+        for column in 0..count {
+            let values = field.col_as_slice(column);
+            for ((value, square), peak) in values.iter().zip(&mut squares).zip(&mut tally.peak) {
+                *square += value * value;
+                *peak = if value.abs() > *peak { value.abs() } else { *peak };
+            }
+        }
+        tally.squares.iter_mut().zip(&squares).for_each(|(sum, square)| *sum += f64::from(*square));
+    }
+}
+
+/// From `[chunk][segment]` to one tally per segment over all points.
+fn joined(chunks: Vec<Vec<[Tally; 2]>>, segments: usize) -> Vec<[Tally; 2]> {
+    let mut whole = vec![<[Tally; 2]>::default(); segments];
+    for chunk in chunks {
+        for (to, from) in whole.iter_mut().zip(chunk) {
+            for (to, from) in to.iter_mut().zip(from) {
+                to.peak.extend(from.peak);
+                to.squares.extend(from.squares);
+            }
+        }
+    }
+    whole
+}

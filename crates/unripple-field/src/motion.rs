@@ -1,0 +1,91 @@
+use faer::{Accum, Mat, Par, linalg::matmul::matmul};
+use std::ops::Range;
+use unripple_core::{Drive, ModalResponses};
+
+/// How every mode moves under a drive, stepped exactly from sample to sample.
+///
+/// The state of mode m is its displacement u and velocity v. At sample i it receives the momentum
+/// `q[m] = Σ_a input[a, m] · d[a][i] / rate`, so that `v[i] = Σ_j h[i−j] d[j] / rate` with `h[0]` whole, and then it rings
+/// freely until the next sample. Displacement follows from the same state.
+#[derive(Debug)]
+pub(crate) struct Motion<'a> {
+    drive: &'a Drive,
+    /// actuators x modes, divided by the rate.
+    input: Mat<f64>,
+    /// Rows of the propagator over one sample, one column per mode.
+    step: [Vec<f64>; 4],
+    displacement: Vec<f64>,
+    velocity: Vec<f64>,
+    next: usize,
+}
+
+impl<'a> Motion<'a> {
+    /// Everything at rest before sample 0.
+    pub fn new(responses: &ModalResponses, drive: &'a Drive) -> Self {
+        let rate = drive.rate();
+        let modes = responses.poles.len();
+        let steps: Vec<_> = responses.poles.iter().map(|pole| pole.step(1.0 / rate)).collect();
+        let entry = |i: usize, j: usize| steps.iter().map(|step| step[i][j]).collect();
+        Self {
+            drive,
+            input: Mat::from_fn(modes, drive.channels().len(), |m, a| responses.input[(a, m)] / rate),
+            step: [entry(0, 0), entry(0, 1), entry(1, 0), entry(1, 1)],
+            displacement: vec![0.0; modes],
+            velocity: vec![0.0; modes],
+            next: 0,
+        }
+    }
+
+    /// Index of the next sample.
+    pub fn next(&self) -> usize {
+        self.next
+    }
+
+    /// Displacement and velocity of every mode at the sample before the next.
+    pub fn state(&self) -> (&[f64], &[f64]) {
+        (&self.displacement, &self.velocity)
+    }
+
+    /// Steps through the next `count` samples and shows displacement and velocity of every mode at each.
+    pub fn advance(&mut self, count: usize, mut show: impl FnMut(&[f64], &[f64])) {
+        let momenta = self.momenta(self.next..self.next + count);
+        for offset in 0..count {
+            if self.next > 0 {
+                self.ring();
+            }
+            if offset < momenta.ncols() {
+                let column = momenta.col_as_slice(offset);
+                self.velocity.iter_mut().zip(column).for_each(|(v, q)| *v += q);
+            }
+            self.next += 1;
+            show(&self.displacement, &self.velocity);
+        }
+    }
+
+    /// Steps up to `sample`, which is then the next, at most `stride` samples at once.
+    pub fn skip_to(&mut self, sample: usize, stride: usize) {
+        while self.next < sample {
+            self.advance((sample - self.next).min(stride), |_, _| ());
+        }
+    }
+
+    /// Momentum per mode (modes x samples) for those of the samples that lie within the drive.
+    fn momenta(&self, samples: Range<usize>) -> Mat<f64> {
+        let channels = self.drive.channels();
+        let end = samples.end.min(self.drive.samples());
+        let count = end.saturating_sub(samples.start);
+        let sent = Mat::from_fn(channels.len(), count, |a, i| channels[a][samples.start + i]);
+        let mut momenta = Mat::zeros(self.velocity.len(), count);
+        matmul(momenta.as_mut(), Accum::Replace, self.input.as_ref(), sent.as_ref(), 1.0, Par::Seq);
+        momenta
+    }
+
+    fn ring(&mut self) {
+        let [a, b, c, d] = &self.step;
+        let modes = self.velocity.iter_mut().zip(&mut self.displacement);
+        let steps = a.iter().zip(b).zip(c.iter().zip(d));
+        for ((v, u), ((a, b), (c, d))) in modes.zip(steps) {
+            (*u, *v) = (a * *u + b * *v, c * *u + d * *v);
+        }
+    }
+}

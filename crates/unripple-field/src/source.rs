@@ -1,0 +1,74 @@
+use crate::FieldError;
+use std::ops::Range;
+use unripple_core::Point;
+
+/// Velocity or displacement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Quantity {
+    Velocity,
+    Displacement,
+}
+
+/// How a place moves: one value per sample.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Trace {
+    /// Velocity, in m/s.
+    pub velocity: Vec<f64>,
+    /// Displacement, in metres.
+    pub displacement: Vec<f64>,
+}
+
+impl Trace {
+    /// One of the two.
+    pub(crate) fn of(&self, quantity: Quantity) -> &[f64] {
+        match quantity {
+            Quantity::Velocity => &self.velocity,
+            Quantity::Displacement => &self.displacement,
+        }
+    }
+}
+
+/// What one quantity does at every point of a field over a segment of time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Tally {
+    /// Largest magnitude.
+    pub peak: Vec<f32>,
+    /// Sum of squares over the samples.
+    pub squares: Vec<f64>,
+}
+
+impl Tally {
+    pub fn zeros(points: usize) -> Self {
+        Self { peak: vec![0.0; points], squares: vec![0.0; points] }
+    }
+}
+
+/// The field over segments of time and at instants, at every one of its points; velocity and displacement.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Survey {
+    /// One pair per segment.
+    pub tallies: Vec<[Tally; 2]>,
+    /// One pair per instant.
+    pub snapshots: Vec<[Vec<f32>; 2]>,
+}
+
+/// A field under a drive, whatever its responses are kept in. Samples count from the drive's first.
+pub(crate) trait Source: Send + Sync {
+    /// The points it is taken on.
+    fn points(&self) -> &[Point];
+
+    /// The point that stands for a place.
+    fn locate(&self, place: Point) -> Result<Point, FieldError>;
+
+    /// How many samples are known, from the drive's first.
+    fn known(&self) -> usize;
+
+    /// Traces over a range of samples, each the mean over a set of points.
+    fn traces(&self, sets: &[Vec<Point>], range: Range<usize>) -> Vec<Trace>;
+
+    /// Tallies over segments (ascending, apart from each other) and snapshots at instants.
+    fn survey(&self, segments: &[Range<usize>], instants: &[usize]) -> Survey;
+
+    /// Full width at half maximum around a point at a sample, in metres, for each request.
+    fn spots(&self, requests: &[(Point, usize, Quantity)]) -> Vec<Option<f64>>;
+}

@@ -1,0 +1,97 @@
+use unripple_core::{CoreError, Point};
+use unripple_dsp::DspError;
+
+/// Why no drive could be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FocusError {
+    /// A target lies outside the surface.
+    #[error("target {}: {at} is outside the surface, nearest legal point {nearest}", target + 1)]
+    Outside {
+        /// Index of the target.
+        target: usize,
+        /// The point asked for.
+        at: Point,
+        /// The nearest point of the surface.
+        nearest: Point,
+    },
+    /// A target lies too far from every point whose responses are known.
+    #[error(
+        "target {}: {at} is {:.3} mm from the nearest point with responses, expected at most {:.3} mm; \
+         nearest legal point {nearest}", target + 1, distance * 1e3, reach * 1e3
+    )]
+    Unknown {
+        /// Index of the target.
+        target: usize,
+        /// The point asked for.
+        at: Point,
+        /// The nearest point with responses.
+        nearest: Point,
+        /// How far that is, in metres.
+        distance: f64,
+        /// How far it may be, in metres.
+        reach: f64,
+    },
+    /// Nothing that the actuators do moves the target.
+    #[error(
+        "target {}: no actuator can move {at} (on a held edge or a line of rest?), expected a point that moves", target + 1
+    )]
+    Still {
+        /// Index of the target.
+        target: usize,
+        /// Its first point.
+        at: Point,
+    },
+    /// A number is out of its range.
+    #[error("{what}: expected {expected}, found {found}")]
+    Range {
+        /// What the number is, with its unit.
+        what: String,
+        /// The legal values.
+        expected: String,
+        /// The value.
+        found: f64,
+    },
+    /// A count is out of its range: of targets, points, actuators or samples.
+    #[error("{what}: expected {expected}, found {found}")]
+    Count {
+        /// What was counted.
+        what: &'static str,
+        /// The legal counts.
+        expected: String,
+        /// How many there are.
+        found: usize,
+    },
+    /// No method has this name.
+    #[error("no method `{found}`: expected one of {expected}")]
+    Method {
+        /// The name asked for.
+        found: String,
+        /// All names.
+        expected: String,
+    },
+    /// The losses of single modes are not known from samples.
+    #[error(
+        "loss correction per mode: expected modal responses, found sampled ones (uniform correction needs none)"
+    )]
+    NeedsModes,
+    /// The drive could not be built.
+    #[error(transparent)]
+    Core(#[from] CoreError),
+    /// The responses do not fit together.
+    #[error(transparent)]
+    Dsp(#[from] DspError),
+}
+
+/// Refuses a number outside `legal`.
+pub(crate) fn require(
+    what: impl Into<String>,
+    legal: bool,
+    expected: impl Into<String>,
+    found: f64,
+) -> Result<(), FocusError> {
+    if legal {
+        Ok(())
+    } else {
+        Err(FocusError::Range { what: what.into(), expected: expected.into(), found })
+    }
+}

@@ -1,0 +1,175 @@
+use crate::recording::{Recorder, Recording, energy, peak};
+use crate::schedule::{self, MOST_SAMPLES, Schedule};
+use crate::{FocusError, LossCorrection, Method, Options, Target, Timing, target};
+use unripple_core::{Drive, Point, Pole, Responses, window_samples};
+
+/// Decay after which the past no longer matters to a repeated drive, in nepers: to 1/1000.
+const SETTLED: f64 = 6.9;
+
+/// A drive and when it focuses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Focused {
+    /// What is to be sent.
+    pub drive: Drive,
+    /// When each target is in focus.
+    pub timing: Vec<Timing>,
+    /// The period of the whole, in samples; `None` without repetition. The last full period of a repeated drive is its
+    /// last `period` samples.
+    pub period: Option<usize>,
+    /// The points each target was focused on: those asked for, or the nearest ones whose responses are stored.
+    pub points: Vec<Vec<Point>>,
+    /// How it was made.
+    pub method: Method,
+}
+
+/// A plan that turns targets into drives: what does not depend on the targets is computed once.
+#[derive(Debug)]
+pub struct Focuser<'r> {
+    responses: &'r Responses,
+    recorder: Recorder<'r>,
+    options: Options,
+    window: usize,
+}
+
+impl<'r> Focuser<'r> {
+    /// Plans for one window and one method.
+    ///
+    /// # Errors
+    /// [`FocusError::Range`] for options without meaning, [`FocusError::Count`] for a window of no sample, of too
+    /// many, or longer than the responses, [`FocusError::NeedsModes`].
+    pub fn new(responses: &'r Responses, options: &Options) -> Result<Self, FocusError> {
+        options.check()?;
+        let window = window_samples(options.window, responses.conditions().rate);
+        let channels = responses.ports().len();
+        let count = |what, expected, found| Err(FocusError::Count { what, expected, found });
+        if channels == 0 {
+            return count("actuators", "at least 1".to_owned(), 0);
+        }
+        if window == 0 {
+            let sample = 1e3 / responses.conditions().rate;
+            return count("samples of the window after the first", format!("at least 1 ({sample:.4} ms)"), 0);
+        }
+        if window >= MOST_SAMPLES / channels {
+            let most = MOST_SAMPLES / channels - 1;
+            return count("samples of the window after the first", format!("at most {most}"), window);
+        }
+        let recorder = Recorder::plan(responses, window + 1, options)?;
+        Ok(Self { responses, recorder, options: options.clone(), window })
+    }
+
+    /// The drive that focuses on these targets.
+    ///
+    /// With h_ak the velocity response of target k to actuator a, the reversed responses are superposed,
+    /// `d_a[j] = Σ_k gain_k Σ_f h_ak[f − j]`, with f the instants at which target k is to be in focus (n, or n and every
+    /// period after it), and then scaled to the limits (Hudin et al. 2012, eq. 1). The sum over a target's points
+    /// is normalised as [`Target::gain`] says.
+    ///
+    /// # Errors
+    /// As [`focus`].
+    pub fn focus(&self, targets: &[Target]) -> Result<Focused, FocusError> {
+        target::check(targets, &self.responses.conditions().outline)?;
+        let schedule = self.schedule(targets)?;
+        let mut channels = vec![vec![0.0; schedule.length]; self.responses.ports().len()];
+        let mut points = Vec::with_capacity(targets.len());
+        for (index, target) in targets.iter().enumerate() {
+            let mut recording = self.recorder.record(index, &target.points)?;
+            self.correct(&mut recording);
+            for instant in schedule.instants(schedule.timing[index]) {
+                self.add_reversed(&recording, target.gain, instant, &mut channels);
+            }
+            points.push(recording.points);
+        }
+        self.limit(&mut channels)?;
+        let names = self.responses.ports().iter().map(|port| port.name.clone()).collect();
+        let drive = Drive::new(self.responses.conditions().rate, names, channels)?;
+        Ok(Focused {
+            drive,
+            timing: schedule.timing,
+            period: schedule.period,
+            points,
+            method: self.options.method,
+        })
+    }
+
+    fn schedule(&self, targets: &[Target]) -> Result<Schedule, FocusError> {
+        let rate = self.responses.conditions().rate;
+        let rates: Vec<_> = targets.iter().map(|target| target.rate_hz).collect();
+        let conditions = schedule::Conditions {
+            rate,
+            window: self.window,
+            channels: self.responses.ports().len(),
+            duration: self.options.duration.map(|seconds| window_samples(seconds, rate)),
+            settle: self.settle(),
+        };
+        Schedule::plan(&rates, conditions)
+    }
+
+    /// Samples until the slowest mode has died out, or responses end.
+    fn settle(&self) -> Option<usize> {
+        match self.responses {
+            Responses::Modal(modal) => {
+                let slowest = modal.poles.iter().map(slowest_decay).fold(f64::INFINITY, f64::min);
+                let samples = SETTLED / slowest * modal.conditions.rate;
+                (samples < MOST_SAMPLES as f64).then_some(samples.ceil() as usize)
+            }
+            Responses::Sampled(sampled) => Some(sampled.samples()),
+        }
+    }
+
+    fn correct(&self, recording: &mut Recording) {
+        if let LossCorrection::Uniform(tau) = self.options.loss {
+            let step = 1.0 / (tau * self.responses.conditions().rate);
+            for row in recording.samples.chunks_exact_mut(self.window + 1) {
+                row.iter_mut().enumerate().for_each(|(i, h)| *h *= (i as f64 * step).exp());
+            }
+        }
+    }
+
+    fn add_reversed(&self, recording: &Recording, gain: f64, instant: usize, channels: &mut [Vec<f64>]) {
+        for (channel, row) in channels.iter_mut().zip(recording.samples.chunks_exact(self.window + 1)) {
+            let first = instant - self.window;
+            let end = channel.len().min(instant + 1);
+            let reversed = row.iter().rev();
+            channel[first..end].iter_mut().zip(reversed).for_each(|(d, h)| *d += gain * h);
+        }
+    }
+
+    /// Brings the drive to the limits: its peak to `limit`, then its largest rms down to `rms_limit`.
+    fn limit(&self, channels: &mut [Vec<f64>]) -> Result<(), FocusError> {
+        let limit = self.options.limit;
+        let peak = channels.iter().map(|channel| peak(channel)).fold(0.0, f64::max);
+        let usable = peak.is_finite() && peak > 0.0;
+        crate::error::require("peak of the unscaled drive", usable, "a positive finite number", peak)?;
+        let shape = |d: f64| match self.options.method {
+            Method::TimeReversal => d / peak * limit,
+            Method::OneBit if d == 0.0 => 0.0,
+            Method::OneBit => limit.copysign(d),
+        };
+        for channel in channels.iter_mut() {
+            channel.iter_mut().for_each(|d| *d = shape(*d));
+        }
+        let Some(rms_limit) = self.options.rms_limit else { return Ok(()) };
+        let rms = |channel: &Vec<f64>| (energy(channel) / channel.len() as f64).sqrt();
+        let rms = channels.iter().map(rms).fold(0.0, f64::max);
+        if rms > rms_limit {
+            channels.iter_mut().flatten().for_each(|d| *d *= rms_limit / rms);
+        }
+        Ok(())
+    }
+}
+
+/// Decay rate of the slower part of a mode, in 1/s.
+fn slowest_decay(pole: &Pole) -> f64 {
+    let square = (pole.sigma - pole.omega) * (pole.sigma + pole.omega);
+    pole.sigma - square.max(0.0).sqrt()
+}
+
+/// The drive that focuses on `targets` through `responses`, at the responses' rate, one channel per actuator.
+///
+/// # Errors
+/// [`FocusError::Outside`], [`FocusError::Unknown`] and [`FocusError::Still`] for targets that cannot be reached,
+/// [`FocusError::Range`] and [`FocusError::Count`] for numbers without meaning or of absurd size,
+/// [`FocusError::NeedsModes`] for a correction of losses that samples do not allow.
+pub fn focus(responses: &Responses, targets: &[Target], options: &Options) -> Result<Focused, FocusError> {
+    Focuser::new(responses, options)?.focus(targets)
+}

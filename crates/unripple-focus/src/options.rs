@@ -1,0 +1,113 @@
+use crate::FocusError;
+use crate::error::require;
+
+/// How the drive is made from the reversed responses.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Method {
+    /// The responses reversed in time, without a taper (Hudin et al. 2012, eq. 1): the matched filter, the highest
+    /// peak for a given drive energy.
+    #[default]
+    TimeReversal,
+    /// The sign of time reversal at the limit: the highest peak for a given drive limit. Where time reversal is
+    /// exactly zero, so is this.
+    OneBit,
+}
+
+impl Method {
+    /// Every method, the default first.
+    pub const ALL: [Self; 2] = [Self::TimeReversal, Self::OneBit];
+
+    /// The name the command line uses.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::TimeReversal => "time-reversal",
+            Self::OneBit => "one-bit",
+        }
+    }
+}
+
+impl std::str::FromStr for Method {
+    type Err = FocusError;
+
+    fn from_str(name: &str) -> Result<Self, FocusError> {
+        Self::ALL.into_iter().find(|method| method.name() == name).ok_or_else(|| FocusError::Method {
+            found: name.to_owned(),
+            expected: Self::ALL.map(|method| format!("`{}`", method.name())).join(", "),
+        })
+    }
+}
+
+impl std::fmt::Display for Method {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// What is done about the losses that break the symmetry of time (Hudin et al. 2012, section 2.1).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum LossCorrection {
+    /// Nothing: the matched filter.
+    #[default]
+    None,
+    /// The response at age t is raised by e^{+t/τ}, with this amplitude decay time τ in seconds.
+    Uniform(f64),
+    /// Each mode's share of the response is raised by e^{+σt} with the σ of that mode. Modes that do not oscillate
+    /// (overdamped) are left as they are. Modal responses only.
+    PerMode,
+}
+
+/// How to focus.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// How the drive is made.
+    pub method: Method,
+    /// Window T, in seconds: samples 0 … n of each response are used, n = round(T · rate).
+    pub window: f64,
+    /// Largest drive per actuator, in the drive's unit. The drive's peak is exactly this, unless `rms_limit` is lower.
+    pub limit: f64,
+    /// Largest rms per actuator over the whole drive, in the drive's unit. A drive above it is scaled down as a whole.
+    pub rms_limit: Option<f64>,
+    /// What is done about losses.
+    pub loss: LossCorrection,
+    /// Length of the drive, in seconds; `None` for as long as is needed: the window, or with repetition until the last
+    /// full period is steady. A single pulse is followed by silence up to this length.
+    pub duration: Option<f64>,
+    /// Accuracy of modal responses, as a share of the sum of the magnitudes of their modes. Single precision is enough
+    /// down to 1e-6, which is 120 dB below that sum; the quickest.
+    pub accuracy: f64,
+}
+
+impl Default for Options {
+    /// Time reversal over 30 ms at a limit of 1, without correction of losses.
+    fn default() -> Self {
+        Self {
+            method: Method::TimeReversal,
+            window: 30e-3,
+            limit: 1.0,
+            rms_limit: None,
+            loss: LossCorrection::None,
+            duration: None,
+            accuracy: 1e-6,
+        }
+    }
+}
+
+impl Options {
+    /// Refuses numbers without meaning.
+    pub(crate) fn check(&self) -> Result<(), FocusError> {
+        let positive = |x: f64| x.is_finite() && x > 0.0;
+        require("window (s)", positive(self.window), "a positive number", self.window)?;
+        require("limit", positive(self.limit), "a positive number", self.limit)?;
+        require("accuracy", positive(self.accuracy), "a positive number", self.accuracy)?;
+        if let Some(rms) = self.rms_limit {
+            require("rms limit", positive(rms), "a positive number", rms)?;
+        }
+        if let Some(duration) = self.duration {
+            require("duration (s)", positive(duration), "a positive number", duration)?;
+        }
+        if let LossCorrection::Uniform(tau) = self.loss {
+            require("decay time of the loss correction (s)", positive(tau), "a positive number", tau)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,128 @@
+use crate::modal::ModalRecorder;
+use crate::{FocusError, LossCorrection, Options};
+use unripple_core::{Point, Responses, SampledResponses};
+
+/// The velocity responses of a target to every actuator over the window, as they go into the reversal.
+#[derive(Clone, Debug)]
+pub(crate) struct Recording {
+    /// Samples 0 … n of every actuator, `[actuator][sample]`.
+    pub samples: Vec<f64>,
+    /// The points whose responses these are.
+    pub points: Vec<Point>,
+}
+
+/// Records responses over one window, whatever they are kept in.
+#[derive(Debug)]
+pub(crate) enum Recorder<'r> {
+    Modal(Box<ModalRecorder<'r>>),
+    Sampled(SampledRecorder<'r>),
+}
+
+impl<'r> Recorder<'r> {
+    /// A plan for windows of `length` samples.
+    pub fn plan(responses: &'r Responses, length: usize, options: &Options) -> Result<Self, FocusError> {
+        match responses {
+            Responses::Modal(modal) => Ok(Self::Modal(Box::new(ModalRecorder::plan(modal, length, options)))),
+            Responses::Sampled(sampled) => {
+                if options.loss == LossCorrection::PerMode {
+                    return Err(FocusError::NeedsModes);
+                }
+                if length > sampled.samples() {
+                    let expected = format!("at most {}, the length of the responses", sampled.samples());
+                    return Err(FocusError::Count { what: "samples of the window", expected, found: length });
+                }
+                Ok(Self::Sampled(SampledRecorder { responses: sampled, length }))
+            }
+        }
+    }
+
+    /// The responses at all points together, scaled to the mean level of the points one by one.
+    pub fn record(&self, target: usize, points: &[Point]) -> Result<Recording, FocusError> {
+        let (mut samples, energies, points) = match self {
+            Self::Modal(modal) => {
+                let (sum, energies) = modal.record(points)?;
+                (sum, energies, points.to_vec())
+            }
+            Self::Sampled(sampled) => sampled.record(target, points)?,
+        };
+        let together = energy(&samples);
+        let at = points.first().copied().unwrap_or_default();
+        if !(together.is_finite() && together > 0.0) {
+            return Err(FocusError::Still { target, at });
+        }
+        if points.len() > 1 {
+            samples.iter_mut().for_each(|h| *h *= energies / together);
+        }
+        Ok(Recording { samples, points })
+    }
+}
+
+/// Σh² over all samples, in eight independent sums.
+pub(crate) fn energy(samples: &[f64]) -> f64 {
+    let mut sums = [0.0; 8];
+    let chunks = samples.chunks_exact(8);
+    let rest: f64 = chunks.remainder().iter().map(|h| h * h).sum();
+    for chunk in chunks {
+        sums.iter_mut().zip(chunk).for_each(|(sum, h)| *sum += h * h);
+    }
+    rest + sums.iter().sum::<f64>()
+}
+
+/// Largest magnitude, in eight independent searches; NaN is passed over.
+pub(crate) fn peak(samples: &[f64]) -> f64 {
+    let larger = |best: f64, h: f64| if h.abs() > best { h.abs() } else { best };
+    let mut peaks = [0.0; 8];
+    let chunks = samples.chunks_exact(8);
+    let rest = chunks.remainder().iter().fold(0.0, |best, h| larger(best, *h));
+    for chunk in chunks {
+        peaks.iter_mut().zip(chunk).for_each(|(best, h)| *best = larger(*best, *h));
+    }
+    peaks.iter().fold(rest, |best, h| larger(best, *h))
+}
+
+/// Reads responses that were sampled at fixed points.
+#[derive(Debug)]
+pub(crate) struct SampledRecorder<'r> {
+    responses: &'r SampledResponses,
+    length: usize,
+}
+
+impl SampledRecorder<'_> {
+    /// The sum of the responses at all points, the sum of their energies, and the points that stood for them.
+    fn record(&self, target: usize, points: &[Point]) -> Result<(Vec<f64>, f64, Vec<Point>), FocusError> {
+        let actuators = self.responses.ports.len();
+        let mut sum = vec![0.0; actuators * self.length];
+        let mut energies = 0.0;
+        let mut used = Vec::with_capacity(points.len());
+        for &at in points {
+            let stored = self.locate(target, at)?;
+            used.push(self.responses.points[stored]);
+            for (actuator, row) in sum.chunks_exact_mut(self.length).enumerate() {
+                let response = &self.responses.response(actuator, stored)[..self.length];
+                for (to, &h) in row.iter_mut().zip(response) {
+                    *to += f64::from(h);
+                    energies += f64::from(h) * f64::from(h);
+                }
+            }
+        }
+        Ok((sum, energies, used))
+    }
+
+    /// Index of the stored point that stands for a place: the nearest, at most λ_min/4 away, where a focus still has
+    /// most of its height.
+    fn locate(&self, target: usize, at: Point) -> Result<usize, FocusError> {
+        let reach = self.responses.conditions.lambda_min / 4.0;
+        let stored = self.responses.nearest(at).ok_or(FocusError::Count {
+            what: "points with responses",
+            expected: "at least 1".to_owned(),
+            found: 0,
+        })?;
+        let nearest = self.responses.points[stored];
+        let distance = nearest.distance(at);
+        if distance <= reach || distance == 0.0 {
+            Ok(stored)
+        } else {
+            Err(FocusError::Unknown { target, at, nearest, distance, reach })
+        }
+    }
+}

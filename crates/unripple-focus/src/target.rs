@@ -1,0 +1,96 @@
+use crate::FocusError;
+use crate::error::require;
+use unripple_core::{Outline, Point};
+
+/// Most points over all targets.
+const MOST_POINTS: usize = 100_000;
+
+/// What is to be felt: a point, or a set of points that moves as one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Target {
+    /// Where, in metres. The reversed responses of all points are superposed.
+    pub points: Vec<Point>,
+    /// Weight of the reversed response before summing over targets; negative turns it over.
+    ///
+    /// A point's reversed response is taken as it is, so that its velocity at the focal instant is gain · Σ∫h², up
+    /// to the scale that all targets share. The sum over a set of points is first scaled so that the mean velocity of the
+    /// set is what its points would have one by one, however densely they lie: gain times the mean of Σ∫h².
+    pub gain: f64,
+    /// How often it is repeated, in Hz; `None` for once. Periods are whole samples, `round(rate / rate_hz)`.
+    pub rate_hz: Option<f64>,
+}
+
+impl Target {
+    /// One point, once, at gain 1.
+    pub fn at(point: Point) -> Self {
+        Self::of(vec![point])
+    }
+
+    /// A set of points, once, at gain 1.
+    pub fn of(points: Vec<Point>) -> Self {
+        Self { points, gain: 1.0, rate_hz: None }
+    }
+
+    /// The same target at another gain.
+    pub fn with_gain(self, gain: f64) -> Self {
+        Self { gain, ..self }
+    }
+
+    /// The same target repeated.
+    pub fn repeated(self, rate_hz: f64) -> Self {
+        Self { rate_hz: Some(rate_hz), ..self }
+    }
+}
+
+/// Refuses targets that are nowhere, nothing or too many.
+pub(crate) fn check(targets: &[Target], outline: &Outline) -> Result<(), FocusError> {
+    let count = |what, found| FocusError::Count { what, expected: format!("1 to {MOST_POINTS}"), found };
+    let points: usize = targets.iter().map(|t| t.points.len()).sum();
+    if targets.is_empty() {
+        return Err(count("targets", 0));
+    }
+    if points > MOST_POINTS {
+        return Err(count("points over all targets", points));
+    }
+    for (index, target) in targets.iter().enumerate() {
+        if target.points.is_empty() {
+            return Err(count("points of a target", 0));
+        }
+        if let Some(&at) = target.points.iter().find(|p| !outline.contains(**p)) {
+            return Err(FocusError::Outside { target: index, at, nearest: outline.nearest(at) });
+        }
+        require(
+            format!("gain of target {}", index + 1),
+            target.gain.is_finite(),
+            "a finite number",
+            target.gain,
+        )?;
+    }
+    require("gains", targets.iter().any(|t| t.gain != 0.0), "at least one that is not 0", 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use unripple_core::Shape;
+
+    #[test]
+    fn says_what_is_wrong_and_what_would_be_right() {
+        let sheet = Outline::new(Shape::Rectangle { width: 0.1, height: 0.1 });
+        let refused = |targets: &[Target]| check(targets, &sheet).unwrap_err().to_string();
+        let good = Target::at(Point::from_mm(50.0, 20.0));
+        assert_eq!(check(std::slice::from_ref(&good), &sheet), Ok(()));
+        assert_eq!(refused(&[]), "targets: expected 1 to 100000, found 0");
+        assert!(refused(&[Target::of(vec![])]).starts_with("points of a target: expected 1"));
+        assert_eq!(
+            refused(&[good.clone(), Target::at(Point::from_mm(120.0, 20.0))]),
+            "target 2: (120.0000, 20.0000) mm is outside the surface, nearest legal point (100.0000, 20.0000) mm"
+        );
+        assert!(refused(&[Target::at(Point::new(f64::NAN, 0.0))]).contains("nearest legal point (50.0000"));
+        assert!(
+            refused(&[good.clone().with_gain(f64::INFINITY)]).contains("gain of target 1: expected a finite")
+        );
+        assert!(refused(&[good.clone().with_gain(0.0)]).contains("at least one that is not 0"));
+        assert!(refused(&[Target::of(vec![Point::default(); 100_001])]).contains("found 100001"));
+    }
+}
