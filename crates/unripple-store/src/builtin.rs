@@ -1,0 +1,20 @@
+/// A surface that comes with the program, as the text of its file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Builtin {
+    /// The name that [`crate::load_surface`] knows it by.
+    pub name: &'static str,
+    /// Its surface file, comments included.
+    pub text: &'static str,
+}
+
+/// The built-in surfaces.
+///
+/// ```
+/// let names: Vec<&str> = unripple_store::BUILTINS.iter().map(|b| b.name).collect();
+/// assert_eq!(names, ["hudin-2012", "glass-plate", "picture-frame"]);
+/// ```
+pub const BUILTINS: &[Builtin] = &[
+    Builtin { name: "hudin-2012", text: include_str!("../builtin/hudin-2012.toml") },
+    Builtin { name: "glass-plate", text: include_str!("../builtin/glass-plate.toml") },
+    Builtin { name: "picture-frame", text: include_str!("../builtin/picture-frame.toml") },
+];

@@ -1,0 +1,87 @@
+use crate::SurfaceFaults;
+use miette::Diagnostic;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Why something could not be read or written.
+#[derive(Debug, thiserror::Error, Diagnostic)]
+pub enum StoreError {
+    /// Something cannot be read.
+    #[error("cannot read {}: {reason}", path.display())]
+    Read {
+        /// What.
+        path: PathBuf,
+        /// What the system said.
+        reason: io::Error,
+    },
+    /// Something cannot be written.
+    #[error("cannot write to {}: {reason}", path.display())]
+    Write {
+        /// Where.
+        path: PathBuf,
+        /// What the system said.
+        reason: io::Error,
+    },
+    /// No built-in surface and no file has that name.
+    #[error("no surface `{name}`: expected a file, or one of {builtins}{}", did_you_mean(nearest))]
+    UnknownSurface {
+        /// The name asked for.
+        name: String,
+        /// The names there are.
+        builtins: String,
+        /// The nearest of them.
+        nearest: Option<String>,
+    },
+    /// A surface file has faults.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Surface(#[from] SurfaceFaults),
+    /// What a file holds is not what was expected of it.
+    #[error("{file}: expected {expected}, found {found}")]
+    Content {
+        /// The file.
+        file: String,
+        /// What it should hold.
+        expected: String,
+        /// What it holds.
+        found: String,
+    },
+    /// An output would overwrite what is not ours.
+    #[error("will not write to {}: expected {expected}, found {found}", path.display())]
+    Occupied {
+        /// The output.
+        path: PathBuf,
+        /// What could be written to.
+        expected: &'static str,
+        /// What is there.
+        found: String,
+    },
+}
+
+fn did_you_mean(nearest: &Option<String>) -> String {
+    nearest.as_ref().map_or_else(String::new, |name| format!(" (nearest: {name})"))
+}
+
+impl StoreError {
+    /// Whether what was given is at fault, rather than the place it should be written to.
+    pub fn is_bad_input(&self) -> bool {
+        match self {
+            Self::Read { .. } | Self::UnknownSurface { .. } | Self::Surface(_) | Self::Content { .. } => true,
+            Self::Write { .. } | Self::Occupied { .. } => false,
+        }
+    }
+
+    /// Turns an error of the system into one that says what could not be read.
+    pub(crate) fn read(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        move |reason| Self::Read { path: path.into(), reason }
+    }
+
+    /// Turns an error of the system into one that says where could not be written.
+    pub(crate) fn write(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        move |reason| Self::Write { path: path.into(), reason }
+    }
+
+    pub(crate) fn content(file: &str, expected: impl Into<String>, found: impl Into<String>) -> Self {
+        Self::Content { file: file.into(), expected: expected.into(), found: found.into() }
+    }
+}

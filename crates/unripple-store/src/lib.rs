@@ -1,0 +1,38 @@
+//! Files: surfaces as TOML, drives as WAV, shapes as SVG, and folders of results.
+//!
+//! Only this crate knows file formats. Files speak millimetres, milliseconds and gigapascals, in keys that carry their
+//! unit; what comes out of here is SI. Whatever is written appears whole or not at all.
+//!
+//! - [`load_surface`] reads a built-in surface or a surface file, and reports all faults of a file at once;
+//!   [`to_toml`] writes one.
+//! - [`write_wav`] and [`read_wav`] carry drives, one channel per actuator.
+//! - [`Drawing`] reads the shapes of an SVG document in metres.
+//! - [`OutputDir`] gathers what a run writes and puts it in place in one step.
+//!
+//! ```
+//! let surface = unripple_store::load_surface("hudin-2012")?;
+//! assert_eq!(surface.actuators.len(), 8);
+//! # Ok::<(), unripple_store::StoreError>(())
+//! ```
+
+mod builtin;
+mod decimal;
+mod error;
+mod fault;
+mod file;
+mod load;
+mod names;
+mod output;
+mod surface;
+mod svg;
+mod wav;
+
+pub use builtin::{BUILTINS, Builtin};
+pub use error::StoreError;
+pub use fault::{Fault, SurfaceFaults};
+pub use file::{LARGEST_TEXT, write_file};
+pub use load::load_surface;
+pub use output::{Committed, MARKER, OutputDir};
+pub use surface::{parse_surface, parse_surface_with, to_toml};
+pub use svg::{Drawing, FillRule, Polyline, SvgShape};
+pub use wav::{Wav, decode_wav, read_wav, write_wav};

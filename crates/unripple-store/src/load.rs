@@ -1,0 +1,63 @@
+use crate::file::{LARGEST_TEXT, read_start, read_text};
+use crate::names::nearest;
+use crate::surface::{parse_surface_with, too_large, whole};
+use crate::{BUILTINS, StoreError, SurfaceFaults};
+use std::io::ErrorKind;
+use std::path::Path;
+use unripple_core::Surface;
+
+/// The built-in surface of that name, or else the surface file at that path.
+///
+/// A file that happens to have a built-in's name is reached as `./name`. An outline's `svg` is relative to the file.
+///
+/// # Errors
+/// [`StoreError::UnknownSurface`] if there is neither, with the nearest built-in name; [`StoreError::Surface`] with all
+/// faults of the file; [`StoreError::Read`] if it cannot be read.
+///
+/// ```
+/// let film = unripple_store::load_surface("hudin-2012")?;
+/// assert_eq!(film.sheet.tension, 200.0);
+/// let error = unripple_store::load_surface("hudin-2021").unwrap_err();
+/// assert!(error.to_string().ends_with("(nearest: hudin-2012)"));
+/// # Ok::<(), unripple_store::StoreError>(())
+/// ```
+pub fn load_surface(name_or_path: &str) -> Result<Surface, StoreError> {
+    if let Some(builtin) = BUILTINS.iter().find(|b| b.name == name_or_path) {
+        return Ok(crate::parse_surface(builtin.text, builtin.name)?);
+    }
+    let path = Path::new(name_or_path);
+    let bytes = match read_start(path) {
+        Err(StoreError::Read { reason, .. }) if reason.kind() == ErrorKind::NotFound => {
+            return Err(unknown(name_or_path));
+        }
+        read => read?,
+    };
+    let text = decode(name_or_path, &bytes)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    Ok(parse_surface_with(text, name_or_path, &|svg| {
+        let file = folder.join(svg);
+        read_text(&file).map_err(|error| match error {
+            StoreError::Read { reason, .. } if reason.kind() == ErrorKind::NotFound => {
+                StoreError::content(svg, "an SVG file", format!("no file {}", file.display()))
+            }
+            other => other,
+        })
+    })?)
+}
+
+fn decode<'b>(file: &str, bytes: &'b [u8]) -> Result<&'b str, SurfaceFaults> {
+    if bytes.len() > LARGEST_TEXT {
+        return Err(too_large(file));
+    }
+    std::str::from_utf8(bytes).map_err(|error| {
+        let at = error.valid_up_to();
+        let found = format!("the byte 0x{:02x}", bytes.get(at).copied().unwrap_or_default());
+        whole(file, &String::from_utf8_lossy(bytes), at, &found, "text in UTF-8")
+    })
+}
+
+fn unknown(name: &str) -> StoreError {
+    let names: Vec<&str> = BUILTINS.iter().map(|b| b.name).collect();
+    let nearest = nearest(name, names.iter().copied()).map(str::to_owned);
+    StoreError::UnknownSurface { name: name.into(), builtins: names.join(", "), nearest }
+}

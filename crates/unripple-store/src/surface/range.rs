@@ -1,0 +1,65 @@
+use crate::decimal;
+
+/// Legal values of a number, in the file's unit, and how that unit relates to SI.
+#[derive(Clone, Debug)]
+pub(crate) struct Limits {
+    /// The unit's name; empty for a pure number.
+    pub unit: &'static str,
+    /// SI value = file value · 10^power.
+    pub power: i32,
+    /// Least legal value.
+    pub least: f64,
+    /// Greatest legal value.
+    pub greatest: f64,
+}
+
+impl Limits {
+    pub(crate) const fn new(unit: &'static str, power: i32, least: f64, greatest: f64) -> Self {
+        Self { unit, power, least, greatest }
+    }
+
+    pub(crate) fn allow(&self, value: f64) -> bool {
+        (self.least..=self.greatest).contains(&value)
+    }
+
+    /// As a message says it.
+    pub(crate) fn expected(&self) -> String {
+        let range = format!("a number from {} to {}", decimal::text(self.least, 0), {
+            decimal::text(self.greatest, 0)
+        });
+        if self.unit.is_empty() { range } else { format!("{range} {}", self.unit) }
+    }
+
+    /// The legal value nearest to one that is not; `None` for not-a-number.
+    pub(crate) fn nearest(&self, value: f64) -> Option<String> {
+        (!value.is_nan()).then(|| decimal::text(value.clamp(self.least, self.greatest), 0))
+    }
+}
+
+/// Limits of every number of the format, by key.
+pub(crate) mod of {
+    use super::Limits;
+
+    pub(crate) const LENGTH: Limits = Limits::new("mm", -3, 1.0, 1e5);
+    pub(crate) const STRAIGHT: Limits = Limits::new("mm", -3, 0.0, 1e5);
+    pub(crate) const COORDINATE: Limits = Limits::new("mm", -3, -1e6, 1e6);
+    pub(crate) const YOUNG: Limits = Limits::new("GPa", 9, 0.0, 2000.0);
+    pub(crate) const DENSITY: Limits = Limits::new("kg/m³", 0, 1.0, 30_000.0);
+    pub(crate) const POISSON: Limits = Limits::new("", 0, -0.9999, 0.4999);
+    pub(crate) const STRENGTH: Limits = Limits::new("MPa", 6, 0.01, 1e5);
+    pub(crate) const THICKNESS: Limits = Limits::new("mm", -3, 0.001, 100.0);
+    pub(crate) const TENSION: Limits = Limits::new("N/m", 0, 0.0, 1e6);
+    pub(crate) const DECAY_TIME: Limits = Limits::new("ms", -3, 0.01, 1e6);
+    pub(crate) const LOSS_FACTOR: Limits = Limits::new("", 0, 1e-6, 1.0);
+    pub(crate) const FREQUENCY: Limits = Limits::new("Hz", 0, 0.0, 5e6);
+    pub(crate) const RATE: Limits = Limits::new("Hz", 0, 100.0, 1e7);
+    pub(crate) const DRIVE: Limits = Limits::new("of the drive's unit", 0, 1e-6, 1e6);
+    pub(crate) const FINGER_MASS: Limits = Limits::new("g", -3, 0.0, 1000.0);
+    pub(crate) const FINGER_DAMPING: Limits = Limits::new("N·s/m", 0, 0.0, 1000.0);
+    pub(crate) const FINGER_STIFFNESS: Limits = Limits::new("N/mm", 3, 0.0, 1000.0);
+    pub(crate) const CONTACT_RADIUS: Limits = Limits::new("mm", -3, 0.1, 100.0);
+    pub(crate) const FORCE_CONSTANT: Limits = Limits::new("N/A", 0, 1e-3, 1000.0);
+    pub(crate) const RESISTANCE: Limits = Limits::new("Ω", 0, 1e-3, 1e6);
+    pub(crate) const INDUCTANCE: Limits = Limits::new("mH", -3, 0.0, 1000.0);
+    pub(crate) const MOVING_MASS: Limits = Limits::new("mg", -6, 0.0, 1e6);
+}

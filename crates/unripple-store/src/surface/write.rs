@@ -1,0 +1,129 @@
+use super::actuator::COIL_DRIVES;
+use super::outline::EDGES;
+use super::sheet::AIRS;
+use crate::decimal::text;
+use std::fmt::Write;
+use unripple_core::{Actuator, ActuatorKind, Decay, Edges, Outline, Point, Shape, Sheet, Surface};
+
+/// A surface as a file in format 1. [`crate::parse_surface`] makes the same surface of it, bit for bit, provided the
+/// values are within the format's limits.
+///
+/// ```
+/// let film = unripple_store::load_surface("hudin-2012")?;
+/// let text = unripple_store::to_toml(&film);
+/// assert_eq!(unripple_store::parse_surface(&text, "copy.toml")?, film);
+/// # Ok::<(), unripple_store::StoreError>(())
+/// ```
+pub fn to_toml(surface: &Surface) -> String {
+    let mut out = Lines::default();
+    out.line("format", "1");
+    out.line("name", &quoted(&surface.name));
+    outline(&surface.outline, &mut out);
+    sheet(&surface.sheet, &mut out);
+    let emission = &surface.emission;
+    out.table("[drive]");
+    out.line("band_hz", &format!("[{}, {}]", text(emission.band[0], 0), text(emission.band[1], 0)));
+    out.line("sample_rate_hz", &text(emission.rate, 0));
+    out.line("limit", &text(emission.limit, 0));
+    if let Some(limit) = emission.rms_limit {
+        out.line("rms_limit", &text(limit, 0));
+    }
+    let finger = &surface.finger;
+    out.table("[finger]");
+    out.line("mass_g", &text(finger.mass, 3));
+    out.line("damping_n_s_per_m", &text(finger.damping, 0));
+    out.line("stiffness_n_per_mm", &text(finger.stiffness, -3));
+    out.line("contact_radius_mm", &text(finger.contact_radius, 3));
+    surface.actuators.iter().for_each(|a| actuator(a, &mut out));
+    out.0
+}
+
+/// A file in the making.
+#[derive(Default)]
+struct Lines(String);
+
+impl Lines {
+    fn table(&mut self, header: &str) {
+        self.0.push('\n');
+        self.0.push_str(header);
+        self.0.push('\n');
+    }
+
+    fn line(&mut self, key: &str, value: &str) {
+        // Writing to a string does not fail.
+        let _ = writeln!(self.0, "{key} = {value}");
+    }
+}
+
+fn quoted(text: &str) -> String {
+    toml::Value::from(text).to_string()
+}
+
+fn named<T: PartialEq>(choices: &[(&str, T)], value: &T) -> String {
+    let name = choices.iter().find(|(_, choice)| choice == value).map_or("", |(name, _)| name);
+    quoted(name)
+}
+
+fn point(p: &Point) -> String {
+    format!("[{}, {}]", text(p.x, 3), text(p.y, 3))
+}
+
+fn list(items: impl Iterator<Item = String>) -> String {
+    format!("[{}]", items.collect::<Vec<_>>().join(", "))
+}
+
+fn outline(outline: &Outline, out: &mut Lines) {
+    out.table("[outline]");
+    match &outline.shape {
+        Shape::Rectangle { width, height } => {
+            out.line("rectangle_mm", &point(&Point::new(*width, *height)));
+        }
+        Shape::Circle { radius } => out.line("circle_mm", &text(*radius, 3)),
+        Shape::Stadium { straight, radius } => {
+            out.line("stadium_mm", &point(&Point::new(*straight, *radius)))
+        }
+        Shape::Polygon(vertices) => out.line("polygon_mm", &list(vertices.iter().map(point))),
+    }
+    match &outline.edges {
+        Edges::All(edge) => out.line("edge", &named(&EDGES, edge)),
+        Edges::PerSide(edges) => out.line("edge", &list(edges.iter().map(|edge| named(&EDGES, edge)))),
+    }
+}
+
+fn sheet(sheet: &Sheet, out: &mut Lines) {
+    out.table("[sheet]");
+    out.line("material", &quoted(&sheet.material));
+    out.line("young_gpa", &text(sheet.young, -9));
+    out.line("density_kg_m3", &text(sheet.density, 0));
+    out.line("poisson_ratio", &text(sheet.poisson, 0));
+    if let Some(strength) = sheet.strength {
+        out.line("strength_mpa", &text(strength, -6));
+    }
+    out.line("thickness_mm", &text(sheet.thickness, 3));
+    out.line("tension_n_per_m", &text(sheet.tension, 0));
+    match &sheet.decay {
+        Decay::Time(time) => out.line("decay_time_ms", &text(*time, 3)),
+        Decay::Table(rows) => {
+            let row = |(hz, s): &(f64, f64)| format!("[{}, {}]", text(*hz, 0), text(*s, 3));
+            out.line("decay_time_ms", &list(rows.iter().map(row)));
+        }
+        Decay::LossFactor(factor) => out.line("loss_factor", &text(*factor, 0)),
+    }
+    out.line("air", &named(&AIRS, &sheet.air));
+}
+
+fn actuator(actuator: &Actuator, out: &mut Lines) {
+    out.table("[[actuator]]");
+    out.line("name", &quoted(&actuator.name));
+    out.line("at_mm", &point(&actuator.at));
+    out.line("kind", &quoted(actuator.kind.name()));
+    if let ActuatorKind::MovingMagnet { force_constant, resistance, inductance, moving_mass, driven_by } =
+        &actuator.kind
+    {
+        out.line("force_constant_n_per_a", &text(*force_constant, 0));
+        out.line("resistance_ohm", &text(*resistance, 0));
+        out.line("inductance_mh", &text(*inductance, 3));
+        out.line("moving_mass_mg", &text(*moving_mass, 6));
+        out.line("driven_by", &named(&COIL_DRIVES, driven_by));
+    }
+}

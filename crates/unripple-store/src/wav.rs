@@ -1,0 +1,172 @@
+use crate::StoreError;
+use crate::file::write_beside;
+use hound::{SampleFormat, WavReader, WavSpec, WavWriter};
+use std::fs::File;
+use std::io::{BufReader, BufWriter, ErrorKind, Read};
+use std::path::Path;
+use unripple_core::Drive;
+
+/// Most bytes of samples: the format counts them, and its header, in 32 bits.
+const MOST_BYTES: u64 = u32::MAX as u64 - 1024;
+
+/// What a WAV file holds: channels of equal length, at a rate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wav {
+    /// Samples per second.
+    pub rate: f64,
+    /// The channels; those of a float file in the drive's unit, those of an integer file with full scale as 1.
+    pub channels: Vec<Vec<f64>>,
+}
+
+impl Wav {
+    /// The drive of actuators of these names, in channel order.
+    ///
+    /// # Errors
+    /// [`StoreError::Content`] if there are not as many channels as names; `file` names the file in the message.
+    pub fn into_drive(self, names: &[String], file: &str) -> Result<Drive, StoreError> {
+        if self.channels.len() != names.len() {
+            let expected = format!("a channel for each of the {} actuators", names.len());
+            return Err(StoreError::content(file, expected, format!("{} channels", self.channels.len())));
+        }
+        Drive::new(self.rate, names.to_vec(), self.channels)
+            .map_err(|error| StoreError::content(file, "a drive", error.to_string()))
+    }
+}
+
+/// Writes a drive as float32 WAV in the drive's own unit, one channel per actuator; whole or not at all.
+///
+/// # Errors
+/// [`StoreError::Content`] if the format cannot hold the drive: a fractional rate, no channel, more than 65 535 channels
+/// or 4 GiB, or a sample past float32. [`StoreError::Write`] if the file cannot be written.
+///
+/// ```
+/// use unripple_core::Drive;
+/// let drive = Drive::new(48e3, vec!["a1".into(), "a2".into()], vec![vec![0.5, -1.0], vec![0.0, 0.25]]).unwrap();
+/// let path = std::env::temp_dir().join(format!("unripple-doc-{}.wav", std::process::id()));
+/// unripple_store::write_wav(&path, &drive)?;
+/// let back = unripple_store::read_wav(&path)?.into_drive(drive.names(), "drive.wav")?;
+/// assert_eq!(back, drive);
+/// # std::fs::remove_file(&path).unwrap();
+/// # Ok::<(), unripple_store::StoreError>(())
+/// ```
+pub fn write_wav(path: impl AsRef<Path>, drive: &Drive) -> Result<(), StoreError> {
+    let path = path.as_ref();
+    let spec = spec(path, drive)?;
+    write_beside(path, |file| {
+        let failed = |error| StoreError::write(path)(into_io(error));
+        let mut writer = WavWriter::new(BufWriter::new(file), spec).map_err(failed)?;
+        for sample in 0..drive.samples() {
+            for channel in drive.channels() {
+                writer.write_sample(channel[sample] as f32).map_err(failed)?;
+            }
+        }
+        writer.finalize().map_err(failed)
+    })
+}
+
+fn spec(path: &Path, drive: &Drive) -> Result<WavSpec, StoreError> {
+    let name = path.display().to_string();
+    let refuse = |expected: &str, found: String| StoreError::content(&name, expected, found);
+    let count = drive.channels().len();
+    let channels = u16::try_from(count).ok().filter(|c| *c > 0);
+    let channels = channels.ok_or_else(|| refuse("1 to 65535 channels", count.to_string()))?;
+    let rate = drive.rate();
+    let most = f64::from(u32::MAX / 4 / u32::from(channels));
+    if rate.fract() != 0.0 || !(1.0..=most).contains(&rate) {
+        return Err(refuse(&format!("a whole sample rate from 1 to {most} Hz"), format!("{rate} Hz")));
+    }
+    let bytes = drive.samples() as u64 * u64::from(channels) * 4;
+    if bytes > MOST_BYTES {
+        return Err(refuse("at most 4 GiB of samples", format!("{bytes} bytes")));
+    }
+    if let Some(sample) = drive.channels().iter().flatten().find(|x| !(**x as f32).is_finite()) {
+        return Err(refuse("samples that float32 holds", sample.to_string()));
+    }
+    Ok(WavSpec {
+        channels,
+        sample_rate: rate as u32,
+        bits_per_sample: 32,
+        sample_format: SampleFormat::Float,
+    })
+}
+
+fn into_io(error: hound::Error) -> std::io::Error {
+    match error {
+        hound::Error::IoError(error) => error,
+        other => std::io::Error::other(other),
+    }
+}
+
+/// Reads a WAV file of integers of 8 to 32 bits or float32.
+///
+/// # Errors
+/// [`StoreError::Content`] if it is empty, not a WAV, cut short, or holds a sample that is not finite;
+/// [`StoreError::Read`] if it cannot be read.
+pub fn read_wav(path: impl AsRef<Path>) -> Result<Wav, StoreError> {
+    let path = path.as_ref();
+    let file = File::open(path).map_err(StoreError::read(path))?;
+    decode_wav(BufReader::new(file), &path.display().to_string())
+}
+
+/// Reads WAV from anything; `name` is what messages call it.
+///
+/// # Errors
+/// As [`read_wav`].
+///
+/// ```
+/// let error = unripple_store::decode_wav(&b""[..], "drive.wav").unwrap_err();
+/// assert_eq!(error.to_string(), "drive.wav: expected a WAV file, found an empty file");
+/// ```
+pub fn decode_wav(mut reader: impl Read, name: &str) -> Result<Wav, StoreError> {
+    let mut first = [0; 1];
+    match reader.read_exact(&mut first) {
+        Err(error) if error.kind() == ErrorKind::UnexpectedEof => {
+            return Err(StoreError::content(name, "a WAV file", "an empty file"));
+        }
+        read => read.map_err(StoreError::read(Path::new(name)))?,
+    }
+    let reader = WavReader::new((&first[..]).chain(reader)).map_err(|error| refuse(name, error, 0))?;
+    let spec = reader.spec();
+    if spec.sample_rate == 0 {
+        return Err(StoreError::content(name, "a positive sample rate", "0 Hz"));
+    }
+    let count = usize::from(spec.channels);
+    let mut channels = vec![Vec::new(); count];
+    let mut keep = |i: usize, sample: f64| {
+        channels[i % count].push(sample);
+        if sample.is_finite() {
+            return Ok(());
+        }
+        let found = format!("{sample} at sample {} of channel {}", i / count, i % count);
+        Err(StoreError::content(name, "finite samples", found))
+    };
+    match spec.sample_format {
+        SampleFormat::Float => {
+            for (i, sample) in reader.into_samples::<f32>().enumerate() {
+                keep(i, f64::from(sample.map_err(|error| refuse(name, error, i))?))?;
+            }
+        }
+        SampleFormat::Int => {
+            let full = 2_f64.powi(i32::from(spec.bits_per_sample) - 1);
+            for (i, sample) in reader.into_samples::<i32>().enumerate() {
+                keep(i, f64::from(sample.map_err(|error| refuse(name, error, i))?) / full)?;
+            }
+        }
+    }
+    Ok(Wav { rate: f64::from(spec.sample_rate), channels })
+}
+
+/// A reader's error as ours: what the bytes say is the file's fault, the rest the system's.
+fn refuse(name: &str, error: hound::Error, samples: usize) -> StoreError {
+    let found = match error {
+        hound::Error::IoError(error)
+            if matches!(error.kind(), ErrorKind::UnexpectedEof | ErrorKind::Other) =>
+        {
+            format!("a file that ends after {samples} samples")
+        }
+        hound::Error::IoError(error) => return StoreError::read(Path::new(name))(error),
+        hound::Error::FormatError(message) => message.into(),
+        other => other.to_string(),
+    };
+    StoreError::content(name, "a WAV file of integers or float32", found)
+}
