@@ -1,0 +1,268 @@
+use crate::{PlotError, font, ticks};
+
+/// How values are spread along an axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Scale {
+    /// Evenly.
+    #[default]
+    Linear,
+    /// By their logarithm; every value must be positive.
+    Logarithmic,
+}
+
+/// One axis of a plot: its label, scale and range. Data stay in their own unit and are multiplied before they are shown.
+///
+/// # Example
+/// ```
+/// use unripple_plot::Axis;
+/// let time = Axis::new("Time (ms)").times(1e3).from(0.0).to(0.06); // data in seconds
+/// assert_eq!(time.high, Some(0.06));
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// What is on it, with the unit shown, as in `Time (ms)`.
+    pub label: String,
+    /// How values are spread.
+    pub scale: Scale,
+    /// What a datum is multiplied by to be shown: 1e3 for data in seconds on an axis in milliseconds.
+    pub multiplier: f64,
+    /// Its low end, in the data's unit; from the data if absent.
+    pub low: Option<f64>,
+    /// Its high end, in the data's unit; from the data if absent.
+    pub high: Option<f64>,
+}
+
+impl Default for Axis {
+    fn default() -> Self {
+        Self { label: String::new(), scale: Scale::Linear, multiplier: 1.0, low: None, high: None }
+    }
+}
+
+impl Axis {
+    /// A linear axis.
+    pub fn new(label: impl Into<String>) -> Self {
+        Self { label: label.into(), ..Self::default() }
+    }
+
+    /// A logarithmic axis.
+    pub fn log(label: impl Into<String>) -> Self {
+        Self { label: label.into(), scale: Scale::Logarithmic, ..Self::default() }
+    }
+
+    /// The same axis showing its data multiplied.
+    pub fn times(mut self, multiplier: f64) -> Self {
+        self.multiplier = multiplier;
+        self
+    }
+
+    /// The same axis with a given low end, in the data's unit.
+    pub fn from(mut self, low: f64) -> Self {
+        self.low = Some(low);
+        self
+    }
+
+    /// The same axis with a given high end, in the data's unit.
+    pub fn to(mut self, high: f64) -> Self {
+        self.high = Some(high);
+        self
+    }
+}
+
+/// An axis with its range settled: takes data to fractions of its length.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Ruler {
+    scale: Scale,
+    multiplier: f64,
+    low: f64,
+    high: f64,
+    /// Major ticks: data value shown, and label.
+    pub major: Vec<(f64, String)>,
+    /// Minor ticks.
+    pub minor: Vec<f64>,
+    /// The power of ten taken out of the labels.
+    pub power: Option<i32>,
+}
+
+/// Which way a ruler lies, for the room its labels need.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Direction {
+    Across,
+    Up,
+}
+
+/// Room left round the data, as a share of their span.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Padding {
+    pub share: f64,
+    /// Whether an axis of non-negative data starts at zero when that wastes little.
+    pub zero: bool,
+}
+
+impl Ruler {
+    /// Settles an axis for data values, over `length` points with ticks labelled at `size`.
+    ///
+    /// Errors when an end is not finite, or not positive on a logarithmic axis.
+    pub fn new(
+        axis: &Axis,
+        data: impl Iterator<Item = f64>,
+        padding: Padding,
+        direction: Direction,
+        length: f64,
+        size: f64,
+    ) -> Result<Self, PlotError> {
+        let (low, high) = range(axis, data, padding)?;
+        let mut ruler = Self {
+            scale: axis.scale,
+            multiplier: axis.multiplier,
+            low,
+            high,
+            major: Vec::new(),
+            minor: Vec::new(),
+            power: None,
+        };
+        let spacing = if direction == Direction::Up { 2.2 * size } else { 2.6 * size };
+        let most = ((length / spacing) as usize).clamp(2, 9);
+        for most in (2..=most).rev() {
+            ruler.tick(most);
+            if ruler.has_room(direction, length, size) {
+                break;
+            }
+        }
+        Ok(ruler)
+    }
+
+    fn tick(&mut self, most: usize) {
+        match self.scale {
+            Scale::Linear => {
+                let places = ticks::nice_ticks(self.low, self.high, most);
+                let (labels, power) = ticks::labels(&places);
+                self.minor = ticks::linear_minor(&places, self.low, self.high);
+                self.major = places.into_iter().zip(labels).collect();
+                self.power = power;
+            }
+            Scale::Logarithmic => {
+                let (places, minor) = ticks::logarithmic(self.low, self.high, most);
+                let labels = ticks::log_labels(&places);
+                self.minor = minor;
+                self.major = places.into_iter().zip(labels).collect();
+            }
+        }
+    }
+
+    fn has_room(&self, direction: Direction, length: f64, size: f64) -> bool {
+        self.major.windows(2).all(|pair| {
+            let between = (self.shown(pair[1].0) - self.shown(pair[0].0)) * length;
+            let needed = match direction {
+                Direction::Up => 1.3 * size,
+                Direction::Across => {
+                    (font::width(&pair[0].1, size) + font::width(&pair[1].1, size)) / 2.0 + 0.8 * size
+                }
+            };
+            between >= needed
+        })
+    }
+
+    /// Where a datum lies, 0 at the low end and 1 at the high one; not-a-number where it cannot be shown.
+    pub fn place(&self, datum: f64) -> f64 {
+        self.shown(datum * self.multiplier)
+    }
+
+    /// Where a value already in the unit shown lies.
+    pub fn shown(&self, value: f64) -> f64 {
+        let fraction = match self.scale {
+            Scale::Linear => (value - self.low) / (self.high - self.low),
+            Scale::Logarithmic if value > 0.0 => (value / self.low).log10() / (self.high / self.low).log10(),
+            Scale::Logarithmic => f64::NAN,
+        };
+        if fraction.is_finite() { fraction.clamp(-100.0, 100.0) } else { f64::NAN }
+    }
+
+    /// Both ends, in the unit shown.
+    pub fn ends(&self) -> [f64; 2] {
+        [self.low, self.high]
+    }
+
+    /// The datum half-way along.
+    pub fn middle(&self) -> f64 {
+        let shown = match self.scale {
+            Scale::Linear => (self.low + self.high) / 2.0,
+            Scale::Logarithmic => (self.low * self.high).sqrt(),
+        };
+        shown / self.multiplier
+    }
+
+    /// The widest label's width at a size.
+    pub fn label_width(&self, size: f64) -> f64 {
+        self.major.iter().map(|(_, label)| font::width(label, size)).fold(0.0, f64::max)
+    }
+}
+
+/// Largest magnitude drawn; anything beyond counts as a gap.
+pub(crate) const LARGEST: f64 = 1e100;
+
+/// Both ends of the range, in the unit shown.
+fn range(axis: &Axis, data: impl Iterator<Item = f64>, padding: Padding) -> Result<(f64, f64), PlotError> {
+    let log = axis.scale == Scale::Logarithmic;
+    let name = || if axis.label.is_empty() { "axis".to_owned() } else { format!("axis `{}`", axis.label) };
+    check(&name, "a finite, non-zero multiplier", axis.multiplier, |m| usable(m) && m != 0.0)?;
+    for end in [axis.low, axis.high].into_iter().flatten() {
+        check(&name, "a finite end", end, usable)?;
+        check(&name, "a positive end on a logarithmic axis", end, |end| !log || end * axis.multiplier > 0.0)?;
+    }
+    let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+    for value in data.map(|datum| datum * axis.multiplier).filter(|value| usable(*value)) {
+        check(&name, "a positive value on a logarithmic axis", value, |value| !log || value > 0.0)?;
+        (least, most) = (least.min(value), most.max(value));
+    }
+    let (least, most) = if least <= most { (least, most) } else { (1.0, 1.0) };
+    let (low, high) = if log { log_range(least, most, padding) } else { linear_range(least, most, padding) };
+    let given = |end: Option<f64>| end.map(|end| end * axis.multiplier);
+    let (low, high) = (given(axis.low).unwrap_or(low), given(axis.high).unwrap_or(high));
+    check(&name, "a high end above the low one", high, |high| high > low)?;
+    Ok((low, high))
+}
+
+fn check(
+    name: &dyn Fn() -> String,
+    expected: &'static str,
+    found: f64,
+    legal: impl Fn(f64) -> bool,
+) -> Result<(), PlotError> {
+    if legal(found) { Ok(()) } else { Err(PlotError::Range { what: name(), expected, found }) }
+}
+
+/// Whether a value can be drawn.
+pub(crate) fn usable(value: f64) -> bool {
+    value.abs() <= LARGEST
+}
+
+/// Both ends moved outwards to a round number that is within a few thousandths of the span, as the last of many samples wants.
+fn snapped(least: f64, most: f64) -> (f64, f64) {
+    let span = most - least;
+    let unit = 10f64.powf(span.log10().floor()) / 10.0;
+    let near = |round: f64, end: f64| if (round - end).abs() < 3e-3 * span { round } else { end };
+    (near((least / unit).floor() * unit, least), near((most / unit).ceil() * unit, most))
+}
+
+fn linear_range(least: f64, most: f64, padding: Padding) -> (f64, f64) {
+    let size = least.abs().max(most.abs());
+    let span = most - least;
+    if span <= 1e-9 * size || span < 1e-100 {
+        let room = if size < 1e-100 { 1.0 } else { size * 0.1 };
+        return (least - room, most + room);
+    }
+    if padding.share == 0.0 {
+        return snapped(least, most);
+    }
+    let low =
+        if padding.zero && (0.0..0.5 * most).contains(&least) { 0.0 } else { least - padding.share * span };
+    let high =
+        if padding.zero && most <= 0.0 && most > 0.5 * least { 0.0 } else { most + padding.share * span };
+    (low, high)
+}
+
+fn log_range(least: f64, most: f64, padding: Padding) -> (f64, f64) {
+    let ratio = most / least;
+    let room = if ratio < 1.0 + 1e-9 { 2.0 } else { ratio.powf(padding.share) };
+    (least / room, most * room)
+}

@@ -1,0 +1,71 @@
+use crate::colour::Rgb;
+use crate::panel::Placed;
+use crate::{PlotError, encode};
+use rayon::prelude::*;
+
+/// A finished figure: SVG text, and the picture rendered from that same text.
+#[derive(Clone, Debug)]
+pub struct Drawing {
+    svg: String,
+    size: [f64; 2],
+    placed: Vec<Placed>,
+}
+
+/// Dots to an inch that print asks for.
+pub const PRINT_DPI: f64 = 300.0;
+
+/// Most pixels in a picture, so that a slip in its size cannot take all memory.
+const MOST_PIXELS: f64 = 1e8;
+
+impl Drawing {
+    pub(crate) fn new(svg: String, size: [f64; 2], placed: Vec<Placed>) -> Self {
+        Self { svg, size, placed }
+    }
+
+    /// The SVG document.
+    pub fn svg(&self) -> &str {
+        &self.svg
+    }
+
+    /// Width and height in points of 1/72 inch.
+    pub fn size_pt(&self) -> [f64; 2] {
+        self.size
+    }
+
+    /// The picture on white as a PNG file, at a resolution in dots to an inch from 20 to 2400.
+    ///
+    /// Deterministic: the typeface is embedded and no system font is looked at. Errors when the
+    /// resolution is out of range or the picture would have more than 10⁸ pixels.
+    pub fn png(&self, dpi: f64) -> Result<Vec<u8>, PlotError> {
+        if !(20.0..=2400.0).contains(&dpi) {
+            let what = "resolution of the picture".to_owned();
+            return Err(PlotError::Range { what, expected: "20 to 2400 dots to an inch", found: dpi });
+        }
+        let pixels = self.size[0] * self.size[1] * (dpi / 72.0).powi(2);
+        if pixels > MOST_PIXELS {
+            let what = "pixels of the picture".to_owned();
+            return Err(PlotError::Range { what, expected: "at most 10⁸", found: pixels });
+        }
+        let pixmap = encode::render(&self.svg, (dpi / 96.0) as f32, Some(Rgb::WHITE))?;
+        encode::opaque(&pixmap, dpi)
+    }
+
+    /// Where data of a panel have come to lie in the picture, in pixels from its upper left corner.
+    ///
+    /// `at` is in the units of the panel's data. Absent where there is no such panel or the data cannot be shown on its axes.
+    pub fn pixel(&self, panel: usize, at: [f64; 2], dpi: f64) -> Option<[f64; 2]> {
+        let [x, y] = self.placed.get(panel)?.point(at[0], at[1])?;
+        Some([x * dpi / 72.0, y * dpi / 72.0])
+    }
+
+    /// Labels of the major ticks on a panel's abscissae and ordinates.
+    pub fn tick_labels(&self, panel: usize) -> Option<[Vec<String>; 2]> {
+        let placed = self.placed.get(panel)?;
+        Some([&placed.x, &placed.y].map(|ruler| ruler.major.iter().map(|(_, label)| label.clone()).collect()))
+    }
+}
+
+/// Pictures of several drawings, rendered in parallel; see [`Drawing::png`].
+pub fn pngs(drawings: &[Drawing], dpi: f64) -> Result<Vec<Vec<u8>>, PlotError> {
+    drawings.par_iter().map(|drawing| drawing.png(dpi)).collect()
+}

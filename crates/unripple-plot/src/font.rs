@@ -1,0 +1,66 @@
+//! The one typeface, embedded, parsed once.
+
+use resvg::usvg::fontdb;
+use std::sync::{Arc, LazyLock};
+
+/// Its family name, with a metrically close fall-back for viewers of the SVG that lack it.
+pub(crate) const FAMILY: &str = "DejaVu Sans, Verdana, sans-serif";
+
+/// Height of a digit over the font size.
+pub(crate) const DIGIT_HEIGHT: f64 = 0.729;
+
+static DATABASE: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
+    let mut database = fontdb::Database::new();
+    database.load_font_source(fontdb::Source::Binary(Arc::new(dejavu::sans::regular())));
+    database.set_sans_serif_family("DejaVu Sans");
+    Arc::new(database)
+});
+
+/// The database the renderer looks its font up in.
+pub(crate) fn database() -> Arc<fontdb::Database> {
+    DATABASE.clone()
+}
+
+/// Advance of every character of the Basic Multilingual Plane's first 0x2300 code points, in thousandths of the size.
+static ADVANCES: LazyLock<Vec<u16>> = LazyLock::new(|| {
+    let Ok(face) = ttf_parser::Face::parse(dejavu::sans::regular(), 0) else {
+        return Vec::new();
+    };
+    let units = f64::from(face.units_per_em());
+    let advance = |code: u32| {
+        let glyph = face.glyph_index(char::from_u32(code)?)?;
+        Some((f64::from(face.glyph_hor_advance(glyph)?) / units * 1e3).round() as u16)
+    };
+    (0..0x2300).map(|code| advance(code).unwrap_or(WIDEST)).collect()
+});
+
+const WIDEST: u16 = 1000;
+
+/// Width of a line of text, in the unit of `size`.
+pub(crate) fn width(text: &str, size: f64) -> f64 {
+    let advance = |c: char| f64::from(ADVANCES.get(c as usize).copied().unwrap_or(WIDEST));
+    text.chars().map(advance).sum::<f64>() * size / 1e3
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_typeface_has_every_sign_a_figure_needs() {
+        let face = ttf_parser::Face::parse(dejavu::sans::regular(), 0).unwrap();
+        for sign in "−×·±µμλτρσωΔ√∞≤≥°²³⁰¹⁴⁵⁶⁷⁸⁹⁻₀₁₂₃½→≈".chars()
+        {
+            assert!(face.glyph_index(sign).is_some(), "{sign}");
+        }
+    }
+
+    #[test]
+    fn widths_add_up_and_scale() {
+        let (a, b) = (width("Time ", 8.0), width("(ms)", 8.0));
+        assert!((width("Time (ms)", 8.0) - a - b).abs() < 1e-12);
+        assert!((width("Time (ms)", 16.0) - 2.0 * (a + b)).abs() < 1e-12);
+        assert!(width("iii", 8.0) < width("mmm", 8.0));
+        assert_eq!(width("", 8.0), 0.0);
+    }
+}

@@ -1,0 +1,243 @@
+use crate::canvas::Anchor;
+use crate::colour::Rgb;
+use crate::colourmap::ColourMap;
+
+/// The colour of a layer.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Ink {
+    /// The palette's next colour, counted over the layers of the plot.
+    #[default]
+    Auto,
+    /// The palette's colour of that number.
+    Palette(usize),
+    /// A place from 0 (dark) to 1 (light) on the sequential map, for families in order.
+    Graded(f64),
+    /// A colour of one's own.
+    Rgb(Rgb),
+}
+
+impl Ink {
+    pub(crate) fn colour(self, index: usize) -> Rgb {
+        match self {
+            Self::Auto => Rgb::palette(index),
+            Self::Palette(index) => Rgb::palette(index),
+            Self::Graded(place) => ColourMap::Sequential.colour(0.05 + 0.75 * place.clamp(0.0, 1.0)),
+            Self::Rgb(colour) => colour,
+        }
+    }
+}
+
+/// The pattern of a line.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Dash {
+    /// A pattern of its own for each line of automatic ink, solid first; solid for others.
+    #[default]
+    Auto,
+    /// Unbroken.
+    Solid,
+    /// Even dashes.
+    Dashed,
+    /// Dots.
+    Dotted,
+    /// Dashes and dots by turns.
+    DashDot,
+    /// Long dashes.
+    Long,
+    /// Long dashes, each followed by two dots.
+    DashDotDot,
+}
+
+impl Dash {
+    /// Lengths of marks and spaces by turns, in line widths.
+    pub(crate) fn pattern(self, index: usize) -> &'static [f64] {
+        const CYCLE: [Dash; 6] =
+            [Dash::Solid, Dash::Dashed, Dash::DashDot, Dash::Dotted, Dash::Long, Dash::DashDotDot];
+        match self {
+            Self::Auto => CYCLE[index % CYCLE.len()].pattern(0),
+            Self::Solid => &[],
+            Self::Dashed => &[4.5, 2.2],
+            Self::Dotted => &[1.2, 1.8],
+            Self::DashDot => &[6.0, 2.0, 1.2, 2.0],
+            Self::Long => &[9.0, 2.5],
+            Self::DashDotDot => &[8.0, 2.0, 1.2, 1.6, 1.2, 2.0],
+        }
+    }
+}
+
+/// The shape of a point's mark.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mark {
+    /// A shape of its own for each layer of points, disc first.
+    #[default]
+    Auto,
+    /// A filled circle.
+    Disc,
+    /// A filled square.
+    Square,
+    /// A filled triangle.
+    Triangle,
+    /// A filled diamond.
+    Diamond,
+    /// An empty circle.
+    Ring,
+    /// An upright cross.
+    Plus,
+    /// A slanting cross.
+    Cross,
+}
+
+impl Mark {
+    pub(crate) fn of(self, index: usize) -> Self {
+        const CYCLE: [Mark; 7] =
+            [Mark::Disc, Mark::Square, Mark::Triangle, Mark::Diamond, Mark::Ring, Mark::Cross, Mark::Plus];
+        if self == Self::Auto { CYCLE[index % CYCLE.len()] } else { self }
+    }
+}
+
+/// A curve through points in order. A value that is not finite leaves a gap.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Line {
+    /// Abscissae.
+    pub x: Vec<f64>,
+    /// Ordinates, as many.
+    pub y: Vec<f64>,
+    /// Its name in the legend; none if empty.
+    pub label: String,
+    /// Its colour.
+    pub ink: Ink,
+    /// Its pattern.
+    pub dash: Dash,
+    /// Its width in points; the figure's if absent.
+    pub width_pt: Option<f64>,
+}
+
+/// Marks at points, with error bars if wanted. A value that is not finite leaves its mark out.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Points {
+    /// Abscissae.
+    pub x: Vec<f64>,
+    /// Ordinates, as many.
+    pub y: Vec<f64>,
+    /// How far each error bar reaches below and above; empty for none, else as many as points.
+    pub error: Vec<[f64; 2]>,
+    /// Its name in the legend; none if empty.
+    pub label: String,
+    /// Its colour.
+    pub ink: Ink,
+    /// Shape of the marks.
+    pub mark: Mark,
+}
+
+/// A shaded band between two curves, as for a confidence interval.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Band {
+    /// Abscissae.
+    pub x: Vec<f64>,
+    /// Lower ordinates, as many.
+    pub low: Vec<f64>,
+    /// Upper ordinates, as many.
+    pub high: Vec<f64>,
+    /// Its name in the legend; none if empty.
+    pub label: String,
+    /// Its colour, drawn pale.
+    pub ink: Ink,
+}
+
+/// Which way a rule or a span lies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Along {
+    /// At one abscissa, from bottom to top.
+    #[default]
+    Y,
+    /// At one ordinate, from left to right.
+    X,
+}
+
+/// A straight line across the whole plot at one value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rule {
+    /// The value it stands at.
+    pub at: f64,
+    /// Which way it runs.
+    pub along: Along,
+    /// Text beside it: above the frame for one along y, on the line for one along x.
+    pub label: String,
+    /// Its colour.
+    pub ink: Ink,
+    /// Its pattern.
+    pub dash: Dash,
+}
+
+impl Default for Rule {
+    fn default() -> Self {
+        Self { at: 0.0, along: Along::Y, label: String::new(), ink: Ink::Rgb(Rgb::GREY), dash: Dash::Dashed }
+    }
+}
+
+/// A pale stripe across the whole plot between two values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Span {
+    /// Where it begins.
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
+    /// Which way it runs.
+    pub along: Along,
+    /// Its name in the legend; none if empty.
+    pub label: String,
+    /// Its colour, drawn pale.
+    pub ink: Ink,
+}
+
+impl Default for Span {
+    fn default() -> Self {
+        Self { from: 0.0, to: 0.0, along: Along::Y, label: String::new(), ink: Ink::Rgb(Rgb::GREY) }
+    }
+}
+
+/// Text at a place in the data.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Note {
+    /// Where, in the data's units.
+    pub at: [f64; 2],
+    /// What it says.
+    pub text: String,
+    /// Which end of it is there.
+    pub anchor: Anchor,
+    /// Its colour.
+    pub ink: Ink,
+}
+
+impl Default for Note {
+    fn default() -> Self {
+        Self { at: [0.0; 2], text: String::new(), anchor: Anchor::Start, ink: Ink::Rgb(Rgb::BLACK) }
+    }
+}
+
+/// One thing drawn in a plot.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Layer {
+    /// A curve.
+    Line(Line),
+    /// Marks with error bars.
+    Points(Points),
+    /// A band between two curves.
+    Band(Band),
+    /// A line at one value.
+    Rule(Rule),
+    /// A stripe between two values.
+    Span(Span),
+    /// Text.
+    Note(Note),
+}
+
+macro_rules! layers {
+    ($($kind:ident),*) => {$(
+        impl From<$kind> for Layer {
+            fn from(layer: $kind) -> Self {
+                Self::$kind(layer)
+            }
+        }
+    )*};
+}
+layers!(Line, Points, Band, Rule, Span, Note);

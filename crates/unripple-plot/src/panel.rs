@@ -1,0 +1,94 @@
+use crate::axis::Ruler;
+use crate::canvas::{Canvas, Rect};
+use crate::style::Style;
+use crate::{Map, Plot, PlotError, Strip, Traces};
+
+/// One cell of a figure.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Panel {
+    /// Curves and points on axes.
+    Plot(Plot),
+    /// Traces one above the other.
+    Traces(Traces),
+    /// A field over the surface.
+    Map(Map),
+    /// Several fields sharing one colour bar.
+    Strip(Strip),
+}
+
+macro_rules! panels {
+    ($($kind:ident),*) => {$(
+        impl From<$kind> for Panel {
+            fn from(panel: $kind) -> Self {
+                Self::$kind(panel)
+            }
+        }
+    )*};
+}
+panels!(Plot, Traces, Map, Strip);
+
+impl Panel {
+    /// Checks the data and settles everything that decides how much room is needed, for a cell of `width` points.
+    pub(crate) fn prepare<'a>(
+        &'a self,
+        width: f64,
+        style: &'a Style,
+    ) -> Result<Box<dyn Prepared + 'a>, PlotError> {
+        Ok(match self {
+            Self::Plot(plot) => Box::new(crate::plot::PreparedPlot::new(plot, width, style)?),
+            Self::Traces(traces) => Box::new(crate::traces::PreparedTraces::new(traces, width, style)?),
+            Self::Map(map) => Box::new(crate::map::PreparedMap::new(map, width, style)?),
+            Self::Strip(strip) => Box::new(crate::strip::PreparedStrip::new(strip, width, style)?),
+        })
+    }
+}
+
+/// A panel ready to be placed.
+pub(crate) trait Prepared {
+    /// Room needed round the frame, in points.
+    fn margins(&self) -> Margins;
+    /// Whether its frame lines up with those above and below it.
+    fn aligned(&self) -> bool {
+        true
+    }
+    /// Height of the frame when it is so wide, in points.
+    fn height(&self, width: f64) -> f64;
+    /// Draws it with its frame there.
+    fn draw(&self, canvas: &mut Canvas, frame: Rect) -> Result<Placed, PlotError>;
+}
+
+/// Room round a frame, in points.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Margins {
+    pub left: f64,
+    pub right: f64,
+    pub top: f64,
+    pub bottom: f64,
+}
+
+/// Where a panel's data have come to lie.
+#[derive(Clone, Debug)]
+pub(crate) struct Placed {
+    pub frame: Rect,
+    pub x: Ruler,
+    pub y: Ruler,
+}
+
+impl Placed {
+    /// A datum's place in points; absent where it cannot be shown.
+    pub fn point(&self, x: f64, y: f64) -> Option<[f64; 2]> {
+        let (across, up) = (self.x.place(x), self.y.place(y));
+        (across.is_finite() && up.is_finite())
+            .then(|| [self.frame.x + across * self.frame.width, self.frame.bottom() - up * self.frame.height])
+    }
+
+    /// The abscissa's place in points.
+    pub fn across(&self, x: f64) -> f64 {
+        self.frame.x + self.x.place(x) * self.frame.width
+    }
+
+    /// The ordinate's place in points.
+    pub fn up(&self, y: f64) -> f64 {
+        self.frame.bottom() - self.y.place(y) * self.frame.height
+    }
+}

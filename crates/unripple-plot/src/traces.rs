@@ -1,0 +1,227 @@
+use crate::axis::{Axis, Direction, LARGEST, Padding, Ruler, usable};
+use crate::canvas::{Anchor, Canvas, Rect, Rise, Stroke, Text, rectangle};
+use crate::colour::Rgb;
+use crate::error::some_finite;
+use crate::layer::{Ink, Layer, Rule};
+use crate::panel::{Margins, Placed, Prepared};
+use crate::style::{GAP, Style, points};
+use crate::{PlotError, font, frame, paint, ticks};
+
+/// Traces one above the other over one time axis, each with its name at the left, as on an oscilloscope.
+/// A bar at the right gives the scale.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Traces {
+    /// The shared abscissae.
+    pub x: Axis,
+    /// Abscissa of the first sample, in the data's unit.
+    pub start: f64,
+    /// Step from one sample to the next, in the data's unit.
+    pub step: f64,
+    /// The traces, the first at the top.
+    pub traces: Vec<Trace>,
+    /// Unit of the scale bar, as in `mm/s`.
+    pub unit: String,
+    /// What a datum is multiplied by to be in that unit.
+    pub multiplier: f64,
+    /// Whether each trace fills its lane at a scale of its own, with a bar of its own.
+    pub own_scales: bool,
+    /// Lines at single abscissae across all traces.
+    pub rules: Vec<Rule>,
+    /// Height of one lane in millimetres; absent, what suits their number.
+    pub lane_mm: Option<f64>,
+    /// Text above; none if empty.
+    pub title: String,
+}
+
+/// One trace.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trace {
+    /// Its name.
+    pub label: String,
+    /// Its samples; one that is not finite leaves a gap.
+    pub values: Vec<f64>,
+    /// Its colour.
+    pub ink: Ink,
+}
+
+impl Trace {
+    /// A trace in the palette's first colour.
+    pub fn new(label: impl Into<String>, values: Vec<f64>) -> Self {
+        Self { label: label.into(), values, ink: Ink::Palette(0) }
+    }
+}
+
+impl Default for Traces {
+    fn default() -> Self {
+        Self {
+            x: Axis::default(),
+            start: 0.0,
+            step: 1.0,
+            traces: Vec::new(),
+            unit: String::new(),
+            multiplier: 1.0,
+            own_scales: false,
+            rules: Vec::new(),
+            lane_mm: None,
+            title: String::new(),
+        }
+    }
+}
+
+/// Space between a scale bar and what is beside it, in points.
+const BAR_GAP: f64 = 4.0;
+
+pub(crate) struct PreparedTraces<'a> {
+    traces: &'a Traces,
+    style: &'a Style,
+    x: Ruler,
+    /// Lowest and highest value of each lane, in the data's unit.
+    ranges: Vec<[f64; 2]>,
+    /// Length of each lane's scale bar in the unit shown; none for lanes that share another's.
+    bars: Vec<Option<f64>>,
+    lane: f64,
+}
+
+impl<'a> PreparedTraces<'a> {
+    pub fn new(traces: &'a Traces, width: f64, style: &'a Style) -> Result<Self, PlotError> {
+        traces.check()?;
+        let longest = traces.traces.iter().map(|trace| trace.values.len()).max().unwrap_or(0);
+        let ends = [traces.start, traces.start + traces.step * longest.saturating_sub(1) as f64];
+        let across = (width - 6.0 * style.label_pt).max(20.0);
+        let padding = Padding { share: 0.0, zero: false };
+        let x = Ruler::new(&traces.x, ends.into_iter(), padding, Direction::Across, across, style.tick_pt)?;
+        let mut ranges: Vec<[f64; 2]> = traces.traces.iter().map(|trace| range(&trace.values)).collect();
+        if !traces.own_scales {
+            let shared = ranges.iter().fold([0.0f64, 0.0f64], |[l, h], r| [l.min(r[0]), h.max(r[1])]);
+            ranges.fill(shared);
+        }
+        ranges.iter_mut().filter(|[low, high]| high - low <= 0.0).for_each(|range| *range = [-1.0, 1.0]);
+        let last = ranges.len() - 1;
+        let bars = ranges
+            .iter()
+            .enumerate()
+            .map(|(i, [low, high])| {
+                let span = (high - low) * traces.multiplier.abs();
+                (traces.own_scales || i == last).then(|| ticks::round_below(0.75 * span))
+            })
+            .collect();
+        let lane =
+            traces.lane_mm.map_or((130.0 / ranges.len() as f64).clamp(17.0, 34.0), points).clamp(2.0, 1000.0);
+        Ok(Self { traces, style, x, ranges, bars, lane })
+    }
+
+    fn bar_label(&self, bar: f64) -> String {
+        format!("{} {}", ticks::short(bar), self.traces.unit).trim_end().to_owned()
+    }
+
+    fn lane(&self, frame: Rect, i: usize) -> Rect {
+        let gap = 0.06 * self.lane;
+        Rect { y: frame.y + i as f64 * self.lane + gap, height: self.lane - 2.0 * gap, ..frame }
+    }
+
+    fn draw_lane(&self, canvas: &mut Canvas, placed: &Placed, i: usize) {
+        let (trace, [low, high], lane) = (&self.traces.traces[i], self.ranges[i], self.lane(placed.frame, i));
+        let up = |value: f64| lane.bottom() - (value - low) / (high - low) * lane.height;
+        let zero = Stroke::solid(Rgb(205, 205, 205), 0.5);
+        canvas.line([lane.x, up(0.0)], [lane.right(), up(0.0)], zero);
+        let at = |(i, &value): (usize, &f64)| {
+            let x = placed.across(self.traces.start + i as f64 * self.traces.step);
+            (usable(value) && x.is_finite()).then(|| [x, up(value)])
+        };
+        let places: Vec<Option<[f64; 2]>> = trace.values.iter().enumerate().map(at).collect();
+        let runs: Vec<Vec<[f64; 2]>> = places
+            .split(Option::is_none)
+            .filter(|run| !run.is_empty())
+            .map(|run| run.iter().flatten().copied().collect())
+            .collect();
+        let path = paint::curve_path(&runs);
+        canvas.stroke(&path, Stroke::solid(trace.ink.colour(i), 0.8 * self.style.line_pt));
+    }
+
+    fn draw_beside(&self, canvas: &mut Canvas, frame: Rect, i: usize) {
+        let ([low, high], lane, size) = (self.ranges[i], self.lane(frame, i), self.style.tick_pt);
+        let zero = lane.bottom() - (0.0 - low) / (high - low) * lane.height;
+        let label = Text::new(&self.traces.traces[i].label, [frame.x - BAR_GAP, zero], size);
+        canvas.text(label.anchor(Anchor::End).rise(Rise::Middle));
+        let Some(bar) = self.bars[i] else {
+            return;
+        };
+        let length = bar / self.traces.multiplier.abs() / (high - low) * lane.height;
+        let (x, middle) = (frame.right() + BAR_GAP, lane.y + lane.height / 2.0);
+        let stroke = Stroke::solid(Rgb::BLACK, 1.2);
+        canvas.line([x, middle - length / 2.0], [x, middle + length / 2.0], stroke);
+        let label = self.bar_label(bar);
+        canvas.text(Text::new(&label, [x + GAP, middle], size).rise(Rise::Middle));
+    }
+}
+
+impl Prepared for PreparedTraces<'_> {
+    fn margins(&self) -> Margins {
+        let size = self.style.tick_pt;
+        let names =
+            self.traces.traces.iter().map(|trace| font::width(&trace.label, size)).fold(0.0, f64::max);
+        let bars = self.bars.iter().flatten().map(|bar| font::width(&self.bar_label(*bar), size));
+        let bars = bars.fold(0.0, f64::max) + BAR_GAP + GAP + 1.0;
+        let rules = self.traces.rules.iter().any(|rule| !rule.label.is_empty());
+        Margins {
+            left: names + BAR_GAP + 1.0,
+            right: bars.max(frame::room_right(&self.x, self.style)),
+            top: if rules { 1.4 * size } else { 1.0 }
+                + if self.traces.title.is_empty() { 0.0 } else { 1.5 * self.style.label_pt },
+            bottom: 2.0 + frame::room_below(&self.traces.x.label, self.style),
+        }
+    }
+
+    fn height(&self, _width: f64) -> f64 {
+        self.lane * self.ranges.len() as f64
+    }
+
+    fn draw(&self, canvas: &mut Canvas, frame: Rect) -> Result<Placed, PlotError> {
+        let lanes = Axis::new("").from(0.0).to(self.ranges.len() as f64);
+        let none = Padding { share: 0.0, zero: false };
+        let y =
+            Ruler::new(&lanes, std::iter::empty(), none, Direction::Up, frame.height, self.style.tick_pt)?;
+        let placed = Placed { frame, x: self.x.clone(), y };
+        canvas.clip(&rectangle(frame));
+        (0..self.ranges.len()).for_each(|i| self.draw_lane(canvas, &placed, i));
+        canvas.end();
+        let rules: Vec<Layer> = self.traces.rules.iter().cloned().map(Layer::Rule).collect();
+        paint::layers(canvas, &placed, &rules, self.style);
+        (0..self.ranges.len()).for_each(|i| self.draw_beside(canvas, frame, i));
+        frame::draw_across(canvas, &placed, &self.traces.x.label, 2.0, self.style);
+        let above = if self.traces.rules.iter().any(|rule| !rule.label.is_empty()) {
+            1.4 * self.style.tick_pt
+        } else {
+            1.0
+        };
+        let at = [frame.x + frame.width / 2.0, frame.y - above - GAP];
+        canvas.text(Text::new(&self.traces.title, at, self.style.label_pt).anchor(Anchor::Middle));
+        Ok(placed)
+    }
+}
+
+/// Lowest and highest value, zero included.
+fn range(values: &[f64]) -> [f64; 2] {
+    values.iter().filter(|v| usable(**v)).fold([0.0, 0.0], |[low, high], v| [low.min(*v), high.max(*v)])
+}
+
+impl Traces {
+    fn check(&self) -> Result<(), PlotError> {
+        if self.traces.is_empty() {
+            return Err(PlotError::Empty { what: "traces".to_owned(), found: "none".to_owned() });
+        }
+        for trace in &self.traces {
+            some_finite(&format!("trace `{}`", trace.label), &trace.values)?;
+        }
+        some_finite("start of the traces", &[self.start])?;
+        for (what, found) in
+            [("step of the traces", self.step), ("multiplier of the traces", self.multiplier)]
+        {
+            if !(usable(found) && found.abs() > 1.0 / LARGEST) {
+                let expected = "a finite, non-zero number";
+                return Err(PlotError::Range { what: what.to_owned(), expected, found });
+            }
+        }
+        self.rules.iter().try_for_each(|rule| some_finite(&format!("rule `{}`", rule.label), &[rule.at]))
+    }
+}
