@@ -1,0 +1,240 @@
+use super::{Bench, Draw, Random, Replay, Sampling, StudyError};
+use faer::{Mat, MatRef};
+use rayon::prelude::*;
+use unripple_core::{Point, Surface};
+use unripple_physics::design::{Cavity, closed};
+
+/// A simulated contrast beside what is predicted for it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Compared {
+    /// Number of actuators N.
+    pub actuators: usize,
+    /// What was varied: a window (s), a period (s), the top of a band (Hz) or a ratio of noise.
+    pub varied: f64,
+    /// Mean over placements and targets.
+    pub simulated: f64,
+    /// By [`Cavity`], the refined closed form.
+    pub predicted: f64,
+    /// By [`closed`], the plain one.
+    pub plain: f64,
+}
+
+/// Contrast of one focus against window (s, ascending) and number of actuators.
+///
+/// ```
+/// # use unripple::study::{Bench, CELLS, Sampling, against_window};
+/// let surface = unripple_physics::design::papers_surface();
+/// let sampling = Sampling { placements: 4, ..Sampling::default() };
+/// let rows = against_window(&Bench::of(&surface, CELLS)?, &surface, &[0.030], &[8], &sampling);
+/// assert!((rows[0].simulated / rows[0].predicted - 1.0).abs() < 0.2);
+/// # Ok::<(), unripple::study::StudyError>(())
+/// ```
+pub fn against_window(
+    bench: &Bench,
+    surface: &Surface,
+    windows: &[f64],
+    actuators: &[usize],
+    sampling: &Sampling,
+) -> Vec<Compared> {
+    let form = Form::of(bench, surface);
+    let replays: Vec<_> = windows.iter().map(|window| bench.once(*window)).collect();
+    let means = means(bench, &replays, actuators, sampling);
+    let row = |(window, n, simulated): (f64, usize, f64)| Compared {
+        actuators: n,
+        varied: window,
+        simulated,
+        predicted: form.cavity.contrast(n as f64, window),
+        plain: form.plain(n, window),
+    };
+    spread(windows, actuators, &means).map(row).collect()
+}
+
+/// Contrast of a focus repeated at periods (s) with a window (s), against number of actuators.
+pub fn against_period(
+    bench: &Bench,
+    surface: &Surface,
+    window: f64,
+    periods: &[f64],
+    actuators: &[usize],
+    sampling: &Sampling,
+) -> Vec<Compared> {
+    let form = Form::of(bench, surface);
+    let replays: Vec<_> = periods.iter().map(|period| bench.repeated(window, *period)).collect();
+    let means = means(bench, &replays, actuators, sampling);
+    let row = |(period, n, simulated): (f64, usize, f64)| Compared {
+        actuators: n,
+        varied: period,
+        simulated,
+        predicted: form.cavity.repeated(n as f64, window, period),
+        plain: form.plain_repeated(n, window, period),
+    };
+    spread(periods, actuators, &means).map(row).collect()
+}
+
+/// Contrast against the top of the band (Hz), window (s) and number of actuators kept. The disc grows with λ_min.
+///
+/// # Errors
+/// [`StudyError::Field`] if a band is so narrow that its grid has no cells.
+pub fn against_band(
+    bench: &Bench,
+    surface: &Surface,
+    tops: &[f64],
+    (actuators, window): (usize, f64),
+    sampling: &Sampling,
+) -> Result<Vec<Compared>, StudyError> {
+    let row = |top: &f64| {
+        let narrow = bench.up_to(surface, *top)?;
+        let mut surface = surface.clone();
+        surface.emission.band[1] = *top;
+        let mut rows = against_window(&narrow, &surface, &[window], &[actuators], sampling);
+        rows.iter_mut().for_each(|row| row.varied = *top);
+        Ok(rows)
+    };
+    Ok(tops.iter().map(row).collect::<Result<Vec<_>, StudyError>>()?.concat())
+}
+
+/// Contrast when responses are recorded, or the drive emitted, with white noise: against the rms of the noise within
+/// the band over that of the responses over the window.
+pub fn against_noise(
+    bench: &Bench,
+    surface: &Surface,
+    ratios: &[f64],
+    (actuators, window): (usize, f64),
+    sampling: &Sampling,
+) -> Vec<Compared> {
+    let form = Form::of(bench, surface);
+    let replay = bench.once(window);
+    let rings = bench.rings(window);
+    let found = over(bench, actuators, sampling, |index, draw, inputs| {
+        let mut random = Random::seeded(sampling.seed.wrapping_mul(7919).wrapping_add(index as u64));
+        let noise = noise_state(bench, inputs, rings.as_ref(), &mut random);
+        let replayed = |target: &Point| {
+            let outside = bench.outside(*target);
+            let states = bench.states(&replay, inputs, &outside);
+            let state = states.col(actuators.saturating_sub(1));
+            let level = noise_level(bench, outside.at_target(state.as_mat())[0], actuators, window);
+            let noisy =
+                Mat::from_fn(state.nrows(), ratios.len(), |m, r| state[m] + ratios[r] * level * noise[m]);
+            bench.contrasts(noisy.as_ref(), &outside)
+        };
+        draw.targets.iter().map(replayed).collect()
+    });
+    ratios
+        .iter()
+        .enumerate()
+        .map(|(r, ratio)| Compared {
+            actuators,
+            varied: *ratio,
+            simulated: mean(found.iter().map(|row| row[r])),
+            predicted: form.cavity.noisy(actuators as f64, window, *ratio),
+            plain: form.plain_noisy(actuators, window, *ratio),
+        })
+        .collect()
+}
+
+/// What white noise of unit variance on every channel leaves of each mode at the focal instant.
+fn noise_state(
+    bench: &Bench,
+    inputs: MatRef<'_, f64>,
+    rings: MatRef<'_, f64>,
+    random: &mut Random,
+) -> Vec<f64> {
+    let noise = Mat::from_fn(rings.nrows(), inputs.nrows(), |_, _| random.normal());
+    let left = rings.transpose() * noise;
+    let rate = bench.conditions().rate;
+    (0..rings.ncols())
+        .map(|m| (0..inputs.nrows()).map(|a| inputs[(a, m)] * left[(m, a)]).sum::<f64>() / rate)
+        .collect()
+}
+
+/// Standard deviation of the white samples whose rms within the band is that of the responses over the window.
+///
+/// The velocity of a focus is the energy Σ∫h² of the responses it was made of.
+fn noise_level(bench: &Bench, velocity: f64, actuators: usize, window: f64) -> f64 {
+    let conditions = bench.conditions();
+    let share = 2.0 * (conditions.band[1] - conditions.band[0]) / conditions.rate;
+    (velocity / actuators as f64 / window / share).sqrt()
+}
+
+/// The closed forms of a bench.
+struct Form {
+    cavity: Cavity,
+    bandwidth: f64,
+    decay_time: f64,
+    modes: f64,
+}
+
+impl Form {
+    fn of(bench: &Bench, surface: &Surface) -> Self {
+        let modes = bench.modes() as f64;
+        let [low, top] = surface.emission.band;
+        let cavity = Cavity::of(surface, top).counted(modes);
+        Self { decay_time: cavity.decay_time(), cavity, bandwidth: top - low, modes }
+    }
+
+    fn plain(&self, actuators: usize, window: f64) -> f64 {
+        closed::contrast(actuators as f64, self.bandwidth, self.decay_time, window, self.modes)
+    }
+
+    fn plain_repeated(&self, actuators: usize, window: f64, period: f64) -> f64 {
+        let n = actuators as f64;
+        closed::repeated(n, self.bandwidth, self.decay_time, window, self.modes, period)
+    }
+
+    fn plain_noisy(&self, actuators: usize, window: f64, ratio: f64) -> f64 {
+        let noise = closed::noise_share(actuators as f64, self.bandwidth, window, ratio);
+        (self.plain(actuators, window).powi(-2) + noise).powf(-0.5)
+    }
+}
+
+/// Mean contrasts, maps x numbers of actuators.
+fn means(bench: &Bench, replays: &[Replay], actuators: &[usize], sampling: &Sampling) -> Vec<Vec<f64>> {
+    let most = actuators.iter().copied().max().unwrap_or(0);
+    let found = over(bench, most, sampling, |_, draw, inputs| {
+        draw.targets
+            .iter()
+            .map(|target| {
+                let outside = bench.outside(*target);
+                let contrasts = |replay: &Replay| {
+                    let states = bench.states(replay, inputs, &outside);
+                    let all = bench.contrasts(states.as_ref(), &outside);
+                    actuators.iter().map(|n| all[n.saturating_sub(1)]).collect::<Vec<_>>()
+                };
+                replays.iter().flat_map(contrasts).collect()
+            })
+            .collect()
+    });
+    let at = |i: usize, j: usize| mean(found.iter().map(|row| row[i * actuators.len() + j]));
+    (0..replays.len()).map(|i| (0..actuators.len()).map(|j| at(i, j)).collect()).collect()
+}
+
+/// Evaluates every draw: a row of values per target.
+pub(super) fn over<F>(bench: &Bench, actuators: usize, sampling: &Sampling, evaluate: F) -> Vec<Vec<f64>>
+where
+    F: Fn(usize, &Draw, MatRef<'_, f64>) -> Vec<Vec<f64>> + Sync,
+{
+    let draws = sampling.draws(bench.outline(), actuators);
+    let found: Vec<_> = draws
+        .par_iter()
+        .enumerate()
+        .map(|(i, draw)| evaluate(i, draw, bench.shapes_at(&draw.actuators).as_ref()))
+        .collect();
+    found.concat()
+}
+
+pub(super) fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0.0), |(sum, count), x| (sum + x, count + 1.0));
+    sum / count
+}
+
+/// Every value with every number of actuators and its mean.
+fn spread<'a>(
+    values: &'a [f64],
+    actuators: &'a [usize],
+    means: &'a [Vec<f64>],
+) -> impl Iterator<Item = (f64, usize, f64)> + 'a {
+    values
+        .iter()
+        .zip(means)
+        .flat_map(move |(value, row)| actuators.iter().zip(row).map(move |(n, mean)| (*value, *n, *mean)))
+}

@@ -1,0 +1,38 @@
+//! Statistics of time-reversed focusing over many placements and targets, beside the closed forms.
+//!
+//! [`Sampling`] draws actuators along the rim and targets inside, [`Bench`] holds a surface's modes ready for many
+//! foci. [`against_window`] and its sisters give tables of simulated and predicted contrast, [`size()`] the width of foci in
+//! space and time. Actuators are ideal point forces, whatever the surface's own are.
+//!
+//! ```
+//! use unripple::study::*;
+//!
+//! let surface = unripple_physics::design::papers_surface();
+//! let bench = Bench::of(&surface, CELLS)?;
+//! let sampling = Sampling { placements: 8, targets: 1, ..Sampling::default() };
+//! let (n, window) = (8, 0.030);
+//! let mut rows = against_window(&bench, &surface, &[window], &[n], &sampling);
+//! rows.extend(against_period(&bench, &surface, window, &[0.070], &[n], &sampling));
+//! rows.extend(against_noise(&bench, &surface, &[1.0], (n, window), &sampling));
+//! rows.extend(against_band(&bench, &surface, &[2000.0], (n, window), &sampling)?);
+//! for row in rows {
+//!     assert!((row.simulated / row.predicted - 1.0).abs() < 0.3, "{row:?}");
+//! }
+//! let focus = size(&bench, &surface, (n, window), &sampling);
+//! assert!((focus.spot_diameter_m / focus.spot_predicted_m - 1.0).abs() < 0.15);
+//! # Ok::<(), StudyError>(())
+//! ```
+
+mod bench;
+mod contrast;
+mod random;
+mod replay;
+mod sampling;
+mod size;
+
+pub use bench::{Bench, CELLS, Outside, StudyError};
+pub use contrast::{Compared, against_band, against_noise, against_period, against_window};
+pub use random::Random;
+pub use replay::Replay;
+pub use sampling::{Draw, Sampling};
+pub use size::{Size, size};

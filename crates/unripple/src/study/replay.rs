@@ -1,0 +1,129 @@
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatRef, Par};
+use unripple_core::{Pole, window_samples};
+
+/// What a replayed response leaves of every mode at the focal instant: `I_mn = Σ_i heard_m[i] g_n[i] / rate`.
+///
+/// The response holds g_n; mode m hears it through g_m of the same age for one pulse, and through all pulses of a comb.
+/// It is kept as a product of two factors where that is cheaper to apply than the modes x modes matrix.
+#[derive(Clone, Debug)]
+pub struct Replay(Form);
+
+#[derive(Clone, Debug)]
+enum Form {
+    Whole(Mat<f64>),
+    Factors { heard: Mat<f64>, rings: Mat<f64> },
+}
+
+impl Replay {
+    /// One pulse over a window (s) at `rate` samples per second.
+    pub fn once(poles: &[Pole], rate: f64, window: f64) -> Self {
+        let rings = rings(poles, rate, window_samples(window, rate));
+        Self::of(rings.clone(), rings, rate)
+    }
+
+    /// A pulse repeated every `period` seconds, long after the first and long before the last.
+    ///
+    /// The pulses before have left the state Σ_k P^k = (1 - P)⁻¹ of an impulse, P the propagator over a period, and one
+    /// more begins every period.
+    pub fn repeated(poles: &[Pole], rate: f64, window: f64, period: f64) -> Self {
+        let (last, step) = (window_samples(window, rate), window_samples(period, rate).max(1));
+        let mut heard = Mat::zeros(last + 1, poles.len());
+        for (m, pole) in poles.iter().enumerate() {
+            let [[a, b], [c, d]] = pole.step(step as f64 / rate);
+            let determinant = (1.0 - a) * (1.0 - d) - b * c;
+            let (mut u, mut v) = (b / determinant, (1.0 - a) / determinant);
+            let [[a, b], [c, d]] = pole.step(1.0 / rate);
+            for i in 0..=last {
+                if i > 0 {
+                    (u, v) = (a * u + b * v, c * u + d * v);
+                    v += f64::from(i % step == 0);
+                }
+                heard[(i, m)] = v;
+            }
+        }
+        Self::of(heard, rings(poles, rate, last), rate)
+    }
+
+    /// I times a matrix of modes x any columns.
+    pub fn apply(&self, columns: MatRef<'_, f64>) -> Mat<f64> {
+        match &self.0 {
+            Form::Whole(map) => product(map.as_ref(), columns),
+            Form::Factors { heard, rings } => {
+                product(heard.transpose(), product(rings.as_ref(), columns).as_ref())
+            }
+        }
+    }
+
+    fn of(mut heard: Mat<f64>, rings: Mat<f64>, rate: f64) -> Self {
+        heard *= faer::Scale(1.0 / rate);
+        if 2 * rings.nrows() < rings.ncols() {
+            Self(Form::Factors { heard, rings })
+        } else {
+            Self(Form::Whole(product(heard.transpose(), rings.as_ref())))
+        }
+    }
+}
+
+/// Modal velocities g_m at samples 0 to `last`, samples x modes.
+pub(super) fn rings(poles: &[Pole], rate: f64, last: usize) -> Mat<f64> {
+    Mat::from_fn(last + 1, poles.len(), |i, m| poles[m].velocity(i as f64 / rate))
+}
+
+/// The matrix product, on all cores.
+pub(super) fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
+    let mut sum = Mat::zeros(a.nrows(), b.ncols());
+    matmul(sum.as_mut(), Accum::Replace, a, b, 1.0, Par::rayon(0));
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn poles() -> Vec<Pole> {
+        (1..5).map(|m| Pole { omega: 700.0 * f64::from(m), sigma: 30.0 * f64::from(m) }).collect()
+    }
+
+    /// I by summing pulse after pulse, each delayed as it is.
+    fn by_pulses(window: usize, step: usize, rate: f64) -> Mat<f64> {
+        let poles = poles();
+        Mat::from_fn(4, 4, |m, n| {
+            let one = |delay: i64| -> f64 {
+                (0..=window as i64)
+                    .filter(|i| i + delay >= 0)
+                    .map(|i| {
+                        poles[m].velocity((i + delay) as f64 / rate) * poles[n].velocity(i as f64 / rate)
+                    })
+                    .sum()
+            };
+            (-100..1000).map(|k: i64| one(k * step as i64)).sum::<f64>() / rate
+        })
+    }
+
+    #[test]
+    fn a_comb_is_its_pulses() {
+        let rate = 8e3;
+        for (window, step) in [(80, 300), (80, 80), (200, 60)] {
+            let replay = Replay::repeated(&poles(), rate, f64::from(window) / rate, f64::from(step) / rate);
+            let found = replay.apply(Mat::<f64>::identity(4, 4).as_ref());
+            let expected = by_pulses(window as usize, step as usize, rate);
+            let error = (&found - &expected).norm_max() / expected.norm_max();
+            assert!(error < 1e-9, "{window} {step}: {error}");
+        }
+    }
+
+    #[test]
+    fn factors_and_whole_agree() {
+        let (rate, poles) = (8e3, [poles(), poles(), poles()].concat());
+        let identity = Mat::<f64>::identity(12, 12);
+        for (last, factored) in [(4, true), (5, false)] {
+            let replay = Replay::once(&poles, rate, f64::from(last) / rate);
+            assert_eq!(matches!(replay.0, Form::Factors { .. }), factored);
+            let found = replay.apply(identity.as_ref())[(1, 2)];
+            let at = |i: i32, m: usize| poles[m].velocity(f64::from(i) / rate);
+            let expected = (0..=last).map(|i| at(i, 1) * at(i, 2)).sum::<f64>() / rate;
+            assert!((found / expected - 1.0).abs() < 1e-12);
+        }
+    }
+}

@@ -1,0 +1,105 @@
+use super::contrast::{mean, over};
+use super::{Bench, Sampling};
+use faer::{ColRef, Mat, MatRef};
+use std::f64::consts::TAU;
+use unripple_core::{Point, Surface, window_samples};
+use unripple_physics::design::{Cavity, closed};
+
+/// Directions in which a spot is measured.
+const DIRECTIONS: usize = 16;
+
+/// Radii at which it is read, and the largest of them in shortest wavelengths.
+const RADII: usize = 40;
+const REACH: f64 = 1.0;
+
+/// Simulated size of a focus beside the closed forms.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Size {
+    /// Mean full width at half maximum in space, in metres.
+    pub spot_diameter_m: f64,
+    /// The same by [`closed::spot_diameter`].
+    pub spot_predicted_m: f64,
+    /// Mean full width at half maximum in time, in seconds.
+    pub pulse_duration_s: f64,
+    /// The same by [`closed::pulse_duration`].
+    pub pulse_predicted_s: f64,
+}
+
+/// Size of foci, averaged over placements and targets. Foci that do not fall to half within a wavelength are left out.
+pub fn size(
+    bench: &Bench,
+    surface: &Surface,
+    (actuators, window): (usize, f64),
+    sampling: &Sampling,
+) -> Size {
+    let replay = bench.once(window);
+    let lag = window_samples(1.0 / bench.conditions().band[1], bench.conditions().rate);
+    let rings = bench.rings(window + lag as f64 / bench.conditions().rate);
+    let found = over(bench, actuators, sampling, |_, draw, inputs| {
+        let sizes = |target: &Point| {
+            let outside = bench.outside(*target);
+            let states = bench.states(&replay, inputs, &outside);
+            let spot = spot(bench, *target, states.col(actuators.saturating_sub(1)));
+            let shapes = bench.shapes_at(&[*target]);
+            vec![spot, pulse(bench, inputs, shapes.as_ref(), rings.as_ref(), lag)]
+        };
+        draw.targets.iter().map(sizes).collect()
+    });
+    let average = |i: usize| mean(found.iter().map(|row| row[i]).filter(|width| width.is_finite()));
+    let [low, top] = surface.emission.band;
+    let growth = Cavity::of(surface, top).growth();
+    Size {
+        spot_diameter_m: average(0),
+        spot_predicted_m: closed::spot_diameter(bench.conditions().lambda_min),
+        pulse_duration_s: average(1),
+        pulse_predicted_s: closed::pulse_duration(top - low, growth),
+    }
+}
+
+/// Twice the mean radius at which a state falls to half, over all directions, in metres.
+fn spot(bench: &Bench, target: Point, state: ColRef<'_, f64>) -> f64 {
+    let step = REACH * bench.conditions().lambda_min / RADII as f64;
+    let place = |direction: usize, ring: usize| {
+        let (sin, cos) = (TAU * direction as f64 / DIRECTIONS as f64).sin_cos();
+        let radius = step * ring as f64;
+        Point::new(target.x + radius * cos, target.y + radius * sin)
+    };
+    let places: Vec<Point> =
+        (0..DIRECTIONS).flat_map(|d| (0..=RADII).map(move |r| (d, r))).map(|(d, r)| place(d, r)).collect();
+    let field = bench.shapes_at(&places) * state;
+    let radius = |d: usize| {
+        let ray: Vec<f64> = (0..=RADII).map(|r| field[d * (RADII + 1) + r]).collect();
+        step * half_at(&ray)
+    };
+    2.0 * mean((0..DIRECTIONS).map(radius))
+}
+
+/// Full width at half maximum of the velocity at the target around the focal instant, in seconds.
+///
+/// It is the sum of the responses' autocorrelations: `Σ_l h[l + s] h[l]` for a lag of s samples after, and as many before.
+fn pulse(
+    bench: &Bench,
+    inputs: MatRef<'_, f64>,
+    target: MatRef<'_, f64>,
+    rings: MatRef<'_, f64>,
+    lag: usize,
+) -> f64 {
+    let weights = Mat::from_fn(rings.ncols(), inputs.nrows(), |m, a| inputs[(a, m)] * target[(0, m)]);
+    let responses = rings * weights;
+    let last = responses.nrows() - 1 - lag;
+    let sum = |range: std::ops::RangeInclusive<usize>, s: usize| -> f64 {
+        let product =
+            |a: usize| -> f64 { range.clone().map(|l| responses[(l + s, a)] * responses[(l, a)]).sum() };
+        (0..responses.ncols()).map(product).sum()
+    };
+    let after: Vec<f64> = (0..=lag).map(|s| sum(0..=last, s)).collect();
+    let before: Vec<f64> = (0..=lag.min(last)).map(|s| sum(0..=last - s, s)).collect();
+    (half_at(&after) + half_at(&before)) / bench.conditions().rate
+}
+
+/// Where values first fall to half of the first, in steps, between samples linearly; NaN if they never do.
+fn half_at(values: &[f64]) -> f64 {
+    let half = values.first().map_or(0.0, |top| top / 2.0);
+    let crossing = values.windows(2).position(|pair| pair[1] <= half);
+    crossing.map_or(f64::NAN, |i| i as f64 + (values[i] - half) / (values[i] - values[i + 1]))
+}
