@@ -1,0 +1,168 @@
+//! What can be typed. Lengths in mm, times in ms.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// Waves that meet under a fingertip: design, simulate and focus a reverberant touch surface.
+///
+/// SURFACE is a TOML file or the name of a built-in surface, such as hudin-2012.
+#[derive(Debug, Parser)]
+#[command(version, propagate_version = true)]
+pub struct Arguments {
+    /// Print one JSON object (SI units) on standard output, everything else on standard error.
+    #[arg(long, global = true)]
+    pub json: bool,
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Celerities, modes, window, predicted contrast, spot, power at the finger.
+    Design(DesignOptions),
+    /// Modal analysis: frequencies and decay times.
+    Modes(ModesOptions),
+    /// A drive that focuses on points or shapes, with its report and figures.
+    Focus(FocusOptions),
+    /// What any drive does to a surface.
+    Field(FieldOptions),
+    /// All faults of a surface file.
+    Check(CheckOptions),
+    /// The paper's table and figures beside ours, as one page.
+    Reproduce(ReproduceOptions),
+}
+
+/// Options of `check`.
+#[derive(Debug, Args)]
+pub struct CheckOptions {
+    /// A surface file, or the name of a built-in surface.
+    pub surface: String,
+}
+
+/// Options of `design`.
+#[derive(Debug, Args)]
+pub struct DesignOptions {
+    /// A surface file, or the name of a built-in surface.
+    pub surface: String,
+}
+
+/// Options of `modes`.
+#[derive(Debug, Args)]
+pub struct ModesOptions {
+    /// A surface file, or the name of a built-in surface.
+    pub surface: String,
+    /// Highest frequency, in Hz; by default the top of the surface's band.
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    pub max_hz: Option<f64>,
+    /// Relative accuracy of the frequencies.
+    #[arg(long, value_name = "FRACTION", default_value_t = 1e-6, allow_negative_numbers = true)]
+    pub accuracy: f64,
+}
+
+/// Where to focus, and how strongly.
+#[derive(Debug, Args)]
+pub struct TargetOptions {
+    /// A point in mm, with an optional gain and repetition rate in Hz. Repeatable.
+    #[arg(long, value_name = "X,Y[,GAIN[,HZ]]", allow_hyphen_values = true)]
+    pub at: Vec<String>,
+    /// A shape in mm: an SVG file, triangle:X,Y,SIZE or circle:X,Y,R. Repeatable.
+    #[arg(long, value_name = "SHAPE")]
+    pub shape: Vec<String>,
+    /// Peak displacement wanted at the first target, in µm; by default as much as the drive limit gives.
+    #[arg(long, value_name = "UM", allow_negative_numbers = true)]
+    pub peak_um: Option<f64>,
+}
+
+/// Methods by the names the command line and reports use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum MethodName {
+    /// The response from every actuator to the target, played backwards.
+    TimeReversal,
+    /// The sign of time reversal, at the limit throughout.
+    OneBit,
+}
+
+/// How the decay of what is played back is made up for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum LossName {
+    /// Not at all: the paper's time reversal.
+    None,
+    /// By e^{+t/τ} with the surface's one decay time.
+    Uniform,
+    /// Mode by mode, by e^{+t/τ} with each mode's own decay time.
+    PerMode,
+}
+
+/// Options of `focus`.
+#[derive(Debug, Args)]
+pub struct FocusOptions {
+    /// A surface file, or the name of a built-in surface.
+    pub surface: String,
+    #[command(flatten)]
+    pub targets: TargetOptions,
+    /// How to focus.
+    #[arg(long, value_enum, default_value_t = MethodName::TimeReversal)]
+    pub method: MethodName,
+    /// Window T in ms; by default the one that `design` recommends.
+    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
+    pub window_ms: Option<f64>,
+    /// Make up for losses in what is played back.
+    #[arg(long, value_enum, default_value_t = LossName::None)]
+    pub losses: LossName,
+    /// Length of a repeated drive in ms; by default long enough to be steady.
+    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
+    pub duration_ms: Option<f64>,
+    /// Judge the drive on another surface than the one it was computed for.
+    #[arg(long, value_name = "SURFACE")]
+    pub on: Option<String>,
+    /// Judge on modes up to this frequency, in Hz; by default those of the band.
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    pub judge_hz: Option<f64>,
+    /// Folder for drive.wav, report.json, report.md and figures. An earlier run's folder is replaced whole.
+    #[arg(short, long, value_name = "DIR")]
+    pub output: PathBuf,
+}
+
+/// Options of `field`.
+#[derive(Debug, Args)]
+pub struct FieldOptions {
+    /// A surface file, or the name of a built-in surface.
+    pub surface: String,
+    /// The drive: a WAV file with one channel per actuator, in the actuators' units.
+    #[arg(long, value_name = "WAV")]
+    pub drive: PathBuf,
+    /// Where to measure, in mm; by default where the field is strongest. Repeatable.
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    pub at: Vec<String>,
+    /// When to measure, in ms; by default at each place's own peak. Once for all, or once per --at.
+    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
+    pub at_ms: Vec<f64>,
+    /// Period of a repeated drive, in ms: figures are then those of the last full period.
+    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
+    pub period_ms: Option<f64>,
+    /// Measure on modes up to this frequency, in Hz; by default those of the band.
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    pub judge_hz: Option<f64>,
+    /// Folder for the report, snapshot, map of peaks and animation; without it only figures in numbers are made.
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Start and end of the animation in ms; by default the last 6 ms before the instant and 3 ms after.
+    #[arg(long, value_name = "FROM,TO", allow_hyphen_values = true)]
+    pub movie_ms: Option<String>,
+    /// Frames of the animation; 0 for none.
+    #[arg(long, value_name = "N", default_value_t = 60)]
+    pub frames: usize,
+}
+
+/// Options of `reproduce`.
+#[derive(Debug, Args)]
+pub struct ReproduceOptions {
+    /// Folder for the page and its figures. An earlier run's folder is replaced whole.
+    #[arg(short, long, value_name = "DIR")]
+    pub output: PathBuf,
+    /// Placements averaged in the statistics of contrast.
+    #[arg(long, value_name = "N", default_value_t = 20)]
+    pub placements: usize,
+}

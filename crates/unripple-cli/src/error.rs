@@ -1,0 +1,48 @@
+//! What goes wrong, and the exit status it gives: 1 the work failed, 2 bad usage or bad input.
+
+use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
+use std::process::ExitCode;
+
+/// Why a command did not do its work.
+#[derive(Debug)]
+pub enum CliError {
+    /// The input or its combination makes no sense: exit status 2.
+    Input(String),
+    /// A file has faults that can be pointed at: exit status 2.
+    Faults(Box<dyn Diagnostic + Send + Sync>),
+    /// The work could not be done: exit status 1.
+    Work(String),
+}
+
+impl CliError {
+    /// Bad input, in words.
+    pub fn input(error: impl std::fmt::Display) -> Self {
+        Self::Input(error.to_string())
+    }
+
+    /// Failed work, in words.
+    pub fn work(error: impl std::fmt::Display) -> Self {
+        Self::Work(error.to_string())
+    }
+
+    /// Prints the error on standard error and returns the exit status.
+    pub fn report(&self) -> ExitCode {
+        match self {
+            Self::Input(text) | Self::Work(text) => eprintln!("error: {text}"),
+            Self::Faults(faults) => eprint!("{}", rendered(faults.as_ref())),
+        }
+        ExitCode::from(if matches!(self, Self::Work(_)) { 1 } else { 2 })
+    }
+}
+
+/// A diagnostic with its source lines and carets, in colour only on a terminal that wants it.
+fn rendered(faults: &dyn Diagnostic) -> String {
+    use std::io::IsTerminal;
+    let colour = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+    let theme = if colour { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
+    let mut text = String::new();
+    match GraphicalReportHandler::new_themed(theme).with_width(110).render_report(&mut text, faults) {
+        Ok(()) => text,
+        Err(_) => format!("error: {faults}\n"),
+    }
+}

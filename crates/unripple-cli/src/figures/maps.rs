@@ -1,0 +1,117 @@
+use unripple::core::{Point, Surface};
+use unripple::field::{self, Maps, Measured};
+use unripple_plot::{ColourMap, Colours, Figure, Grid, Map, Marker, Ring, Symbol, prefixed};
+
+/// Pieces that a full turn of a round rim is drawn in.
+const TURN: usize = 240;
+
+/// What every map of one surface shows besides the field: rim, actuators, targets and their focal discs.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The rim.
+    pub outline: Vec<Ring>,
+    /// Everything marked.
+    pub markers: Vec<Marker>,
+}
+
+impl Scene {
+    /// The rim and actuators of a surface, and targets with discs of `radius` metres; none if zero.
+    pub fn new(surface: &Surface, targets: &[Vec<Point>], radius: f64) -> Self {
+        let place = |p: &Point| [p.x, p.y];
+        let rim = surface.outline.rim(TURN).iter().map(place).collect();
+        let mut markers: Vec<Marker> = surface
+            .actuators
+            .iter()
+            .map(|a| Marker { at: place(&a.at), symbol: Symbol::Actuator, name: String::new() })
+            .collect();
+        for target in targets {
+            if let [point] = target.as_slice() {
+                markers.push(Marker { at: place(point), symbol: Symbol::Target, ..Marker::default() });
+                if radius > 0.0 {
+                    let disc = Symbol::Circle(radius);
+                    markers.push(Marker { at: place(point), symbol: disc, ..Marker::default() });
+                }
+            }
+        }
+        Self { outline: vec![rim], markers }
+    }
+
+    /// A map of one field over the surface.
+    pub fn map(&self, grid: Grid, title: impl Into<String>, colours: Colours) -> Map {
+        Map {
+            grid,
+            outline: self.outline.clone(),
+            markers: self.markers.clone(),
+            colours,
+            title: title.into(),
+            ..Map::default()
+        }
+    }
+}
+
+/// One value per point of the maps as a grid to draw; `None` on a library's own points.
+fn grid(maps: &Maps, values: &[f32]) -> Option<Grid> {
+    maps.grid.as_ref().map(|cells| drawn(cells, values))
+}
+
+/// One value per point of a field's grid as a grid to draw.
+pub fn drawn(cells: &field::Grid, values: &[f32]) -> Grid {
+    Grid {
+        columns: cells.columns,
+        rows: cells.rows,
+        first: [cells.width / 2.0, cells.height / 2.0],
+        pitch: [cells.width, cells.height],
+        values: cells.spread(values),
+    }
+}
+
+/// A colour scale with a bar in the prefixed unit that suits the largest value.
+pub fn scale(what: &str, unit: &str, map: ColourMap, values: &[f32]) -> Colours {
+    let largest = values.iter().fold(0.0, |m: f64, v| m.max(f64::from(v.abs())));
+    let (multiplier, unit) = prefixed(largest, unit);
+    Colours { title: format!("{what} ({unit})"), map, multiplier, ..Colours::default() }
+}
+
+fn velocity(map: ColourMap, values: &[f32]) -> Colours {
+    scale("Velocity", "m/s", map, values)
+}
+
+fn displacement(map: ColourMap, values: &[f32]) -> Colours {
+    scale("Displacement", "m", map, values)
+}
+
+/// The field at the first target's focal instant: velocity, and displacement at its own extreme.
+pub fn snapshots(scene: &Scene, measured: &Measured) -> Option<Figure> {
+    let maps = &measured.maps;
+    let (v, u) = (maps.at_peak.first()?, maps.at_displacement_peak.first()?);
+    let title = |t: f64| format!("t = {:.3} ms", t * 1e3);
+    let left =
+        scene.map(grid(maps, &v.velocity)?, title(v.instant), velocity(ColourMap::Diverging, &v.velocity));
+    let colours = displacement(ColourMap::Diverging, &u.displacement);
+    let right = scene.map(grid(maps, &u.displacement)?, title(u.instant), colours);
+    Some(side_by_side(left, right, "Velocity and displacement of the surface when the waves meet"))
+}
+
+/// The largest velocity and displacement everywhere over the whole time measured.
+pub fn peaks(scene: &Scene, measured: &Measured) -> Option<Figure> {
+    let maps = &measured.maps;
+    let title = "largest over time";
+    let left = scene.map(
+        grid(maps, &maps.peak_velocity)?,
+        title,
+        velocity(ColourMap::Sequential, &maps.peak_velocity),
+    );
+    let colours = displacement(ColourMap::Sequential, &maps.peak_displacement);
+    let right = scene.map(grid(maps, &maps.peak_displacement)?, title, colours);
+    Some(side_by_side(left, right, "Largest velocity and displacement of the surface over the time measured"))
+}
+
+fn side_by_side(left: Map, right: Map, description: &str) -> Figure {
+    Figure {
+        width_mm: 178.0,
+        columns: 2,
+        panels: vec![left.into(), right.into()],
+        description: description.into(),
+        ..Figure::default()
+    }
+}

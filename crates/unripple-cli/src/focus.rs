@@ -1,0 +1,174 @@
+//! `unripple focus`: a drive, its report and its figures.
+
+use crate::args::{FocusOptions, LossName, MethodName};
+use crate::error::CliError;
+use crate::figures::{self, Scene};
+use crate::judge::{self, Judged};
+use crate::report::{self, Report};
+use crate::targets::{self, positive};
+use crate::{input, output};
+use unripple::core::{ActuatorKind, Decay, Drive, Responses, Surface};
+use unripple::field::{Aim, Field};
+use unripple::focus::{FocusError, Focused, LossCorrection, Method, Options, Target, focus};
+use unripple::physics::design::recommended_window;
+use unripple_store::{OutputDir, write_wav};
+
+pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
+    let surface = input::surface(&options.surface)?;
+    let plant = options.on.as_deref().map(input::surface).transpose()?;
+    let out = OutputDir::create(&options.output)?;
+    let responses = judge::model(&surface, None)?;
+    let targets = targets::all(&options.targets, responses.conditions().lambda_min)?;
+    let settings = settings(options, &surface, &responses)?;
+    let focused = focus(&responses, &targets, &settings).map_err(refused)?;
+
+    let judged_surface = plant.as_ref().unwrap_or(&surface);
+    let other = plant.is_some() || options.judge_hz.is_some();
+    let judging = other.then(|| judge::model(judged_surface, options.judge_hz)).transpose()?;
+    let judging = judging.as_ref().unwrap_or(&responses);
+    let (judged, drive) = levelled(options, &focused, &targets, judged_surface, judging)?;
+
+    let mut report = Report::new("focus", &surface, &drive, &judged.measured, judged.notes.clone());
+    report.judged_on = other.then(|| judged_on(judged_surface, options.judge_hz));
+    report.method = Some(focused.method.name());
+    report.window_s = Some(settings.window);
+    report.period_s = focused.period.map(|samples| samples as f64 / drive.rate());
+    write(&out, &mut report, judged_surface, &drive, &judged, &focused)?;
+    finish(out)?;
+    output::answer(as_json, &report, &report.text())
+}
+
+fn settings(options: &FocusOptions, surface: &Surface, responses: &Responses) -> Result<Options, CliError> {
+    let window = match options.window_ms {
+        Some(ms) => positive(ms, "--window-ms", "ms")? / 1e3,
+        None => recommended_window(surface, responses_count(responses)),
+    };
+    let loss = match (options.losses, &surface.sheet.decay) {
+        (LossName::None, _) => LossCorrection::None,
+        (LossName::PerMode, _) => LossCorrection::PerMode,
+        (LossName::Uniform, Decay::Time(tau)) => LossCorrection::Uniform(*tau),
+        (LossName::Uniform, _) => {
+            let text = "--losses uniform: expected a surface with one decay time, found one that varies with frequency \
+                        (nearest: --losses per-mode)";
+            return Err(CliError::Input(text.into()));
+        }
+    };
+    Ok(Options {
+        method: match options.method {
+            MethodName::TimeReversal => Method::TimeReversal,
+            MethodName::OneBit => Method::OneBit,
+        },
+        window,
+        limit: surface.emission.limit,
+        rms_limit: surface.emission.rms_limit,
+        loss,
+        duration: options
+            .duration_ms
+            .map(|ms| positive(ms, "--duration-ms", "ms"))
+            .transpose()?
+            .map(|ms| ms / 1e3),
+        ..Options::default()
+    })
+}
+
+/// Modes of the band, as counted.
+fn responses_count(responses: &Responses) -> Option<usize> {
+    match responses {
+        Responses::Modal(modal) => Some(modal.poles.len()),
+        Responses::Sampled(_) => None,
+    }
+}
+
+fn refused(error: FocusError) -> CliError {
+    CliError::input(error)
+}
+
+/// The drive at the level asked for, as float32 samples, and what it does.
+fn levelled(
+    options: &FocusOptions,
+    focused: &Focused,
+    targets: &[Target],
+    surface: &Surface,
+    responses: &Responses,
+) -> Result<(Judged, Drive), CliError> {
+    let rate = focused.drive.rate();
+    let seconds = |samples: usize| samples as f64 / rate;
+    let aims: Vec<Aim> = targets
+        .iter()
+        .zip(&focused.timing)
+        .map(|(target, timing)| Aim { points: target.points.clone(), instant: seconds(timing.instant) })
+        .collect();
+    let period = focused.period.map(seconds);
+    let last = focused.timing.iter().map(|timing| timing.instant).max().unwrap_or(0);
+    let until = if period.is_some() { seconds(focused.drive.samples() - 1) } else { 2.0 * seconds(last) };
+    let judge = |drive: &Drive| judge::judge(surface, responses, drive, &aims, period, until);
+    let drive = focused.drive.clone().as_emitted();
+    let Some(um) = options.targets.peak_um else { return Ok((judge(&drive)?, drive)) };
+
+    let wanted = positive(um, "--peak-um", "µm")?;
+    let most = largest(responses, &drive, &aims, focused.period, until)? * 1e6;
+    if wanted > most {
+        return Err(CliError::Input(format!(
+            "--peak-um: expected at most {most:.4} µm, which the drive limit gives, found {wanted}"
+        )));
+    }
+    let drive = focused.drive.clone().scaled(wanted / most).as_emitted();
+    Ok((judge(&drive)?, drive))
+}
+
+/// Largest displacement of the first target's mean over the time measured, in metres.
+fn largest(
+    responses: &Responses,
+    drive: &Drive,
+    aims: &[Aim],
+    period: Option<usize>,
+    until: f64,
+) -> Result<f64, CliError> {
+    let field = Field::new(responses, drive, 1.0).map_err(CliError::input)?;
+    let points = aims.first().map_or(&[][..], |aim| &aim.points);
+    let traces = field.traces(points, until).map_err(CliError::input)?;
+    let first = period.map_or(0, |period| drive.samples().saturating_sub(period));
+    let samples = traces.first().map_or(0, |trace| trace.displacement.len());
+    let mean = |i: usize| traces.iter().map(|t| t.displacement[i]).sum::<f64>() / traces.len() as f64;
+    Ok((first..samples).map(|i| mean(i).abs()).fold(0.0, f64::max))
+}
+
+fn judged_on(surface: &Surface, hz: Option<f64>) -> String {
+    let modes = hz.map_or(String::new(), |hz| format!(", modes to {hz} Hz"));
+    format!("{}{modes}", surface.name)
+}
+
+fn write(
+    out: &OutputDir,
+    report: &mut Report,
+    surface: &Surface,
+    drive: &Drive,
+    judged: &Judged,
+    focused: &Focused,
+) -> Result<(), CliError> {
+    let measured = &judged.measured;
+    let scene = Scene::new(surface, &focused.points, measured.focal_radius_m);
+    let unit = report::unit(&surface.actuators.first().map_or(ActuatorKind::Force, |a| a.kind));
+    let mut figures = vec![
+        ("traces", figures::traces(&measured.targets, &judged.traces, drive.rate())),
+        ("drive", figures::channels(drive, unit)),
+    ];
+    figures.extend(figures::snapshots(&scene, measured).map(|figure| ("focus", figure)));
+    figures.extend(figures::peaks(&scene, measured).map(|figure| ("peaks", figure)));
+    write_wav(out.path().join("drive.wav"), drive)?;
+    report.files = vec!["drive.wav".into()];
+    report.files.extend(figures::write(out, &figures)?);
+    out.write("report.json", output::json(report)?.as_bytes())?;
+    out.write("report.md", report.markdown().as_bytes())?;
+    Ok(())
+}
+
+/// Puts an output folder in its place, and says on standard error if it replaced an earlier run's.
+pub fn finish(out: OutputDir) -> Result<(), CliError> {
+    let committed = out.commit()?;
+    if committed.replaced {
+        eprintln!("replaced the earlier run in {}", committed.path.display());
+    }
+    eprintln!("wrote {}", committed.path.display());
+    Ok(())
+}

@@ -1,0 +1,41 @@
+//! `unripple`: time-reversed focusing of touch, from the command line.
+
+mod args;
+mod check;
+mod design;
+mod error;
+mod field;
+mod figures;
+mod focus;
+mod input;
+mod judge;
+mod modes;
+mod output;
+mod report;
+mod reproduce;
+mod targets;
+
+use args::{Arguments, Command};
+use clap::Parser;
+use error::CliError;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    match run(&arguments) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => error.report(),
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<(), CliError> {
+    let json = arguments.json;
+    match &arguments.command {
+        Command::Check(options) => check::run(options, json),
+        Command::Design(options) => design::run(options, json),
+        Command::Modes(options) => modes::run(options, json),
+        Command::Focus(options) => focus::run(options, json),
+        Command::Field(options) => field::run(options, json),
+        Command::Reproduce(options) => reproduce::run(options, json),
+    }
+}

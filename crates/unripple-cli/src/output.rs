@@ -1,0 +1,22 @@
+//! Standard output: one JSON object, or text for people.
+
+use crate::error::CliError;
+use serde::Serialize;
+use std::io::Write;
+
+/// Prints `report` as one JSON object, or `text`.
+///
+/// A reader that has gone away, as in `unripple … | head`, is no failure.
+pub fn answer(as_json: bool, report: &impl Serialize, text: &str) -> Result<(), CliError> {
+    let mut line = if as_json { json(report)? } else { text.trim_end().to_owned() };
+    line.push('\n');
+    match std::io::stdout().lock().write_all(line.as_bytes()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(CliError::work(error)),
+        _ => Ok(()),
+    }
+}
+
+/// A report as indented JSON.
+pub fn json(report: &impl Serialize) -> Result<String, CliError> {
+    serde_json::to_string_pretty(report).map_err(CliError::work)
+}

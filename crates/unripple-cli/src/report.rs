@@ -1,0 +1,214 @@
+//! Reports of a focus or a field: as JSON and as Markdown.
+
+use crate::judge::Note;
+use serde::Serialize;
+use std::fmt::Write;
+use unripple::core::{Actuator, ActuatorKind, Drive, Surface};
+use unripple::field::{DriveFigures, Measured, TakenOn, TargetFigures};
+
+/// Everything said about one drive on one surface. Lengths in metres, times in seconds, drive in its own unit.
+#[derive(Debug, Serialize)]
+pub struct Report {
+    program: &'static str,
+    version: &'static str,
+    command: &'static str,
+    surface: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub judged_on: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub method: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub window_s: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub period_s: Option<f64>,
+    sample_rate_hz: f64,
+    actuators: Vec<Channel>,
+    targets: Vec<TargetFigures>,
+    drive: DriveFigures,
+    lambda_min_m: f64,
+    focal_radius_m: f64,
+    taken_on: TakenOn,
+    outside_points: usize,
+    notes: Vec<Note>,
+    pub files: Vec<String>,
+}
+
+/// One channel of drive.wav.
+#[derive(Debug, Serialize)]
+struct Channel {
+    name: String,
+    at_m: [f64; 2],
+    unit: &'static str,
+}
+
+impl Report {
+    /// A report of `command`.
+    pub fn new(
+        command: &'static str,
+        surface: &Surface,
+        drive: &Drive,
+        measured: &Measured,
+        notes: Vec<Note>,
+    ) -> Self {
+        let channel =
+            |a: &Actuator| Channel { name: a.name.clone(), at_m: [a.at.x, a.at.y], unit: unit(&a.kind) };
+        Self {
+            program: "unripple",
+            version: env!("CARGO_PKG_VERSION"),
+            command,
+            surface: surface.name.clone(),
+            judged_on: None,
+            method: None,
+            window_s: None,
+            period_s: None,
+            sample_rate_hz: drive.rate(),
+            actuators: surface.actuators.iter().map(channel).collect(),
+            targets: measured.targets.clone(),
+            drive: measured.drive.clone(),
+            lambda_min_m: measured.lambda_min_m,
+            focal_radius_m: measured.focal_radius_m,
+            taken_on: measured.taken_on,
+            outside_points: measured.outside_points,
+            notes,
+            files: Vec::new(),
+        }
+    }
+
+    /// For a terminal: one block of figures per target, then drive and notes.
+    pub fn text(&self) -> String {
+        let mut text = format!("{}{}\n", self.surface, self.how());
+        for target in &self.targets {
+            let [x, y] = target.at_m;
+            let many = if target.points > 1 { format!(", {} points", target.points) } else { String::new() };
+            let _ = writeln!(
+                text,
+                "\ntarget ({:.2}, {:.2}) mm{many}, in focus at {:.3} ms",
+                x * 1e3,
+                y * 1e3,
+                target.instant_s * 1e3
+            );
+            for [name, velocity, displacement] in rows(target) {
+                let _ = writeln!(text, "  {name:<22}{velocity:>16}{displacement:>18}");
+            }
+        }
+        let _ = writeln!(text, "\n{}", self.drive_line());
+        for note in &self.notes {
+            let _ = writeln!(text, "note ({}): {}", note.topic, note.text);
+        }
+        text
+    }
+
+    /// The same as Markdown, with the figures shown.
+    pub fn markdown(&self) -> String {
+        let mut text = format!("# {}{}\n\n", self.surface, self.how());
+        for target in &self.targets {
+            let [x, y] = target.at_m;
+            let _ = writeln!(
+                text,
+                "## Target ({:.2}, {:.2}) mm, in focus at {:.3} ms\n",
+                x * 1e3,
+                y * 1e3,
+                target.instant_s * 1e3
+            );
+            if target.points > 1 {
+                let _ = writeln!(text, "{} points; levels are means over them.\n", target.points);
+            }
+            text += "| | velocity | displacement |\n|---|---:|---:|\n";
+            for [name, velocity, displacement] in rows(target).into_iter().skip(1) {
+                let _ = writeln!(text, "| {name} | {velocity} | {displacement} |");
+            }
+            text.push('\n');
+        }
+        let _ = writeln!(text, "## Drive\n\n{}\n", self.drive_line());
+        text += "| channel | actuator | at mm | unit |\n|---:|---|---|---|\n";
+        for (i, a) in self.actuators.iter().enumerate() {
+            let _ = writeln!(
+                text,
+                "| {} | {} | ({:.2}, {:.2}) | {} |",
+                i + 1,
+                a.name,
+                a.at_m[0] * 1e3,
+                a.at_m[1] * 1e3,
+                a.unit
+            );
+        }
+        if !self.notes.is_empty() {
+            text += "\n## Notes\n\n";
+            for note in &self.notes {
+                let _ = writeln!(text, "- **{}**: {}", note.topic, note.text);
+            }
+        }
+        for file in self.files.iter().filter(|file| file.ends_with(".png")) {
+            let _ = write!(text, "\n![{}]({file})\n", file.trim_end_matches(".png"));
+        }
+        text += "\nContrast: the peak over the rms outside every focal disc at the same instant. Background contrast: over the rms \
+                 there during the whole span measured. Worst spot: over the largest magnitude there.\n";
+        text
+    }
+
+    fn how(&self) -> String {
+        let mut parts = Vec::new();
+        parts.extend(self.method.map(|method| format!(", {method}")));
+        parts.extend(self.window_s.map(|window| format!(", window {:.3} ms", window * 1e3)));
+        parts.extend(self.period_s.map(|period| format!(", period {:.3} ms", period * 1e3)));
+        parts.extend(self.judged_on.iter().map(|surface| format!(", judged on {surface}")));
+        parts.concat()
+    }
+
+    fn drive_line(&self) -> String {
+        let unit = self.actuators.first().map_or("", |a| a.unit);
+        let d = &self.drive;
+        format!(
+            "drive: peak {:.4} {unit}, rms {:.4} {unit}, energy {:.4e} {unit}²s, {:.2} % of it above the band",
+            d.peak,
+            d.rms,
+            d.energy,
+            100.0 * d.share_above_band
+        )
+    }
+}
+
+/// Unit of what an actuator is sent.
+pub fn unit(kind: &ActuatorKind) -> &'static str {
+    use unripple::core::CoilDrive;
+    match kind {
+        ActuatorKind::Force => "N",
+        ActuatorKind::MovingMagnet { driven_by: CoilDrive::Current, .. } => "A",
+        ActuatorKind::MovingMagnet { driven_by: CoilDrive::Voltage, .. } | ActuatorKind::Piezo => "V",
+    }
+}
+
+/// Name, velocity and displacement of every figure, headings first.
+fn rows(t: &TargetFigures) -> Vec<[String; 3]> {
+    let ratio = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.2}"));
+    let scaled = |x: Option<f64>, factor: f64, unit: &str| {
+        x.map_or("-".into(), |x| format!("{:.3} {unit}", x * factor))
+    };
+    let row = |name: &str, v: String, u: String| [name.to_owned(), v, u];
+    vec![
+        row("", "velocity".into(), "displacement".into()),
+        row(
+            "peak",
+            format!("{:.4} m/s", t.peak_velocity_m_s),
+            format!("{:.2} µm", t.peak_displacement_m * 1e6),
+        ),
+        row(
+            "largest at",
+            format!("{:.3} ms", t.peak_time_s * 1e3),
+            format!("{:.3} ms", t.displacement_peak_time_s * 1e3),
+        ),
+        row("contrast", ratio(t.contrast), ratio(t.displacement_contrast)),
+        row("background contrast", ratio(t.background_contrast), ratio(t.displacement_background_contrast)),
+        row("worst spot", ratio(t.worst_spot), ratio(t.displacement_worst_spot)),
+        row(
+            "spot diameter",
+            scaled(t.spot_diameter_m, 1e3, "mm"),
+            scaled(t.displacement_spot_diameter_m, 1e3, "mm"),
+        ),
+        row(
+            "pulse duration",
+            scaled(t.pulse_duration_s, 1e3, "ms"),
+            scaled(t.displacement_pulse_duration_s, 1e3, "ms"),
+        ),
+    ]
+}

@@ -1,0 +1,28 @@
+use crate::error::CliError;
+use crate::{input, judge};
+use unripple::core::{Point, Responses, Surface};
+
+/// The paper's surface, ready for its experiments to be done again.
+#[derive(Debug)]
+pub struct Bed {
+    /// The film of the paper's section 4, with eight ideal force actuators.
+    pub surface: Surface,
+    /// Its responses, mode by mode, in the band.
+    pub responses: Responses,
+    /// Samples per second.
+    pub rate: f64,
+    /// The paper's window T, in seconds.
+    pub window: f64,
+    /// Where a single focus goes.
+    pub target: Point,
+}
+
+impl Bed {
+    /// The built-in surface `hudin-2012`.
+    pub fn new() -> Result<Self, CliError> {
+        let surface = input::surface("hudin-2012")?;
+        let responses = judge::model(&surface, None)?;
+        let rate = surface.emission.rate;
+        Ok(Self { surface, responses, rate, window: 0.030, target: Point::from_mm(62.0, 90.0) })
+    }
+}

@@ -1,0 +1,142 @@
+//! The reversed recording, played.
+
+use super::{C, FORCE, IMPULSE, Recording, cells, curve, driven_at, first, largest, place, rms, strip};
+use crate::error::CliError;
+use crate::figures::Scene;
+use crate::judge::CELLS;
+use crate::reproduce::Bed;
+use unripple::core::{Drive, ModalResponses, Port, window_samples};
+use unripple::field::{self, Aim, Field, Snapshot, TargetFigures, Trace};
+use unripple::focus::{Options, Target, focus};
+use unripple_plot::{Axis, Figure, Ink, Rule, Traces, prefixed};
+
+/// Share of the peak at which the colours of the converging wave saturate.
+const SATURATED: f64 = 0.6;
+
+/// Instants of the converging wave, in seconds from the focus.
+const CONVERGING: [f64; 6] = [-12.0e-3, -0.5e-3, -0.25e-3, 0.0, 0.25e-3, 0.5e-3];
+
+/// How long the pulse is left out of the noise, in seconds on either side of the focus.
+const PULSE: f64 = 2e-3;
+
+/// What the reversed recording does when B plays it.
+pub(super) struct Refocus {
+    drive: Drive,
+    /// Largest difference between the reversed recording and the drive made from B's own responses, of the latter's peak.
+    pub(super) mismatch: f64,
+    /// v_A(T) of the paper's equation 2, in m/s.
+    pub(super) predicted: f64,
+    cells: field::Grid,
+    shots: Vec<Snapshot>,
+    at_a: Trace,
+    at_c: Trace,
+    pub(super) figures: TargetFigures,
+}
+
+impl Refocus {
+    /// Plays it, checks it against the drive made from the responses, and measures what it does.
+    pub(super) fn make(
+        bed: &Bed,
+        modal: &ModalResponses,
+        b: &Port,
+        recording: &Recording,
+    ) -> Result<Self, CliError> {
+        let responses = driven_at(modal, b.clone());
+        let cropped = recording.cropped(bed);
+        let scale = FORCE / largest(cropped);
+        let reversed: Vec<f64> = cropped.iter().rev().map(|v| v * scale).collect();
+        let drive =
+            Drive::new(bed.rate, vec![b.name.clone()], vec![reversed]).map_err(CliError::work)?.as_emitted();
+
+        let options = Options { window: bed.window, limit: FORCE, ..Options::default() };
+        let other = focus(&responses, &[Target::at(bed.target)], &options).map_err(CliError::work)?.drive;
+        let pairs = drive.channels().iter().flatten().zip(other.channels().iter().flatten());
+        let mismatch = pairs.fold(0.0, |m: f64, (a, b)| m.max((a - b).abs())) / other.peak();
+
+        let field = Field::new(&responses, &drive, CELLS).map_err(CliError::work)?;
+        let instants = CONVERGING.map(|t| bed.window + t);
+        let shots = field.snapshots(&instants).map_err(CliError::work)?;
+        let mut traces =
+            field.traces(&[bed.target, C], 2.0 * bed.window).map_err(CliError::work)?.into_iter();
+        let (at_a, at_c) = (traces.next().unwrap_or_default(), traces.next().unwrap_or_default());
+        let aim = Aim::at(bed.target, bed.window);
+        let figures = first(field.measure(&[aim], None).map_err(CliError::work)?.targets)?;
+        let squares: f64 = cropped.iter().map(|v| (v / IMPULSE).powi(2)).sum();
+        let predicted = squares * scale * IMPULSE / bed.rate;
+        let cells = cells(&field)?;
+        drop(field);
+        Ok(Self { drive, mismatch, predicted, cells, shots, at_a, at_c, figures })
+    }
+
+    /// Peak at A, and the rms of the noise at A (but for the pulse) and at C, in m/s.
+    pub(super) fn levels(&self, bed: &Bed) -> [f64; 3] {
+        let (focus, pulse) = (window_samples(bed.window, bed.rate), window_samples(PULSE, bed.rate));
+        let noise: Vec<f64> = self
+            .at_a
+            .velocity
+            .iter()
+            .enumerate()
+            .filter(|(i, _)| i.abs_diff(focus) > pulse)
+            .map(|(_, v)| *v)
+            .collect();
+        [self.figures.peak_velocity_m_s, rms(&noise), rms(&self.at_c.velocity)]
+    }
+
+    /// Strip of fields, force at B, and velocities at A and C.
+    pub(super) fn figure(&self, bed: &Bed, scene: &Scene) -> Figure {
+        let high = SATURATED * self.figures.peak_velocity_m_s;
+        let from_focus = |t: f64| {
+            let us = ((t - bed.window) * 1e6).round();
+            let ms = us.abs() / 1e3;
+            match us {
+                0.0 => "t = T".into(),
+                us if us < 0.0 => format!("T − {ms} ms"),
+                _ => format!("T + {ms} ms"),
+            }
+        };
+        let strip = strip(scene, &self.cells, &self.shots, high, from_focus);
+        let focus = || Rule { at: bed.window, label: "T".into(), ..Rule::default() };
+        let mut played = curve(&self.drive.channels()[0], bed.rate, "N", "Force at B");
+        played.x = Axis::new("Time (ms)").times(1e3).from(0.0).to(2.0 * bed.window);
+        played.layers.push(focus().into());
+        let (multiplier, unit) = prefixed(self.figures.peak_velocity_m_s, "m/s");
+        let trace = |label: &str, trace: &Trace, ink| unripple_plot::Trace {
+            label: label.into(),
+            values: trace.velocity.clone(),
+            ink: Ink::Palette(ink),
+        };
+        let heard = Traces {
+            x: Axis::new("Time (ms)").times(1e3),
+            step: 1.0 / bed.rate,
+            traces: vec![trace("at A", &self.at_a, 1), trace("at C", &self.at_c, 0)],
+            unit,
+            multiplier,
+            rules: vec![focus()],
+            lane_mm: Some(17.0),
+            ..Traces::default()
+        };
+        Figure {
+            width_mm: 178.0,
+            panels: vec![strip.into(), played.into(), heard.into()],
+            letters: false,
+            description: "Waves converging on A, the force at B, and the velocities at A and C".into(),
+            ..Figure::default()
+        }
+    }
+
+    /// What the figure shows.
+    pub(super) fn caption(&self, bed: &Bed, b: &Port) -> String {
+        let [peak, noise_a, noise_c] = self.levels(bed);
+        format!(
+            "Fig. 1b. Reverse and refocus. B ({}) plays the recording backwards; the waves meet at A at t = T. The peak at A is \
+             {:.1} times the rms noise at A over 0 … 2T (without the {:.0} ms on either side of T) and {:.1} times that at C, \
+             {}. The circle is the focal disc of A; colours saturate at {:.0} % of the peak.",
+            b.name,
+            peak / noise_a,
+            PULSE * 1e3,
+            peak / noise_c,
+            place(C),
+            SATURATED * 100.0
+        )
+    }
+}

@@ -1,0 +1,301 @@
+//! Fig. 2: one actuator in a reverberant cavity, and a triangle.
+
+mod triangle;
+
+pub use triangle::triangle;
+
+use super::bed::Bed;
+use super::fig1::{FORCE, actuator, cells, driven_at, first, modal, place};
+use super::section::{Compared, Picture, Section};
+use crate::error::CliError;
+use crate::figures::{Scene, drawn};
+use crate::judge::CELLS;
+use serde_json::{Value, json};
+use unripple::core::{ModalResponses, Pole, Responses, window_samples};
+use unripple::field::{self, Aim, Field, Snapshot, TargetFigures};
+use unripple::focus::{Focused, Options, Target, focus};
+use unripple::physics::design::closed;
+use unripple_plot::{Along, Axis, Colours, Figure, Ink, Legend, Line, Plot, Rule, Traces, prefixed};
+
+/// Which actuator is the only one.
+const ACTUATOR: usize = 0;
+
+/// How many times longer than the paper's film the reverberant one rings.
+const LONGER: f64 = 5.0;
+
+/// How long after the focus the tail is followed, in seconds.
+const FOLLOWED: f64 = 1.2;
+
+/// Length over which the level of the tail is taken, in seconds.
+const SMOOTHED: f64 = 5e-3;
+
+/// Level at which the tail counts as over, of the peak.
+const OVER: f64 = 0.01;
+
+/// One focus with one actuator.
+struct Alone {
+    tau: f64,
+    trace: Vec<f64>,
+    figures: TargetFigures,
+    shot: Snapshot,
+    cells: field::Grid,
+}
+
+impl Alone {
+    /// Focuses on the bed's target through a surface with decay `factor` times as long, and follows the tail.
+    fn make(bed: &Bed, modal: &ModalResponses, factor: f64) -> Result<Self, CliError> {
+        let slower = |pole: &Pole| Pole { sigma: pole.sigma / factor, ..*pole };
+        let poles: Vec<Pole> = modal.poles.iter().map(slower).collect();
+        let tau = 1.0 / poles.iter().map(|pole| pole.sigma).fold(f64::INFINITY, f64::min);
+        let ringing = ModalResponses { poles, ..modal.clone() };
+        let responses = driven_at(&ringing, actuator(modal, ACTUATOR)?);
+        let focused = focused(bed, &responses, Target::at(bed.target))?;
+        let drive = focused.drive.as_emitted();
+        let field = Field::new(&responses, &drive, CELLS).map_err(CliError::work)?;
+        let mut measured = field.measure(&[Aim::at(bed.target, bed.window)], None).map_err(CliError::work)?;
+        let traces = field.traces(&[bed.target], bed.window + FOLLOWED).map_err(CliError::work)?;
+        let trace = traces.into_iter().next().map(|trace| trace.velocity).unwrap_or_default();
+        let shot = snapshot(&mut measured.maps.at_peak)?;
+        Ok(Self { tau, trace, figures: first(measured.targets)?, shot, cells: cells(&field)? })
+    }
+
+    fn data(&self, bed: &Bed) -> Value {
+        json!({ "decay_time_s": self.tau, "figures": self.figures, "tail_s": self.over_after(bed) })
+    }
+
+    /// Rms over [`SMOOTHED`] round each sample, of the peak.
+    fn levels(&self, rate: f64) -> Vec<f64> {
+        let half = window_samples(SMOOTHED / 2.0, rate);
+        let mut sums = vec![0.0];
+        for v in &self.trace {
+            sums.push(sums[sums.len() - 1] + v * v);
+        }
+        let last = self.trace.len();
+        let level = |i: usize| {
+            let (from, to) = (i.saturating_sub(half), (i + half + 1).min(last));
+            ((sums[to] - sums[from]) / (to - from) as f64).sqrt() / self.figures.peak_velocity_m_s
+        };
+        (0..last).map(level).collect()
+    }
+
+    /// How long after the focus the tail's level is last above [`OVER`], in seconds; `None` if that is beyond what is followed.
+    fn over_after(&self, bed: &Bed) -> Option<f64> {
+        let levels = self.levels(bed.rate);
+        let last = levels.iter().rposition(|level| *level > OVER)?;
+        let free = last + 1 + window_samples(SMOOTHED, bed.rate) < levels.len();
+        free.then(|| last as f64 / bed.rate - bed.window)
+    }
+}
+
+fn snapshot(shots: &mut Vec<Snapshot>) -> Result<Snapshot, CliError> {
+    if shots.is_empty() {
+        return Err(CliError::Work("no field was measured at the focus".into()));
+    }
+    Ok(shots.swap_remove(0))
+}
+
+fn focused(bed: &Bed, responses: &Responses, target: Target) -> Result<Focused, CliError> {
+    let options = Options { window: bed.window, limit: FORCE, ..Options::default() };
+    focus(responses, &[target], &options).map_err(CliError::work)
+}
+
+/// Fig. 2a: a good focus in short time, a long tail of noise.
+pub fn one_actuator(bed: &Bed) -> Result<Section, CliError> {
+    let modal = modal(&bed.responses)?;
+    let papers = Alone::make(bed, modal, 1.0)?;
+    let ringing = Alone::make(bed, modal, LONGER)?;
+    let figures = vec![
+        Picture::still(
+            "fig2a",
+            focus_and_tail(bed, modal, [&papers, &ringing])?,
+            alone_caption(bed, modal, &papers, &ringing)?,
+        ),
+        Picture::still("fig2a-tail", decay(bed, [&papers, &ringing]), tail_caption(bed, &papers, &ringing)),
+    ];
+    let text = format!(
+        "The paper's figure does not say how reverberant its cavity is. Here it is the film of its section 4 twice: as it is (amplitude decay \
+         time τ = {:.0} ms), and ringing {LONGER:.0} times longer (τ = {:.0} ms), the same modes otherwise. Both are driven from one \
+         actuator with the same T = {:.0} ms.",
+        papers.tau * 1e3,
+        ringing.tau * 1e3,
+        bed.window * 1e3
+    );
+    Ok(Section {
+        title: "Fig. 2a: one actuator in a highly reverberant cavity".into(),
+        figures,
+        compared: alone_compared(bed, modal, &papers, &ringing),
+        text: vec![text],
+        data: json!([papers.data(bed), ringing.data(bed)]),
+        ..Section::default()
+    })
+}
+
+fn focus_and_tail(bed: &Bed, modal: &ModalResponses, films: [&Alone; 2]) -> Result<Figure, CliError> {
+    let [_, ringing] = films;
+    let only = actuator(modal, ACTUATOR)?;
+    let mut surface = bed.surface.clone();
+    surface.actuators.retain(|a| a.name == only.name);
+    let scene = Scene::new(&surface, &[vec![bed.target]], 0.0);
+    let (multiplier, unit) = prefixed(ringing.figures.peak_velocity_m_s, "m/s");
+    let colours = Colours { title: format!("Velocity ({unit})"), multiplier, ..Colours::default() };
+    let map = scene.map(
+        drawn(&ringing.cells, &ringing.shot.velocity),
+        format!("t = T, τ = {:.0} ms", ringing.tau * 1e3),
+        colours,
+    );
+    let trace = |(i, film): (usize, &&Alone)| unripple_plot::Trace {
+        label: format!("τ = {:.0} ms", film.tau * 1e3),
+        values: film.trace.clone(),
+        ink: Ink::Palette(1 - i),
+    };
+    let tails = Traces {
+        x: Axis::new("Time from focus (ms)").times(1e3),
+        start: -bed.window,
+        step: 1.0 / bed.rate,
+        traces: films.iter().enumerate().map(trace).collect(),
+        unit,
+        multiplier,
+        title: "velocity at the target".into(),
+        lane_mm: Some(26.0),
+        ..Traces::default()
+    };
+    Ok(Figure {
+        width_mm: 178.0,
+        columns: 2,
+        panels: vec![map.into(), tails.into()],
+        description: "Velocity of the film at the focus of one actuator, and the tail of noise that follows"
+            .into(),
+        ..Figure::default()
+    })
+}
+
+fn decay(bed: &Bed, films: [&Alone; 2]) -> Figure {
+    let mut layers = vec![Rule { at: OVER, along: Along::X, ..Rule::default() }.into()];
+    for (i, film) in films.into_iter().enumerate() {
+        let levels: Vec<f64> =
+            film.levels(bed.rate).into_iter().map(|l| if l > 0.0 { l } else { f64::NAN }).collect();
+        let x = (0..levels.len()).map(|i| i as f64 / bed.rate - bed.window).collect();
+        let label = format!("τ = {:.0} ms", film.tau * 1e3);
+        layers.push(Line { x, y: levels, label, ink: Ink::Palette(1 - i), ..Line::default() }.into());
+    }
+    let plot = Plot {
+        x: Axis::new("Time from focus (ms)").times(1e3),
+        y: Axis::log("Rms velocity, of the peak").from(OVER / 10.0).to(1.0),
+        layers,
+        legend: Legend::Above,
+        height_mm: Some(42.0),
+        ..Plot::default()
+    };
+    Figure { description: "How the noise at the target dies out after the focus".into(), ..Figure::of(plot) }
+}
+
+fn shown(time: Option<f64>) -> String {
+    time.map_or_else(|| format!("more than {:.0} ms", FOLLOWED * 1e3), |t| format!("{:.0} ms", t * 1e3))
+}
+
+fn ratio(value: Option<f64>) -> String {
+    value.map_or("-".into(), |value| format!("{value:.1}"))
+}
+
+fn alone_caption(
+    bed: &Bed,
+    modal: &ModalResponses,
+    papers: &Alone,
+    ringing: &Alone,
+) -> Result<String, CliError> {
+    let only = actuator(modal, ACTUATOR)?;
+    Ok(format!(
+        "Fig. 2a. One actuator, {} at {} (square), focusing on {} (cross) with a force of {:.0} mN at most. (a) Velocity \
+         when the waves meet, where the film rings with τ = {:.0} ms: contrast {}. (b) Velocity at the target, in the \
+         paper's film (contrast {}) and in the more reverberant one.",
+        only.name,
+        place(only.at),
+        place(bed.target),
+        FORCE * 1e3,
+        ringing.tau * 1e3,
+        ratio(ringing.figures.contrast),
+        ratio(papers.figures.contrast)
+    ))
+}
+
+fn tail_caption(bed: &Bed, papers: &Alone, ringing: &Alone) -> String {
+    format!(
+        "The tail of Fig. 2a: rms velocity at the target over {:.0} ms, of the peak. It is last above {:.0} % (dashed) {} after the \
+         focus in the paper's film and {} after it in the more reverberant one.",
+        SMOOTHED * 1e3,
+        OVER * 100.0,
+        shown(papers.over_after(bed)),
+        shown(ringing.over_after(bed))
+    )
+}
+
+fn alone_compared(bed: &Bed, modal: &ModalResponses, papers: &Alone, ringing: &Alone) -> Vec<Compared> {
+    let band = modal.conditions.band;
+    let form =
+        |window| closed::contrast(1.0, band[1] - band[0], ringing.tau, window, modal.poles.len() as f64);
+    let both = |of: &dyn Fn(&Alone) -> String| {
+        format!(
+            "{} (τ = {:.0} ms), {} (τ = {:.0} ms)",
+            of(papers),
+            papers.tau * 1e3,
+            of(ringing),
+            ringing.tau * 1e3
+        )
+    };
+    vec![
+        Compared::new(
+            "focus of one actuator: contrast",
+            "good",
+            both(&|film| ratio(film.figures.contrast)),
+            format!(
+                "closed form for the longer ringing: {:.1} with this T, {:.1} with ten times it; a short recording gives most of what \
+                 there is to gain, ringing longer hardly any",
+                form(bed.window),
+                form(10.0 * bed.window)
+            ),
+        ),
+        Compared::new(
+            "largest noise anywhere outside, from 0 to 2T",
+            "no figure",
+            both(&|film| film.figures.worst_spot.map_or("-".into(), |w| format!("peak / {w:.1}"))),
+            "reported since rms hides it",
+        ),
+        Compared::new(
+            format!("tail above {:.0} % of the peak", OVER * 100.0),
+            "long",
+            both(&|film| shown(film.over_after(bed))),
+            "the waves ring on after the focus and die out with τ: a focus repeated sooner meets what is left of the one before",
+        ),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Past the focus the level falls as e^{-t/τ}: from just after it to [`OVER`] takes τ ln(level/OVER).
+    #[test]
+    fn tails_last_as_long_as_their_decay_times_say() {
+        let bed = Bed::new().unwrap();
+        let modal = modal(&bed.responses).unwrap();
+        for factor in [1.0, 3.0] {
+            let film = Alone::make(&bed, modal, factor).unwrap();
+            let levels = film.levels(bed.rate);
+            let at = |t: f64| window_samples(bed.window + t, bed.rate);
+            let early = &levels[at(10e-3)..at(30e-3)];
+            let level = early.iter().sum::<f64>() / early.len() as f64;
+            let expected = 20e-3 + film.tau * (level / OVER).ln();
+            let found = film.over_after(&bed).unwrap();
+            assert!((found / expected - 1.0).abs() < 0.2, "{found} against {expected}");
+        }
+    }
+
+    #[test]
+    fn a_triangle_stands_out_everywhere_along_it() {
+        let bed = Bed::new().unwrap();
+        let data = triangle(&bed).unwrap().data;
+        let contrast = data["figures"]["contrast"].as_f64().unwrap();
+        let least = data["least_and_greatest_velocity_of_mean"][0].as_f64().unwrap();
+        assert!(least * contrast > 1.0, "{least} of {contrast}");
+    }
+}

@@ -1,0 +1,253 @@
+use super::section::{row, three};
+use super::{Bed, Compared, Picture, Section};
+use crate::error::CliError;
+use crate::judge;
+use serde::Serialize;
+use serde_json::json;
+use std::f64::consts::{PI, TAU};
+use unripple::core::{Drive, Point};
+use unripple::field::{Aim, Field, Measured};
+use unripple::focus::{Method, Options, Target, focus};
+use unripple::physics::design::{Deformation, Strip, deformation};
+use unripple_plot::{Along, Axis, Dash, Figure, Ink, Layer, Line, Plot, Rgb, Rule, prefixed};
+
+/// The paper's two amplitudes, in metres: what it measured, and what it says scaling up could reach.
+const LEVELS: [f64; 2] = [40e-6, 200e-6];
+/// Force per current of the paper's actuators, in N/A.
+const FORCE_CONSTANT: f64 = 6.0;
+/// Resistance of their coils, in Ω.
+const RESISTANCE: f64 = 6.2;
+
+/// What one method does at the drive limit.
+struct Played {
+    method: Method,
+    drive: Drive,
+    measured: Measured,
+    /// Mechanical energy that the actuators give to the sheet, in J.
+    work: f64,
+}
+
+/// What one level takes with one method.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct Level {
+    method: &'static str,
+    displacement_m: f64,
+    peak_force_n: f64,
+    rms_force_n: f64,
+    /// Mean heat in all coils over the window, in W.
+    mean_coil_heat_w: f64,
+    /// Mean mechanical power over the window, in W.
+    mean_mechanical_power_w: f64,
+    contrast: Option<f64>,
+}
+
+/// The 40 µm and 200 µm cases of section 4: force, power, strain and whether linear theory holds.
+pub fn section(bed: &Bed) -> Result<Section, CliError> {
+    let played = Method::ALL.map(|method| play(bed, method));
+    let [reversed, one_bit] = played;
+    let played = [reversed?, one_bit?];
+    let levels: Vec<Level> = played.iter().flat_map(|p| LEVELS.map(|level| p.at(level))).collect();
+    let limits = deformation(&bed.surface);
+    Ok(Section {
+        title: "Section 4: 40 µm and 200 µm".into(),
+        text: text(bed),
+        figures: vec![Picture::still(
+            "levels",
+            figure(&played, &limits),
+            "Peak displacement against the peak force of each actuator, a single focus. Above the film's thickness the \
+             lines are what linear theory would say. Yield is that of a wave of the shortest wavelength.",
+        )],
+        compared: compared(bed, &levels, &limits, &played[0]),
+        table: table(&levels),
+        data: json!({ "levels": levels, "deformation": limits }),
+    })
+}
+
+fn play(bed: &Bed, method: Method) -> Result<Played, CliError> {
+    let options =
+        Options { method, window: bed.window, limit: bed.surface.emission.limit, ..Options::default() };
+    let focused = focus(&bed.responses, &[Target::at(bed.target)], &options).map_err(CliError::input)?;
+    let drive = focused.drive.as_emitted();
+    let field = Field::new(&bed.responses, &drive, judge::CELLS).map_err(CliError::input)?;
+    let measured = field.measure(&[Aim::at(bed.target, bed.window)], None).map_err(CliError::input)?;
+    let places: Vec<Point> = bed.surface.actuators.iter().map(|a| a.at).collect();
+    let traces = field.traces(&places, bed.window).map_err(CliError::input)?;
+    let given = |(force, trace): (&Vec<f64>, &unripple::field::Trace)| -> f64 {
+        force.iter().zip(&trace.velocity).map(|(f, v)| f * v).sum()
+    };
+    let work = drive.channels().iter().zip(&traces).map(given).sum::<f64>() / drive.rate();
+    drop(field);
+    Ok(Played { method, drive, measured, work })
+}
+
+impl Played {
+    /// Peak displacement at the target, in metres.
+    fn displacement(&self) -> f64 {
+        self.measured.targets.first().map_or(f64::NAN, |t| t.peak_displacement_m.abs())
+    }
+
+    /// The same drive scaled to a displacement in metres.
+    fn at(&self, level: f64) -> Level {
+        let scale = level / self.displacement();
+        let coil = |force: f64| RESISTANCE * (force / FORCE_CONSTANT).powi(2);
+        let (peak, rms) = (self.drive.peak() * scale, self.drive.rms() * scale);
+        Level {
+            method: self.method.name(),
+            displacement_m: level,
+            peak_force_n: peak,
+            rms_force_n: rms,
+            mean_coil_heat_w: coil(rms) * self.drive.channels().len() as f64,
+            mean_mechanical_power_w: self.work * scale * scale / self.drive.duration(),
+            contrast: self.measured.targets.first().and_then(|t| t.displacement_contrast),
+        }
+    }
+}
+
+/// A value with a prefixed unit.
+fn shown(value: f64, unit: &str) -> String {
+    let (multiplier, unit) = prefixed(value, unit);
+    format!("{} {unit}", three(value * multiplier))
+}
+
+fn table(levels: &[Level]) -> Vec<Vec<String>> {
+    let headings = row([
+        "peak",
+        "method",
+        "peak force",
+        "rms force",
+        "heat in all coils, mean",
+        "mechanical power, mean",
+        "contrast (displacement)",
+    ]);
+    let cells = |l: &Level| {
+        vec![
+            format!("{:.0} µm", l.displacement_m * 1e6),
+            l.method.to_owned(),
+            shown(l.peak_force_n, "N"),
+            shown(l.rms_force_n, "N"),
+            shown(l.mean_coil_heat_w, "W"),
+            shown(l.mean_mechanical_power_w, "W"),
+            l.contrast.map_or("-".into(), |c| format!("{c:.1}")),
+        ]
+    };
+    std::iter::once(headings).chain(levels.iter().map(cells)).collect()
+}
+
+fn compared(bed: &Bed, levels: &[Level], limits: &Deformation, reversed: &Played) -> Vec<Compared> {
+    let mut rows: Vec<Compared> = Vec::new();
+    for level in levels.iter().filter(|l| l.method == Method::TimeReversal.name()) {
+        let um = level.displacement_m * 1e6;
+        rows.push(Compared::new(
+            format!("{um:.0} µm: force of each actuator"),
+            "no figure",
+            format!("{} peak, {} rms", shown(level.peak_force_n, "N"), shown(level.rms_force_n, "N")),
+            "the paper prints no drive; a bare sheet, no finger on it, ideal actuators",
+        ));
+        rows.push(touch(bed, level.displacement_m));
+        rows.extend(strain(limits, level.displacement_m));
+    }
+    rows.push(Compared::new(
+        "200 µm by scaling up",
+        "same contrast",
+        format!("linear up to {:.0} µm at most", end_of_linear(limits) * 1e6),
+        format!(
+            "the sheet is {:.0} µm thick: beyond that it stretches as much as it bends, tension and celerity rise with the \
+             displacement, and the focus comes early and weaker than the scaled one",
+            limits.linear_limit_thickness_m * 1e6
+        ),
+    ));
+    rows.extend(area(reversed));
+    rows
+}
+
+/// Power of a wave of the shortest wavelength that moves the finger by `amplitude` metres (equation 4).
+fn touch(bed: &Bed, amplitude: f64) -> Compared {
+    let (sheet, finger) = (&bed.surface.sheet, &bed.surface.finger);
+    let width = 2.0 * finger.contact_radius;
+    let strip = Strip::of_sheet(sheet.young, sheet.density, sheet.thickness, sheet.tension, width);
+    let k = TAU / bed.responses.conditions().lambda_min;
+    let power = strip.power(finger, k, amplitude);
+    let taken = power * strip.scattering(finger, k * strip.celerity(k) / TAU).absorbed_power;
+    Compared::new(
+        format!("{:.0} µm under a finger: power at the shortest wavelength", amplitude * 1e6),
+        "no figure",
+        format!("{} W to it, {} W into it", three(power), three(taken)),
+        "equation 4; it grows with the square of the amplitude, and falls fast with wavelength",
+    )
+}
+
+fn strain(limits: &Deformation, amplitude: f64) -> Option<Compared> {
+    let bend = limits.rows.iter().find(|bend| (bend.amplitude_m / amplitude - 1.0).abs() < 1e-9)?;
+    let share =
+        bend.share_of_yield.map_or("yield unknown".into(), |s| format!("{:.0} % of yield", 100.0 * s));
+    let linear = if bend.linear { "linear theory holds" } else { "linear theory does not hold" };
+    Some(Compared::new(
+        format!("{:.0} µm: strain of the film", amplitude * 1e6),
+        "no figure",
+        format!("{:.3} %, {share}", 100.0 * bend.strain),
+        format!(
+            "tension, bending to {:.0} mm and stretching of a wave of the shortest wavelength, an upper bound; {linear}",
+            bend.bending_radius_m * 1e3
+        ),
+    ))
+}
+
+fn area(reversed: &Played) -> Option<Compared> {
+    let diameter = reversed.measured.targets.first()?.displacement_spot_diameter_m?;
+    Some(Compared::new(
+        "region displaced",
+        "1 cm²",
+        format!("{:.2} cm²", PI * diameter * diameter / 4.0 * 1e4),
+        format!("full width at half maximum of the displacement, {:.1} mm", diameter * 1e3),
+    ))
+}
+
+fn end_of_linear(limits: &Deformation) -> f64 {
+    limits
+        .linear_limit_tension_m
+        .map_or(limits.linear_limit_thickness_m, |l| l.min(limits.linear_limit_thickness_m))
+}
+
+fn figure(played: &[Played], limits: &Deformation) -> Figure {
+    let forces: Vec<f64> = (0..=40).map(|i| 1e-3 * 10f64.powf(i as f64 / 20.0)).collect();
+    let across = |at: f64, label: &str, dash: Dash| -> Layer {
+        Rule { at, along: Along::X, label: label.into(), dash, ink: Ink::Rgb(Rgb::GREY) }.into()
+    };
+    let mut layers: Vec<Layer> = Vec::new();
+    layers.push(across(limits.linear_limit_thickness_m, "thickness", Dash::Dashed));
+    layers.extend(limits.yield_amplitude_m.map(|at| across(at, "yield", Dash::DashDot)));
+    layers.extend(LEVELS.map(|at| across(at, &format!("{:.0} µm", at * 1e6), Dash::Dotted)));
+    for (i, p) in played.iter().enumerate() {
+        let y = forces.iter().map(|force| p.displacement() / p.drive.peak() * force).collect();
+        let label = p.method.name().into();
+        layers.push(Line { x: forces.clone(), y, label, ink: Ink::Palette(i), ..Line::default() }.into());
+    }
+    Figure {
+        width_mm: 120.0,
+        description: "Peak displacement against peak force for time reversal and one-bit, with the sheet's thickness, its \
+                      yield and the paper's two amplitudes"
+            .into(),
+        ..Figure::of(Plot {
+            x: Axis::log("Peak force of each actuator (mN)").times(1e3),
+            y: Axis::log("Peak displacement (µm)").times(1e6),
+            layers,
+            ..Plot::default()
+        })
+    }
+}
+
+fn text(bed: &Bed) -> Vec<String> {
+    let [low, high] = LEVELS.map(|level| level * 1e6);
+    vec![
+        format!(
+            "The paper measured pulses of {low:.0} µm and says that {high:.0} µm follow by scaling up. In linear theory a drive scales \
+             as it is, and so do force, strain and background; power goes with the square."
+        ),
+        format!(
+            "Forces are for one pulse on the bare film, {} actuators and a window of {:.0} ms. The heat in coils takes the paper's \
+             {RESISTANCE} Ω and {FORCE_CONSTANT} N/A.",
+            bed.surface.actuators.len(),
+            bed.window * 1e3
+        ),
+    ]
+}

@@ -1,0 +1,135 @@
+use super::section::row;
+use super::{Bed, Compared, Section};
+use crate::error::CliError;
+use serde_json::json;
+use std::f64::consts::TAU;
+use unripple::core::{Air, Surface};
+use unripple::physics::{Design, Medium, Modes, design};
+
+/// Highest frequency that the first mode is looked for below, in Hz.
+const LOW: f64 = 300.0;
+/// Relative accuracy of the first mode.
+const ACCURACY: f64 = 1e-6;
+/// The tension that the paper prints, in N/m.
+const PRINTED_TENSION: f64 = 30.0;
+
+/// Section 4: the numbers printed for the paper's membrane, and the paper's slips.
+pub fn section(bed: &Bed) -> Result<Section, CliError> {
+    let surface = &bed.surface;
+    let design = design(surface).map_err(CliError::input)?;
+    let firsts = [Air::None, Air::OneSide, Air::BothSides].map(|air| {
+        let mut aired = surface.clone();
+        aired.sheet.air = air;
+        first_mode(&aired)
+    });
+    let [vacuum, one, both] = firsts;
+    let firsts = [vacuum?, one?, both?];
+    let mut compared = waves(surface, &design);
+    compared.extend(modes(surface, &design, firsts));
+    Ok(Section {
+        title: "Section 4: the numbers of the membrane".into(),
+        text: vec![format!(
+            "The paper's film with {:.0} N/m. What is printed beside it, and what follows from the sheet's data.",
+            surface.sheet.tension
+        )],
+        compared,
+        table: slips(&design),
+        data: json!({ "design": design, "first_mode_hz": { "vacuum": firsts[0], "air_one_side": firsts[1], "air_both_sides": firsts[2] } }),
+        ..Section::default()
+    })
+}
+
+fn first_mode(surface: &Surface) -> Result<f64, CliError> {
+    let modes = Modes::solve(surface, LOW, ACCURACY).map_err(CliError::input)?;
+    let first = modes.frequencies_hz().first().copied();
+    first.ok_or_else(|| CliError::Work(format!("no mode below {LOW} Hz")))
+}
+
+fn waves(surface: &Surface, design: &Design) -> Vec<Compared> {
+    let medium = Medium::of(&surface.sheet);
+    let wavelength = design.table1.first().map_or(0.0, |touch| touch.wavelength_m);
+    let hz = medium.omega(TAU / wavelength) / TAU;
+    let slack = Medium { tension: PRINTED_TENSION, ..medium };
+    vec![
+        Compared::new(
+            "tension",
+            format!("{PRINTED_TENSION:.0} N/m"),
+            format!("{:.0} N/m", surface.sheet.tension),
+            format!(
+                "{PRINTED_TENSION:.0} N/m would make long waves run at {:.1} m/s, against every other number of the paper; it \
+                 may be the total force on a side",
+                slack.phase_celerity(0.0)
+            ),
+        ),
+        Compared::new(
+            "celerity of long waves",
+            "34 m/s",
+            format!("{:.2} m/s", design.celerity_min_m_s),
+            "agrees: √(R/ρ_s)",
+        ),
+        Compared::new(
+            format!("celerity at {:.0} mm", wavelength * 1e3),
+            "43 m/s",
+            format!("{:.2} m/s", design.celerity_at_15mm_m_s),
+            format!("agrees; at the top of the band it is {:.2} m/s", design.celerity_max_m_s),
+        ),
+        Compared::new(
+            format!("frequency at {:.0} mm", wavelength * 1e3),
+            "3 kHz",
+            format!("{:.3} kHz", hz / 1e3),
+            format!("rounded; 3 kHz is a wave of {:.2} mm", medium.lambda_min(3e3) * 1e3),
+        ),
+    ]
+}
+
+fn modes(surface: &Surface, design: &Design, [vacuum, one, both]: [f64; 3]) -> Vec<Compared> {
+    let k = TAU / design.lambda_min_m;
+    let edge = surface.outline.perimeter() * k / (2.0 * TAU);
+    let exact = design.mode_count_exact.map_or("-".into(), |count| format!("{count}"));
+    vec![
+        Compared::new(
+            "first mode",
+            "150 Hz",
+            format!("{vacuum:.1} Hz"),
+            format!(
+                "the air that moves along lowers it: {one:.1} Hz with air on one side, {both:.1} Hz on both, as if the film \
+                 were endless"
+            ),
+        ),
+        Compared::new(
+            format!("modes below {:.0} Hz", design.band_hz[1]),
+            format!("+Pf/2c, which gives {:.0}", design.mode_count_weyl + 2.0 * edge),
+            format!("{exact} counted, {:.0} with -Pf/2c", design.mode_count_weyl),
+            "the sign + is for free edges; the paper's sheet is glued to a frame",
+        ),
+        Compared::new(
+            "window T",
+            "30 ms",
+            format!("{:.1} ms", design.window_paper_s * 1e3),
+            format!(
+                "the paper's formula with its c_min gives {:.1} ms, rounded down there; nine tenths of all contrast takes {:.1} ms",
+                design.window_paper_s * 1e3,
+                design.window_recommended_s * 1e3
+            ),
+        ),
+        Compared::new(
+            "decay time",
+            "about 70 ms",
+            format!("{:.0} ms", design.decay_time_s * 1e3),
+            "taken from the paper",
+        ),
+    ]
+}
+
+/// Every slip of the paper in a line.
+fn slips(design: &Design) -> Vec<Vec<String>> {
+    let headings = row(["slip of the paper", "printed", "what holds"]);
+    let notes =
+        design.notes.iter().map(|note| vec![note.topic.clone(), note.paper.clone(), note.here.clone()]);
+    let foci = row([
+        "names of the foci",
+        "D and E in the caption of Fig. 4, E and F in the text",
+        "D (2 Hz) and E (5 Hz)",
+    ]);
+    std::iter::once(headings).chain(notes).chain(std::iter::once(foci)).collect()
+}

@@ -1,0 +1,83 @@
+use unripple_plot::Figure;
+
+/// One part of the page: a figure or table of the paper beside ours.
+#[derive(Debug, Default)]
+pub struct Section {
+    /// What of the paper it is about, as in `Fig. 2b`.
+    pub title: String,
+    /// Figures, each written as NAME.svg and NAME.png, and what to say under each.
+    pub figures: Vec<Picture>,
+    /// Numbers beside each other.
+    pub compared: Vec<Compared>,
+    /// A table of ours: headings first.
+    pub table: Vec<Vec<String>>,
+    /// Paragraphs, in plain words.
+    pub text: Vec<String>,
+    /// The section's numbers for programs, SI units; `null` for none.
+    pub data: serde_json::Value,
+}
+
+/// A figure of the page.
+#[derive(Debug)]
+pub struct Picture {
+    /// Its file name without ending.
+    pub name: &'static str,
+    /// The figure.
+    pub figure: Figure,
+    /// What it shows.
+    pub caption: String,
+}
+
+impl Picture {
+    /// A figure with its name and caption.
+    pub fn still(name: &'static str, figure: Figure, caption: impl Into<String>) -> Self {
+        Self { name, figure, caption: caption.into() }
+    }
+
+    /// What to say of it to readers who cannot see it.
+    pub fn alternative(&self) -> &str {
+        let described = !self.figure.description.is_empty();
+        if described { &self.figure.description } else { &self.caption }
+    }
+
+    /// Its files, the one to show first.
+    pub fn files(&self) -> Vec<String> {
+        ["svg", "png"].map(|ending| format!("{}.{ending}", self.name)).to_vec()
+    }
+}
+
+/// A quantity in the paper and here.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Compared {
+    /// The quantity.
+    pub what: String,
+    /// What the paper has.
+    pub paper: String,
+    /// What is found here.
+    pub here: String,
+    /// Why they differ, or that they agree.
+    pub why: String,
+}
+
+impl Compared {
+    /// One row: the quantity, the paper's value, ours, and why they differ.
+    pub fn new(
+        what: impl Into<String>,
+        paper: impl Into<String>,
+        here: impl Into<String>,
+        why: impl Into<String>,
+    ) -> Self {
+        Self { what: what.into(), paper: paper.into(), here: here.into(), why: why.into() }
+    }
+}
+
+/// A row of a table from its cells.
+pub fn row<const N: usize>(cells: [&str; N]) -> Vec<String> {
+    cells.map(str::to_owned).to_vec()
+}
+
+/// A value to three figures.
+pub fn three(value: f64) -> String {
+    let places = (2.0 - value.abs().log10().floor()).clamp(0.0, 9.0) as usize;
+    format!("{value:.places$}")
+}

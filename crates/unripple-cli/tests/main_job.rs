@@ -1,0 +1,182 @@
+//! From a surface to a focus and back through the field: the files, the keys and the figures.
+
+mod common;
+
+use common::{Scratch, json, number, run};
+
+const FIGURES: [&str; 14] = [
+    "peak_velocity_m_s",
+    "peak_displacement_m",
+    "peak_time_s",
+    "contrast",
+    "background_contrast",
+    "worst_spot",
+    "spot_diameter_m",
+    "pulse_duration_s",
+    "displacement_peak_time_s",
+    "displacement_contrast",
+    "displacement_background_contrast",
+    "displacement_worst_spot",
+    "displacement_spot_diameter_m",
+    "displacement_pulse_duration_s",
+];
+
+#[test]
+fn field_on_the_drive_gives_the_figures_of_focus() {
+    let scratch = Scratch::new("main-job");
+    let out = scratch.join("out");
+    let drive = format!("{out}/drive.wav");
+    for method in ["time-reversal", "one-bit"] {
+        let arguments = ["--at", "62,90", "--method", method, "--window-ms", "30", "-o", &out];
+        let focus = json(&[&["focus", "hudin-2012"], &arguments[..]].concat());
+        assert_eq!(focus["method"], method);
+        let field = json(&["field", "hudin-2012", "--drive", &drive, "--at", "62,90", "--at-ms", "30"]);
+        for key in FIGURES {
+            let path = format!("/targets/0/{key}");
+            let (a, b) = (number(&focus, &path), number(&field, &path));
+            assert!((a / b - 1.0).abs() < 1e-4, "{method} {key}: {a} {b}");
+        }
+        for key in ["peak", "rms", "energy"] {
+            let path = format!("/drive/{key}");
+            assert!((number(&focus, &path) / number(&field, &path) - 1.0).abs() < 1e-9);
+        }
+        assert!((number(&focus, "/lambda_min_m") - 0.014_549_727).abs() < 1e-8);
+        assert_eq!(number(&focus, "/drive/peak"), 1.0);
+    }
+}
+
+/// Figures of the same drive computed independently, in Python, from dense matrices.
+#[test]
+fn figures_agree_with_an_independent_computation() {
+    let scratch = Scratch::new("independent");
+    let out = scratch.join("out");
+    let focus = json(&["focus", "hudin-2012", "--at", "62,90", "--window-ms", "30", "-o", &out]);
+    for (key, expected) in [
+        ("peak_velocity_m_s", 171.672_134),
+        ("peak_displacement_m", 0.014_285_589_9),
+        ("contrast", 25.074_560_6),
+        ("background_contrast", 27.630_007_8),
+        ("worst_spot", 3.798_403_6),
+        ("displacement_contrast", 24.831_774_1),
+        ("displacement_background_contrast", 20.984_497_9),
+        ("displacement_worst_spot", 2.921_831_6),
+    ] {
+        let found = number(&focus, &format!("/targets/0/{key}"));
+        assert!((found / expected - 1.0).abs() < 2e-5, "{key}: {found} {expected}");
+    }
+    assert!((number(&focus, "/drive/energy") - 0.017_181_704_5).abs() < 1e-7);
+}
+
+#[test]
+fn a_run_leaves_drive_report_and_figures() {
+    let scratch = Scratch::new("files");
+    let out = scratch.join("out");
+    let first = run(&["focus", "hudin-2012", "--at", "62,90", "-o", &out]);
+    assert!(first.status.success());
+    let again = run(&["focus", "hudin-2012", "--at", "40,50", "--peak-um", "40", "-o", &out, "--json"]);
+    assert!(String::from_utf8_lossy(&again.stderr).contains("replaced the earlier run"));
+    let report: serde_json::Value = serde_json::from_slice(&again.stdout).unwrap();
+    let written: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(format!("{out}/report.json")).unwrap()).unwrap();
+    assert_eq!(report, written);
+    assert!((number(&report, "/targets/0/peak_displacement_m").abs() / 40e-6 - 1.0).abs() < 1e-6);
+    assert!(report["notes"].as_array().unwrap().is_empty(), "{}", report["notes"]);
+    for file in report["files"].as_array().unwrap() {
+        let bytes = std::fs::read(format!("{out}/{}", file.as_str().unwrap())).unwrap();
+        assert!(bytes.len() > 1000, "{file}");
+    }
+    assert!(report["files"].as_array().unwrap().len() >= 9);
+    let page = std::fs::read_to_string(format!("{out}/report.md")).unwrap();
+    assert!(page.contains("| contrast |") && page.contains("![focus](focus.png)"));
+}
+
+#[test]
+fn field_finds_the_focus_by_itself_and_animates_it() {
+    let scratch = Scratch::new("field");
+    let (out, shown) = (scratch.join("out"), scratch.join("shown"));
+    run(&["focus", "hudin-2012", "--at", "62,90", "--window-ms", "30", "-o", &out]);
+    let drive = format!("{out}/drive.wav");
+    let field = json(&["field", "hudin-2012", "--drive", &drive, "-o", &shown, "--frames", "12"]);
+    let at = field["targets"][0]["at_m"].as_array().unwrap();
+    let (x, y) = (at[0].as_f64().unwrap(), at[1].as_f64().unwrap());
+    assert!((x - 0.062).hypot(y - 0.090) < 2e-3, "{x} {y}");
+    assert!((number(&field, "/targets/0/instant_s") - 0.030).abs() < 1e-4);
+    let movie = std::fs::File::open(format!("{shown}/animation.png")).unwrap();
+    let reader = png::Decoder::new(std::io::BufReader::new(movie)).read_info().unwrap();
+    assert_eq!(reader.info().animation_control().unwrap().num_frames, 12);
+}
+
+#[test]
+fn two_fingers_at_their_own_rates_keep_their_gains() {
+    let scratch = Scratch::new("rates");
+    let out = scratch.join("out");
+    let report = json(&[
+        "focus",
+        "hudin-2012",
+        "--at",
+        "40,50,1,20",
+        "--at",
+        "100,90,0.5,10",
+        "--window-ms",
+        "30",
+        "-o",
+        &out,
+    ]);
+    assert!((number(&report, "/period_s") - 0.1).abs() < 1e-9);
+    let peak = |i: usize| number(&report, &format!("/targets/{i}/peak_velocity_m_s"));
+    assert!(peak(0) > 1.2 * peak(1) && peak(1) > 0.0, "{} {}", peak(0), peak(1));
+}
+
+#[test]
+fn shapes_and_other_plants_are_judged_too() {
+    let scratch = Scratch::new("shapes");
+    let out = scratch.join("out");
+    let svg = scratch.file(
+        "ring.svg",
+        r#"<svg xmlns="http://www.w3.org/2000/svg" width="150mm" height="150mm" viewBox="0 0 150 150">
+           <circle cx="75" cy="75" r="25" fill="none" stroke="black"/></svg>"#,
+    );
+    for shape in ["triangle:75,75,50", "circle:75,75,25", &svg] {
+        let report = json(&["focus", "hudin-2012", "--shape", shape, "--window-ms", "30", "-o", &out]);
+        assert!(number(&report, "/targets/0/points") > 20.0);
+        assert!(number(&report, "/targets/0/contrast") > 3.0, "{report}");
+    }
+    let wide = json(&[
+        "focus",
+        "hudin-2012",
+        "--at",
+        "62,90",
+        "--window-ms",
+        "30",
+        "--judge-hz",
+        "6000",
+        "-o",
+        &out,
+    ]);
+    assert!((number(&wide, "/targets/0/contrast") - 25.0).abs() < 2.0);
+    assert!(wide["judged_on"].as_str().unwrap().contains("6000"));
+}
+
+#[test]
+fn losses_are_made_up_for() {
+    let scratch = Scratch::new("losses");
+    let out = scratch.join("out");
+    let peak = |losses: &str| {
+        let report = json(&[
+            "focus",
+            "hudin-2012",
+            "--at",
+            "62,90",
+            "--window-ms",
+            "60",
+            "--losses",
+            losses,
+            "-o",
+            &out,
+        ]);
+        number(&report, "/targets/0/peak_velocity_m_s") / number(&report, "/drive/energy").sqrt()
+    };
+    let (plain, uniform, per_mode) = (peak("none"), peak("uniform"), peak("per-mode"));
+    assert!((uniform / per_mode - 1.0).abs() < 1e-3, "one decay time for all modes: {uniform} {per_mode}");
+    assert!(uniform < plain, "time reversal is the matched filter: {uniform} {plain}");
+}
