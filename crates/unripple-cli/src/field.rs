@@ -6,9 +6,9 @@ use crate::figures::{self, Scene};
 use crate::focus::finish;
 use crate::judge::{self, CELLS, Judged};
 use crate::report::Report;
-use crate::targets::{numbers, place, positive};
+use crate::targets::{numbers, place, seconds};
 use crate::{input, output};
-use unripple::core::{Drive, Point, Responses, Surface};
+use unripple::core::{Drive, Point, Surface};
 use unripple::field::{Aim, Field};
 use unripple_store::{OutputDir, read_wav};
 
@@ -18,25 +18,17 @@ pub fn run(options: &FieldOptions, as_json: bool) -> Result<(), CliError> {
     let drive = read_wav(&options.drive)?.into_drive(&names, &options.drive.display().to_string())?;
     let out = options.output.as_ref().map(OutputDir::create).transpose()?;
     let responses = judge::model(&surface, options.judge_hz)?;
-    let period =
-        options.period_ms.map(|ms| positive(ms, "--period-ms", "ms")).transpose()?.map(|ms| ms / 1e3);
+    let period = seconds(options.period_ms, "--period-ms")?;
     let field = Field::new(&responses, &drive, CELLS).map_err(CliError::input)?;
     let aims = aims(options, &field, &drive, period)?;
     let last = aims.iter().map(|aim| aim.instant).fold(0.0, f64::max);
     let until = if period.is_some() { drive.duration() - 1.0 / drive.rate() } else { 2.0 * last };
-    let judged = judge::judge(&surface, &responses, &drive, &aims, period, until)?;
+    let judged = judge::judge(&surface, &field, &aims, period, until)?;
 
     let mut report = Report::new("field", &surface, &drive, &judged.measured, judged.notes.clone());
     report.period_s = period;
     if let Some(out) = out {
-        let shown = Shown {
-            options,
-            surface: &surface,
-            responses: &responses,
-            drive: &drive,
-            aims: &aims,
-            judged: &judged,
-        };
+        let shown = Shown { options, surface: &surface, drive: &drive, aims: &aims, judged: &judged };
         shown.write(&out, &mut report, &field)?;
         finish(out)?;
     }
@@ -98,7 +90,6 @@ fn own_peaks(
 struct Shown<'a> {
     options: &'a FieldOptions,
     surface: &'a Surface,
-    responses: &'a Responses,
     drive: &'a Drive,
     aims: &'a [Aim],
     judged: &'a Judged,
@@ -108,7 +99,7 @@ impl Shown<'_> {
     fn write(&self, out: &OutputDir, report: &mut Report, field: &Field) -> Result<(), CliError> {
         let measured = &self.judged.measured;
         let points: Vec<Vec<Point>> = self.aims.iter().map(|aim| aim.points.clone()).collect();
-        let scene = Scene::new(self.surface, &points, self.responses.conditions().lambda_min * 4.0 / 3.0);
+        let scene = Scene::new(self.surface, &points, measured.focal_radius_m);
         let mut figures =
             vec![("traces", figures::traces(&measured.targets, &self.judged.traces, self.drive.rate()))];
         figures.extend(figures::snapshots(&scene, measured).map(|figure| ("snapshot", figure)));

@@ -3,13 +3,13 @@
 use crate::args::{FocusOptions, LossName, MethodName};
 use crate::error::CliError;
 use crate::figures::{self, Scene};
-use crate::judge::{self, Judged};
+use crate::judge::{self, CELLS, Judged};
 use crate::report::{self, Report};
-use crate::targets::{self, positive};
+use crate::targets::{self, positive, seconds};
 use crate::{input, output};
 use unripple::core::{ActuatorKind, Decay, Drive, Responses, Surface};
 use unripple::field::{Aim, Field};
-use unripple::focus::{FocusError, Focused, LossCorrection, Method, Options, Target, focus};
+use unripple::focus::{Focused, LossCorrection, Method, Options, Target, focus};
 use unripple::physics::design::recommended_window;
 use unripple_store::{OutputDir, write_wav};
 
@@ -20,7 +20,7 @@ pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
     let responses = judge::model(&surface, None)?;
     let targets = targets::all(&options.targets, responses.conditions().lambda_min)?;
     let settings = settings(options, &surface, &responses)?;
-    let focused = focus(&responses, &targets, &settings).map_err(refused)?;
+    let focused = focus(&responses, &targets, &settings).map_err(CliError::input)?;
 
     let judged_surface = plant.as_ref().unwrap_or(&surface);
     let other = plant.is_some() || options.judge_hz.is_some();
@@ -39,10 +39,8 @@ pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
 }
 
 fn settings(options: &FocusOptions, surface: &Surface, responses: &Responses) -> Result<Options, CliError> {
-    let window = match options.window_ms {
-        Some(ms) => positive(ms, "--window-ms", "ms")? / 1e3,
-        None => recommended_window(surface, responses_count(responses)),
-    };
+    let window = seconds(options.window_ms, "--window-ms")?
+        .unwrap_or_else(|| recommended_window(surface, responses_count(responses)));
     let loss = match (options.losses, &surface.sheet.decay) {
         (LossName::None, _) => LossCorrection::None,
         (LossName::PerMode, _) => LossCorrection::PerMode,
@@ -62,11 +60,7 @@ fn settings(options: &FocusOptions, surface: &Surface, responses: &Responses) ->
         limit: surface.emission.limit,
         rms_limit: surface.emission.rms_limit,
         loss,
-        duration: options
-            .duration_ms
-            .map(|ms| positive(ms, "--duration-ms", "ms"))
-            .transpose()?
-            .map(|ms| ms / 1e3),
+        duration: seconds(options.duration_ms, "--duration-ms")?,
         ..Options::default()
     })
 }
@@ -77,10 +71,6 @@ fn responses_count(responses: &Responses) -> Option<usize> {
         Responses::Modal(modal) => Some(modal.poles.len()),
         Responses::Sampled(_) => None,
     }
-}
-
-fn refused(error: FocusError) -> CliError {
-    CliError::input(error)
 }
 
 /// The drive at the level asked for, as float32 samples, and what it does.
@@ -101,7 +91,10 @@ fn levelled(
     let period = focused.period.map(seconds);
     let last = focused.timing.iter().map(|timing| timing.instant).max().unwrap_or(0);
     let until = if period.is_some() { seconds(focused.drive.samples() - 1) } else { 2.0 * seconds(last) };
-    let judge = |drive: &Drive| judge::judge(surface, responses, drive, &aims, period, until);
+    let judge = |drive: &Drive| {
+        let field = Field::new(responses, drive, CELLS).map_err(CliError::input)?;
+        judge::judge(surface, &field, &aims, period, until)
+    };
     let drive = focused.drive.clone().as_emitted();
     let Some(um) = options.targets.peak_um else { return Ok((judge(&drive)?, drive)) };
 

@@ -4,7 +4,7 @@ use crate::error::CliError;
 use indicatif::ProgressBar;
 use serde::Serialize;
 use std::time::Duration;
-use unripple::core::{Drive, Point, Responses, Surface};
+use unripple::core::{Point, Responses, Surface};
 use unripple::field::{Aim, Field, Measured, Trace};
 use unripple::physics::design::{Deformation, deformation};
 use unripple::physics::{PhysicsError, ResponseOptions, responses};
@@ -50,16 +50,14 @@ pub fn model(surface: &Surface, max_hz: Option<f64>) -> Result<Responses, CliErr
     })
 }
 
-/// Measures what a drive does at the aims. Traces last until `until` seconds.
+/// Measures what the field of a drive is at the aims. Traces last until `until` seconds.
 pub fn judge(
     surface: &Surface,
-    responses: &Responses,
-    drive: &Drive,
+    field: &Field,
     aims: &[Aim],
     period: Option<f64>,
     until: f64,
 ) -> Result<Judged, CliError> {
-    let field = Field::new(responses, drive, CELLS).map_err(CliError::input)?;
     let spinner = (until > LONG).then(|| waiting(format!("measuring {until:.2} s of the whole surface")));
     let measured = field.measure(aims, period).map_err(CliError::input)?;
     if let Some(spinner) = spinner {

@@ -46,6 +46,11 @@ pub fn positive(value: f64, option: &str, unit: &str) -> Result<f64, CliError> {
     }
 }
 
+/// A positive time given in milliseconds, in seconds.
+pub fn seconds(ms: Option<f64>, option: &str) -> Result<Option<f64>, CliError> {
+    ms.map(|ms| Ok(positive(ms, option, "ms")? / 1e3)).transpose()
+}
+
 /// All targets asked for: points first, then shapes, each in the order typed.
 pub fn all(options: &TargetOptions, lambda_min: f64) -> Result<Vec<Target>, CliError> {
     let mut targets = options.at.iter().map(|text| point(text)).collect::<Result<Vec<_>, _>>()?;
