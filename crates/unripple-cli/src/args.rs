@@ -114,6 +114,9 @@ pub struct FocusOptions {
     /// Length of a repeated drive in ms; by default long enough to be steady.
     #[arg(long, value_name = "MS", allow_negative_numbers = true)]
     pub duration_ms: Option<f64>,
+    /// A finger resting at X,Y in mm while the drive is judged: the drive is what it would be without. Repeatable.
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    pub finger: Vec<String>,
     /// Judge the drive on another surface than the one it was computed for.
     #[arg(long, value_name = "SURFACE")]
     pub on: Option<String>,
@@ -139,6 +142,9 @@ pub struct FieldOptions {
     /// When to measure, in ms; by default at each place's own peak. Once for all, or once per --at.
     #[arg(long, value_name = "MS", allow_negative_numbers = true)]
     pub at_ms: Vec<f64>,
+    /// A finger resting at X,Y in mm, as the surface's [finger] says. Repeatable.
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    pub finger: Vec<String>,
     /// Period of a repeated drive, in ms: figures are then those of the last full period.
     #[arg(long, value_name = "MS", allow_negative_numbers = true)]
     pub period_ms: Option<f64>,

@@ -3,6 +3,7 @@
 use crate::args::FieldOptions;
 use crate::error::CliError;
 use crate::figures::{self, Scene};
+use crate::fingers;
 use crate::focus::finish;
 use crate::judge::{self, CELLS, Judged};
 use crate::report::Report;
@@ -17,7 +18,8 @@ pub fn run(options: &FieldOptions, as_json: bool) -> Result<(), CliError> {
     let names: Vec<String> = surface.actuators.iter().map(|a| a.name.clone()).collect();
     let drive = read_wav(&options.drive)?.into_drive(&names, &options.drive.display().to_string())?;
     let out = options.output.as_ref().map(OutputDir::create).transpose()?;
-    let responses = judge::model(&surface, options.judge_hz)?;
+    let contacts = fingers::contacts(&options.finger, &surface)?;
+    let responses = judge::model(&surface, options.judge_hz, &contacts)?;
     let period = seconds(options.period_ms, "--period-ms")?;
     let field = Field::new(&responses, &drive, CELLS).map_err(CliError::input)?;
     let aims = aims(options, &field, &drive, period)?;
@@ -25,8 +27,13 @@ pub fn run(options: &FieldOptions, as_json: bool) -> Result<(), CliError> {
     let until = if period.is_some() { drive.duration() - 1.0 / drive.rate() } else { 2.0 * last };
     let judged = judge::judge(&surface, &field, &aims, period, until)?;
 
-    let mut report = Report::new("field", &surface, &drive, &judged.measured, judged.notes.clone());
+    let mut report = Report::new("field", &surface, &drive, &judged);
     report.period_s = period;
+    if !contacts.is_empty() {
+        let without = judge::model(&surface, options.judge_hz, &[])?;
+        let without = Field::new(&without, &drive, 1.0).map_err(CliError::input)?;
+        report.fingers = fingers::felt(&contacts, &surface, &field, &without, until)?;
+    }
     if let Some(out) = out {
         let shown = Shown { options, surface: &surface, drive: &drive, aims: &aims, judged: &judged };
         shown.write(&out, &mut report, &field)?;

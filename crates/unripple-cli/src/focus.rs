@@ -3,11 +3,12 @@
 use crate::args::{FocusOptions, LossName, MethodName};
 use crate::error::CliError;
 use crate::figures::{self, Scene};
+use crate::fingers::{self, Felt};
 use crate::judge::{self, CELLS, Judged};
 use crate::report::{self, Report};
 use crate::targets::{self, positive, seconds};
 use crate::{input, output};
-use unripple::core::{ActuatorKind, Decay, Drive, Responses, Surface};
+use unripple::core::{ActuatorKind, Contact, Decay, Drive, Responses, Surface};
 use unripple::field::{Aim, Field};
 use unripple::focus::{Focused, LossCorrection, Method, Options, Target, focus};
 use unripple::physics::design::recommended_window;
@@ -17,18 +18,24 @@ pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
     let surface = input::surface(&options.surface)?;
     let plant = options.on.as_deref().map(input::surface).transpose()?;
     let out = OutputDir::create(&options.output)?;
-    let responses = judge::model(&surface, None)?;
+    let responses = judge::model(&surface, None, &[])?;
     let targets = targets::all(&options.targets, responses.conditions().lambda_min)?;
     let settings = settings(options, &surface, &responses)?;
     let focused = focus(&responses, &targets, &settings).map_err(CliError::input)?;
 
     let judged_surface = plant.as_ref().unwrap_or(&surface);
     let other = plant.is_some() || options.judge_hz.is_some();
-    let judging = other.then(|| judge::model(judged_surface, options.judge_hz)).transpose()?;
-    let judging = judging.as_ref().unwrap_or(&responses);
+    let free = other.then(|| judge::model(judged_surface, options.judge_hz, &[])).transpose()?;
+    let free = free.as_ref().unwrap_or(&responses);
+    let contacts = fingers::contacts(&options.finger, judged_surface)?;
+    let touched = !contacts.is_empty();
+    let under = touched.then(|| judge::model(judged_surface, options.judge_hz, &contacts)).transpose()?;
+    let judging = under.as_ref().unwrap_or(free);
     let (judged, drive) = levelled(options, &focused, &targets, judged_surface, judging)?;
+    let felt = felt(&contacts, judged_surface, [judging, free], &drive, &judged)?;
 
-    let mut report = Report::new("focus", &surface, &drive, &judged.measured, judged.notes.clone());
+    let mut report = Report::new("focus", &surface, &drive, &judged);
+    report.fingers = felt;
     report.judged_on = other.then(|| judged_on(judged_surface, options.judge_hz));
     report.method = Some(focused.method.name());
     report.window_s = Some(settings.window);
@@ -36,6 +43,21 @@ pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
     write(&out, &mut report, judged_surface, &drive, &judged, &focused)?;
     finish(out)?;
     output::answer(as_json, &report, &report.text())
+}
+
+/// What every finger feels of a drive, from the responses under the fingers and without them.
+fn felt(
+    contacts: &[Contact],
+    surface: &Surface,
+    [under, without]: [&Responses; 2],
+    drive: &Drive,
+    judged: &Judged,
+) -> Result<Vec<Felt>, CliError> {
+    if contacts.is_empty() {
+        return Ok(Vec::new());
+    }
+    let field = |responses| Field::new(responses, drive, 1.0).map_err(CliError::input);
+    fingers::felt(contacts, surface, &field(under)?, &field(without)?, judged.until)
 }
 
 fn settings(options: &FocusOptions, surface: &Surface, responses: &Responses) -> Result<Options, CliError> {

@@ -4,9 +4,9 @@ use crate::error::CliError;
 use indicatif::ProgressBar;
 use serde::Serialize;
 use std::time::Duration;
-use unripple::core::{Point, Responses, Surface};
-use unripple::field::{Aim, Field, Measured, Trace};
-use unripple::physics::design::{Deformation, deformation};
+use unripple::core::{Contact, Point, Responses, Surface};
+use unripple::field::{Aim, Field, Measured, Steepness, Trace};
+use unripple::physics::design::{Linearity, linearity};
 use unripple::physics::{PhysicsError, ResponseOptions, responses};
 
 /// Cells of the grid per shortest wavelength.
@@ -28,6 +28,10 @@ pub struct Judged {
     pub measured: Measured,
     /// How each target moves, from the drive's first sample on; of a set, its first point.
     pub traces: Vec<Trace>,
+    /// How far the traces go, in seconds.
+    pub until: f64,
+    /// How far from small the deflections are; `None` on a library's own points.
+    pub linearity: Option<Linearity>,
     /// What linear theory cannot say, and other warnings.
     pub notes: Vec<Note>,
 }
@@ -41,9 +45,9 @@ pub struct Note {
     pub text: String,
 }
 
-/// The responses of a surface, on modes up to `max_hz` if given.
-pub fn model(surface: &Surface, max_hz: Option<f64>) -> Result<Responses, CliError> {
-    let options = ResponseOptions { max_hz, ..ResponseOptions::default() };
+/// The responses of a surface, on modes up to `max_hz` if given, under fingers.
+pub fn model(surface: &Surface, max_hz: Option<f64>, contacts: &[Contact]) -> Result<Responses, CliError> {
+    let options = ResponseOptions { max_hz, contacts: contacts.to_vec(), ..ResponseOptions::default() };
     responses(surface, &options).map_err(|error| match error {
         PhysicsError::NotConverged { .. } => CliError::work(error),
         error => CliError::input(error),
@@ -65,15 +69,31 @@ pub fn judge(
     }
     let first: Vec<Point> = aims.iter().filter_map(|aim| aim.points.first().copied()).collect();
     let traces = field.traces(&first, until).map_err(CliError::input)?;
-    let notes = notes(surface, &measured);
-    Ok(Judged { measured, traces, notes })
+    let linearity = small(surface, &measured);
+    let notes = notes(surface, &measured, linearity.as_ref());
+    Ok(Judged { measured, traces, until, linearity, notes })
 }
 
-fn notes(surface: &Surface, measured: &Measured) -> Vec<Note> {
-    let limits = deformation(surface);
+/// The largest displacement anywhere, in metres.
+fn largest(measured: &Measured) -> f64 {
     let peak = measured.maps.peak_displacement.iter().fold(0.0, |m: f64, u| m.max(f64::from(u.abs())));
-    let largest = measured.targets.iter().map(|t| t.peak_displacement_m.abs()).fold(peak, f64::max);
-    let mut notes = linear_theory(largest, &limits);
+    measured.targets.iter().map(|t| t.peak_displacement_m.abs()).fold(peak, f64::max)
+}
+
+/// How far from small the deflections are. Slopes are known where targets are at their extreme; elsewhere the surface is
+/// calmer, and what is more there is allowed for in proportion to the displacement.
+fn small(surface: &Surface, measured: &Measured) -> Option<Linearity> {
+    let steep = Steepness::of(&measured.maps)?;
+    let largest = largest(measured);
+    let taken = measured.maps.at_displacement_peak.iter().flat_map(|s| &s.displacement);
+    let taken = taken.fold(0.0, |m: f64, u| m.max(f64::from(u.abs())));
+    let more = if taken > 0.0 { (largest / taken).max(1.0) } else { 1.0 };
+    let (slope, square) = (steep.slope * more, steep.mean_square_slope * more * more);
+    Some(linearity(surface, largest, slope, square, steep.curvature * more))
+}
+
+fn notes(surface: &Surface, measured: &Measured, linearity: Option<&Linearity>) -> Vec<Note> {
+    let mut notes = linearity.map_or_else(Vec::new, |found| linear_theory(surface, largest(measured), found));
     if measured.targets.iter().any(|target| !target.span_complete) {
         notes.push(Note {
             topic: "span",
@@ -83,32 +103,33 @@ fn notes(surface: &Surface, measured: &Measured) -> Vec<Note> {
     notes
 }
 
-/// What a displacement of `largest` metres puts in doubt.
-pub fn linear_theory(largest: f64, limits: &Deformation) -> Vec<Note> {
+/// What a field with a displacement of `largest` metres puts in doubt.
+fn linear_theory(surface: &Surface, largest: f64, found: &Linearity) -> Vec<Note> {
     let um = |metres: f64| metres * 1e6;
     let mut notes = Vec::new();
     let mut note = |text| notes.push(Note { topic: "linear theory", text });
-    let thickness = limits.linear_limit_thickness_m;
-    if largest > thickness {
+    if found.displacement_over_thickness > 1.0 {
         note(format!(
             "the largest displacement, {:.0} µm, is above the sheet's thickness of {:.0} µm: the sheet would stretch as \
              much as it bends, and linear theory does not hold",
             um(largest),
-            um(thickness)
+            um(surface.sheet.thickness)
         ));
     }
-    if let Some(limit) = limits.linear_limit_tension_m.filter(|limit| largest > *limit) {
+    if let Some(change) = found.tension_change.filter(|change| *change > 0.1) {
         note(format!(
-            "the largest displacement, {:.0} µm, is above {:.0} µm, where a focus changes the tension by a tenth",
-            um(largest),
-            um(limit)
+            "slopes of up to {:.3} add {:.1} N/m to the tension, {:.0} % of it: above 10 %, waves run faster where they are \
+             high, and linear theory does not hold",
+            found.slope,
+            found.tension_added_n_per_m,
+            100.0 * change
         ));
     }
-    if let Some(limit) = limits.yield_amplitude_m.filter(|limit| largest > *limit) {
+    if let Some(share) = found.share_of_yield.filter(|share| *share > 1.0) {
         note(format!(
-            "the largest displacement, {:.0} µm, strains the sheet past its yield at the shortest wavelength, {:.0} µm",
-            um(largest),
-            um(limit)
+            "bending strains the faces by {:.2e} and stretching the middle by {:.2e}: with the tension, {share:.1} times the \
+             strain at which the sheet yields",
+            found.bending_strain, found.stretching_strain
         ));
     }
     notes

@@ -6,6 +6,7 @@ mod design;
 mod error;
 mod field;
 mod figures;
+mod fingers;
 mod focus;
 mod input;
 mod judge;

@@ -1,10 +1,13 @@
 //! Reports of a focus or a field: as JSON and as Markdown.
 
-use crate::judge::Note;
+use crate::fingers::Felt;
+use crate::judge::{Judged, Note};
 use serde::Serialize;
 use std::fmt::Write;
+use unripple::Touch;
 use unripple::core::{Actuator, ActuatorKind, Drive, Surface};
-use unripple::field::{DriveFigures, Measured, TakenOn, TargetFigures};
+use unripple::field::{DriveFigures, TakenOn, TargetFigures};
+use unripple::physics::design::Linearity;
 
 /// Everything said about one drive on one surface. Lengths in metres, times in seconds, drive in its own unit.
 #[derive(Debug, Serialize)]
@@ -24,6 +27,12 @@ pub struct Report {
     sample_rate_hz: f64,
     actuators: Vec<Channel>,
     targets: Vec<TargetFigures>,
+    /// Fingers that rest on the surface.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub fingers: Vec<Felt>,
+    /// How far from small the deflections are.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    linearity: Option<Linearity>,
     drive: DriveFigures,
     lambda_min_m: f64,
     focal_radius_m: f64,
@@ -43,13 +52,8 @@ struct Channel {
 
 impl Report {
     /// A report of `command`.
-    pub fn new(
-        command: &'static str,
-        surface: &Surface,
-        drive: &Drive,
-        measured: &Measured,
-        notes: Vec<Note>,
-    ) -> Self {
+    pub fn new(command: &'static str, surface: &Surface, drive: &Drive, judged: &Judged) -> Self {
+        let measured = &judged.measured;
         let channel =
             |a: &Actuator| Channel { name: a.name.clone(), at_m: [a.at.x, a.at.y], unit: unit(&a.kind) };
         Self {
@@ -64,12 +68,14 @@ impl Report {
             sample_rate_hz: drive.rate(),
             actuators: surface.actuators.iter().map(channel).collect(),
             targets: measured.targets.clone(),
+            fingers: Vec::new(),
+            linearity: judged.linearity,
             drive: measured.drive.clone(),
             lambda_min_m: measured.lambda_min_m,
             focal_radius_m: measured.focal_radius_m,
             taken_on: measured.taken_on,
             outside_points: measured.outside_points,
-            notes,
+            notes: judged.notes.clone(),
             files: Vec::new(),
         }
     }
@@ -90,6 +96,9 @@ impl Report {
             for [name, velocity, displacement] in rows(target) {
                 let _ = writeln!(text, "  {name:<22}{velocity:>16}{displacement:>18}");
             }
+        }
+        for finger in &self.fingers {
+            let _ = writeln!(text, "\n{}", finger_line(finger));
         }
         let _ = writeln!(text, "\n{}", self.drive_line());
         for note in &self.notes {
@@ -118,6 +127,9 @@ impl Report {
                 let _ = writeln!(text, "| {name} | {velocity} | {displacement} |");
             }
             text.push('\n');
+        }
+        for finger in &self.fingers {
+            let _ = writeln!(text, "{}\n", finger_line(finger));
         }
         let _ = writeln!(text, "## Drive\n\n{}\n", self.drive_line());
         text += "| channel | actuator | at mm | unit |\n|---:|---|---|---|\n";
@@ -168,13 +180,30 @@ impl Report {
     }
 }
 
+/// What a finger feels and takes, in a line.
+fn finger_line(finger: &Felt) -> String {
+    let Touch { at_m: [x, y], peak_displacement_m, peak_force_n, peak_power_w, energy_j, .. } = finger.loaded;
+    format!(
+        "finger ({:.2}, {:.2}) mm: {:.2} µm, {:.3} N, {:.4} W at most, {:.3e} J taken; without it the waves would be {:.2} times \
+         as fast and {:.2} times as high there",
+        x * 1e3,
+        y * 1e3,
+        peak_displacement_m * 1e6,
+        peak_force_n,
+        peak_power_w,
+        energy_j,
+        finger.velocity_attenuation,
+        finger.displacement_attenuation
+    )
+}
+
 /// Unit of what an actuator is sent.
 pub fn unit(kind: &ActuatorKind) -> &'static str {
     use unripple::core::CoilDrive;
     match kind {
         ActuatorKind::Force => "N",
         ActuatorKind::MovingMagnet { driven_by: CoilDrive::Current, .. } => "A",
-        ActuatorKind::MovingMagnet { driven_by: CoilDrive::Voltage, .. } | ActuatorKind::Piezo => "V",
+        ActuatorKind::MovingMagnet { driven_by: CoilDrive::Voltage, .. } | ActuatorKind::Piezo { .. } => "V",
     }
 }
 

@@ -46,6 +46,38 @@ fn files_with_faults_are_refused_with_their_place() {
 }
 
 #[test]
+fn outlines_that_cannot_be_are_refused() {
+    let rim = "rectangle_mm = [150, 150]";
+    let shaped = |to: &str| FILM.replace(rim, to);
+    faulty(
+        &shaped("polygon_mm = [[0, 0], [150, 150], [150, 0], [0, 180]]"),
+        &["film.toml:4:14", "sides 0 and 2"],
+    );
+    faulty(&shaped("polygon_mm = [[0, 0], [150, 0], [75, 0]]"), &["film.toml:4:14", "without area"]);
+    let hole = |lines: &str| format!("{FILM}[[hole]]\n{lines}\n");
+    faulty(
+        &hole("circle_mm = 9\ncentre_mm = [200, 75]"),
+        &["film.toml:16:13", "hole[0].circle_mm", "outside the outline"],
+    );
+    faulty(&hole("circle_mm = 9\ncentre_mm = [145, 75]"), &["film.toml:16:13", "touches or crosses the rim"]);
+    faulty(
+        &hole("circle_mm = 9\ncentre_mm = [14, 30]"),
+        &["film.toml:14:9", "actuator[0].at_mm", "in a hole"],
+    );
+}
+
+#[test]
+fn what_nothing_holds_is_refused() {
+    let limp = FILM.replace("thickness_mm", "young_gpa = 0\nthickness_mm");
+    let free = format!("{}\nedge = \"free\"", "rectangle_mm = [150, 150]");
+    faulty(
+        &limp.replace("rectangle_mm = [150, 150]", &free),
+        &["film.toml:5:8", "no edge fixed and no stiffness"],
+    );
+    faulty(&limp.replace("= 200", "= 0"), &["sheet.tension_n_per_m", "neither tension nor stiffness"]);
+}
+
+#[test]
 fn ten_thousand_actuators_are_refused() {
     let many = "[[actuator]]\nat_mm = [12, 31]\n".repeat(10_000);
     faulty(&format!("{FILM}{many}"), &["actuator", "10001"]);

@@ -32,15 +32,21 @@ mod outline;
 mod point;
 mod pole;
 mod responses;
+mod shape;
+mod side;
 mod surface;
+mod uneven;
 
 pub use drive::Drive;
 pub use error::CoreError;
 pub use material::{MATERIALS, Material};
-pub use outline::{Edge, Edges, Outline, Shape};
+pub use outline::{Edge, Edges, Hole, Loop, Outline};
 pub use point::Point;
-pub use pole::Pole;
+pub use pole::{Onset, Pole};
 pub use responses::{Conditions, ModalResponses, Port, Responses, SampledResponses, Shapes};
+pub use shape::Shape;
+pub use side::Side;
 pub use surface::{
-    Actuator, ActuatorKind, Air, CoilDrive, Decay, Emission, Finger, Sheet, Surface, window_samples,
+    Actuator, ActuatorKind, Air, CoilDrive, Contact, Decay, Emission, Finger, Sheet, Surface, window_samples,
 };
+pub use uneven::{Grain, Profile, Scatterer, ScattererKind, Uneven};

@@ -1,34 +1,7 @@
-use crate::Point;
-use std::f64::consts::PI;
-
-/// The shape of a sheet's rim. Lengths in metres.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Shape {
-    /// A rectangle with its lower-left corner at the origin.
-    Rectangle {
-        /// Along x.
-        width: f64,
-        /// Along y.
-        height: f64,
-    },
-    /// A circle centred at (radius, radius).
-    Circle {
-        /// Its radius.
-        radius: f64,
-    },
-    /// Two half circles joined by straight sides along x.
-    Stadium {
-        /// Length of each straight side.
-        straight: f64,
-        /// Radius of each end.
-        radius: f64,
-    },
-    /// A simple closed polygon, anticlockwise, its bounding box cornered at the origin. Curves are flattened into one.
-    Polygon(Vec<Point>),
-}
+use crate::{Point, Shape, Side};
 
 /// How a side of the sheet is held.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Edge {
     /// No displacement, no slope.
     Clamped,
@@ -36,30 +9,108 @@ pub enum Edge {
     Supported,
     /// No force, no moment.
     Free,
+    /// Springs all along: against displacement and against tilt.
+    Elastic {
+        /// Force per length and displacement, in N/m².
+        lift: f64,
+        /// Moment per length and tilt, in N·m/(m·rad).
+        tilt: f64,
+    },
 }
 
-/// How the whole rim is held.
+impl Edge {
+    /// Whether it may be displaced.
+    pub fn moves(self) -> bool {
+        matches!(self, Self::Free | Self::Elastic { .. })
+    }
+}
+
+/// How a whole rim is held.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Edges {
     /// The same all round.
     All(Edge),
-    /// One per side, from the bottom, anticlockwise.
+    /// One per side, in the order of [`Shape::sides`].
     PerSide(Vec<Edge>),
 }
 
-/// A rim: its shape and how it is held.
+impl Edges {
+    /// How side `i` is held.
+    pub fn of(&self, i: usize) -> Edge {
+        match self {
+            Self::All(edge) => *edge,
+            Self::PerSide(list) => list.get(i).copied().unwrap_or(Edge::Clamped),
+        }
+    }
+}
+
+/// What is cut out of a sheet: a hole, or a slit as a thin stadium or rectangle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hole {
+    /// Its sides, the lower-left corner of their bounding box at the origin.
+    pub sides: Vec<Side>,
+    /// Where that corner is on the sheet.
+    pub at: Point,
+    /// How its rim is held.
+    pub edges: Edges,
+}
+
+impl Hole {
+    /// A hole with a free rim of some shape, the corner of the shape's bounding box at `at`.
+    pub fn new(shape: &Shape, at: Point) -> Self {
+        Self { sides: shape.sides(), at, edges: Edges::All(Edge::Free) }
+    }
+
+    /// A slit of some width from one point to another, its ends round.
+    pub fn slit(from: Point, to: Point, width: f64) -> Self {
+        let (length, radius) = (from.distance(to), width / 2.0);
+        let angle = (to.y - from.y).atan2(to.x - from.x);
+        let out = Point::new(radius * angle.sin(), -radius * angle.cos());
+        let plus = |p: Point, s: f64| Point::new(p.x + s * out.x, p.y + s * out.y);
+        let end = |centre, start| Side::Arc { centre, radius, start, sweep: std::f64::consts::PI };
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let mut sides = vec![end(to, angle - quarter), end(from, angle + quarter)];
+        if length > 0.0 {
+            sides.insert(1, Side::Line { from: plus(to, -1.0), to: plus(from, -1.0) });
+            sides.insert(0, Side::Line { from: plus(from, 1.0), to: plus(to, 1.0) });
+        }
+        let corner = Point::new(from.x.min(to.x) - radius, from.y.min(to.y) - radius);
+        let sides = sides.into_iter().map(|s| s.moved(Point::new(-corner.x, -corner.y))).collect();
+        Self { sides, at: corner, edges: Edges::All(Edge::Free) }
+    }
+
+    /// Its sides on the sheet, anticlockwise around the hole.
+    pub fn sides(&self) -> Vec<Side> {
+        self.sides.iter().map(|side| side.moved(self.at)).collect()
+    }
+
+    fn shape(&self) -> Shape {
+        Shape::Path(self.sides())
+    }
+}
+
+/// A closed rim with the sheet to its left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loop {
+    /// The sides in order, and how each is held.
+    pub sides: Vec<(Side, Edge)>,
+}
+
+/// A rim: its shape, how it is held, and what is cut out within.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
     /// The shape.
     pub shape: Shape,
     /// The edges.
     pub edges: Edges,
+    /// Holes, apart from each other and from the rim.
+    pub holes: Vec<Hole>,
 }
 
 impl Outline {
-    /// An outline clamped all round.
+    /// An outline clamped all round, without holes.
     pub fn new(shape: Shape) -> Self {
-        Self { shape, edges: Edges::All(Edge::Clamped) }
+        Self { shape, edges: Edges::All(Edge::Clamped), holes: Vec::new() }
     }
 
     /// The same outline held otherwise.
@@ -68,34 +119,37 @@ impl Outline {
         self
     }
 
-    /// Width and height of the bounding box, in metres.
-    pub fn extent(&self) -> (f64, f64) {
-        match &self.shape {
-            Shape::Rectangle { width, height } => (*width, *height),
-            Shape::Circle { radius } => (2.0 * radius, 2.0 * radius),
-            Shape::Stadium { straight, radius } => (straight + 2.0 * radius, 2.0 * radius),
-            Shape::Polygon(vertices) => {
-                vertices.iter().fold((0.0, 0.0), |(w, h), p| (f64::max(w, p.x), f64::max(h, p.y)))
-            }
-        }
+    /// The same outline with another hole.
+    pub fn with_hole(mut self, hole: Hole) -> Self {
+        self.holes.push(hole);
+        self
     }
 
-    /// Whether a point lies inside or on the rim.
+    /// All rims, the sheet to their left: the outer one anticlockwise, then those of holes clockwise.
+    pub fn loops(&self) -> Vec<Loop> {
+        let held = |sides: Vec<Side>, edges: &Edges| {
+            sides.into_iter().enumerate().map(|(i, side)| (side, edges.of(i))).collect::<Vec<_>>()
+        };
+        let outer = Loop { sides: held(self.shape.sides(), &self.edges) };
+        let holes = self.holes.iter().map(|hole| {
+            let turned = held(hole.sides(), &hole.edges).into_iter().rev();
+            Loop { sides: turned.map(|(side, edge)| (side.reversed(), edge)).collect() }
+        });
+        std::iter::once(outer).chain(holes).collect()
+    }
+
+    /// Width and height of the bounding box, in metres.
+    pub fn extent(&self) -> (f64, f64) {
+        self.shape.extent()
+    }
+
+    /// Whether a point lies on the sheet or on its rim.
     pub fn contains(&self, p: Point) -> bool {
-        if !p.is_finite() {
-            return false;
-        }
-        match &self.shape {
-            Shape::Rectangle { width, height } => {
-                (0.0..=*width).contains(&p.x) && (0.0..=*height).contains(&p.y)
-            }
-            Shape::Circle { radius } => p.distance(Point::new(*radius, *radius)) <= *radius,
-            Shape::Stadium { straight, radius } => {
-                let x = p.x.clamp(*radius, radius + straight);
-                p.distance(Point::new(x, *radius)) <= *radius
-            }
-            Shape::Polygon(vertices) => polygon_contains(vertices, p),
-        }
+        let cut = |hole: &Hole| {
+            let shape = hole.shape();
+            shape.contains(p) && shape.nearest_on_rim(p).distance(p) > 1e-12
+        };
+        self.shape.contains(p) && !self.holes.iter().any(cut)
     }
 
     /// The legal point nearest to `p`, to be told to people: `p` itself if it is inside, else the closest inside point
@@ -114,21 +168,11 @@ impl Outline {
         if self.contains(p) {
             return p;
         }
-        let towards = |centre: Point, radius: f64| {
-            let shrink = radius / p.distance(centre).max(f64::MIN_POSITIVE);
-            Point::new(centre.x + (p.x - centre.x) * shrink, centre.y + (p.y - centre.y) * shrink)
-        };
-        let on_rim = match &self.shape {
-            Shape::Rectangle { .. } => Point::new(p.x.clamp(0.0, width), p.y.clamp(0.0, height)),
-            Shape::Circle { radius } => towards(Point::new(*radius, *radius), *radius),
-            Shape::Stadium { straight, radius } => {
-                towards(Point::new(p.x.clamp(*radius, radius + straight), *radius), *radius)
-            }
-            Shape::Polygon(vertices) => sides(vertices)
-                .map(|(a, b)| foot(a, b, p))
-                .min_by(|a, b| a.distance(p).total_cmp(&b.distance(p)))
-                .unwrap_or(p),
-        };
+        let rims = std::iter::once(self.shape.clone()).chain(self.holes.iter().map(Hole::shape));
+        let on_rim = rims
+            .map(|shape| shape.nearest_on_rim(p))
+            .min_by(|a, b| a.distance(p).total_cmp(&b.distance(p)))
+            .unwrap_or(p);
         let rounded = Point::new((on_rim.x * 1e7).round(), (on_rim.y * 1e7).round());
         (0..25)
             .map(|i| (rounded.x + f64::from(i % 5 - 2), rounded.y + f64::from(i / 5 - 2)))
@@ -138,109 +182,51 @@ impl Outline {
             .unwrap_or(on_rim)
     }
 
-    /// Enclosed area S, in m².
+    /// Area of the sheet S, holes taken out, in m².
     pub fn area(&self) -> f64 {
-        match &self.shape {
-            Shape::Rectangle { width, height } => width * height,
-            Shape::Circle { radius } => PI * radius * radius,
-            Shape::Stadium { straight, radius } => PI * radius * radius + 2.0 * straight * radius,
-            Shape::Polygon(vertices) => {
-                sides(vertices).map(|(a, b)| a.x * b.y - b.x * a.y).sum::<f64>().abs() / 2.0
-            }
-        }
+        self.shape.area() - self.holes.iter().map(|hole| hole.shape().area()).sum::<f64>()
     }
 
-    /// Length of the rim P, in metres.
+    /// Length of all rims P, those of holes too, in metres.
     pub fn perimeter(&self) -> f64 {
-        match &self.shape {
-            Shape::Rectangle { width, height } => 2.0 * (width + height),
-            Shape::Circle { radius } => 2.0 * PI * radius,
-            Shape::Stadium { straight, radius } => 2.0 * (PI * radius + straight),
-            Shape::Polygon(vertices) => sides(vertices).map(|(a, b)| a.distance(b)).sum(),
-        }
+        self.shape.perimeter() + self.holes.iter().map(|hole| hole.shape().perimeter()).sum::<f64>()
     }
 
-    /// Lengths of the sides that edges are listed for: from the bottom, anticlockwise. Empty for round shapes.
+    /// Lengths of the outer sides, in the order that edges are listed in.
     pub fn side_lengths(&self) -> Vec<f64> {
-        match &self.shape {
-            Shape::Rectangle { width, height } => vec![*width, *height, *width, *height],
-            Shape::Circle { .. } | Shape::Stadium { .. } => Vec::new(),
-            Shape::Polygon(vertices) => sides(vertices).map(|(a, b)| a.distance(b)).collect(),
-        }
+        self.shape.sides().iter().map(Side::length).collect()
     }
 
-    /// How side `i` is held, counted as in [`Outline::side_lengths`].
+    /// How outer side `i` is held, counted as in [`Outline::side_lengths`].
     pub fn edge(&self, i: usize) -> Edge {
-        match &self.edges {
-            Edges::All(edge) => *edge,
-            Edges::PerSide(list) => list.get(i).copied().unwrap_or(Edge::Clamped),
-        }
+        self.edges.of(i)
     }
 
-    /// Length of the free part of the rim, in metres.
+    /// Length of the rims that may be displaced, in metres.
     pub fn free_length(&self) -> f64 {
-        match &self.edges {
-            Edges::All(Edge::Free) => self.perimeter(),
-            Edges::All(_) => 0.0,
-            Edges::PerSide(list) => self
-                .side_lengths()
-                .iter()
-                .zip(list)
-                .filter(|(_, edge)| **edge == Edge::Free)
-                .map(|(length, _)| length)
-                .sum(),
-        }
+        let sides = self.loops().into_iter().flat_map(|rim| rim.sides);
+        sides.filter(|(_, edge)| edge.moves()).map(|(side, _)| side.length()).sum()
     }
 
-    /// The rim as a closed polygon, its curves in `steps` pieces per full turn; for drawing.
-    pub fn rim(&self, steps: usize) -> Vec<Point> {
-        let arc = |cx: f64, cy: f64, r: f64, from: f64, sweep: f64, n: usize| {
-            (0..=n).map(move |i| {
-                let a = from + sweep * i as f64 / n as f64;
-                Point::new(cx + r * a.cos(), cy + r * a.sin())
-            })
+    /// Whether some rim, however short, keeps the sheet from moving off as a whole.
+    pub fn holds(&self) -> bool {
+        let fixed = |edge: Edge| match edge {
+            Edge::Clamped | Edge::Supported => true,
+            Edge::Elastic { lift, .. } => lift > 0.0,
+            Edge::Free => false,
         };
-        let half = (steps / 2).max(2);
-        match &self.shape {
-            Shape::Rectangle { width: w, height: h } => {
-                vec![Point::new(0.0, 0.0), Point::new(*w, 0.0), Point::new(*w, *h), Point::new(0.0, *h)]
-            }
-            Shape::Circle { radius: r } => arc(*r, *r, *r, 0.0, 2.0 * PI, 2 * half).take(2 * half).collect(),
-            Shape::Stadium { straight, radius: r } => arc(r + straight, *r, *r, -PI / 2.0, PI, half)
-                .chain(arc(*r, *r, *r, PI / 2.0, PI, half))
-                .collect(),
-            Shape::Polygon(vertices) => vertices.clone(),
-        }
+        self.loops().iter().any(|rim| rim.sides.iter().any(|(_, edge)| fixed(*edge)))
     }
-}
 
-fn sides(vertices: &[Point]) -> impl Iterator<Item = (Point, Point)> + '_ {
-    let next = vertices.iter().cycle().skip(1);
-    vertices.iter().zip(next).map(|(a, b)| (*a, *b))
-}
-
-/// The point of the side from `a` to `b` that is nearest to `p`.
-fn foot(a: Point, b: Point, p: Point) -> Point {
-    let (dx, dy) = (b.x - a.x, b.y - a.y);
-    let along = ((p.x - a.x) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy).max(f64::MIN_POSITIVE);
-    let along = along.clamp(0.0, 1.0);
-    Point::new(a.x + along * dx, a.y + along * dy)
-}
-
-fn polygon_contains(vertices: &[Point], p: Point) -> bool {
-    let mut inside = false;
-    for (a, b) in sides(vertices) {
-        let along = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-        let scale = a.distance(b).max(f64::MIN_POSITIVE);
-        let within = (p.x - a.x) * (p.x - b.x) + (p.y - a.y) * (p.y - b.y) <= 0.0;
-        if (along / scale).abs() <= 1e-12 && within {
-            return true;
-        }
-        if (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) * (b.x - a.x) / (b.y - a.y) {
-            inside = !inside;
-        }
+    /// The outer rim as a closed polygon, round shapes in `steps` pieces per full turn; for drawing.
+    pub fn rim(&self, steps: usize) -> Vec<Point> {
+        self.shape.flattened(steps)
     }
-    inside
+
+    /// The rims of the holes as closed polygons; for drawing.
+    pub fn hole_rims(&self, steps: usize) -> Vec<Vec<Point>> {
+        self.holes.iter().map(|hole| hole.shape().flattened(steps)).collect()
+    }
 }
 
 #[cfg(test)]
@@ -294,5 +280,31 @@ mod tests {
             .with_edges(Edges::PerSide(vec![Edge::Free, Edge::Clamped, Edge::Supported, Edge::Free]));
         assert!((sheet.free_length() - 0.3).abs() < 1e-12);
         assert_eq!(sheet.edge(2), Edge::Supported);
+    }
+
+    #[test]
+    fn holes_are_cut_out_and_keep_the_sheet_to_their_left() {
+        let plate = Outline::new(Shape::Rectangle { width: 0.2, height: 0.1 })
+            .with_hole(Hole::new(&Shape::Circle { radius: 0.02 }, Point::new(0.03, 0.03)))
+            .with_hole(Hole::slit(Point::new(0.12, 0.02), Point::new(0.17, 0.07), 1e-3));
+        let slit = 1e-3 * 0.05 * 2f64.sqrt() + std::f64::consts::PI * 0.25e-6;
+        let area = 0.02 - std::f64::consts::PI * 4e-4 - slit;
+        assert!((plate.area() / area - 1.0).abs() < 1e-12, "{} {area}", plate.area());
+        for (inside, x, y) in [
+            (false, 0.05, 0.05),
+            (false, 0.05, 0.0699),
+            (true, 0.05, 0.075),
+            (false, 0.145, 0.045),
+            (true, 0.145, 0.06),
+        ] {
+            assert_eq!(plate.contains(Point::new(x, y)), inside, "{x} {y}");
+        }
+        // The sheet lies a little to the left of every side.
+        for (side, _) in plate.loops().into_iter().flat_map(|rim| rim.sides) {
+            let (p, d) = (side.at(0.4), side.derivative(0.4));
+            let step = 1e-5 / d.x.hypot(d.y);
+            assert!(plate.contains(Point::new(p.x - step * d.y, p.y + step * d.x)), "{side:?}");
+            assert!(!plate.contains(Point::new(p.x + step * d.y, p.y - step * d.x)), "{side:?}");
+        }
     }
 }

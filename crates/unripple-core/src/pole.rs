@@ -1,3 +1,14 @@
+/// What an impulse does to an oscillation at first.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Onset {
+    /// Sets its velocity to 1: an oscillator struck. Modes of a sheet that its damping does not couple are struck.
+    #[default]
+    Velocity,
+    /// Moves it by 1/ω, at rest: the quadrature, which modes coupled by damping need too. Their phase depends on the
+    /// place, so that each takes both.
+    Displacement,
+}
+
 /// A decaying oscillation: ü + 2σu̇ + ω²u = impulse, for unit modal mass.
 ///
 /// Underdamped, critical, overdamped and rigid (ω = 0) oscillators are all exact.
@@ -7,21 +18,47 @@ pub struct Pole {
     pub omega: f64,
     /// Decay rate of the amplitude σ = 1/τ, in 1/s.
     pub sigma: f64,
+    /// What an impulse does to it at first.
+    pub onset: Onset,
 }
 
 impl Pole {
-    /// Displacement a time `t` (s, of either sign) after a unit impulse: e^{-σt} sin(ω_d t)/ω_d.
-    pub fn displacement(self, t: f64) -> f64 {
-        let (_, s) = self.swing(t);
-        s
+    /// An oscillation that an impulse sets going with velocity 1.
+    pub fn new(omega: f64, sigma: f64) -> Self {
+        Self { omega, sigma, onset: Onset::Velocity }
     }
 
-    /// Velocity a time `t` (s) after a unit impulse, the derivative of [`Pole::displacement`]; 1 at t = 0.
+    /// An oscillation that an impulse moves by 1/ω.
+    pub fn moved(omega: f64, sigma: f64) -> Self {
+        Self { omega, sigma, onset: Onset::Displacement }
+    }
+
+    /// Displacement and velocity just after a unit impulse.
+    pub fn kick(self) -> [f64; 2] {
+        match self.onset {
+            Onset::Velocity => [0.0, 1.0],
+            Onset::Displacement if self.omega > 0.0 => [1.0 / self.omega, 0.0],
+            Onset::Displacement => [0.0, 0.0],
+        }
+    }
+
+    /// Displacement a time `t` (s, of either sign) after a unit impulse: e^{-σt} sin(ω_d t)/ω_d where it is struck.
+    pub fn displacement(self, t: f64) -> f64 {
+        let (c, s) = self.swing(t);
+        let [u, v] = self.kick();
+        u * (c + self.sigma * s) + v * s
+    }
+
+    /// Velocity a time `t` (s) after a unit impulse, the derivative of [`Pole::displacement`]; 1 at t = 0 where it is
+    /// struck.
     ///
     /// For negative `t` it is the analytic continuation, not zero.
     pub fn velocity(self, t: f64) -> f64 {
         let (c, s) = self.swing(t);
-        c - self.sigma * s
+        match self.onset {
+            Onset::Velocity => c - self.sigma * s,
+            Onset::Displacement => -self.omega * s,
+        }
     }
 
     /// Exact propagator over `dt` seconds: `[u, v]` becomes `[[a, b], [c, d]] [u, v]`.
@@ -59,13 +96,17 @@ impl Pole {
 mod tests {
     use super::*;
 
+    const fn of(omega: f64, sigma: f64) -> Pole {
+        Pole { omega, sigma, onset: Onset::Velocity }
+    }
+
     const POLES: [Pole; 6] = [
-        Pole { omega: 1000.0, sigma: 14.0 },
-        Pole { omega: 1000.0, sigma: 0.0 },
-        Pole { omega: 1000.0, sigma: 1000.0 },
-        Pole { omega: 1000.0, sigma: 4000.0 },
-        Pole { omega: 0.0, sigma: 14.0 },
-        Pole { omega: 0.0, sigma: 0.0 },
+        of(1000.0, 14.0),
+        of(1000.0, 0.0),
+        of(1000.0, 1000.0),
+        of(1000.0, 4000.0),
+        of(0.0, 14.0),
+        of(0.0, 0.0),
     ];
 
     #[test]
@@ -95,6 +136,17 @@ mod tests {
                 assert!((v - pole.velocity(t)).abs() < 1e-10, "{pole:?}");
                 assert!((u - pole.displacement(t)).abs() < 1e-12, "{pole:?}");
             }
+        }
+    }
+
+    #[test]
+    fn moved_oscillations_ring_as_they_step() {
+        for pole in POLES.map(|p| Pole::moved(p.omega, p.sigma)) {
+            let m = pole.step(3e-4);
+            let [u, v] = pole.kick();
+            assert_eq!([u, v], [pole.displacement(0.0), pole.velocity(0.0)]);
+            assert!((m[0][0] * u + m[0][1] * v - pole.displacement(3e-4)).abs() < 1e-12, "{pole:?}");
+            assert!((m[1][0] * u + m[1][1] * v - pole.velocity(3e-4)).abs() < 1e-10, "{pole:?}");
         }
     }
 }

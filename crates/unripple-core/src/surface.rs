@@ -1,4 +1,4 @@
-use crate::{Outline, Point};
+use crate::{Outline, Point, Uneven};
 
 /// A whole surface: sheet, rim, actuators, band and finger. What a surface file says, in SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,7 +17,7 @@ pub struct Surface {
     pub actuators: Vec<Actuator>,
 }
 
-/// The sheet: an isotropic thin plate under uniform tension.
+/// The sheet: a thin plate under tension, uniform and isotropic unless [`Sheet::uneven`] says otherwise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sheet {
     /// Name of the material, for reports.
@@ -38,6 +38,8 @@ pub struct Sheet {
     pub decay: Decay,
     /// Air that moves with the sheet.
     pub air: Air,
+    /// What makes it other than uniform and isotropic.
+    pub uneven: Uneven,
 }
 
 /// How vibration dies out.
@@ -106,6 +108,15 @@ impl Default for Finger {
     }
 }
 
+/// A finger on the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// The centre of the disc it touches.
+    pub at: Point,
+    /// What it is.
+    pub finger: Finger,
+}
+
 /// One actuator: a channel of the drive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Actuator {
@@ -115,6 +126,8 @@ pub struct Actuator {
     pub at: Point,
     /// What it is.
     pub kind: ActuatorKind,
+    /// Radius of the disc that a force or a magnet acts on evenly, in metres; 0 for a point.
+    pub contact_radius: f64,
 }
 
 /// What an actuator is, and the unit of its drive.
@@ -135,8 +148,15 @@ pub enum ActuatorKind {
         /// Whether the amplifier sets the current or the voltage.
         driven_by: CoilDrive,
     },
-    /// A piezo patch; its drive is in V.
-    Piezo,
+    /// A round piezo patch, which bends the sheet by a moment along its rim; its drive is in V.
+    Piezo {
+        /// Radius of the patch, in metres.
+        radius: f64,
+        /// Moment per length of rim and volt, in N/V.
+        moment: f64,
+        /// Mass of the patch, in kg.
+        mass: f64,
+    },
 }
 
 impl ActuatorKind {
@@ -145,7 +165,7 @@ impl ActuatorKind {
         match self {
             Self::Force => "force",
             Self::MovingMagnet { .. } => "moving-magnet",
-            Self::Piezo => "piezo",
+            Self::Piezo { .. } => "piezo",
         }
     }
 }

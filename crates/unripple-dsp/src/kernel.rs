@@ -105,10 +105,7 @@ mod tests {
                 let worst = |half: usize| {
                     let kernel = Kernel::new(5, half, beta);
                     (0..=40)
-                        .map(|part| Pole {
-                            omega: fill * f64::from(part) / 40.0 * PI * 1e3 / 5.0,
-                            sigma: 0.0,
-                        })
+                        .map(|part| Pole::new(fill * f64::from(part) / 40.0 * PI * 1e3 / 5.0, 0.0))
                         .map(|pole| kernel.error(pole, 1e3))
                         .fold(0.0, f64::max)
                 };
@@ -121,7 +118,7 @@ mod tests {
     #[test]
     fn says_its_error() {
         let kernel = Kernel::new(3, 6, 5.0);
-        let pole = Pole { omega: 700.0, sigma: 20.0 };
+        let pole = Pole::new(700.0, 20.0);
         let exact = |t: f64| (-pole.sigma * t).exp() * ((pole.omega * pole.omega - 400.0).sqrt() * t).cos();
         for phase in 0..3 {
             let found: f64 =

@@ -31,7 +31,7 @@ const MOST: usize = 64;
 /// use unripple_core::Pole;
 /// use unripple_dsp::ModalSynth;
 ///
-/// let poles = [Pole { omega: 2000.0, sigma: 10.0 }, Pole { omega: 9000.0, sigma: 30.0 }];
+/// let poles = [Pole::new(2000.0, 10.0), Pole::new(9000.0, 30.0)];
 /// let synth = ModalSynth::new(&poles, 48e3, 100, 1e-6);
 /// let mut response = [0.0; 100];
 /// synth.respond(mat![[3.0, 2.0]].as_ref(), &mut response)?;

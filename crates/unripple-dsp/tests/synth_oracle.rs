@@ -9,7 +9,7 @@ fn poles(count: usize, top_hz: f64, sigma: f64) -> Vec<Pole> {
     (0..count)
         .map(|m| {
             let part = (m + 1) as f64 / count as f64;
-            Pole { omega: std::f64::consts::TAU * top_hz * part.sqrt(), sigma }
+            Pole::new(std::f64::consts::TAU * top_hz * part.sqrt(), sigma)
         })
         .collect()
 }
@@ -55,11 +55,11 @@ fn agrees_with_the_direct_sum_at_every_accuracy() {
 #[test]
 fn sums_damped_and_rigid_modes_too() {
     let mut poles = poles(200, 3e3, 14.0);
-    poles[0] = Pole { omega: 0.0, sigma: 0.0 };
-    poles[1] = Pole { omega: 300.0, sigma: 300.0 };
-    poles[2] = Pole { omega: 300.0, sigma: 5e3 };
-    poles[3] = Pole { omega: 9e3, sigma: 8e3 };
-    poles[4] = Pole { omega: 1e6, sigma: 10.0 };
+    poles[0] = Pole::new(0.0, 0.0);
+    poles[1] = Pole::new(300.0, 300.0);
+    poles[2] = Pole::new(300.0, 5e3);
+    poles[3] = Pole::new(9e3, 8e3);
+    poles[4] = Pole::new(1e6, 10.0);
     let weights = weights(8, poles.len());
     for accuracy in [1e-4, 1e-8] {
         let synth = ModalSynth::new(&poles, 48e3, 500, accuracy);

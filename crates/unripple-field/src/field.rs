@@ -66,6 +66,11 @@ impl<'a> Field<'a> {
         self.grid.as_ref()
     }
 
+    /// Samples per second.
+    pub fn rate(&self) -> f64 {
+        self.drive.rate()
+    }
+
     /// Number of samples from the drive's first for which the field is known.
     pub fn known(&self) -> usize {
         self.source.known()

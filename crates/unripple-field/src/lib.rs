@@ -28,7 +28,7 @@
 //! let outline = Outline::new(Shape::Rectangle { width: 0.2, height: 0.1 });
 //! let piston = Responses::Modal(ModalResponses {
 //!     ports: vec![Port { name: "a1".into(), at: Point::new(0.1, 0.05) }],
-//!     poles: vec![Pole { omega: 0.0, sigma: 0.0 }],
+//!     poles: vec![Pole::new(0.0, 0.0)],
 //!     input: Mat::full(1, 1, 1.0),
 //!     shapes: Arc::new(Piston),
 //!     conditions: Conditions { rate: 1000.0, band: [0.0, 100.0], lambda_min: 0.03, outline },
@@ -55,6 +55,7 @@ mod pulse;
 mod sampled;
 mod source;
 mod spot;
+mod steepness;
 
 pub use aim::{Aim, MeasureOptions};
 pub use error::FieldError;
@@ -63,3 +64,4 @@ pub use figures::{DriveFigures, Maps, Measured, TakenOn, TargetFigures};
 pub use grid::Grid;
 pub use measure::measure;
 pub use source::Trace;
+pub use steepness::Steepness;

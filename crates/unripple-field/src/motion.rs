@@ -4,8 +4,8 @@ use unripple_core::{Drive, ModalResponses};
 
 /// How every mode moves under a drive, stepped exactly from sample to sample.
 ///
-/// The state of mode m is its displacement u and velocity v. At sample i it receives the momentum
-/// `q[m] = Σ_a input[a, m] · d[a][i] / rate`, so that `v[i] = Σ_j h[i−j] d[j] / rate` with `h[0]` whole, and then it rings
+/// The state of mode m is its displacement u and velocity v. At sample i it receives the impulse
+/// `q[m] = Σ_a input[a, m] · d[a][i] / rate`, times what a unit impulse does to its pole, so that `v[i] = Σ_j h[i−j] d[j] / rate` with `h[0]` whole, and then it rings
 /// freely until the next sample. Displacement follows from the same state.
 #[derive(Debug)]
 pub(crate) struct Motion<'a> {
@@ -14,6 +14,8 @@ pub(crate) struct Motion<'a> {
     input: Mat<f64>,
     /// Rows of the propagator over one sample, one column per mode.
     step: [Vec<f64>; 4],
+    /// Displacement and velocity that a unit impulse gives each mode.
+    kick: [Vec<f64>; 2],
     displacement: Vec<f64>,
     velocity: Vec<f64>,
     next: usize,
@@ -26,10 +28,12 @@ impl<'a> Motion<'a> {
         let modes = responses.poles.len();
         let steps: Vec<_> = responses.poles.iter().map(|pole| pole.step(1.0 / rate)).collect();
         let entry = |i: usize, j: usize| steps.iter().map(|step| step[i][j]).collect();
+        let kicks: Vec<_> = responses.poles.iter().map(|pole| pole.kick()).collect();
         Self {
             drive,
             input: Mat::from_fn(modes, drive.channels().len(), |m, a| responses.input[(a, m)] / rate),
             step: [entry(0, 0), entry(0, 1), entry(1, 0), entry(1, 1)],
+            kick: [0, 1].map(|i| kicks.iter().map(|kick| kick[i]).collect()),
             displacement: vec![0.0; modes],
             velocity: vec![0.0; modes],
             next: 0,
@@ -55,7 +59,9 @@ impl<'a> Motion<'a> {
             }
             if offset < momenta.ncols() {
                 let column = momenta.col_as_slice(offset);
-                self.velocity.iter_mut().zip(column).for_each(|(v, q)| *v += q);
+                let [moved, struck] = &self.kick;
+                self.displacement.iter_mut().zip(column).zip(moved).for_each(|((u, q), k)| *u += q * k);
+                self.velocity.iter_mut().zip(column).zip(struck).for_each(|((v, q), k)| *v += q * k);
             }
             self.next += 1;
             show(&self.displacement, &self.velocity);

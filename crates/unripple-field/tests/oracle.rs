@@ -187,7 +187,7 @@ fn a_single_mode_by_hand() {
     let film = Film { height: 0.10, ..small() };
     let mut modal = film.modal();
     let (omega, rate) = (2.0 * PI * 100.0, 24e3);
-    modal.poles = vec![Pole { omega, sigma: 0.0 }];
+    modal.poles = vec![Pole::new(omega, 0.0)];
     modal.conditions.rate = rate;
     modal.input = modal.input.subcols(0, 1).to_owned();
     modal.shapes = std::sync::Arc::new(common::Sines {
@@ -282,7 +282,7 @@ fn a_repeated_drive_reaches_the_sum_of_the_geometric_series() {
     // Velocity of a mode is Re[(1 + jσ/ω_d) e^{λt}], λ = −σ + jω_d; over all earlier strikes, divided by 1 − e^{λ T_r}.
     let steady = |i: usize| -> f64 {
         let term = |m: usize| {
-            let Pole { omega, sigma } = modal.poles[m];
+            let Pole { omega, sigma, .. } = modal.poles[m];
             let wd = (omega * omega - sigma * sigma).sqrt();
             let (t, repeat) = (i as f64 / film.rate, period as f64 / film.rate);
             let (decay, turn) = ((-sigma * repeat).exp(), wd * repeat);

@@ -29,7 +29,7 @@
 //! let outline = Outline::new(Shape::Rectangle { width: 1.0, height: 0.1 });
 //! let string = Responses::Modal(ModalResponses {
 //!     ports: vec![Port { name: "a1".into(), at }],
-//!     poles: vec![Pole { omega: 600.0, sigma: 10.0 }, Pole { omega: 1200.0, sigma: 10.0 }],
+//!     poles: vec![Pole::new(600.0, 10.0), Pole::new(1200.0, 10.0)],
 //!     input: Mat::from_fn(1, 2, |_, m| String2.at_all(&[at])[(0, m)]),
 //!     shapes: Arc::new(String2),
 //!     conditions: Conditions { rate: 8000.0, band: [0.0, 200.0], lambda_min: 1.0, outline },

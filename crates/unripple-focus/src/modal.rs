@@ -2,7 +2,7 @@ use crate::recording::energy;
 use crate::{FocusError, LossCorrection, Options};
 use faer::traits::ComplexField;
 use faer::{Mat, MatRef};
-use unripple_core::{ModalResponses, Point, Pole};
+use unripple_core::{ModalResponses, Onset, Point, Pole};
 use unripple_dsp::ModalSynth;
 
 /// Values of responses that are held at once while their energies are summed.
@@ -143,6 +143,9 @@ fn undamped(pole: Pole, t: f64) -> f64 {
     if square <= 0.0 {
         return pole.velocity(t);
     }
-    let lossless = Pole { omega: square.sqrt(), sigma: 0.0 };
-    lossless.velocity(t) - pole.sigma * lossless.displacement(t)
+    let lossless = Pole::new(square.sqrt(), 0.0);
+    match pole.onset {
+        Onset::Velocity => lossless.velocity(t) - pole.sigma * lossless.displacement(t),
+        Onset::Displacement => -pole.omega * lossless.displacement(t),
+    }
 }

@@ -266,7 +266,7 @@ fn a_library_gives_the_drive_of_its_nearest_point() {
 #[test]
 fn a_single_mode_by_hand() {
     let mut modal = Membrane::small().modal();
-    modal.poles.iter_mut().for_each(|pole| *pole = Pole { omega: 0.0, sigma: 100.0 });
+    modal.poles.iter_mut().for_each(|pole| *pole = Pole::new(0.0, 100.0));
     let focused =
         focus(&Responses::Modal(modal), &[Target::at(Point::new(0.033, 0.044))], &options()).unwrap();
     // Every response is a multiple of e^{-2σt}: 2σu̇ without stiffness.

@@ -1,3 +1,4 @@
+use faer::c64;
 use std::f64::consts::{PI, TAU};
 use unripple_core::{Air, Sheet};
 
@@ -9,11 +10,19 @@ pub const AIR_CELERITY: f64 = 343.2;
 
 /// What bending waves on a sheet see: mass, tension, stiffness and the air beside it.
 ///
-/// A tensioned, isotropic Kirchhoff plate carries waves e^{j(ωt - kx)} with
-/// ω² ρ_eff = k² (R + D k²). In vacuum ρ_eff is the mass per area ρ_s = ρh. Air on n sides adds the mass of its
-/// evanescent layer, ρ_eff = ρ_s + n ρ_0 / √(k² - (ω/c_0)²), as long as waves are slower than sound; from the
-/// coincidence frequency on, where they radiate instead, it adds none (Fahy and Gardonio, *Sound and Structural
-/// Vibration*, 2007, section 4).
+/// A tensioned, isotropic Kirchhoff plate carries waves e^{j(ωt - kx)}. Beside air on n sides a wave of real wavenumber k
+/// that nothing drives satisfies (Fahy and Gardonio, *Sound and Structural Vibration*, 2007, section 4)
+///
+/// ```text
+/// ρ_s ω² + n ρ_0 ω²/γ = k² (R + D k²),   γ = √(k² - (ω/c_0)²)
+/// ```
+///
+/// with ρ_s = ρh. As long as waves are slower than sound, γ is real and the air an added mass n ρ_0/γ. Faster ones radiate: γ
+/// is near j√((ω/c_0)² - k²), the air a resistance n ρ_0 c_0/√(1 - (k c_0/ω)²), and ω has the imaginary part σ at which the
+/// wave decays, [`Medium::radiation`]. The equation is a cubic in γ with one positive root, the slow wave, and where air is
+/// light a pair of complex ones, the radiating wave. Which of them the sheet's own wave is changes where the wave in vacuum is
+/// as fast as sound; both roots are finite there, so that ω jumps by about (n ρ_0/ρ_s k)^{2/3}, a per cent or so, and σ
+/// starts at about as much of ω. A finite sheet also radiates a little below coincidence, by its edges: that is left out.
 ///
 /// ```
 /// use unripple_physics::Medium;
@@ -58,14 +67,25 @@ impl Medium {
         k * k * (self.tension + self.bending_stiffness * k * k)
     }
 
-    /// Angular frequency ω of a wave of wavenumber `k` (rad/m), in rad/s.
+    /// Angular frequency of a wave of wavenumber `k` (rad/m), in rad/s; of one that radiates, the magnitude of its complex ω.
     pub fn omega(&self, k: f64) -> f64 {
+        if let Some(gamma) = self.leaky(k) {
+            return self.leaky_square(k, gamma).norm().sqrt();
+        }
         let vacuum = self.omega_in_vacuum(k);
-        if !(self.air_sides > 0.0 && k > 0.0) || vacuum >= AIR_CELERITY * k {
+        if !(self.air_sides > 0.0 && k > 0.0) {
             return vacuum;
         }
         let stiffness = self.stiffness(k);
-        root(0.0, vacuum, |omega| omega * omega * self.effective_density(k, omega) - stiffness)
+        root(0.0, vacuum.min(AIR_CELERITY * k), |omega| {
+            omega * omega * self.effective_density(k, omega) - stiffness
+        })
+    }
+
+    /// Decay rate σ of a wave of wavenumber `k` (rad/m) by radiation into the air, in 1/s: 0 for waves slower than sound, and
+    /// far above coincidence n ρ_0 c_0/(2ρ_s √(1 - (k c_0/ω)²)).
+    pub fn radiation(&self, k: f64) -> f64 {
+        self.leaky(k).map_or(0.0, |gamma| self.leaky_square(k, gamma).sqrt().im.abs())
     }
 
     /// Wavenumber k of a wave at angular frequency `omega` (rad/s), in rad/m: the inverse of [`Medium::omega`].
@@ -82,14 +102,8 @@ impl Medium {
         while residual(highest) < 0.0 && highest.is_finite() {
             highest *= 2.0;
         }
-        let loaded = root(lowest, highest, residual);
-        if self.omega_in_vacuum(loaded) < AIR_CELERITY * loaded {
-            loaded
-        } else if omega >= AIR_CELERITY * vacuum {
-            vacuum
-        } else {
-            self.coincidence_wavenumber().unwrap_or(vacuum)
-        }
+        let slow = root(lowest, highest, residual);
+        if self.leaky(slow).is_none() { slow } else { root(0.0, slow, |k| self.omega(k) - omega) }
     }
 
     /// Phase celerity c = ω/k, in m/s. At k = 0 it is the limit: √(R/ρ_s) in vacuum, 0 in air.
@@ -110,10 +124,13 @@ impl Medium {
         }
         let omega = self.omega(k);
         let slope = 2.0 * k * (self.tension + 2.0 * self.bending_stiffness * k * k);
-        let gap = k * k - (omega / AIR_CELERITY).powi(2);
-        if self.air_sides == 0.0 || gap <= 0.0 || self.omega_in_vacuum(k) >= AIR_CELERITY * k {
+        if self.air_sides == 0.0 {
             return slope / (2.0 * self.areal_density * omega);
         }
+        if let Some(gamma) = self.leaky(k) {
+            return self.leaky_celerity(k, gamma, slope);
+        }
+        let gap = k * k - (omega / AIR_CELERITY).powi(2);
         let layer = self.air_sides * AIR_DENSITY * omega * omega / gap.powf(1.5);
         let density = self.effective_density(k, omega);
         (slope + layer * k) / (2.0 * omega * density + layer * omega / AIR_CELERITY.powi(2))
@@ -157,6 +174,44 @@ impl Medium {
         let inertia = self.areal_density * omega * omega;
         let discriminant = self.tension * self.tension + 4.0 * self.bending_stiffness * inertia;
         (2.0 * inertia / (self.tension + discriminant.sqrt())).sqrt()
+    }
+
+    /// γ of the radiating wave of wavenumber `k`, in 1/m; `None` where waves are slower than sound or air is too heavy to
+    /// let them radiate.
+    ///
+    /// With a = ρ_s c_0², b = n ρ_0 c_0² and the stiffness S, the cubic is a γ³ + b γ² + (S - a k²) γ - b k² = 0; in
+    /// y = γ/k, y³ + δy² + ey - δ = 0. Its positive root is found first and divided out.
+    fn leaky(&self, k: f64) -> Option<c64> {
+        if !(self.air_sides > 0.0 && k > 0.0) {
+            return None;
+        }
+        let inertia = self.areal_density * (AIR_CELERITY * k).powi(2);
+        let excess = self.stiffness(k) / inertia - 1.0;
+        if excess < 0.0 {
+            return None;
+        }
+        let delta = self.air_sides * AIR_DENSITY / (self.areal_density * k);
+        let slow = root(0.0, 1.0, |y| y * (y * (y + delta) + excess) - delta);
+        let half = 0.5 * (delta + slow);
+        let square = excess + slow * (delta + slow) - half * half;
+        (square > 0.0).then(|| c64::new(-half * k, square.sqrt() * k))
+    }
+
+    /// The complex ω² of that wave: c_0² (k² - γ²).
+    fn leaky_square(&self, k: f64, gamma: c64) -> c64 {
+        (k * k - gamma * gamma) * AIR_CELERITY.powi(2)
+    }
+
+    /// Slope of its |ω| by k: through the cubic's own, `slope` being the stiffness's.
+    fn leaky_celerity(&self, k: f64, gamma: c64, slope: f64) -> f64 {
+        let a = self.areal_density * AIR_CELERITY.powi(2);
+        let b = self.air_sides * AIR_DENSITY * AIR_CELERITY.powi(2);
+        let by_gamma = gamma * gamma * (3.0 * a) + gamma * (2.0 * b) + (self.stiffness(k) - a * k * k);
+        let by_k = gamma * (slope - 2.0 * a * k) - 2.0 * b * k;
+        let bend = -by_k / by_gamma;
+        let square = self.leaky_square(k, gamma);
+        let rate = (k - gamma * bend) * (2.0 * AIR_CELERITY.powi(2));
+        (square.conj() * rate).re / (2.0 * square.norm().powf(1.5))
     }
 
     fn coincidence_wavenumber(&self) -> Option<f64> {
@@ -224,6 +279,41 @@ mod tests {
         // f_c = c_0²/2π √(ρ_s/D), the textbook form.
         let textbook = AIR_CELERITY.powi(2) / TAU * (2.5f64 / 6.3).sqrt();
         assert!((glass.coincidence_hz().unwrap() / textbook - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn radiating_waves_solve_their_equation() {
+        for medium in media().into_iter().filter(|m| m.air_sides > 0.0 && m.bending_stiffness > 1.0) {
+            let coincidence = medium.coincidence_wavenumber().unwrap();
+            for k in [1.0001, 1.01, 1.3, 3.0].map(|ratio| ratio * coincidence) {
+                let gamma = medium.leaky(k).unwrap();
+                let square = medium.leaky_square(k, gamma);
+                let left = square * medium.areal_density + square * medium.air_sides * AIR_DENSITY / gamma;
+                assert!((left - medium.stiffness(k)).norm() < 1e-9 * medium.stiffness(k), "{medium:?} {k}");
+                assert!(gamma.im > 0.0 && square.im > 0.0 && medium.radiation(k) > 0.0);
+                // Far above coincidence, the textbook's resistance.
+                let omega = medium.omega(k);
+                let slowness = (k * AIR_CELERITY / omega).powi(2);
+                let textbook = medium.air_sides * AIR_DENSITY * AIR_CELERITY
+                    / (2.0 * medium.areal_density * (1.0 - slowness).sqrt());
+                let error = medium.radiation(k) / textbook - 1.0;
+                assert!(k < 1.2 * coincidence || error.abs() < 5e-3, "{medium:?} {k}: {error}");
+            }
+        }
+    }
+
+    #[test]
+    fn coincidence_is_a_jump_of_a_per_cent() {
+        for medium in media().into_iter().filter(|m| m.air_sides > 0.0 && m.bending_stiffness > 1.0) {
+            let k = medium.coincidence_wavenumber().unwrap();
+            let jump = medium.omega(k * (1.0 + 1e-9)) / medium.omega(k * (1.0 - 1e-9)) - 1.0;
+            let scale = (medium.air_sides * AIR_DENSITY / (medium.areal_density * k)).powf(2.0 / 3.0);
+            assert!((0.5..1.5).contains(&(jump / scale)), "{medium:?}: {jump} {scale}");
+            let sigma = medium.radiation(k * (1.0 + 1e-9)) / medium.omega(k);
+            assert!((0.3..0.6).contains(&(sigma / scale)), "{medium:?}: {sigma} {scale}");
+            let inside = medium.omega(k * (1.0 - 1e-9)) * (1.0 + 0.5 * jump);
+            assert!((medium.wavenumber(inside) / k - 1.0).abs() < 1e-6);
+        }
     }
 
     #[test]

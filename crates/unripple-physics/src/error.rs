@@ -22,16 +22,6 @@ pub enum PhysicsError {
         /// The value.
         found: f64,
     },
-    /// The band reaches the frequency where the sheet's waves run as fast as sound in air.
-    #[error(
-        "top of the band: expected less than the coincidence frequency {coincidence_hz:.1} Hz, where air is no longer an added mass, found {found_hz} Hz"
-    )]
-    Coincidence {
-        /// The coincidence frequency, in Hz.
-        coincidence_hz: f64,
-        /// The frequency asked for, in Hz.
-        found_hz: f64,
-    },
     /// The problem is too large for the memory it is allowed.
     #[error(
         "modes up to {max_hz} Hz: expected at most {limit_gib:.1} GiB, found {needed_gib:.1} GiB for {unknowns} unknowns; about {nearest_hz:.0} Hz fits"
@@ -57,5 +47,21 @@ pub enum PhysicsError {
         expected: f64,
         /// The relative error estimated.
         found: f64,
+    },
+    /// The outline encloses no sheet that can be covered with triangles.
+    #[error("outline: expected {expected}, found {found}")]
+    Outline {
+        /// What an outline has to be.
+        expected: &'static str,
+        /// What was found, and where.
+        found: String,
+    },
+    /// The eigenproblem of a mesh was not solved.
+    #[error("modes up to {max_hz} Hz: expected every one of them, found {found}")]
+    Solver {
+        /// The frequency asked for, in Hz.
+        max_hz: f64,
+        /// What went wrong.
+        found: String,
     },
 }

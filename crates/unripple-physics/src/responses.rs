@@ -1,11 +1,12 @@
+use crate::damping::decay_rate;
 use crate::modes::{Modes, check};
-use crate::{Medium, PhysicsError};
+use crate::{Footprint, Load, Loaded, Medium, PhysicsError, Transducer, transducers};
 use faer::{Mat, MatRef};
 use rayon::prelude::*;
+use std::f64::consts::TAU;
 use std::sync::Arc;
 use unripple_core::{
-    Actuator, ActuatorKind, Conditions, ModalResponses, Point, Pole, Port, Responses, SampledResponses,
-    Shapes, Surface,
+    Conditions, Contact, ModalResponses, Point, Pole, Port, Responses, SampledResponses, Shapes, Surface,
 };
 use unripple_dsp::ModalSynth;
 
@@ -15,36 +16,47 @@ const POINTS: usize = 64;
 /// Error of a library's samples before rounding to single precision.
 const LIBRARY_ACCURACY: f64 = 1e-6;
 
+/// Loaded modes are kept one by one up to this multiple of the top frequency.
+const DYNAMIC: f64 = 1.1;
+
 /// How responses are made from a surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ResponseOptions {
     /// Top frequency of the modes, in Hz; the band's where `None`. Only the top moves: the band and λ_min stay the
     /// surface's.
     pub max_hz: Option<f64>,
     /// Relative accuracy of the frequencies.
     pub accuracy: f64,
+    /// Fingers on the surface.
+    pub contacts: Vec<Contact>,
+    /// Loads feel the compliance of modes up to this multiple of the top frequency, at least 1.1; unused without loads.
+    pub reach: f64,
 }
 
 impl Default for ResponseOptions {
     fn default() -> Self {
-        Self { max_hz: None, accuracy: 1e-6 }
+        Self { max_hz: None, accuracy: 1e-6, contacts: Vec::new(), reach: 1.5 }
     }
 }
 
-/// The responses of a surface to its actuators, factored into modes: h = Σ_m φ_m(x_A) φ_m(x) e^{-σt}(…).
+/// The responses of a surface to its actuators, factored into modes: h = Σ_m φ_m(x_A) φ_m(x) e^{-σt}(…), per unit of each
+/// actuator's own drive (N, A or V).
 ///
-/// Modes outside the band are left out.
+/// Modes outside the band are left out. Where something hangs on the surface, a coil or a finger, the modes are those of all
+/// together ([`Loaded`]).
 ///
 /// # Errors
-/// Those of [`Modes::solve`]; [`PhysicsError::Unsupported`] for actuators other than ideal forces;
-/// [`PhysicsError::Range`] for an actuator outside the outline, a band or a sample rate that cannot be.
+/// Those of [`Modes::solve`] and [`transducers`]; [`PhysicsError::Unsupported`] for a finger outside the outline;
+/// [`PhysicsError::Range`] for a band or a sample rate that cannot be, a load that is not passive, a reach below 1.1.
 ///
 /// ```
 /// # use unripple_core::*;
 /// use unripple_physics::{ResponseOptions, responses};
 /// # let sheet = Sheet { material: "BoPET".into(), young: 4e9, density: 1400.0, poisson: 0.3, strength: None,
-/// #     thickness: 0.125e-3, tension: 200.0, decay: Decay::Time(0.07), air: Air::None };
-/// # let a1 = Actuator { name: "a1".into(), at: Point::from_mm(12.0, 31.0), kind: ActuatorKind::Force };
+/// #     thickness: 0.125e-3, tension: 200.0, decay: Decay::Time(0.07), air: Air::None,
+/// #     uneven: Uneven::default() };
+/// # let a1 = Actuator { name: "a1".into(), at: Point::from_mm(12.0, 31.0), kind: ActuatorKind::Force,
+/// #     contact_radius: 0.0 };
 /// # let surface = Surface { name: "film".into(), outline: Outline::new(Shape::Rectangle { width: 0.15, height: 0.15 }),
 /// #     sheet, emission: Emission { band: [0.0, 1e3], rate: 48e3, limit: 1.0, rms_limit: None },
 /// #     finger: Finger::default(), actuators: vec![a1] };
@@ -64,21 +76,69 @@ pub fn responses(surface: &Surface, options: &ResponseOptions) -> Result<Respons
         high > low && high < emission.rate / 2.0,
         "less than half the sample rate",
     )?;
-    let ports = ports(surface)?;
+    let transducers = transducers(surface)?;
+    let fingers = fingers(surface, &options.contacts)?;
     let max_hz = options.max_hz.unwrap_or(high);
     check("top frequency of the modes in Hz", max_hz, max_hz >= high, "at least the top of the band")?;
-    let modes = Modes::solve(surface, max_hz, options.accuracy)?;
-    let below = modes.frequencies_hz().partition_point(|hz| *hz < low);
-    let poles: Vec<Pole> = modes.poles()[below..].to_vec();
-    let shapes: Arc<dyn Shapes> = if below == 0 { Arc::new(modes) } else { Arc::new(Above { modes, below }) };
-    let places: Vec<Point> = ports.iter().map(|port| port.at).collect();
+    let reach = options.reach;
+    check("reach of the modes that loads feel", reach, reach >= DYNAMIC, "at least 1.1")?;
+    let bare = !transducers.iter().filter_map(|t| t.load.as_ref()).chain(&fingers).any(Load::acts);
+    let modes = Modes::solve(surface, if bare { max_hz } else { reach * max_hz }, options.accuracy)?;
+    let (poles, input, shapes) = if bare {
+        unloaded(modes, &transducers, low)
+    } else {
+        let poles = modes.poles().to_vec();
+        let (sheet, medium) = (&surface.sheet, Medium::of(&surface.sheet));
+        let loaded = Loaded::new(Arc::new(modes), &poles, &transducers, &fingers)?.with_rest(
+            medium,
+            medium.wavenumber(TAU * reach * max_hz),
+            sheet.thickness,
+            |omega, k| decay_rate(&sheet.decay, omega, medium.bending_share(k)),
+        )?;
+        let found = loaded.oscillations(DYNAMIC * max_hz, [low, max_hz])?;
+        (found.poles, found.input, found.shapes)
+    };
+    let ports = surface.actuators.iter().map(|a| Port { name: a.name.clone(), at: a.at }).collect();
     let conditions = Conditions {
         rate: emission.rate,
         band: emission.band,
         lambda_min: Medium::of(&surface.sheet).lambda_min(high),
         outline: surface.outline.clone(),
     };
-    Ok(Responses::Modal(ModalResponses { ports, poles, input: shapes.at_all(&places), shapes, conditions }))
+    Ok(Responses::Modal(ModalResponses { ports, poles, input, shapes, conditions }))
+}
+
+/// The modes from `low` Hz on, as they are.
+fn unloaded(modes: Modes, transducers: &[Transducer], low: f64) -> (Vec<Pole>, Mat<f64>, Arc<dyn Shapes>) {
+    let below = modes.poles().partition_point(|pole| pole.omega / TAU < low);
+    let poles = modes.poles()[below..].to_vec();
+    let shapes: Arc<dyn Shapes> = if below == 0 { Arc::new(modes) } else { Arc::new(Above { modes, below }) };
+    let footprints: Vec<Footprint> = transducers.iter().map(|t| t.footprint.clone()).collect();
+    let mut input = Footprint::all_weights(&footprints, shapes.as_ref());
+    for (row, transducer) in transducers.iter().enumerate() {
+        let gain = transducer.unloaded_gain();
+        input.row_mut(row).iter_mut().for_each(|weight| *weight *= gain);
+    }
+    (poles, input, shapes)
+}
+
+/// The loads that fingers are.
+fn fingers(surface: &Surface, contacts: &[Contact]) -> Result<Vec<Load>, PhysicsError> {
+    let load = |contact: &Contact| {
+        if !surface.outline.contains(contact.at) {
+            return Err(PhysicsError::Unsupported {
+                what: "place of a finger",
+                expected: "a point inside the outline",
+                found: format!("{}; the nearest is {}", contact.at, surface.outline.nearest(contact.at)),
+            });
+        }
+        let radius = contact.finger.contact_radius;
+        check("contact radius of a finger in m", radius, radius >= 0.0, "0 or more")?;
+        let load = Load::finger(contact, &surface.outline);
+        load.check()?;
+        Ok(load)
+    };
+    contacts.iter().map(load).collect()
 }
 
 /// Sampled responses at many points, single precision: the product of weights and sampled modes, on all threads.
@@ -111,35 +171,6 @@ fn weights(input: MatRef<f64>, readout: MatRef<f64>) -> Mat<f32> {
         column.iter_mut().zip(products).for_each(|(w, product)| *w = product);
     }
     weights
-}
-
-fn ports(surface: &Surface) -> Result<Vec<Port>, PhysicsError> {
-    surface.actuators.iter().enumerate().map(|(i, actuator)| port(surface, i, actuator)).collect()
-}
-
-fn port(surface: &Surface, index: usize, actuator: &Actuator) -> Result<Port, PhysicsError> {
-    if actuator.kind != ActuatorKind::Force {
-        return Err(PhysicsError::Unsupported {
-            what: "kind of an actuator",
-            expected: "`force`",
-            found: format!("`{}` (actuator {index}, `{}`)", actuator.kind.name(), actuator.name),
-        });
-    }
-    if !surface.outline.contains(actuator.at) {
-        let (width, height) = surface.outline.extent();
-        return Err(PhysicsError::Unsupported {
-            what: "place of an actuator",
-            expected: "a point inside the outline",
-            found: format!(
-                "{} (actuator {index}, `{}`) on {:.1} x {:.1} mm",
-                actuator.at,
-                actuator.name,
-                width * 1e3,
-                height * 1e3
-            ),
-        });
-    }
-    Ok(Port { name: actuator.name.clone(), at: actuator.at })
 }
 
 /// The modes from `below` on.

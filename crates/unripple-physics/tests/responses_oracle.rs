@@ -100,9 +100,19 @@ fn refuses_what_it_cannot_drive() {
         change(&mut surface);
         responses(&surface, &ResponseOptions::default()).unwrap_err()
     };
-    let piezo = fails(|s| s.actuators[0].kind = ActuatorKind::Piezo);
-    assert!(matches!(&piezo, PhysicsError::Unsupported { .. }));
-    assert!(piezo.to_string().contains("`piezo`") && piezo.to_string().contains("`force`"), "{piezo}");
+    let patch = |radius, mass| ActuatorKind::Piezo { radius, moment: 1.0, mass };
+    let wide = fails(|s| s.actuators[0].kind = ActuatorKind::Piezo { radius: 0.02, moment: 1.0, mass: 0.0 });
+    assert!(matches!(&wide, PhysicsError::Unsupported { .. }));
+    assert!(
+        wide.to_string().contains("12.00 mm from the rim") && wide.to_string().contains("actuator 0, `a1`")
+    );
+    for kind in [patch(0.0, 0.0), patch(f64::NAN, 0.0), patch(0.01, -1.0)] {
+        let mut surface = film_with_actuators(&[(62.0, 31.0)]);
+        surface.actuators[0].kind = kind;
+        let refused = responses(&surface, &ResponseOptions::default());
+        assert!(matches!(refused, Err(PhysicsError::Range { .. })), "{kind:?}");
+    }
+    assert!(matches!(fails(|s| s.actuators[0].contact_radius = -1.0), PhysicsError::Range { .. }));
     assert!(matches!(fails(|s| s.actuators[0].at.x = 0.2), PhysicsError::Unsupported { .. }));
     assert!(matches!(fails(|s| s.actuators[0].at.x = f64::NAN), PhysicsError::Unsupported { .. }));
     assert!(matches!(fails(|s| s.emission.rate = 5000.0), PhysicsError::Range { .. }));
@@ -111,6 +121,59 @@ fn refuses_what_it_cannot_drive() {
     let options = ResponseOptions { max_hz: Some(100.0), ..Default::default() };
     let below = responses(&film_with_actuators(&[(12.0, 31.0)]), &options);
     assert!(matches!(below, Err(PhysicsError::Range { .. })));
+}
+
+#[test]
+fn refuses_fingers_that_cannot_be() {
+    let surface = film_with_actuators(&[(12.0, 31.0)]);
+    let with = |at, finger, reach| {
+        let contacts = vec![Contact { at, finger }];
+        responses(&surface, &ResponseOptions { contacts, reach, ..Default::default() })
+    };
+    let (middle, finger) = (Point::from_mm(62.0, 90.0), Finger::default());
+    let outside = with(Point::from_mm(151.0, 90.0), finger, 1.5).unwrap_err();
+    assert!(matches!(&outside, PhysicsError::Unsupported { .. }) && outside.to_string().contains("150.0000"));
+    assert!(matches!(with(middle, finger, 1.0), Err(PhysicsError::Range { .. })));
+    for finger in [
+        Finger { mass: -1e-3, ..finger },
+        Finger { damping: f64::NAN, ..finger },
+        Finger { stiffness: -1.0, ..finger },
+        Finger { contact_radius: f64::INFINITY, ..finger },
+    ] {
+        assert!(matches!(with(middle, finger, 1.5), Err(PhysicsError::Range { .. })), "{finger:?}");
+    }
+    for spoil in [0, 1] {
+        let mut surface = film_with_actuators(&[(12.0, 31.0)]);
+        surface.actuators[0].kind = ActuatorKind::MovingMagnet {
+            force_constant: 6.0,
+            resistance: if spoil == 0 { 0.0 } else { 6.2 },
+            inductance: if spoil == 1 { -1.0 } else { 0.0 },
+            moving_mass: 1e-4,
+            driven_by: CoilDrive::Voltage,
+        };
+        let refused = responses(&surface, &ResponseOptions::default());
+        assert!(matches!(refused, Err(PhysicsError::Range { .. })));
+    }
+}
+
+/// A force over a disc is the mean of forces at its points.
+#[test]
+fn a_force_over_a_disc() {
+    let mut surface = film_with_actuators(&[(62.0, 31.0)]);
+    surface.outline.edges = Edges::All(Edge::Supported);
+    surface.actuators[0].contact_radius = 4e-3;
+    let found = modal(&surface, &ResponseOptions::default());
+    let mut read = vec![0.0; found.poles.len()];
+    let mut mean = vec![0.0; found.poles.len()];
+    for i in 0..4000 {
+        let (r, angle) =
+            (4e-3 * ((f64::from(i) + 0.5) / 4000.0).sqrt(), 2.399_963_229_728_653 * f64::from(i));
+        found.shapes.at(Point::new(0.062 + r * angle.cos(), 0.031 + r * angle.sin()), &mut read);
+        mean.iter_mut().zip(&read).for_each(|(m, w)| *m += w / 4000.0);
+    }
+    for (m, w) in mean.iter().enumerate() {
+        assert!((found.input[(0, m)] - w).abs() < 2e-3 * 30.0, "{m}: {} {w}", found.input[(0, m)]);
+    }
 }
 
 #[test]

@@ -17,14 +17,26 @@ pub(crate) fn scaled(text: &str, power: i32) -> Option<f64> {
 
 /// The shortest decimal text that [`scaled`] with the opposite `power` turns back into `value`, which must be finite.
 pub(crate) fn text(value: f64, power: i32) -> String {
-    let plain = format!("{value:e}");
-    let (mantissa, exponent) = plain.split_once('e').unwrap_or((&plain, "0"));
+    written(&format!("{value:e}"), power)
+}
+
+/// A number in scientific notation as people write it, zeros at its end left out.
+pub(crate) fn plain(scientific: &str) -> String {
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((scientific, "0"));
+    let mantissa =
+        if mantissa.contains('.') { mantissa.trim_end_matches('0').trim_end_matches('.') } else { mantissa };
+    written(&format!("{mantissa}e{exponent}"), 0)
+}
+
+/// A number in Rust's scientific notation, times ten to the `power`, as people write it.
+fn written(plain: &str, power: i32) -> String {
+    let (mantissa, exponent) = plain.split_once('e').unwrap_or((plain, "0"));
     let exponent = exponent.parse::<i32>().unwrap_or(0) + power;
     let (sign, digits) = match mantissa.strip_prefix('-') {
         Some(rest) => ("-", rest.replace('.', "")),
         None => ("", mantissa.replace('.', "")),
     };
-    if value == 0.0 {
+    if digits.bytes().all(|d| d == b'0') {
         return "0".into();
     }
     if !(-6..16).contains(&exponent) {

@@ -6,7 +6,7 @@
 //! - [`load_surface`] reads a built-in surface or a surface file, and reports all faults of a file at once;
 //!   [`to_toml`] writes one.
 //! - [`write_wav`] and [`read_wav`] carry drives, one channel per actuator.
-//! - [`Drawing`] reads the shapes of an SVG document in metres.
+//! - [`Drawing`] reads the shapes of an SVG document in metres as polylines, [`read_curves`] its curves as curves.
 //! - [`OutputDir`] gathers what a run writes and puts it in place in one step.
 //!
 //! ```
@@ -17,6 +17,7 @@
 
 mod builtin;
 mod decimal;
+mod degrees;
 mod error;
 mod fault;
 mod file;
@@ -34,5 +35,5 @@ pub use file::{LARGEST_TEXT, write_file};
 pub use load::load_surface;
 pub use output::{Committed, MARKER, OutputDir};
 pub use surface::{parse_surface, parse_surface_with, to_toml};
-pub use svg::{Drawing, FillRule, Polyline, SvgShape};
+pub use svg::{Curve, Drawing, FillRule, Polyline, SvgShape, read_curves};
 pub use wav::{Wav, decode_wav, read_wav, write_wav};

@@ -1,10 +1,23 @@
 mod actuator;
+mod apart;
+mod bounds;
+mod edge;
 mod emission;
+mod grain;
+mod hole;
+mod material;
+mod meet;
 mod outline;
+mod path;
+mod piece;
+mod piezo;
 mod place;
 mod polygon;
+mod profile;
 mod range;
 mod reader;
+mod ring;
+mod scatterer;
 mod sheet;
 mod write;
 
@@ -13,14 +26,18 @@ pub use write::to_toml;
 use crate::StoreError;
 use crate::fault::{Fault, SurfaceFaults};
 use crate::file::LARGEST_TEXT;
+use actuator::Base;
+use hole::Cut;
 use outline::{Fetch, Rim};
+use place::Ground;
 use reader::{Faults, Section};
 use toml::de::DeTable;
-use unripple_core::{Finger, Outline, Surface};
+use unripple_core::{Finger, Hole, Outline, Point, Sheet, Surface};
 
 /// The format this version reads and writes.
 const FORMAT: i64 = 1;
-const KEYS: [&str; 7] = ["format", "name", "outline", "sheet", "drive", "finger", "actuator"];
+const KEYS: [&str; 9] =
+    ["format", "name", "outline", "hole", "sheet", "scatterer", "drive", "finger", "actuator"];
 
 /// The surface that a text in format 1 describes. `file` names it in messages; an SVG outline is refused, because a
 /// text alone reaches no other file.
@@ -126,16 +143,53 @@ fn read(root: &Section, file: &str, fetch: &Fetch, faults: &mut Faults) -> Optio
         Some(entry) => entry.section(faults).and_then(|t| emission::finger(&t, faults)),
         None => Some(Finger::default()),
     };
-    let inside = rim.shape.clone().map(Outline::new);
-    let actuators = actuator::read(root, inside.as_ref(), faults);
+    let (holes, sound) = holes(root, &rim, fetch, faults);
+    let ground = rim.outline(&holes).map(Ground::new);
+    held(&rim, &holes, sheet.as_ref(), faults);
+    let scatterers = scatterer::read(root, ground.as_ref(), faults);
+    let thickness = |at: Point| Some(thickness_at(sheet.as_ref()?, ground.as_ref()?, at));
+    let actuators = actuator::read(root, &Base { ground: ground.as_ref(), thickness: &thickness }, faults);
+    let mut sheet = sheet?;
+    sheet.uneven.scatterers = scatterers?;
     Some(Surface {
         name: name?,
-        outline: Outline { shape: rim.shape?, edges: rim.edges? },
-        sheet: sheet?,
+        outline: Outline { shape: rim.shape?, edges: rim.edges.filter(|_| sound)?, holes },
+        sheet,
         emission: emission?,
         finger: finger?,
         actuators: actuators?,
     })
+}
+
+/// The holes of the file without fault, those drawn with the rim first, and whether these are all.
+fn holes(root: &Section, rim: &Rim, fetch: &Fetch, faults: &mut Faults) -> (Vec<Hole>, bool) {
+    let drawn = rim.holes.iter().map(|hole| Cut {
+        hole: hole.clone(),
+        key: "outline.svg".into(),
+        span: rim.shape_span.clone(),
+    });
+    let (cuts, whole) = hole::read(root, fetch, faults);
+    let cuts: Vec<Cut> = drawn.chain(cuts).collect();
+    let good = apart::check(rim.shape.as_ref(), &cuts, faults);
+    let sound = whole && good.iter().all(|good| *good);
+    let kept = cuts.into_iter().zip(good).filter(|(_, good)| *good);
+    (kept.map(|(cut, _)| cut.hole).collect(), sound)
+}
+
+/// A fault if nothing keeps the sheet where it is: no edge does, and it has no stiffness.
+fn held(rim: &Rim, holes: &[Hole], sheet: Option<&Sheet>, faults: &mut Faults) {
+    let Some(outline) = rim.edges.as_ref().and_then(|_| rim.outline(holes)) else { return };
+    if !outline.holds() && sheet.is_some_and(|sheet| sheet.young == 0.0) {
+        let found = "no edge fixed and no stiffness: nothing keeps the sheet, so it has no rest";
+        let expected = "an edge that is clamped, supported or on springs with lift_n_per_mm2 above 0, or a sheet with \
+                        young_gpa above 0";
+        faults.add("outline.edge", rim.edge_span.clone(), found, expected, Some("\"clamped\"".into()));
+    }
+}
+
+fn thickness_at(sheet: &Sheet, ground: &Ground, at: Point) -> f64 {
+    let factor = sheet.uneven.thickness.as_ref().map_or(1.0, |profile| profile.at(at, ground.extent()));
+    sheet.thickness * factor
 }
 
 /// What to call a surface whose file does not say.

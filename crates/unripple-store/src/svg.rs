@@ -1,10 +1,16 @@
+mod arcs;
+mod curves;
+mod ellipse;
 mod guard;
+
+pub use curves::{Curve, read_curves};
 
 use crate::StoreError;
 use crate::file::{LARGEST_TEXT, read_text, too_large};
 use kurbo::{BezPath, PathEl};
 use std::path::Path as FilePath;
 use unripple_core::Point;
+use usvg::roxmltree::Document;
 use usvg::tiny_skia_path::{PathSegment, Transform};
 use usvg::{Group, ImageHrefResolver, Node, Options, Tree};
 
@@ -96,50 +102,21 @@ impl Drawing {
         if text.len() > LARGEST_TEXT {
             return Err(too_large(name, text.len() as u64));
         }
-        let not_svg = |reason: String| StoreError::content(name, "an SVG document", reason);
         let document = guard::document(text, name)?;
-        let tree = Tree::from_xmltree(&document, &options()).map_err(|error| not_svg(error.to_string()))?;
-        let size = tree.size();
-        let (width, height) = (f64::from(size.width()) * PIXEL, f64::from(size.height()) * PIXEL);
-        if width.max(height) > LARGEST {
-            return Err(StoreError::content(name, format!("a drawing of at most {LARGEST} m"), "more"));
-        }
+        let page = Page::of(&document, name)?;
+        let (width, height) = (page.width, page.height);
         let tolerance = if tolerance >= FINEST { tolerance } else { FINEST };
-        let mut pen = Pen { name, height, tolerance, points: 0, shapes: Vec::new() };
-        pen.group(tree.root())?;
+        let mut pen = Pen { page: &page, tolerance, points: 0, shapes: Vec::new() };
+        page.paths(&mut |path| pen.path(path))?;
         if pen.shapes.is_empty() {
-            let expected = "a filled or stroked shape (turn text into paths first)";
-            return Err(StoreError::content(name, expected, "nothing that shows"));
+            return Err(nothing(name));
         }
         Ok(Self { width, height, shapes: pen.shapes })
     }
+}
 
-    /// The one closed curve of the drawing as vertices, anticlockwise, its bounding box cornered at the origin.
-    ///
-    /// # Errors
-    /// [`StoreError::Content`] if there is not exactly one curve or it is open; `name` is for messages.
-    pub fn outline(&self, name: &str) -> Result<Vec<Point>, StoreError> {
-        let expected = "exactly one closed path";
-        let pieces: Vec<&Polyline> = self.shapes.iter().flat_map(|shape| &shape.polylines).collect();
-        let [piece] = pieces.as_slice() else {
-            return Err(StoreError::content(name, expected, format!("{} pieces", pieces.len())));
-        };
-        if !piece.closed {
-            return Err(StoreError::content(name, expected, "an open one"));
-        }
-        let least = piece
-            .points
-            .iter()
-            .fold(Point::new(f64::MAX, f64::MAX), |l, p| Point::new(l.x.min(p.x), l.y.min(p.y)));
-        let mut vertices: Vec<Point> =
-            piece.points.iter().map(|p| Point::new(p.x - least.x, p.y - least.y)).collect();
-        let next = vertices.iter().cycle().skip(1);
-        let area: f64 = vertices.iter().zip(next).map(|(a, b)| a.x * b.y - b.x * a.y).sum();
-        if area < 0.0 {
-            vertices.reverse();
-        }
-        Ok(vertices)
-    }
+fn nothing(name: &str) -> StoreError {
+    StoreError::content(name, "a filled or stroked shape (turn text into paths first)", "nothing that shows")
 }
 
 /// How the reader behaves: nothing outside the text is looked at.
@@ -153,27 +130,68 @@ fn options() -> Options<'static> {
     }
 }
 
-/// Collects shapes, in metres with y up.
-struct Pen<'n> {
+/// A document as the SVG library reads it, with its physical size in metres.
+struct Page<'n> {
     name: &'n str,
+    tree: Tree,
+    width: f64,
     height: f64,
+}
+
+impl<'n> Page<'n> {
+    fn of(document: &Document, name: &'n str) -> Result<Self, StoreError> {
+        let tree = Tree::from_xmltree(document, &options())
+            .map_err(|error| StoreError::content(name, "an SVG document", error.to_string()))?;
+        let size = tree.size();
+        let (width, height) = (f64::from(size.width()) * PIXEL, f64::from(size.height()) * PIXEL);
+        if width.max(height) > LARGEST {
+            return Err(StoreError::content(name, format!("a drawing of at most {LARGEST} m"), "more"));
+        }
+        Ok(Self { name, tree, width, height })
+    }
+
+    /// Hands over every path that shows, in drawing order.
+    fn paths(&self, take: &mut Take) -> Result<(), StoreError> {
+        fn within(group: &Group, take: &mut Take) -> Result<(), StoreError> {
+            for node in group.children() {
+                match node {
+                    Node::Group(inner) => within(inner, take)?,
+                    Node::Path(path) if path.is_visible() => take(path)?,
+                    _ => {}
+                }
+            }
+            Ok(())
+        }
+        within(self.tree.root(), take)
+    }
+
+    /// A point of a path in metres, y up.
+    fn place(&self, p: usvg::tiny_skia_path::Point, ts: Transform) -> Result<kurbo::Point, StoreError> {
+        let (x, y) = (f64::from(p.x), f64::from(p.y));
+        let x_px = f64::from(ts.sx) * x + f64::from(ts.kx) * y + f64::from(ts.tx);
+        let y_px = f64::from(ts.ky) * x + f64::from(ts.sy) * y + f64::from(ts.ty);
+        let point = kurbo::Point::new(x_px * PIXEL, self.height - y_px * PIXEL);
+        // Not-a-number fails this comparison too.
+        if point.x.abs() <= LARGEST && point.y.abs() <= LARGEST {
+            return Ok(point);
+        }
+        let expected = format!("coordinates of at most {LARGEST} m");
+        Err(StoreError::content(self.name, expected, format!("({}, {}) m", point.x, point.y)))
+    }
+}
+
+/// What is done with a path of a document.
+type Take<'t> = dyn FnMut(&usvg::Path) -> Result<(), StoreError> + 't;
+
+/// Collects shapes, in metres with y up.
+struct Pen<'p> {
+    page: &'p Page<'p>,
     tolerance: f64,
     points: usize,
     shapes: Vec<SvgShape>,
 }
 
 impl Pen<'_> {
-    fn group(&mut self, group: &Group) -> Result<(), StoreError> {
-        for node in group.children() {
-            match node {
-                Node::Group(inner) => self.group(inner)?,
-                Node::Path(path) if path.is_visible() => self.path(path)?,
-                _ => {}
-            }
-        }
-        Ok(())
-    }
-
     fn path(&mut self, path: &usvg::Path) -> Result<(), StoreError> {
         let to_metres = path.abs_transform();
         let mut curve = BezPath::new();
@@ -198,18 +216,7 @@ impl Pen<'_> {
 
     /// One segment in metres.
     fn element(&self, segment: PathSegment, ts: Transform) -> Result<PathEl, StoreError> {
-        let place = |p: usvg::tiny_skia_path::Point| {
-            let (x, y) = (f64::from(p.x), f64::from(p.y));
-            let x_px = f64::from(ts.sx) * x + f64::from(ts.kx) * y + f64::from(ts.tx);
-            let y_px = f64::from(ts.ky) * x + f64::from(ts.sy) * y + f64::from(ts.ty);
-            let point = kurbo::Point::new(x_px * PIXEL, self.height - y_px * PIXEL);
-            // Not-a-number fails this comparison too.
-            if point.x.abs() <= LARGEST && point.y.abs() <= LARGEST {
-                return Ok(point);
-            }
-            let expected = format!("coordinates of at most {LARGEST} m");
-            Err(StoreError::content(self.name, expected, format!("({}, {}) m", point.x, point.y)))
-        };
+        let place = |p| self.page.place(p, ts);
         Ok(match segment {
             PathSegment::MoveTo(p) => PathEl::MoveTo(place(p)?),
             PathSegment::LineTo(p) => PathEl::LineTo(place(p)?),
@@ -219,6 +226,7 @@ impl Pen<'_> {
         })
     }
 
+    /// A curve as polylines within the tolerance.
     fn flatten(&mut self, curve: &BezPath) -> Result<Vec<Polyline>, StoreError> {
         let mut pieces: Vec<Polyline> = Vec::new();
         let mut last = kurbo::Point::ZERO;
@@ -241,7 +249,7 @@ impl Pen<'_> {
             last = element.end_point().unwrap_or(last);
             if self.points > MOST_POINTS {
                 let expected = format!("at most {MOST_POINTS} points");
-                return Err(StoreError::content(self.name, expected, "more"));
+                return Err(StoreError::content(self.page.name, expected, "more"));
             }
         }
         Ok(pieces.into_iter().filter_map(tidy).collect())

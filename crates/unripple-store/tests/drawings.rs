@@ -1,6 +1,5 @@
 //! SVG drawings: known shapes in metres, and hostile documents.
 
-use unripple_core::{Outline, Shape};
 use unripple_store::{Drawing, FillRule, Polyline};
 
 /// A document of 100 x 50 mm in millimetre units.
@@ -92,38 +91,6 @@ fn paint() {
     assert!((drawing.shapes[1].stroke_width.unwrap() - 0.5e-3).abs() < 1e-9);
     assert_eq!(drawing.shapes[2].fill, Some(FillRule::NonZero));
     assert!((drawing.shapes[2].stroke_width.unwrap() - 6e-3).abs() < 1e-8);
-}
-
-/// A circle's area against πr²; the points lie on it, so the deficit is within the tolerance along the rim.
-#[test]
-fn curves_are_followed_to_the_tolerance() {
-    let text = document(r#"<circle cx="30" cy="25" r="20"/>"#);
-    for tolerance in [1e-4, 1e-5, 1e-6] {
-        let vertices = Drawing::parse(&text, "d.svg", tolerance).unwrap().outline("d.svg").unwrap();
-        let area = Outline::new(Shape::Polygon(vertices)).area();
-        let (exact, rim) = (std::f64::consts::PI * 4e-4, std::f64::consts::TAU * 0.02);
-        // Four cubics miss the circle by 2.7e-4 of its radius at most.
-        assert!((exact - area).abs() < (tolerance + 2.7e-4 * 0.02) * rim, "{tolerance}: {area}");
-    }
-}
-
-#[test]
-fn outlines_turn_anticlockwise_from_the_origin() {
-    for path in ["M20 10 L60 10 L40 40 Z", "M20 10 L40 40 L60 10 Z"] {
-        let vertices = drawing(&format!(r#"<path d="{path}"/>"#)).outline("d.svg").unwrap();
-        let twice: f64 =
-            vertices.iter().zip(vertices.iter().cycle().skip(1)).map(|(a, b)| a.x * b.y - b.x * a.y).sum();
-        assert!((twice / 2.0 - 600e-6).abs() < 1e-9, "{twice}");
-        assert_eq!(vertices.iter().map(|p| p.x).fold(f64::MAX, f64::min), 0.0);
-        assert_eq!(vertices.iter().map(|p| p.y).fold(f64::MAX, f64::min), 0.0);
-    }
-    for (body, found) in [
-        (r#"<path stroke="red" d="M20 10 L60 10 L40 40"/>"#, "an open one"),
-        (r#"<rect width="5" height="5"/><rect width="3" height="3"/>"#, "2 pieces"),
-    ] {
-        let error = drawing(body).outline("d.svg").unwrap_err().to_string();
-        assert_eq!(error, format!("d.svg: expected exactly one closed path, found {found}"));
-    }
 }
 
 #[test]

@@ -31,3 +31,6 @@ pub use unripple_focus as focus;
 pub use unripple_physics as physics;
 
 pub mod study;
+mod touch;
+
+pub use touch::{Touch, touch};

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use unripple::core::{
     Actuator, ActuatorKind, Air, Decay, Drive, Edge, Edges, Emission, Finger, Outline, Point, Responses,
-    Shape, Sheet, Surface,
+    Shape, Sheet, Surface, Uneven,
 };
 use unripple::field::{Aim, Field};
 use unripple::focus::{Options, Target, focus};
@@ -45,6 +45,7 @@ fn surface() -> impl Strategy<Value = Surface> {
                 tension,
                 decay,
                 air,
+                uneven: Uneven::default(),
             },
             emission: Emission { band: [0.0, 900.0], rate: RATE, limit: 1.0, rms_limit: None },
             finger: Finger::default(),
@@ -55,6 +56,7 @@ fn surface() -> impl Strategy<Value = Surface> {
                     name: format!("a{}", i + 1),
                     at: Point::new(x * width, y * height),
                     kind: ActuatorKind::Force,
+                    contact_radius: 0.0,
                 })
                 .collect(),
         },

@@ -18,7 +18,8 @@ impl Scene {
     /// The rim and actuators of a surface, and targets with discs of `radius` metres; none if zero.
     pub fn new(surface: &Surface, targets: &[Vec<Point>], radius: f64) -> Self {
         let place = |p: &Point| [p.x, p.y];
-        let rim = surface.outline.rim(TURN).iter().map(place).collect();
+        let rims = std::iter::once(surface.outline.rim(TURN)).chain(surface.outline.hole_rims(TURN));
+        let outline = rims.map(|rim| rim.iter().map(place).collect()).collect();
         let mut markers: Vec<Marker> = surface
             .actuators
             .iter()
@@ -33,7 +34,7 @@ impl Scene {
                 }
             }
         }
-        Self { outline: vec![rim], markers }
+        Self { outline, markers }
     }
 
     /// A map of one field over the surface.

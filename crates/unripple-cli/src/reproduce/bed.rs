@@ -21,7 +21,7 @@ impl Bed {
     /// The built-in surface `hudin-2012`.
     pub fn new() -> Result<Self, CliError> {
         let surface = input::surface("hudin-2012")?;
-        let responses = judge::model(&surface, None)?;
+        let responses = judge::model(&surface, None, &[])?;
         let rate = surface.emission.rate;
         Ok(Self { surface, responses, rate, window: 0.030, target: Point::from_mm(62.0, 90.0) })
     }

@@ -1,11 +1,14 @@
 //! `unripple reproduce`: the paper's table and figures beside ours, as one page.
 
 mod bed;
+mod cavities;
+mod coils;
 mod contrast;
 mod fig1;
 mod fig2;
 mod fig3;
 mod fig4;
+mod finger;
 mod levels;
 mod numbers;
 mod page;
@@ -55,15 +58,18 @@ type Maker = fn(&Bed, usize) -> Result<Section, CliError>;
 
 /// Every section in the paper's order.
 fn sections(placements: usize) -> Result<Vec<Section>, CliError> {
-    let makers: [(&str, Maker); 10] = [
+    let makers: [(&str, Maker); 13] = [
         ("Fig. 1", |bed, _| fig1::section(bed)),
         ("Fig. 2a", |bed, _| fig2::one_actuator(bed)),
         ("Fig. 2b", |bed, _| fig2::triangle(bed)),
+        ("section 2", cavities::section),
         ("section 3.1", contrast::section),
         ("section 3.2", repetition::section),
         ("Fig. 3", |bed, _| fig3::section(bed)),
         ("Table 1", |bed, _| table1::section(bed)),
         ("section 4", |bed, _| numbers::section(bed)),
+        ("finger", |bed, _| finger::section(bed)),
+        ("coils", |bed, _| coils::section(bed)),
         ("Fig. 4", |bed, _| fig4::section(bed)),
         ("40 µm and 200 µm", |bed, _| levels::section(bed)),
     ];

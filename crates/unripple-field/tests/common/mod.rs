@@ -96,7 +96,7 @@ impl Film {
                 .enumerate()
                 .map(|(i, at)| Port { name: format!("a{}", i + 1), at: *at })
                 .collect(),
-            poles: modes.iter().map(|mode| Pole { omega: mode.0, sigma: 1.0 / self.decay_time }).collect(),
+            poles: modes.iter().map(|mode| Pole::new(mode.0, 1.0 / self.decay_time)).collect(),
             input: shapes.at_all(&self.ports),
             shapes: Arc::new(shapes),
             conditions: Conditions {

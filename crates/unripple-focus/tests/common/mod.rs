@@ -77,7 +77,7 @@ impl Membrane {
         let port = |(i, at): (usize, &Point)| Port { name: format!("a{}", i + 1), at: *at };
         ModalResponses {
             ports: self.ports.iter().enumerate().map(port).collect(),
-            poles: modes.iter().map(|mode| Pole { omega: mode.0, sigma: 1.0 / self.decay_time }).collect(),
+            poles: modes.iter().map(|mode| Pole::new(mode.0, 1.0 / self.decay_time)).collect(),
             input: shapes.at_all(&self.ports),
             shapes: Arc::new(shapes),
             conditions: Conditions {

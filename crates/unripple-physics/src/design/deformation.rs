@@ -6,7 +6,7 @@ use unripple_core::{Sheet, Surface};
 const AMPLITUDES: [f64; 3] = [10e-6, 40e-6, 200e-6];
 
 /// Change of tension, as a share of the tension, at which linear theory is said to end.
-const TENSION_CHANGE: f64 = 0.1;
+pub(super) const TENSION_CHANGE: f64 = 0.1;
 
 /// What a displacement does to the sheet.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]

@@ -1,6 +1,6 @@
 use super::Strip;
 use unripple_core::{
-    Actuator, ActuatorKind, Air, Decay, Emission, Finger, Outline, Point, Shape, Sheet, Surface,
+    Actuator, ActuatorKind, Air, Decay, Emission, Finger, Outline, Point, Shape, Sheet, Surface, Uneven,
 };
 
 /// Where the paper's table and window are taken: a wavelength of 15 mm.
@@ -32,6 +32,7 @@ pub fn papers_surface() -> Surface {
             name: format!("a{i}"),
             at: Point::from_mm(x, y),
             kind: ActuatorKind::Force,
+            contact_radius: 0.0,
         })
         .collect();
     Surface {
@@ -47,6 +48,7 @@ pub fn papers_surface() -> Surface {
             tension: 200.0,
             decay: Decay::Time(0.07),
             air: Air::None,
+            uneven: Uneven::default(),
         },
         emission: Emission { band: [0.0, 3000.0], rate: 48e3, limit: 1.0, rms_limit: None },
         finger: Finger::default(),

@@ -1,28 +1,21 @@
-//! Modes of rectangular sheets.
+//! Modes of any sheet.
 
-mod adapt;
-mod eigen;
+mod bounds;
+pub(crate) mod eigen;
+mod general;
 mod legendre;
-mod line;
-mod order;
-mod plate;
-mod polynomials;
-mod problem;
-mod product;
-mod readout;
-mod ritz;
-mod separable;
+mod rectangle;
 
-use crate::damping::decay_rate;
-use crate::{Medium, PhysicsError};
+use crate::PhysicsError;
+use bounds::Bounds;
 use faer::Mat;
-use problem::Problem;
-use readout::Readout;
-use separable::{Separable, Wave};
+use rectangle::Problem;
 use std::f64::consts::TAU;
 use unripple_core::{Point, Pole, Shapes, Surface};
 
-pub(crate) use problem::check;
+pub(crate) use bounds::check;
+pub(crate) use eigen::{Method, symmetric};
+pub(crate) use legendre::gauss;
 
 /// Memory that a solution may take, in bytes.
 const MEMORY: f64 = 4.0 * GIB;
@@ -31,50 +24,58 @@ const GIB: f64 = (1u64 << 30) as f64;
 /// The modes of a surface: frequencies, decay and mass-normalised shapes.
 ///
 /// Shapes φ satisfy ∫ρ φ_m φ_n dS = δ_mn, ρ the mass per area with the air that moves along. They are evaluated at any
-/// point of the rectangle to near machine precision; places outside it stand for the nearest place inside. A shape's sign
-/// makes positive the first of its coefficients that is at least half the largest; modes of one frequency
-/// are ordered by symmetry: even along x first, then even along y, then even under exchange of x and y.
+/// point of the sheet; places outside it stand for the nearest place inside. A shape's sign makes positive the first of its
+/// coefficients that is at least half the largest. On a rectangle, modes of one frequency are ordered by symmetry: even along
+/// x first, then even along y, then even under exchange of x and y; elsewhere any combination of them may come.
 #[derive(Debug)]
 pub struct Modes {
     poles: Vec<Pole>,
     bending_shares: Vec<f64>,
-    form: Form,
-    sides: [f64; 2],
+    shapes: Box<dyn Shapes>,
     error: f64,
 }
 
-/// How shapes are known.
-#[derive(Debug)]
-enum Form {
-    /// One sine or cosine along each side.
-    Separable(Separable),
-    /// Sums of products.
-    Ritz(Box<Readout>),
+/// What every kind of solution gives, modes ascending.
+struct Found {
+    omegas: Vec<f64>,
+    bending_shares: Vec<f64>,
+    shapes: Box<dyn Shapes>,
+    error: f64,
 }
 
 impl Modes {
-    /// All modes of a rectangular surface up to `max_hz`, to a relative `accuracy` of their frequencies (1e-12 to 0.1).
+    /// All modes of a surface up to `max_hz`, to a relative `accuracy` of their frequencies (1e-12 to 0.1; 1e-7 is about the
+    /// least that anything but a plain rectangle reaches).
     ///
-    /// Any mix of clamped, supported and free sides, tension and bending together. Plates supported all round and
-    /// membranes without bending stiffness are exact, any number of modes of them. All others are Ritz sums of
+    /// Any mix of clamped, supported, free and elastic sides, tension and bending together. Uniform isotropic rectangles
+    /// supported all round and membranes without bending stiffness are exact. Other rectangles are Ritz sums of
     /// polynomials, split by symmetry, and of sines between supported sides; polynomials are added until what the
     /// next ones would change is below `accuracy`. Frequencies approach from above; by e^-1.5 for each polynomial, but only
     /// as their fourth power where a clamped side meets a free one. A sheet that nothing holds has rigid
     /// modes at 0 Hz: three, or one if tension levels it.
     ///
-    /// Air at the sides is an added mass ρ_0/√(k² - (ω/c_0)²) a side, k the wavenumber of the mode's frequency in vacuum.
+    /// Every other outline, holes, springs at the rim, grain, profiles and scatterers take continuously differentiable
+    /// quintic elements on a mesh (Argyris, Fried and Scharpf 1968), curved along curved rims and graded towards corners
+    /// that need it. All modes below the top are there: their number is that of negative pivots (Sylvester). Frequencies fall
+    /// towards their limits as the seventh to eighth power of the edge length; two meshes are compared, and refined until they
+    /// agree to `accuracy`.
+    ///
+    /// Air at the sides is an added mass ρ_0/√(k² - (ω/c_0)²) a side, k the wavenumber of the mode's frequency in vacuum;
+    /// modes faster than sound radiate instead, and decay the faster ([`Medium`](crate::Medium)).
     ///
     /// # Errors
-    /// [`PhysicsError::Unsupported`] unless the outline is a rectangle; [`PhysicsError::Range`] for values out of range;
-    /// [`PhysicsError::Coincidence`] if with air the top reaches the coincidence frequency;
-    /// [`PhysicsError::TooLarge`] before more than 4 GiB would be taken; [`PhysicsError::NotConverged`] if rounding stops
-    /// short of the accuracy.
+    /// [`PhysicsError::Range`] for values out of range; [`PhysicsError::Outline`] for a rim that crosses itself, bounds
+    /// nothing, or holes beyond it; [`PhysicsError::Unsupported`] for a sheet that nothing brings back, free all round
+    /// and without stiffness; [`PhysicsError::TooLarge`] before more than 4 GiB would be taken;
+    /// [`PhysicsError::NotConverged`] if refinement stalls short of the accuracy; [`PhysicsError::Solver`] if the eigenproblem
+    /// of a mesh fails.
     ///
     /// ```
     /// # use unripple_core::*;
     /// # use unripple_physics::Modes;
     /// # let sheet = Sheet { material: "BoPET".into(), young: 4e9, density: 1400.0, poisson: 0.3, strength: None,
-    /// #     thickness: 0.125e-3, tension: 200.0, decay: Decay::Time(0.07), air: Air::None };
+    /// #     thickness: 0.125e-3, tension: 200.0, decay: Decay::Time(0.07), air: Air::None,
+    /// #     uneven: Uneven::default() };
     /// # let surface = Surface { name: "film".into(), outline: Outline::new(Shape::Rectangle { width: 0.15, height: 0.15 }),
     /// #     sheet, emission: Emission { band: [0.0, 3e3], rate: 48e3, limit: 1.0, rms_limit: None },
     /// #     finger: Finger::default(), actuators: vec![] };
@@ -85,24 +86,19 @@ impl Modes {
     /// # Ok::<(), unripple_physics::PhysicsError>(())
     /// ```
     pub fn solve(surface: &Surface, max_hz: f64, accuracy: f64) -> Result<Self, PhysicsError> {
-        let problem = Problem::of(surface, max_hz, accuracy)?;
-        let found = if problem.separable() { separable(&problem)? } else { ritz(&problem)? };
+        let bounds = Bounds::of(surface, max_hz, accuracy)?;
+        rests(surface, &bounds)?;
+        let found = match Problem::of(surface, bounds)? {
+            Some(rectangle) => rectangle::solve(&rectangle)?,
+            None => general::solve(surface, &bounds)?,
+        };
         let poles = found
             .omegas
             .iter()
             .zip(&found.bending_shares)
-            .map(|(omega, share)| Pole {
-                omega: *omega,
-                sigma: decay_rate(&surface.sheet.decay, *omega, *share),
-            })
+            .map(|(omega, share)| Pole::new(*omega, bounds.decay_rate(&surface.sheet.decay, *omega, *share)))
             .collect();
-        Ok(Self {
-            poles,
-            bending_shares: found.bending_shares,
-            form: found.form,
-            sides: problem.sides,
-            error: found.error,
-        })
+        Ok(Self { poles, bending_shares: found.bending_shares, shapes: found.shapes, error: found.error })
     }
 
     /// Natural frequencies ω/2π, ascending, in Hz.
@@ -129,10 +125,6 @@ impl Modes {
     pub fn error(&self) -> f64 {
         self.error
     }
-
-    fn inside(&self, point: Point) -> Point {
-        Point::new(point.x.clamp(0.0, self.sides[0]), point.y.clamp(0.0, self.sides[1]))
-    }
 }
 
 impl Shapes for Modes {
@@ -141,59 +133,22 @@ impl Shapes for Modes {
     }
 
     fn at(&self, point: Point, row: &mut [f64]) {
-        match &self.form {
-            Form::Separable(shapes) => shapes.at(self.inside(point), row),
-            Form::Ritz(shapes) => shapes.at(self.inside(point), row),
-        }
+        self.shapes.at(point, row);
     }
 
     fn at_all(&self, points: &[Point]) -> Mat<f64> {
-        let inside: Vec<Point> = points.iter().map(|p| self.inside(*p)).collect();
-        match &self.form {
-            Form::Separable(shapes) => shapes.at_all(&inside),
-            Form::Ritz(shapes) => shapes.at_all(&inside),
-        }
+        self.shapes.at_all(points)
     }
 }
 
-/// What both kinds of solution give, modes ascending.
-struct Found {
-    omegas: Vec<f64>,
-    bending_shares: Vec<f64>,
-    form: Form,
-    error: f64,
-}
-
-fn separable(problem: &Problem) -> Result<Found, PhysicsError> {
-    Separable::guard(problem)?;
-    let waves = problem.edges.map(|[low, high]| Wave::of(low, high));
-    let (shapes, wavenumbers) = Separable::up_to(problem.sides, waves, problem.k_top, problem.mass());
-    let vacuum: Medium = problem.vacuum();
-    let (omegas, factors): (Vec<f64>, Vec<f64>) =
-        wavenumbers.iter().map(|k| loaded(problem, vacuum.omega(*k).powi(2))).unzip();
-    let bending_shares = wavenumbers.iter().map(|k| vacuum.bending_share(*k)).collect();
-    Ok(Found { omegas, bending_shares, form: Form::Separable(shapes.scaled(&factors)), error: 0.0 })
-}
-
-fn ritz(problem: &Problem) -> Result<Found, PhysicsError> {
-    let adapt::Solution { lines, blocks, error } = adapt::solve(problem)?;
-    let (squares, places) = order::ascending(&blocks);
-    let mut ranks: Vec<Vec<usize>> = blocks.iter().map(|b| vec![0; b.squares.len()]).collect();
-    let mut factors: Vec<Vec<f64>> = blocks.iter().map(|b| vec![0.0; b.squares.len()]).collect();
-    let (mut omegas, mut bending_shares) = (Vec::new(), Vec::new());
-    for (rank, (square, (b, m))) in squares.iter().zip(places).enumerate() {
-        let (omega, factor) = loaded(problem, *square);
-        omegas.push(omega);
-        bending_shares.push(blocks[b].bending_shares[m]);
-        ranks[b][m] = rank;
-        factors[b][m] = factor * order::sign(blocks[b].coefficients.col(m));
+/// Refuses a sheet that nothing brings back: free all round, without stiffness.
+fn rests(surface: &Surface, bounds: &Bounds) -> Result<(), PhysicsError> {
+    if bounds.medium.bending_stiffness > 0.0 || surface.outline.holds() {
+        return Ok(());
     }
-    let readout = Readout::new(problem.sides, lines, problem.mass(), blocks, ranks, &factors);
-    Ok(Found { omegas, bending_shares, form: Form::Ritz(Box::new(readout)), error })
-}
-
-/// Frequency (rad/s) with the air's mass, and what that mass does to a mass-normalised shape: √(ρ_s/ρ_eff) = ω/ω_vacuum.
-fn loaded(problem: &Problem, square: f64) -> (f64, f64) {
-    let omega = problem.omega_in_air(square);
-    (omega, if square > 0.0 { omega / square.sqrt() } else { 1.0 })
+    Err(PhysicsError::Unsupported {
+        what: "a sheet without bending stiffness",
+        expected: "a rim held somewhere: clamped, supported or on springs",
+        found: "a rim that is free all round".into(),
+    })
 }

@@ -18,6 +18,7 @@ pub fn film(edges: Edges) -> Surface {
             tension: 200.0,
             decay: Decay::Time(0.07),
             air: Air::None,
+            uneven: Uneven::default(),
         },
         emission: Emission { band: [0.0, 3e3], rate: 48e3, limit: 1.0, rms_limit: None },
         finger: Finger::default(),
@@ -34,6 +35,7 @@ pub fn film_with_actuators(at_mm: &[(f64, f64)]) -> Surface {
             name: format!("a{}", i + 1),
             at: Point::from_mm(*x, *y),
             kind: ActuatorKind::Force,
+            contact_radius: 0.0,
         })
         .collect();
     Surface { actuators, ..film(Edges::All(Edge::Clamped)) }

@@ -1,14 +1,16 @@
-use super::place;
+use super::piezo::{self, PIEZO_KEYS};
+use super::place::Ground;
 use super::range::of;
-use super::reader::{Entry, Faults, Section};
+use super::reader::{Faults, Section};
 use std::collections::HashMap;
 use std::ops::Range;
-use unripple_core::{Actuator, ActuatorKind, CoilDrive, Outline, Point};
+use unripple_core::{Actuator, ActuatorKind, CoilDrive, Point};
 
 /// Most actuators of a surface.
 pub(super) const MOST_ACTUATORS: usize = 4096;
 
 const COMMON_KEYS: [&str; 3] = ["name", "at_mm", "kind"];
+const PAD_KEY: &str = "contact_radius_mm";
 const MAGNET_KEYS: [&str; 5] =
     ["force_constant_n_per_a", "resistance_ohm", "inductance_mh", "moving_mass_mg", "driven_by"];
 
@@ -26,8 +28,14 @@ enum Kind {
 const KINDS: [(&str, Kind); 3] =
     [("force", Kind::Force), ("moving-magnet", Kind::MovingMagnet), ("piezo", Kind::Piezo)];
 
+/// What actuators stand on: the sheet's outline, and its thickness in metres at a point of it.
+pub(super) struct Base<'b> {
+    pub ground: Option<&'b Ground>,
+    pub thickness: &'b dyn Fn(Point) -> Option<f64>,
+}
+
 /// All actuators of a file, in its order.
-pub(super) fn read(root: &Section, outline: Option<&Outline>, faults: &mut Faults) -> Option<Vec<Actuator>> {
+pub(super) fn read(root: &Section, base: &Base, faults: &mut Faults) -> Option<Vec<Actuator>> {
     let entry = root.get("actuator");
     let items = match &entry {
         Some(entry) => entry.items().or_else(|| {
@@ -50,7 +58,7 @@ pub(super) fn read(root: &Section, outline: Option<&Outline>, faults: &mut Fault
     let read: Vec<Option<Actuator>> = items
         .iter()
         .enumerate()
-        .map(|(i, item)| one(&item.section(faults)?, i, outline, &mut names, faults))
+        .map(|(i, item)| one(&item.section(faults)?, i, base, &mut names, faults))
         .collect();
     read.into_iter().collect()
 }
@@ -58,25 +66,41 @@ pub(super) fn read(root: &Section, outline: Option<&Outline>, faults: &mut Fault
 fn one(
     section: &Section,
     index: usize,
-    outline: Option<&Outline>,
+    base: &Base,
     names: &mut Names,
     faults: &mut Faults,
 ) -> Option<Actuator> {
     let kind = section.choice_or("kind", Kind::Force, &KINDS, faults);
-    let keys: &[&str] =
-        if kind == Some(Kind::Force) || kind == Some(Kind::Piezo) { &[] } else { &MAGNET_KEYS };
-    let known: Vec<&str> = COMMON_KEYS.iter().chain(keys).copied().collect();
-    let elsewhere =
-        |key: &str| MAGNET_KEYS.contains(&key).then(|| "this key only where kind = \"moving-magnet\"".into());
-    section.check_keys(&known, elsewhere, faults);
+    check_keys(section, kind, faults);
     let name = name(section, index, names, faults);
-    let at = at(section, outline, faults);
-    let kind = match kind? {
-        Kind::Force => Some(ActuatorKind::Force),
-        Kind::Piezo => Some(ActuatorKind::Piezo),
-        Kind::MovingMagnet => magnet(section, faults),
+    let at = Ground::read(base.ground, section, faults);
+    let kind = kind?;
+    let pad = match kind {
+        Kind::Force | Kind::MovingMagnet => section.number_or(PAD_KEY, 0.0, &of::PAD_RADIUS, faults),
+        Kind::Piezo => Some(0.0),
     };
-    Some(Actuator { name: name?, at: at?, kind: kind? })
+    let kind = match kind {
+        Kind::Force => Some(ActuatorKind::Force),
+        Kind::MovingMagnet => magnet(section, faults),
+        Kind::Piezo => piezo::read(section, at.and_then(base.thickness), faults),
+    };
+    Some(Actuator { name: name?, at: at?, kind: kind?, contact_radius: pad? })
+}
+
+fn check_keys(section: &Section, kind: Option<Kind>, faults: &mut Faults) {
+    let keys: Vec<&str> = match kind {
+        Some(Kind::Force) => vec![PAD_KEY],
+        Some(Kind::MovingMagnet) => [&[PAD_KEY], &MAGNET_KEYS[..]].concat(),
+        Some(Kind::Piezo) => PIEZO_KEYS.to_vec(),
+        None => [&[PAD_KEY], &MAGNET_KEYS[..], &PIEZO_KEYS[..]].concat(),
+    };
+    let elsewhere = |key: &str| match key {
+        PAD_KEY => Some("this key only where kind = \"force\" or \"moving-magnet\"".into()),
+        key if MAGNET_KEYS.contains(&key) => Some("this key only where kind = \"moving-magnet\"".into()),
+        key if PIEZO_KEYS.contains(&key) => Some("this key only where kind = \"piezo\"".into()),
+        _ => None,
+    };
+    section.check_keys(&[&COMMON_KEYS[..], &keys].concat(), elsewhere, faults);
 }
 
 /// Names taken so far, and by which actuator.
@@ -96,29 +120,6 @@ fn name(section: &Section, index: usize, names: &mut Names, faults: &mut Faults)
     let span: Range<usize> = entry.map_or(section.span.clone(), |e| e.span);
     let found = format!("\"{name}\", which is also the name of actuator[{first}]");
     faults.add(&format!("{}.name", section.key), span, found, "a name of its own", None);
-    None
-}
-
-fn at(section: &Section, outline: Option<&Outline>, faults: &mut Faults) -> Option<Point> {
-    let shape = "[x, y] in mm";
-    let entry: Entry = section.require("at_mm", shape, faults)?;
-    let [x, y] = entry.numbers(&of::COORDINATE, shape, faults)?;
-    let point = Point::new(x, y);
-    // With no outline to judge by, that the outline is at fault has been said already.
-    let Some(outline) = outline else { return Some(point) };
-    if outline.contains(point) {
-        return Some(point);
-    }
-    let rim = place::nearest_on_rim(outline, point);
-    let (width, height) = outline.extent();
-    let expected = format!(
-        "a point inside the outline, which spans {:.4} x {:.4} mm and is {:.3} mm away",
-        width * 1e3,
-        height * 1e3,
-        point.distance(rim) * 1e3
-    );
-    let nearest = if faults.are_plenty() { None } else { place::nearest_legal(outline, rim) };
-    entry.refuse(expected, nearest, faults);
     None
 }
 

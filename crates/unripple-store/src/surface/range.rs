@@ -1,4 +1,4 @@
-use crate::decimal;
+use crate::{decimal, degrees};
 
 /// Legal values of a number, in the file's unit, and how that unit relates to SI.
 #[derive(Clone, Debug)]
@@ -7,6 +7,8 @@ pub(crate) struct Limits {
     pub unit: &'static str,
     /// SI value = file value · 10^power.
     pub power: i32,
+    /// Whether the file's unit is the degree and SI's the radian.
+    pub turns: bool,
     /// Least legal value.
     pub least: f64,
     /// Greatest legal value.
@@ -15,7 +17,21 @@ pub(crate) struct Limits {
 
 impl Limits {
     pub(crate) const fn new(unit: &'static str, power: i32, least: f64, greatest: f64) -> Self {
-        Self { unit, power, least, greatest }
+        Self { unit, power, turns: false, least, greatest }
+    }
+
+    const fn degrees(least: f64, greatest: f64) -> Self {
+        Self { unit: "degrees", power: 0, turns: true, least, greatest }
+    }
+
+    /// The SI value of a decimal number of the file; `None` if it is not one.
+    pub(crate) fn si(&self, text: &str) -> Option<f64> {
+        if self.turns { degrees::radians(text) } else { decimal::scaled(text, self.power) }
+    }
+
+    /// An SI value as the file writes it, such that [`Limits::si`] gives it back.
+    pub(crate) fn text(&self, value: f64) -> String {
+        if self.turns { degrees::text(value) } else { decimal::text(value, -self.power) }
     }
 
     pub(crate) fn allow(&self, value: f64) -> bool {
@@ -43,6 +59,19 @@ pub(crate) mod of {
     pub(crate) const LENGTH: Limits = Limits::new("mm", -3, 1.0, 1e5);
     pub(crate) const STRAIGHT: Limits = Limits::new("mm", -3, 0.0, 1e5);
     pub(crate) const COORDINATE: Limits = Limits::new("mm", -3, -1e6, 1e6);
+    pub(crate) const HOLE_LENGTH: Limits = Limits::new("mm", -3, 0.01, 1e5);
+    pub(crate) const ARC_RADIUS: Limits = Limits::new("mm", -3, 0.001, 1e6);
+    pub(crate) const SLIT_WIDTH: Limits = Limits::new("mm", -3, 0.01, 100.0);
+    pub(crate) const DIRECTION: Limits = Limits::degrees(-720.0, 720.0);
+    pub(crate) const SWEEP: Limits = Limits::degrees(-360.0, 360.0);
+    pub(crate) const LIFT: Limits = Limits::new("N/mm²", 6, 0.0, 1e6);
+    pub(crate) const TILT: Limits = Limits::new("N", 0, 0.0, 1e9);
+    pub(crate) const GRAIN_YOUNG: Limits = Limits::new("GPa", 9, 1e-6, 2000.0);
+    pub(crate) const THICKNESS_FACTOR: Limits = Limits::new("", 0, 0.05, 20.0);
+    pub(crate) const TENSION_FACTOR: Limits = Limits::new("", 0, 0.0, 20.0);
+    pub(crate) const ADDED_MASS: Limits = Limits::new("kg/m²", 0, 0.0, 1000.0);
+    pub(crate) const SCATTERER_MASS: Limits = Limits::new("mg", -6, 0.0, 1e7);
+    pub(crate) const DISC_RADIUS: Limits = Limits::new("mm", -3, 0.1, 1000.0);
     pub(crate) const YOUNG: Limits = Limits::new("GPa", 9, 0.0, 2000.0);
     pub(crate) const DENSITY: Limits = Limits::new("kg/m³", 0, 1.0, 30_000.0);
     pub(crate) const POISSON: Limits = Limits::new("", 0, -0.9999, 0.4999);
@@ -62,4 +91,11 @@ pub(crate) mod of {
     pub(crate) const RESISTANCE: Limits = Limits::new("Ω", 0, 1e-3, 1e6);
     pub(crate) const INDUCTANCE: Limits = Limits::new("mH", -3, 0.0, 1000.0);
     pub(crate) const MOVING_MASS: Limits = Limits::new("mg", -6, 0.0, 1e6);
+    pub(crate) const PAD_RADIUS: Limits = Limits::new("mm", -3, 0.0, 100.0);
+    pub(crate) const PATCH_RADIUS: Limits = Limits::new("mm", -3, 0.1, 100.0);
+    pub(crate) const PATCH_MOMENT: Limits = Limits::new("N/V", 0, -1e5, 1e5);
+    pub(crate) const PATCH_MASS: Limits = Limits::new("mg", -6, 0.0, 1e7);
+    pub(crate) const PATCH_YOUNG: Limits = Limits::new("GPa", 9, 0.001, 2000.0);
+    pub(crate) const PATCH_THICKNESS: Limits = Limits::new("mm", -3, 0.001, 10.0);
+    pub(crate) const STRAIN_CONSTANT: Limits = Limits::new("pm/V", -12, -1e4, 1e4);
 }

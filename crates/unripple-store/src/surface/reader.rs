@@ -89,7 +89,7 @@ impl<'a> Entry<'a> {
             }
             _ => None,
         };
-        let read = text.and_then(|t| decimal::scaled(&t, limits.power).zip(decimal::scaled(&t, 0)));
+        let read = text.and_then(|t| limits.si(&t).zip(decimal::scaled(&t, 0)));
         let Some((value, written)) = read else {
             self.refuse(limits.expected(), None, faults);
             return None;
@@ -143,6 +143,19 @@ impl<'a> Entry<'a> {
         };
         let read: Vec<Option<f64>> = items.iter().map(|item| item.number(limits, faults)).collect();
         read.into_iter().collect::<Option<Vec<f64>>>()?.try_into().ok()
+    }
+
+    /// Whether it is a number, a text, or a table.
+    pub fn is_number(&self) -> bool {
+        matches!(self.value, DeValue::Integer(_) | DeValue::Float(_))
+    }
+
+    pub fn is_text(&self) -> bool {
+        matches!(self.value, DeValue::String(_))
+    }
+
+    pub fn is_table(&self) -> bool {
+        matches!(self.value, DeValue::Table(_))
     }
 
     pub fn is(&self, integer: i64) -> bool {

@@ -1,38 +1,35 @@
-use super::range::of;
+use super::grain::{self, GRAIN_KEYS};
+use super::material::{self, MATERIAL_KEYS, Stuff};
+use super::profile;
+use super::range::{Limits, of};
 use super::reader::{Entry, Faults, Section};
-use crate::names::nearest;
-use unripple_core::{Air, Decay, MATERIALS, Material, Sheet};
+use unripple_core::{Air, Decay, Profile, Sheet, Uneven};
 
-const KEYS: [&str; 10] = [
-    "material",
-    "young_gpa",
-    "density_kg_m3",
-    "poisson_ratio",
-    "strength_mpa",
-    "thickness_mm",
-    "tension_n_per_m",
-    "decay_time_ms",
-    "loss_factor",
-    "air",
-];
+const KEYS: [&str; 5] = ["thickness_mm", "tension_n_per_m", "decay_time_ms", "loss_factor", "air"];
+const UNEVEN_KEYS: [&str; 3] = ["thickness_profile", "tension_profile", "added_mass_kg_m2"];
 
 /// The air conditions and their names.
 pub(super) const AIRS: [(&str, Air); 3] =
     [("none", Air::None), ("one-side", Air::OneSide), ("both-sides", Air::BothSides)];
 
+/// The table `[sheet]`, but for scatterers.
 pub(super) fn read(section: &Section, faults: &mut Faults) -> Option<Sheet> {
-    section.check_keys(&KEYS, |_| None, faults);
-    let made_of = material(section, faults);
+    let known = [&MATERIAL_KEYS[..], &GRAIN_KEYS, &KEYS, &UNEVEN_KEYS].concat();
+    section.check_keys(&known, |_| None, faults);
+    let made_of = material::read(section, faults);
+    let grain = grain::read(section, made_of.as_ref(), faults);
     let thickness = section.number("thickness_mm", &of::THICKNESS, faults);
     let tension = section.number_or("tension_n_per_m", 0.0, &of::TENSION, faults);
     let decay = decay(section, faults);
     let air = section.choice_or("air", Air::None, &AIRS, faults);
-    if let (Some(stuff), Some(0.0)) = (&made_of, tension)
-        && stuff.young == 0.0
-    {
-        let span = section.get("tension_n_per_m").map_or(section.span.clone(), |entry| entry.span);
-        let expected = "a positive tension_n_per_m or young_gpa: nothing else pulls the sheet back";
-        faults.add("sheet.tension_n_per_m", span, "neither tension nor stiffness", expected, None);
+    let thickness_profile = profile(section, UNEVEN_KEYS[0], &of::THICKNESS_FACTOR, faults);
+    let tension_profile = profile(section, UNEVEN_KEYS[1], &of::TENSION_FACTOR, faults);
+    let added_mass = match section.get(UNEVEN_KEYS[2]) {
+        Some(entry) => profile::read_or_number(&entry, &of::ADDED_MASS, faults).map(Some),
+        None => Some(None),
+    };
+    if let (Some(stuff), Some(tension), Some(profile)) = (&made_of, tension, &tension_profile) {
+        pulled_back(section, stuff, tension, profile.as_ref(), faults);
     }
     let stuff = made_of?;
     Some(Sheet {
@@ -45,55 +42,44 @@ pub(super) fn read(section: &Section, faults: &mut Faults) -> Option<Sheet> {
         tension: tension?,
         decay: decay?,
         air: air?,
+        uneven: Uneven {
+            grain: grain?,
+            thickness: thickness_profile?,
+            tension: tension_profile?,
+            added_mass: added_mass?,
+            scatterers: Vec::new(),
+        },
     })
 }
 
-/// What the sheet is made of, overrides included.
-struct Stuff {
-    name: String,
-    young: f64,
-    density: f64,
-    poisson: f64,
-    strength: Option<f64>,
+fn profile(section: &Section, key: &str, limits: &Limits, faults: &mut Faults) -> Option<Option<Profile>> {
+    match section.get(key) {
+        Some(entry) => profile::read(&entry, limits, faults).map(Some),
+        None => Some(None),
+    }
 }
 
-fn material(section: &Section, faults: &mut Faults) -> Option<Stuff> {
-    let given = section.get("material");
-    let name = given.as_ref().and_then(|entry| entry.line("the name of a material", faults));
-    let known = name.as_deref().and_then(Material::named);
-    let complete = ["young_gpa", "density_kg_m3", "poisson_ratio"].iter().all(|k| section.get(k).is_some());
-    let unknown = given.is_some() && (name.is_none() || (known.is_none() && !complete));
-    if let (Some(entry), Some(name), true) = (&given, &name, unknown) {
-        refuse_material(entry, name, faults);
+/// A fault if neither tension nor stiffness pulls the sheet back, be it only in places.
+fn pulled_back(
+    section: &Section,
+    stuff: &Stuff,
+    tension: f64,
+    profile: Option<&Profile>,
+    faults: &mut Faults,
+) {
+    if stuff.young > 0.0 {
+        return;
     }
-    let mut number = |key, limits, of_material: fn(&Material) -> f64| match known {
-        Some(m) => section.number_or(key, of_material(m), limits, faults),
-        // One fault for the name is enough.
-        None if unknown => section.number_or(key, 0.0, limits, faults),
-        None => section.number(key, limits, faults),
-    };
-    let young = number("young_gpa", &of::YOUNG, |m| m.young);
-    let density = number("density_kg_m3", &of::DENSITY, |m| m.density);
-    let poisson = number("poisson_ratio", &of::POISSON, |m| m.poisson);
-    let strength = match section.get("strength_mpa") {
-        Some(entry) => entry.number(&of::STRENGTH, faults).map(Some),
-        None => Some(known.map(|m| m.strength)),
-    };
-    if unknown {
-        return None;
+    if tension == 0.0 {
+        let span = section.get("tension_n_per_m").map_or(section.span.clone(), |entry| entry.span);
+        let expected = "a positive tension_n_per_m or young_gpa: nothing else pulls the sheet back";
+        faults.add("sheet.tension_n_per_m", span, "neither tension nor stiffness", expected, None);
+    } else if let (Some(entry), Some(profile)) = (section.get(UNEVEN_KEYS[1]), profile)
+        && profile.range().0 == 0.0
+    {
+        let expected = "positive factors, or a positive young_gpa: nothing else pulls the sheet back there";
+        faults.add(&entry.key, entry.span, "places with neither tension nor stiffness", expected, None);
     }
-    let name = known.map(|m| m.name.to_owned()).or(name).unwrap_or_else(|| "custom".into());
-    Some(Stuff { name, young: young?, density: density?, poisson: poisson?, strength: strength? })
-}
-
-fn refuse_material(entry: &Entry, name: &str, faults: &mut Faults) {
-    let names: Vec<&str> = MATERIALS.iter().map(|m| m.name).collect();
-    let near = nearest(name, names.iter().copied()).map(|n| format!("\"{n}\""));
-    let expected = format!(
-        "one of {}, or young_gpa, density_kg_m3 and poisson_ratio beside a name of your own",
-        names.join(", ")
-    );
-    entry.refuse(expected, near, faults);
 }
 
 fn decay(section: &Section, faults: &mut Faults) -> Option<Decay> {

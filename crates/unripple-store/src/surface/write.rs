@@ -1,9 +1,14 @@
+mod rim;
+
 use super::actuator::COIL_DRIVES;
-use super::outline::EDGES;
+use super::range::of;
 use super::sheet::AIRS;
 use crate::decimal::text;
 use std::fmt::Write;
-use unripple_core::{Actuator, ActuatorKind, Decay, Edges, Outline, Point, Shape, Sheet, Surface};
+use unripple_core::{
+    Actuator, ActuatorKind, Decay, Emission, Finger, Point, Profile, Scatterer, ScattererKind, Sheet,
+    Surface, Uneven,
+};
 
 /// A surface as a file in format 1. [`crate::parse_surface`] makes the same surface of it, bit for bit, provided the
 /// values are within the format's limits.
@@ -18,22 +23,12 @@ pub fn to_toml(surface: &Surface) -> String {
     let mut out = Lines::default();
     out.line("format", "1");
     out.line("name", &quoted(&surface.name));
-    outline(&surface.outline, &mut out);
+    rim::outline(&surface.outline, &mut out);
+    surface.outline.holes.iter().for_each(|hole| rim::hole(hole, &mut out));
     sheet(&surface.sheet, &mut out);
-    let emission = &surface.emission;
-    out.table("[drive]");
-    out.line("band_hz", &format!("[{}, {}]", text(emission.band[0], 0), text(emission.band[1], 0)));
-    out.line("sample_rate_hz", &text(emission.rate, 0));
-    out.line("limit", &text(emission.limit, 0));
-    if let Some(limit) = emission.rms_limit {
-        out.line("rms_limit", &text(limit, 0));
-    }
-    let finger = &surface.finger;
-    out.table("[finger]");
-    out.line("mass_g", &text(finger.mass, 3));
-    out.line("damping_n_s_per_m", &text(finger.damping, 0));
-    out.line("stiffness_n_per_mm", &text(finger.stiffness, -3));
-    out.line("contact_radius_mm", &text(finger.contact_radius, 3));
+    surface.sheet.uneven.scatterers.iter().for_each(|s| scatterer(s, &mut out));
+    emission(&surface.emission, &mut out);
+    finger(&surface.finger, &mut out);
     surface.actuators.iter().for_each(|a| actuator(a, &mut out));
     out.0
 }
@@ -72,22 +67,22 @@ fn list(items: impl Iterator<Item = String>) -> String {
     format!("[{}]", items.collect::<Vec<_>>().join(", "))
 }
 
-fn outline(outline: &Outline, out: &mut Lines) {
-    out.table("[outline]");
-    match &outline.shape {
-        Shape::Rectangle { width, height } => {
-            out.line("rectangle_mm", &point(&Point::new(*width, *height)));
-        }
-        Shape::Circle { radius } => out.line("circle_mm", &text(*radius, 3)),
-        Shape::Stadium { straight, radius } => {
-            out.line("stadium_mm", &point(&Point::new(*straight, *radius)))
-        }
-        Shape::Polygon(vertices) => out.line("polygon_mm", &list(vertices.iter().map(point))),
+fn emission(emission: &Emission, out: &mut Lines) {
+    out.table("[drive]");
+    out.line("band_hz", &format!("[{}, {}]", text(emission.band[0], 0), text(emission.band[1], 0)));
+    out.line("sample_rate_hz", &text(emission.rate, 0));
+    out.line("limit", &text(emission.limit, 0));
+    if let Some(limit) = emission.rms_limit {
+        out.line("rms_limit", &text(limit, 0));
     }
-    match &outline.edges {
-        Edges::All(edge) => out.line("edge", &named(&EDGES, edge)),
-        Edges::PerSide(edges) => out.line("edge", &list(edges.iter().map(|edge| named(&EDGES, edge)))),
-    }
+}
+
+fn finger(finger: &Finger, out: &mut Lines) {
+    out.table("[finger]");
+    out.line("mass_g", &text(finger.mass, 3));
+    out.line("damping_n_s_per_m", &text(finger.damping, 0));
+    out.line("stiffness_n_per_mm", &text(finger.stiffness, -3));
+    out.line("contact_radius_mm", &text(finger.contact_radius, 3));
 }
 
 fn sheet(sheet: &Sheet, out: &mut Lines) {
@@ -98,6 +93,11 @@ fn sheet(sheet: &Sheet, out: &mut Lines) {
     out.line("poisson_ratio", &text(sheet.poisson, 0));
     if let Some(strength) = sheet.strength {
         out.line("strength_mpa", &text(strength, -6));
+    }
+    if let Some(grain) = &sheet.uneven.grain {
+        out.line("young_across_gpa", &text(grain.young_across, -9));
+        out.line("shear_gpa", &text(grain.shear, -9));
+        out.line("grain_deg", &of::DIRECTION.text(grain.direction));
     }
     out.line("thickness_mm", &text(sheet.thickness, 3));
     out.line("tension_n_per_m", &text(sheet.tension, 0));
@@ -110,6 +110,41 @@ fn sheet(sheet: &Sheet, out: &mut Lines) {
         Decay::LossFactor(factor) => out.line("loss_factor", &text(*factor, 0)),
     }
     out.line("air", &named(&AIRS, &sheet.air));
+    profiles(&sheet.uneven, out);
+}
+
+fn profiles(uneven: &Uneven, out: &mut Lines) {
+    let rows =
+        |profile: &Profile| list(profile.rows().map(|row| list(row.iter().map(|value| text(*value, 0)))));
+    let profiles = [
+        ("thickness_profile", &uneven.thickness),
+        ("tension_profile", &uneven.tension),
+        ("added_mass_kg_m2", &uneven.added_mass),
+    ];
+    for (key, profile) in profiles {
+        if let Some(profile) = profile {
+            out.line(key, &rows(profile));
+        }
+    }
+}
+
+fn scatterer(scatterer: &Scatterer, out: &mut Lines) {
+    out.table("[[scatterer]]");
+    out.line("at_mm", &point(&scatterer.at));
+    match &scatterer.kind {
+        ScattererKind::Mass(mass) => {
+            out.line("kind", "\"mass\"");
+            out.line("mass_mg", &text(*mass, 6));
+        }
+        ScattererKind::Disc { radius, thickness, young, density, poisson } => {
+            out.line("kind", "\"disc\"");
+            out.line("radius_mm", &text(*radius, 3));
+            out.line("thickness_mm", &text(*thickness, 3));
+            out.line("young_gpa", &text(*young, -9));
+            out.line("density_kg_m3", &text(*density, 0));
+            out.line("poisson_ratio", &text(*poisson, 0));
+        }
+    }
 }
 
 fn actuator(actuator: &Actuator, out: &mut Lines) {
@@ -117,13 +152,22 @@ fn actuator(actuator: &Actuator, out: &mut Lines) {
     out.line("name", &quoted(&actuator.name));
     out.line("at_mm", &point(&actuator.at));
     out.line("kind", &quoted(actuator.kind.name()));
-    if let ActuatorKind::MovingMagnet { force_constant, resistance, inductance, moving_mass, driven_by } =
-        &actuator.kind
-    {
-        out.line("force_constant_n_per_a", &text(*force_constant, 0));
-        out.line("resistance_ohm", &text(*resistance, 0));
-        out.line("inductance_mh", &text(*inductance, 3));
-        out.line("moving_mass_mg", &text(*moving_mass, 6));
-        out.line("driven_by", &named(&COIL_DRIVES, driven_by));
+    if actuator.contact_radius != 0.0 {
+        out.line("contact_radius_mm", &text(actuator.contact_radius, 3));
+    }
+    match &actuator.kind {
+        ActuatorKind::Force => {}
+        ActuatorKind::MovingMagnet { force_constant, resistance, inductance, moving_mass, driven_by } => {
+            out.line("force_constant_n_per_a", &text(*force_constant, 0));
+            out.line("resistance_ohm", &text(*resistance, 0));
+            out.line("inductance_mh", &text(*inductance, 3));
+            out.line("moving_mass_mg", &text(*moving_mass, 6));
+            out.line("driven_by", &named(&COIL_DRIVES, driven_by));
+        }
+        ActuatorKind::Piezo { radius, moment, mass } => {
+            out.line("radius_mm", &text(*radius, 3));
+            out.line("moment_n_per_v", &text(*moment, 0));
+            out.line("patch_mass_mg", &text(*mass, 6));
+        }
     }
 }

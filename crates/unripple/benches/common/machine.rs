@@ -37,3 +37,10 @@ pub fn product_rate<T: RealField + Copy>([rows, inner, columns]: [usize; 3], par
     });
     2.0 * (rows * inner * columns) as f64 / times.best()
 }
+
+/// Largest resident memory of this process so far, in MB; `None` where the system does not say.
+pub fn peak_megabytes() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+    line.split_whitespace().nth(1)?.parse::<f64>().ok().map(|kilobytes| kilobytes / 1e3)
+}

@@ -24,14 +24,20 @@
 //! ```
 
 mod bench;
+mod cavities;
+mod coils;
 mod contrast;
+mod finger;
 mod random;
 mod replay;
 mod sampling;
 mod size;
 
 pub use bench::{Bench, CELLS, Outside, StudyError};
+pub use cavities::cavities;
+pub use coils::{Coiled, Coils, Credibility, coils, credibility};
 pub use contrast::{Compared, against_band, against_noise, against_period, against_window};
+pub use finger::{Touched, finger};
 pub use random::Random;
 pub use replay::Replay;
 pub use sampling::{Draw, Sampling};

@@ -82,7 +82,7 @@ mod tests {
     use super::*;
 
     fn poles() -> Vec<Pole> {
-        (1..5).map(|m| Pole { omega: 700.0 * f64::from(m), sigma: 30.0 * f64::from(m) }).collect()
+        (1..5).map(|m| Pole::new(700.0 * f64::from(m), 30.0 * f64::from(m))).collect()
     }
 
     /// I by summing pulse after pulse, each delayed as it is.

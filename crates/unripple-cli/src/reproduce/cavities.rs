@@ -1,0 +1,156 @@
+use super::contrast::{Statistic, statistics};
+use super::section::row;
+use super::{Bed, Compared, Picture, Section};
+use crate::error::CliError;
+use serde_json::json;
+use unripple::core::{Outline, Surface};
+use unripple::study::{Bench, CELLS, against_window, cavities};
+use unripple_plot::{Axis, Figure, Ink, Layer, Line, Mark, Plot, Points};
+
+/// Windows simulated, in seconds; the bed's is among them.
+const WINDOWS: [f64; 6] = [0.005, 0.010, 0.020, 0.030, 0.060, 0.150];
+/// Numbers of actuators.
+const ACTUATORS: [usize; 2] = [1, 8];
+
+/// Contrast on one outline.
+struct Cavity {
+    name: &'static str,
+    modes: usize,
+    rows: Vec<Statistic>,
+}
+
+impl Cavity {
+    fn of(bed: &Bed, name: &'static str, outline: Outline, placements: usize) -> Result<Self, CliError> {
+        let surface = Surface { outline, ..bed.surface.clone() };
+        let bench = Bench::of(&surface, CELLS)?;
+        let rows = statistics(placements, |s| Ok(against_window(&bench, &surface, &WINDOWS, &ACTUATORS, s)))?;
+        Ok(Self { name, modes: bench.modes(), rows })
+    }
+
+    fn at(&self, actuators: usize, window: f64) -> Option<&Statistic> {
+        self.rows.iter().find(|r| r.actuators == actuators && (r.varied / window - 1.0).abs() < 1e-9)
+    }
+
+    fn mean(&self, actuators: usize, window: f64) -> f64 {
+        self.at(actuators, window).map_or(f64::NAN, |r| r.simulated)
+    }
+}
+
+/// Section 2: what the outline does, on one area of the same film.
+pub fn section(bed: &Bed, placements: usize) -> Result<Section, CliError> {
+    let all = cavities(bed.surface.outline.area())
+        .into_iter()
+        .map(|(name, outline)| Cavity::of(bed, name, outline, placements))
+        .collect::<Result<Vec<_>, _>>()?;
+    let data = all.iter().map(|c| json!({ "outline": c.name, "modes": c.modes, "against_window_s": c.rows }));
+    Ok(Section {
+        title: "Section 2: the outline".into(),
+        text: vec![text(&all, bed.window)],
+        figures: vec![Picture::still(
+            "outlines",
+            figure(&all),
+            format!(
+                "Contrast against the window for five clamped outlines of {:.0} cm², one actuator (a) and eight (b); means of \
+                 {placements} placements along the rim with four targets each, bars their standard error.",
+                bed.surface.outline.area() * 1e4
+            ),
+        )],
+        compared: compared(&all, bed.window),
+        table: table(&all, bed.window),
+        data: json!({ "outlines": data.collect::<Vec<_>>() }),
+    })
+}
+
+fn figure(all: &[Cavity]) -> Figure {
+    let panel = |actuators: usize| {
+        let mut layers: Vec<Layer> = Vec::new();
+        for (i, cavity) in all.iter().enumerate() {
+            let rows: Vec<&Statistic> = cavity.rows.iter().filter(|r| r.actuators == actuators).collect();
+            let (x, y): (Vec<f64>, Vec<f64>) = rows.iter().map(|r| (r.varied, r.simulated)).unzip();
+            let (ink, label) = (Ink::Palette(i), cavity.name.to_owned());
+            layers.push(
+                Line { x: x.clone(), y: y.clone(), ink, label: label.clone(), ..Line::default() }.into(),
+            );
+            let error = rows.iter().map(|r| [r.error, r.error]).collect();
+            layers.push(Points { x, y, error, label, ink, mark: Mark::Disc }.into());
+        }
+        let (x, y) = (Axis::log("Window T (ms)").times(1e3), Axis::new("Contrast").from(0.0));
+        Plot { x, y, layers, ..Plot::default() }
+    };
+    Figure {
+        width_mm: 178.0,
+        columns: 2,
+        panels: ACTUATORS.map(|n| panel(n).into()).to_vec(),
+        description: "Contrast against window on square, rectangle, circle, stadium and irregular polygon, for one actuator \
+                      and for eight"
+            .into(),
+        ..Figure::default()
+    }
+}
+
+/// What the outlines have to do with the paper's chaotic cavity.
+fn text(all: &[Cavity], window: f64) -> String {
+    let long = WINDOWS[WINDOWS.len() - 1];
+    let of =
+        |name: &str, n: usize, t: f64| all.iter().find(|c| c.name == name).map_or(f64::NAN, |c| c.mean(n, t));
+    let (polygon, rectangle) = ("irregular polygon", "rectangle 3:2");
+    format!(
+        "The paper asks for a chaotic cavity, in which the echoes of one actuator reach the target from everywhere. With one \
+         actuator and {:.0} ms the contrast is {:.1} on the rectangle, {:.1} on the irregular polygon, {:.1} on the stadium, \
+         {:.1} on the square and {:.1} on the circle. Symmetry does cost: a square and a circle have modes in pairs of one \
+         frequency, of which one actuator drives a single combination, so that part of the surface's freedom is out of its reach, \
+         however long it plays. But chaos as such gains nothing. Once no two modes share a frequency, what matters is how evenly \
+         modes are spread: those of a chaotic cavity swing like random waves, and an actuator drives some of them hardly at all, \
+         while a rectangle's are products of sines, more even by 5/4 to 2 in the scatter of their squares. So the plain rectangle \
+         of sides that do not divide each other is the best of the five. With eight actuators and {:.0} ms all lie within \
+         {:.1} (circle) and {:.1} (rectangle): places without symmetry, as the paper's, do what an irregular outline would.",
+        long * 1e3,
+        of(rectangle, 1, long),
+        of(polygon, 1, long),
+        of("stadium", 1, long),
+        of("square", 1, long),
+        of("circle", 1, long),
+        window * 1e3,
+        of("circle", 8, window),
+        of(rectangle, 8, window),
+    )
+}
+
+fn compared(all: &[Cavity], window: f64) -> Vec<Compared> {
+    let share = |n: usize, t: f64| {
+        let means: Vec<f64> = all.iter().map(|c| c.mean(n, t)).collect();
+        let (low, high) = means.iter().fold((f64::MAX, 0.0), |(l, h): (f64, f64), m| (l.min(*m), h.max(*m)));
+        format!("{low:.1} to {high:.1} over five outlines")
+    };
+    vec![
+        Compared::new(
+            format!("contrast of one actuator, {:.0} ms", WINDOWS[WINDOWS.len() - 1] * 1e3),
+            "best in a chaotic cavity; no figure",
+            share(1, WINDOWS[WINDOWS.len() - 1]),
+            "modes of one frequency cost; chaos as such gains nothing",
+        ),
+        Compared::new(
+            format!("contrast of eight actuators, {:.0} ms", window * 1e3),
+            "best in a chaotic cavity; no figure",
+            share(8, window),
+            "eight places without symmetry make up for the outline",
+        ),
+    ]
+}
+
+fn table(all: &[Cavity], window: f64) -> Vec<Vec<String>> {
+    let long = WINDOWS[WINDOWS.len() - 1];
+    let heading = |n: usize, t: f64| format!("N = {n}, {:.0} ms", t * 1e3);
+    let cases = [(1, window), (1, long), (8, window), (8, long)];
+    let mut headings = row(["outline", "modes"]);
+    headings.extend(cases.map(|(n, t)| heading(n, t)));
+    let cells =
+        |c: &Cavity| {
+            let mut cells = vec![c.name.to_owned(), c.modes.to_string()];
+            cells.extend(cases.map(|(n, t)| {
+                c.at(n, t).map_or("-".into(), |r| format!("{:.1} ± {:.1}", r.simulated, r.error))
+            }));
+            cells
+        };
+    std::iter::once(headings).chain(all.iter().map(cells)).collect()
+}

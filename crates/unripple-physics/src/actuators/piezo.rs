@@ -1,0 +1,43 @@
+use super::{Entry, Transducer, place};
+use crate::modes::check;
+use crate::{Footprint, Load, PhysicsError};
+use unripple_core::{Actuator, ActuatorKind, Outline};
+
+/// A round piezo patch, thin beside the sheet: a line moment of some N/V along its rim, which does the work
+/// moment·∮ ∂u/∂n ds = moment·∫ ∇²u dA (Dimitriadis, Fuller and Rogers, *J. Vib. Acoust.* 113, 100, 1991). Its mass lies evenly
+/// on the disc; its stiffness is left out.
+///
+/// A patch in its sensing role turns the same integral of the sheet's motion into charge.
+pub(super) fn transducer(actuator: &Actuator, outline: &Outline) -> Result<Transducer, PhysicsError> {
+    let ActuatorKind::Piezo { radius, moment, mass } = actuator.kind else {
+        return Ok(super::force::transducer(actuator, outline));
+    };
+    check("radius of a piezo patch in m", radius, radius > 0.0, "a positive finite number")?;
+    let to_rim = outline
+        .loops()
+        .iter()
+        .flat_map(|rim| &rim.sides)
+        .map(|(side, _)| side.at(side.nearest(actuator.at)).distance(actuator.at))
+        .fold(f64::INFINITY, f64::min);
+    if to_rim < radius * (1.0 - 1e-9) {
+        return Err(PhysicsError::Unsupported {
+            what: "place of a piezo patch",
+            expected: "a disc inside the outline",
+            found: format!(
+                "a radius of {:.2} mm, {:.2} mm from the rim, at {}",
+                radius * 1e3,
+                to_rim * 1e3,
+                place(actuator, outline)
+            ),
+        });
+    }
+    let load = (mass != 0.0).then(|| Load {
+        footprint: Footprint::disc(actuator.at, radius, outline),
+        mass,
+        damping: 0.0,
+        stiffness: 0.0,
+        circuit: None,
+    });
+    let footprint = Footprint::rim_slope(actuator.at, radius);
+    Ok(Transducer { footprint, gain: moment, entry: Entry::Force, load, unit: "V" })
+}

@@ -1,0 +1,85 @@
+use super::span::Span;
+use faer::MatRef;
+use unripple_core::Pole;
+
+/// Modes whose frequencies and decay rates differ by less than this share are one oscillation in several shapes.
+const SAME: f64 = 1e-13;
+
+/// A mode that loads feel less than this share of the one they feel most, they do not feel.
+const UNFELT: f64 = 1e-12;
+
+/// A combination of modes of one frequency: one oscillation.
+#[derive(Clone, Debug)]
+pub(super) struct Shape {
+    /// Its oscillation, as long as it does not feel the loads.
+    pub pole: Pole,
+    /// Modes and their parts; the squares of these sum to 1.
+    pub parts: Vec<(usize, f64)>,
+}
+
+impl Shape {
+    /// Its weight, from those of the modes.
+    pub fn weight(&self, row: faer::RowRef<'_, f64>) -> f64 {
+        self.parts.iter().map(|(mode, part)| part * row[*mode]).sum()
+    }
+}
+
+/// Splits modes into those that feel the loads, and those that do not and stay as they are.
+///
+/// Of several modes of one frequency (a square has many) only as many feel the loads as there are loads: the others are
+/// turned within their space until nothing of them is left at the loads' footprints. `felt` is loads x modes.
+pub(super) fn split(poles: &[Pole], felt: MatRef<'_, f64>) -> (Vec<Shape>, Vec<Shape>) {
+    let most = (0..poles.len()).map(|m| largest(felt, m)).fold(0.0, f64::max);
+    let (mut active, mut passive) = (Vec::new(), Vec::new());
+    let mut first = 0;
+    while first < poles.len() {
+        let end = (first + 1..poles.len()).find(|m| !same(poles[first], poles[*m])).unwrap_or(poles.len());
+        let shape = |vector: &Vec<f64>| Shape {
+            pole: poles[first],
+            parts: vector.iter().enumerate().map(|(i, part)| (first + i, *part)).collect(),
+        };
+        let mut span = Span::default();
+        for load in 0..felt.nrows() {
+            let row: Vec<f64> = (first..end).map(|m| felt[(load, m)]).collect();
+            if row.iter().any(|w| w.abs() > UNFELT * most) {
+                span.add(row, UNFELT);
+            }
+        }
+        let feeling = span.vectors.len();
+        for i in 0..end - first {
+            if span.vectors.len() < end - first {
+                span.add((0..end - first).map(|j| f64::from(u8::from(i == j))).collect(), 1e-6);
+            }
+        }
+        active.extend(span.vectors[..feeling].iter().map(shape));
+        passive.extend(span.vectors[feeling..].iter().map(shape));
+        first = end;
+    }
+    (active, passive)
+}
+
+fn largest(felt: MatRef<'_, f64>, mode: usize) -> f64 {
+    felt.col(mode).iter().fold(0.0, |most, w| w.abs().max(most))
+}
+
+fn same(a: Pole, b: Pole) -> bool {
+    let close = |x: f64, y: f64| (x - y).abs() <= SAME * x.abs().max(y.abs());
+    close(a.omega, b.omega) && close(a.sigma, b.sigma)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use faer::mat;
+
+    #[test]
+    fn one_load_is_felt_by_one_of_each_frequency() {
+        let poles = [10.0, 20.0, 20.0, 20.0, 30.0].map(|omega| Pole::new(omega, 1.0));
+        let felt = mat![[1.0, 0.5, -0.3, 0.1, 0.0]];
+        let (active, passive) = split(&poles, felt.as_ref());
+        assert_eq!(active.iter().map(|s| s.pole.omega).collect::<Vec<_>>(), [10.0, 20.0]);
+        assert_eq!(passive.iter().map(|s| s.pole.omega).collect::<Vec<_>>(), [20.0, 20.0, 30.0]);
+        assert!(passive.iter().all(|s| s.weight(felt.row(0)).abs() < 1e-15));
+        assert!((active[1].weight(felt.row(0)) - 0.35f64.sqrt()).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,71 @@
+use super::active::Active;
+use crate::modes::{Method, symmetric};
+use crate::{Load, PhysicsError};
+use faer::{Mat, Par};
+
+/// Rigid motion is given a restoring force at this share of the highest frequency, so that displacement is known from the
+/// state: far below anything that is heard or felt.
+const RIGID: f64 = 1e-8;
+
+/// Modes of the sheet with the masses and springs of its loads, no damping yet: q = Ψz, z̈ + C ż + Λz = Ψᵀ(force).
+#[derive(Debug)]
+pub(super) struct Conservative {
+    /// Angular frequencies √Λ, in rad/s, ascending.
+    pub omegas: Vec<f64>,
+    /// Ψ, coordinates x modes.
+    pub shapes: Mat<f64>,
+    /// Weights of the loads' footprints, loads x modes.
+    pub felt: Mat<f64>,
+    /// C, the sheet's damping and the loads' dampers, modes x modes, in 1/s.
+    pub damping: Mat<f64>,
+}
+
+impl Conservative {
+    /// Takes the loads' masses, springs, dampers and coils without inductance into account.
+    ///
+    /// # Errors
+    /// [`PhysicsError::NotConverged`] if a decomposition fails.
+    pub fn of(active: &Active, loads: &[Load], max_hz: f64) -> Result<Self, PhysicsError> {
+        let failed = || PhysicsError::NotConverged { max_hz, expected: 1e-12, found: f64::INFINITY };
+        let unweighted = lightened(active, loads).ok_or_else(failed)?;
+        let springs = weighted(&active.felt, loads, |load| load.stiffness);
+        let stiffness = &unweighted * (&active.stiffness + springs) * &unweighted;
+        let (squares, vectors) =
+            symmetric(stiffness.as_ref(), Method::Exact, Par::rayon(0)).ok_or_else(failed)?;
+        let top = squares.last().map_or(0.0, |square| square.max(0.0).sqrt());
+        let shapes = unweighted * vectors;
+        let dampers = weighted(&active.felt, loads, |load| load.damping + load.direct_coil_damping());
+        let damping = shapes.transpose() * (&active.damping + dampers) * &shapes;
+        Ok(Self {
+            omegas: squares.iter().map(|square| square.max(0.0).sqrt().max(RIGID * top)).collect(),
+            felt: &active.felt * &shapes,
+            shapes,
+            damping,
+        })
+    }
+}
+
+/// M^{-1/2} for the mass matrix M = I + Σ μ w wᵀ: the identity but for the few directions that loads weigh down.
+fn lightened(active: &Active, loads: &[Load]) -> Option<Mat<f64>> {
+    let count = active.felt.ncols();
+    let mut root = Mat::<f64>::identity(count, count);
+    let heavy: Vec<usize> = (0..loads.len()).filter(|j| loads[*j].mass > 0.0).collect();
+    if heavy.is_empty() || count == 0 {
+        return Some(root);
+    }
+    let weights =
+        Mat::from_fn(count, heavy.len(), |i, j| active.felt[(heavy[j], i)] * loads[heavy[j]].mass.sqrt());
+    let svd = weights.thin_svd().ok()?;
+    let masses = svd.S().column_vector();
+    let factors: Vec<f64> = masses.iter().map(|s| 1.0 / (1.0 + s * s).sqrt() - 1.0).collect();
+    let directions = svd.U();
+    let scaled = Mat::from_fn(count, factors.len(), |i, j| directions[(i, j)] * factors[j]);
+    root += &scaled * directions.transpose();
+    Some(root)
+}
+
+/// Σ value·w wᵀ over the loads.
+fn weighted(felt: &Mat<f64>, loads: &[Load], value: impl Fn(&Load) -> f64) -> Mat<f64> {
+    let scaled = Mat::from_fn(felt.nrows(), felt.ncols(), |j, i| felt[(j, i)] * value(&loads[j]));
+    felt.transpose() * scaled
+}

@@ -1,0 +1,34 @@
+use faer::Mat;
+use std::sync::Arc;
+use unripple_core::{Point, Shapes};
+
+/// Shapes that are combinations of others.
+#[derive(Debug)]
+pub(super) struct Mixed {
+    /// The shapes combined.
+    pub base: Arc<dyn Shapes>,
+    /// Combinations, base shapes x columns.
+    pub mixing: Mat<f64>,
+    /// Which column each shape is; several may share one.
+    pub columns: Vec<usize>,
+}
+
+impl Shapes for Mixed {
+    fn modes(&self) -> usize {
+        self.columns.len()
+    }
+
+    fn at(&self, point: Point, row: &mut [f64]) {
+        let mut base = vec![0.0; self.base.modes()];
+        self.base.at(point, &mut base);
+        let mixed: Vec<f64> = (0..self.mixing.ncols())
+            .map(|c| base.iter().zip(self.mixing.col_as_slice(c)).map(|(b, m)| b * m).sum())
+            .collect();
+        row.iter_mut().zip(&self.columns).for_each(|(to, column)| *to = mixed[*column]);
+    }
+
+    fn at_all(&self, points: &[Point]) -> Mat<f64> {
+        let mixed = self.base.at_all(points) * &self.mixing;
+        Mat::from_fn(points.len(), self.columns.len(), |p, m| mixed[(p, self.columns[m])])
+    }
+}

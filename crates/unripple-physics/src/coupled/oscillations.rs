@@ -1,0 +1,186 @@
+use super::Loaded;
+use super::active::Active;
+use super::basis::{Shape, split};
+use super::conservative::Conservative;
+use super::mixed::Mixed;
+use super::state::{Drives, Root, proportional, roots};
+use crate::PhysicsError;
+use faer::{Mat, c64};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+use unripple_core::{Pole, Shapes};
+
+/// A part of an oscillation that is less than this share of it has vanished.
+const VANISHED: f64 = 1e-12;
+
+/// Decaying oscillations with real weights: what modal responses are made of.
+#[derive(Clone, Debug)]
+pub struct Oscillations {
+    /// The oscillations, frequencies ascending; up to four belong to one complex pair.
+    pub poles: Vec<Pole>,
+    /// Input weights, transducers x oscillations.
+    pub input: Mat<f64>,
+    /// Readout weights.
+    pub shapes: Arc<dyn Shapes>,
+}
+
+/// One oscillation: its pole, the column of its readout, its input weights.
+struct Part {
+    pole: Pole,
+    column: usize,
+    input: Vec<f64>,
+}
+
+/// Oscillations while they are gathered.
+#[derive(Default)]
+struct Parts {
+    parts: Vec<Part>,
+    /// Readouts, by modes.
+    columns: Vec<Vec<f64>>,
+}
+
+impl Loaded {
+    /// The oscillations of the sheet with all loads on, exact in the modes up to `dynamic_hz`; those above count as the loads
+    /// move them.
+    ///
+    /// Oscillations of a frequency |s|/2π outside `band` (Hz) are left out. A pair of poles s = -σ ± jω_d, of displacement
+    /// 2Re(D e^{st}) with D = shape · input, is ω 2Re(D) of a moved oscillation and 2Re(D s) of a struck one, both of
+    /// ω = |s| and σ; each is a sum of two products of real weights. Where the damping does not couple modes, one is left. A real
+    /// pole p is an overdamped oscillation whose other pole, 2p, cancels; real poles above the band stay, since they do not
+    /// oscillate.
+    ///
+    /// # Errors
+    /// [`PhysicsError::NotConverged`] if an eigenvalue problem fails.
+    pub fn oscillations(&self, dynamic_hz: f64, band: [f64; 2]) -> Result<Oscillations, PhysicsError> {
+        let (active, passive) = split(&self.poles, self.felt.as_ref());
+        let mut parts = Parts::default();
+        let [low, high] = band.map(|hz| TAU * hz);
+        let within = move |omega: f64| omega >= low && omega <= high * (1.0 + 1e-9);
+        for shape in passive.iter().filter(|shape| within(shape.pole.omega)) {
+            parts.alone(shape, self);
+        }
+        let active = Active::of(&active, self.felt.as_ref(), TAU * dynamic_hz);
+        let modes = Conservative::of(&active, &self.loads, dynamic_hz)?;
+        let drives = self.drives(&active, &modes);
+        let kept = parts.columns.len();
+        if proportional(&modes, &self.loads) {
+            for m in (0..modes.omegas.len()).filter(|m| within(modes.omegas[*m])) {
+                parts.real(m, &modes, &drives);
+            }
+        } else {
+            for root in roots(&modes, &self.loads, &drives, dynamic_hz)? {
+                let real = root.s.im == 0.0;
+                if (real && root.s.norm() >= low) || within(root.s.norm()) {
+                    parts.complex(root);
+                }
+            }
+        }
+        let basis = &active.map * &modes.shapes;
+        Ok(parts.whole(self, kept, &basis))
+    }
+
+    fn drives(&self, active: &Active, modes: &Conservative) -> Drives {
+        let basis = &active.map * &modes.shapes;
+        let mut forces = &self.driven * &basis;
+        let coils: Vec<Option<usize>> = (0..self.transducers.len()).map(|t| self.driven_coil(t)).collect();
+        for (drive, load) in coils.iter().enumerate() {
+            let Some(load) = *load else { continue };
+            // A coil without inductance is a force at once; with, its current has to grow first.
+            let direct = self.loads[load].direct_coil_force();
+            for m in 0..forces.ncols() {
+                forces[(drive, m)] = direct * modes.felt[(load, m)];
+            }
+        }
+        Drives { forces, coils }
+    }
+}
+
+impl Parts {
+    /// An oscillation that feels no load.
+    fn alone(&mut self, shape: &Shape, loaded: &Loaded) {
+        let mut column = vec![0.0; loaded.poles.len()];
+        shape.parts.iter().for_each(|(mode, part)| column[*mode] = *part);
+        let input = (0..loaded.transducers.len())
+            .map(|t| match loaded.driven_coil(t) {
+                Some(_) => 0.0,
+                None => shape.weight(loaded.driven.row(t)),
+            })
+            .collect();
+        self.parts.push(Part { pole: shape.pole, column: self.columns.len(), input });
+        self.columns.push(column);
+    }
+
+    /// A conservative mode that decays by itself.
+    fn real(&mut self, mode: usize, modes: &Conservative, drives: &Drives) {
+        let mut column = vec![0.0; modes.omegas.len()];
+        column[mode] = 1.0;
+        let pole = Pole::new(modes.omegas[mode], 0.5 * modes.damping[(mode, mode)]);
+        let input = drives.forces.col(mode).iter().copied().collect();
+        self.parts.push(Part { pole, column: self.columns.len(), input });
+        self.columns.push(column);
+    }
+
+    /// A complex pair or a real pole.
+    fn complex(&mut self, root: Root) {
+        let real = root.s.im == 0.0;
+        // A real pole decays at least a little, lest rounding let it grow.
+        let s = if real { c64::new(root.s.re.min(-1e-9), 0.0) } else { root.s };
+        let (omega, sigma, both) = if real {
+            (2f64.sqrt() * s.norm(), 1.5 * s.norm(), 1.0)
+        } else {
+            (s.norm(), (-s.re).max(0.0), 2.0)
+        };
+        // The phase that makes the shape as real as it can be.
+        let turn = root.shape.iter().map(|d| d * d).sum::<c64>().sqrt();
+        let turn = if turn.norm() > 0.0 { turn.conj() / turn.norm() } else { c64::new(1.0, 0.0) };
+        let input: Vec<c64> = root.input.iter().map(|b| b * turn.conj() * both).collect();
+        // Re(D x) = Re(shape) Re(input x) - Im(shape) Im(input x).
+        let parts: [fn(c64) -> f64; 2] = [|x| x.re, |x| -x.im];
+        let halves = [1.0, -1.0].into_iter().zip(parts).map(|(sign, part)| {
+            (root.shape.iter().map(|d| sign * part(d * turn)).collect::<Vec<f64>>(), part)
+        });
+        let halves: Vec<_> = halves.collect();
+        let onsets = [(Pole::new(omega, sigma), s), (Pole::moved(omega, sigma), c64::new(omega, 0.0))];
+        let mut found = Vec::new();
+        for (half, (readout, part)) in halves.iter().enumerate() {
+            for (pole, factor) in onsets {
+                let input: Vec<f64> = input.iter().map(|b| part(b * factor)).collect();
+                found.push((half, pole, largest(readout) * largest(&input), input));
+            }
+        }
+        let whole = found.iter().map(|(.., size, _)| *size).fold(0.0, f64::max);
+        for (half, (readout, _)) in halves.into_iter().enumerate() {
+            let column = self.columns.len();
+            let kept = found.iter().filter(|(h, _, size, _)| *h == half && *size > VANISHED * whole);
+            self.parts.extend(kept.map(|(_, pole, _, input)| Part {
+                pole: *pole,
+                column,
+                input: input.clone(),
+            }));
+            if self.parts.last().is_some_and(|part| part.column == column) {
+                self.columns.push(readout);
+            }
+        }
+    }
+
+    /// All of them by frequency. Columns up to `kept` are by the sheet's modes, the others by those of `basis` (modes x
+    /// coordinates).
+    fn whole(mut self, loaded: &Loaded, kept: usize, basis: &Mat<f64>) -> Oscillations {
+        let made = Mat::from_fn(basis.ncols(), self.columns.len() - kept, |i, c| self.columns[kept + c][i]);
+        let made = basis * made;
+        let mixing = Mat::from_fn(basis.nrows(), self.columns.len(), |m, c| {
+            if c < kept { self.columns[c][m] } else { made[(m, c - kept)] }
+        });
+        self.parts.sort_by(|a, b| a.pole.omega.total_cmp(&b.pole.omega));
+        let columns = self.parts.iter().map(|part| part.column).collect();
+        Oscillations {
+            poles: self.parts.iter().map(|part| part.pole).collect(),
+            input: Mat::from_fn(loaded.transducers.len(), self.parts.len(), |a, m| self.parts[m].input[a]),
+            shapes: Arc::new(Mixed { base: loaded.shapes.clone(), mixing, columns }),
+        }
+    }
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, v| v.abs().max(most))
+}

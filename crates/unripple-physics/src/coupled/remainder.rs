@@ -1,0 +1,151 @@
+use crate::Medium;
+use crate::design::closed::bessel;
+use crate::modes::gauss;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
+
+/// How far from a load its remainder is known, and at what steps, in 1/K; farther away it is nothing.
+const REACH: f64 = 25.0;
+const STEP: f64 = 0.05;
+
+/// The part of an endless sheet's answer to loads that has wavenumbers above K.
+#[derive(Debug)]
+pub(super) struct Remainder {
+    /// The sheet.
+    pub medium: Medium,
+    /// K, in rad/m.
+    pub above: f64,
+    /// No contact is smaller than this (m): the sheet's thickness, below which it is no sheet.
+    pub finest: f64,
+    /// Wavenumbers (rad/m) and weights of an integral from K on.
+    nodes: Vec<(f64, f64)>,
+}
+
+/// Deflection per newton against the distance from an even contact, in m/N.
+#[derive(Debug)]
+pub(super) struct Profile {
+    step: f64,
+    values: Vec<f64>,
+}
+
+impl Remainder {
+    pub fn new(medium: Medium, above: f64, finest: f64) -> Self {
+        let bent = if medium.bending_stiffness > 0.0 {
+            (medium.tension / medium.bending_stiffness).sqrt()
+        } else {
+            f64::INFINITY
+        };
+        // Beyond, what is left is a thousandth: bending has made the sheet stiff, or contacts have averaged waves away.
+        let last = (30.0 * above.max(bent.min(1.0 / finest))).min(1e4 * above);
+        let rule = gauss(4);
+        let mut nodes = Vec::new();
+        let mut k = above;
+        while k < last {
+            let width = (0.1 * above).max(0.04 * k);
+            nodes.extend(rule.iter().map(|(x, w)| (k + 0.5 * width * (1.0 + x), 0.5 * width * w)));
+            k += width;
+        }
+        Self { medium, above, finest, nodes }
+    }
+
+    /// Σ φ φ'/ω^{2·power} over the modes above K for two even contacts of some radii (m) that are a distance (m) apart:
+    /// (1/2π) ∫_K^∞ J_0(k·distance) B(k·radius) B(k·radius') / (ρ_s ω^{2·power}) k dk, with B(x) = 2J_1(x)/x and ρ_s ω² = Rk² + Dk⁴.
+    pub fn sum(&self, distance: f64, radii: [f64; 2], power: i32) -> f64 {
+        let density = self.medium.areal_density;
+        let term = |(k, weight): &(f64, f64)| {
+            let square = self.medium.stiffness(*k) / density;
+            let contacts = even(k * radii[0]) * even(k * radii[1]);
+            weight * k * cylinder(0, k * distance) * contacts / (density * square.powi(power))
+        };
+        self.nodes.iter().map(term).sum::<f64>() / TAU
+    }
+
+    /// Deflection under an even contact of some radius (m), read at points.
+    pub fn profile(&self, radius: f64) -> Profile {
+        let weights: Vec<(f64, f64)> = self
+            .nodes
+            .iter()
+            .map(|(k, weight)| (*k, weight * k * even(k * radius) / (TAU * self.medium.stiffness(*k))))
+            .collect();
+        let step = STEP / self.above;
+        let at = |i: usize| weights.iter().map(|(k, w)| w * cylinder(0, k * step * i as f64)).sum();
+        Profile { step, values: (0..=(REACH / STEP) as usize).map(at).collect() }
+    }
+}
+
+impl Profile {
+    /// The deflection at a distance, by cubic interpolation.
+    pub fn at(&self, distance: f64) -> f64 {
+        let x = distance / self.step;
+        if x.is_nan() || x >= (self.values.len() + 2) as f64 {
+            return 0.0;
+        }
+        let cell = x.floor();
+        let t = x - cell;
+        let value = |offset: i64| {
+            let i = (cell as i64 + offset).unsigned_abs() as usize;
+            self.values.get(i).copied().unwrap_or(0.0)
+        };
+        let [a, b, c, d] = [-1, 0, 1, 2].map(value);
+        b + 0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)))
+    }
+}
+
+/// What an even contact feels of a wave: 2J_1(x)/x.
+fn even(x: f64) -> f64 {
+    if x < 1e-4 { 1.0 } else { 2.0 * cylinder(1, x) / x }
+}
+
+/// Bessel function J_0 or J_1: far out by Hankel's expansion (Abramowitz and Stegun 9.2.5), to 1e-7.
+fn cylinder(order: u32, x: f64) -> f64 {
+    if x < 12.0 {
+        return bessel(order, x);
+    }
+    let mu = 4.0 * f64::from(order * order);
+    let y = 1.0 / (8.0 * x);
+    let even = (mu - 1.0) * (mu - 9.0) / 2.0 * y * y;
+    let p = 1.0 - even * (1.0 - (mu - 25.0) * (mu - 49.0) / 12.0 * y * y);
+    let odd = (mu - 9.0) * (mu - 25.0) / 6.0 * y * y;
+    let q = (mu - 1.0) * y * (1.0 - odd * (1.0 - (mu - 49.0) * (mu - 81.0) / 20.0 * y * y));
+    let phase = x - f64::from(order) * FRAC_PI_2 - FRAC_PI_4;
+    (2.0 / (PI * x)).sqrt() * (p * phase.cos() - q * phase.sin())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn film() -> Medium {
+        Medium { areal_density: 0.175, tension: 200.0, bending_stiffness: 7.154e-4, air_sides: 0.0 }
+    }
+
+    #[test]
+    fn both_ways_to_a_bessel_function_meet() {
+        for order in [0, 1] {
+            for x in [12.0, 15.0, 40.0, 200.0] {
+                assert!((cylinder(order, x) - bessel(order, x)).abs() < 1e-7, "{order} {x}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_point_on_a_film_against_its_closed_form() {
+        // (1/2π) ∫_K^∞ dk / (k (R + D k²)) = ln(1 + R/(D K²)) / 4πR.
+        for above in [300.0, 700.0, 2000.0] {
+            let found = Remainder::new(film(), above, 1e-9).sum(0.0, [1e-9; 2], 1);
+            let exact = (1.0 + 200.0 / (7.154e-4 * above * above)).ln() / (4.0 * PI * 200.0);
+            assert!((found / exact - 1.0).abs() < 2e-3, "{above}: {found} {exact}");
+        }
+    }
+
+    #[test]
+    fn profiles_are_sums_read_at_points() {
+        let remainder = Remainder::new(film(), 700.0, 1e-4);
+        let profile = remainder.profile(2e-3);
+        for distance in [0.0, 0.3e-3, 1.7e-3, 5e-3, 20e-3] {
+            let exact = remainder.sum(distance, [2e-3, 1e-9], 1);
+            assert!((profile.at(distance) - exact).abs() < 1e-4 * profile.at(0.0).abs(), "{distance}");
+        }
+        assert_eq!(profile.at(1.0), 0.0);
+        assert_eq!(profile.at(f64::INFINITY), 0.0);
+    }
+}

@@ -1,0 +1,116 @@
+use super::remainder::{Profile, Remainder};
+use crate::{Footprint, Load, Medium};
+use faer::{Mat, Side};
+use std::sync::Arc;
+use unripple_core::{Point, Pole, Shapes};
+
+/// A combination whose inertia is less than this share of the largest is one that others make too.
+const ALIKE: f64 = 1e-9;
+
+/// Modes, and after them what loads feel of all the modes above, as if these were a few more modes.
+///
+/// Modes above some wavenumber K answer a load as those of an endless sheet do: their sum Σ φ_m φ_m(load)/ω_m² is the part of the
+/// endless sheet's static deflection under the load that has wavenumbers above K ([`Remainder`]). These deflections, one per
+/// load, carry the stiffness and the mass that the endless sheet gives them; the modes of that small system stand for the rest.
+/// That is exact at low frequency, and wrong by about (ω/ω_K)⁴ of a small part at others; within half a wavelength 2π/K of a
+/// rim the endless sheet is not the sheet.
+#[derive(Debug)]
+pub(super) struct WithRest {
+    base: Arc<dyn Shapes>,
+    places: Vec<(Point, Arc<Profile>)>,
+    /// Combinations of the deflections, loads x added modes.
+    mixing: Mat<f64>,
+}
+
+impl WithRest {
+    /// `poles` (those of `base`) gets those of the added modes; `decay` gives their decay rate from their frequency (rad/s) and
+    /// wavenumber. `above` is K, in rad/m; `finest` the size (m) below which the sheet is no sheet any more.
+    pub fn add(
+        base: Arc<dyn Shapes>,
+        poles: &mut Vec<Pole>,
+        loads: &[Load],
+        remainder: &Remainder,
+        decay: impl Fn(f64, f64) -> f64,
+    ) -> Arc<dyn Shapes> {
+        let contacts: Vec<(Point, f64)> =
+            loads.iter().map(|load| contact(&load.footprint, remainder.finest)).collect();
+        let mutual = |power: i32| {
+            Mat::from_fn(contacts.len(), contacts.len(), |i, j| {
+                let ((a, first), (b, second)) = (contacts[i], contacts[j]);
+                remainder.sum(a.distance(b), [first, second], power)
+            })
+        };
+        let Some((squares, mixing)) = pencil(&mutual(1), &mutual(2)) else { return base };
+        for square in &squares {
+            let omega = square.sqrt();
+            let medium = Medium { air_sides: 0.0, ..remainder.medium };
+            poles.push(Pole::new(omega, decay(omega, medium.wavenumber(omega))));
+        }
+        let mut profiles: Vec<(f64, Arc<Profile>)> = Vec::new();
+        let places = contacts
+            .iter()
+            .map(|(at, radius)| {
+                let known = profiles.iter().find(|(r, _)| (r / radius - 1.0).abs() < 1e-9);
+                let profile = known.map_or_else(|| Arc::new(remainder.profile(*radius)), |(_, p)| p.clone());
+                profiles.push((*radius, profile.clone()));
+                (*at, profile)
+            })
+            .collect();
+        Arc::new(Self { base, places, mixing })
+    }
+
+    fn rest(&self, point: Point, row: &mut [f64]) {
+        row.fill(0.0);
+        for (j, (at, profile)) in self.places.iter().enumerate() {
+            let deflection = profile.at(at.distance(point));
+            row.iter_mut().enumerate().for_each(|(m, w)| *w += deflection * self.mixing[(j, m)]);
+        }
+    }
+}
+
+impl Shapes for WithRest {
+    fn modes(&self) -> usize {
+        self.base.modes() + self.mixing.ncols()
+    }
+
+    fn at(&self, point: Point, row: &mut [f64]) {
+        let (base, rest) = row.split_at_mut(self.base.modes());
+        self.base.at(point, base);
+        self.rest(point, rest);
+    }
+
+    fn at_all(&self, points: &[Point]) -> Mat<f64> {
+        let base = self.base.at_all(points);
+        let (known, added) = (base.ncols(), self.mixing.ncols());
+        let mut all = Mat::zeros(points.len(), known + added);
+        all.as_mut().subcols_mut(0, known).copy_from(&base);
+        let mut row = vec![0.0; added];
+        for (p, point) in points.iter().enumerate() {
+            self.rest(*point, &mut row);
+            row.iter().enumerate().for_each(|(m, w)| all[(p, known + m)] = *w);
+        }
+        all
+    }
+}
+
+/// Centre of a contact and the radius of the even disc that is spread as far.
+fn contact(footprint: &Footprint, finest: f64) -> (Point, f64) {
+    let sum = |f: &dyn Fn(Point) -> f64| footprint.points.iter().map(|(p, w)| w * f(*p)).sum::<f64>();
+    let centre = Point::new(sum(&|p| p.x), sum(&|p| p.y));
+    let spread = sum(&|p| p.distance(centre).powi(2));
+    (centre, (2.0 * spread.max(0.0)).sqrt().max(finest))
+}
+
+/// Squared frequencies and mass-normalised combinations of a stiffness and a mass matrix.
+fn pencil(stiffness: &Mat<f64>, mass: &Mat<f64>) -> Option<(Vec<f64>, Mat<f64>)> {
+    let inertia = mass.self_adjoint_eigen(Side::Lower).ok()?;
+    let values = inertia.S().column_vector();
+    let most = values.iter().copied().fold(0.0, f64::max);
+    let kept: Vec<usize> = (0..values.nrows()).filter(|i| values[*i] > ALIKE * most).collect();
+    let normal =
+        Mat::from_fn(mass.nrows(), kept.len(), |j, i| inertia.U()[(j, kept[i])] / values[kept[i]].sqrt());
+    let reduced = normal.transpose() * stiffness * &normal;
+    let modes = reduced.self_adjoint_eigen(Side::Lower).ok()?;
+    let squares: Vec<f64> = modes.S().column_vector().iter().copied().collect();
+    squares.iter().all(|square| *square > 0.0 && square.is_finite()).then(|| (squares, normal * modes.U()))
+}

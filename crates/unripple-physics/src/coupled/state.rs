@@ -1,0 +1,116 @@
+use super::conservative::Conservative;
+use crate::loads::Circuit;
+use crate::{Load, PhysicsError};
+use faer::linalg::solvers::DenseSolveCore;
+use faer::{Mat, MatRef, c64};
+
+/// Damping off the diagonal that is less than this share of the largest on it does not couple.
+const PROPORTIONAL: f64 = 1e-13;
+
+/// An exponential e^{st} of the coupled system: displacement Σ_m shape_m ψ_m · input_a · e^{st} per unit impulse of drive.
+/// Of a complex pair only the one with positive frequency, the other being its conjugate.
+#[derive(Clone, Debug)]
+pub(super) struct Root {
+    /// Complex frequency s, in 1/s.
+    pub s: c64,
+    /// Displacement of the conservative modes.
+    pub shape: Vec<c64>,
+    /// What a unit impulse of each drive puts in.
+    pub input: Vec<c64>,
+}
+
+/// Where drives enter the state: as forces on the conservative modes, and as voltages on coils.
+#[derive(Debug)]
+pub(super) struct Drives {
+    /// Forces per unit of drive, drives x conservative modes.
+    pub forces: Mat<f64>,
+    /// Load whose inductive coil a drive's voltage is on.
+    pub coils: Vec<Option<usize>>,
+}
+
+/// Whether each conservative mode decays by itself.
+pub(super) fn proportional(modes: &Conservative, loads: &[Load]) -> bool {
+    let damping = modes.damping.as_ref();
+    let count = damping.nrows();
+    let largest = (0..count).map(|i| damping[(i, i)]).fold(0.0, f64::max);
+    let alone =
+        (0..count).all(|i| (0..count).all(|j| i == j || damping[(i, j)].abs() <= PROPORTIONAL * largest));
+    alone && loads.iter().all(|load| load.inductive_coil().is_none())
+}
+
+/// All exponentials of the coupled system.
+///
+/// The state is √Λ z, ż and √L i of every inductive coil, so that the sum of its squares is twice the energy and the matrix is
+/// skew but for what dissipates: its own scale is the best balance there is.
+///
+/// # Errors
+/// [`PhysicsError::NotConverged`] if the decomposition fails.
+pub(super) fn roots(
+    modes: &Conservative,
+    loads: &[Load],
+    drives: &Drives,
+    max_hz: f64,
+) -> Result<Vec<Root>, PhysicsError> {
+    let failed = || PhysicsError::NotConverged { max_hz, expected: 1e-12, found: f64::INFINITY };
+    let coils: Vec<(usize, Circuit)> =
+        loads.iter().enumerate().filter_map(|(j, load)| Some((j, load.inductive_coil()?))).collect();
+    let matrix = matrix(modes, &coils);
+    let eigen = matrix.eigen().map_err(|_| failed())?;
+    let right = eigen.U();
+    let left = right.partial_piv_lu().inverse();
+    let values = eigen.S().column_vector();
+    let root = |k: usize| Root {
+        s: values[k],
+        shape: displacement(modes, right, k, values[k]),
+        input: inputs(modes.omegas.len(), &coils, drives, left.as_ref(), k),
+    };
+    Ok((0..matrix.nrows()).filter(|k| values[*k].im >= 0.0).map(root).collect())
+}
+
+fn matrix(modes: &Conservative, coils: &[(usize, Circuit)]) -> Mat<f64> {
+    let count = modes.omegas.len();
+    let mut matrix = Mat::zeros(2 * count + coils.len(), 2 * count + coils.len());
+    for (i, omega) in modes.omegas.iter().enumerate() {
+        matrix[(i, count + i)] = *omega;
+        matrix[(count + i, i)] = -omega;
+        for j in 0..count {
+            matrix[(count + i, count + j)] = -modes.damping[(i, j)];
+        }
+    }
+    for (c, (load, circuit)) in coils.iter().enumerate() {
+        let row = 2 * count + c;
+        matrix[(row, row)] = -circuit.resistance / circuit.inductance;
+        let coupling = circuit.force_constant / circuit.inductance.sqrt();
+        for i in 0..count {
+            matrix[(count + i, row)] = coupling * modes.felt[(*load, i)];
+            matrix[(row, count + i)] = -coupling * modes.felt[(*load, i)];
+        }
+    }
+    matrix
+}
+
+/// Displacement z of the modes in one eigenvector: from √Λ z or from ż = s z, whichever is larger.
+fn displacement(modes: &Conservative, right: MatRef<'_, c64>, column: usize, s: c64) -> Vec<c64> {
+    let count = modes.omegas.len();
+    let of = |(i, omega): (usize, &f64)| {
+        if s.norm() >= *omega { right[(count + i, column)] / s } else { right[(i, column)] / *omega }
+    };
+    modes.omegas.iter().enumerate().map(of).collect()
+}
+
+/// What a unit impulse of each drive puts into one eigenvector: the row of the inverse times where the drive enters.
+fn inputs(
+    count: usize,
+    coils: &[(usize, Circuit)],
+    drives: &Drives,
+    left: MatRef<'_, c64>,
+    row: usize,
+) -> Vec<c64> {
+    let of = |drive: usize| {
+        let forced: c64 = (0..count).map(|i| left[(row, count + i)] * drives.forces[(drive, i)]).sum();
+        let place = drives.coils[drive].and_then(|load| coils.iter().position(|(j, _)| *j == load));
+        let flux = place.map(|c| left[(row, 2 * count + c)] / coils[c].1.inductance.sqrt());
+        forced + flux.unwrap_or_default()
+    };
+    (0..drives.coils.len()).map(of).collect()
+}

@@ -1,0 +1,92 @@
+use super::deformation::TENSION_CHANGE;
+use unripple_core::Surface;
+
+/// How far a field is from small deflections: what linear theory leaves out, estimated from the field itself.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Linearity {
+    /// Largest displacement over the sheet's thickness; from about 1 on the sheet stretches as much as it bends.
+    pub displacement_over_thickness: f64,
+    /// Largest slope |∇u|.
+    pub slope: f64,
+    /// Strain on the faces by bending, curvature · h/2.
+    pub bending_strain: f64,
+    /// Strain of the middle plane where the slope is largest, slope²/2.
+    pub stretching_strain: f64,
+    /// Tension that the deflection adds as in-plane waves even it out, Eh/(1 - ν) · ⟨|∇u|²⟩/4, in N/m.
+    pub tension_added_n_per_m: f64,
+    /// The same over the sheet's tension; `None` without tension.
+    pub tension_change: Option<f64>,
+    /// Strain by tension, bending and stretching over the strain at yield; `None` where the strength is unknown.
+    pub share_of_yield: Option<f64>,
+    /// Whether linear theory holds: displacement below the thickness, tension changed by less than a tenth, no yield.
+    pub holds: bool,
+}
+
+/// What a field does to a surface beyond linear theory, from its largest displacement (m) and slope, the mean square
+/// of its slope, and its largest curvature (1/m).
+///
+/// A deflection u lengthens a line along x by ½u_x²; the mean over the sheet, ⟨|∇u|²⟩/4 in each direction, is what
+/// adds to the tension once in-plane waves, fifty times faster than bending waves on a film, have spread it.
+///
+/// ```
+/// use unripple_physics::design::{linearity, papers_surface};
+///
+/// let film = papers_surface();
+/// assert!(linearity(&film, 10e-6, 4e-3, 1e-7, 2.0).holds);
+/// assert!(!linearity(&film, 200e-6, 80e-3, 1e-4, 40.0).holds);
+/// ```
+pub fn linearity(
+    surface: &Surface,
+    displacement: f64,
+    slope: f64,
+    mean_square_slope: f64,
+    curvature: f64,
+) -> Linearity {
+    let sheet = &surface.sheet;
+    let stretch = sheet.young * sheet.thickness / (1.0 - sheet.poisson);
+    let tension_added = stretch * mean_square_slope / 4.0;
+    let tension_change = (sheet.tension > 0.0).then(|| tension_added / sheet.tension);
+    let at_rest = if stretch > 0.0 { sheet.tension / stretch } else { 0.0 };
+    let (bending_strain, stretching_strain) = (curvature * sheet.thickness / 2.0, slope * slope / 2.0);
+    let share_of_yield =
+        sheet.strength.map(|s| (at_rest + bending_strain + stretching_strain) * sheet.young / s);
+    let displacement_over_thickness = displacement / sheet.thickness;
+    let holds = displacement_over_thickness <= 1.0
+        && tension_change.is_none_or(|change| change <= TENSION_CHANGE)
+        && share_of_yield.is_none_or(|share| share <= 1.0);
+    Linearity {
+        displacement_over_thickness,
+        slope,
+        bending_strain,
+        stretching_strain,
+        tension_added_n_per_m: tension_added,
+        tension_change,
+        share_of_yield,
+        holds,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::{deformation, papers_surface};
+    use std::f64::consts::PI;
+
+    #[test]
+    fn agrees_with_the_limits_told_beforehand() {
+        // A focus 2J_1(kr)/kr of height A has ∫|∇u|² dS = 2πA²: at the limit told by `design`, a tenth.
+        let film = papers_surface();
+        let limit = deformation(&film).linear_limit_tension_m.unwrap();
+        let mean_square = 2.0 * PI * limit * limit / film.outline.area();
+        let found = linearity(&film, limit, 0.0, mean_square, 0.0);
+        assert!((found.tension_change.unwrap() / TENSION_CHANGE - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_membrane_stretched_twice_as_steeply_adds_four_times_the_tension() {
+        let film = papers_surface();
+        let once = linearity(&film, 1e-6, 1e-3, 1e-6, 0.0).tension_added_n_per_m;
+        let twice = linearity(&film, 2e-6, 2e-3, 4e-6, 0.0).tension_added_n_per_m;
+        assert!((twice / once - 4.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,144 @@
+//! One triangle: its unknowns and the quintic each of them stands for.
+
+use super::border::Border;
+use super::corner::Corner;
+use super::monomials::{COUNT, Frame, QUINTIC};
+use super::trim::trim;
+use unripple_core::Point;
+
+/// A triangle and its quintics.
+///
+/// Of the 21 values that fix a quintic (Argyris, Fried and Scharpf, *Aeronaut. J.* 72, 701, 1968) six lie at each vertex,
+/// u, ∇u and the second derivatives, and one at each edge's middle, ∂u/∂n. Along an edge inside, u and ∂u/∂n are
+/// polynomials of degrees 5 and 4, fixed by what lies on it: u and ∇u are continuous. Along held curves polynomials of higher degree
+/// are added that depend on the 21 values.
+#[derive(Clone, Debug)]
+pub(crate) struct Element {
+    /// Where its monomials are centred.
+    pub(crate) frame: Frame,
+    /// Its edges, anticlockwise.
+    pub(crate) borders: [Border; 3],
+    /// The unknowns it shares in.
+    pub(crate) unknowns: Vec<usize>,
+    /// Coefficients of the monomials, a row for each with a column for each unknown.
+    pub(crate) basis: Vec<f64>,
+}
+
+/// The middle of an edge: where the normal derivative is taken, and along what.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Middle {
+    /// The point.
+    pub(crate) at: Point,
+    /// The unit normal, the same for the triangles on both sides.
+    pub(crate) normal: [f64; 2],
+    /// The edge's length, that makes the derivative dimensionless, in metres.
+    pub(crate) length: f64,
+    /// The unknown; `None` where the derivative is zero.
+    pub(crate) unknown: Option<usize>,
+}
+
+/// A vertex as a triangle sees it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Seen<'a> {
+    /// Where it is.
+    pub(crate) at: Point,
+    /// Its first unknown.
+    pub(crate) first: usize,
+    /// What its unknowns make of the values there.
+    pub(crate) corner: &'a Corner,
+}
+
+impl Element {
+    /// The triangle of an index with its vertices, edges and edges' middles.
+    pub(crate) fn new(index: usize, vertices: [Seen; 3], borders: [Border; 3], middles: [Middle; 3]) -> Self {
+        let frame = Frame::of(vertices.map(|v| v.at));
+        let inverse = inverse(functionals(&frame, &vertices, &middles));
+        let at_vertices = vertices.iter().flat_map(|v| v.first..v.first + v.corner.count);
+        let unknowns: Vec<usize> = at_vertices.chain(middles.iter().filter_map(|m| m.unknown)).collect();
+        let mut basis = Vec::with_capacity(QUINTIC * unknowns.len());
+        for row in &inverse {
+            for (v, vertex) in vertices.iter().enumerate() {
+                let values = vertex.corner.values(index);
+                let count = vertex.corner.count;
+                let column = |c: usize| (0..6).map(|i| row[6 * v + i] * values[i * count + c]).sum::<f64>();
+                basis.extend((0..count).map(column));
+            }
+            let free = (0..3).filter(|m| middles[*m].unknown.is_some());
+            basis.extend(free.map(|m| row[18 + m]));
+        }
+        let points = vertices.map(|v| v.at);
+        let slopes = [0, 1, 2].map(|m| middles[m].unknown.is_none());
+        trim(&frame, points, &borders, slopes, unknowns.len(), &mut basis);
+        Self { frame, borders, unknowns, basis }
+    }
+
+    /// Number of monomials that its polynomials are made of.
+    pub(crate) fn monomials(&self) -> usize {
+        if self.unknowns.is_empty() { QUINTIC } else { self.basis.len() / self.unknowns.len() }
+    }
+
+    /// What each unknown is multiplied by, from the monomials' values or derivatives at a point.
+    pub(crate) fn combine(&self, monomials: &[f64; COUNT]) -> Vec<f64> {
+        let mut sums = vec![0.0; self.unknowns.len()];
+        if sums.is_empty() {
+            return sums;
+        }
+        for (m, row) in monomials.iter().zip(self.basis.chunks_exact(self.unknowns.len())) {
+            sums.iter_mut().zip(row).for_each(|(s, b)| *s += m * b);
+        }
+        sums
+    }
+
+    /// How far inside a point is, in units of the triangle's size; negative outside.
+    pub(crate) fn depth(&self, p: Point) -> f64 {
+        self.borders.iter().map(|b| b.left_of(p)).fold(f64::INFINITY, f64::min) / self.frame.scale
+    }
+}
+
+/// The 21 values of each monomial: a row for each value.
+fn functionals(frame: &Frame, vertices: &[Seen; 3], middles: &[Middle; 3]) -> [[f64; QUINTIC]; QUINTIC] {
+    let mut rows = [[0.0; QUINTIC]; QUINTIC];
+    for (v, vertex) in vertices.iter().enumerate() {
+        let length = vertex.corner.length;
+        let units = [1.0, length, length, length * length, length * length, length * length];
+        for (i, (jet, unit)) in frame.jets(vertex.at).iter().zip(units).enumerate() {
+            rows[6 * v + i].iter_mut().zip(jet).for_each(|(row, value)| *row = value * unit);
+        }
+    }
+    for (m, middle) in middles.iter().enumerate() {
+        let jets = frame.jets(middle.at);
+        let [nx, ny] = middle.normal.map(|n| n * middle.length);
+        for (value, (x, y)) in rows[18 + m].iter_mut().zip(jets[1].iter().zip(&jets[2])) {
+            *value = nx * x + ny * y;
+        }
+    }
+    rows
+}
+
+/// The inverse by Gauss and Jordan's elimination with partial pivoting.
+fn inverse(mut a: [[f64; QUINTIC]; QUINTIC]) -> [[f64; QUINTIC]; QUINTIC] {
+    let mut order = [0; QUINTIC];
+    for k in 0..QUINTIC {
+        let pivot = (k..QUINTIC).max_by(|i, j| a[*i][k].abs().total_cmp(&a[*j][k].abs())).unwrap_or(k);
+        a.swap(k, pivot);
+        order[k] = pivot;
+        let scale = 1.0 / a[k][k];
+        a[k][k] = 1.0;
+        a[k].iter_mut().for_each(|v| *v *= scale);
+        let row = a[k];
+        for (i, other) in a.iter_mut().enumerate() {
+            if i != k && other[k] != 0.0 {
+                let factor = other[k];
+                other[k] = 0.0;
+                other.iter_mut().zip(row).for_each(|(v, r)| *v -= factor * r);
+            }
+        }
+    }
+    // Rows that were exchanged are columns of the inverse to be exchanged back, the last first.
+    for k in (0..QUINTIC).rev() {
+        if order[k] != k {
+            a.iter_mut().for_each(|row| row.swap(k, order[k]));
+        }
+    }
+    a
+}

@@ -1,0 +1,24 @@
+//! Continuously differentiable quintics on triangles, for tensioned plates of any outline.
+
+mod border;
+mod corner;
+mod element;
+mod forms;
+mod grid;
+mod moments;
+mod monomials;
+mod overlap;
+mod pattern;
+mod rule;
+mod shapes;
+mod space;
+mod topology;
+mod trim;
+
+#[cfg(test)]
+mod tests;
+
+#[cfg(test)]
+pub(crate) use forms::Forms;
+pub(crate) use shapes::MeshShapes;
+pub(crate) use space::Space;

@@ -1,0 +1,103 @@
+//! Monomials in coordinates centred and scaled for a triangle.
+
+use unripple_core::Point;
+
+/// The degree of a triangle's polynomials along held curves; of all others it is 5.
+pub(crate) const HIGHEST: usize = 7;
+
+/// Number of monomials x^i y^j with i + j ≤ 5.
+pub(crate) const QUINTIC: usize = count(5);
+
+/// Number of monomials of the highest degree and less.
+pub(crate) const COUNT: usize = count(HIGHEST);
+
+/// Their exponents, the lowest degree first.
+pub(crate) const EXPONENTS: [[usize; 2]; COUNT] = exponents();
+
+/// Number of monomials of a degree and less.
+pub(crate) const fn count(degree: usize) -> usize {
+    (degree + 1) * (degree + 2) / 2
+}
+
+/// Where the monomial of some exponents is among all.
+pub(crate) const fn place([i, j]: [usize; 2]) -> usize {
+    (i + j) * (i + j + 1) / 2 + j
+}
+
+const fn exponents() -> [[usize; 2]; COUNT] {
+    let mut all = [[0; 2]; COUNT];
+    let (mut degree, mut next) = (0, 0);
+    while degree <= HIGHEST {
+        let mut j = 0;
+        while j <= degree {
+            all[next] = [degree - j, j];
+            (next, j) = (next + 1, j + 1);
+        }
+        degree += 1;
+    }
+    all
+}
+
+/// Where a triangle's monomials are centred and the length they are scaled by.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Frame {
+    /// The centre.
+    pub(crate) centre: Point,
+    /// The length, in metres.
+    pub(crate) scale: f64,
+}
+
+/// All monomials' values and derivatives at a point: u, u_x, u_y, u_xx, u_xy, u_yy.
+pub(crate) type Jets = [[f64; COUNT]; 6];
+
+impl Frame {
+    /// The frame of a straight triangle: its centroid, and the largest distance of a vertex from it.
+    pub(crate) fn of(vertices: [Point; 3]) -> Self {
+        let third = |f: fn(&Point) -> f64| vertices.iter().map(f).sum::<f64>() / 3.0;
+        let centre = Point::new(third(|p| p.x), third(|p| p.y));
+        Self { centre, scale: vertices.iter().map(|p| p.distance(centre)).fold(0.0, f64::max) }
+    }
+
+    /// A point's coordinates in the frame.
+    pub(crate) fn local(&self, p: Point) -> [f64; 2] {
+        [(p.x - self.centre.x) / self.scale, (p.y - self.centre.y) / self.scale]
+    }
+
+    /// The monomials at a point.
+    pub(crate) fn values(&self, p: Point) -> [f64; COUNT] {
+        let [px, py] = self.local(p).map(powers);
+        EXPONENTS.map(|[i, j]| px[i] * py[j])
+    }
+
+    /// The monomials and their derivatives at a point, by metres.
+    pub(crate) fn jets(&self, p: Point) -> Jets {
+        let [px, py] = self.local(p).map(derived);
+        let product = |a: usize, b: usize| {
+            let unit = self.scale.powi(-((a + b) as i32));
+            EXPONENTS.map(|[i, j]| unit * px[a][i] * py[b][j])
+        };
+        [product(0, 0), product(1, 0), product(0, 1), product(2, 0), product(1, 1), product(0, 2)]
+    }
+}
+
+/// A table of powers from the lowest.
+type Powers = [f64; HIGHEST + 1];
+
+fn powers(x: f64) -> Powers {
+    let mut p = [1.0; HIGHEST + 1];
+    for i in 1..=HIGHEST {
+        p[i] = p[i - 1] * x;
+    }
+    p
+}
+
+/// Powers of a number, their first and their second derivatives.
+fn derived(x: f64) -> [Powers; 3] {
+    let p = powers(x);
+    let (mut first, mut second) = ([0.0; HIGHEST + 1], [0.0; HIGHEST + 1]);
+    for i in 1..=HIGHEST {
+        first[i] = i as f64 * p[i - 1];
+        second[i] = i as f64 * first[i - 1];
+    }
+    [p, first, second]
+}

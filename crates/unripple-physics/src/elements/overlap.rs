@@ -1,0 +1,75 @@
+//! The part of a triangle that lies under a disc, bounded by pieces of both rims.
+
+use super::border::Border;
+use super::element::Element;
+use super::grid::bounds;
+use crate::fabric::Disc;
+use std::f64::consts::TAU;
+use unripple_core::{Point, Side};
+
+/// Pieces of a curved edge among which crossings with a disc's rim are looked for.
+const PIECES: usize = 24;
+
+/// The pieces of borders, anticlockwise, around the part of a triangle under a disc; empty if there is none.
+pub(crate) fn overlap(element: &Element, disc: &Disc) -> Vec<Border> {
+    let [low, high] = bounds(element);
+    let nearest = Point::new(disc.at.x.clamp(low.x, high.x), disc.at.y.clamp(low.y, high.y));
+    if nearest.distance(disc.at) > disc.radius {
+        return Vec::new();
+    }
+    let mut kept = Vec::new();
+    let mut angles = Vec::new();
+    for border in &element.borders {
+        let mut cuts = crossings(border, disc);
+        angles.extend(cuts.iter().map(|s| {
+            let p = border.at(*s);
+            (p.y - disc.at.y).atan2(p.x - disc.at.x)
+        }));
+        cuts.insert(0, 0.0);
+        cuts.push(1.0);
+        let pieces = cuts.windows(2).map(|w| border.piece(w[0], w[1]));
+        kept.extend(pieces.filter(|piece| piece.at(0.5).distance(disc.at) < disc.radius));
+    }
+    angles.sort_by(f64::total_cmp);
+    let first = angles.first().copied().unwrap_or(0.0);
+    let ends = angles.iter().skip(1).copied().chain([first + TAU]);
+    let starts = angles.iter().copied().chain(angles.is_empty().then_some(0.0));
+    for (start, end) in starts.zip(ends) {
+        let side = Side::Arc { centre: disc.at, radius: disc.radius, start, sweep: end - start };
+        let arc = Border { side, from: 0.0, to: 1.0, held: None };
+        if element.depth(arc.at(0.5)) > 0.0 {
+            kept.push(arc);
+        }
+    }
+    kept
+}
+
+/// Parameters at which a border crosses a disc's rim, ascending.
+fn crossings(border: &Border, disc: &Disc) -> Vec<f64> {
+    let outside = |s: f64| border.at(s).distance(disc.at) - disc.radius;
+    // Of a straight edge the distance is least at the foot of the centre: at most one crossing on either side of it.
+    let mut places: Vec<f64> = if border.is_straight() {
+        let (p, d) = (border.at(0.0), border.derivative(0.0));
+        let foot = ((disc.at.x - p.x) * d.x + (disc.at.y - p.y) * d.y) / (d.x * d.x + d.y * d.y);
+        vec![0.0, foot.clamp(0.0, 1.0), 1.0]
+    } else {
+        (0..=PIECES).map(|i| i as f64 / PIECES as f64).collect()
+    };
+    places.dedup();
+    let crossed = places.windows(2).filter(|w| (outside(w[0]) < 0.0) != (outside(w[1]) < 0.0));
+    crossed.map(|w| root(w[0], w[1], outside)).collect()
+}
+
+/// Where a function changes its sign, by bisection to the last bits.
+fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
+    let sign = f(low) < 0.0;
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if (f(middle) < 0.0) == sign {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}

@@ -1,0 +1,27 @@
+//! Which unknowns meet in a triangle.
+
+use super::space::Space;
+use faer::sparse::SymbolicSparseColMat;
+
+/// The symmetric pattern of all forms on a space, both triangles of it, rows ascending.
+pub(crate) fn pattern(space: &Space) -> SymbolicSparseColMat<usize> {
+    let size = space.unknowns();
+    let mut sharers = vec![Vec::new(); size];
+    for (e, element) in space.elements.iter().enumerate() {
+        element.unknowns.iter().for_each(|u| sharers[*u].push(e));
+    }
+    let mut seen = vec![usize::MAX; size];
+    let (mut starts, mut rows) = (vec![0], Vec::new());
+    for (column, sharers) in sharers.iter().enumerate() {
+        let start = rows.len();
+        for row in sharers.iter().flat_map(|e| &space.elements[*e].unknowns) {
+            if seen[*row] != column {
+                seen[*row] = column;
+                rows.push(*row);
+            }
+        }
+        rows[start..].sort_unstable();
+        starts.push(rows.len());
+    }
+    SymbolicSparseColMat::new_checked(size, size, starts, None, rows)
+}

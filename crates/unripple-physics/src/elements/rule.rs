@@ -1,0 +1,91 @@
+//! Quadrature over triangles with curved edges.
+//!
+//! A region is the sum of the cones from an apex to the pieces of its border, with signs: x = a + r (γ(s) - a), r and s from
+//! 0 to 1, dA = r (γ - a) x γ' dr ds. Of a polynomial the sum is the same for every apex; with Gauss's rule in r and s it is
+//! exact along straight borders and converges spectrally along curves.
+
+use super::border::Border;
+use super::monomials::{HIGHEST, QUINTIC};
+use crate::modes::gauss;
+use unripple_core::Point;
+
+/// Rules for triangles by the number of their monomials.
+#[derive(Clone, Debug)]
+pub(crate) struct Rules {
+    quintic: Rule,
+    higher: Rule,
+}
+
+/// Gauss's rules on [0, 1]: along a cone's rays, along straight borders and along curves.
+#[derive(Clone, Debug)]
+pub(crate) struct Rule {
+    radial: Vec<(f64, f64)>,
+    straight: Vec<(f64, f64)>,
+    curved: Vec<(f64, f64)>,
+}
+
+impl Rules {
+    /// Rules for products of two polynomials, times coefficients that vary if `varying`.
+    pub(crate) fn new(varying: bool) -> Self {
+        let more = if varying { 3 } else { 0 };
+        Self { quintic: Rule::new(6 + more, 12 + more), higher: Rule::new(HIGHEST + 1 + more, 14 + more) }
+    }
+
+    /// The rule for polynomials of so many monomials.
+    pub(crate) fn of(&self, monomials: usize) -> &Rule {
+        if monomials <= QUINTIC { &self.quintic } else { &self.higher }
+    }
+}
+
+impl Rule {
+    fn new(plain: usize, curved: usize) -> Self {
+        let rule = |count| gauss(count).into_iter().map(|(x, w)| (0.5 * (1.0 + x), 0.5 * w)).collect();
+        Self { radial: rule(plain), straight: rule(plain), curved: rule(curved) }
+    }
+
+    /// Points and weights (m²) over a triangle. Weights are positive if it is star-shaped seen from the vertex opposite its
+    /// only curved edge, or with several such edges from its middle.
+    pub(crate) fn triangle(&self, borders: &[Border; 3]) -> Vec<(Point, f64)> {
+        let curved: Vec<usize> = (0..3).filter(|i| !borders[*i].is_straight()).collect();
+        let mut points = Vec::new();
+        match curved[..] {
+            [] => self.cone(borders[2].at(0.0), &borders[0], &mut points),
+            [i] => self.cone(borders[(i + 2) % 3].at(0.0), &borders[i], &mut points),
+            _ => self.region(borders, &mut points),
+        }
+        points
+    }
+
+    /// Points and weights over the region within closed borders, the region to their left.
+    pub(crate) fn region(&self, borders: &[Border], points: &mut Vec<(Point, f64)>) {
+        let share = 1.0 / borders.len().max(1) as f64;
+        let mean = |f: fn(Point) -> f64| borders.iter().map(|b| share * f(b.at(0.0))).sum();
+        let apex = Point::new(mean(|p| p.x), mean(|p| p.y));
+        borders.iter().for_each(|border| self.cone(apex, border, points));
+    }
+
+    fn cone(&self, apex: Point, border: &Border, points: &mut Vec<(Point, f64)>) {
+        for piece in border.pieces() {
+            for &(s, ws) in if piece.is_straight() { &self.straight } else { &self.curved } {
+                let (q, d) = (piece.at(s), piece.derivative(s));
+                let (x, y) = (q.x - apex.x, q.y - apex.y);
+                let swept = ws * (x * d.y - y * d.x);
+                let on_ray =
+                    |&(r, wr): &(f64, f64)| (Point::new(apex.x + r * x, apex.y + r * y), swept * wr * r);
+                points.extend(self.radial.iter().map(on_ray));
+            }
+        }
+    }
+
+    /// Points along a border: the point, the unit normal to its left, and the weight in metres.
+    pub(crate) fn along(&self, border: &Border) -> Vec<(Point, [f64; 2], f64)> {
+        let pieces = border.pieces().flat_map(|piece| {
+            let rule = if piece.is_straight() { &self.straight } else { &self.curved };
+            rule.iter().map(move |&(s, w)| {
+                let d = piece.derivative(s);
+                (piece.at(s), piece.directions(s).1, w * d.x.hypot(d.y))
+            })
+        });
+        pieces.collect()
+    }
+}

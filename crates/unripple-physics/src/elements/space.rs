@@ -1,0 +1,119 @@
+//! The space of continuously differentiable piecewise quintics on a mesh.
+
+use super::border::Border;
+use super::corner::Corner;
+use super::element::{Element, Middle, Seen};
+use super::grid::Grid;
+use super::topology::Topology;
+use crate::mesh::Mesh;
+use rayon::prelude::*;
+use unripple_core::{Edge, Point};
+
+/// Continuously differentiable quintics on a mesh that satisfy the essential conditions of its rims.
+///
+/// Along straight sides conditions hold exactly. Along held curves u, and ∂u/∂n where it is held too, vanish with their
+/// derivatives at the vertices and at points between. Eigenvalues converge as h⁸, of membranes as h¹⁰, on curved rims too.
+#[derive(Clone, Debug)]
+pub(crate) struct Space {
+    pub(super) elements: Vec<Element>,
+    pub(super) grid: Grid,
+    unknowns: usize,
+}
+
+impl Space {
+    /// The space on a mesh; `bending` if the sheet resists bending, for otherwise clamping holds no slope.
+    pub(crate) fn new(mesh: &Mesh, bending: bool) -> Self {
+        let topology = Topology::of(mesh);
+        let corners: Vec<Corner> = (0..mesh.vertices.len())
+            .into_par_iter()
+            .map(|v| Corner::of(mesh, &topology, v, bending))
+            .collect();
+        let mut unknowns = 0;
+        let mut next = |count: usize| {
+            unknowns += count;
+            unknowns - count
+        };
+        let firsts: Vec<usize> = corners.iter().map(|corner| next(corner.count)).collect();
+        let middles: Vec<Middle> = (0..mesh.edges.len())
+            .map(|e| {
+                let middle = middle(mesh, e);
+                let held = held(mesh, e);
+                let zero = bending && held == Some(Edge::Clamped);
+                Middle { unknown: (!zero).then(|| next(1)), ..middle }
+            })
+            .collect();
+        let elements: Vec<Element> = (0..mesh.triangles.len())
+            .into_par_iter()
+            .map(|t| {
+                let triangle = mesh.triangles[t];
+                let seen = triangle.vertices.map(|v| Seen {
+                    at: mesh.vertices[v].at,
+                    first: firsts[v],
+                    corner: &corners[v],
+                });
+                let borders = [0, 1, 2].map(|i| {
+                    let ends = [seen[i].at, seen[(i + 1) % 3].at];
+                    border(mesh, triangle.edges[i], ends)
+                });
+                Element::new(t, seen, borders, triangle.edges.map(|e| middles[e]))
+            })
+            .collect();
+        let grid = Grid::new(mesh, &elements);
+        Self { elements, grid, unknowns }
+    }
+
+    /// Number of unknowns.
+    pub(crate) fn unknowns(&self) -> usize {
+        self.unknowns
+    }
+
+    /// The triangle a point lies in, and the point; of a point outside, the nearest of the rim.
+    pub(crate) fn locate(&self, point: Point) -> (usize, Point) {
+        self.grid.locate(&self.elements, point)
+    }
+
+    /// The unknowns that make u at a point, and what each is multiplied by. Of a point outside, the nearest of the rim.
+    pub(crate) fn weights(&self, point: Point) -> (&[usize], Vec<f64>) {
+        let (element, point) = self.locate(point);
+        let Some(element) = self.elements.get(element) else { return (&[], Vec::new()) };
+        (&element.unknowns, element.combine(&element.frame.values(point)))
+    }
+
+    #[cfg(test)]
+    /// As [`Space::weights`], for u, u_x, u_y, u_xx, u_xy and u_yy.
+    pub(crate) fn derivatives(&self, point: Point) -> (&[usize], [Vec<f64>; 6]) {
+        let (element, point) = self.locate(point);
+        let Some(element) = self.elements.get(element) else { return (&[], Default::default()) };
+        (&element.unknowns, element.frame.jets(point).map(|jet| element.combine(&jet)))
+    }
+}
+
+/// How an edge of a rim is held.
+fn held(mesh: &Mesh, edge: usize) -> Option<Edge> {
+    let span = mesh.edges[edge].span?;
+    mesh.sides.get(span.side).map(|(_, edge)| *edge)
+}
+
+/// An edge as a triangle's border, from one of its vertices to the next.
+fn border(mesh: &Mesh, edge: usize, ends: [Point; 2]) -> Border {
+    let straight = Border { held: held(mesh, edge), ..Border::line(ends[0], ends[1]) };
+    let Some(span) = mesh.edges[edge].span else { return straight };
+    match mesh.sides.get(span.side) {
+        Some((side, held)) if !side.is_straight() => {
+            Border { side: *side, from: span.from, to: span.to, held: Some(*held) }
+        }
+        _ => straight,
+    }
+}
+
+/// The middle of an edge, by the parameter of the curve it stands for.
+fn middle(mesh: &Mesh, edge: usize) -> Middle {
+    let ends = mesh.edges[edge].ends.map(|v| mesh.vertices[v].at);
+    let border = border(mesh, edge, ends);
+    Middle {
+        at: border.at(0.5),
+        normal: border.directions(0.5).1,
+        length: ends[0].distance(ends[1]),
+        unknown: None,
+    }
+}

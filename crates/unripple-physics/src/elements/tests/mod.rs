@@ -1,0 +1,10 @@
+//! Truth: closed forms, published numbers, rates of convergence, and properties of the space.
+
+mod bessel;
+mod circles;
+mod fabrics;
+mod meshes;
+mod patch;
+mod readout;
+mod solve;
+mod squares;

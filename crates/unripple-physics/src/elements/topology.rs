@@ -1,0 +1,74 @@
+//! What lies beside what in a mesh.
+
+use crate::mesh::Mesh;
+
+/// Neighbours within a mesh.
+#[derive(Debug)]
+pub(crate) struct Topology {
+    /// Of each edge, the triangles on its sides.
+    beside: Vec<[Option<usize>; 2]>,
+    /// Of each vertex, the rim's edge that leaves it, and the one that arrives.
+    rims: Vec<[Option<usize>; 2]>,
+    /// Of each vertex, the mean length of its edges, in metres.
+    pub(crate) lengths: Vec<f64>,
+}
+
+/// A triangle at a vertex, and the edge by which the next one anticlockwise is reached.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct FanStep {
+    /// The triangle.
+    pub(crate) triangle: usize,
+    /// The other end of the edge that leads on.
+    pub(crate) towards: usize,
+}
+
+impl Topology {
+    /// The neighbours within a mesh.
+    pub(crate) fn of(mesh: &Mesh) -> Self {
+        let mut beside = vec![[None; 2]; mesh.edges.len()];
+        for (t, triangle) in mesh.triangles.iter().enumerate() {
+            for &e in &triangle.edges {
+                let free = usize::from(beside[e][0].is_some());
+                beside[e][free] = Some(t);
+            }
+        }
+        let mut rims = vec![[None; 2]; mesh.vertices.len()];
+        let mut sums = vec![(0.0, 0usize); mesh.vertices.len()];
+        for (e, edge) in mesh.edges.iter().enumerate() {
+            let [a, b] = edge.ends;
+            let length = mesh.vertices[a].at.distance(mesh.vertices[b].at);
+            for v in edge.ends {
+                sums[v] = (sums[v].0 + length, sums[v].1 + 1);
+            }
+            if edge.span.is_some() {
+                (rims[a][0], rims[b][1]) = (Some(e), Some(e));
+            }
+        }
+        let lengths = sums.into_iter().map(|(sum, count)| sum / count.max(1) as f64).collect();
+        Self { beside, rims, lengths }
+    }
+
+    /// The rim's edges that leave a vertex and arrive at it; `None` inside.
+    pub(crate) fn rim(&self, vertex: usize) -> Option<[usize; 2]> {
+        let [leaves, arrives] = self.rims[vertex];
+        Some([leaves?, arrives?])
+    }
+
+    /// The triangles at a vertex of a rim, anticlockwise from the rim's edge that leaves it.
+    pub(crate) fn fan(&self, mesh: &Mesh, vertex: usize) -> Vec<FanStep> {
+        let mut steps = Vec::new();
+        let mut next = self.rims[vertex][0].and_then(|e| self.beside[e][0]);
+        while let Some(triangle) = next {
+            let shape = &mesh.triangles[triangle];
+            let Some(corner) = shape.vertices.iter().position(|v| *v == vertex) else { break };
+            let before = (corner + 2) % 3;
+            steps.push(FanStep { triangle, towards: shape.vertices[before] });
+            let across = self.beside[shape.edges[before]];
+            next = across.into_iter().flatten().find(|t| *t != triangle);
+            if steps.len() > mesh.triangles.len() {
+                break;
+            }
+        }
+        steps
+    }
+}

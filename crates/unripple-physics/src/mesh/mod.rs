@@ -1,0 +1,79 @@
+//! Triangles that cover a sheet, small where they must be.
+
+mod build;
+mod cells;
+mod check;
+mod corner;
+mod delaunay;
+mod estimate;
+mod field;
+mod front;
+mod piece;
+mod region;
+mod relax;
+mod rim;
+mod rims;
+mod sizing;
+#[cfg(test)]
+mod tests;
+mod tree;
+mod vector;
+mod williams;
+
+use unripple_core::{Edge, Point, Side};
+
+pub(crate) use corner::{Corner, corners};
+pub(crate) use sizing::Sizing;
+
+/// A mesh of triangles that conforms to the outline; along curved sides an edge stands for a piece of the curve.
+#[derive(Clone, Debug)]
+pub(crate) struct Mesh {
+    /// All sides of all rims, the sheet to their left, and how they are held.
+    pub(crate) sides: Vec<(Side, Edge)>,
+    /// The vertices; those on a rim lie on their sides exactly.
+    pub(crate) vertices: Vec<Vertex>,
+    /// The edges.
+    pub(crate) edges: Vec<MeshEdge>,
+    /// The triangles.
+    pub(crate) triangles: Vec<Triangle>,
+}
+
+/// A vertex of a mesh.
+#[derive(Clone, Debug)]
+pub(crate) struct Vertex {
+    /// Where it is.
+    pub(crate) at: Point,
+    /// The sides it lies on, and the parameter there: none inside, one on a side, two where sides meet (of a single
+    /// closed side its end and its start).
+    #[cfg_attr(not(test), allow(dead_code))] // What tests of meshes are made of.
+    pub(crate) on: Vec<(usize, f64)>,
+}
+
+/// An edge of a mesh.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MeshEdge {
+    /// Its ends. Of a rim's edge in the direction of its side, so that the sheet is to the left.
+    pub(crate) ends: [usize; 2],
+    /// The piece of a side that it stands for; `None` inside.
+    pub(crate) span: Option<Span>,
+}
+
+/// A piece of a side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Span {
+    /// Which side.
+    pub(crate) side: usize,
+    /// Parameter at the edge's first end.
+    pub(crate) from: f64,
+    /// Parameter at the edge's second end.
+    pub(crate) to: f64,
+}
+
+/// A triangle of a mesh.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Triangle {
+    /// Its vertices, anticlockwise.
+    pub(crate) vertices: [usize; 3],
+    /// Its edges: the i-th joins vertices i and i + 1 (mod 3).
+    pub(crate) edges: [usize; 3],
+}

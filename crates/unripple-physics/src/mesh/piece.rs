@@ -1,0 +1,112 @@
+use super::tree::Bounds;
+use super::vector::{angle, cross, from_segment, minus, norm};
+use std::f64::consts::PI;
+use unripple_core::{Point, Side};
+
+/// Most that a piece turns, in radians.
+const TURN: f64 = 0.1;
+/// Halvings after which a cubic is cut no further: it has a cusp there.
+const DEEPEST: u32 = 24;
+
+/// A short piece of a side, told apart from its chord by no more than `sagitta`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece {
+    /// Which side, counted through all rims.
+    pub(super) side: usize,
+    /// Parameters at both ends.
+    pub(super) span: [f64; 2],
+    /// Both ends.
+    pub(super) ends: [Point; 2],
+    /// Greatest distance from the chord (a bound of it), in metres.
+    pub(super) sagitta: f64,
+    /// By how much the tangent turns (a bound of it), in radians.
+    pub(super) turn: f64,
+}
+
+impl Piece {
+    /// The piece of a side between two parameters.
+    pub(super) fn new(side: &Side, index: usize, span: [f64; 2]) -> Self {
+        let ends = span.map(|t| side.at(t));
+        let (sagitta, turn) = match *side {
+            Side::Line { .. } => (0.0, 0.0),
+            Side::Arc { radius, sweep, .. } => {
+                let turn = (sweep * (span[1] - span[0])).abs();
+                (radius * (1.0 - (0.5 * turn.min(2.0 * PI)).cos()), turn)
+            }
+            Side::Cubic(_) => hull(side, span, ends),
+        };
+        Self { side: index, span, ends, sagitta, turn }
+    }
+
+    /// Its two halves.
+    pub(super) fn halves(&self, side: &Side) -> [Self; 2] {
+        let half = 0.5 * (self.span[0] + self.span[1]);
+        [[self.span[0], half], [half, self.span[1]]].map(|span| Self::new(side, self.side, span))
+    }
+
+    /// A box that holds it.
+    pub(super) fn bounds(&self, margin: f64) -> Bounds {
+        Bounds::around(&self.ends, self.sagitta + margin)
+    }
+
+    /// How often it winds around a point, as the angle that it is seen under (rad).
+    pub(super) fn seen_from(&self, p: Point, side: &Side) -> f64 {
+        let [a, b] = self.ends;
+        if self.sagitta > 0.0 && self.span[1] - self.span[0] > 1e-12 && from_segment(p, a, b) <= self.sagitta
+        {
+            return self.halves(side).iter().map(|half| half.seen_from(p, side)).sum();
+        }
+        angle(minus(a, p), minus(b, p))
+    }
+
+    /// ∫ x dy - y dx along it, x and y from its start: four Gauss points, exact for a cubic.
+    pub(super) fn doubled_area(&self, side: &Side) -> f64 {
+        let [from, to] = self.span;
+        let swept = |x: f64| {
+            let t = 0.5 * (from + to) + 0.5 * (to - from) * x;
+            cross(minus(side.at(t), self.ends[0]), side.derivative(t))
+        };
+        0.5 * (to - from) * crate::modes::gauss(4).into_iter().map(|(x, w)| w * swept(x)).sum::<f64>()
+    }
+}
+
+/// Sagitta and turn of a piece of a cubic, from its control polygon.
+fn hull(side: &Side, span: [f64; 2], ends: [Point; 2]) -> (f64, f64) {
+    let third = (span[1] - span[0]) / 3.0;
+    let [d, e] = span.map(|t| side.derivative(t));
+    let inner = [
+        Point::new(ends[0].x + third * d.x, ends[0].y + third * d.y),
+        Point::new(ends[1].x - third * e.x, ends[1].y - third * e.y),
+    ];
+    let polygon = [ends[0], inner[0], inner[1], ends[1]];
+    let size = norm(minus(ends[1], ends[0])).max(norm(minus(inner[1], inner[0])));
+    let legs: Vec<Point> =
+        polygon.windows(2).map(|w| minus(w[1], w[0])).filter(|leg| norm(*leg) > 1e-9 * size).collect();
+    let turn = legs.windows(2).map(|w| angle(w[0], w[1]).abs()).sum();
+    (inner.iter().map(|p| from_segment(*p, ends[0], ends[1])).fold(0.0, f64::max), turn)
+}
+
+/// A side cut into pieces that turn little.
+pub(super) fn pieces(side: &Side, index: usize) -> Vec<Piece> {
+    match *side {
+        Side::Line { .. } => vec![Piece::new(side, index, [0.0, 1.0])],
+        Side::Arc { sweep, .. } => {
+            let n = (sweep.abs() / TURN).ceil().clamp(1.0, 1000.0);
+            let cut = |i: usize| if i as f64 == n { 1.0 } else { i as f64 / n };
+            (0..n as usize).map(|i| Piece::new(side, index, [cut(i), cut(i + 1)])).collect()
+        }
+        Side::Cubic(_) => {
+            let mut found = Vec::new();
+            halve(side, Piece::new(side, index, [0.0, 1.0]), DEEPEST, &mut found);
+            found
+        }
+    }
+}
+
+fn halve(side: &Side, piece: Piece, depth: u32, found: &mut Vec<Piece>) {
+    if piece.turn <= TURN || depth == 0 {
+        found.push(piece);
+    } else {
+        piece.halves(side).into_iter().for_each(|half| halve(side, half, depth - 1, found));
+    }
+}

@@ -1,0 +1,53 @@
+use super::corner::{Corner, smallest_edge};
+use crate::PhysicsError;
+use crate::modes::check;
+use unripple_core::Point;
+
+/// How long the edges of a mesh should be.
+#[derive(Clone, Debug)]
+pub(crate) struct Sizing {
+    /// Length of edges where nothing else is wanted, in metres.
+    pub(crate) size: f64,
+    /// Places, how far around them it holds, and the length wanted there, all in metres. A vertex is put at each that is
+    /// not too near a rim or another.
+    pub(crate) near: Vec<(Point, f64, f64)>,
+    /// The smallest edge where a side starts, in metres, counted as in [`Mesh::sides`](super::Mesh::sides); edges grow
+    /// from there. None if infinite, or not listed.
+    pub(crate) corners: Vec<f64>,
+    /// Greatest length along rims that are clamped or supported, in metres.
+    pub(crate) edge_size: Option<f64>,
+}
+
+impl Sizing {
+    /// Edges of one length everywhere.
+    #[cfg(test)]
+    pub(crate) fn even(size: f64) -> Self {
+        Self { size, near: Vec::new(), corners: Vec::new(), edge_size: None }
+    }
+
+    /// The same with edges short enough at the corners of an outline for eigenvalues of some relative accuracy.
+    pub(crate) fn refined(mut self, corners: &[Corner], bending: bool, accuracy: f64) -> Self {
+        let smallest = |corner: &Corner| {
+            let share = smallest_edge(corner.angle, corner.edges, bending, accuracy);
+            if share < 1.0 { share * self.size } else { f64::INFINITY }
+        };
+        self.corners = corners.iter().map(smallest).collect();
+        self
+    }
+
+    /// A typed error unless all lengths are positive.
+    pub(super) fn check(&self) -> Result<(), PhysicsError> {
+        let positive = |what: &str, value: f64| check(what, value, value > 0.0, "a positive finite number");
+        positive("edge length of a mesh in m", self.size)?;
+        self.edge_size.map_or(Ok(()), |size| positive("edge length along rims in m", size))?;
+        for (place, reach, edge) in &self.near {
+            check("place of short edges in m", place.x + place.y, place.is_finite(), "a place on the sheet")?;
+            check("reach of short edges in m", *reach, *reach >= 0.0, "0 or more")?;
+            positive("edge length near a place in m", *edge)?;
+        }
+        let corner = |edge: &f64| {
+            if *edge > 0.0 { Ok(()) } else { positive("edge length at a corner in m", *edge) }
+        };
+        self.corners.iter().try_for_each(corner)
+    }
+}

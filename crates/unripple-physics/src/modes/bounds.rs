@@ -1,0 +1,96 @@
+use crate::damping::decay_rate;
+use crate::{Medium, PhysicsError};
+use std::f64::consts::TAU;
+use unripple_core::{Decay, Surface};
+
+/// What modes are asked of any sheet, and how accurately.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bounds {
+    /// The sheet, with its air.
+    pub(crate) medium: Medium,
+    /// Poisson's ratio.
+    pub(crate) poisson: f64,
+    /// Top frequency, in Hz.
+    pub(crate) max_hz: f64,
+    /// Wavenumber of the sheet at the top, air included, in rad/m.
+    pub(crate) k_top: f64,
+    /// Relative accuracy of the frequencies.
+    pub(crate) accuracy: f64,
+}
+
+impl Bounds {
+    /// The bounds of a surface's modes.
+    ///
+    /// # Errors
+    /// [`PhysicsError::Range`] for values that cannot be.
+    pub(crate) fn of(surface: &Surface, max_hz: f64, accuracy: f64) -> Result<Self, PhysicsError> {
+        let sheet = &surface.sheet;
+        let medium = Medium::of(sheet);
+        let positive = "a positive finite number";
+        check("top frequency in Hz", max_hz, max_hz > 0.0, positive)?;
+        check("mass per area in kg/m²", medium.areal_density, medium.areal_density > 0.0, positive)?;
+        check("tension in N/m", medium.tension, medium.tension >= 0.0, "0 or more")?;
+        let poisson = sheet.poisson;
+        check("Poisson's ratio", poisson, poisson > -1.0 && poisson <= 0.5, "more than -1, at most 0.5")?;
+        check(
+            "bending stiffness in N·m",
+            medium.bending_stiffness,
+            medium.bending_stiffness >= 0.0,
+            "0 or more",
+        )?;
+        let stiff = medium.tension + medium.bending_stiffness;
+        check("tension and bending stiffness together", stiff, stiff > 0.0, "more than 0")?;
+        check("accuracy", accuracy, (1e-12..=0.1).contains(&accuracy), "between 1e-12 and 0.1")?;
+        let k_top = medium.wavenumber(TAU * max_hz);
+        check(
+            "top frequency in Hz",
+            max_hz,
+            k_top.is_finite() && k_top > 0.0,
+            "a frequency that waves can have",
+        )?;
+        Ok(Self { medium, poisson, max_hz, k_top, accuracy })
+    }
+
+    /// The sheet without its air.
+    pub(crate) fn vacuum(&self) -> Medium {
+        Medium { air_sides: 0.0, ..self.medium }
+    }
+
+    /// ω² of the top in vacuum, in 1/s².
+    pub(crate) fn top_square(&self) -> f64 {
+        self.vacuum().omega(self.k_top).powi(2)
+    }
+
+    /// The frequency in air (rad/s) of a mode whose square in vacuum is given, its wavenumber kept: the air acts as beside a
+    /// plane wave. Rigid modes keep theirs.
+    pub(crate) fn omega_in_air(&self, square: f64) -> f64 {
+        let omega = square.sqrt();
+        if self.medium.air_sides > 0.0 { self.medium.omega(self.vacuum().wavenumber(omega)) } else { omega }
+    }
+
+    /// Frequency (rad/s) with the air's mass, and what that mass does to a mass-normalised shape:
+    /// √(ρ_s/ρ_eff) = ω/ω_vacuum.
+    pub(crate) fn loaded(&self, square: f64) -> (f64, f64) {
+        let omega = self.omega_in_air(square);
+        (omega, if square > 0.0 { omega / square.sqrt() } else { 1.0 })
+    }
+
+    /// Decay rate (1/s) of a mode of that frequency in air (rad/s) and share of bending: the sheet's own and, above
+    /// coincidence, radiation's.
+    pub(crate) fn decay_rate(&self, decay: &Decay, omega: f64, bending_share: f64) -> f64 {
+        let radiated = if self.medium.air_sides > 0.0 {
+            self.medium.radiation(self.medium.wavenumber(omega))
+        } else {
+            0.0
+        };
+        decay_rate(decay, omega, bending_share) + radiated
+    }
+}
+
+/// A typed error unless `legal` and finite.
+pub(crate) fn check(what: &str, found: f64, legal: bool, expected: &str) -> Result<(), PhysicsError> {
+    if legal && found.is_finite() {
+        return Ok(());
+    }
+    Err(PhysicsError::Range { what: what.to_owned(), expected: expected.to_owned(), found })
+}

@@ -1,0 +1,188 @@
+use super::line::Line;
+use super::plate::Plate;
+use super::problem::Problem;
+use super::product::{Product, Symmetry};
+use super::ritz::{BlockModes, solve_block};
+use super::{GIB, MEMORY};
+use crate::PhysicsError;
+use faer::{Mat, Par};
+use rayon::prelude::*;
+use std::f64::consts::PI;
+use unripple_core::Edge;
+
+/// How often the polynomials may be added to.
+const ROUNDS: usize = 12;
+
+/// The share of the least error so far that a round must fall below to count as progress.
+const STALLED: f64 = 0.7;
+
+/// Rounds without progress after which the accuracy is out of reach.
+const PATIENCE: usize = 2;
+
+/// A solution as accurate as was asked for.
+pub(crate) struct Solution {
+    /// The functions along x and y.
+    pub(crate) lines: [Line; 2],
+    /// The modes, by symmetry class; rigid ones in classes of their own at the front.
+    pub(crate) blocks: Vec<BlockModes>,
+    /// Largest relative error of a frequency, estimated.
+    pub(crate) error: f64,
+}
+
+/// Solves with more and more polynomials until the estimated error is the one asked for.
+pub(crate) fn solve(problem: &Problem) -> Result<Solution, PhysicsError> {
+    let mut counts = first_counts(problem, problem.bounds.k_top);
+    let mut before: Option<(f64, f64)> = None;
+    let (mut best, mut stalled) = (f64::INFINITY, 0);
+    for _ in 0..ROUNDS {
+        guard(problem, counts)?;
+        let plate = plate(problem, counts);
+        let Some(blocks) = solve_blocks(&plate, counts, problem.bounds.top_square()) else { break };
+        let error = blocks.iter().map(|b| b.error).fold(0.0, f64::max);
+        if error <= problem.bounds.accuracy {
+            return Ok(Solution { blocks, error, lines: plate.lines });
+        }
+        // Once rounding is all that is left, more polynomials only cost memory.
+        stalled = if error.is_finite() && error > STALLED * best { stalled + 1 } else { 0 };
+        if stalled == PATIENCE {
+            break;
+        }
+        best = best.min(error);
+        let step = step(problem.bounds.accuracy, counts, error, &mut before);
+        for (axis, count) in counts.iter_mut().enumerate() {
+            *count += if plate.lines[axis].exact() { 0 } else { step };
+        }
+    }
+    Err(PhysicsError::NotConverged {
+        max_hz: problem.bounds.max_hz,
+        expected: problem.bounds.accuracy,
+        found: best,
+    })
+}
+
+/// How many polynomials to add: along the power law seen so far, an even number so that both parities grow.
+fn step(accuracy: f64, counts: [usize; 2], error: f64, before: &mut Option<(f64, f64)>) -> usize {
+    let size = counts[0].max(counts[1]) as f64;
+    let power = match before.replace((size, error)) {
+        Some((smaller, larger)) if larger.is_finite() && error < larger => {
+            (larger / error).ln() / (size / smaller).ln()
+        }
+        _ => 40.0,
+    };
+    let factor = if error.is_finite() { (error / accuracy).powf(1.0 / power) } else { 1.15 };
+    let wanted = size * (factor.min(1.6) - 1.0);
+    (wanted.max(2.0).ceil() as usize).next_multiple_of(2)
+}
+
+/// Functions to begin with along each side, for waves up to `k`.
+///
+/// Sines: all that can have energy below the top, as a strip whose sides may curl bends with D(1-ν²) at least.
+/// Polynomials: half a side's radians, k·side/2, resolve the wave; beyond, the error falls by about e^1.5 for each.
+fn first_counts(problem: &Problem, k: f64) -> [usize; 2] {
+    let mut soft = problem.bounds.vacuum();
+    let square = soft.omega(k);
+    soft.bending_stiffness *= 1.0 - problem.bounds.poisson * problem.bounds.poisson;
+    [0, 1].map(|axis| {
+        let side = problem.sides[axis];
+        if problem.edges[axis] == [Edge::Supported; 2] {
+            return (soft.wavenumber(square) * side / PI) as usize + 1;
+        }
+        let half = 0.5 * k * side;
+        let free = f64::from(u8::from(problem.edges[axis].contains(&Edge::Free)));
+        let margin = 2.5 * free - half.cbrt() - problem.bounds.accuracy.ln() / 1.5;
+        ((half + margin).ceil().max(4.0) as usize).next_multiple_of(2)
+    })
+}
+
+/// How many functions measure the error, beside `count`.
+fn further(count: usize) -> usize {
+    (count / 4).max(4).next_multiple_of(2)
+}
+
+fn plate(problem: &Problem, counts: [usize; 2]) -> Plate {
+    let line = |axis: usize| {
+        let [low, high] = problem.edges[axis];
+        let exact = [low, high] == [Edge::Supported; 2];
+        Line::new(low, high, counts[axis] + if exact { 0 } else { further(counts[axis]) })
+    };
+    let medium = &problem.bounds.medium;
+    let scale = |power: i32, stiffness: f64| {
+        problem.sides.map(|side| stiffness / medium.areal_density * (2.0 / side).powi(power))
+    };
+    Plate {
+        lines: [line(0), line(1)],
+        tension: scale(2, medium.tension),
+        bending: scale(4, medium.bending_stiffness),
+        poisson: problem.bounds.poisson,
+        square: problem.square(),
+    }
+}
+
+fn solve_blocks(plate: &Plate, counts: [usize; 2], top: f64) -> Option<Vec<BlockModes>> {
+    let classes = [0, 1].map(|axis| plate.lines[axis].classes(counts[axis]));
+    let symmetries = Symmetry::all(&classes[0], &classes[1], plate.square);
+    let par = if symmetries.len() == 1 { Par::rayon(0) } else { Par::Seq };
+    let solved: Option<Vec<BlockModes>> =
+        symmetries.par_iter().map(|(symmetry, _)| solve_block(plate, *symmetry, top, par)).collect();
+    let mut blocks = rigid(plate, counts);
+    for (block, (_, twice)) in solved?.into_iter().zip(symmetries) {
+        let other = twice.then(|| block.mirrored());
+        blocks.push(block);
+        blocks.extend(other);
+    }
+    Some(blocks)
+}
+
+/// Modes that store no energy, exact.
+fn rigid(plate: &Plate, counts: [usize; 2]) -> Vec<BlockModes> {
+    let lowest = |axis: usize| 0..counts[axis].min(2);
+    lowest(0)
+        .flat_map(|x| lowest(1).map(move |y| Product { x, y, mirror: 0.0 }))
+        .filter(|product| plate.is_rigid(*product))
+        .map(|product| BlockModes {
+            products: vec![product],
+            squares: vec![0.0],
+            bending_shares: vec![0.0],
+            coefficients: Mat::ones(1, 1),
+            error: 0.0,
+        })
+        .collect()
+}
+
+/// Refuses what would not fit in memory, before any of it is taken.
+fn guard(problem: &Problem, counts: [usize; 2]) -> Result<(), PhysicsError> {
+    let (unknowns, needed) = cost(problem, counts);
+    if needed <= MEMORY {
+        return Ok(());
+    }
+    let (mut fits, mut fails) = (0.0, problem.bounds.k_top);
+    for _ in 0..60 {
+        let k = 0.5 * (fits + fails);
+        if cost(problem, first_counts(problem, k)).1 <= MEMORY { fits = k } else { fails = k }
+    }
+    Err(PhysicsError::TooLarge {
+        max_hz: problem.bounds.max_hz,
+        unknowns,
+        needed_gib: needed / GIB,
+        limit_gib: MEMORY / GIB,
+        nearest_hz: problem.bounds.medium.omega(fits) / (2.0 * PI),
+    })
+}
+
+/// Unknowns of the largest symmetry, and bytes that all take: six matrices for each in work, and all shapes.
+fn cost(problem: &Problem, counts: [usize; 2]) -> (usize, f64) {
+    let class = |axis: usize| {
+        let [low, high] = problem.edges[axis];
+        match (low == high, low) {
+            (true, Edge::Supported) => (1, counts[axis]),
+            (true, _) => (counts[axis].div_ceil(2), 2),
+            (false, _) => (counts[axis], 1),
+        }
+    };
+    let ((x, nx), (y, ny)) = (class(0), class(1));
+    let halved = problem.square() && nx == 1;
+    let unknowns = x.saturating_mul(y).div_ceil(1 + usize::from(halved));
+    let blocks = nx * ny * (1 + usize::from(halved));
+    let at_once = rayon::current_num_threads().min(blocks) as f64;
+    (unknowns, 8.0 * (unknowns as f64).powi(2) * (6.0 * at_once + blocks as f64 / 2.0))
+}

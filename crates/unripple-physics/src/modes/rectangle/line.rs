@@ -1,0 +1,146 @@
+use super::super::legendre::gauss;
+use super::polynomials::Polynomials;
+use faer::Mat;
+use std::f64::consts::FRAC_PI_2;
+use unripple_core::Edge;
+
+/// One direction of a rectangle, on ξ in [-1, 1]: orthonormal functions and the integrals that energies are made of.
+#[derive(Clone, Debug)]
+pub(crate) struct Line {
+    functions: Functions,
+    /// ∫f' g'.
+    pub(crate) slope: Mat<f64>,
+    /// ∫f'' g''.
+    pub(crate) curvature: Mat<f64>,
+    /// ∫f'' g, first index differentiated.
+    pub(crate) mixed: Mat<f64>,
+}
+
+/// What deflections are made of along one direction.
+#[derive(Clone, Debug)]
+enum Functions {
+    /// sin(nπ(1+ξ)/2), n = 1, 2, …: the exact shapes between two supported ends.
+    Sines,
+    /// Polynomials that meet the essential conditions; each is stored with parity classes kept apart.
+    Polynomials(Polynomials),
+}
+
+impl Line {
+    /// The first `count` functions for ends held so at ξ = -1 and ξ = 1, bending included.
+    pub(crate) fn new(low: Edge, high: Edge, count: usize) -> Self {
+        if (low, high) == (Edge::Supported, Edge::Supported) {
+            return Self::sines(count);
+        }
+        let family = Polynomials::new(low, high, count);
+        let mut line = Self {
+            slope: Mat::zeros(count, count),
+            curvature: Mat::zeros(count, count),
+            mixed: Mat::zeros(count, count),
+            functions: Functions::Polynomials(family.clone()),
+        };
+        let symmetric = family.symmetric();
+        for (xi, weight) in gauss(count + 5) {
+            let jets = family.derivatives_at(xi);
+            for (j, g) in jets.iter().enumerate() {
+                // Opposite parities are left at an exact zero.
+                let first = if symmetric { j % 2 } else { 0 };
+                for (i, f) in jets.iter().enumerate().skip(first).step_by(1 + usize::from(symmetric)) {
+                    line.slope[(i, j)] += weight * f[1] * g[1];
+                    line.curvature[(i, j)] += weight * f[2] * g[2];
+                    line.mixed[(i, j)] += weight * f[2] * g[0];
+                }
+            }
+        }
+        line
+    }
+
+    fn sines(count: usize) -> Self {
+        let diagonal = |f: &dyn Fn(f64) -> f64| {
+            Mat::from_fn(count, count, |i, j| if i == j { f((i + 1) as f64 * FRAC_PI_2) } else { 0.0 })
+        };
+        Self {
+            functions: Functions::Sines,
+            slope: diagonal(&|k| k * k),
+            curvature: diagonal(&|k| k.powi(4)),
+            mixed: diagonal(&|k| -k * k),
+        }
+    }
+
+    /// Number of functions.
+    pub(crate) fn count(&self) -> usize {
+        self.slope.nrows()
+    }
+
+    /// Values at ξ, into `values` of length [`Line::count`].
+    pub(crate) fn at(&self, xi: f64, values: &mut [f64]) {
+        match &self.functions {
+            Functions::Sines => sines(FRAC_PI_2 * (1.0 + xi), values),
+            Functions::Polynomials(family) => family.at(xi, values),
+        }
+    }
+
+    /// Degree of function `n` if it is a polynomial.
+    pub(crate) fn degree(&self, n: usize) -> Option<usize> {
+        match &self.functions {
+            Functions::Sines => None,
+            Functions::Polynomials(family) => Some(family.degree(n)),
+        }
+    }
+
+    /// Whether the functions are exact, so that more of them add nothing.
+    pub(crate) fn exact(&self) -> bool {
+        matches!(self.functions, Functions::Sines)
+    }
+
+    /// Classes of functions, among the first `count`, that nothing couples: each sine alone, even and odd polynomials,
+    /// or all polynomials.
+    pub(crate) fn classes(&self, count: usize) -> Vec<Class> {
+        match &self.functions {
+            Functions::Sines => (0..count).map(|n| Class { first: n, step: 1, end: n + 1 }).collect(),
+            Functions::Polynomials(family) if family.symmetric() => {
+                (0..2).map(|n| Class { first: n, step: 2, end: count }).collect()
+            }
+            Functions::Polynomials(_) => vec![Class { first: 0, step: 1, end: count }],
+        }
+    }
+}
+
+/// Indices `first`, `first + step`, … below `end`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Class {
+    /// The first index.
+    pub(crate) first: usize,
+    /// From one index to the next.
+    pub(crate) step: usize,
+    /// Past the last index.
+    pub(crate) end: usize,
+}
+
+impl Class {
+    /// Number of indices.
+    pub(crate) fn len(self) -> usize {
+        self.end.saturating_sub(self.first).div_ceil(self.step)
+    }
+
+    /// The i-th index.
+    pub(crate) fn index(self, i: usize) -> usize {
+        self.first + i * self.step
+    }
+
+    /// The same class continued up to `end`.
+    pub(crate) fn until(self, end: usize) -> Self {
+        Self { end, ..self }
+    }
+}
+
+/// sin(nθ), n = 1, 2, …, by complex rotation restarted often enough to stay at machine precision.
+pub(crate) fn sines(theta: f64, values: &mut [f64]) {
+    let (s, c) = theta.sin_cos();
+    for (chunk, slots) in values.chunks_mut(16).enumerate() {
+        let (mut y, mut x) = ((16 * chunk + 1) as f64 * theta).sin_cos();
+        for slot in slots {
+            *slot = y;
+            (x, y) = (x * c - y * s, y * c + x * s);
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! Modes of rectangles: products of one function along each side.
+
+mod adapt;
+mod line;
+mod order;
+mod plate;
+mod polynomials;
+mod problem;
+mod product;
+mod readout;
+mod ritz;
+mod separable;
+
+use super::{Found, GIB, MEMORY};
+use crate::{Medium, PhysicsError};
+use faer::Mat;
+use readout::Readout;
+use separable::{Separable, Wave};
+use unripple_core::{Point, Shapes};
+
+pub(super) use problem::Problem;
+
+/// Modes of a rectangle.
+pub(super) fn solve(problem: &Problem) -> Result<Found, PhysicsError> {
+    if problem.separable() { separable(problem) } else { ritz(problem) }
+}
+
+/// Shapes on a rectangle; places outside it stand for the nearest place inside.
+#[derive(Debug)]
+struct Rectangle {
+    sides: [f64; 2],
+    modes: usize,
+    form: Form,
+}
+
+/// How shapes are known.
+#[derive(Debug)]
+enum Form {
+    /// One sine or cosine along each side.
+    Separable(Separable),
+    /// Sums of products.
+    Ritz(Box<Readout>),
+}
+
+impl Rectangle {
+    fn inside(&self, point: Point) -> Point {
+        Point::new(point.x.clamp(0.0, self.sides[0]), point.y.clamp(0.0, self.sides[1]))
+    }
+}
+
+impl Shapes for Rectangle {
+    fn modes(&self) -> usize {
+        self.modes
+    }
+
+    fn at(&self, point: Point, row: &mut [f64]) {
+        match &self.form {
+            Form::Separable(shapes) => shapes.at(self.inside(point), row),
+            Form::Ritz(shapes) => shapes.at(self.inside(point), row),
+        }
+    }
+
+    fn at_all(&self, points: &[Point]) -> Mat<f64> {
+        let inside: Vec<Point> = points.iter().map(|p| self.inside(*p)).collect();
+        match &self.form {
+            Form::Separable(shapes) => shapes.at_all(&inside),
+            Form::Ritz(shapes) => shapes.at_all(&inside),
+        }
+    }
+}
+
+fn separable(problem: &Problem) -> Result<Found, PhysicsError> {
+    Separable::guard(problem)?;
+    let waves = problem.edges.map(|[low, high]| Wave::of(low, high));
+    let (shapes, wavenumbers) = Separable::up_to(problem.sides, waves, problem.bounds.k_top, problem.mass());
+    let vacuum: Medium = problem.bounds.vacuum();
+    let (omegas, factors): (Vec<f64>, Vec<f64>) =
+        wavenumbers.iter().map(|k| problem.bounds.loaded(vacuum.omega(*k).powi(2))).unzip();
+    let bending_shares = wavenumbers.iter().map(|k| vacuum.bending_share(*k)).collect();
+    let form = Form::Separable(shapes.scaled(&factors));
+    let shapes = Rectangle { sides: problem.sides, modes: omegas.len(), form };
+    Ok(Found { omegas, bending_shares, shapes: Box::new(shapes), error: 0.0 })
+}
+
+fn ritz(problem: &Problem) -> Result<Found, PhysicsError> {
+    let adapt::Solution { lines, blocks, error } = adapt::solve(problem)?;
+    let (squares, places) = order::ascending(&blocks);
+    let mut ranks: Vec<Vec<usize>> = blocks.iter().map(|b| vec![0; b.squares.len()]).collect();
+    let mut factors: Vec<Vec<f64>> = blocks.iter().map(|b| vec![0.0; b.squares.len()]).collect();
+    let (mut omegas, mut bending_shares) = (Vec::new(), Vec::new());
+    for (rank, (square, (b, m))) in squares.iter().zip(places).enumerate() {
+        let (omega, factor) = problem.bounds.loaded(*square);
+        omegas.push(omega);
+        bending_shares.push(blocks[b].bending_shares[m]);
+        ranks[b][m] = rank;
+        factors[b][m] = factor * order::sign(blocks[b].coefficients.col(m));
+    }
+    let readout = Readout::new(problem.sides, lines, problem.mass(), blocks, ranks, &factors);
+    let form = Form::Ritz(Box::new(readout));
+    let shapes = Rectangle { sides: problem.sides, modes: omegas.len(), form };
+    Ok(Found { omegas, bending_shares, shapes: Box::new(shapes), error })
+}

@@ -1,0 +1,46 @@
+use super::super::bounds::{Bounds, check};
+use crate::PhysicsError;
+use unripple_core::{Edge, Shape, Surface};
+
+/// What modes are asked of a rectangle: its sides, how they are held, and up to where.
+#[derive(Debug)]
+pub(crate) struct Problem {
+    /// Width and height, in metres.
+    pub(crate) sides: [f64; 2],
+    /// The edges at the lower and upper end of x, then of y.
+    pub(crate) edges: [[Edge; 2]; 2],
+    /// The sheet, and up to where.
+    pub(crate) bounds: Bounds,
+}
+
+impl Problem {
+    /// The problem a surface poses; `None` unless it is a rectangle without holes, uniform and isotropic, no side of it
+    /// held by springs.
+    pub(crate) fn of(surface: &Surface, bounds: Bounds) -> Result<Option<Self>, PhysicsError> {
+        let Shape::Rectangle { width, height } = surface.outline.shape else { return Ok(None) };
+        let positive = "a positive finite number";
+        check("width", width, width > 0.0, positive)?;
+        check("height", height, height > 0.0, positive)?;
+        let edge = |side| surface.outline.edge(side);
+        let edges = [[edge(3), edge(1)], [edge(0), edge(2)]];
+        let springs = edges.as_flattened().iter().any(|e| matches!(e, Edge::Elastic { .. }));
+        let plain = surface.outline.holes.is_empty() && surface.sheet.uneven.is_nothing() && !springs;
+        Ok(plain.then_some(Self { sides: [width, height], edges, bounds }))
+    }
+
+    /// Whether every mode is a product of two waves.
+    pub(crate) fn separable(&self) -> bool {
+        self.bounds.medium.bending_stiffness == 0.0
+            || self.edges.as_flattened().iter().all(|e| *e == Edge::Supported)
+    }
+
+    /// Whether x and y may be exchanged.
+    pub(crate) fn square(&self) -> bool {
+        self.sides[0] == self.sides[1] && self.edges[0] == self.edges[1]
+    }
+
+    /// Mass of the sheet, in kg.
+    pub(crate) fn mass(&self) -> f64 {
+        self.bounds.medium.areal_density * self.sides[0] * self.sides[1]
+    }
+}

@@ -1,0 +1,152 @@
+use super::super::eigen::{Method, orthonormalised, product, symmetric};
+use super::line::Class;
+use super::plate::Plate;
+use super::product::{Product, Symmetry};
+use faer::linalg::matmul::matmul;
+use faer::linalg::solvers::{DenseSolveCore, Llt, Solve};
+use faer::{Accum, Mat, Par, Side};
+
+/// How far above the top's ω², relatively, modes are still computed, so that what is left out keeps clear of it.
+const ABOVE: f64 = 0.3;
+
+/// How often the inverse is applied to the vectors.
+const SWEEPS: usize = 2;
+
+/// Modes within one symmetry class.
+#[derive(Debug)]
+pub(crate) struct BlockModes {
+    /// The products that shapes are sums of.
+    pub(crate) products: Vec<Product>,
+    /// ω² of each mode, ascending, in 1/s².
+    pub(crate) squares: Vec<f64>,
+    /// Bending's share of the elastic energy of each mode; 0 for rigid ones.
+    pub(crate) bending_shares: Vec<f64>,
+    /// Coefficients, products x modes; columns are orthonormal.
+    pub(crate) coefficients: Mat<f64>,
+    /// Largest relative error of a frequency, estimated; infinite where the products do not reach the top.
+    pub(crate) error: f64,
+}
+
+impl BlockModes {
+    /// The same modes with x and y exchanged.
+    pub(crate) fn mirrored(&self) -> Self {
+        Self {
+            products: self.products.iter().map(|p| p.mirrored()).collect(),
+            squares: self.squares.clone(),
+            bending_shares: self.bending_shares.clone(),
+            coefficients: self.coefficients.clone(),
+            error: self.error,
+        }
+    }
+}
+
+/// The modes of one symmetry with ω² up to `top`, rigid ones aside. Functions that the lines hold beyond the symmetry's
+/// measure the error.
+///
+/// `None` if the eigenvalue iteration does not converge.
+pub(crate) fn solve_block(plate: &Plate, symmetry: Symmetry, top: f64, par: Par) -> Option<BlockModes> {
+    let products = plate.products(symmetry);
+    let energy = plate.stiffness(&products, &products);
+    let (squares, coefficients) = lowest(&energy, top, par)?;
+    let reach = |axis: usize, class: Class| {
+        if plate.lines[axis].exact() { class } else { class.until(plate.lines[axis].count()) }
+    };
+    let Symmetry { x, y, mirror } = symmetry;
+    let mut further = plate.products(Symmetry { x: reach(0, x), y: reach(1, y), mirror });
+    further.retain(|p| p.x >= x.end || p.y >= y.end);
+    let error = missing(plate, &further, &products, (&squares, &coefficients), top, par);
+    let inside = squares.partition_point(|v| *v <= top);
+    let squares = squares[..inside].to_vec();
+    let coefficients = coefficients.subcols(0, inside).to_owned();
+    let bending_shares = bending_shares(plate, &products, &squares, &coefficients, par);
+    Some(BlockModes { products, squares, bending_shares, coefficients, error })
+}
+
+/// What is left of each mode's energy without the tension's.
+fn bending_shares(
+    plate: &Plate,
+    products: &[Product],
+    squares: &[f64],
+    coefficients: &Mat<f64>,
+    par: Par,
+) -> Vec<f64> {
+    if plate.tension[0] == 0.0 {
+        return vec![1.0; squares.len()];
+    }
+    let tension = plate.without_bending().stiffness(products, products);
+    let forces = product(tension.as_ref(), coefficients.as_ref(), par);
+    let pairs = coefficients.col_iter().zip(forces.col_iter());
+    pairs
+        .zip(squares)
+        .map(|((shape, force), square)| {
+            let energy: f64 = shape.iter().zip(force.iter()).map(|(c, f)| c * f).sum();
+            (1.0 - energy / square).clamp(0.0, 1.0)
+        })
+        .collect()
+}
+
+/// Eigenvalues up to [`ABOVE`] beyond `top`, and their vectors.
+///
+/// The energy matrix reaches 10¹⁰ times its lowest eigenvalues, and the rounding of its own decomposition would be of
+/// that scale. So (H + top)⁻¹ is decomposed, whose largest eigenvalues are the modes in question. Applying it to their
+/// vectors again sweeps out what rounding left there of the highest energies, and what remains is made second order by
+/// taking the energies once more between them (subspace iteration; Parlett, *The Symmetric Eigenvalue Problem*, 1998,
+/// chapter 14).
+fn lowest(energy: &Mat<f64>, top: f64, par: Par) -> Option<(Vec<f64>, Mat<f64>)> {
+    let n = energy.nrows();
+    let mut shifted = energy.clone();
+    (0..n).for_each(|i| shifted[(i, i)] += top);
+    let inverse = -Llt::new(shifted.as_ref(), Side::Lower).ok()?.inverse();
+    let (values, vectors) = symmetric(inverse.as_ref(), Method::Fast, par)?;
+    let kept = values.partition_point(|v| -1.0 / v - top <= top * (1.0 + ABOVE));
+    let mut vectors = vectors.subcols(0, kept).to_owned();
+    for _ in 0..SWEEPS {
+        let mut swept = product(inverse.as_ref(), vectors.as_ref(), par);
+        for (column, value) in swept.col_iter_mut().zip(&values) {
+            column.iter_mut().for_each(|v| *v /= value);
+        }
+        vectors = orthonormalised(swept, par);
+    }
+    let forces = product(energy.as_ref(), vectors.as_ref(), par);
+    let between = product(vectors.transpose(), forces.as_ref(), par);
+    let (values, rotation) = symmetric(between.as_ref(), Method::Exact, par)?;
+    Some((values, product(vectors.as_ref(), rotation.as_ref(), par)))
+}
+
+/// Largest relative change of a frequency if the products went a quarter further along each side, doubled for all that
+/// lies beyond.
+///
+/// To second order ω² falls by rᵀ(H - ω²)⁻¹r, with r the force that a mode leaves on the further products and H the energy
+/// of all products, the computed modes taken out (Löwdin, *J. Math. Phys.* 3, 969, 1962). They are taken out by lifting
+/// them above the top. Infinite if products that are not yet modes lie below it.
+fn missing(
+    plate: &Plate,
+    further: &[Product],
+    products: &[Product],
+    (squares, coefficients): (&[f64], &Mat<f64>),
+    top: f64,
+    par: Par,
+) -> f64 {
+    let (n, all) = (products.len(), products.len() + further.len());
+    if n == all || squares.is_empty() {
+        return 0.0;
+    }
+    let both = [products, further].concat();
+    let mut lifted = plate.lower_stiffness(&both, top);
+    let inner = lifted.as_mut().submatrix_mut(0, 0, n, n);
+    matmul(inner, Accum::Add, coefficients, coefficients.transpose(), 2.0 * top, par);
+    let Ok(factor) = Llt::new(lifted.as_ref(), Side::Lower) else {
+        return f64::INFINITY;
+    };
+    let mut force = Mat::zeros(all, squares.len());
+    let rest = force.as_mut().subrows_mut(n, further.len());
+    matmul(rest, Accum::Replace, plate.stiffness(further, products), coefficients, 1.0, par);
+    let response = factor.solve(&force);
+    let inside = squares.partition_point(|square| *square <= top);
+    (0..inside)
+        .map(|m| {
+            let change: f64 = force.col(m).iter().zip(response.col(m).iter()).map(|(f, u)| f * u).sum();
+            change / squares[m]
+        })
+        .fold(0.0, f64::max)
+}

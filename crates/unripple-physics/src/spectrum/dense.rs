@@ -1,0 +1,67 @@
+use super::SpectrumError;
+use super::panel::LANES;
+use super::pencil::{Pencil, indefinite};
+use super::piece::Piece;
+use super::plan::{STEP, factor_near};
+use crate::modes::eigen::{Method, product, symmetric};
+use faer::linalg::solvers::Llt;
+use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
+use faer::{Mat, Par, Side};
+
+/// The shift below zero, as a part of the bound: K may be singular, K + τM is not.
+const SHIFT: f64 = 1e-3;
+
+/// All eigenpairs below a bound, or a little above where factors there are better.
+///
+/// With M = LLᵀ and K + τM = RRᵀ, (R⁻¹L)ᵀ(R⁻¹L) has the eigenvalues 1/(λ+τ), so that rounding is of the scale of the
+/// lowest λ, not of the highest.
+///
+/// # Errors
+/// [`SpectrumError::Matrices`] if M is not positive definite or K not semidefinite; [`SpectrumError::Missed`] if the
+/// number of eigenpairs is not that proved by inertia.
+pub(super) fn all(pencil: &Pencil, top: f64) -> Result<Piece, SpectrumError> {
+    let n = pencil.len();
+    let bound = factor_near(pencil, top, top * STEP)?;
+    let shift = SHIFT * top;
+    let mass = full(pencil, |_, m| m);
+    let shifted = full(pencil, |k, m| k + shift * m);
+    let mass = Llt::new(mass.as_ref(), Side::Lower).map_err(|_| indefinite(-1.0))?;
+    let stiff = Llt::new(shifted.as_ref(), Side::Lower).map_err(|_| indefinite(-1.0))?;
+    let mut ratio = mass.L().to_owned();
+    solve_lower_triangular_in_place(stiff.L(), ratio.as_mut(), Par::Seq);
+    let inverse = product(ratio.transpose(), ratio.as_ref(), Par::Seq);
+    let missed = |found| SpectrumError::Missed { top: bound.shift, expected: bound.below, found };
+    let (inverses, vectors) =
+        symmetric(inverse.as_ref(), Method::Exact, Par::Seq).ok_or_else(|| missed(0))?;
+    let value = |i: usize| 1.0 / inverses[n - 1 - i] - shift;
+    let found = (0..n).take_while(|i| value(*i) < bound.shift).count();
+    if found != bound.below {
+        return Err(missed(found));
+    }
+    let mut chosen = Mat::from_fn(n, found, |i, j| vectors[(i, n - 1 - j)]);
+    let rest = product(inverse.as_ref(), chosen.as_ref(), Par::Seq);
+    let residuals = (0..found).map(|j| {
+        let inverse = inverses[n - 1 - j];
+        (rest.col(j) - chosen.col(j) * faer::Scale(inverse)).norm_l2() / inverse
+    });
+    let residuals = residuals.collect();
+    solve_upper_triangular_in_place(mass.L().transpose(), chosen.as_mut(), Par::Seq);
+    let entry = |i: usize, j: usize| if j < found { chosen[(i, j)] } else { 0.0 };
+    let panel = |first: usize| (0..n).map(|i| std::array::from_fn(|lane| entry(i, first + lane))).collect();
+    let panels = (0..found).step_by(LANES).map(panel).collect();
+    Ok(Piece::new((0..found).map(value).collect(), residuals, panels, 0))
+}
+
+/// A sum of K and M with both triangles.
+fn full(pencil: &Pencil, sum: impl Fn(f64, f64) -> f64) -> Mat<f64> {
+    let lower = &pencil.lower;
+    let mut out = Mat::zeros(pencil.len(), pencil.len());
+    for j in 0..pencil.len() {
+        for at in lower.pattern.col_range(j) {
+            let i = lower.pattern.row_idx()[at];
+            out[(i, j)] = sum(lower.stiffness[at], lower.mass[at]);
+            out[(j, i)] = out[(i, j)];
+        }
+    }
+    out
+}

@@ -1,0 +1,158 @@
+use super::SpectrumError;
+use super::panel::TILE;
+use super::pencil::Pencil;
+use faer::Par;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
+use faer::sparse::SparseColMatRef;
+use faer::sparse::linalg::cholesky::supernodal::{
+    SupernodalLdltRef, SymbolicSupernodalCholesky, factorize_supernodal_numeric_ldlt,
+    factorize_supernodal_numeric_ldlt_scratch,
+};
+
+/// K - σM = L D Lᵀ, without exchange of rows or columns but those of the pencil's order.
+#[derive(Debug)]
+pub(super) struct Factor<'a> {
+    /// σ.
+    pub(super) shift: f64,
+    /// Number of negative pivots: by Sylvester's law of inertia that of eigenvalues below σ.
+    pub(super) below: usize,
+    /// How far |L||D||Lᵀ| exceeds the matrix's diagonal, where most: rounding changes the matrix by that much more than
+    /// its own.
+    pub(super) growth: f64,
+    pub(super) nodes: Nodes<'a>,
+}
+
+/// L and D supernode by supernode, each in rows of tiles, so that solving reads memory once forwards and once backwards.
+#[derive(Debug)]
+pub(super) struct Nodes<'a> {
+    supernodes: &'a SymbolicSupernodalCholesky<usize>,
+    tiles: Vec<[f64; TILE]>,
+    /// Where each supernode's tiles begin.
+    starts: Vec<usize>,
+    inverse_pivots: Vec<f64>,
+}
+
+/// One supernode.
+pub(super) struct Node<'a> {
+    /// Its first column.
+    pub(super) start: usize,
+    /// Its number of columns.
+    pub(super) width: usize,
+    /// Numbers of its rows below the triangle.
+    pub(super) pattern: &'a [usize],
+    /// The unit triangle: the tile of rows 4t to 4t + 3 has 4t + 4 columns.
+    pub(super) top: &'a [[f64; TILE]],
+    /// The rows below; each tile has all columns.
+    pub(super) below: &'a [[f64; TILE]],
+    /// 1/D.
+    pub(super) inverse_pivots: &'a [f64],
+}
+
+impl<'a> Factor<'a> {
+    /// Factors at one shift; `None` if a pivot is zero or not finite.
+    ///
+    /// # Errors
+    /// [`SpectrumError::Matrices`] if memory does not hold them.
+    pub(super) fn new(pencil: &'a Pencil, shift: f64, par: Par) -> Result<Option<Self>, SpectrumError> {
+        let supernodes = pencil.supernodes()?;
+        let lower = &pencil.lower;
+        let shifted: Vec<f64> = lower.stiffness.iter().zip(&lower.mass).map(|(k, m)| k - shift * m).collect();
+        let matrix = SparseColMatRef::new(lower.pattern.as_ref(), &shifted);
+        let mut values = vec![0.0; supernodes.len_val()];
+        let needed =
+            factorize_supernodal_numeric_ldlt_scratch::<usize, f64>(supernodes, par, Default::default());
+        let mut buffer = MemBuffer::try_new(needed).map_err(|_| pencil.too_large())?;
+        let stack = MemStack::new(&mut buffer);
+        let (none, params) = (LdltRegularization::default(), Default::default());
+        let done =
+            factorize_supernodal_numeric_ldlt(&mut values, matrix, none, supernodes, par, stack, params);
+        if done.is_err() {
+            return Ok(None);
+        }
+        let factor = SupernodalLdltRef::new(supernodes, &values);
+        let starts = &lower.pattern.col_ptr()[..pencil.len()];
+        let sizes = starts.iter().map(|at| lower.stiffness[*at] + shift.abs() * lower.mass[*at]);
+        let Some((below, growth)) = pivots(factor, &sizes.collect::<Vec<_>>()) else { return Ok(None) };
+        Ok(Some(Self { shift, below, growth, nodes: Nodes::new(supernodes, factor) }))
+    }
+}
+
+/// Number of negative pivots, and how far |L||D||Lᵀ| exceeds `diagonal` on the diagonal, where most; `None` unless all
+/// pivots are numbers other than zero.
+fn pivots(factor: SupernodalLdltRef<usize, f64>, diagonal: &[f64]) -> Option<(usize, f64)> {
+    let mut below = 0;
+    let mut sizes = vec![0.0; diagonal.len()];
+    for s in 0..factor.symbolic().n_supernodes() {
+        let node = factor.supernode(s);
+        let columns = node.val();
+        let width = columns.ncols();
+        for (j, column) in columns.col_iter().enumerate() {
+            let pivot = column[j];
+            if pivot == 0.0 || !pivot.is_finite() {
+                return None;
+            }
+            below += usize::from(pivot < 0.0);
+            sizes[node.start() + j] += pivot.abs();
+            let places = (node.start() + j + 1..node.start() + width).chain(node.pattern().iter().copied());
+            for (i, l) in places.zip(column.subrows(j + 1, column.nrows() - j - 1).iter()) {
+                sizes[i] += l * l * pivot.abs();
+            }
+        }
+    }
+    let growth = sizes.iter().zip(diagonal).map(|(size, d)| size / d.abs().max(f64::MIN_POSITIVE));
+    Some((below, growth.fold(0.0, f64::max)))
+}
+
+impl<'a> Nodes<'a> {
+    fn new(supernodes: &'a SymbolicSupernodalCholesky<usize>, factor: SupernodalLdltRef<usize, f64>) -> Self {
+        let mut tiles = Vec::with_capacity(factor.values().len().div_ceil(TILE) * 9 / 8);
+        let (mut starts, mut inverse_pivots) = (Vec::new(), Vec::new());
+        for s in 0..supernodes.n_supernodes() {
+            starts.push(tiles.len());
+            let columns = factor.supernode(s).val();
+            let (height, width) = columns.shape();
+            for first in (0..width).step_by(TILE) {
+                let high = TILE.min(width - first);
+                tiles.extend((0..first + TILE).map(|j| {
+                    let mut tile = [0.0; TILE];
+                    if j < width {
+                        for (t, l) in tile[..high].iter_mut().enumerate() {
+                            *l = columns[(first + t, j)];
+                        }
+                    }
+                    tile
+                }));
+            }
+            for first in (width..height).step_by(TILE) {
+                let high = TILE.min(height - first);
+                tiles.extend(columns.subrows(first, high).col_iter().map(|column| {
+                    let mut tile = [0.0; TILE];
+                    tile.iter_mut().zip(column.iter()).for_each(|(l, v)| *l = *v);
+                    tile
+                }));
+            }
+            inverse_pivots.extend((0..width).map(|j| 1.0 / columns[(j, j)]));
+        }
+        starts.push(tiles.len());
+        Self { supernodes, tiles, starts, inverse_pivots }
+    }
+
+    /// Number of supernodes.
+    pub(super) fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// One supernode.
+    #[inline(always)]
+    pub(super) fn at(&self, s: usize) -> Node<'_> {
+        let start = self.supernodes.supernode_begin()[s];
+        let width = self.supernodes.supernode_end()[s] - start;
+        let pattern = self.supernodes.supernode(s).pattern();
+        let count = width.div_ceil(TILE);
+        let (top, below) =
+            self.tiles[self.starts[s]..self.starts[s + 1]].split_at(TILE * count * (count + 1) / 2);
+        let inverse_pivots = &self.inverse_pivots[start..start + width];
+        Node { start, width, pattern, top, below, inverse_pivots }
+    }
+}

@@ -1,0 +1,226 @@
+use super::SpectrumError;
+use super::factor::Factor;
+use super::panel::{LANES, NONE, Panel, Row, project, subtract, transform};
+use super::pencil::Pencil;
+use super::random::Random;
+use super::solve::solve;
+use super::square::{Square, Triangle, identity, product, transposed};
+use crate::modes::eigen::{Method, symmetric};
+use faer::{Mat, Par};
+
+/// Ratio of the smallest to the largest pivot of a panel's Gram matrix, its columns scaled to one, below which rounding
+/// calls for another pass.
+const WELL: f64 = 1e-2;
+/// The ratio below which that pass goes over all panels.
+const ILL: f64 = 1e-4;
+/// Passes at most.
+const PASSES: usize = 6;
+/// Part of a vector that may be taken from it without weighing it again.
+const ROUNDING: f64 = 1e-13;
+/// What remains of a vector, relatively, if it lay among the others but for rounding.
+const NOTHING: f64 = 1e-14;
+
+/// Block Lanczos iteration on (K - σM)⁻¹M (Grimes, Lewis and Simon, *SIAM J. Matrix Anal. Appl.* 15, 228, 1994), a panel
+/// each step, all vectors kept M-orthonormal.
+///
+/// Each new panel loses what the recurrence says first and what rounding left of all the others after, which suffices as
+/// that is small.
+pub(super) struct Lanczos<'a> {
+    pencil: &'a Pencil,
+    factor: &'a Factor<'a>,
+    /// Number of panels kept out of the basis: eigenvectors that are known already.
+    known: usize,
+    /// The known ones and then the basis; the operator has not been applied to the last.
+    panels: Vec<Panel>,
+    /// M times the last panel.
+    weighed: Panel,
+    /// The operator between the panels of the basis: squares on the diagonal, and those below it.
+    diagonal: Vec<Square>,
+    below: Vec<Square>,
+    random: Random,
+    /// Scratch.
+    rows: Vec<Row>,
+}
+
+/// What the basis says of the eigenpairs.
+pub(super) struct Ritz {
+    /// 1/(λ-σ), ascending: the nearest λ below σ comes first, the nearest above last.
+    pub(super) inverses: Vec<f64>,
+    /// Norms in M of (K - σM)⁻¹Mx - x/(λ-σ), times abs(λ-σ).
+    pub(super) residuals: Vec<f64>,
+    /// Their vectors in the basis.
+    pub(super) vectors: Mat<f64>,
+}
+
+impl<'a> Lanczos<'a> {
+    /// A basis of one panel, M-orthogonal to known eigenvectors.
+    ///
+    /// # Errors
+    /// [`SpectrumError::Matrices`] if M is not positive definite.
+    pub(super) fn new(
+        pencil: &'a Pencil,
+        factor: &'a Factor<'a>,
+        known: Vec<Panel>,
+        seed: u64,
+    ) -> Result<Self, SpectrumError> {
+        let mut random = Random(seed);
+        let mut start: Panel = (0..pencil.len()).map(|_| random.row()).collect();
+        let mut lanczos = Self {
+            pencil,
+            factor,
+            known: known.len(),
+            panels: known,
+            weighed: vec![NONE; pencil.len()],
+            diagonal: Vec::new(),
+            below: Vec::new(),
+            random,
+            rows: Vec::new(),
+        };
+        solve(pencil.arch, factor, &mut start, &mut lanczos.rows);
+        lanczos.append(start)?;
+        Ok(lanczos)
+    }
+
+    /// Number of vectors that the operator has been applied to.
+    pub(super) fn len(&self) -> usize {
+        self.diagonal.len() * LANES
+    }
+
+    /// Number of vectors there is no room beside.
+    pub(super) fn taken(&self) -> usize {
+        self.panels.len() * LANES
+    }
+
+    /// Applies the operator to the last panel.
+    ///
+    /// # Errors
+    /// [`SpectrumError::Matrices`] if M is not positive definite.
+    pub(super) fn step(&mut self) -> Result<(), SpectrumError> {
+        let arch = self.pencil.arch;
+        let mut new = self.weighed.clone();
+        solve(arch, self.factor, &mut new, &mut self.rows);
+        let middle = project(arch, [&self.weighed], &new)[0];
+        let count = self.panels.len();
+        subtract(arch, &self.panels[count - 1..], &[middle], &mut new);
+        if let Some(below) = self.below.last() {
+            subtract(arch, &self.panels[count - 2..count - 1], &[transposed(below)], &mut new);
+        }
+        let other = transposed(&middle);
+        self.diagonal
+            .push(std::array::from_fn(|i| std::array::from_fn(|j| 0.5 * (middle[i][j] + other[i][j]))));
+        let below = self.append(new)?;
+        self.below.push(below);
+        Ok(())
+    }
+
+    /// Makes a panel M-orthonormal, also to all others, and appends it. What comes back are the coefficients of the panel
+    /// given in the one appended.
+    fn append(&mut self, mut new: Panel) -> Result<Square, SpectrumError> {
+        let (arch, pencil) = (self.pencil.arch, self.pencil);
+        let mut coefficients = identity();
+        let mut first = 0;
+        pencil.weigh(&new, &mut self.weighed);
+        for _ in 0..PASSES {
+            let before = squares(&project(arch, [&new], &self.weighed));
+            if first < self.panels.len() {
+                let factors = project(arch, &self.panels[first..], &self.weighed);
+                subtract(arch, &self.panels[first..], &factors, &mut new);
+                if !factors.iter().all(|factor| small(factor, &before)) {
+                    pencil.weigh(&new, &mut self.weighed);
+                }
+            }
+            let gram = project(arch, [&new], &self.weighed);
+            let left: Row = std::array::from_fn(|i| squares(&gram)[i] / before[i]);
+            first = 0;
+            if !left.iter().all(|l| *l > NOTHING * NOTHING) {
+                self.replace(&mut new, left.map(|l| l.is_nan() || l <= NOTHING * NOTHING), &mut coefficients);
+                continue;
+            }
+            let triangle = Triangle::of(&gram[0])?;
+            transform(arch, &triangle.inverse, &mut new);
+            transform(arch, &triangle.inverse, &mut self.weighed);
+            coefficients = product(&triangle.upper, &coefficients);
+            let ratio = left.iter().fold(triangle.ratio, |a, b| a.min(*b));
+            if ratio > WELL {
+                break;
+            }
+            if ratio > ILL {
+                first = self.panels.len();
+            } else {
+                pencil.weigh(&new, &mut self.weighed);
+            }
+        }
+        self.panels.push(new);
+        Ok(coefficients)
+    }
+
+    /// Puts random vectors in place of those that the basis holds already.
+    fn replace(&mut self, new: &mut Panel, spent: [bool; LANES], coefficients: &mut Square) {
+        for row in new.iter_mut() {
+            let random = self.random.row();
+            for ((x, random), spent) in row.iter_mut().zip(random).zip(spent) {
+                if spent {
+                    *x = random;
+                }
+            }
+        }
+        for row in coefficients {
+            row.iter_mut().zip(spent).filter(|(_, spent)| *spent).for_each(|(c, _)| *c = 0.0);
+        }
+        self.pencil.weigh(new, &mut self.weighed);
+    }
+
+    /// The eigenpairs of the operator within the basis; `None` if their iteration does not converge.
+    pub(super) fn ritz(&self) -> Option<Ritz> {
+        let count = self.len();
+        let mut between = Mat::zeros(count, count);
+        for (s, (middle, below)) in self.diagonal.iter().zip(&self.below).enumerate() {
+            for i in 0..LANES {
+                for j in 0..LANES {
+                    between[(s * LANES + i, s * LANES + j)] = middle[i][j];
+                    if s + 1 < self.diagonal.len() {
+                        between[((s + 1) * LANES + i, s * LANES + j)] = below[i][j];
+                    }
+                }
+            }
+        }
+        let (inverses, vectors) = symmetric(between.as_ref(), Method::Exact, Par::Seq)?;
+        let last = self.below.last()?;
+        let residuals = vectors.col_iter().zip(&inverses).map(|(vector, inverse)| {
+            let end = vector.subrows(count - LANES, LANES);
+            let rest = last.iter().map(|row| row.iter().zip(end.iter()).map(|(l, v)| l * v).sum::<f64>());
+            rest.map(|r| r * r).sum::<f64>().sqrt() / inverse.abs()
+        });
+        Some(Ritz { residuals: residuals.collect(), inverses, vectors })
+    }
+
+    /// Vectors of the space from those in the basis, numbered; the last panel is filled up with zeros.
+    pub(super) fn vectors(&self, ritz: &Ritz, numbers: &[usize]) -> Vec<Panel> {
+        let panels = &self.panels[self.known..][..self.diagonal.len()];
+        let mut out = Vec::new();
+        for numbers in numbers.chunks(LANES) {
+            let factor = |p: usize| -> Square {
+                std::array::from_fn(|i| {
+                    std::array::from_fn(|j| {
+                        numbers.get(j).map_or(0.0, |number| -ritz.vectors[(p * LANES + i, *number)])
+                    })
+                })
+            };
+            let factors: Vec<Square> = (0..panels.len()).map(factor).collect();
+            let mut panel = vec![NONE; self.pencil.len()];
+            subtract(self.pencil.arch, panels, &factors, &mut panel);
+            out.push(panel);
+        }
+        out
+    }
+}
+
+/// Whether what is taken from each vector is nothing but rounding, given the squares of their norms.
+fn small(factor: &Square, squares: &Row) -> bool {
+    factor.iter().all(|row| row.iter().zip(squares).all(|(f, s)| f * f <= ROUNDING * ROUNDING * s))
+}
+
+/// Squares of norms, from the Gram matrix.
+fn squares(gram: &[Square]) -> Row {
+    std::array::from_fn(|i| gram[0][i][i])
+}

@@ -1,0 +1,177 @@
+use super::SpectrumError;
+use super::panel::{NONE, Panel, project, subtract};
+use super::pencil::Pencil;
+use super::piece::Piece;
+use super::plan::{Plan, Shift, factor_near};
+use super::run::{Wanted, nearest};
+use super::square::transposed;
+use rayon::prelude::*;
+
+/// Eigenpairs asked for beyond those that a shift is meant to give, so that clusters need not be parted.
+const MARGIN: usize = 2;
+/// Part of an interval that must lie free between the eigenvalues of one shift and those of the next.
+const CLEAR: f64 = 1e-6;
+/// Rounds of looking for eigenvectors of the same eigenvalue, each as many as a panel holds.
+const ROUNDS: usize = 40;
+/// Panels on either side of a boundary that are made orthogonal to each other.
+const NEIGHBOURS: usize = 3;
+
+/// An interval between two shifts, or at the ends.
+#[derive(Clone, Copy, Debug)]
+struct Gap {
+    from: f64,
+    to: f64,
+    /// Numbers of eigenvalues below its ends.
+    below: [usize; 2],
+}
+
+impl Gap {
+    fn count(&self) -> usize {
+        self.below[1] - self.below[0]
+    }
+
+    fn holds(&self, value: f64) -> bool {
+        let beyond = 1e-9 * self.to.abs();
+        value > self.from && value < self.to + beyond
+    }
+}
+
+/// All eigenpairs below the bound of a plan, piece by piece, ascending.
+///
+/// # Errors
+/// [`SpectrumError::Missed`] if their number is not that proved by inertia.
+pub(super) fn all(pencil: &Pencil, mut plan: Plan) -> Result<Vec<Piece>, SpectrumError> {
+    let gaps = gaps(&plan);
+    let wanted: Vec<Wanted> =
+        gaps.windows(2).enumerate().map(|(i, pair)| wanted(pair, i, gaps.len())).collect();
+    let pieces: Vec<Piece> = std::mem::take(&mut plan.shifts)
+        .into_par_iter()
+        .zip(&wanted)
+        .enumerate()
+        .map(|(i, (shift, wanted))| run(pencil, shift, *wanted, i as u64))
+        .collect::<Result<_, _>>()?;
+    let parted: Vec<Option<usize>> = gaps.iter().enumerate().map(|(i, gap)| part(gap, i, &pieces)).collect();
+    let mut out: Vec<Piece> = Vec::new();
+    let mut pieces = pieces.into_iter();
+    for (i, (gap, here)) in gaps.iter().zip(&parted).enumerate() {
+        if here.is_none() {
+            out.push(resolve(pencil, gap)?);
+        }
+        if let Some(mut piece) = pieces.next() {
+            let from = here.map_or(piece.left, |right| piece.left + right - gap.count());
+            piece.keep(from..piece.left + parted[i + 1].unwrap_or(0));
+            out.push(piece);
+        }
+    }
+    out.retain(|piece| !piece.values.is_empty());
+    for i in 1..out.len() {
+        let (before, after) = out.split_at_mut(i);
+        let (before, after) = (&mut before[i - 1].panels, &mut after[0].panels);
+        let (from, to) = (before.len().saturating_sub(NEIGHBOURS), after.len().min(NEIGHBOURS));
+        separate(pencil, &mut before[from..], &mut after[..to]);
+    }
+    let found = out.iter().map(|piece| piece.values.len()).sum();
+    if found != plan.below {
+        return Err(SpectrumError::Missed { top: plan.top, expected: plan.below, found });
+    }
+    Ok(out)
+}
+
+/// The intervals that shifts part, from below all eigenvalues to the bound.
+fn gaps(plan: &Plan) -> Vec<Gap> {
+    let ends = plan.shifts.iter().map(|s| (s.at, s.below)).chain([(plan.top, plan.below)]);
+    let mut start = (f64::NEG_INFINITY, 0);
+    ends.map(|end| {
+        let gap = Gap { from: start.0, to: end.0, below: [start.1, end.1] };
+        start = end;
+        gap
+    })
+    .collect()
+}
+
+/// What the shift between the i-th gap and the next is asked for.
+fn wanted(pair: &[Gap], i: usize, count: usize) -> Wanted {
+    let (left, right) = (pair[0].count(), pair[1].count());
+    Wanted {
+        left: if i == 0 { left } else { left.min(left.div_ceil(2) + MARGIN) },
+        right: if i + 2 == count { right } else { right.min(right.div_ceil(2) + MARGIN) },
+    }
+}
+
+fn run(pencil: &Pencil, shift: Shift, wanted: Wanted, seed: u64) -> Result<Piece, SpectrumError> {
+    if wanted == Wanted::default() {
+        return Ok(Piece::default());
+    }
+    let factor = match shift.factor {
+        Some(factor) => factor,
+        None => factor_near(pencil, shift.at, 0.0)?,
+    };
+    nearest(pencil, &factor, wanted, &[], seed)
+}
+
+/// How many of a gap's eigenpairs the shift at its start gives, the others coming from the shift at its end; `None` if
+/// what both found does not make up the gap.
+fn part(gap: &Gap, i: usize, pieces: &[Piece]) -> Option<usize> {
+    let count = gap.count();
+    let right: &[f64] = if i == 0 { &[] } else { pieces[i - 1].right() };
+    let left: &[f64] = pieces.get(i).map_or(&[], |piece| &piece.values[..piece.left]);
+    let clear = |p: usize| {
+        let last = right[..p].last().copied();
+        let first = left[left.len() - (count - p)..].first().copied();
+        match (last, first) {
+            (Some(last), Some(first)) => (first - last) / (gap.to - gap.from),
+            (last, first) => {
+                let inside = last.or(first).is_none_or(|value| gap.holds(value));
+                if inside { 2.0 * CLEAR } else { f64::NEG_INFINITY }
+            }
+        }
+    };
+    let possible = count.saturating_sub(left.len())..=count.min(right.len());
+    let (clearance, p) = possible.map(|p| (clear(p), p)).max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (clearance > CLEAR).then_some(p)
+}
+
+/// All eigenpairs within a gap from a shift of their own, those already found kept out until none is missing. So an
+/// eigenvalue is found with all its vectors, however many.
+fn resolve(pencil: &Pencil, gap: &Gap) -> Result<Piece, SpectrumError> {
+    let low = gap.from.max(0.0);
+    let factor = factor_near(pencil, low + 0.47 * (gap.to - low), 0.01 * (gap.to - low))?;
+    let mut whole = Piece::default();
+    for round in 0..ROUNDS {
+        let done = whole.values.iter().filter(|value| **value < factor.shift).count();
+        let wanted = Wanted {
+            left: factor.below.saturating_sub(gap.below[0] + done),
+            right: gap.below[1].saturating_sub(factor.below.max(gap.below[0]) + whole.values.len() - done),
+        };
+        if wanted == Wanted::default() {
+            break;
+        }
+        let mut piece = nearest(pencil, &factor, wanted, &whole.panels, round as u64)?;
+        let from = piece.values.partition_point(|value| *value <= gap.from);
+        piece.keep(from..piece.values.partition_point(|value| gap.holds(*value)).max(from));
+        if piece.values.is_empty() {
+            break;
+        }
+        whole.append(piece);
+    }
+    Ok(whole)
+}
+
+/// Takes from the vectors of two pieces, M-orthonormal each, what they have in common, in equal parts.
+fn separate(pencil: &Pencil, before: &mut [Panel], after: &mut [Panel]) {
+    let old = after.to_vec();
+    let mut factors = vec![Vec::new(); before.len()];
+    let mut weighed = vec![NONE; pencil.len()];
+    for panel in after.iter_mut() {
+        pencil.weigh(panel, &mut weighed);
+        let mut halves = project(pencil.arch, before.iter(), &weighed);
+        halves.iter_mut().flatten().flatten().for_each(|v| *v *= 0.5);
+        subtract(pencil.arch, before, &halves, panel);
+        for (factors, half) in factors.iter_mut().zip(&halves) {
+            factors.push(transposed(half));
+        }
+    }
+    for (panel, factors) in before.iter_mut().zip(&factors) {
+        subtract(pencil.arch, &old, factors, panel);
+    }
+}

@@ -1,0 +1,242 @@
+use super::SpectrumError;
+use super::panel::{NONE, Row, add};
+use faer::Side;
+use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
+use pulp::{Arch, NullaryFnOnce};
+
+/// The pencil K x = λ M x with its unknowns scaled and ordered: K ← SPᵀKPS, and M likewise.
+///
+/// S makes the diagonal of M one, to the nearest power of two, so that scaling rounds nothing. P keeps the factors of
+/// K - σM sparse (approximate minimum degree).
+#[derive(Debug)]
+pub(super) struct Pencil {
+    /// The given unknown that comes i-th here.
+    pub(super) order: Vec<usize>,
+    /// S, in the order here.
+    pub(super) scale: Vec<f64>,
+    /// The lower triangles of K and M on one pattern.
+    pub(super) lower: Lower,
+    /// All of M, row by row.
+    rows: Rows,
+    symbolic: SymbolicCholesky<usize>,
+    /// What the processor can do at once.
+    pub(super) arch: Arch,
+}
+
+/// Lower triangles of two symmetric matrices, column by column.
+#[derive(Debug)]
+pub(super) struct Lower {
+    pub(super) pattern: SymbolicSparseColMat<usize>,
+    pub(super) stiffness: Vec<f64>,
+    pub(super) mass: Vec<f64>,
+}
+
+#[derive(Debug)]
+struct Rows {
+    starts: Vec<usize>,
+    columns: Vec<u32>,
+    values: Vec<f64>,
+}
+
+impl Pencil {
+    /// The pencil of two matrices given with both triangles, of which those entries are read that come to lie below the
+    /// diagonal.
+    ///
+    /// # Errors
+    /// [`SpectrumError::Matrices`] unless both are square, alike in size, finite, and M's diagonal positive.
+    pub(super) fn new(
+        stiffness: SparseColMatRef<usize, f64>,
+        mass: SparseColMatRef<usize, f64>,
+    ) -> Result<Self, SpectrumError> {
+        check(stiffness, mass)?;
+        let n = stiffness.nrows();
+        let given: Vec<usize> = (0..n).collect();
+        let unscaled = Lower::new(stiffness, mass, &given, &vec![1.0; n])?;
+        let diagonal: Vec<f64> = (0..n).map(|j| unscaled.mass[unscaled.pattern.col_ptr()[j]]).collect();
+        if let Some(bad) = diagonal.iter().find(|d| **d <= 0.0) {
+            return Err(indefinite(*bad));
+        }
+        let params = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            ..Default::default()
+        };
+        let symbolic = factorize_symbolic_cholesky(
+            unscaled.pattern.as_ref(),
+            Side::Lower,
+            SymmetricOrdering::Amd,
+            params,
+        )
+        .map_err(|_| too_large(n))?;
+        let order = symbolic.perm().map_or(given, |p| p.arrays().0.to_vec());
+        let scale: Vec<f64> = order.iter().map(|i| (-0.5 * diagonal[*i].log2()).round().exp2()).collect();
+        let lower = Lower::new(stiffness, mass, &order, &scale)?;
+        let rows = lower.mass_rows();
+        Ok(Self { order, scale, lower, rows, symbolic, arch: Arch::new() })
+    }
+
+    /// Number of unknowns.
+    pub(super) fn len(&self) -> usize {
+        self.order.len()
+    }
+
+    /// The structure of the factors, always one of supernodes.
+    pub(super) fn supernodes(&self) -> Result<&SymbolicSupernodalCholesky<usize>, SpectrumError> {
+        match self.symbolic.raw() {
+            SymbolicCholeskyRaw::Supernodal(supernodes) => Ok(supernodes),
+            SymbolicCholeskyRaw::Simplicial(_) => Err(self.too_large()),
+        }
+    }
+
+    /// Bytes of the factors at one shift.
+    pub(super) fn factor_bytes(&self) -> usize {
+        self.supernodes().map_or(0, |s| s.len_val() * size_of::<f64>())
+    }
+
+    /// What is wrong if memory does not hold the factors.
+    pub(super) fn too_large(&self) -> SpectrumError {
+        too_large(self.len())
+    }
+
+    /// Z = M W.
+    pub(super) fn weigh(&self, w: &[Row], z: &mut [Row]) {
+        self.arch.dispatch(Weigh { rows: &self.rows, w, z });
+    }
+}
+
+struct Weigh<'a> {
+    rows: &'a Rows,
+    w: &'a [Row],
+    z: &'a mut [Row],
+}
+
+impl NullaryFnOnce for Weigh<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        for (z, ends) in self.z.iter_mut().zip(self.rows.starts.windows(2)) {
+            let mut sum = NONE;
+            let columns = &self.rows.columns[ends[0]..ends[1]];
+            for (j, m) in columns.iter().zip(&self.rows.values[ends[0]..ends[1]]) {
+                add(&mut sum, *m, &self.w[*j as usize]);
+            }
+            *z = sum;
+        }
+    }
+}
+
+impl Lower {
+    /// The entries that come to lie on and below the diagonal.
+    fn new(
+        stiffness: SparseColMatRef<usize, f64>,
+        mass: SparseColMatRef<usize, f64>,
+        order: &[usize],
+        scale: &[f64],
+    ) -> Result<Self, SpectrumError> {
+        let n = order.len();
+        let mut place = vec![0; n];
+        order.iter().enumerate().for_each(|(new, old)| place[*old] = new);
+        let (mut starts, mut rows) = (vec![0], Vec::new());
+        let (mut k, mut m) = (Vec::new(), Vec::new());
+        let mut column: Vec<(usize, f64, f64)> = Vec::new();
+        for (j, old) in order.iter().enumerate() {
+            column.clear();
+            let below = |i: &usize| place[*i] >= j;
+            let stiff = stiffness.row_idx_of_col(*old).zip(stiffness.val_of_col(*old));
+            let heavy = mass.row_idx_of_col(*old).zip(mass.val_of_col(*old));
+            column.push((j, 0.0, 0.0));
+            column.extend(stiff.filter(|(i, _)| below(i)).map(|(i, v)| (place[i], *v, 0.0)));
+            column.extend(heavy.filter(|(i, _)| below(i)).map(|(i, v)| (place[i], 0.0, *v)));
+            column.sort_unstable_by_key(|(i, ..)| *i);
+            for same in column.chunk_by(|a, b| a.0 == b.0) {
+                let (i, factor) = (same[0].0, scale[same[0].0] * scale[j]);
+                rows.push(i);
+                k.push(factor * same.iter().map(|(_, v, _)| v).sum::<f64>());
+                m.push(factor * same.iter().map(|(.., v)| v).sum::<f64>());
+            }
+            starts.push(rows.len());
+        }
+        let pattern = SymbolicSparseColMat::new_checked(n, n, starts, None, rows);
+        Ok(Self { pattern, stiffness: k, mass: m })
+    }
+
+    fn mass_rows(&self) -> Rows {
+        let n = self.pattern.ncols();
+        let lower = || {
+            (0..n).flat_map(move |j| {
+                self.pattern.col_range(j).map(move |at| (self.pattern.row_idx()[at], j, self.mass[at]))
+            })
+        };
+        let mut starts = vec![0; n + 1];
+        for (i, j, m) in lower() {
+            if m != 0.0 {
+                starts[i + 1] += 1;
+                starts[j + 1] += usize::from(i != j);
+            }
+        }
+        (0..n).for_each(|i| starts[i + 1] += starts[i]);
+        let mut next = starts.clone();
+        let (mut columns, mut values) = (vec![0; starts[n]], vec![0.0; starts[n]]);
+        let mut put = |i: usize, j: usize, m: f64| {
+            columns[next[i]] = j as u32;
+            values[next[i]] = m;
+            next[i] += 1;
+        };
+        for (i, j, m) in lower() {
+            if m != 0.0 {
+                put(i, j, m);
+                if i != j {
+                    put(j, i, m);
+                }
+            }
+        }
+        Rows { starts, columns, values }
+    }
+}
+
+fn check(
+    stiffness: SparseColMatRef<usize, f64>,
+    mass: SparseColMatRef<usize, f64>,
+) -> Result<(), SpectrumError> {
+    let n = stiffness.nrows();
+    for matrix in [stiffness, mass] {
+        if (matrix.nrows(), matrix.ncols()) != (n, n) {
+            return Err(SpectrumError::Matrices {
+                what: "size of a matrix",
+                expected: format!("{n} x {n}"),
+                found: format!("{} x {}", matrix.nrows(), matrix.ncols()),
+            });
+        }
+        if let Some(bad) = (0..n).flat_map(|j| matrix.val_of_col(j)).find(|v| !v.is_finite()) {
+            return Err(SpectrumError::Matrices {
+                what: "entry of a matrix",
+                expected: "a finite number".to_owned(),
+                found: bad.to_string(),
+            });
+        }
+    }
+    if n >= u32::MAX as usize { Err(too_large(n)) } else { Ok(()) }
+}
+
+/// What is wrong with a mass matrix that gives this as xᵀMx.
+pub(super) fn indefinite(found: f64) -> SpectrumError {
+    SpectrumError::Matrices {
+        what: "square of a norm in M",
+        expected: "a positive number".to_owned(),
+        found: format!("{found:e}"),
+    }
+}
+
+fn too_large(n: usize) -> SpectrumError {
+    SpectrumError::Matrices {
+        what: "unknowns",
+        expected: "as many as memory and indices hold".to_owned(),
+        found: n.to_string(),
+    }
+}

@@ -1,0 +1,118 @@
+use super::SpectrumError;
+use super::factor::Factor;
+use super::pencil::Pencil;
+use faer::Par;
+use rayon::prelude::*;
+
+/// Eigenpairs that a shift is asked for, about.
+pub(super) const SHARE: usize = 160;
+/// Growth of the factors, for each eigenvalue below, beyond which another shift is tried.
+const GROWTH: f64 = 16.0;
+/// Shifts tried.
+const TRIES: usize = 6;
+/// How far apart, relatively.
+pub(super) const STEP: f64 = 1e-3;
+/// Rounds of placing shifts.
+const ROUNDS: usize = 4;
+/// How far a shift may stand from its place, as a part of the eigenpairs of each.
+const SLACK: f64 = 0.1;
+/// Bytes that factors may take while they wait for their use.
+pub(super) const KEPT: usize = 1 << 28;
+
+/// A shift and what is known there.
+#[derive(Debug)]
+pub(super) struct Shift<'a> {
+    pub(super) at: f64,
+    /// Number of eigenvalues below.
+    pub(super) below: usize,
+    /// Its factors, if memory allows to keep them.
+    pub(super) factor: Option<Factor<'a>>,
+}
+
+/// Shifts, ascending, each with about as many eigenvalues from one to the next, and half as many at the ends.
+#[derive(Debug)]
+pub(super) struct Plan<'a> {
+    pub(super) shifts: Vec<Shift<'a>>,
+    /// The bound, itself no eigenvalue, and the number of eigenvalues below.
+    pub(super) top: f64,
+    pub(super) below: usize,
+}
+
+/// Factors at a shift or, where pivots come close to zero, a little above.
+///
+/// The growth of factors goes with the number of eigenvalues below, but for shifts where it is far larger by chance. Those
+/// are passed over: growth is lost accuracy.
+///
+/// # Errors
+/// [`SpectrumError::Factors`] if there are none.
+pub(super) fn factor_near(pencil: &Pencil, shift: f64, step: f64) -> Result<Factor<'_>, SpectrumError> {
+    let mut best: Option<Factor> = None;
+    for nudge in 0..TRIES {
+        let factor = Factor::new(pencil, shift + nudge as f64 * step, Par::Seq)?;
+        let Some(factor) = factor else { continue };
+        if factor.growth < GROWTH * (factor.below + 16) as f64 {
+            return Ok(factor);
+        }
+        if best.as_ref().is_none_or(|best| factor.growth < best.growth) {
+            best = Some(factor);
+        }
+    }
+    best.ok_or(SpectrumError::Factors { shift })
+}
+
+impl<'a> Plan<'a> {
+    /// Shifts for all eigenvalues below a bound.
+    ///
+    /// # Errors
+    /// [`SpectrumError::Factors`] if K - σM cannot be factorised at a bound or shift.
+    pub(super) fn new(pencil: &'a Pencil, top: f64) -> Result<Self, SpectrumError> {
+        let first = [1.0, 0.25].par_iter().map(|part| factor_near(pencil, top * part, top * part * STEP));
+        let first = first.collect::<Result<Vec<_>, _>>()?;
+        let (top, below) = (first[0].shift, first[0].below);
+        let count = below.div_ceil(SHARE);
+        let kept = count * pencil.factor_bytes() <= KEPT;
+        let shift = |factor: Factor<'a>| Shift {
+            at: factor.shift,
+            below: factor.below,
+            factor: kept.then_some(factor),
+        };
+        let mut known: Vec<Shift> = first.into_iter().map(shift).collect();
+        let share = below as f64 / count.max(1) as f64;
+        let places: Vec<f64> = (0..count).map(|i| (i as f64 + 0.5) * share).collect();
+        for _ in 0..ROUNDS {
+            known.sort_by(|a, b| a.at.total_cmp(&b.at));
+            let off = |place: &&f64| {
+                known.iter().all(|k| (k.below as f64 - **place).abs() > SLACK * share || k.at >= top)
+            };
+            let wanted: Vec<f64> = places.iter().filter(off).map(|place| guess(&known, *place)).collect();
+            if wanted.is_empty() {
+                break;
+            }
+            let more = wanted.par_iter().map(|at| factor_near(pencil, *at, at * STEP));
+            known.extend(more.collect::<Result<Vec<_>, _>>()?.into_iter().map(shift));
+        }
+        known.retain(|k| k.at < top);
+        let mut shifts: Vec<Shift> = Vec::new();
+        for place in places {
+            let distance = |k: &Shift| (k.below as f64 - place).abs();
+            let nearest =
+                (0..known.len()).min_by(|a, b| distance(&known[*a]).total_cmp(&distance(&known[*b])));
+            shifts.extend(nearest.map(|i| known.swap_remove(i)));
+        }
+        shifts.sort_by(|a, b| a.at.total_cmp(&b.at));
+        shifts.dedup_by_key(|shift| shift.below);
+        Ok(Self { shifts, top, below })
+    }
+}
+
+/// Where about a number of eigenvalues lies below: their number is taken as a power of the bound between two that are known.
+fn guess(known: &[Shift], place: f64) -> f64 {
+    let mut known: Vec<(f64, f64)> = known.iter().map(|k| (k.at, k.below as f64)).collect();
+    known.retain(|(_, count)| *count > 0.0);
+    known.dedup_by_key(|(_, count)| *count);
+    let above = known.iter().position(|(_, count)| *count > place).unwrap_or(known.len() - 1);
+    let (at, count) = known[above];
+    let other = if above > 0 { known.get(above - 1) } else { known.get(above + 1) };
+    let power = other.map_or(1.3, |other| (at / other.0).ln() / (count / other.1).ln());
+    at * (place / count).powf(power.clamp(0.2, 4.0))
+}

@@ -1,0 +1,116 @@
+use super::SpectrumError;
+use super::factor::Factor;
+use super::lanczos::{Lanczos, Ritz};
+use super::panel::{LANES, NONE, Panel, project, subtract};
+use super::pencil::Pencil;
+use super::piece::Piece;
+use super::solve::solve;
+
+/// Relative residual of an eigenpair that counts as found.
+const FOUND: f64 = 1e-9;
+/// Relative residual that it may turn out to have when checked.
+const CHECKED: f64 = 1e-8;
+/// Steps until the first eigenpairs of an interior are found, about.
+const START: usize = 17;
+/// Steps for each panel of eigenpairs then, about.
+const PACE: f64 = 1.5;
+/// Decades that the residual of an eigenpair falls with each step once it is small.
+const DECADES: f64 = 0.7;
+/// Steps at most, over those expected.
+const PATIENCE: usize = 3;
+
+/// Number of eigenpairs wanted next to a shift, on either side.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Wanted {
+    pub(super) left: usize,
+    pub(super) right: usize,
+}
+
+/// The eigenpairs nearest to a shift, as many as wanted on either side, or fewer if they are not found.
+///
+/// # Errors
+/// [`SpectrumError::Matrices`] if M is not positive definite.
+pub(super) fn nearest(
+    pencil: &Pencil,
+    factor: &Factor,
+    wanted: Wanted,
+    known: &[Panel],
+    seed: u64,
+) -> Result<Piece, SpectrumError> {
+    let mut lanczos = Lanczos::new(pencil, factor, known.to_vec(), seed)?;
+    let all = wanted.left + wanted.right;
+    let expected = START + (all as f64 * PACE / LANES as f64).ceil() as usize;
+    let mut until = expected;
+    let mut found = None;
+    while found.is_none() {
+        let full = lanczos.taken() + LANES > pencil.len() || lanczos.len() >= PATIENCE * expected * LANES;
+        if !full && lanczos.len() < until * LANES {
+            lanczos.step()?;
+            continue;
+        }
+        let Some(ritz) = lanczos.ritz() else { break };
+        let have = ritz.found();
+        if full || have.left >= wanted.left && have.right >= wanted.right {
+            found = Some((ritz, have));
+        } else {
+            until += ritz.steps_to(wanted);
+        }
+    }
+    let Some((ritz, have)) = found else { return Ok(Piece::default()) };
+    let (left, right) = (have.left.min(wanted.left), have.right.min(wanted.right));
+    let count = ritz.inverses.len();
+    let numbers: Vec<usize> = (0..left).rev().chain((count - right..count).rev()).collect();
+    let values = numbers.iter().map(|i| factor.shift + 1.0 / ritz.inverses[*i]).collect();
+    let panels = lanczos.vectors(&ritz, &numbers);
+    let inverses: Vec<f64> = numbers.iter().map(|i| ritz.inverses[*i]).collect();
+    let residuals = residuals(pencil, factor, &inverses, &panels);
+    let from = left - residuals[..left].iter().rev().take_while(|r| **r < CHECKED).count();
+    let to = left + residuals[left..].iter().take_while(|r| **r < CHECKED).count();
+    let mut piece = Piece::new(values, residuals, panels, left);
+    piece.keep(from..to);
+    Ok(piece)
+}
+
+/// Norms in M of (K - σM)⁻¹Mx - x/(λ-σ), times abs(λ-σ), from the vectors themselves.
+fn residuals(pencil: &Pencil, factor: &Factor, inverses: &[f64], panels: &[Panel]) -> Vec<f64> {
+    let mut rows = Vec::new();
+    let (mut weighed, mut rest) = (vec![NONE; pencil.len()], vec![NONE; pencil.len()]);
+    let mut out = Vec::new();
+    for (inverses, panel) in inverses.chunks(LANES).zip(panels) {
+        pencil.weigh(panel, &mut rest);
+        solve(pencil.arch, factor, &mut rest, &mut rows);
+        let mut diagonal = [NONE; LANES];
+        inverses.iter().enumerate().for_each(|(i, inverse)| diagonal[i][i] = *inverse);
+        subtract(pencil.arch, std::slice::from_ref(panel), &[diagonal], &mut rest);
+        pencil.weigh(&rest, &mut weighed);
+        let gram = project(pencil.arch, [&rest], &weighed)[0];
+        out.extend(
+            inverses.iter().enumerate().map(|(i, inverse)| gram[i][i].max(0.0).sqrt() / inverse.abs()),
+        );
+    }
+    out
+}
+
+impl Ritz {
+    /// Steps until as many as wanted are found, about.
+    fn steps_to(&self, wanted: Wanted) -> usize {
+        let count = self.residuals.len();
+        let sides = self.residuals[..wanted.left.min(count)]
+            .iter()
+            .chain(&self.residuals[count.saturating_sub(wanted.right)..]);
+        let worst = sides.fold(FOUND, |a, b| a.max(*b)).min(1.0);
+        ((worst / FOUND).log10() / DECADES).ceil().max(1.0) as usize
+    }
+
+    /// How many eigenpairs are found on either side, none missing between them and the shift but such as the basis knows
+    /// nothing of.
+    fn found(&self) -> Wanted {
+        let good =
+            |(inverse, residual): &(&f64, &f64), side: f64| **inverse * side > 0.0 && **residual < FOUND;
+        let pairs = self.inverses.iter().zip(&self.residuals);
+        Wanted {
+            left: pairs.clone().take_while(|pair| good(pair, -1.0)).count(),
+            right: pairs.rev().take_while(|pair| good(pair, 1.0)).count(),
+        }
+    }
+}

@@ -1,0 +1,66 @@
+use super::SpectrumError;
+use super::panel::{LANES, NONE, Row};
+use super::pencil::indefinite;
+
+/// A small matrix between two panels, row by row.
+pub(super) type Square = [Row; LANES];
+
+/// Least pivot of a Gram matrix with ones on its diagonal that is not rounding.
+const LEAST: f64 = 1e-14;
+
+/// Ones on the diagonal.
+pub(super) fn identity() -> Square {
+    std::array::from_fn(|i| std::array::from_fn(|j| f64::from(i == j)))
+}
+
+/// Rows and columns exchanged.
+pub(super) fn transposed(a: &Square) -> Square {
+    std::array::from_fn(|i| std::array::from_fn(|j| a[j][i]))
+}
+
+/// A B.
+pub(super) fn product(a: &Square, b: &Square) -> Square {
+    std::array::from_fn(|i| std::array::from_fn(|j| (0..LANES).map(|k| a[i][k] * b[k][j]).sum()))
+}
+
+/// A Gram matrix as RᵀR.
+pub(super) struct Triangle {
+    /// R.
+    pub(super) upper: Square,
+    /// R⁻¹.
+    pub(super) inverse: Square,
+    /// Least pivot over the largest, the diagonal scaled to one; pivots that are rounding are lifted.
+    pub(super) ratio: f64,
+}
+
+impl Triangle {
+    /// # Errors
+    /// [`SpectrumError::Matrices`] if the diagonal is not positive.
+    pub(super) fn of(gram: &Square) -> Result<Self, SpectrumError> {
+        let mut upper = [NONE; LANES];
+        let mut ratio = 1.0_f64;
+        for j in 0..LANES {
+            let square = gram[j][j];
+            if !(square > 0.0 && square.is_finite()) {
+                return Err(indefinite(square));
+            }
+            for i in 0..j {
+                let done: f64 = (0..i).map(|k| upper[k][i] * upper[k][j]).sum();
+                upper[i][j] = (gram[i][j] - done) / upper[i][i];
+            }
+            let done: f64 = (0..j).map(|k| upper[k][j] * upper[k][j]).sum();
+            let pivot = ((square - done) / square).max(LEAST);
+            ratio = ratio.min(pivot);
+            upper[j][j] = (pivot * square).sqrt();
+        }
+        let mut inverse = [NONE; LANES];
+        for j in 0..LANES {
+            inverse[j][j] = 1.0 / upper[j][j];
+            for i in (0..j).rev() {
+                let sum: f64 = (i + 1..=j).map(|k| upper[i][k] * inverse[k][j]).sum();
+                inverse[i][j] = -sum / upper[i][i];
+            }
+        }
+        Ok(Self { upper, inverse, ratio })
+    }
+}

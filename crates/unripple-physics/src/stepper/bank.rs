@@ -1,0 +1,325 @@
+use super::small::{Inverse, OCT, Oct, Small, Solution, add, get, octs, registers, set};
+use crate::Circuit;
+use pulp::Simd;
+
+/// How fast the two-step form of a mass forgets, per step: a root at -0.8.
+const MEMORY: f64 = 0.8;
+
+/// What of a load matters to the sheet: a mass, a damper and a spring to the ground, and perhaps a coil.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Burden {
+    pub(super) mass: f64,
+    pub(super) damping: f64,
+    pub(super) stiffness: f64,
+    pub(super) circuit: Option<Circuit>,
+}
+
+/// The loads at eight ports: what they are over one step, and how they move.
+///
+/// Over a step the force on the sheet is `F = b - D² Δu`, with Δu what the port moves by and b from the state before.
+#[derive(Clone, Copy, Debug, Default)]
+struct Loads {
+    /// What of b/D is due to the spring's extension, to the mass's two states and to the current.
+    spring: Oct,
+    recall: [Oct; 2],
+    carry: Oct,
+    /// How the states go on.
+    memory: Oct,
+    fade: Oct,
+    induce: Oct,
+    /// 1/√μ where impulses are shared; 0 elsewhere.
+    lightness: Oct,
+    /// Of the energy: stiffness, inductance, and the form of the mass.
+    stiffness: Oct,
+    inductance: Oct,
+    masses: [Oct; 3],
+    /// Extension of the spring, in m.
+    extension: Oct,
+    /// The mass's velocity, filtered, after the last step and before, in m/s.
+    pace: [Oct; 2],
+    /// The current, in A.
+    current: Oct,
+    /// Work done on the loads since it was last set to zero, in J.
+    work: Oct,
+}
+
+/// The loads at all ports, ports without one included.
+#[derive(Clone, Debug)]
+pub(super) struct Bank {
+    loads: Vec<Loads>,
+    /// D, and √μ where impulses are shared.
+    depth: Vec<Oct>,
+    heft: Vec<Oct>,
+    dt: f64,
+    right: Vec<Oct>,
+    /// Forces over the step to come, and what they move the ports by.
+    forces: Solution,
+    /// What the ports move by over the step to come.
+    moved: Vec<Oct>,
+    /// Impulses shared with masses, and the velocity they give.
+    shares: Solution,
+    /// Whether impulses are shared with masses at once.
+    shared: bool,
+}
+
+impl Bank {
+    pub(super) fn new(size: usize, dt: f64, shared: bool) -> Self {
+        let zeros = vec![[0.0; OCT]; octs(size)];
+        Self {
+            loads: vec![Loads::default(); zeros.len()],
+            depth: zeros.clone(),
+            heft: zeros.clone(),
+            dt,
+            right: zeros.clone(),
+            forces: Solution::zeros(size),
+            moved: zeros,
+            shares: Solution::zeros(size),
+            shared,
+        }
+    }
+
+    /// Puts a load at rest on a port.
+    pub(super) fn set(&mut self, port: usize, burden: &Burden) {
+        let (dt, shared) = (self.dt, self.shared);
+        let (loads, lane) = (&mut self.loads[port / OCT], port % OCT);
+        loads.fields().into_iter().for_each(|field| field[lane] = 0.0);
+        let coil = burden.circuit.map(|circuit| Coil::of(&circuit, dt)).unwrap_or_default();
+        let memory = if shared { 1.0 } else { MEMORY };
+        let (first, last) = ((3.0 + memory) / 2.0, (memory - 1.0) / 2.0);
+        let mass = burden.mass / dt;
+        let square = burden.stiffness / 2.0 + burden.damping / dt + mass * first / dt + coil.square;
+        let depth = square.sqrt();
+        let over = |x: f64| if depth > 0.0 { x / depth } else { 0.0 };
+        loads.spring[lane] = over(-burden.stiffness);
+        loads.recall[0][lane] = over(mass * (first * (1.0 + memory) - last));
+        loads.recall[1][lane] = over(mass * last);
+        loads.carry[lane] = over(coil.carry);
+        (loads.memory[lane], loads.fade[lane], loads.induce[lane]) = (memory, coil.fade, coil.induce);
+        (loads.stiffness[lane], loads.inductance[lane]) = (burden.stiffness, coil.inductance);
+        let form = [(5.0 + 3.0 * memory) / 4.0, -(1.0 - memory) * (2.0 + memory) / 2.0, (1.0 - memory) / 4.0];
+        loads.masses.iter_mut().zip(form).for_each(|(to, share)| to[lane] = burden.mass * share);
+        let heft = if shared { burden.mass.sqrt() } else { 0.0 };
+        loads.lightness[lane] = if heft > 0.0 { 1.0 / heft } else { 0.0 };
+        self.depth[port / OCT][lane] = depth;
+        self.heft[port / OCT][lane] = heft;
+    }
+
+    /// Takes a port away; those behind it move up. `count` of them there were.
+    pub(super) fn remove(&mut self, port: usize, count: usize) {
+        for vector in [&mut self.depth, &mut self.heft] {
+            let flat = vector.as_flattened_mut();
+            flat.copy_within(port + 1..count, port);
+            flat[count - 1] = 0.0;
+        }
+        for to in port..count {
+            let from = to + 1;
+            let mut source = if from < count { self.loads[from / OCT] } else { Loads::default() };
+            let to = (&mut self.loads[to / OCT], to % OCT);
+            for (field, source) in to.0.fields().into_iter().zip(source.fields()) {
+                field[to.1] = source[from % OCT];
+            }
+        }
+    }
+
+    /// D, port by port.
+    #[inline(always)]
+    pub(super) fn depth(&self) -> &[f64] {
+        self.depth.as_flattened()
+    }
+
+    /// √μ where impulses are shared, port by port.
+    #[inline(always)]
+    pub(super) fn heft(&self) -> &[f64] {
+        self.heft.as_flattened()
+    }
+
+    /// Raises the current of a port's coil.
+    #[inline(always)]
+    pub(super) fn induce(&mut self, port: usize, current: f64) {
+        self.loads[port / OCT].current[port % OCT] += current;
+    }
+
+    pub(super) fn current(&self, port: usize) -> f64 {
+        self.loads[port / OCT].current[port % OCT]
+    }
+
+    pub(super) fn extension(&self, port: usize) -> f64 {
+        self.loads[port / OCT].extension[port % OCT]
+    }
+
+    pub(super) fn work(&self, port: usize) -> f64 {
+        self.loads[port / OCT].work[port % OCT]
+    }
+
+    /// Force on the sheet at all ports.
+    #[inline(always)]
+    pub(super) fn forces(&self) -> &[f64] {
+        self.forces.scaled.as_flattened()
+    }
+
+    /// Whether any mass shares impulses.
+    pub(super) fn shares(&self) -> bool {
+        self.heft().iter().any(|heft| *heft > 0.0)
+    }
+
+    /// Gives masses and ports one velocity: the impulses on the sheet that do so, in N·s, and what they change of the
+    /// ports' velocity, which was `velocity`.
+    #[inline(always)]
+    pub(super) fn share<S: Simd>(
+        &mut self,
+        simd: S,
+        velocity: &[Oct],
+        (inverse, momentum): (&Inverse, &Small),
+        ports: usize,
+    ) -> (&[Oct], &[Oct]) {
+        let two = simd.splat_f64s(2.0);
+        for (((right, loads), heft), velocity) in
+            self.right.iter_mut().zip(&self.loads).zip(&self.heft).zip(velocity)
+        {
+            for i in 0..registers::<S>() {
+                let lag = simd.mul_f64s(two, get::<S>(&loads.pace[0], i));
+                let lag = simd.sub_f64s(lag, get::<S>(velocity, i));
+                set::<S>(right, i, simd.mul_f64s(get::<S>(heft, i), lag));
+            }
+        }
+        inverse.solve(simd, (momentum, &self.heft), &self.right, ports, &mut self.shares);
+        let half = simd.splat_f64s(0.5);
+        let Solution { x, scaled: impulse, image: change, .. } = &self.shares;
+        let known = impulse.iter().zip(x).zip(velocity.iter().zip(change));
+        for (loads, ((impulse, x), (velocity, change))) in self.loads.iter_mut().zip(known) {
+            for i in 0..registers::<S>() {
+                let lost = simd.mul_f64s(simd.mul_f64s(half, get::<S>(&loads.lightness, i)), get::<S>(x, i));
+                let pace = simd.sub_f64s(get::<S>(&loads.pace[0], i), lost);
+                set::<S>(&mut loads.pace[0], i, pace);
+                let mean = simd.mul_add_e_f64s(half, get::<S>(change, i), get::<S>(velocity, i));
+                let work = simd.negate_mul_add_e_f64s(get::<S>(impulse, i), mean, get::<S>(&loads.work, i));
+                set::<S>(&mut loads.work, i, work);
+            }
+        }
+        (impulse, change)
+    }
+
+    /// Finds the forces over the next step, `free` being what the ports would move by without them.
+    #[inline(always)]
+    pub(super) fn solve<S: Simd>(
+        &mut self,
+        simd: S,
+        free: &[Oct],
+        (inverse, push): (&Inverse, &Small),
+        ports: usize,
+    ) {
+        for (((right, loads), depth), free) in
+            self.right.iter_mut().zip(&self.loads).zip(&self.depth).zip(free)
+        {
+            for i in 0..registers::<S>() {
+                let product =
+                    |a: &Oct, b: &Oct, sum| simd.mul_add_e_f64s(get::<S>(a, i), get::<S>(b, i), sum);
+                let held = simd.mul_f64s(get::<S>(&loads.carry, i), get::<S>(&loads.current, i));
+                let held = product(&loads.spring, &loads.extension, held);
+                let held = product(&loads.recall[0], &loads.pace[0], held);
+                let held = product(&loads.recall[1], &loads.pace[1], held);
+                set::<S>(right, i, simd.negate_mul_add_e_f64s(get::<S>(depth, i), get::<S>(free, i), held));
+            }
+        }
+        inverse.solve(simd, (push, &self.depth), &self.right, ports, &mut self.forces);
+        self.moved.copy_from_slice(free);
+        add(simd, &mut self.moved, &self.forces.image);
+    }
+
+    /// Moves all loads over the step.
+    #[inline(always)]
+    pub(super) fn advance<S: Simd>(&mut self, simd: S) {
+        let rate = simd.splat_f64s(1.0 / self.dt);
+        for ((loads, force), moved) in self.loads.iter_mut().zip(&self.forces.scaled).zip(&self.moved) {
+            for i in 0..registers::<S>() {
+                let moved = get::<S>(moved, i);
+                let work = simd.negate_mul_add_e_f64s(get::<S>(force, i), moved, get::<S>(&loads.work, i));
+                set::<S>(&mut loads.work, i, work);
+                let extension = simd.add_f64s(get::<S>(&loads.extension, i), moved);
+                set::<S>(&mut loads.extension, i, extension);
+                let before = get::<S>(&loads.pace[0], i);
+                let mean = simd.mul_f64s(moved, rate);
+                let pace = simd.negate_mul_add_e_f64s(get::<S>(&loads.memory, i), before, mean);
+                set::<S>(&mut loads.pace[1], i, before);
+                set::<S>(&mut loads.pace[0], i, pace);
+                let induced = simd.mul_f64s(get::<S>(&loads.induce, i), moved);
+                let left = simd.mul_f64s(get::<S>(&loads.fade, i), get::<S>(&loads.current, i));
+                set::<S>(&mut loads.current, i, simd.sub_f64s(left, induced));
+            }
+        }
+    }
+
+    /// Starts to count work from zero.
+    #[inline(always)]
+    pub(super) fn reset_work(&mut self) {
+        self.loads.iter_mut().for_each(|loads| loads.work = [0.0; OCT]);
+    }
+
+    /// Energy stored in all loads, in J.
+    pub(super) fn energy(&self) -> f64 {
+        let twice = |loads: &Loads, lane: usize| {
+            let [now, before] = loads.pace.map(|pace| pace[lane]);
+            let [a, b, c] = loads.masses.map(|mass| mass[lane]);
+            loads.stiffness[lane] * loads.extension[lane] * loads.extension[lane]
+                + loads.inductance[lane] * loads.current[lane] * loads.current[lane]
+                + 2.0 * (a * now * now + b * now * before + c * before * before)
+        };
+        0.5 * self.loads.iter().map(|loads| (0..OCT).map(|lane| twice(loads, lane)).sum::<f64>()).sum::<f64>()
+    }
+}
+
+impl Loads {
+    fn fields(&mut self) -> [&mut Oct; 18] {
+        let [r0, r1] = &mut self.recall;
+        let [m0, m1, m2] = &mut self.masses;
+        let [p0, p1] = &mut self.pace;
+        let steps = [&mut self.memory, &mut self.fade, &mut self.induce, &mut self.lightness];
+        let [memory, fade, induce, lightness] = steps;
+        let (stiffness, inductance) = (&mut self.stiffness, &mut self.inductance);
+        let (extension, current, work) = (&mut self.extension, &mut self.current, &mut self.work);
+        let (spring, carry) = (&mut self.spring, &mut self.carry);
+        [
+            spring, r0, r1, carry, memory, fade, induce, lightness, stiffness, inductance, m0, m1, m2,
+            extension, p0, p1, current, work,
+        ]
+    }
+}
+
+/// A coil over one step at a constant velocity of its port ν: exact.
+///
+/// With θ = R dt/L, the current goes to `i e^{-θ} - (bl ν/R)(1 - e^{-θ})`, and its mean is `p i - bl ν (1 - p)/R`,
+/// `p = (1 - e^{-θ})/θ`.
+#[derive(Clone, Copy, Debug, Default)]
+struct Coil {
+    /// Its part of D².
+    square: f64,
+    /// Mean force per current at first.
+    carry: f64,
+    /// Share of the current that is left.
+    fade: f64,
+    /// Current lost per displacement.
+    induce: f64,
+    inductance: f64,
+}
+
+impl Coil {
+    fn of(circuit: &Circuit, dt: f64) -> Self {
+        let Circuit { force_constant: bl, resistance, inductance } = *circuit;
+        let theta = resistance * dt / inductance;
+        if inductance == 0.0 {
+            let square = bl * bl / resistance / dt;
+            return Self { square, induce: bl / resistance / dt, ..Self::default() };
+        }
+        let lost = -(-theta).exp_m1();
+        let mean = lost / theta;
+        // (1 - p)/θ, by its series where that would cancel.
+        let lag = if theta < 1e-3 { 0.5 - theta / 6.0 + theta * theta / 24.0 } else { (1.0 - mean) / theta };
+        Self {
+            square: bl * bl * lag / inductance,
+            carry: bl * mean,
+            fade: 1.0 - lost,
+            induce: bl * mean / inductance,
+            inductance,
+        }
+    }
+}

@@ -1,0 +1,129 @@
+use super::bank::Bank;
+use super::lanes::{Rows, grams};
+use super::small::{Inverse, Small};
+use pulp::Simd;
+
+/// What a port is made of: two rows of weights, the columns of the tiles that hold them, and their shares.
+///
+/// A port that does not move has one row and column; both stand there twice, with one share.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Part {
+    pub(super) rows: [usize; 2],
+    pub(super) columns: [usize; 2],
+    pub(super) shares: [f64; 2],
+}
+
+/// What ports do to each other over a step, and the inverses that the loads need.
+#[derive(Clone, Debug)]
+pub(super) struct Couplings {
+    /// Between rows of weights, row by row: velocity after an impulse, displacement after an impulse, displacement after a
+    /// held force.
+    grams: [Vec<f64>; 3],
+    rows: usize,
+    /// The same between ports.
+    between: [Small; 3],
+    pub(super) parts: Vec<Part>,
+    /// Ports that never change, the first ones.
+    fixed: usize,
+    /// Of the loads' forces, and of impulses shared with masses.
+    forces: Inverse,
+    impulses: Inverse,
+}
+
+impl Couplings {
+    /// No coupling yet between so many rows; up to `ports` ports, the first of which are as given and never change.
+    pub(super) fn new(rows: usize, ports: usize, fixed: &[Part]) -> Self {
+        let mut parts = Vec::with_capacity(ports);
+        parts.extend_from_slice(fixed);
+        Self {
+            grams: [0, 1, 2].map(|_| vec![0.0; rows * rows]),
+            rows,
+            between: [0, 1, 2].map(|_| Small::zeros(ports)),
+            parts,
+            fixed: fixed.len(),
+            forces: Inverse::new(ports),
+            impulses: Inverse::new(ports),
+        }
+    }
+
+    /// Ports by now.
+    #[inline(always)]
+    pub(super) fn ports(&self) -> usize {
+        self.parts.len()
+    }
+
+    /// Velocity after impulses, displacement after impulses, displacement after held forces.
+    #[inline(always)]
+    pub(super) fn between(&self) -> &[Small; 3] {
+        &self.between
+    }
+
+    #[inline(always)]
+    pub(super) fn forces(&self) -> &Inverse {
+        &self.forces
+    }
+
+    #[inline(always)]
+    pub(super) fn impulses(&self) -> &Inverse {
+        &self.impulses
+    }
+
+    /// Computes anew what a row does to the first `others` rows.
+    #[inline(always)]
+    pub(super) fn measure<S: Simd>(
+        &mut self,
+        simd: S,
+        row: usize,
+        others: usize,
+        weights: &Rows,
+        factors: &Rows,
+    ) {
+        let factors = [factors.row(0), factors.row(1)];
+        for other in 0..others {
+            let values = grams(simd, weights.row(row), weights.row(other), factors);
+            for (gram, value) in self.grams.iter_mut().zip(values) {
+                gram[row * self.rows + other] = value;
+                gram[other * self.rows + row] = value;
+            }
+        }
+    }
+
+    /// Computes everything anew from the couplings of rows.
+    pub(super) fn renew<S: Simd>(&mut self, simd: S, bank: &Bank) {
+        self.between.iter_mut().for_each(|matrix| matrix.clear());
+        for port in 0..self.ports() {
+            self.couple(port);
+        }
+        self.forces.fix(simd, self.fixed, &self.between[2], bank.depth());
+        self.impulses.fix(simd, self.fixed, &self.between[0], bank.heft());
+        self.follow(simd, bank);
+    }
+
+    /// Computes anew what a port does to all ports.
+    #[inline(always)]
+    pub(super) fn couple(&mut self, port: usize) {
+        let part = self.parts[port];
+        for (other, second) in self.parts.iter().enumerate() {
+            for (matrix, gram) in self.between.iter_mut().zip(&self.grams) {
+                let mut sum = 0.0;
+                for (row, share) in part.rows.iter().zip(part.shares) {
+                    for (column, other) in second.rows.iter().zip(second.shares) {
+                        sum += share * other * gram[row * self.rows + column];
+                    }
+                }
+                matrix.set(port, other, sum);
+                matrix.set(other, port, sum);
+            }
+        }
+    }
+
+    /// Brings the inverses up to date after ports at the end were coupled anew.
+    #[inline(always)]
+    pub(super) fn follow<S: Simd>(&mut self, simd: S, bank: &Bank) {
+        let ports = self.fixed..self.ports();
+        self.forces.extend(simd, ports.clone(), &self.between[2], bank.depth());
+        if bank.shares() {
+            self.impulses.extend(simd, ports, &self.between[0], bank.heft());
+        }
+    }
+}

@@ -1,0 +1,285 @@
+use super::bank::{Bank, Burden};
+use super::couplings::{Couplings, Part};
+use super::field::{Felt, Field, Probes};
+use super::lanes::{LANES, Rows, Tiles};
+use super::small::{OCT, Oct, octs};
+use super::touch::Touch;
+use super::{Channel, Plant, StepperOptions};
+use crate::PhysicsError;
+use pulp::{Arch, Simd, WithSimd};
+use std::ops::Range;
+use unripple_core::{Finger, Pole};
+
+/// Where a channel leads.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lead {
+    pub(super) port: usize,
+    /// Impulse (N·s) or current (A) per unit of drive in one sample.
+    pub(super) drive: f64,
+    /// Sensor per velocity (m/s) or current (A).
+    pub(super) sense: f64,
+    /// Whether it is the current of the port's coil that is driven and sensed.
+    pub(super) current: bool,
+}
+
+/// Modes, loads and fingers, and everything that stepping them takes.
+///
+/// There is a row of weights for every port that never changes, and two for the ends of every finger's movement.
+#[derive(Clone, Debug)]
+pub(super) struct Engine {
+    pub(super) field: Field,
+    pub(super) bank: Bank,
+    pub(super) leads: Vec<Lead>,
+    pub(super) touches: Vec<Touch>,
+    pub(super) couplings: Couplings,
+    pub(super) weights: Rows,
+    /// The rows in use once more, as the sweep over modes wants them: those of the ports that never change, then one or
+    /// two for each finger.
+    pub(super) tiles: Tiles,
+    /// Forces and impulses on the tiles' columns.
+    pub(super) forces: Vec<f64>,
+    pub(super) impulses: Vec<f64>,
+    /// Whether the impulses are still to be laid on.
+    pub(super) pending: bool,
+    /// Sums of the sweep. Whether any drive strikes the sheet itself, rather than a coil's current, and how many ports
+    /// carry no load are said there.
+    pub(super) felt: Felt,
+    /// Ports that never change; those without load come first.
+    pub(super) fixed: usize,
+    /// Whether masses share impulses.
+    pub(super) sharing: bool,
+    free_slots: Vec<usize>,
+    fingers: usize,
+    pub(super) dt: f64,
+    pub(super) substeps: usize,
+    pub(super) fade: f64,
+    pub(super) glide: f64,
+    /// Velocity of the ports before impulses, what they would move by without forces, and room to work in.
+    pub(super) velocity: Vec<Oct>,
+    pub(super) motion: Vec<Oct>,
+    pub(super) impulse: Vec<Oct>,
+    pub(super) change: Vec<Oct>,
+    pub(super) free: Vec<Oct>,
+    pub(super) probes: Probes,
+    /// Samples so far.
+    pub(super) samples: u64,
+    /// Whether weights or poles have changed since forces were found.
+    pub(super) stale: bool,
+    pub(super) arch: Arch,
+}
+
+impl Engine {
+    pub(super) fn new(
+        plant: &Plant,
+        channels: &[Channel],
+        rate: f64,
+        options: &StepperOptions,
+    ) -> Result<Self, PhysicsError> {
+        let dt = 1.0 / (rate * options.substeps as f64);
+        let wiring = Wiring::of(plant, channels, rate)?;
+        let (fixed, fingers) = (wiring.rows.len(), options.max_fingers);
+        let (ports, columns) = (fixed + fingers, fixed + 2 * fingers);
+        let striking = wiring.leads.iter().any(|lead| !lead.current);
+        let mut weights = Rows::zeros(fixed + 2 * fingers, plant.modes());
+        wiring.rows.iter().enumerate().for_each(|(row, values)| weights.fill(row, values));
+        let parts: Vec<Part> =
+            (0..fixed).map(|row| Part { rows: [row; 2], columns: [row; 2], shares: [0.0, 1.0] }).collect();
+        let mut bank = Bank::new(ports, dt, striking);
+        for (i, burden) in wiring.burdens.iter().enumerate() {
+            bank.set(wiring.plain + i, burden);
+        }
+        let share = |time: f64| if time > dt { dt / time } else { 1.0 };
+        let zeros = vec![[0.0; OCT]; octs(ports)];
+        let mut engine = Self {
+            field: Field::new(&plant.poles, dt),
+            sharing: bank.shares(),
+            bank,
+            leads: wiring.leads,
+            touches: Vec::with_capacity(fingers),
+            couplings: Couplings::new(fixed + 2 * fingers, ports, &parts),
+            weights,
+            fixed,
+            tiles: Tiles::zeros(columns, plant.modes()),
+            forces: vec![0.0; columns],
+            impulses: vec![0.0; columns],
+            pending: false,
+            felt: Felt {
+                motion: vec![[0.0; LANES]; columns],
+                velocity: vec![[0.0; LANES]; columns],
+                plain: wiring.plain,
+                striking,
+            },
+            free_slots: (0..fingers).rev().collect(),
+            fingers,
+            dt,
+            substeps: options.substeps,
+            fade: share(options.fade),
+            glide: share(options.glide),
+            velocity: zeros.clone(),
+            motion: zeros.clone(),
+            impulse: zeros.clone(),
+            change: zeros.clone(),
+            free: zeros,
+            probes: Probes::new(&[], Vec::new()),
+            samples: 0,
+            stale: true,
+            arch: Arch::new(),
+        };
+        engine.measure(0..fixed);
+        Ok(engine)
+    }
+
+    /// Brings up to date what follows from ports and couplings of rows, within code for the processor at hand.
+    #[inline(always)]
+    pub(super) fn renew_now<S: Simd>(&mut self, simd: S) {
+        let used = |touch: &Touch| if touch.moving < 1.0 { 2 } else { 1 };
+        self.tiles.resize(self.fixed + self.touches.iter().map(used).sum::<usize>());
+        (0..self.fixed).for_each(|row| self.tiles.set(row, self.weights.row(row)));
+        let mut column = self.fixed;
+        for (touch, part) in self.touches.iter().zip(&mut self.couplings.parts[self.fixed..]) {
+            part.columns = [column, column + used(touch) - 1];
+            for (row, column) in part.rows.into_iter().zip(part.columns) {
+                self.tiles.set(column, self.weights.row(row));
+            }
+            column += used(touch);
+        }
+        self.couplings.renew(simd, &self.bank);
+        self.sharing = self.bank.shares();
+    }
+
+    /// Measures what these rows do to all rows, and brings up to date what follows.
+    fn measure(&mut self, rows: Range<usize>) {
+        let arch = self.arch;
+        arch.dispatch(Measure { engine: self, rows });
+    }
+
+    /// Sets other poles; the state stays.
+    pub(super) fn tune(&mut self, poles: impl Iterator<Item = Pole>) {
+        self.field.tune(poles, self.dt);
+        self.measure(0..self.fixed + 2 * self.fingers);
+        self.stale = true;
+    }
+
+    /// Puts a finger down; `false` if there are as many as there may be.
+    pub(super) fn put(&mut self, id: u64, finger: Finger, weights: &[f64]) -> bool {
+        let Some(slot) = self.free_slots.pop() else { return false };
+        let touch = Touch::new(id, finger, slot);
+        let [from, to] = self.ends(slot);
+        self.weights.fill(from, &[]);
+        self.weights.fill(to, weights);
+        let port = self.couplings.ports();
+        self.bank.set(port, &touch.burden());
+        self.couplings.parts.push(Part { rows: [from, to], columns: [0; 2], shares: [0.0; 2] });
+        self.touches.push(touch);
+        self.measure(from..to + 1);
+        self.stale = true;
+        true
+    }
+
+    /// Starts a finger's way from where it is felt now to elsewhere.
+    pub(super) fn shift(&mut self, finger: usize, weights: &[f64]) {
+        let touch = self.touches[finger];
+        let [from, to] = self.ends(touch.slot);
+        for m in 0..weights.len() {
+            let end = self.weights.row(to)[m];
+            let start = &mut self.weights.row_mut(from)[m];
+            *start += touch.moving * (end - *start);
+        }
+        self.weights.fill(to, weights);
+        self.touches[finger].moving = 0.0;
+        self.couplings.parts[self.fixed + finger].shares = self.touches[finger].shares();
+        self.measure(from..to + 1);
+        self.stale = true;
+    }
+
+    /// Forgets a finger; [`Engine::renew_now`] must follow.
+    #[cold]
+    pub(super) fn drop_finger(&mut self, finger: usize) {
+        let port = self.fixed + finger;
+        self.bank.remove(port, self.couplings.ports());
+        self.couplings.parts.remove(port);
+        let touch = self.touches.remove(finger);
+        self.free_slots.push(touch.slot);
+    }
+
+    /// Rows of the place a finger comes from and of the place it goes to.
+    pub(super) fn ends(&self, slot: usize) -> [usize; 2] {
+        [self.fixed + 2 * slot, self.fixed + 2 * slot + 1]
+    }
+}
+
+/// What [`Engine::measure`] does, as one piece of code for the processor at hand.
+struct Measure<'a> {
+    engine: &'a mut Engine,
+    rows: Range<usize>,
+}
+
+impl WithSimd for Measure<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Engine { couplings, weights, field, fixed, fingers, .. } = self.engine;
+        // Rows are coupled both ways at once.
+        let all = self.rows.len() == *fixed + 2 * *fingers;
+        for row in self.rows {
+            let others = if all { row + 1 } else { *fixed + 2 * *fingers };
+            couplings.measure(simd, row, others, weights, &field.factors);
+        }
+        self.engine.renew_now(simd);
+    }
+}
+
+/// Which port each channel leads to, and what hangs there.
+struct Wiring {
+    /// Weights of the ports, those without load first.
+    rows: Vec<Vec<f64>>,
+    plain: usize,
+    burdens: Vec<Burden>,
+    leads: Vec<Lead>,
+}
+
+impl Wiring {
+    fn of(plant: &Plant, channels: &[Channel], rate: f64) -> Result<Self, PhysicsError> {
+        channels.iter().try_for_each(Channel::check)?;
+        let channels: Vec<Channel> = channels.iter().map(|channel| channel.settled(rate)).collect();
+        let struck = |channel: &Channel| {
+            !channel.voltage && channel.load.as_ref().is_none_or(|load| load.footprint != channel.footprint)
+        };
+        let plain = channels.iter().filter(|channel| struck(channel)).count();
+        let (mut rows, mut loaded) = (Vec::new(), Vec::new());
+        let (mut burdens, mut leads) = (Vec::new(), Vec::new());
+        for channel in &channels {
+            let mut port = rows.len();
+            if struck(channel) {
+                rows.push(plant.weights(&channel.footprint)?);
+            }
+            if let Some(load) = &channel.load {
+                port = if struck(channel) { port } else { plain + loaded.len() };
+                loaded.push(plant.weights(&load.footprint)?);
+                let (mass, damping, stiffness) = (load.mass, load.damping, load.stiffness);
+                burdens.push(Burden { mass, damping, stiffness, circuit: load.circuit });
+            }
+            leads.push(Lead::of(channel, port, rate));
+        }
+        rows.append(&mut loaded);
+        Ok(Self { rows, plain, burdens, leads })
+    }
+}
+
+impl Lead {
+    fn of(channel: &Channel, port: usize, rate: f64) -> Self {
+        let gain = channel.gain;
+        let coil = channel.load.as_ref().and_then(|load| load.circuit).filter(|_| channel.voltage);
+        match coil {
+            None => Self { port, drive: gain / rate, sense: gain, current: false },
+            Some(coil) if coil.inductance > 0.0 => {
+                Self { port, drive: gain / (coil.inductance * rate), sense: -gain, current: true }
+            }
+            Some(coil) => {
+                let gain = gain * coil.force_constant / coil.resistance;
+                Self { port, drive: gain / rate, sense: gain, current: false }
+            }
+        }
+    }
+}

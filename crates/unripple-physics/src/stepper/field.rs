@@ -1,0 +1,370 @@
+use super::lanes::{LANES, Lanes, Rows, Tiles, feel, gather, hear, total, vectors};
+use pulp::{Simd, as_arrays, as_arrays_mut};
+use unripple_core::Pole;
+
+/// Terms of the series for slow modes: the last is below 1e-20 of the first.
+const TERMS: usize = 30;
+
+/// Groups of modes that are swept over together.
+const TOGETHER: usize = 8;
+
+/// Below this, motion is put to rest: numbers far smaller would slow the processor down.
+const SILENCE: f64 = 1e-200;
+
+/// What modes do over one step: [`step::ROWS`] values of sixteen modes, then of the next.
+///
+/// With the force `f` held and `p = f - ω² u`: `u⁺ = u + strike·v + push·p` and `v⁺ = hold·v + strike·p`.
+pub(super) mod step {
+    /// ω².
+    pub(in super::super) const SQUARE: usize = 0;
+    /// Displacement after a unit impulse, and velocity after a unit force.
+    pub(in super::super) const STRIKE: usize = 1;
+    /// Velocity after a unit velocity.
+    pub(in super::super) const HOLD: usize = 2;
+    /// Displacement after a unit force.
+    pub(in super::super) const PUSH: usize = 3;
+    pub(in super::super) const ROWS: usize = 4;
+}
+
+/// What ports feel: displacement over the step to come without forces, and velocity, sixteen parts of each sum.
+#[derive(Clone, Debug)]
+pub(super) struct Felt {
+    pub(super) motion: Vec<Lanes>,
+    pub(super) velocity: Vec<Lanes>,
+    /// The first ports, which carry no load and do not care for motion.
+    pub(super) plain: usize,
+    /// Whether velocity matters.
+    pub(super) striking: bool,
+}
+
+impl Felt {
+    /// Starts again from nothing.
+    #[inline(always)]
+    fn begin(&mut self, columns: usize) {
+        self.motion[self.plain..columns].fill([0.0; LANES]);
+        if self.striking {
+            self.velocity[..columns].fill([0.0; LANES]);
+        }
+    }
+
+    /// Adds what is felt of some groups of modes.
+    #[inline(always)]
+    fn add<S: Simd>(
+        &mut self,
+        simd: S,
+        tiles: &[Lanes],
+        columns: usize,
+        motion: &[Lanes],
+        velocity: &[Lanes],
+    ) {
+        if self.plain < columns {
+            feel(simd, tiles, [columns, self.plain], motion, &mut self.motion);
+        }
+        if columns > 0 && self.striking {
+            feel(simd, tiles, [columns, 0], velocity, &mut self.velocity);
+        }
+    }
+}
+
+/// What is laid on the columns.
+#[derive(Clone, Copy)]
+pub(super) struct Laid<'a> {
+    /// Impulses on all of them, or none at all.
+    pub(super) impulses: &'a [f64],
+    /// Forces on those that carry loads.
+    pub(super) forces: &'a [f64],
+}
+
+/// Places that are listened to.
+#[derive(Clone, Debug)]
+pub(super) struct Probes {
+    weights: Rows,
+    /// Those that read displacement rather than velocity.
+    displaced: Vec<bool>,
+    sums: Vec<Lanes>,
+    /// What each of them heard last.
+    pub(super) heard: Vec<f64>,
+}
+
+impl Probes {
+    /// Listens to displacement or velocity, given the places' weights.
+    pub(super) fn new(rows: &[Vec<f64>], displaced: Vec<bool>) -> Self {
+        let mut weights = Rows::zeros(rows.len(), rows.first().map_or(0, Vec::len));
+        rows.iter().enumerate().for_each(|(row, values)| weights.fill(row, values));
+        Self { weights, displaced, sums: vec![[0.0; LANES]; rows.len()], heard: vec![0.0; rows.len()] }
+    }
+
+    /// Adds what is heard of the groups of modes from the `first` on, afresh from group 0.
+    #[inline(always)]
+    fn hear<S: Simd>(&mut self, simd: S, first: usize, u: &[Lanes], v: &[Lanes]) {
+        for (probe, sum) in self.sums.iter_mut().enumerate() {
+            if first == 0 {
+                *sum = [0.0; LANES];
+            }
+            let row = &as_arrays::<LANES, _>(self.weights.row(probe)).0[first..];
+            hear(simd, row, if self.displaced[probe] { u } else { v }, sum);
+        }
+    }
+
+    /// Adds up what was heard.
+    #[inline(always)]
+    pub(super) fn tell<S: Simd>(&mut self, simd: S) -> &[f64] {
+        total(simd, &self.sums, &mut self.heard);
+        &self.heard
+    }
+}
+
+/// All modes: displacement, velocity, and how they move.
+#[derive(Clone, Debug)]
+pub(super) struct Field {
+    displacement: Rows,
+    velocity: Rows,
+    steps: Rows,
+    /// The steps' rows for impulses and forces again, for sums over modes.
+    pub(super) factors: Rows,
+}
+
+impl Field {
+    /// Everything at rest.
+    pub(super) fn new(poles: &[Pole], dt: f64) -> Self {
+        let modes = poles.len();
+        let [displacement, velocity] = [(); 2].map(|()| Rows::zeros(1, modes));
+        let steps = Rows::zeros(1, modes.next_multiple_of(LANES) * step::ROWS);
+        let mut field = Self { displacement, velocity, steps, factors: Rows::zeros(2, modes) };
+        field.tune(poles.iter().copied(), dt);
+        field
+    }
+
+    /// Sets the poles, displacement and velocity kept.
+    pub(super) fn tune(&mut self, poles: impl Iterator<Item = Pole>, dt: f64) {
+        for (m, pole) in poles.enumerate() {
+            let [[_, strike], [_, hold]] = pole.step(dt);
+            let push = push(pole, dt);
+            let rows = [
+                (step::SQUARE, pole.omega * pole.omega),
+                (step::STRIKE, strike),
+                (step::HOLD, hold),
+                (step::PUSH, push),
+            ];
+            let steps = &mut self.steps.row_mut(0)[m / LANES * LANES * step::ROWS..];
+            rows.into_iter().for_each(|(row, value)| steps[row * LANES + m % LANES] = value);
+            self.factors.row_mut(0)[m] = strike;
+            self.factors.row_mut(1)[m] = push;
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn displacement(&self) -> &[f64] {
+        self.displacement.row(0)
+    }
+
+    #[inline(always)]
+    pub(super) fn velocity(&self) -> &[f64] {
+        self.velocity.row(0)
+    }
+
+    /// Strikes the modes and listens to them.
+    #[inline(always)]
+    pub(super) fn settle<S: Simd>(
+        &mut self,
+        simd: S,
+        tiles: &Tiles,
+        impulses: &[f64],
+        probes: Option<&mut Probes>,
+    ) {
+        let u = as_arrays::<LANES, _>(self.displacement.row(0)).0;
+        let v = as_arrays_mut::<LANES, _>(self.velocity.row_mut(0)).0;
+        if !impulses.is_empty() {
+            gather(simd, tiles.all(), [tiles.columns(), 0], impulses, v);
+        }
+        if let Some(probes) = probes {
+            probes.hear(simd, 0, u, v);
+        }
+    }
+
+    /// One sweep over the modes: strikes them, listens, lays the forces on, moves everything over one step, and adds up
+    /// what the columns then feel.
+    #[inline(always)]
+    pub(super) fn sweep<S: Simd>(
+        &mut self,
+        simd: S,
+        tiles: &Tiles,
+        laid: &Laid,
+        felt: &mut Felt,
+        mut probes: Option<&mut Probes>,
+    ) {
+        let displacement = as_arrays_mut::<LANES, _>(self.displacement.row_mut(0)).0;
+        let velocity = as_arrays_mut::<LANES, _>(self.velocity.row_mut(0)).0;
+        let steps = as_arrays::<{ step::ROWS * LANES }, _>(self.steps.row(0)).0;
+        let columns = tiles.columns();
+        felt.begin(columns);
+        let modes = displacement.chunks_mut(TOGETHER).zip(velocity.chunks_mut(TOGETHER));
+        for (chunk, ((u, v), steps)) in modes.zip(steps.chunks(TOGETHER)).enumerate() {
+            let tiles = &tiles.all()[chunk * TOGETHER * columns..][..v.len() * columns];
+            if columns > 0 && !laid.impulses.is_empty() {
+                gather(simd, tiles, [columns, 0], laid.impulses, v);
+            }
+            if let Some(probes) = &mut probes {
+                probes.hear(simd, chunk * TOGETHER, u, v);
+            }
+            // Forces first, then what modes move by next.
+            let mut work = [[0.0; LANES]; TOGETHER];
+            let work = &mut work[..v.len()];
+            if felt.plain < columns {
+                gather(simd, tiles, [columns, felt.plain], laid.forces, work);
+            }
+            advance::<S, true>(simd, u, v, steps, work);
+            felt.add(simd, tiles, columns, work, v);
+        }
+    }
+
+    /// What the columns feel as everything is, nothing moved.
+    #[inline(always)]
+    pub(super) fn look<S: Simd>(&mut self, simd: S, tiles: &Tiles, felt: &mut Felt) {
+        let displacement = as_arrays_mut::<LANES, _>(self.displacement.row_mut(0)).0;
+        let velocity = as_arrays_mut::<LANES, _>(self.velocity.row_mut(0)).0;
+        let steps = as_arrays::<{ step::ROWS * LANES }, _>(self.steps.row(0)).0;
+        let columns = tiles.columns();
+        felt.begin(columns);
+        let modes = displacement.chunks_mut(TOGETHER).zip(velocity.chunks_mut(TOGETHER));
+        for (chunk, ((u, v), steps)) in modes.zip(steps.chunks(TOGETHER)).enumerate() {
+            let tiles = &tiles.all()[chunk * TOGETHER * columns..][..v.len() * columns];
+            let mut work = [[0.0; LANES]; TOGETHER];
+            advance::<S, false>(simd, u, v, steps, &mut work[..]);
+            felt.add(simd, tiles, columns, &work[..v.len()], v);
+        }
+    }
+
+    /// Puts to rest what no longer matters; it takes energy away, if anything.
+    #[inline(always)]
+    pub(super) fn silence(&mut self) {
+        for x in self.displacement.row_mut(0).iter_mut().chain(self.velocity.row_mut(0)) {
+            *x = if x.abs() < SILENCE { 0.0 } else { *x };
+        }
+    }
+
+    /// Kinetic and elastic energy, in J.
+    pub(super) fn energy(&self) -> f64 {
+        let steps = self.steps.row(0);
+        let twice = |(m, (u, v)): (usize, (&f64, &f64))| {
+            let square = steps[(m / LANES * step::ROWS + step::SQUARE) * LANES + m % LANES];
+            v * v + square * u * u
+        };
+        0.5 * self.displacement().iter().zip(self.velocity()).enumerate().map(twice).sum::<f64>()
+    }
+}
+
+/// Moves some groups of modes over a step; `work` holds the forces on them, and afterwards what they move by next without
+/// forces. Without `MOVE`, only the latter.
+#[inline(always)]
+fn advance<S: Simd, const MOVE: bool>(
+    simd: S,
+    u: &mut [Lanes],
+    v: &mut [Lanes],
+    steps: &[[f64; step::ROWS * LANES]],
+    work: &mut [Lanes],
+) {
+    for (((u, v), steps), work) in u.iter_mut().zip(v).zip(steps).zip(work) {
+        let (u, v) = (S::as_mut_simd_f64s(u).0, S::as_mut_simd_f64s(v).0);
+        let (steps, work) = (S::as_simd_f64s(steps).0, S::as_mut_simd_f64s(work).0);
+        for i in 0..vectors::<S>() {
+            let row = |row: usize| steps[row * vectors::<S>() + i];
+            let (square, strike) = (row(step::SQUARE), row(step::STRIKE));
+            let (hold, push) = (row(step::HOLD), row(step::PUSH));
+            let (mut at, mut fast) = (u[i], v[i]);
+            if MOVE {
+                let pull = simd.negate_mul_add_e_f64s(square, at, work[i]);
+                let moved = simd.mul_add_e_f64s(push, pull, simd.mul_f64s(strike, fast));
+                fast = simd.mul_add_e_f64s(hold, fast, simd.mul_f64s(strike, pull));
+                at = simd.add_f64s(at, moved);
+                (u[i], v[i]) = (at, fast);
+            }
+            let pull = simd.mul_f64s(square, at);
+            work[i] = simd.negate_mul_add_e_f64s(push, pull, simd.mul_f64s(strike, fast));
+        }
+    }
+}
+
+/// Displacement after `dt` of a unit force held from rest, for unit modal mass: `∫_0^dt g = (1 - a)/ω²`, g the displacement
+/// after an impulse.
+///
+/// Without cancellation in any regime: by its series where ω dt and σ dt are small, from the two real exponents where it
+/// is slow and strongly damped.
+pub(super) fn push(pole: Pole, dt: f64) -> f64 {
+    let (w, s) = (pole.omega * dt, pole.sigma * dt);
+    if w > 0.5 {
+        return ((1.0 - pole.step(dt)[0][0]) / (pole.omega * pole.omega)).max(0.0);
+    }
+    if s <= 1.0 {
+        // x'' = 1 - 2 s x' - w² x in units of the step.
+        let (mut sum, mut before, mut last) = (0.5, 0.0, 0.5);
+        for n in 1..TERMS {
+            let n = n as f64;
+            let next = (-2.0 * s * (n + 1.0) * last - w * w * before) / ((n + 2.0) * (n + 1.0));
+            (before, last) = (last, next);
+            sum += next;
+        }
+        return sum * dt * dt;
+    }
+    let spread = ((s - w) * (s + w)).sqrt();
+    let [slow, fast] = [-w * w / (s + spread), -(s + spread)];
+    let mean = |x: f64| if x == 0.0 { 1.0 } else { x.exp_m1() / x };
+    (mean(slow) - mean(fast)) / (2.0 * spread) * dt * dt
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_held_force_moves_modes_of_any_kind() {
+        // Against Gauss-Legendre sums of the impulse response over many pieces of the step.
+        let gauss = crate::modes::gauss(12);
+        let mut worst: f64 = 0.0;
+        for omega in [0.0, 1e-6, 1.0, 30.0, 499.0, 501.0, 3e3, 2e4] {
+            for sigma in [0.0, 1e-3, 14.0, 499.0, 999.0, 1001.0, 3e3, 4e4] {
+                let (pole, dt, pieces) = (Pole::new(omega, sigma), 1e-3, 400);
+                let piece = dt / f64::from(pieces);
+                let integral: f64 = (0..pieces)
+                    .flat_map(|i| gauss.iter().map(move |(x, w)| (f64::from(i) + 0.5 * (1.0 + x), 0.5 * w)))
+                    .map(|(at, weight)| weight * piece * pole.displacement(at * piece))
+                    .sum();
+                worst = worst.max((push(pole, dt) / integral - 1.0).abs());
+                assert!(
+                    (push(pole, dt) / integral - 1.0).abs() < 1e-10,
+                    "{pole:?}: {} {integral}",
+                    push(pole, dt)
+                );
+            }
+        }
+        assert!(worst > 0.0);
+    }
+
+    #[test]
+    fn energy_changes_by_the_work_of_the_force() {
+        let poles: Vec<Pole> = (0..11).map(|m| Pole::new(f64::from(m * m) * 40.0, 0.0)).collect();
+        // A port of its own for each mode.
+        let (mut field, mut tiles) = (Field::new(&poles, 1e-3), Tiles::zeros(11, 11));
+        tiles.resize(11);
+        for m in 0..11 {
+            let mut row = [0.0; LANES];
+            row[m] = 1.0;
+            tiles.set(m, &row);
+        }
+        let zeros = vec![[0.0; LANES]; 11];
+        let mut felt = Felt { motion: zeros.clone(), velocity: zeros, plain: 0, striking: true };
+        let impulses: Vec<f64> = (0..11).map(|m| 1.0 - 0.3 * f64::from(m)).collect();
+        let simd = pulp::Scalar::new();
+        field.settle(simd, &tiles, &impulses, None);
+        for i in 0..200 {
+            let (before, from) = (field.energy(), field.displacement().to_vec());
+            let forces: Vec<f64> = (0..11).map(|m| f64::from((7 * i + 3 * m) % 13) * 100.0 - 600.0).collect();
+            let laid = Laid { impulses: &[], forces: &forces };
+            field.sweep(simd, &tiles, &laid, &mut felt, None);
+            let moved = field.displacement().iter().zip(&from).zip(&forces);
+            let work: f64 = moved.map(|((to, from), force)| force * (to - from)).sum();
+            let gain = field.energy() - before;
+            assert!((gain - work).abs() < 1e-11 * field.energy().max(1.0), "{i}: {gain} {work}");
+        }
+    }
+}

@@ -1,0 +1,238 @@
+//! Sums over modes, as many at a time as the processor can.
+//!
+//! Everything here is inlined into the block loop, which is compiled once for each kind of processor. Additions are
+//! ordered by the width of its registers: on different processors, results may differ in their last bits.
+
+use pulp::{Simd, as_arrays};
+
+/// Modes that are worked on together; rows are padded with zeros to a multiple of this.
+pub(super) const LANES: usize = 16;
+
+/// A value for each of so many modes.
+pub(super) type Lanes = [f64; LANES];
+
+/// Rows begin where a cache line does.
+const LINE: usize = 64;
+
+/// Rows of values for each mode, padded with zeros.
+#[derive(Clone, Debug)]
+pub(super) struct Rows {
+    data: Vec<f64>,
+    first: usize,
+    length: usize,
+}
+
+impl Rows {
+    /// So many rows of zeros for so many modes.
+    pub(super) fn zeros(rows: usize, modes: usize) -> Self {
+        let length = modes.next_multiple_of(LANES);
+        let data = vec![0.0; rows * length + LINE / size_of::<f64>()];
+        let first = data.as_ptr().align_offset(LINE).min(LINE / size_of::<f64>());
+        Self { data, first, length }
+    }
+
+    #[inline(always)]
+    pub(super) fn row(&self, row: usize) -> &[f64] {
+        &self.data[self.first + row * self.length..][..self.length]
+    }
+
+    #[inline(always)]
+    pub(super) fn row_mut(&mut self, row: usize) -> &mut [f64] {
+        &mut self.data[self.first + row * self.length..][..self.length]
+    }
+
+    /// Copies values into a row, zeros behind them.
+    pub(super) fn fill(&mut self, row: usize, values: &[f64]) {
+        let row = self.row_mut(row);
+        let (head, tail) = row.split_at_mut(values.len().min(row.len()));
+        head.iter_mut().zip(values).for_each(|(to, value)| *to = *value);
+        tail.fill(0.0);
+    }
+}
+
+/// Weights in columns: sixteen modes of every column, then the next sixteen.
+#[derive(Clone, Debug)]
+pub(super) struct Tiles {
+    data: Vec<f64>,
+    first: usize,
+    groups: usize,
+    columns: usize,
+}
+
+impl Tiles {
+    /// Room for so many modes of up to so many columns; none is there at first.
+    pub(super) fn zeros(columns: usize, modes: usize) -> Self {
+        let groups = modes.div_ceil(LANES);
+        let data = vec![0.0; groups * columns * LANES + LINE / size_of::<f64>()];
+        let first = data.as_ptr().align_offset(LINE).min(LINE / size_of::<f64>());
+        Self { data, first, groups, columns: 0 }
+    }
+
+    /// Makes room for another number of columns, which must all be set then.
+    pub(super) fn resize(&mut self, columns: usize) {
+        self.columns = columns;
+    }
+
+    /// Columns in use.
+    #[inline(always)]
+    pub(super) fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// Sets the weights of a column.
+    #[inline(always)]
+    pub(super) fn set(&mut self, column: usize, row: &[f64]) {
+        let size = self.columns * LANES;
+        let tiles = self.data[self.first..].chunks_exact_mut(size);
+        for (tile, row) in tiles.zip(row.chunks_exact(LANES)) {
+            tile[column * LANES..][..LANES].copy_from_slice(row);
+        }
+    }
+
+    /// The weights, the columns of a group of modes after those of another.
+    #[inline(always)]
+    pub(super) fn all(&self) -> &[Lanes] {
+        as_arrays::<LANES, _>(&self.data[self.first..][..self.groups * self.columns * LANES]).0
+    }
+}
+
+/// Adds to what modes get: `to[m] += Σ_k w_k[m] amounts[k]`, the columns from the `first` on.
+#[inline(always)]
+pub(super) fn gather<S: Simd>(
+    simd: S,
+    tiles: &[Lanes],
+    [columns, first]: [usize; 2],
+    amounts: &[f64],
+    to: &mut [Lanes],
+) {
+    // Two groups at a time, so that enough sums are under way at once.
+    let (pairs, last) = to.split_at_mut(to.len() / 2 * 2);
+    let whole = pairs.len() * columns;
+    for (tiles, to) in tiles.chunks_exact(2 * columns).zip(pairs.chunks_exact_mut(2)) {
+        let (one, other) = tiles.split_at(columns);
+        let [mut sum, mut second] = [begun::<S>(simd, &to[0]), begun::<S>(simd, &to[1])];
+        for ((one, other), amount) in one[first..].iter().zip(&other[first..]).zip(amounts) {
+            let amount = simd.splat_f64s(*amount);
+            weigh(simd, one, amount, &mut sum);
+            weigh(simd, other, amount, &mut second);
+        }
+        keep::<S>(&sum, &mut to[0]);
+        keep::<S>(&second, &mut to[1]);
+    }
+    if let [to] = last {
+        let mut sum = begun::<S>(simd, to);
+        for (weights, amount) in tiles[whole..][first..].iter().zip(amounts) {
+            weigh(simd, weights, simd.splat_f64s(*amount), &mut sum);
+        }
+        keep::<S>(&sum, to);
+    }
+}
+
+/// Sixteen sums, begun.
+#[inline(always)]
+fn begun<S: Simd>(simd: S, from: &Lanes) -> [S::f64s; LANES] {
+    let mut sums = [simd.splat_f64s(0.0); LANES];
+    sums[..vectors::<S>()].copy_from_slice(S::as_simd_f64s(from).0);
+    sums
+}
+
+/// Sixteen sums, done.
+#[inline(always)]
+fn keep<S: Simd>(sums: &[S::f64s; LANES], to: &mut Lanes) {
+    S::as_mut_simd_f64s(to).0.copy_from_slice(&sums[..vectors::<S>()]);
+}
+
+#[inline(always)]
+fn weigh<S: Simd>(simd: S, weights: &Lanes, amount: S::f64s, sums: &mut [S::f64s; LANES]) {
+    let weights = S::as_simd_f64s(weights).0;
+    for i in 0..vectors::<S>() {
+        sums[i] = simd.mul_add_e_f64s(weights[i], amount, sums[i]);
+    }
+}
+
+/// Adds to what columns feel of some groups of modes: `sums[k] += Σ_m w_k[m] x[m]`, sixteen parts of it, the columns from
+/// the `first` on.
+#[inline(always)]
+pub(super) fn feel<S: Simd>(
+    simd: S,
+    tiles: &[Lanes],
+    [columns, first]: [usize; 2],
+    x: &[Lanes],
+    sums: &mut [Lanes],
+) {
+    let mut pairs = sums[first..columns].chunks_exact_mut(2);
+    let mut column = first;
+    for to in &mut pairs {
+        let [mut sum, mut second] = [begun::<S>(simd, &to[0]), begun::<S>(simd, &to[1])];
+        for (tile, x) in tiles.chunks_exact(columns).zip(x) {
+            if let [one, other] = &tile[column..column + 2] {
+                let (one, other) = (S::as_simd_f64s(one).0, S::as_simd_f64s(other).0);
+                let x = S::as_simd_f64s(x).0;
+                for i in 0..vectors::<S>() {
+                    sum[i] = simd.mul_add_e_f64s(one[i], x[i], sum[i]);
+                    second[i] = simd.mul_add_e_f64s(other[i], x[i], second[i]);
+                }
+            }
+        }
+        keep::<S>(&sum, &mut to[0]);
+        keep::<S>(&second, &mut to[1]);
+        column += 2;
+    }
+    if let [to] = pairs.into_remainder() {
+        let mut sum = begun::<S>(simd, to);
+        for (tile, x) in tiles.chunks_exact(columns).zip(x) {
+            let (weights, x) = (S::as_simd_f64s(&tile[column]).0, S::as_simd_f64s(x).0);
+            for i in 0..vectors::<S>() {
+                sum[i] = simd.mul_add_e_f64s(weights[i], x[i], sum[i]);
+            }
+        }
+        keep::<S>(&sum, to);
+    }
+}
+
+/// Adds to what a row feels of some groups of modes, as [`feel`] does.
+#[inline(always)]
+pub(super) fn hear<S: Simd>(simd: S, row: &[Lanes], x: &[Lanes], to: &mut Lanes) {
+    let mut sum = begun::<S>(simd, to);
+    for (weights, x) in row.iter().zip(x) {
+        let (weights, x) = (S::as_simd_f64s(weights).0, S::as_simd_f64s(x).0);
+        for i in 0..vectors::<S>() {
+            sum[i] = simd.mul_add_e_f64s(weights[i], x[i], sum[i]);
+        }
+    }
+    keep::<S>(&sum, to);
+}
+
+/// What was added up by [`feel`].
+#[inline(always)]
+pub(super) fn total<S: Simd>(simd: S, sums: &[Lanes], out: &mut [f64]) {
+    for (out, sum) in out.iter_mut().zip(sums) {
+        let parts = S::as_simd_f64s(sum).0;
+        let mut sum = parts[0];
+        for part in &parts[1..vectors::<S>()] {
+            sum = simd.add_f64s(sum, *part);
+        }
+        *out = simd.reduce_sum_f64s(sum);
+    }
+}
+
+/// Registers that hold sixteen values.
+#[inline(always)]
+pub(super) fn vectors<S: Simd>() -> usize {
+    LANES / S::F64_LANES
+}
+
+/// `Σ_m first[m] second[m]` alone and with each of two factors.
+#[inline(always)]
+pub(super) fn grams<S: Simd>(simd: S, first: &[f64], second: &[f64], factors: [&[f64]; 2]) -> [f64; 3] {
+    let [first, second] = [first, second].map(|row| S::as_simd_f64s(row).0);
+    let [strike, push] = factors.map(|row| S::as_simd_f64s(row).0);
+    let mut sums = [simd.splat_f64s(0.0); 3];
+    for ((first, second), (strike, push)) in first.iter().zip(second).zip(strike.iter().zip(push)) {
+        let product = simd.mul_f64s(*first, *second);
+        sums[0] = simd.add_f64s(sums[0], product);
+        sums[1] = simd.mul_add_e_f64s(product, *strike, sums[1]);
+        sums[2] = simd.mul_add_e_f64s(product, *push, sums[2]);
+    }
+    sums.map(|sum| simd.reduce_sum_f64s(sum))
+}

@@ -1,0 +1,184 @@
+use crate::modes::check;
+use crate::{Entry, Footprint, Load, Modes, PhysicsError, Transducer, transducers};
+use std::sync::Arc;
+use unripple_core::{ModalResponses, Onset, Outline, Point, Pole, Shapes, Surface};
+
+/// A sheet as the stepper knows it: oscillations, their shapes and the rim. Cheap to clone, so that another thread can
+/// prepare footings.
+#[derive(Clone, Debug)]
+pub struct Plant {
+    pub(super) poles: Arc<[Pole]>,
+    pub(super) bending_shares: Arc<[f64]>,
+    pub(super) shapes: Arc<dyn Shapes>,
+    pub(super) outline: Arc<Outline>,
+}
+
+/// A channel: what a drive does to the sheet at some place, what is read there, and what hangs there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    /// Where and how it acts and senses.
+    pub footprint: Footprint,
+    /// Force per unit of drive (N per unit), or with [`Channel::voltage`] volts per unit of drive; the sensor is multiplied
+    /// by it as well.
+    pub gain: f64,
+    /// What hangs there and moves along.
+    pub load: Option<Load>,
+    /// Whether the drive is a voltage at the load's coil. The sensor then is the current that the motion drives back through
+    /// the coil (-i in A, so that responses are reciprocal); otherwise it is the sheet's velocity times the gain.
+    pub voltage: bool,
+}
+
+/// What a disc on the sheet feels of every mode: made by [`Plant::footing`], wherever there is time for it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Footing {
+    pub(super) weights: Vec<f64>,
+}
+
+impl Plant {
+    /// A sheet of these oscillations (unit modal mass) and shapes within an outline.
+    ///
+    /// # Errors
+    /// [`PhysicsError::Range`] if a frequency or decay is negative or not finite, or if there are as many poles as shapes;
+    /// [`PhysicsError::Unsupported`] for oscillations that an impulse moves rather than strikes.
+    pub fn new(poles: &[Pole], shapes: Arc<dyn Shapes>, outline: Outline) -> Result<Self, PhysicsError> {
+        let (count, found) = (poles.len() as f64, shapes.modes() as f64);
+        check("shapes of the modes", found, found == count, &format!("{count}, one for each pole"))?;
+        for pole in poles {
+            check("frequency of a mode in rad/s", pole.omega, pole.omega >= 0.0, "0 or more")?;
+            check("decay rate of a mode in 1/s", pole.sigma, pole.sigma >= 0.0, "0 or more")?;
+            if pole.onset != Onset::Velocity {
+                return Err(PhysicsError::Unsupported {
+                    what: "modes to step through time",
+                    expected: "those of a sheet without loads, which impulses strike",
+                    found: format!("one of {} rad/s that impulses move", pole.omega),
+                });
+            }
+        }
+        Ok(Self {
+            poles: poles.into(),
+            bending_shares: vec![0.0; poles.len()].into(),
+            shapes,
+            outline: Arc::new(outline),
+        })
+    }
+
+    /// All modes of a surface.
+    ///
+    /// # Errors
+    /// Those of [`Plant::new`].
+    pub fn of(surface: &Surface, modes: Arc<Modes>) -> Result<Self, PhysicsError> {
+        let (poles, shares) = (modes.poles().to_vec(), modes.bending_shares().to_vec());
+        Self::new(&poles, modes, surface.outline.clone())?.with_bending_shares(&shares)
+    }
+
+    /// The modes of responses.
+    ///
+    /// # Errors
+    /// Those of [`Plant::new`].
+    pub fn of_responses(responses: &ModalResponses) -> Result<Self, PhysicsError> {
+        Self::new(&responses.poles, responses.shapes.clone(), responses.conditions.outline.clone())
+    }
+
+    /// The same with bending's share of each mode's elastic energy (0 to 1), which tension does not change; without it, 0.
+    ///
+    /// # Errors
+    /// [`PhysicsError::Range`] for shares that cannot be, or another number of them than modes.
+    pub fn with_bending_shares(self, shares: &[f64]) -> Result<Self, PhysicsError> {
+        let (found, count) = (shares.len() as f64, self.poles.len() as f64);
+        check("bending shares of the modes", found, found == count, &format!("{count}, one for each pole"))?;
+        for share in shares {
+            check("bending share of a mode", *share, (0.0..=1.0).contains(share), "between 0 and 1")?;
+        }
+        Ok(Self { bending_shares: shares.into(), ..self })
+    }
+
+    /// What a disc of some radius (m) feels of every mode. Takes the time of about eighty evaluations of the shapes, and
+    /// allocates: not for the thread that steps.
+    ///
+    /// # Errors
+    /// [`PhysicsError::Range`] if the place or the radius is not finite, or the radius negative.
+    pub fn footing(&self, at: Point, radius: f64) -> Result<Footing, PhysicsError> {
+        check("x of a contact in m", at.x, true, "a finite number")?;
+        check("y of a contact in m", at.y, true, "a finite number")?;
+        check("radius of a contact in m", radius, radius >= 0.0, "0 or more")?;
+        let at = if self.outline.contains(at) { at } else { self.outline.nearest(at) };
+        Ok(Footing { weights: self.weights(&Footprint::disc(at, radius, &self.outline))? })
+    }
+
+    /// Number of modes.
+    pub fn modes(&self) -> usize {
+        self.poles.len()
+    }
+
+    pub(super) fn weights(&self, footprint: &Footprint) -> Result<Vec<f64>, PhysicsError> {
+        let weights = footprint.weights(&*self.shapes);
+        for weight in &weights {
+            check("weight of a mode in 1/√kg", *weight, true, "a finite number")?;
+        }
+        Ok(weights)
+    }
+}
+
+impl From<Transducer> for Channel {
+    fn from(transducer: Transducer) -> Self {
+        let Transducer { footprint, gain, entry, load, .. } = transducer;
+        match entry {
+            Entry::Force => Self { footprint, gain, load, voltage: false },
+            // The force per ampere is in the load's coil already.
+            Entry::Voltage => Self { footprint, gain: 1.0, load, voltage: true },
+        }
+    }
+}
+
+impl Channel {
+    /// A force (in N) over a footprint, which senses the velocity there (m/s).
+    pub fn force(footprint: Footprint) -> Self {
+        Self { footprint, gain: 1.0, load: None, voltage: false }
+    }
+
+    /// The actuators of a surface, whatever they are.
+    ///
+    /// # Errors
+    /// Those of [`transducers`].
+    pub fn all(surface: &Surface) -> Result<Vec<Self>, PhysicsError> {
+        Ok(transducers(surface)?.into_iter().map(Self::from).collect())
+    }
+
+    /// The same, a coil's inductance left out where its current follows the voltage within far less than a sample.
+    pub(super) fn settled(&self, rate: f64) -> Self {
+        let mut channel = self.clone();
+        if let Some(coil) = channel.load.as_mut().and_then(|load| load.circuit.as_mut())
+            && coil.resistance > 1e12 * coil.inductance * rate
+        {
+            coil.inductance = 0.0;
+        }
+        channel
+    }
+
+    pub(super) fn check(&self) -> Result<(), PhysicsError> {
+        check("gain of a channel", self.gain, true, "a finite number")?;
+        if let Some(load) = &self.load {
+            check("mass of a load in kg", load.mass, load.mass >= 0.0, "0 or more")?;
+            check("damping of a load in N·s/m", load.damping, load.damping >= 0.0, "0 or more")?;
+            check("stiffness of a load in N/m", load.stiffness, load.stiffness >= 0.0, "0 or more")?;
+        }
+        match self.load.as_ref().and_then(|load| load.circuit) {
+            Some(coil) => {
+                check("force constant of a coil in N/A", coil.force_constant, true, "a finite number")?;
+                check(
+                    "resistance of a coil in Ω",
+                    coil.resistance,
+                    coil.resistance > 0.0,
+                    "a positive number",
+                )?;
+                check("inductance of a coil in H", coil.inductance, coil.inductance >= 0.0, "0 or more")
+            }
+            None if self.voltage => Err(PhysicsError::Unsupported {
+                what: "load of a channel driven by a voltage",
+                expected: "a coil",
+                found: "none".into(),
+            }),
+            None => Ok(()),
+        }
+    }
+}

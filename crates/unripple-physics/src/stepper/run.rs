@@ -1,0 +1,243 @@
+use super::couplings::Part;
+use super::engine::Engine;
+use super::field::Laid;
+use super::lanes::total;
+use super::small::{OCT, add};
+use pulp::{Simd, WithSimd};
+
+/// Samples between looks at what has become too small to matter.
+const SILENCE: u64 = 1024;
+
+/// What goes in and comes out of some samples: planes of channels or probes, `stride` apart, from a first sample on.
+pub(super) struct Planes<'a> {
+    pub(super) frames: usize,
+    pub(super) drive: Drive<'a>,
+    pub(super) out: Out,
+    /// Empty where nobody listens.
+    pub(super) sensors: &'a mut [f64],
+    pub(super) probes: &'a mut [f64],
+}
+
+/// Planes of the drive.
+#[derive(Clone, Copy)]
+pub(super) struct Drive<'a> {
+    pub(super) values: &'a [f64],
+    pub(super) stride: usize,
+}
+
+/// How planes of sensors and probes lie.
+#[derive(Clone, Copy)]
+pub(super) struct Out {
+    pub(super) stride: usize,
+    pub(super) first: usize,
+}
+
+/// A block, as one piece of code for the processor at hand.
+pub(super) struct Block<'a, 'b> {
+    pub(super) engine: &'a mut Engine,
+    pub(super) planes: Planes<'b>,
+}
+
+impl WithSimd for Block<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Block { engine, mut planes } = self;
+        engine.bank.reset_work();
+        if engine.stale {
+            engine.field.look(simd, &engine.tiles, &mut engine.felt);
+            engine.sense(simd);
+            engine.solve(simd, false);
+            engine.stale = false;
+        }
+        for frame in 0..planes.frames {
+            for substep in 0..if engine.samples > 0 { engine.substeps } else { 0 } {
+                // Probes hear of a sample when the modes are swept over next.
+                let heard = (frame > 0 && substep == 0).then(|| frame - 1);
+                engine.advance(simd, &mut planes, heard);
+                if substep + 1 < engine.substeps {
+                    engine.impulse.fill([0.0; OCT]);
+                    engine.instant(simd, engine.sharing);
+                }
+            }
+            engine.drive(&planes.drive, frame);
+            engine.instant(simd, engine.felt.striking);
+            engine.tell(&mut planes, frame);
+            engine.samples += 1;
+            if engine.samples % SILENCE == 0 {
+                engine.field.silence();
+            }
+        }
+        engine.settle(simd, &mut planes);
+    }
+}
+
+impl Engine {
+    /// One step of modes and loads, fingers going on. Probes hear of the sample before, if they have not.
+    #[inline(always)]
+    fn advance<S: Simd>(&mut self, simd: S, planes: &mut Planes, heard: Option<usize>) {
+        let columns = self.tiles.columns();
+        lay(&self.couplings.parts, self.fixed, self.bank.forces(), &mut self.forces);
+        let impulses = if self.pending { &self.impulses[..columns] } else { &[] };
+        let laid = Laid { impulses, forces: &self.forces[self.felt.plain..columns] };
+        let heard = heard.filter(|_| !planes.probes.is_empty());
+        let probes = heard.is_some().then_some(&mut self.probes);
+        self.field.sweep(simd, &self.tiles, &laid, &mut self.felt, probes);
+        self.pending = false;
+        if let Some(frame) = heard {
+            self.write(simd, planes, frame);
+        }
+        self.bank.advance(simd);
+        if self.touches.iter().any(|touch| touch.changes()) {
+            self.change(simd);
+        }
+        self.sense(simd);
+    }
+
+    /// Lays what is pending on the modes, after the last sample of a block, and lets probes hear it.
+    #[inline(always)]
+    fn settle<S: Simd>(&mut self, simd: S, planes: &mut Planes) {
+        let listened = !planes.probes.is_empty();
+        let impulses = if self.pending { &self.impulses[..self.tiles.columns()] } else { &[] };
+        self.field.settle(simd, &self.tiles, impulses, listened.then_some(&mut self.probes));
+        self.pending = false;
+        if listened {
+            self.write(simd, planes, planes.frames - 1);
+        }
+    }
+
+    /// Writes what probes have heard.
+    #[inline(always)]
+    fn write<S: Simd>(&mut self, simd: S, planes: &mut Planes, frame: usize) {
+        let Out { stride, first } = planes.out;
+        let heard = self.probes.tell(simd);
+        for (plane, heard) in planes.probes.chunks_exact_mut(stride).zip(heard) {
+            plane[first + frame] = *heard;
+        }
+    }
+
+    /// What the last sweep felt: velocity of the ports, and what they would move by without forces.
+    #[inline(always)]
+    fn sense<S: Simd>(&mut self, simd: S) {
+        let columns = self.tiles.columns();
+        let motion = &self.felt.motion[self.felt.plain..columns];
+        total(simd, motion, &mut self.forces[self.felt.plain..]);
+        fold(&self.couplings.parts, self.fixed, &self.forces, self.motion.as_flattened_mut());
+        if self.felt.striking {
+            total(simd, &self.felt.velocity[..columns], &mut self.impulses);
+            fold(&self.couplings.parts, self.fixed, &self.impulses, self.velocity.as_flattened_mut());
+        }
+    }
+
+    /// Takes in one sample of all channels: impulses on ports and jumps of currents.
+    #[inline(always)]
+    fn drive(&mut self, drive: &Drive, frame: usize) {
+        self.impulse.fill([0.0; OCT]);
+        for (lead, channel) in self.leads.iter().zip(drive.values.chunks_exact(drive.stride)) {
+            let value = channel[frame] * lead.drive;
+            let value = if value.is_finite() { value } else { 0.0 };
+            if lead.current {
+                self.bank.induce(lead.port, value);
+            } else {
+                self.impulse.as_flattened_mut()[lead.port] += value;
+            }
+        }
+    }
+
+    /// Everything that happens at an instant: impulses, shared with the masses, then the forces of the step to come.
+    #[inline(always)]
+    fn instant<S: Simd>(&mut self, simd: S, struck: bool) {
+        let ports = self.couplings.ports();
+        if struck {
+            let [momentum, ..] = self.couplings.between();
+            momentum.product(simd, &self.impulse.as_flattened()[..ports], &mut self.change);
+            add(simd, &mut self.velocity, &self.change);
+            if self.sharing {
+                let by = (self.couplings.impulses(), momentum);
+                let (impulse, change) = self.bank.share(simd, &self.velocity, by, ports);
+                add(simd, &mut self.velocity, change);
+                add(simd, &mut self.impulse, impulse);
+            }
+            lay(&self.couplings.parts, self.fixed, self.impulse.as_flattened(), &mut self.impulses);
+            self.pending = true;
+        }
+        self.solve(simd, struck);
+    }
+
+    /// Finds the forces of the step to come.
+    #[inline(always)]
+    fn solve<S: Simd>(&mut self, simd: S, struck: bool) {
+        let ports = self.couplings.ports();
+        let [_, displaced, push] = self.couplings.between();
+        self.free.copy_from_slice(&self.motion);
+        if struck {
+            displaced.product(simd, &self.impulse.as_flattened()[..ports], &mut self.change);
+            add(simd, &mut self.free, &self.change);
+        }
+        self.bank.solve(simd, &self.free, (self.couplings.forces(), push), ports);
+    }
+
+    /// Writes one sample of sensors.
+    #[inline(always)]
+    fn tell(&mut self, planes: &mut Planes, frame: usize) {
+        let Out { stride, first } = planes.out;
+        for (lead, sensor) in self.leads.iter().zip(planes.sensors.chunks_exact_mut(stride)) {
+            let felt = if lead.current {
+                self.bank.current(lead.port)
+            } else {
+                self.velocity.as_flattened()[lead.port]
+            };
+            sensor[first + frame] = lead.sense * felt;
+        }
+    }
+
+    /// Lets fingers come, move and go.
+    #[inline(always)]
+    fn change<S: Simd>(&mut self, simd: S) {
+        let (mut finger, mut other) = (0, false);
+        while finger < self.touches.len() {
+            let (touch, port) = (&mut self.touches[finger], self.fixed + finger);
+            if touch.changes() {
+                let moving = touch.moving < 1.0;
+                touch.go_on(self.fade, self.glide);
+                other |= touch.gone() || (moving && touch.moving >= 1.0);
+                if touch.gone() {
+                    self.drop_finger(finger);
+                    continue;
+                }
+                self.couplings.parts[port].shares = touch.shares();
+                self.couplings.couple(port);
+            }
+            finger += 1;
+        }
+        if other {
+            self.renew_now(simd);
+            self.field.look(simd, &self.tiles, &mut self.felt);
+        } else {
+            self.couplings.follow(simd, &self.bank);
+        }
+    }
+}
+
+/// Lays what acts on ports on the columns of the tiles; the first `fixed` of both are the same.
+#[inline(always)]
+fn lay(parts: &[Part], fixed: usize, ports: &[f64], columns: &mut [f64]) {
+    columns[..fixed].copy_from_slice(&ports[..fixed]);
+    for (part, amount) in parts.iter().zip(ports).skip(fixed) {
+        // Of equal columns the second one counts.
+        for (column, share) in part.columns.iter().zip(part.shares) {
+            columns[*column] = share * amount;
+        }
+    }
+}
+
+/// Makes what ports feel of what columns feel.
+#[inline(always)]
+fn fold(parts: &[Part], fixed: usize, columns: &[f64], ports: &mut [f64]) {
+    ports[..fixed].copy_from_slice(&columns[..fixed]);
+    for (part, port) in parts.iter().zip(ports).skip(fixed) {
+        let [from, to] = part.columns.map(|column| columns[column]);
+        *port = part.shares[0] * from + part.shares[1] * to;
+    }
+}

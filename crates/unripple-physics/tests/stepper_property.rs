@@ -1,0 +1,254 @@
+//! Over random sheets, loads and rates: energy never grows by itself, responses are reciprocal, blocks do not matter.
+
+mod stepper_common;
+
+use proptest::prelude::*;
+use std::sync::Arc;
+use stepper_common::*;
+use unripple_core::*;
+use unripple_physics::stepper::*;
+use unripple_physics::{Circuit, Footprint, Load};
+
+/// Shapes without any order: every place has numbers of its own.
+#[derive(Debug)]
+struct Wild {
+    modes: usize,
+    scale: f64,
+}
+
+impl Shapes for Wild {
+    fn modes(&self) -> usize {
+        self.modes
+    }
+
+    fn at(&self, p: Point, row: &mut [f64]) {
+        let values = noise((p.x * 1e6).round() as u64 * 1_000_003 + (p.y * 1e6).round() as u64, row.len());
+        row.iter_mut().zip(values).for_each(|(row, value)| *row = self.scale * value);
+    }
+}
+
+/// How far loads reach where results are compared to each other: a mass so heavy that it leaves 1e-12 of an impulse leaves
+/// as few digits of it.
+const MILD: f64 = 4.0;
+
+/// From 10^low to 10^high, or nothing at all.
+fn wide(low: f64, high: f64) -> impl Strategy<Value = f64> {
+    prop_oneof![1 => Just(0.0), 4 => (low..high).prop_map(|x| 10f64.powf(x))]
+}
+
+fn place() -> impl Strategy<Value = Point> {
+    (1..150u32, 1..150u32).prop_map(|(x, y)| mm(f64::from(x), f64::from(y)))
+}
+
+fn circuit() -> impl Strategy<Value = Circuit> {
+    let bl = (-3.0..3.0).prop_map(|x| 10f64.powf(x));
+    let resistance = (-3.0..3.0).prop_map(|x| 10f64.powf(x));
+    (bl, resistance, wide(-9.0, 2.0)).prop_map(|(force_constant, resistance, inductance)| Circuit {
+        force_constant,
+        resistance,
+        inductance,
+    })
+}
+
+/// Loads whose values reach from 10^-reach to 10^reach.
+fn any_load(reach: f64) -> impl Strategy<Value = Load> {
+    let values = (wide(-reach, reach), wide(-reach, reach), wide(-reach, reach));
+    (place(), values, proptest::option::of(circuit())).prop_map(|(at, values, circuit)| Load {
+        footprint: Footprint::point(at),
+        mass: values.0,
+        damping: values.1,
+        stiffness: values.2,
+        circuit,
+    })
+}
+
+fn channel(reach: f64) -> impl Strategy<Value = Channel> {
+    (place(), proptest::option::of(any_load(reach)), any::<[bool; 2]>()).prop_map(
+        |(at, load, [same, voltage])| {
+            let footprint = match &load {
+                Some(load) if same => load.footprint.clone(),
+                _ => Footprint::point(at),
+            };
+            let voltage = voltage && load.as_ref().is_some_and(|load| load.circuit.is_some());
+            Channel { footprint, gain: 1.0, load, voltage }
+        },
+    )
+}
+
+/// A rate, a sheet whose ω dt and σ dt reach 20, and how strongly its modes are felt.
+fn sheet() -> impl Strategy<Value = (f64, Plant)> {
+    let pole = (wide(-4.0, 1.3), wide(-6.0, 1.3));
+    let poles = proptest::collection::vec(pole, 1..10);
+    ((0.0..7.0).prop_map(|x: f64| 10f64.powf(x)), poles, -2.0..2.0).prop_map(
+        |(rate, poles, scale): (f64, _, f64)| {
+            let poles: Vec<Pole> =
+                poles.iter().map(|(w, s): &(f64, f64)| Pole::new(w * rate, s * rate)).collect();
+            let shapes = Wild { modes: poles.len(), scale: 10f64.powf(scale) };
+            (rate, Plant::new(&poles, Arc::new(shapes), square()).unwrap())
+        },
+    )
+}
+
+fn contact(reach: f64) -> impl Strategy<Value = Contact> {
+    (place(), (wide(-reach, reach), wide(-reach, reach), wide(-reach, reach))).prop_map(|(at, values)| {
+        Contact {
+            at,
+            finger: Finger { mass: values.0, damping: values.1, stiffness: values.2, contact_radius: 0.0 },
+        }
+    })
+}
+
+/// The most that energy grows by over one sample without drive, relative to what there is at first.
+fn growth(surface: &mut VirtualSurface, samples: usize, act: impl Fn(&mut VirtualSurface, usize)) -> f64 {
+    let (first, mut before, mut most) = (surface.energy(), surface.energy(), 0.0);
+    for i in 0..samples {
+        act(surface, i);
+        rest(surface, 1);
+        let energy = surface.energy();
+        assert!(energy.is_finite());
+        most = f64::max(most, energy - before);
+        before = energy;
+    }
+    if most > 0.0 { most / first } else { 0.0 }
+}
+
+/// What a channel senses of its own impulse on the bare sheet, if it strikes it.
+fn struck(plant: &Plant, channel: &Channel, rate: f64) -> f64 {
+    let coil = channel.load.as_ref().and_then(|load| load.circuit).filter(|_| channel.voltage);
+    let gain = match coil {
+        Some(coil) if coil.inductance > 0.0 => return 0.0,
+        Some(coil) => coil.force_constant / coil.resistance,
+        None => 1.0,
+    };
+    let bare = Channel { gain, ..Channel::force(channel.footprint.clone()) };
+    let mut surface = VirtualSurface::new(plant, &[bare], rate, &StepperOptions::default()).unwrap();
+    run(&mut surface, &[1.0]).0[0]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
+
+    #[test]
+    fn energy_never_grows_without_drive(
+        (rate, plant) in sheet(),
+        channels in proptest::collection::vec(channel(9.0), 1..5),
+        contacts in proptest::collection::vec(contact(9.0), 0..3),
+        substeps in 1usize..3,
+        seed in any::<u64>(),
+    ) {
+        let options = StepperOptions { fade: 9.0 / rate, substeps, ..Default::default() };
+        let mut surface = VirtualSurface::new(&plant, &channels, rate, &options).unwrap();
+        run(&mut surface, &noise(seed, 3 * channels.len()));
+        let grown = growth(&mut surface, 100, |surface, i| {
+            for (id, contact) in contacts.iter().enumerate() {
+                match i {
+                    10 => surface.touch(id as u64, contact).unwrap(),
+                    60 => surface.lift(id as u64).unwrap(),
+                    _ => {}
+                }
+            }
+        });
+        prop_assert!(grown < 1e-9, "{grown:e}");
+    }
+
+    // Between places of opposite motion a moving finger passes where it feels next to nothing: the difference of two
+    // footprints, of which rounding takes its share. So these fingers are not the stiffest.
+    #[test]
+    fn energy_never_grows_under_moving_fingers(
+        (rate, plant) in sheet(),
+        channels in proptest::collection::vec(channel(9.0), 1..4),
+        contacts in proptest::collection::vec(contact(0.5), 1..4),
+        to in place(),
+        seed in any::<u64>(),
+    ) {
+        let options = StepperOptions { fade: 9.0 / rate, glide: 7.0 / rate, ..Default::default() };
+        let mut surface = VirtualSurface::new(&plant, &channels, rate, &options).unwrap();
+        run(&mut surface, &noise(seed, 3 * channels.len()));
+        let grown = growth(&mut surface, 80, |surface, i| {
+            for (id, contact) in contacts.iter().enumerate() {
+                match i {
+                    5 => surface.touch(id as u64, contact).unwrap(),
+                    10 | 20 | 23 => surface.move_to(id as u64, if i == 20 { contact.at } else { to }).unwrap(),
+                    _ => {}
+                }
+            }
+        });
+        prop_assert!(grown < 1e-9, "{grown:e}");
+    }
+
+    #[test]
+    fn responses_are_reciprocal_through_loads(
+        (rate, plant) in sheet(),
+        channels in proptest::collection::vec(channel(MILD), 2..5),
+        contacts in proptest::collection::vec(contact(MILD), 0..3),
+        substeps in 1usize..3,
+    ) {
+        let options = StepperOptions { fade: 0.0, substeps, ..Default::default() };
+        let mut start = VirtualSurface::new(&plant, &channels, rate, &options).unwrap();
+        for (id, contact) in contacts.iter().enumerate() {
+            start.touch(id as u64, contact).unwrap();
+        }
+        rest(&mut start, 2);
+        let (frames, last) = (60, channels.len() - 1);
+        let response = |from: usize, to: usize| {
+            let mut drive = vec![0.0; channels.len() * frames];
+            drive[from * frames] = 1.0;
+            let (sensors, _) = run(&mut start.clone(), &drive);
+            sensors[to * frames..][..frames].to_vec()
+        };
+        let (there, back) = (response(0, last), response(last, 0));
+        // Against what either does to itself, or would without loads: masses may leave little of an impulse.
+        let own = |c: usize| peak(&response(c, c)).max(struck(&plant, &channels[c], rate));
+        let scale = (own(0) * own(last)).sqrt();
+        for (there, back) in there.iter().zip(&back) {
+            prop_assert!((there - back).abs() <= 1e-8 * scale, "{there:e} {back:e}, of {scale:e}");
+        }
+    }
+
+    #[test]
+    fn blocks_do_not_matter(
+        (rate, plant) in sheet(),
+        channels in proptest::collection::vec(channel(MILD), 1..4),
+        contact in contact(MILD),
+        blocks in proptest::collection::vec(1usize..40, 8),
+        seed in any::<u64>(),
+    ) {
+        let options = StepperOptions { fade: 50.0 / rate, glide: 20.0 / rate, ..Default::default() };
+        let mut surface = VirtualSurface::new(&plant, &channels, rate, &options).unwrap();
+        surface.set_probes(&[(mm(3.0, 4.0), Reading::Velocity), (mm(3.0, 4.0), Reading::Displacement)]).unwrap();
+        surface.touch(1, &contact).unwrap();
+        let frames: usize = blocks.iter().sum();
+        let drive = noise(seed, channels.len() * frames);
+        let (mut sensors, mut probes) = (vec![0.0; drive.len()], vec![0.0; 2 * frames]);
+        let mut whole = surface.clone();
+        whole.process(frames, &drive, &mut sensors, &mut probes).unwrap();
+        let mut first = 0;
+        for count in blocks {
+            let part = |planes: &[f64]| -> Vec<f64> {
+                planes.chunks(frames).flat_map(|plane| plane[first..first + count].to_vec()).collect()
+            };
+            let (found_sensors, found_probes) = run(&mut surface, &part(&drive));
+            prop_assert_eq!(found_sensors, part(&sensors));
+            prop_assert_eq!(found_probes, part(&probes));
+            first += count;
+        }
+        prop_assert_eq!(surface.state(), whole.state());
+    }
+
+    #[test]
+    fn drives_superpose(
+        (rate, plant) in sheet(),
+        channels in proptest::collection::vec(channel(MILD), 1..4),
+        seed in any::<u32>(),
+    ) {
+        let surface = VirtualSurface::new(&plant, &channels, rate, &StepperOptions::default()).unwrap();
+        let count = channels.len() * 50;
+        let (one, other) = (noise(u64::from(seed), count), noise(u64::from(seed) + 1, count));
+        let both: Vec<f64> = one.iter().zip(&other).map(|(a, b)| 2.0 * a - b).collect();
+        let [one, other, both] = [one, other, both].map(|drive| run(&mut surface.clone(), &drive).0);
+        let scale = 2.0 * peak(&one) + peak(&other);
+        for ((one, other), both) in one.iter().zip(&other).zip(&both) {
+            prop_assert!((2.0 * one - other - both).abs() <= 1e-7 * scale);
+        }
+    }
+}

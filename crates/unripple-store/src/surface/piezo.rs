@@ -1,0 +1,90 @@
+use super::range::of;
+use super::reader::{Entry, Faults, Section};
+use std::f64::consts::PI;
+use unripple_core::ActuatorKind;
+
+/// The keys of a piezo patch.
+pub(super) const PIEZO_KEYS: [&str; 7] = [
+    "radius_mm",
+    "moment_n_per_v",
+    "d31_pm_per_v",
+    "patch_young_gpa",
+    "patch_thickness_mm",
+    "patch_mass_mg",
+    "patch_density_kg_m3",
+];
+/// Those that make a moment together.
+const PATCH_KEYS: [&str; 3] = ["d31_pm_per_v", "patch_young_gpa", "patch_thickness_mm"];
+/// Poisson's ratio of a patch.
+const PATCH_POISSON: f64 = 0.3;
+
+/// A piezo patch on a sheet as thick as `thickness` metres there; `None` where that is at fault.
+pub(super) fn read(section: &Section, thickness: Option<f64>, faults: &mut Faults) -> Option<ActuatorKind> {
+    let radius = section.number(PIEZO_KEYS[0], &of::PATCH_RADIUS, faults);
+    let patch_thickness = match section.get("patch_thickness_mm") {
+        Some(entry) => entry.number(&of::PATCH_THICKNESS, faults).map(Some),
+        None => Some(None),
+    };
+    let moment = moment(section, thickness, patch_thickness, faults);
+    let mass = mass(section, radius, patch_thickness, faults);
+    Some(ActuatorKind::Piezo { radius: radius?, moment: moment?, mass: mass? })
+}
+
+/// Moment per length of rim and volt.
+///
+/// A thin patch that may not stretch presses with the stress E d31 V / (1 - ν) / t_p over its thickness t_p in both
+/// directions, at (h + t_p) / 2 from the middle of the sheet (E. F. Crawley and J. de Luis, AIAA Journal 25, 1987; C. R.
+/// Fuller, S. J. Elliott and P. A. Nelson, Active Control of Vibration, 1996): d31 E (h + t_p) / 2 / (1 - ν) per volt.
+fn moment(
+    section: &Section,
+    thickness: Option<f64>,
+    patch_thickness: Option<Option<f64>>,
+    faults: &mut Faults,
+) -> Option<f64> {
+    let given = section.get("moment_n_per_v");
+    let patch: Vec<Entry> = PATCH_KEYS[..2].iter().filter_map(|key| section.get(key)).collect();
+    match (given, patch.as_slice()) {
+        (Some(moment), []) => moment.number(&of::PATCH_MOMENT, faults),
+        (Some(moment), [first, ..]) => {
+            let other = first.key.rsplit('.').next().unwrap_or_default();
+            let expected = format!("either moment_n_per_v, or {}", PATCH_KEYS.join(", "));
+            faults.add(&moment.key, moment.span, format!("moment_n_per_v and {other}"), expected, None);
+            None
+        }
+        (None, []) if section.get(PATCH_KEYS[2]).is_none() => {
+            let expected = format!("{}, or {} instead", of::PATCH_MOMENT.expected(), PATCH_KEYS.join(", "));
+            section.require("moment_n_per_v", &expected, faults);
+            None
+        }
+        (None, _) => {
+            let d31 = section.number(PATCH_KEYS[0], &of::STRAIN_CONSTANT, faults);
+            let young = section.number(PATCH_KEYS[1], &of::PATCH_YOUNG, faults);
+            section.require(PATCH_KEYS[2], &of::PATCH_THICKNESS.expected(), faults);
+            let lever = (thickness? + patch_thickness??) / 2.0;
+            Some(d31?.abs() * young? * lever / (1.0 - PATCH_POISSON))
+        }
+    }
+}
+
+fn mass(
+    section: &Section,
+    radius: Option<f64>,
+    patch_thickness: Option<Option<f64>>,
+    faults: &mut Faults,
+) -> Option<f64> {
+    let Some(density) = section.get("patch_density_kg_m3") else {
+        return section.number_or("patch_mass_mg", 0.0, &of::PATCH_MASS, faults);
+    };
+    let value = density.number(&of::DENSITY, faults);
+    if section.get("patch_mass_mg").is_some() {
+        let found = "patch_mass_mg and patch_density_kg_m3";
+        faults.add(&density.key, density.span, found, "at most one of them", None);
+        return None;
+    }
+    if patch_thickness == Some(None) {
+        let expected = "patch_thickness_mm beside it, or patch_mass_mg in its place";
+        faults.add(&density.key, density.span, "patch_density_kg_m3 alone", expected, None);
+        return None;
+    }
+    Some(PI * radius?.powi(2) * patch_thickness?? * value?)
+}

@@ -1,0 +1,9 @@
+//! The surface file: what it means, the way back to a file, and its faults.
+
+mod faults;
+mod good;
+mod rim_faults;
+mod rims;
+mod sheet_faults;
+mod surfaces;
+mod uneven;

@@ -1,0 +1,183 @@
+//! One test per kind of fault of an uneven sheet, of scatterers and of piezo patches.
+
+use crate::good::{GOOD, fault, faults};
+
+/// The text of the one fault after a line is added to `[sheet]`.
+fn sheet(lines: &str) -> String {
+    fault("air = \"none\"", lines).to_string()
+}
+
+/// The text of the one fault with such an actuator in place of the force.
+fn patch(lines: &str) -> String {
+    fault("kind = \"force\"", &format!("kind = \"piezo\"\n{lines}")).to_string()
+}
+
+/// The text of the one fault with a scatterer more.
+fn scatterer(lines: &str) -> String {
+    let list = faults(&format!("{GOOD}[[scatterer]]\n{lines}\n"));
+    assert_eq!(list.len(), 1, "{list:#?}");
+    list[0].to_string()
+}
+
+#[test]
+fn grains() {
+    let needs = "sheet.young_across_gpa: expected a number from 0.000001 to 2000 GPa, found no such key";
+    assert_eq!(sheet("grain_deg = 30"), needs);
+    assert_eq!(sheet("shear_gpa = 1"), needs);
+    assert!(sheet("young_across_gpa = 0").ends_with("found 0 (nearest: 0.000001)"));
+    assert!(
+        sheet("young_across_gpa = 5\ngrain_deg = 1000")
+            .contains("-720 to 720 degrees, found 1000 (nearest: 720)")
+    );
+    let stiff = sheet("young_across_gpa = 50");
+    assert_eq!(
+        stiff,
+        "sheet.young_across_gpa: expected a number below young_gpa / poisson_ratio², which is 44.4444 GPa: with more, \
+         the sheet would give way by itself, found 50 (nearest: 44.4)"
+    );
+    assert_eq!(faults(&GOOD.replace("air = \"none\"", "young_across_gpa = 44.4")), []);
+    let limp = sheet("young_across_gpa = 5\nyoung_gpa = 0");
+    assert!(
+        limp.starts_with("sheet.young_gpa: expected a number from 0.000001 to 2000 GPa: a sheet with grain"),
+        "{limp}"
+    );
+    assert!(limp.ends_with("found 0 GPa (nearest: 0.000001)"), "{limp}");
+    // E1 + E2 + 2 ν12 E2 nearly vanishes.
+    let odd = sheet("young_gpa = 1999.0\nyoung_across_gpa = 1999\npoisson_ratio = -0.9999");
+    assert!(
+        odd.starts_with("sheet.shear_gpa: expected a number from 0.000001 to 2000 GPa: what the"),
+        "{odd}"
+    );
+}
+
+#[test]
+fn profiles() {
+    for key in ["thickness_profile", "tension_profile", "added_mass_kg_m2"] {
+        for (rows, part) in [
+            ("[1, 2]", "rows of numbers"),
+            ("[]", "rows of numbers"),
+            ("[[]]", "rows of numbers"),
+            (
+                "[[1, 2], [1]]",
+                "[1]: expected rows of equal length, so 2 numbers as in row 0, found 1 numbers in row 1",
+            ),
+            ("[[1, -1]]", "[0][1]: expected a number from 0"),
+            ("[[1, nan]]", "[0][1]: expected a number from 0"),
+            ("[[1, \"a\"]]", "[0][1]: expected a number from 0"),
+        ] {
+            let found = sheet(&format!("{key} = {rows}"));
+            assert!(found.starts_with(&format!("sheet.{key}")) && found.contains(part), "{found}");
+        }
+        let many = format!("[{}]", format!("[{}],", "1,".repeat(300)).repeat(300));
+        assert!(
+            sheet(&format!("{key} = {many}")).contains("expected at most 65536 numbers, found 90000 numbers")
+        );
+    }
+    assert!(sheet("thickness_profile = 1.0").contains("expected rows of numbers"));
+    assert!(
+        sheet("thickness_profile = [[0.01]]")
+            .ends_with("expected a number from 0.05 to 20, found 0.01 (nearest: 0.05)")
+    );
+    assert!(sheet("tension_profile = [[21]]").ends_with("(nearest: 20)"));
+    assert!(sheet("added_mass_kg_m2 = -1").ends_with("a number from 0 to 1000 kg/m², found -1 (nearest: 0)"));
+    assert!(sheet("added_mass_kg_m2 = \"much\"").contains("kg/m², or rows of such numbers"));
+}
+
+#[test]
+fn nothing_pulls_back_in_places() {
+    assert_eq!(
+        sheet("young_gpa = 0\ntension_profile = [[1, 0]]"),
+        "sheet.tension_profile: expected positive factors, or a positive young_gpa: nothing else pulls the sheet back \
+         there, found places with neither tension nor stiffness"
+    );
+    assert_eq!(faults(&GOOD.replace("air = \"none\"", "tension_profile = [[1, 0]]")), []);
+}
+
+#[test]
+fn scatterers() {
+    let at = "at_mm = [50, 50]";
+    assert_eq!(
+        scatterer(&format!("{at}\nmass_mg = 5")),
+        "scatterer[0].kind: expected \"mass\" or \"disc\", found no such key"
+    );
+    assert!(scatterer(&format!("{at}\nkind = \"mas\"\nmass_mg = 5")).ends_with("(nearest: \"mass\")"));
+    assert!(
+        scatterer(&format!("{at}\nkind = \"mass\""))
+            .starts_with("scatterer[0].mass_mg: expected a number from 0")
+    );
+    assert!(scatterer(&format!("{at}\nkind = \"mass\"\nmass_mg = -5")).ends_with("(nearest: 0)"));
+    let wrong = scatterer(&format!("{at}\nkind = \"mass\"\nmass_mg = 5\nradius_mm = 4"));
+    assert!(
+        wrong.starts_with("scatterer[0].radius_mm: expected this key only where kind = \"disc\""),
+        "{wrong}"
+    );
+    let disc = format!("{at}\nkind = \"disc\"\nradius_mm = 4\nthickness_mm = 1");
+    let list = faults(&format!("{GOOD}[[scatterer]]\n{disc}\n"));
+    let keys: Vec<&str> = list.iter().map(|f| f.key.rsplit('.').next().unwrap()).collect();
+    assert_eq!(keys, ["young_gpa", "density_kg_m3", "poisson_ratio"]);
+    assert!(scatterer(&format!("{disc}\nmaterial = \"stele\"")).ends_with("(nearest: \"steel\")"));
+    assert!(
+        scatterer("kind = \"mass\"\nmass_mg = 5").starts_with("scatterer[0].at_mm: expected [x, y] in mm")
+    );
+    let outside = scatterer("kind = \"mass\"\nmass_mg = 5\nat_mm = [150.5, 50]");
+    assert!(outside.ends_with("and is 0.500 mm away, found [150.5, 50] (nearest: [150, 50])"), "{outside}");
+    let many =
+        format!("{GOOD}{}", "[[scatterer]]\nkind = \"mass\"\nmass_mg = 5\nat_mm = [50, 50]\n".repeat(1025));
+    let list = faults(&many);
+    assert_eq!(
+        (list.len(), list[0].found.as_str(), list[0].nearest.as_deref()),
+        (1, "1025 scatterers", Some("1024"))
+    );
+    let table = faults(&format!("{GOOD}[scatterer]\nat_mm = [1, 1]\n"));
+    assert_eq!(table[0].expected, "a list of tables, each headed [[scatterer]]");
+}
+
+#[test]
+fn contact_discs() {
+    let pad = |kind: &str| fault("kind = \"force\"", kind).to_string();
+    assert!(pad("contact_radius_mm = -1").ends_with("a number from 0 to 100 mm, found -1 (nearest: 0)"));
+    let patch = pad("kind = \"piezo\"\nradius_mm = 5\nmoment_n_per_v = 1\ncontact_radius_mm = 1");
+    assert!(patch.contains("this key only where kind = \"force\" or \"moving-magnet\""), "{patch}");
+}
+
+#[test]
+fn patches() {
+    let whole = "radius_mm = 5\nd31_pm_per_v = 190\npatch_young_gpa = 60\npatch_thickness_mm = 0.2";
+    assert!(
+        patch("moment_n_per_v = 1")
+            .starts_with("actuator[0].radius_mm: expected a number from 0.1 to 100 mm")
+    );
+    assert_eq!(
+        patch("radius_mm = 5"),
+        "actuator[0].moment_n_per_v: expected a number from -100000 to 100000 N/V, or d31_pm_per_v, patch_young_gpa, \
+         patch_thickness_mm instead, found no such key"
+    );
+    assert_eq!(
+        patch(&format!("{whole}\nmoment_n_per_v = 1")),
+        "actuator[0].moment_n_per_v: expected either moment_n_per_v, or d31_pm_per_v, patch_young_gpa, \
+         patch_thickness_mm, found moment_n_per_v and d31_pm_per_v"
+    );
+    for (cut, key) in [
+        ("\nd31_pm_per_v = 190", "d31"),
+        ("\npatch_young_gpa = 60", "patch_y"),
+        ("\npatch_thickness_mm = 0.2", "patch_t"),
+    ] {
+        let found = patch(&whole.replace(cut, ""));
+        assert!(
+            found.starts_with(&format!("actuator[0].{key}")) && found.ends_with("found no such key"),
+            "{found}"
+        );
+    }
+    assert!(
+        patch(&format!("{whole}\npatch_mass_mg = 1\npatch_density_kg_m3 = 7800"))
+            .contains("at most one of them")
+    );
+    let alone = patch("radius_mm = 5\nmoment_n_per_v = 1\npatch_density_kg_m3 = 7800");
+    assert!(alone.contains("patch_thickness_mm beside it"), "{alone}");
+    assert!(patch(&format!("{whole}\nresistance_ohm = 3")).contains("only where kind = \"moving-magnet\""));
+    let key = fault("kind = \"force\"", "kind = \"force\"\nd31_pm_per_v = 3").expected;
+    assert_eq!(key, "this key only where kind = \"piezo\"");
+    // The thickness is at fault: the moment that needs it is not another fault.
+    let thin = GOOD.replace("0.125", "-1").replace("kind = \"force\"", &format!("kind = \"piezo\"\n{whole}"));
+    assert_eq!(faults(&thin).len(), 1);
+}

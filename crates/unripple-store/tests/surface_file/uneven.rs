@@ -1,0 +1,98 @@
+//! What grain, profiles, scatterers and patches of a file mean, and the way back.
+
+use crate::good::GOOD;
+use std::f64::consts::{FRAC_PI_6, PI};
+use unripple_core::{ActuatorKind, Grain, Point, Profile, Scatterer, ScattererKind, Surface};
+use unripple_store::{parse_surface, to_toml};
+
+/// The good film with other lines; it comes back from its own file.
+fn surface(from: &str, to: &str, more: &str) -> Surface {
+    let text = GOOD.replace(from, to) + more;
+    let surface = parse_surface(&text, "film.toml").unwrap_or_else(|faults| panic!("{faults:#}"));
+    assert_eq!(parse_surface(&to_toml(&surface), "copy.toml").unwrap(), surface);
+    surface
+}
+
+fn sheet(lines: &str) -> unripple_core::Uneven {
+    surface("air = \"none\"", lines, "").sheet.uneven
+}
+
+fn grain(lines: &str) -> Grain {
+    sheet(lines).grain.unwrap()
+}
+
+#[test]
+fn grain_and_its_defaults() {
+    assert_eq!(sheet("").grain, None);
+    let whole = grain("young_across_gpa = 5.1\nshear_gpa = 1.7\ngrain_deg = -30");
+    assert_eq!(whole, Grain { direction: -FRAC_PI_6, young_across: 5.1e9, shear: 1.7e9 });
+    // Of a sheet as stiff across as along, the default is the isotropic E / 2 (1 + ν).
+    let same = grain("young_across_gpa = 4");
+    assert_eq!((same.direction, same.young_across), (0.0, 4e9));
+    assert!((same.shear / (4e9 / 2.6) - 1.0).abs() < 1e-15);
+    let other = grain("young_across_gpa = 6\npoisson_ratio = 0.25").shear;
+    assert!((other / (24e9 / (4.0 + 6.0 + 2.0 * 0.25 * 6.0)) - 1.0).abs() < 1e-15);
+}
+
+#[test]
+fn profiles() {
+    let uneven = sheet(
+        "thickness_profile = [[1.0, 1.02, 1.0], [0.98, 1, 0.97]]\ntension_profile = [[1], [1.1]]\n\
+         added_mass_kg_m2 = 0.02",
+    );
+    let rows = |profile: &Option<Profile>| -> Vec<Vec<f64>> {
+        profile.as_ref().unwrap().rows().map(<[f64]>::to_vec).collect()
+    };
+    assert_eq!(rows(&uneven.thickness), [[1.0, 1.02, 1.0], [0.98, 1.0, 0.97]]);
+    assert_eq!(rows(&uneven.tension), [[1.0], [1.1]]);
+    assert_eq!(rows(&uneven.added_mass), [[0.02]]);
+    assert_eq!(rows(&sheet("added_mass_kg_m2 = [[0, 1], [2, 3]]").added_mass), [[0.0, 1.0], [2.0, 3.0]]);
+    // The lowest row comes first.
+    let low = uneven.thickness.unwrap().at(Point::from_mm(0.0, 0.0), (0.15, 0.1));
+    assert_eq!(low, 1.0);
+    let many = format!("thickness_profile = [{}]", format!("[{}],", "1,".repeat(256)).repeat(256));
+    assert_eq!(rows(&sheet(&many).thickness).len(), 256);
+}
+
+#[test]
+fn scatterers() {
+    let more = "[[scatterer]]\nat_mm = [50, 40]\nkind = \"mass\"\nmass_mg = 12.5\n\
+                [[scatterer]]\nat_mm = [0, 10]\nkind = \"disc\"\nradius_mm = 4\nthickness_mm = 0.5\nmaterial = \"steel\"\n\
+                [[scatterer]]\nat_mm = [70, 10]\nkind = \"disc\"\nradius_mm = 4\nthickness_mm = 0.5\n\
+                young_gpa = 3\ndensity_kg_m3 = 1200\npoisson_ratio = 0.4\n";
+    let list = surface("", "", more).sheet.uneven.scatterers;
+    assert_eq!(list[0], Scatterer { at: Point::from_mm(50.0, 40.0), kind: ScattererKind::Mass(12.5e-6) });
+    let disc = |young, density, poisson| ScattererKind::Disc {
+        radius: 0.004,
+        thickness: 0.5e-3,
+        young,
+        density,
+        poisson,
+    };
+    assert_eq!(list[1].kind, disc(200e9, 7900.0, 0.29));
+    assert_eq!(list[2].kind, disc(3e9, 1200.0, 0.4));
+}
+
+#[test]
+fn patches_and_discs() {
+    let force = surface("kind = \"force\"", "contact_radius_mm = 2.5", "");
+    assert_eq!((force.actuators[0].kind, force.actuators[0].contact_radius), (ActuatorKind::Force, 0.0025));
+    let patch = |lines: &str, sheet: &str| {
+        let text = GOOD.replace("air = \"none\"", sheet);
+        let text = text.replace("kind = \"force\"", &format!("kind = \"piezo\"\nradius_mm = 5\n{lines}"));
+        let surface = parse_surface(&text, "film.toml").unwrap_or_else(|faults| panic!("{faults:#}"));
+        assert_eq!(parse_surface(&to_toml(&surface), "copy.toml").unwrap(), surface);
+        let ActuatorKind::Piezo { radius, moment, mass } = surface.actuators[0].kind else { panic!() };
+        assert_eq!((radius, surface.actuators[0].contact_radius), (0.005, 0.0));
+        (moment, mass)
+    };
+    assert_eq!(patch("moment_n_per_v = -0.01\npatch_mass_mg = 3", ""), (-0.01, 3e-6));
+    assert_eq!(patch("moment_n_per_v = 0.01", ""), (0.01, 0.0));
+    let made = "d31_pm_per_v = -190\npatch_young_gpa = 62\npatch_thickness_mm = 0.2\n";
+    let (moment, mass) = patch(&format!("{made}patch_density_kg_m3 = 7800"), "");
+    let exact = 190e-12 * 62e9 * (0.125e-3 + 0.2e-3) / 2.0 / 0.7;
+    assert!((moment / exact - 1.0).abs() < 1e-14, "{moment} {exact}");
+    assert!((mass / (PI * 25e-6 * 0.2e-3 * 7800.0) - 1.0).abs() < 1e-14);
+    let (thicker, none) = patch(made, "thickness_profile = [[2.0]]");
+    assert!((thicker / (190e-12 * 62e9 * 0.45e-3 / 2.0 / 0.7) - 1.0).abs() < 1e-14 && none == 0.0);
+}
