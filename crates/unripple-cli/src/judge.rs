@@ -4,10 +4,13 @@ use crate::error::CliError;
 use indicatif::ProgressBar;
 use serde::Serialize;
 use std::time::Duration;
-use unripple::core::{Contact, Point, Responses, Surface};
+use unripple::core::{Contact, Point, Responses, Shape, Surface};
 use unripple::field::{Aim, Field, Measured, Steepness, Trace};
 use unripple::physics::design::{Linearity, linearity};
 use unripple::physics::{PhysicsError, ResponseOptions, responses};
+
+/// Accuracy of the frequencies where they take a mesh: a phase of 0.06 rad at 3 kHz after 30 ms, alike in drive and judgement.
+const MESHED: f64 = 1e-4;
 
 /// Cells of the grid per shortest wavelength.
 pub const CELLS: f64 = 8.0;
@@ -47,7 +50,12 @@ pub struct Note {
 
 /// The responses of a surface, on modes up to `max_hz` if given, under fingers.
 pub fn model(surface: &Surface, max_hz: Option<f64>, contacts: &[Contact]) -> Result<Responses, CliError> {
-    let options = ResponseOptions { max_hz, contacts: contacts.to_vec(), ..ResponseOptions::default() };
+    let plain = matches!(surface.outline.shape, Shape::Rectangle { .. })
+        && surface.outline.holes.is_empty()
+        && surface.sheet.uneven.is_nothing();
+    let accuracy = if plain { ResponseOptions::default().accuracy } else { MESHED };
+    let options =
+        ResponseOptions { max_hz, accuracy, contacts: contacts.to_vec(), ..ResponseOptions::default() };
     responses(surface, &options).map_err(|error| match error {
         PhysicsError::NotConverged { .. } => CliError::work(error),
         error => CliError::input(error),

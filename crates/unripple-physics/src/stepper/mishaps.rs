@@ -1,0 +1,222 @@
+use super::surface::VirtualSurface;
+use crate::PhysicsError;
+use crate::modes::check;
+use std::f64::consts::TAU;
+
+/// What goes wrong on request, as it does between a computer and a real surface. The default is nothing.
+///
+/// On the drive's side, in this order: a dropped block is lost whole, both ways; wires are swapped; dead channels are
+/// silenced; what is left is clipped. On the sensors' side: dead channels are silent, wires swapped, signals late, and noise
+/// is added to all, dead ones too. Probes see what the surface really does.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mishaps {
+    /// Tension as a share of the nominal one against time (s), times ascending: linear between, constant beyond both ends.
+    /// Taken at the start of each block.
+    pub tension: Vec<(f64, f64)>,
+    /// Root mean square of white noise on every sensor, in the sensor's unit.
+    pub noise: f64,
+    /// Largest magnitude of drive that gets through, in the drive's unit.
+    pub clip: Option<f64>,
+    /// Channels that neither drive nor sense.
+    pub dead: Vec<usize>,
+    /// Pairs of channels whose wires are swapped, drive and sensor alike.
+    pub swapped: Vec<(usize, usize)>,
+    /// Samples by which sensors come late.
+    pub latency: usize,
+    /// Probability that a block is lost.
+    pub dropped: f64,
+    /// Seed of noise and losses.
+    pub seed: u64,
+}
+
+impl Default for Mishaps {
+    fn default() -> Self {
+        Self {
+            tension: Vec::new(),
+            noise: 0.0,
+            clip: None,
+            dead: Vec::new(),
+            swapped: Vec::new(),
+            latency: 0,
+            dropped: 0.0,
+            seed: 1,
+        }
+    }
+}
+
+/// A virtual surface to which mishaps happen.
+#[derive(Clone, Debug)]
+pub struct Misbehaving {
+    surface: VirtualSurface,
+    mishaps: Mishaps,
+    most: usize,
+    drive: Vec<f64>,
+    /// For each channel, the last samples of its sensor, the next to be given first.
+    late: Vec<f64>,
+    oldest: usize,
+    random: u64,
+    lost: usize,
+}
+
+impl Misbehaving {
+    /// A surface with mishaps, for blocks of at most `most` samples.
+    ///
+    /// # Errors
+    /// [`PhysicsError::Range`] for channels that there are not, negative noise, clipping or tension, times that do not
+    /// ascend, or a probability that is none.
+    pub fn new(surface: VirtualSurface, mishaps: Mishaps, most: usize) -> Result<Self, PhysicsError> {
+        let channels = surface.channels();
+        let known = mishaps.swapped.iter().flat_map(|(a, b)| [*a, *b]).chain(mishaps.dead.iter().copied());
+        for channel in known {
+            let expected = format!("less than {channels}, the number of channels");
+            check("channel of a mishap", channel as f64, channel < channels, &expected)?;
+        }
+        check("noise of the sensors", mishaps.noise, mishaps.noise >= 0.0, "0 or more")?;
+        let clip = mishaps.clip.unwrap_or(0.0);
+        check("clipping of the drive", clip, clip >= 0.0, "0 or more")?;
+        let dropped = mishaps.dropped;
+        check("probability of losing a block", dropped, (0.0..=1.0).contains(&dropped), "between 0 and 1")?;
+        let mut before = f64::NEG_INFINITY;
+        for (time, factor) in &mishaps.tension {
+            check("time of a change of tension in s", *time, *time > before, "later than the one before")?;
+            check("tension as a share of the nominal one", *factor, *factor >= 0.0, "0 or more")?;
+            before = *time;
+        }
+        let late = vec![0.0; channels * mishaps.latency];
+        let random = mishaps.seed;
+        Ok(Self {
+            surface,
+            most,
+            drive: vec![0.0; channels * most],
+            late,
+            oldest: 0,
+            random,
+            lost: 0,
+            mishaps,
+        })
+    }
+
+    /// The surface as it really is.
+    pub fn surface(&self) -> &VirtualSurface {
+        &self.surface
+    }
+
+    /// The surface, for fingers and probes.
+    pub fn surface_mut(&mut self) -> &mut VirtualSurface {
+        &mut self.surface
+    }
+
+    /// Blocks lost so far.
+    pub fn lost(&self) -> usize {
+        self.lost
+    }
+
+    /// As [`VirtualSurface::process`], with all that goes wrong. Never allocates.
+    ///
+    /// # Errors
+    /// Those of [`VirtualSurface::process`]; [`PhysicsError::Range`] for a block longer than was said.
+    pub fn process(
+        &mut self,
+        frames: usize,
+        drive: &[f64],
+        sensors: &mut [f64],
+        probes: &mut [f64],
+    ) -> Result<(), PhysicsError> {
+        let channels = self.surface.channels();
+        super::surface::size("drive", drive.len(), channels * frames, false)?;
+        super::surface::size("sensors", sensors.len(), channels * frames, true)?;
+        if frames > self.most {
+            let expected = format!("at most {}", self.most);
+            check("samples of a block", frames as f64, false, &expected)?;
+        }
+        let lost = self.uniform() < self.mishaps.dropped;
+        self.lost += usize::from(lost);
+        self.distort(drive, frames, lost);
+        let now = self.surface.samples() as f64 / self.surface.rate();
+        if let Some(tension) = tension(&self.mishaps.tension, now) {
+            self.surface.set_tension(tension)?;
+        }
+        self.surface.process(frames, &self.drive[..channels * frames], sensors, probes)?;
+        if !sensors.is_empty() {
+            self.mislead(sensors, frames, lost);
+        }
+        Ok(())
+    }
+
+    /// What of the drive gets through, into the scratch.
+    fn distort(&mut self, drive: &[f64], frames: usize, lost: bool) {
+        let scratch = &mut self.drive[..drive.len()];
+        scratch.copy_from_slice(drive);
+        for (a, b) in &self.mishaps.swapped {
+            swap(scratch, frames, *a, *b);
+        }
+        for dead in &self.mishaps.dead {
+            scratch[dead * frames..(dead + 1) * frames].fill(0.0);
+        }
+        if let Some(clip) = self.mishaps.clip {
+            scratch.iter_mut().for_each(|d| *d = d.clamp(-clip, clip));
+        }
+        if lost {
+            scratch.fill(0.0);
+        }
+    }
+
+    /// What of the sensors arrives.
+    fn mislead(&mut self, sensors: &mut [f64], frames: usize, lost: bool) {
+        for dead in &self.mishaps.dead {
+            sensors[dead * frames..(dead + 1) * frames].fill(0.0);
+        }
+        for (a, b) in &self.mishaps.swapped {
+            swap(sensors, frames, *a, *b);
+        }
+        let latency = self.mishaps.latency;
+        if latency > 0 {
+            for i in 0..frames {
+                let slot = (self.oldest + i) % latency;
+                for (channel, line) in sensors.chunks_exact_mut(frames).enumerate() {
+                    std::mem::swap(&mut line[i], &mut self.late[channel * latency + slot]);
+                }
+            }
+            self.oldest = (self.oldest + frames) % latency;
+        }
+        if self.mishaps.noise > 0.0 {
+            for value in sensors.iter_mut() {
+                *value += self.mishaps.noise * self.normal();
+            }
+        }
+        if lost {
+            sensors.fill(0.0);
+        }
+    }
+
+    /// Between 0 and 1 (SplitMix64: Steele, Lea and Flood 2014).
+    fn uniform(&mut self) -> f64 {
+        self.random = self.random.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.random;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Of mean 0 and variance 1 (Box and Muller 1958).
+    fn normal(&mut self) -> f64 {
+        let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();
+        radius * (TAU * self.uniform()).cos()
+    }
+}
+
+fn swap(planes: &mut [f64], frames: usize, a: usize, b: usize) {
+    for i in 0..frames {
+        planes.swap(a * frames + i, b * frames + i);
+    }
+}
+
+/// The tension at a time; `None` without a table.
+fn tension(table: &[(f64, f64)], now: f64) -> Option<f64> {
+    let after = table.partition_point(|(time, _)| *time <= now);
+    match (after.checked_sub(1).and_then(|i| table.get(i)), table.get(after)) {
+        (Some((t0, f0)), Some((t1, f1))) => Some(f0 + (f1 - f0) * (now - t0) / (t1 - t0)),
+        (Some((_, f)), None) | (None, Some((_, f))) => Some(*f),
+        (None, None) => None,
+    }
+}
