@@ -142,7 +142,7 @@ pub struct FieldOptions {
     /// When to measure, in ms; by default at each place's own peak. Once for all, or once per --at.
     #[arg(long, value_name = "MS", allow_negative_numbers = true)]
     pub at_ms: Vec<f64>,
-    /// A finger resting at X,Y in mm, as the surface's [finger] says. Repeatable.
+    /// A finger resting at X,Y in mm, as the surface file describes fingers. Repeatable.
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     pub finger: Vec<String>,
     /// Period of a repeated drive, in ms: figures are then those of the last full period.
