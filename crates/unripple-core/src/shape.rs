@@ -141,8 +141,7 @@ impl Shape {
         }
     }
 
-    /// As a closed polygon, round shapes in `steps` pieces per full turn and other curves in [`FLAT`] a side; for
-    /// drawing.
+    /// As a closed polygon, round shapes in `steps` pieces per full turn and other curves in 24 a side; for drawing.
     pub fn flattened(&self, steps: usize) -> Vec<Point> {
         let pieces = |side: &Side| match side {
             Side::Line { .. } => 1,

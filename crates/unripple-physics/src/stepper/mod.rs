@@ -4,9 +4,9 @@
 //!
 //! Mode m of unit modal mass obeys ü + 2σu̇ + ω²u = Σ_j w_jm F_j, w_j what load j feels of the modes. At sample i
 //!
-//! 1. the drive strikes: v_m += gain · w_m · d[i]/rate; a voltage instead jumps the current of its coil by V/(L · rate), or
+//! 1. the drive strikes: `v_m += gain · w_m · d[i]/rate`; a voltage instead jumps the current of its coil by V/(L · rate), or
 //!    strikes with bl/R · V/rate where there is no inductance;
-//! 2. sensors and probes read the sheet, so that without loads v[i] = Σ_j h[i-j] d[j]/rate with h[0] whole, to rounding;
+//! 2. sensors and probes read the sheet, so that without loads `v[i] = Σ_j h[i-j] d[j]/rate` with `h[0]` whole, to rounding;
 //! 3. one sample passes. Forces F are constant over it, and under them each mode moves exactly: u⁺ = au + bv + γ w·F, v⁺ = cu + dv
 //!    + δ w·F with the propagator of [`Pole::step`](unripple_core::Pole::step).
 //!

@@ -59,7 +59,7 @@ pub struct FingerMotion {
     pub power: f64,
 }
 
-/// A surface that runs: drive in, sensors and probes out, with fingers on it. See [the module](self) for the scheme.
+/// A surface that runs: drive in, sensors and probes out, with fingers on it. See [the module](crate::stepper) for the scheme.
 #[derive(Clone, Debug)]
 pub struct VirtualSurface {
     pub(super) engine: Engine,
