@@ -98,18 +98,68 @@ fn contact(reach: f64) -> impl Strategy<Value = Contact> {
     })
 }
 
-/// The most that energy grows by over one sample without drive, relative to what there is at first.
-fn growth(surface: &mut VirtualSurface, samples: usize, act: impl Fn(&mut VirtualSurface, usize)) -> f64 {
-    let (first, mut before, mut most) = (surface.energy(), surface.energy(), 0.0);
-    for i in 0..samples {
-        act(surface, i);
-        rest(surface, 1);
-        let energy = surface.energy();
-        assert!(energy.is_finite());
-        most = f64::max(most, energy - before);
-        before = energy;
+/// What is done to a sheet that was struck: fingers that stay or move, and where to.
+#[derive(Debug)]
+struct Acts {
+    contacts: Vec<Contact>,
+    to: Option<Point>,
+    substeps: usize,
+    seed: u64,
+}
+
+fn acts(reach: f64, moving: bool) -> impl Strategy<Value = Acts> {
+    let contacts = proptest::collection::vec(contact(reach), 0..4);
+    (contacts, place(), 1usize..3, any::<u64>()).prop_map(move |(contacts, to, substeps, seed)| Acts {
+        contacts,
+        to: moving.then_some(to),
+        substeps,
+        seed,
+    })
+}
+
+impl Acts {
+    fn perform(&self, surface: &mut VirtualSurface, sample: usize) {
+        for (id, contact) in self.contacts.iter().enumerate() {
+            let id = id as u64;
+            match (sample, self.to) {
+                (5, _) => surface.touch(id, contact).unwrap(),
+                (10 | 23, Some(to)) => surface.move_to(id, to).unwrap(),
+                (20, Some(_)) => surface.move_to(id, contact.at).unwrap(),
+                (60, _) => surface.lift(id).unwrap(),
+                _ => {}
+            }
+        }
     }
-    if most > 0.0 { most / first } else { 0.0 }
+
+    /// The most that energy grows by over one sample without drive, relative to what there is at first, and to what the
+    /// same drive gives the bare sheet if that is more.
+    fn growth(&self, (rate, plant): &(f64, Plant), channels: &[Channel]) -> [f64; 2] {
+        let options = StepperOptions {
+            fade: 9.0 / rate,
+            glide: 7.0 / rate,
+            substeps: self.substeps,
+            ..Default::default()
+        };
+        let drive = noise(self.seed, 3 * channels.len());
+        let struck = |channels: &[Channel]| {
+            let mut surface = VirtualSurface::new(plant, channels, *rate, &options).unwrap();
+            run(&mut surface, &drive);
+            surface
+        };
+        let bare: Vec<Channel> =
+            channels.iter().map(|channel| Channel::force(channel.footprint.clone())).collect();
+        let (mut surface, bare) = (struck(channels), struck(&bare).energy());
+        let (first, mut before, mut most) = (surface.energy(), surface.energy(), 0.0);
+        for sample in 0..100 {
+            self.perform(&mut surface, sample);
+            rest(&mut surface, 1);
+            let energy = surface.energy();
+            assert!(energy.is_finite());
+            most = f64::max(most, energy - before);
+            before = energy;
+        }
+        if most > 0.0 { [most / first, most / first.max(bare)] } else { [0.0; 2] }
+    }
 }
 
 /// What a channel senses of its own impulse on the bare sheet, if it strikes it.
@@ -130,49 +180,33 @@ proptest! {
 
     #[test]
     fn energy_never_grows_without_drive(
-        (rate, plant) in sheet(),
-        channels in proptest::collection::vec(channel(9.0), 1..5),
-        contacts in proptest::collection::vec(contact(9.0), 0..3),
-        substeps in 1usize..3,
-        seed in any::<u64>(),
+        sheet in sheet(),
+        channels in proptest::collection::vec(channel(MILD), 1..5),
+        acts in acts(MILD, false),
     ) {
-        let options = StepperOptions { fade: 9.0 / rate, substeps, ..Default::default() };
-        let mut surface = VirtualSurface::new(&plant, &channels, rate, &options).unwrap();
-        run(&mut surface, &noise(seed, 3 * channels.len()));
-        let grown = growth(&mut surface, 100, |surface, i| {
-            for (id, contact) in contacts.iter().enumerate() {
-                match i {
-                    10 => surface.touch(id as u64, contact).unwrap(),
-                    60 => surface.lift(id as u64).unwrap(),
-                    _ => {}
-                }
-            }
-        });
+        let [grown, _] = acts.growth(&sheet, &channels);
         prop_assert!(grown < 1e-9, "{grown:e}");
     }
 
-    // Between places of opposite motion a moving finger passes where it feels next to nothing: the difference of two
-    // footprints, of which rounding takes its share. So these fingers are not the stiffest.
     #[test]
     fn energy_never_grows_under_moving_fingers(
-        (rate, plant) in sheet(),
-        channels in proptest::collection::vec(channel(9.0), 1..4),
-        contacts in proptest::collection::vec(contact(0.5), 1..4),
-        to in place(),
-        seed in any::<u64>(),
+        sheet in sheet(),
+        channels in proptest::collection::vec(channel(MILD), 1..4),
+        acts in acts(MILD, true),
     ) {
-        let options = StepperOptions { fade: 9.0 / rate, glide: 7.0 / rate, ..Default::default() };
-        let mut surface = VirtualSurface::new(&plant, &channels, rate, &options).unwrap();
-        run(&mut surface, &noise(seed, 3 * channels.len()));
-        let grown = growth(&mut surface, 80, |surface, i| {
-            for (id, contact) in contacts.iter().enumerate() {
-                match i {
-                    5 => surface.touch(id as u64, contact).unwrap(),
-                    10 | 20 | 23 => surface.move_to(id as u64, if i == 20 { contact.at } else { to }).unwrap(),
-                    _ => {}
-                }
-            }
-        });
+        let [grown, _] = acts.growth(&sheet, &channels);
+        prop_assert!(grown < 1e-9, "{grown:e}");
+    }
+
+    // A mass of 1e9 times the sheet's leaves it 1e-9 of an impulse, known to as many digits fewer: here what grows is
+    // compared with what the impulse gives the bare sheet.
+    #[test]
+    fn energy_never_grows_under_absurd_loads(
+        sheet in sheet(),
+        channels in proptest::collection::vec(channel(6.0), 1..4),
+        acts in any::<bool>().prop_flat_map(|moving| acts(6.0, moving)),
+    ) {
+        let [_, grown] = acts.growth(&sheet, &channels);
         prop_assert!(grown < 1e-9, "{grown:e}");
     }
 

@@ -2,10 +2,11 @@
 
 mod common;
 
-use common::machine::{introduce, load};
-use common::table::{Table, none, number};
+use common::machine::{introduce, load, product_rate};
+use common::table::{Table, number};
 use common::times::Times;
 use common::{Fault, Outcome, modal, place, surface};
+use faer::Par;
 use std::hint::black_box;
 use unripple::core::{Contact, Finger, ModalResponses, Point};
 use unripple::physics::stepper::{Channel, Plant, Reading, StepperOptions, VirtualSurface};
@@ -37,7 +38,22 @@ fn run() -> Outcome {
     let responses = modal(&surface())?;
     introduce(&format!("stepper: {MODES} modes, 8 actuators, 48 kHz, blocks of {BLOCK}"), 1);
     let plant = plant(&responses)?;
-    let mut table = Table::new(["", "fingers", "median µs", "p99 µs", "worst µs", "times real time"]);
+    let period = BLOCK as f64 / responses.conditions.rate;
+    let peak = product_rate([512, 512, 512], Par::Seq, 1.0_f64);
+    let mut table =
+        Table::new(["", "fingers", "median µs", "p99 µs", "worst µs", "times real time", "of the product"]);
+    let mut row = |name: &str, fingers: u64, times: &Times, flops: f64| {
+        table.row([
+            name.into(),
+            fingers.to_string(),
+            number(times.median() * 1e6, 1),
+            number(times.quantile(0.99) * 1e6, 1),
+            number(times.worst() * 1e6, 1),
+            number(period / times.median(), 1),
+            format!("{:.0} %", 100.0 * flops / times.median() / peak),
+        ]);
+    };
+    row("ideal forces, plain loops", 0, &plain(&responses)?, arithmetic(Kind::Force, 0.0));
     for (name, kind, fingers, moving, substeps) in [
         ("ideal forces", Kind::Force, 0, false, 1),
         ("ideal forces", Kind::Force, 2, false, 1),
@@ -48,19 +64,52 @@ fn run() -> Outcome {
         ("  4 steps a sample", Kind::Voltage, 2, false, 4),
     ] {
         let times = blocks(&plant, &channels(&responses, kind), fingers, moving, substeps)?;
-        let period = BLOCK as f64 / responses.conditions.rate;
-        table.row([
-            name.into(),
-            fingers.to_string(),
-            number(times.median() * 1e6, 1),
-            number(times.quantile(0.99) * 1e6, 1),
-            number(times.worst() * 1e6, 1),
-            number(period / times.median(), 1),
-        ]);
+        let columns = fingers as f64 * if moving { 2.0 } else { 1.0 };
+        row(name, fingers, &times, arithmetic(kind, columns) * substeps as f64);
     }
     table.print();
-    println!("  load after {}", load());
+    println!("  product: f64, one thread, {:.1} Gflop/s; load after {}", peak / 1e9, load());
     Ok(())
+}
+
+/// Operations of a block on the modes alone, with so many columns of weights for fingers.
+fn arithmetic(kind: Kind, fingers: f64) -> f64 {
+    let loaded = fingers + if kind == Kind::Force { 0.0 } else { 8.0 };
+    let struck = if kind == Kind::Voltage { 0.0 } else { 8.0 + fingers };
+    let each = 4.0 * loaded + 4.0 * struck + 14.0 + 2.0;
+    each * (MODES * BLOCK) as f64
+}
+
+/// The same steps without loads, written as one would at first.
+fn plain(responses: &ModalResponses) -> Result<Times, Fault> {
+    let dt = 1.0 / responses.conditions.rate;
+    let row = |at: Point| {
+        let mut row = vec![0.0; responses.poles.len()];
+        responses.shapes.at(at, &mut row);
+        row.truncate(MODES);
+        row
+    };
+    let ports: Vec<Vec<f64>> = responses.ports.iter().map(|port| row(port.at)).collect();
+    let (probe, mut u, mut v) = (row(place(7)), vec![0.0; MODES], vec![0.0; MODES]);
+    let steps: Vec<[[f64; 2]; 2]> = responses.poles[..MODES].iter().map(|pole| pole.step(dt)).collect();
+    let drive: Vec<f64> = (0..8 * BLOCK).map(|i| ((i * 7919) % 101) as f64 / 50.0 - 1.0).collect();
+    let (mut sensors, mut probes) = (vec![0.0; 8 * BLOCK], vec![0.0; BLOCK]);
+    Ok(Times::of(BLOCKS, |_| {
+        for frame in 0..BLOCK {
+            for ((u, v), [a, b]) in u.iter_mut().zip(&mut v).zip(&steps) {
+                (*u, *v) = (a[0] * *u + a[1] * *v, b[0] * *u + b[1] * *v);
+            }
+            for (channel, weights) in ports.iter().enumerate() {
+                sensors[channel * BLOCK + frame] = weights.iter().zip(&v).map(|(w, v)| w * v).sum();
+            }
+            for (channel, weights) in ports.iter().enumerate() {
+                let impulse = drive[channel * BLOCK + frame] * dt;
+                v.iter_mut().zip(weights).for_each(|(v, w)| *v += w * impulse);
+            }
+            probes[frame] = probe.iter().zip(&v).map(|(w, v)| w * v).sum();
+        }
+        black_box((&sensors, &probes));
+    }))
 }
 
 fn plant(responses: &ModalResponses) -> Result<Plant, Fault> {
@@ -125,9 +174,4 @@ fn blocks(
         black_box(surface.process(BLOCK, black_box(&drive), &mut sensors, &mut probes).is_ok());
         black_box((&sensors, &probes));
     }))
-}
-
-#[allow(dead_code)]
-fn unused() -> String {
-    none()
 }

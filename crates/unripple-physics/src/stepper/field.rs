@@ -1,4 +1,4 @@
-use super::lanes::{LANES, Lanes, Rows, Tiles, feel, gather, hear, total, vectors};
+use super::lanes::{LANES, Lanes, Rows, Tiles, feel, feel_both, gather, gather_both, hear, total, vectors};
 use pulp::{Simd, as_arrays, as_arrays_mut};
 use unripple_core::Pole;
 
@@ -25,6 +25,11 @@ pub(super) mod step {
     pub(in super::super) const PUSH: usize = 3;
     pub(in super::super) const ROWS: usize = 4;
 }
+
+/// Forces on some groups of modes, or what they move by; where cache lines begin.
+#[derive(Default)]
+#[repr(align(64))]
+struct Work([Lanes; TOGETHER]);
 
 /// What ports feel: displacement over the step to come without forces, and velocity, sixteen parts of each sum.
 #[derive(Clone, Debug)]
@@ -57,12 +62,15 @@ impl Felt {
         motion: &[Lanes],
         velocity: &[Lanes],
     ) {
-        if self.plain < columns {
-            feel(simd, tiles, [columns, self.plain], motion, &mut self.motion);
+        let loaded = [columns, self.plain];
+        let moved = &mut self.motion[self.plain..columns];
+        if !self.striking {
+            feel(simd, tiles, loaded, motion, moved);
+            return;
         }
-        if columns > 0 && self.striking {
-            feel(simd, tiles, [columns, 0], velocity, &mut self.velocity);
-        }
+        let (plain, fast) = self.velocity[..columns].split_at_mut(self.plain);
+        feel(simd, tiles, [columns, 0], velocity, plain);
+        feel_both(simd, tiles, loaded, [motion, velocity], [moved, fast]);
     }
 }
 
@@ -201,17 +209,18 @@ impl Field {
         let modes = displacement.chunks_mut(TOGETHER).zip(velocity.chunks_mut(TOGETHER));
         for (chunk, ((u, v), steps)) in modes.zip(steps.chunks(TOGETHER)).enumerate() {
             let tiles = &tiles.all()[chunk * TOGETHER * columns..][..v.len() * columns];
-            if columns > 0 && !laid.impulses.is_empty() {
-                gather(simd, tiles, [columns, 0], laid.impulses, v);
+            // Forces first, then what modes move by next.
+            let mut work = Work::default();
+            let work = &mut work.0[..v.len()];
+            let loaded = [columns, felt.plain];
+            match (columns > 0 && !laid.impulses.is_empty(), felt.plain < columns) {
+                (true, true) => gather_both(simd, tiles, loaded, [laid.impulses, laid.forces], [v, work]),
+                (true, false) => gather(simd, tiles, [columns, 0], laid.impulses, v),
+                (false, true) => gather(simd, tiles, loaded, laid.forces, work),
+                (false, false) => (),
             }
             if let Some(probes) = &mut probes {
                 probes.hear(simd, chunk * TOGETHER, u, v);
-            }
-            // Forces first, then what modes move by next.
-            let mut work = [[0.0; LANES]; TOGETHER];
-            let work = &mut work[..v.len()];
-            if felt.plain < columns {
-                gather(simd, tiles, [columns, felt.plain], laid.forces, work);
             }
             advance::<S, true>(simd, u, v, steps, work);
             felt.add(simd, tiles, columns, work, v);
@@ -229,9 +238,9 @@ impl Field {
         let modes = displacement.chunks_mut(TOGETHER).zip(velocity.chunks_mut(TOGETHER));
         for (chunk, ((u, v), steps)) in modes.zip(steps.chunks(TOGETHER)).enumerate() {
             let tiles = &tiles.all()[chunk * TOGETHER * columns..][..v.len() * columns];
-            let mut work = [[0.0; LANES]; TOGETHER];
-            advance::<S, false>(simd, u, v, steps, &mut work[..]);
-            felt.add(simd, tiles, columns, &work[..v.len()], v);
+            let mut work = Work::default();
+            advance::<S, false>(simd, u, v, steps, &mut work.0[..]);
+            felt.add(simd, tiles, columns, &work.0[..v.len()], v);
         }
     }
 

@@ -128,6 +128,36 @@ pub(super) fn gather<S: Simd>(
     }
 }
 
+/// As [`gather`] does, for two kinds of amounts at once: the first on all columns, the second on those from `first` on.
+#[inline(always)]
+pub(super) fn gather_both<S: Simd>(
+    simd: S,
+    tiles: &[Lanes],
+    [columns, first]: [usize; 2],
+    amounts: [&[f64]; 2],
+    to: [&mut [Lanes]; 2],
+) {
+    let [to, second] = to;
+    let (plain, rest) = amounts[0].split_at(first);
+    for (tile, (to, second)) in tiles.chunks_exact(columns).zip(to.iter_mut().zip(second)) {
+        let (struck, loaded) = tile.split_at(first);
+        let [mut sum, mut other] = [begun::<S>(simd, to), begun::<S>(simd, second)];
+        for (weights, amount) in struck.iter().zip(plain) {
+            weigh(simd, weights, simd.splat_f64s(*amount), &mut sum);
+        }
+        for ((weights, amount), force) in loaded.iter().zip(rest).zip(amounts[1]) {
+            let (amount, force) = (simd.splat_f64s(*amount), simd.splat_f64s(*force));
+            let weights = S::as_simd_f64s(weights).0;
+            for i in 0..vectors::<S>() {
+                sum[i] = simd.mul_add_e_f64s(weights[i], amount, sum[i]);
+                other[i] = simd.mul_add_e_f64s(weights[i], force, other[i]);
+            }
+        }
+        keep::<S>(&sum, to);
+        keep::<S>(&other, second);
+    }
+}
+
 /// Sixteen sums, begun.
 #[inline(always)]
 fn begun<S: Simd>(simd: S, from: &Lanes) -> [S::f64s; LANES] {
@@ -150,8 +180,8 @@ fn weigh<S: Simd>(simd: S, weights: &Lanes, amount: S::f64s, sums: &mut [S::f64s
     }
 }
 
-/// Adds to what columns feel of some groups of modes: `sums[k] += Σ_m w_k[m] x[m]`, sixteen parts of it, the columns from
-/// the `first` on.
+/// Adds to what columns feel of some groups of modes: `sums[k] += Σ_m w_k[m] x[m]`, sixteen parts of it; `sums`
+/// are those of the columns from the `first` on.
 #[inline(always)]
 pub(super) fn feel<S: Simd>(
     simd: S,
@@ -160,7 +190,7 @@ pub(super) fn feel<S: Simd>(
     x: &[Lanes],
     sums: &mut [Lanes],
 ) {
-    let mut pairs = sums[first..columns].chunks_exact_mut(2);
+    let mut pairs = sums.chunks_exact_mut(2);
     let mut column = first;
     for to in &mut pairs {
         let [mut sum, mut second] = [begun::<S>(simd, &to[0]), begun::<S>(simd, &to[1])];
@@ -188,6 +218,42 @@ pub(super) fn feel<S: Simd>(
         }
         keep::<S>(&sum, to);
     }
+}
+
+/// As [`feel`] does, for two kinds of motion at once.
+#[inline(always)]
+pub(super) fn feel_both<S: Simd>(
+    simd: S,
+    tiles: &[Lanes],
+    [columns, first]: [usize; 2],
+    x: [&[Lanes]; 2],
+    sums: [&mut [Lanes]; 2],
+) {
+    let [firsts, seconds] = sums;
+    let (mut ones, mut others) = (firsts.chunks_exact_mut(2), seconds.chunks_exact_mut(2));
+    let mut column = first;
+    for (to, too) in (&mut ones).zip(&mut others) {
+        let mut sums = [&to[0], &to[1], &too[0], &too[1]].map(|sum| begun::<S>(simd, sum));
+        for (tile, (x, y)) in tiles.chunks_exact(columns).zip(x[0].iter().zip(x[1])) {
+            if let [one, other] = &tile[column..column + 2] {
+                let (one, other) = (S::as_simd_f64s(one).0, S::as_simd_f64s(other).0);
+                let (x, y) = (S::as_simd_f64s(x).0, S::as_simd_f64s(y).0);
+                for i in 0..vectors::<S>() {
+                    sums[0][i] = simd.mul_add_e_f64s(one[i], x[i], sums[0][i]);
+                    sums[1][i] = simd.mul_add_e_f64s(other[i], x[i], sums[1][i]);
+                    sums[2][i] = simd.mul_add_e_f64s(one[i], y[i], sums[2][i]);
+                    sums[3][i] = simd.mul_add_e_f64s(other[i], y[i], sums[3][i]);
+                }
+            }
+        }
+        keep::<S>(&sums[0], &mut to[0]);
+        keep::<S>(&sums[1], &mut to[1]);
+        keep::<S>(&sums[2], &mut too[0]);
+        keep::<S>(&sums[3], &mut too[1]);
+        column += 2;
+    }
+    feel(simd, tiles, [columns, column], x[0], ones.into_remainder());
+    feel(simd, tiles, [columns, column], x[1], others.into_remainder());
 }
 
 /// Adds to what a row feels of some groups of modes, as [`feel`] does.

@@ -74,17 +74,22 @@ impl Small {
         let n = registers::<S>();
         for (out, cells) in out.iter_mut().zip(self.cells.chunks_exact(self.size.max(1))) {
             // Two sums, so that the processor need not wait for each addition.
-            let mut sums = [[simd.splat_f64s(0.0); OCT]; 2];
-            let cells = &cells[..x.len()];
-            for (cells, x) in cells.chunks(2).zip(x.chunks(2)) {
-                for ((sum, cell), x) in sums.iter_mut().zip(cells).zip(x) {
-                    let x = simd.splat_f64s(*x);
-                    for (i, sum) in sum.iter_mut().enumerate().take(n) {
-                        *sum = simd.mul_add_e_f64s(get::<S>(cell, i), x, *sum);
-                    }
+            let (mut even, mut odd) = ([simd.splat_f64s(0.0); OCT], [simd.splat_f64s(0.0); OCT]);
+            let (pairs, last) = cells[..x.len()].as_chunks::<2>();
+            let (amounts, end) = x.as_chunks::<2>();
+            for (cells, x) in pairs.iter().zip(amounts) {
+                let x = x.map(|x| simd.splat_f64s(x));
+                for i in 0..n {
+                    even[i] = simd.mul_add_e_f64s(get::<S>(&cells[0], i), x[0], even[i]);
+                    odd[i] = simd.mul_add_e_f64s(get::<S>(&cells[1], i), x[1], odd[i]);
                 }
             }
-            let [even, odd] = sums;
+            for (cell, x) in last.iter().zip(end) {
+                let x = simd.splat_f64s(*x);
+                for (i, even) in even.iter_mut().enumerate().take(n) {
+                    *even = simd.mul_add_e_f64s(get::<S>(cell, i), x, *even);
+                }
+            }
             for (i, (even, odd)) in even.into_iter().zip(odd).enumerate().take(n) {
                 set::<S>(out, i, simd.add_f64s(even, odd));
             }

@@ -107,3 +107,50 @@ fn a_stiff_strip() {
     let pairs = check(&stiffness, &mass, top, &ascending(values, top), 1e-12, 0.0);
     assert!(pairs.values.len() > 400);
 }
+
+/// The sum of two clamped beams, in bending, is that of their eigenvalues.
+#[test]
+fn beams_across_each_other_add_up() {
+    let [[b, m], [c, l]] = [128, 8].map(beam);
+    let stiffness = b.times(&l).plus(m.times(&c)).matrix();
+    let all = |k: &Entries, m: &Entries| {
+        below(k.matrix().as_ref(), m.matrix().as_ref(), 1e6).expect("eigenpairs of a beam").values
+    };
+    let (long, short) = (all(&b, &m), all(&c, &l));
+    // The root of cos x cosh x = 1, to the fourth power.
+    assert!((420.0 * long[0] / 4.730040744862704_f64.powi(4) - 1.0).abs() < 1e-7);
+    let values = sums(&long, &short);
+    let top = bound_near(&values, 1e6);
+    let pairs = check(&stiffness, &m.times(&l).matrix(), top, &ascending(values, top), 1e-12, 0.0);
+    assert!(pairs.values.len() > 300);
+}
+
+/// Bending and 420 times mass of a beam of cubic Hermite elements of one metre together, clamped at both ends; without
+/// rounding if their number is a power of two.
+fn beam(elements: usize) -> [Entries; 2] {
+    let h = 1.0 / elements as f64;
+    let bending =
+        [[12.0, 6.0, -12.0, 6.0], [6.0, 4.0, -6.0, 2.0], [-12.0, -6.0, 12.0, -6.0], [6.0, 2.0, -6.0, 4.0]];
+    let mass = [
+        [156.0, 22.0, 54.0, -13.0],
+        [22.0, 4.0, 13.0, -3.0],
+        [54.0, 13.0, 156.0, -22.0],
+        [-13.0, -3.0, -22.0, 4.0],
+    ];
+    let n = 2 * (elements - 1);
+    [(bending, h.powi(-3)), (mass, h)].map(|(element, factor)| {
+        let mut list = Vec::new();
+        for start in 0..elements {
+            for (i, row) in element.iter().enumerate() {
+                for (j, v) in row.iter().enumerate() {
+                    let slope = |k: usize| if k % 2 == 1 { h } else { 1.0 };
+                    let (a, b) = (2 * start + i, 2 * start + j);
+                    if a >= 2 && b >= 2 && a < n + 2 && b < n + 2 {
+                        list.push((a - 2, b - 2, v * factor * slope(i) * slope(j)));
+                    }
+                }
+            }
+        }
+        Entries { n, list }
+    })
+}
