@@ -180,3 +180,29 @@ fn losses_are_made_up_for() {
     assert!((uniform / per_mode - 1.0).abs() < 1e-3, "one decay time for all modes: {uniform} {per_mode}");
     assert!(uniform < plain, "time reversal is the matched filter: {uniform} {plain}");
 }
+
+#[test]
+fn actuators_may_lie_on_top_of_each_other() {
+    let scratch = Scratch::new("coincident");
+    let film = |actuators: &str| {
+        format!(
+            "format = 1\nname = \"A film\"\n[outline]\nrectangle_mm = [150, 150]\n[sheet]\nmaterial = \"BoPET\"\n\
+             thickness_mm = 0.125\ntension_n_per_m = 200\ndecay_time_ms = 70\n[drive]\nband_hz = [0, 1000]\n\
+             sample_rate_hz = 48000\n{actuators}"
+        )
+    };
+    let coil = "[[actuator]]\nat_mm = [12, 31]\nkind = \"moving-magnet\"\nforce_constant_n_per_a = 6\n\
+                resistance_ohm = 6.2\ninductance_mh = 1.9\nmoving_mass_mg = 100\ndriven_by = \"voltage\"\n";
+    let force = "[[actuator]]\nat_mm = [12, 31]\n";
+    let peak = |name: &str, actuators: &str| {
+        let file = scratch.file(name, &film(actuators));
+        run(&["check", &file]);
+        let out = scratch.join("out");
+        let report = json(&["focus", &file, "--at", "62,90", "--window-ms", "20", "-o", &out]);
+        number(&report, "/targets/0/peak_velocity_m_s")
+    };
+    let (one, two) = (peak("one.toml", force), peak("two.toml", &force.repeat(2)));
+    assert!((two / one - 2.0).abs() < 1e-6, "{one} {two}");
+    let three = peak("coils.toml", &coil.repeat(3));
+    assert!(three > 0.0 && three.is_finite());
+}
