@@ -82,6 +82,29 @@ pub enum MethodName {
     TimeReversal,
     /// The sign of time reversal, at the limit throughout.
     OneBit,
+    /// The least-energy drive of a delta: more contrast for more energy.
+    Inverse,
+    /// The least velocity elsewhere at the focal instant: several times the contrast of time reversal.
+    Concentrate,
+    /// The same within each actuator's limit, pushed towards the highest peak.
+    Limited,
+    /// The same over a spread of frequencies: for a sheet that warms.
+    Robust,
+}
+
+impl MethodName {
+    /// What it stands for.
+    pub fn method(self) -> unripple::focus::Method {
+        use unripple::focus::Method;
+        match self {
+            Self::TimeReversal => Method::TimeReversal,
+            Self::OneBit => Method::OneBit,
+            Self::Inverse => Method::Inverse,
+            Self::Concentrate => Method::Concentrate,
+            Self::Limited => Method::Limited,
+            Self::Robust => Method::Robust,
+        }
+    }
 }
 
 /// How the decay of what is played back is made up for.
@@ -105,6 +128,18 @@ pub struct FocusOptions {
     /// How to focus.
     #[arg(long, value_enum, default_value_t = MethodName::TimeReversal)]
     pub method: MethodName,
+    /// How far from time reversal (0) to the method's own limit (1).
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    pub strength: Option<f64>,
+    /// For `limited`: from the level of the unlimited drive (0) to that of one-bit (1).
+    #[arg(long, value_name = "SHARE", default_value_t = 0.5, allow_negative_numbers = true)]
+    pub push: f64,
+    /// For `robust`: the stretch of frequencies to be borne up and down, in per cent.
+    #[arg(long, value_name = "PERCENT", default_value_t = 0.5, allow_negative_numbers = true)]
+    pub spread_percent: f64,
+    /// For `inverse`: bring displacements to zero as well.
+    #[arg(long)]
+    pub rest: bool,
     /// Window T in ms; by default the one that `design` recommends.
     #[arg(long, value_name = "MS", allow_negative_numbers = true)]
     pub window_ms: Option<f64>,

@@ -1,6 +1,6 @@
 //! `unripple focus`: a drive, its report and its figures.
 
-use crate::args::{FocusOptions, LossName, MethodName};
+use crate::args::{FocusOptions, LossName};
 use crate::error::CliError;
 use crate::figures::{self, Scene};
 use crate::fingers::{self, Felt};
@@ -10,7 +10,7 @@ use crate::targets::{self, positive, seconds};
 use crate::{input, output};
 use unripple::core::{ActuatorKind, Contact, Decay, Drive, Responses, Surface};
 use unripple::field::{Aim, Field};
-use unripple::focus::{Focused, LossCorrection, Method, Options, Target, focus};
+use unripple::focus::{Focused, LossCorrection, Options, Target, focus};
 use unripple::physics::design::recommended_window;
 use unripple_store::{OutputDir, write_wav};
 
@@ -74,10 +74,11 @@ fn settings(options: &FocusOptions, surface: &Surface, responses: &Responses) ->
         }
     };
     Ok(Options {
-        method: match options.method {
-            MethodName::TimeReversal => Method::TimeReversal,
-            MethodName::OneBit => Method::OneBit,
-        },
+        method: options.method.method(),
+        strength: options.strength,
+        push: options.push,
+        spread: options.spread_percent / 100.0,
+        rest: options.rest,
         window,
         limit: surface.emission.limit,
         rms_limit: surface.emission.rms_limit,

@@ -195,7 +195,7 @@ fn actuators_may_lie_on_top_of_each_other() {
                 resistance_ohm = 6.2\ninductance_mh = 1.9\nmoving_mass_mg = 100\ndriven_by = \"voltage\"\n";
     let force = "[[actuator]]\nat_mm = [12, 31]\n";
     let peak = |name: &str, actuators: &str| {
-        let file = scratch.file(name, &film(actuators));
+        let file = scratch.file(name, film(actuators));
         run(&["check", &file]);
         let out = scratch.join("out");
         let report = json(&["focus", &file, "--at", "62,90", "--window-ms", "20", "-o", &out]);

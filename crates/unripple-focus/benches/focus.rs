@@ -1,7 +1,6 @@
 //! How long it takes to make a drive: `cargo bench -p unripple-focus`.
 
 #[path = "../tests/common/mod.rs"]
-#[allow(dead_code)]
 mod common;
 
 use common::Membrane;

@@ -69,11 +69,20 @@ pub enum FocusError {
         /// All names.
         expected: String,
     },
-    /// The losses of single modes are not known from samples.
-    #[error(
-        "loss correction per mode: expected modal responses, found sampled ones (uniform correction needs none)"
-    )]
-    NeedsModes,
+    /// Samples do not tell what single modes do.
+    #[error("{0}: expected modal responses, found sampled ones")]
+    NeedsModes(&'static str),
+    /// A matrix of the responses has no decomposition, as those of real surfaces have.
+    #[error("responses: expected a positive definite system of equations, found one that is not")]
+    Decomposition,
+    /// The best drive within the limits was not found.
+    #[error("duality gap of the limited drive: expected at most {expected:e}, found {found:e}")]
+    Gap {
+        /// Where it should have stopped.
+        expected: f64,
+        /// Where it did, as a share of the objective.
+        found: f64,
+    },
     /// The drive could not be built.
     #[error(transparent)]
     Core(#[from] CoreError),

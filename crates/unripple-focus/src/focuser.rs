@@ -1,3 +1,4 @@
+use crate::planned::Planned;
 use crate::recording::{Recorder, Recording, energy, peak};
 use crate::schedule::{self, MOST_SAMPLES, Schedule};
 use crate::{FocusError, LossCorrection, Method, Options, Target, Timing, target};
@@ -26,9 +27,18 @@ pub struct Focused {
 #[derive(Debug)]
 pub struct Focuser<'r> {
     responses: &'r Responses,
-    recorder: Recorder<'r>,
+    maker: Maker<'r>,
     options: Options,
     window: usize,
+}
+
+/// How drives are made.
+#[derive(Debug)]
+enum Maker<'r> {
+    /// By playing responses backwards.
+    Reversal(Recorder<'r>),
+    /// By seeking the state at the focal instant.
+    Planned(Box<Planned<'r>>),
 }
 
 impl<'r> Focuser<'r> {
@@ -53,8 +63,11 @@ impl<'r> Focuser<'r> {
             let most = MOST_SAMPLES / channels - 1;
             return count("samples of the window after the first", format!("at most {most}"), window);
         }
-        let recorder = Recorder::plan(responses, window + 1, options)?;
-        Ok(Self { responses, recorder, options: options.clone(), window })
+        let maker = match options.method.reverses() {
+            true => Maker::Reversal(Recorder::plan(responses, window + 1, options)?),
+            false => Maker::Planned(Box::new(Planned::new(responses, options, window + 1, false)?)),
+        };
+        Ok(Self { responses, maker, options: options.clone(), window })
     }
 
     /// The drive that focuses on these targets.
@@ -70,15 +83,10 @@ impl<'r> Focuser<'r> {
         target::check(targets, &self.responses.conditions().outline)?;
         let schedule = self.schedule(targets)?;
         let mut channels = vec![vec![0.0; schedule.length]; self.responses.ports().len()];
-        let mut points = Vec::with_capacity(targets.len());
-        for (index, target) in targets.iter().enumerate() {
-            let mut recording = self.recorder.record(index, &target.points)?;
-            self.correct(&mut recording);
-            for instant in schedule.instants(schedule.timing[index]) {
-                self.add_reversed(&recording, target.gain, instant, &mut channels);
-            }
-            points.push(recording.points);
-        }
+        let points = match &self.maker {
+            Maker::Reversal(recorder) => self.reverse(recorder, targets, &schedule, &mut channels)?,
+            Maker::Planned(planned) => self.seek(planned, targets, &schedule, &mut channels)?,
+        };
         self.limit(&mut channels)?;
         let names = self.responses.ports().iter().map(|port| port.name.clone()).collect();
         let drive = Drive::new(self.responses.conditions().rate, names, channels)?;
@@ -89,6 +97,54 @@ impl<'r> Focuser<'r> {
             points,
             method: self.options.method,
         })
+    }
+
+    /// Superposes reversed responses.
+    fn reverse(
+        &self,
+        recorder: &Recorder<'_>,
+        targets: &[Target],
+        schedule: &Schedule,
+        channels: &mut [Vec<f64>],
+    ) -> Result<Vec<Vec<Point>>, FocusError> {
+        let mut points = Vec::with_capacity(targets.len());
+        for (index, target) in targets.iter().enumerate() {
+            let mut recording = recorder.record(index, &target.points)?;
+            self.correct(&mut recording);
+            for instant in schedule.instants(schedule.timing[index]) {
+                self.add_reversed(&recording, target.gain, instant, channels);
+            }
+            points.push(recording.points);
+        }
+        Ok(points)
+    }
+
+    /// Superposes the drives of all targets that come once and of those of each period.
+    fn seek(
+        &self,
+        once: &Planned<'_>,
+        targets: &[Target],
+        schedule: &Schedule,
+        channels: &mut [Vec<f64>],
+    ) -> Result<Vec<Vec<Point>>, FocusError> {
+        let mut points = vec![Vec::new(); targets.len()];
+        let mut timings: Vec<Timing> = Vec::new();
+        for timing in &schedule.timing {
+            if !timings.contains(timing) {
+                timings.push(*timing);
+            }
+        }
+        for timing in timings {
+            let group: Vec<(usize, &Target)> =
+                targets.iter().enumerate().filter(|(i, _)| schedule.timing[*i] == timing).collect();
+            let (drive, used) = match timing.period {
+                None => once.drive(&group)?,
+                Some(period) => Planned::new(self.responses, &self.options, period, true)?.drive(&group)?,
+            };
+            add(&drive, timing, self.window, channels);
+            group.iter().zip(used).for_each(|((index, _), used)| points[*index] = used);
+        }
+        Ok(points)
     }
 
     fn schedule(&self, targets: &[Target]) -> Result<Schedule, FocusError> {
@@ -141,9 +197,9 @@ impl<'r> Focuser<'r> {
         let usable = peak.is_finite() && peak > 0.0;
         crate::error::require("peak of the unscaled drive", usable, "a positive finite number", peak)?;
         let shape = |d: f64| match self.options.method {
-            Method::TimeReversal => d / peak * limit,
             Method::OneBit if d == 0.0 => 0.0,
             Method::OneBit => limit.copysign(d),
+            _ => d / peak * limit,
         };
         for channel in channels.iter_mut() {
             channel.iter_mut().for_each(|d| *d = shape(*d));
@@ -155,6 +211,24 @@ impl<'r> Focuser<'r> {
             channels.iter_mut().flatten().for_each(|d| *d *= rms_limit / rms);
         }
         Ok(())
+    }
+}
+
+/// Adds a drive whose last sample is the focal instant: once, or all along with its period.
+fn add(drive: &[f64], timing: Timing, window: usize, channels: &mut [Vec<f64>]) {
+    let length = drive.len() / channels.len().max(1);
+    for (channel, part) in channels.iter_mut().zip(drive.chunks_exact(length)) {
+        match timing.period {
+            None => {
+                let first = timing.instant - window;
+                channel[first..].iter_mut().zip(part).for_each(|(d, part)| *d += part);
+            }
+            Some(period) => {
+                let shift = period - 1 - timing.instant % period;
+                let wave = part.iter().cycle().skip(shift);
+                channel.iter_mut().zip(wave).for_each(|(d, part)| *d += part);
+            }
+        }
     }
 }
 

@@ -43,11 +43,15 @@
 
 mod error;
 mod focuser;
+mod limited;
 mod modal;
+mod objective;
 mod options;
 mod pattern;
+mod planned;
 mod recording;
 mod schedule;
+mod state;
 mod target;
 
 pub use error::FocusError;

@@ -11,18 +11,46 @@ pub enum Method {
     /// The sign of time reversal at the limit: the highest peak for a given drive limit. Where time reversal is
     /// exactly zero, so is this.
     OneBit,
+    /// The least-energy drive of a band-limited delta at the focal instant.
+    Inverse,
+    /// The least velocity outside the targets' discs at the focal instant, for the energy it takes.
+    Concentrate,
+    /// As [`Method::Concentrate`], under the limits of each actuator, pushed towards the highest peak.
+    Limited,
+    /// As [`Method::Concentrate`], over a spread of frequencies at a fixed window.
+    Robust,
 }
 
 impl Method {
     /// Every method, the default first.
-    pub const ALL: [Self; 2] = [Self::TimeReversal, Self::OneBit];
+    pub const ALL: [Self; 6] =
+        [Self::TimeReversal, Self::OneBit, Self::Inverse, Self::Concentrate, Self::Limited, Self::Robust];
 
     /// The name the command line uses.
     pub fn name(self) -> &'static str {
         match self {
             Self::TimeReversal => "time-reversal",
             Self::OneBit => "one-bit",
+            Self::Inverse => "inverse",
+            Self::Concentrate => "concentrate",
+            Self::Limited => "limited",
+            Self::Robust => "robust",
         }
+    }
+
+    /// The strength that is used unless another is asked for; 0 where strength means nothing.
+    pub fn strength(self) -> f64 {
+        match self {
+            Self::TimeReversal | Self::OneBit => 0.0,
+            Self::Concentrate => 0.92,
+            Self::Inverse | Self::Limited => 0.97,
+            Self::Robust => 0.977,
+        }
+    }
+
+    /// Whether responses are played back as they are, rather than a state sought.
+    pub(crate) fn reverses(self) -> bool {
+        matches!(self, Self::TimeReversal | Self::OneBit)
     }
 }
 
@@ -67,7 +95,16 @@ pub struct Options {
     pub limit: f64,
     /// Largest rms per actuator over the whole drive, in the drive's unit. A drive above it is scaled down as a whole.
     pub rms_limit: Option<f64>,
-    /// What is done about losses.
+    /// How far from time reversal (0) to the method's own limit (1); `None` for [`Method::strength`]. Nothing to time
+    /// reversal and one-bit.
+    pub strength: Option<f64>,
+    /// Of [`Method::Limited`]: from the level that the unlimited drive has at the limit (0) to that of one-bit (1).
+    pub push: f64,
+    /// Of [`Method::Robust`]: the largest stretch of frequencies that is borne, up and down, as a share.
+    pub spread: f64,
+    /// Of [`Method::Inverse`]: whether the displacement of every mode is brought to zero as well.
+    pub rest: bool,
+    /// What is done about losses; of time reversal and one-bit.
     pub loss: LossCorrection,
     /// Length of the drive, in seconds; `None` for as long as is needed: the window, or with repetition until the last
     /// full period is steady. A single pulse is followed by silence up to this length.
@@ -85,6 +122,10 @@ impl Default for Options {
             window: 30e-3,
             limit: 1.0,
             rms_limit: None,
+            strength: None,
+            push: 0.5,
+            spread: 0.005,
+            rest: false,
             loss: LossCorrection::None,
             duration: None,
             accuracy: 1e-6,
@@ -105,6 +146,12 @@ impl Options {
         if let Some(duration) = self.duration {
             require("duration (s)", positive(duration), "a positive number", duration)?;
         }
+        let share = |x: f64| (0.0..=1.0).contains(&x);
+        if let Some(strength) = self.strength {
+            require("strength", share(strength), "0 to 1", strength)?;
+        }
+        require("push", share(self.push), "0 to 1", self.push)?;
+        require("spread of frequencies", (0.0..0.5).contains(&self.spread), "0 to 0.5", self.spread)?;
         if let LossCorrection::Uniform(tau) = self.loss {
             require("decay time of the loss correction (s)", positive(tau), "a positive number", tau)?;
         }

@@ -25,13 +25,11 @@ impl<'r> Recorder<'r> {
             Responses::Modal(modal) => Ok(Self::Modal(Box::new(ModalRecorder::plan(modal, length, options)))),
             Responses::Sampled(sampled) => {
                 if options.loss == LossCorrection::PerMode {
-                    return Err(FocusError::NeedsModes);
+                    return Err(FocusError::NeedsModes(
+                        "loss correction per mode (uniform correction needs none)",
+                    ));
                 }
-                if length > sampled.samples() {
-                    let expected = format!("at most {}, the length of the responses", sampled.samples());
-                    return Err(FocusError::Count { what: "samples of the window", expected, found: length });
-                }
-                Ok(Self::Sampled(SampledRecorder { responses: sampled, length }))
+                Ok(Self::Sampled(SampledRecorder::new(sampled, length)?))
             }
         }
     }
@@ -87,7 +85,19 @@ pub(crate) struct SampledRecorder<'r> {
     length: usize,
 }
 
-impl SampledRecorder<'_> {
+impl<'r> SampledRecorder<'r> {
+    /// Reads the first `length` samples.
+    ///
+    /// # Errors
+    /// [`FocusError::Count`] if responses are shorter.
+    pub fn new(responses: &'r SampledResponses, length: usize) -> Result<Self, FocusError> {
+        if length > responses.samples() {
+            let expected = format!("at most {}, the length of the responses", responses.samples());
+            return Err(FocusError::Count { what: "samples of the window", expected, found: length });
+        }
+        Ok(Self { responses, length })
+    }
+
     /// The sum of the responses at all points, the sum of their energies, and the points that stood for them.
     fn record(&self, target: usize, points: &[Point]) -> Result<(Vec<f64>, f64, Vec<Point>), FocusError> {
         let actuators = self.responses.ports.len();
@@ -110,7 +120,7 @@ impl SampledRecorder<'_> {
 
     /// Index of the stored point that stands for a place: the nearest, at most λ_min/4 away, where a focus still has
     /// most of its height.
-    fn locate(&self, target: usize, at: Point) -> Result<usize, FocusError> {
+    pub fn locate(&self, target: usize, at: Point) -> Result<usize, FocusError> {
         let reach = self.responses.conditions.lambda_min / 4.0;
         let stored = self.responses.nearest(at).ok_or(FocusError::Count {
             what: "points with responses",

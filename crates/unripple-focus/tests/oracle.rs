@@ -260,7 +260,10 @@ fn a_library_gives_the_drive_of_its_nearest_point() {
         "samples of the window: expected at most 210, the length of the responses, found 241"
     );
     let per_mode = Options { loss: LossCorrection::PerMode, ..options() };
-    assert_eq!(focus(&stored, &asked, &per_mode), Err(FocusError::NeedsModes));
+    assert_eq!(
+        focus(&stored, &asked, &per_mode),
+        Err(FocusError::NeedsModes("loss correction per mode (uniform correction needs none)"))
+    );
 }
 
 #[test]
@@ -303,6 +306,9 @@ fn refuses_what_cannot_be_done() {
     let rim = [good[0].clone(), Target::at(Point::new(0.10, 0.04))];
     assert!(matches!(focus(&responses, &rim, &options()), Err(FocusError::Still { target: 1, .. })));
     let unknown = "one-bits".parse::<Method>().unwrap_err();
-    assert_eq!(unknown.to_string(), "no method `one-bits`: expected one of `time-reversal`, `one-bit`");
+    assert_eq!(
+        unknown.to_string(),
+        "no method `one-bits`: expected one of `time-reversal`, `one-bit`, `inverse`, `concentrate`, `limited`, `robust`"
+    );
     assert_eq!("one-bit".parse(), Ok(Method::OneBit));
 }

@@ -1,5 +1,7 @@
 //! A simply supported film under tension, from its closed form, and the sums that define responses and fields.
 
+#![allow(dead_code)]
+
 use faer::Mat;
 use std::f64::consts::PI;
 use std::sync::Arc;

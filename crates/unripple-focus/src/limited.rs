@@ -1,0 +1,247 @@
+use crate::FocusError;
+use crate::objective::{Levels, read};
+use crate::state::State;
+use faer::linalg::solvers::{PartialPivLu, Solve};
+use faer::{Mat, MatRef};
+
+/// Steps of Newton's method.
+const STEPS: usize = 80;
+
+/// The duality gap it stops at, as a share of the objective.
+pub(crate) const GAP: f64 = 1e-6;
+
+/// Times that several targets are brought half way back to what is surely within reach.
+const RETREATS: usize = 6;
+
+/// Halvings of a step.
+const HALVINGS: usize = 30;
+
+/// Bisections for the multiplier of an rms limit.
+const BISECTIONS: usize = 60;
+
+/// What each actuator may do at most, and how far towards it the target is pushed.
+///
+/// The drive that minimises `½ yᵀ(A - ε)y + ½ ε|d|²` under `|d| ≤ peak`, the rms of each channel under its limit, and levels
+/// `Pᵀ y = p γ`, where `y = W d`. Its dual has one unknown per coordinate and level, its gradient is that of a sum of
+/// clipped lines, and Newton's method solves it (semismooth: the clipped samples drop out of the slope).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Limits {
+    pub peak: f64,
+    pub rms: Option<f64>,
+    /// From the level that the unlimited drive reaches when scaled to the limit (0) to that of one-bit (1). Several targets
+    /// may not reach the latter together: then the way there is halved until they do.
+    pub push: f64,
+    pub samples: usize,
+}
+
+/// The program's unknowns and what follows from them.
+struct Trial {
+    /// Multipliers: η of the state, ω = B η, then μ of the levels.
+    dual: Vec<f64>,
+    drive: Vec<f64>,
+    /// Slope of each sample of the drive: 1/(ε + ν) where it is free, 0 where it is clipped.
+    slopes: Vec<f64>,
+    /// W d.
+    state: Mat<f64>,
+    /// The dual function.
+    value: f64,
+}
+
+struct Program<'a> {
+    map: Mat<f64>,
+    /// B = A - ε.
+    matrix: Mat<f64>,
+    energy: f64,
+    levels: &'a Levels,
+    wanted: Vec<f64>,
+    limits: Limits,
+}
+
+impl Limits {
+    /// The drive at the limits, channels one behind the other. `matrix` is the objective's lower triangle, `energy` its
+    /// share ε, `free` the state that is best without limits.
+    ///
+    /// # Errors
+    /// [`FocusError::Gap`] if the duality gap does not close.
+    pub fn drive(
+        self,
+        state: &State<'_>,
+        matrix: Mat<f64>,
+        energy: f64,
+        levels: &Levels,
+        free: &Mat<f64>,
+    ) -> Result<Vec<f64>, FocusError> {
+        let unlimited = state.emit(free.as_ref())?;
+        let lowest = self.scale(&unlimited);
+        let map = state.map()?;
+        let highest = self.highest(&map, levels);
+        let rank = state.rank();
+        let whole = Mat::from_fn(rank, rank, |i, j| {
+            let entry = if i >= j { matrix[(i, j)] } else { matrix[(j, i)] };
+            entry - if i == j { energy } else { 0.0 }
+        });
+        let mut program = Program { map, matrix: whole, energy, levels, wanted: Vec::new(), limits: self };
+        let mut rise = self.push * (highest - lowest);
+        for _ in 0..RETREATS {
+            if rise.is_nan() || rise <= 0.0 {
+                break;
+            }
+            let level = lowest + rise;
+            program.wanted = levels.wanted.iter().map(|wanted| wanted * level).collect();
+            match program.solve(free * faer::Scale(level)) {
+                Err(FocusError::Gap { .. }) if levels.wanted.len() > 1 => rise *= 0.5,
+                found => return found,
+            }
+        }
+        Ok(unlimited.iter().map(|d| d * lowest).collect())
+    }
+
+    /// How many times a drive fits the limits.
+    fn scale(&self, drive: &[f64]) -> f64 {
+        let mut most = drive.iter().fold(0.0_f64, |m, d| m.max(d.abs())) / self.peak;
+        if let Some(limit) = self.rms {
+            let rms = |c: &[f64]| (c.iter().map(|d| d * d).sum::<f64>() / self.samples as f64).sqrt();
+            most = drive.chunks_exact(self.samples).fold(most, |m, c| m.max(rms(c) / limit));
+        }
+        1.0 / most
+    }
+
+    /// The level that one-bit drives reach, all targets together: the smallest multiple of the levels wanted.
+    fn highest(&self, map: &Mat<f64>, levels: &Levels) -> f64 {
+        let wanted = Mat::from_fn(levels.wanted.len(), 1, |k, _| levels.wanted[k]);
+        let together = map.transpose() * (&levels.readout * wanted);
+        let hard: Vec<f64> = together.col_as_slice(0).iter().map(|d| self.peak * d.signum()).collect();
+        let fit = self.scale(&hard).min(1.0);
+        let reached = read(
+            levels.readout.as_ref(),
+            (map * MatRef::from_column_major_slice(&hard, hard.len(), 1)).as_ref(),
+        );
+        let ratios = reached.iter().zip(&levels.wanted).filter(|(_, wanted)| **wanted != 0.0);
+        fit * ratios.map(|(reached, wanted)| reached / wanted).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Clips a channel's `q/ε` to the limits; returns 1/(ε + ν).
+    fn clip(&self, channel: &mut [f64], energy: f64) -> f64 {
+        let Some(limit) = self.rms else {
+            channel.iter_mut().for_each(|d| *d = (*d / energy).clamp(-self.peak, self.peak));
+            return 1.0 / energy;
+        };
+        let most = limit * limit * self.samples as f64;
+        let square = |slope: f64| -> f64 {
+            channel.iter().map(|q| (q * slope).clamp(-self.peak, self.peak).powi(2)).sum()
+        };
+        let mut slope = 1.0 / energy;
+        if square(slope) > most {
+            let (mut low, mut high) = (0.0, slope);
+            for _ in 0..BISECTIONS {
+                slope = 0.5 * (low + high);
+                if square(slope) > most { high = slope } else { low = slope }
+            }
+        }
+        channel.iter_mut().for_each(|d| *d = (*d * slope).clamp(-self.peak, self.peak));
+        slope
+    }
+}
+
+impl Program<'_> {
+    fn solve(&self, free: Mat<f64>) -> Result<Vec<f64>, FocusError> {
+        // Without limits `ε d = Wᵀ(P μ - B η)` at η = W d.
+        let force = &free * faer::Scale(self.energy) + &self.matrix * &free;
+        let gram = self.levels.readout.transpose() * &self.levels.readout;
+        let mu = PartialPivLu::new(gram.as_ref()).solve(self.levels.readout.transpose() * force);
+        let mut dual = free.col_as_slice(0).to_vec();
+        dual.extend_from_slice(mu.col_as_slice(0));
+        let mut trial = self.at(dual);
+        for _ in 0..STEPS {
+            if self.gap(&trial) < GAP {
+                return Ok(trial.drive);
+            }
+            let step = self.newton(&trial);
+            let mut share = 1.0;
+            let mut next = None;
+            for _ in 0..HALVINGS {
+                let moved = trial.dual.iter().zip(&step).map(|(x, s)| x + share * s).collect();
+                let candidate = self.at(moved);
+                if candidate.value >= trial.value - 1e-13 * trial.value.abs() {
+                    next = Some(candidate);
+                    break;
+                }
+                share *= 0.5;
+            }
+            let Some(next) = next else { break };
+            trial = next;
+        }
+        let found = self.gap(&trial);
+        if found < GAP { Ok(trial.drive) } else { Err(FocusError::Gap { expected: GAP, found }) }
+    }
+
+    /// The best drive for multipliers, and the dual's value there.
+    fn at(&self, dual: Vec<f64>) -> Trial {
+        let rank = self.matrix.nrows();
+        let (eta, mu) = dual.split_at(rank);
+        let mu = MatRef::from_column_major_slice(mu, mu.len(), 1);
+        let eta = MatRef::from_column_major_slice(eta, rank, 1);
+        let omega = &self.matrix * eta;
+        let push = &self.levels.readout * mu - &omega;
+        let forced = self.map.transpose() * &push;
+        let mut drive = forced.col_as_slice(0).to_vec();
+        let mut slopes = vec![0.0; drive.len()];
+        let samples = self.limits.samples;
+        for (channel, slopes) in drive.chunks_exact_mut(samples).zip(slopes.chunks_exact_mut(samples)) {
+            let slope = self.limits.clip(channel, self.energy);
+            let free = channel.iter().zip(slopes).filter(|(d, _)| d.abs() < self.limits.peak);
+            free.for_each(|(_, to)| *to = slope);
+        }
+        let state = &self.map * MatRef::from_column_major_slice(&drive, drive.len(), 1);
+        let cost = -0.5 * (eta.transpose() * &omega)[(0, 0)];
+        let energy: f64 = 0.5 * self.energy * drive.iter().map(|d| d * d).sum::<f64>();
+        let work: f64 = (push.transpose() * &state)[(0, 0)];
+        let levels: f64 = mu.col(0).iter().zip(&self.wanted).map(|(mu, wanted)| mu * wanted).sum();
+        let value = cost + energy - work + levels;
+        Trial { dual, drive, slopes, state, value }
+    }
+
+    /// What the drive costs above the dual's value, with the price of levels it misses, as a share of its cost.
+    fn gap(&self, trial: &Trial) -> f64 {
+        let mu = &trial.dual[self.matrix.nrows()..];
+        let missed = read(self.levels.readout.as_ref(), trial.state.as_ref());
+        let missed =
+            missed.iter().zip(&self.wanted).zip(mu).map(|((got, wanted), mu)| (mu * (got - wanted)).abs());
+        let cost = 0.5 * (trial.state.transpose() * (&self.matrix * &trial.state))[(0, 0)]
+            + 0.5 * self.energy * trial.drive.iter().map(|d| d * d).sum::<f64>();
+        ((cost - trial.value).abs() + missed.sum::<f64>()) / cost
+    }
+
+    /// Newton's step for `y(d) = η` and `Pᵀ y(d) = p γ`, with `dy = W D Wᵀ (P dμ - B dη)`.
+    fn newton(&self, trial: &Trial) -> Vec<f64> {
+        let (rank, count) = (self.matrix.nrows(), self.wanted.len());
+        let slope = self.slope(trial);
+        let readout = &self.levels.readout;
+        let (costs, levels) = (&slope * &self.matrix, &slope * readout);
+        let (read_costs, read_levels) = (readout.transpose() * &costs, readout.transpose() * &levels);
+        let system = Mat::from_fn(rank + count, rank + count, |i, j| match (i < rank, j < rank) {
+            (true, true) => f64::from(i == j) + costs[(i, j)],
+            (true, false) => -levels[(i, j - rank)],
+            (false, true) => -read_costs[(i - rank, j)],
+            (false, false) => read_levels[(i - rank, j - rank)],
+        });
+        let got = read(readout.as_ref(), trial.state.as_ref());
+        let right = Mat::from_fn(rank + count, 1, |i, _| match i < rank {
+            true => trial.state[(i, 0)] - trial.dual[i],
+            false => self.wanted[i - rank] - got[i - rank],
+        });
+        PartialPivLu::new(system.as_ref()).solve(right).col_as_slice(0).to_vec()
+    }
+
+    /// `W D Wᵀ`, D the slopes of the samples.
+    fn slope(&self, trial: &Trial) -> Mat<f64> {
+        let kept: Vec<usize> = (0..trial.slopes.len()).filter(|i| trial.slopes[*i] > 0.0).collect();
+        let mut weighed = Mat::<f64>::zeros(self.map.nrows(), kept.len());
+        for (to, from) in kept.iter().enumerate() {
+            let root = trial.slopes[*from].sqrt();
+            let column = weighed.col_as_slice_mut(to);
+            column.iter_mut().zip(self.map.col_as_slice(*from)).for_each(|(to, w)| *to = root * w);
+        }
+        &weighed * weighed.transpose()
+    }
+}

@@ -1,0 +1,121 @@
+use crate::FocusError;
+use crate::state::State;
+use faer::linalg::matmul::triangular::{self, BlockStructure};
+use faer::linalg::solvers::{Llt, Solve};
+use faer::{Accum, Mat, MatRef, Par, Side};
+use unripple_core::{Conditions, Point};
+
+/// Radius of the disc around a target that does not count as outside, in shortest wavelengths.
+pub(crate) const DISC: f64 = 4.0 / 3.0;
+
+/// Share of energy in the objective that always stays, so that a drive of least velocity outside exists.
+const LEAST: f64 = 1e-9;
+
+/// Share of the diagonal added to the system of levels, for points closer to each other than waves can tell apart.
+const RIDGE: f64 = 1e-9;
+
+/// Levels wanted at readouts of a state: `Pᵀ y = γ`.
+#[derive(Debug)]
+pub(crate) struct Levels {
+    /// P, rank x levels.
+    pub readout: Mat<f64>,
+    /// γ, in m/s.
+    pub wanted: Vec<f64>,
+    /// Where they are.
+    pub points: Vec<Point>,
+}
+
+/// What states cost: `yᵀ A y = κ · velocity² outside + (1 - κ) · energy`, both in units of what they are on average.
+///
+/// κ is 0 for time reversal and 1 for nothing but velocity outside. Velocity outside is the mean over plants and cells.
+#[derive(Debug)]
+pub(crate) struct Objective {
+    /// A with nothing left out, rank x rank.
+    whole: Mat<f64>,
+    /// Readouts of the cells, scaled so that A loses `q qᵀ` for each one that is left out: rank x cells, for every plant.
+    cells: Vec<Mat<f64>>,
+    points: Vec<Point>,
+    radius: f64,
+}
+
+impl Objective {
+    /// Everything about it that does not depend on targets.
+    pub fn new(state: &State<'_>, strength: f64, conditions: &Conditions) -> Self {
+        let rank = state.rank();
+        let mut whole = Mat::<f64>::zeros(rank, rank);
+        let (mut cells, mut places) = (Vec::new(), Vec::new());
+        for plant in 0..state.plants() {
+            let (readout, points, mean) = state.cells(plant);
+            if mean == 0.0 {
+                continue;
+            }
+            let share = strength / (mean * (points.len() * state.plants()) as f64);
+            let scaled = readout * faer::Scale(share.sqrt());
+            whole += &scaled * scaled.transpose();
+            cells.push(scaled);
+            places = points;
+        }
+        (0..rank).for_each(|i| whole[(i, i)] += (1.0 - strength).max(LEAST) * state.scale);
+        Self { whole, cells, points: places, radius: DISC * conditions.lambda_min }
+    }
+
+    /// A for targets, the cells in their discs left out; the lower triangle.
+    pub fn around(&self, targets: &[Point]) -> Mat<f64> {
+        let inside: Vec<usize> = (0..self.points.len())
+            .filter(|c| targets.iter().any(|at| at.distance(self.points[*c]) <= self.radius))
+            .collect();
+        let mut matrix = self.whole.clone();
+        for cells in &self.cells {
+            let mut left = Mat::<f64>::zeros(cells.nrows(), inside.len());
+            for (to, from) in inside.iter().enumerate() {
+                left.col_as_slice_mut(to).copy_from_slice(cells.col_as_slice(*from));
+            }
+            triangular::matmul(
+                matrix.as_mut(),
+                BlockStructure::TriangularLower,
+                Accum::Add,
+                left.as_ref(),
+                BlockStructure::Rectangular,
+                left.transpose(),
+                BlockStructure::Rectangular,
+                -1.0,
+                Par::Seq,
+            );
+        }
+        matrix
+    }
+
+    /// The state that costs least at these levels: `y = A⁻¹ P μ`, μ from `Pᵀ A⁻¹ P μ = γ`.
+    ///
+    /// # Errors
+    /// [`FocusError::Decomposition`] if A is not positive definite.
+    pub fn least(&self, levels: &Levels) -> Result<Mat<f64>, FocusError> {
+        let matrix = self.around(&levels.points);
+        let factor = Llt::new(matrix.as_ref(), Side::Lower).map_err(|_| FocusError::Decomposition)?;
+        let mut solved = levels.readout.clone();
+        factor.solve_in_place(solved.as_mut());
+        level(solved, levels)
+    }
+}
+
+/// Combines states so that levels are met: `y = X μ` with `Pᵀ X μ = γ`.
+///
+/// # Errors
+/// [`FocusError::Decomposition`] if no combination meets them.
+pub(crate) fn level(states: Mat<f64>, levels: &Levels) -> Result<Mat<f64>, FocusError> {
+    let mut system = levels.readout.transpose() * &states;
+    let count = system.nrows();
+    let mean = (0..count).map(|k| system[(k, k)]).sum::<f64>() / count.max(1) as f64;
+    if count > 1 {
+        (0..count).for_each(|k| system[(k, k)] += RIDGE * mean);
+    }
+    let factor = Llt::new(system.as_ref(), Side::Lower).map_err(|_| FocusError::Decomposition)?;
+    let mut factors = Mat::from_fn(count, 1, |k, _| levels.wanted[k]);
+    factor.solve_in_place(factors.as_mut());
+    Ok(states * factors)
+}
+
+/// `Pᵀ y`.
+pub(crate) fn read(readout: MatRef<'_, f64>, y: MatRef<'_, f64>) -> Vec<f64> {
+    (readout.transpose() * y).col_as_slice(0).to_vec()
+}

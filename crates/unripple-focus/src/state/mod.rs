@@ -1,0 +1,208 @@
+//! What a drive makes of the surface at the focal instant.
+
+mod modal;
+mod sampled;
+
+pub(crate) use modal::{Keeps, ModalPlant};
+pub(crate) use sampled::SampledPlant;
+
+use crate::FocusError;
+use faer::{Mat, MatRef, Side};
+use unripple_core::Point;
+
+/// Directions of the drive that move the surface less than this share of the strongest are left alone, in energy.
+const FAINT: f64 = 1e-13;
+
+/// Most coordinates of a state: decompositions take the cube of it.
+const MOST_COORDINATES: usize = 4000;
+
+/// A surface under a drive over one window or period: the coordinates of its velocity at the focal instant.
+#[derive(Debug)]
+pub(crate) enum Plant<'r> {
+    /// Velocities of modes.
+    Modal(Box<ModalPlant<'r>>),
+    /// Velocities at stored points.
+    Sampled(SampledPlant<'r>),
+}
+
+impl Plant<'_> {
+    fn coordinates(&self) -> usize {
+        match self {
+            Self::Modal(modal) => modal.modes(),
+            Self::Sampled(sampled) => sampled.points(),
+        }
+    }
+
+    /// `G Hᵀ` of this plant's map and another's, both from the same drives.
+    fn gram(&self, other: &Self) -> Result<Mat<f64>, FocusError> {
+        match (self, other) {
+            (Self::Modal(one), Self::Modal(other)) => Ok(one.gram(other)),
+            (Self::Sampled(one), Self::Sampled(other)) => Ok(one.gram(other)),
+            _ => Err(FocusError::NeedsModes("plants beside a modal one")),
+        }
+    }
+
+    /// Adds `Gᵀ z` to the channels, a row of `length` samples each.
+    fn emit(&self, z: &[f64], channels: &mut [f64]) -> Result<(), FocusError> {
+        match self {
+            Self::Modal(modal) => modal.emit(z, channels),
+            Self::Sampled(sampled) => {
+                sampled.emit(z, channels);
+                Ok(())
+            }
+        }
+    }
+
+    /// Weights that read the velocity at points, coordinates x points, and the points that stand for them.
+    fn readout(&self, target: usize, points: &[Point]) -> Result<(Mat<f64>, Vec<Point>), FocusError> {
+        match self {
+            Self::Modal(modal) => Ok((modal.readout(points), points.to_vec())),
+            Self::Sampled(sampled) => sampled.readout(target, points),
+        }
+    }
+
+    /// Weights that read the velocity all over the surface, coordinates x cells, and where the cells are.
+    fn cells(&self) -> (Mat<f64>, Vec<Point>) {
+        match self {
+            Self::Modal(modal) => modal.cells(),
+            Self::Sampled(sampled) => sampled.cells(),
+        }
+    }
+}
+
+/// Drives of least energy, in coordinates of unit energy.
+///
+/// G maps drives over one window to the state at its end, `C = G Gᵀ = U Λ Uᵀ`. With `W = Λ^{-1/2} Uᵀ G`, whose rows are
+/// orthonormal, the least-energy drive of the state y is `Wᵀ y`, its energy `|y|²`, and a readout φ of the state reads
+/// `(Λ^{1/2} Uᵀ φ) · y`. Several plants under one drive have their coordinates one behind the other; the first is the
+/// nominal one.
+#[derive(Debug)]
+pub(crate) struct State<'r> {
+    plants: Vec<Plant<'r>>,
+    length: usize,
+    channels: usize,
+    /// Λ^{1/2} Uᵀ, rank x coordinates.
+    white: Mat<f64>,
+    /// U Λ^{-1/2}, coordinates x rank.
+    back: Mat<f64>,
+    /// Λ, as far as it matters.
+    pub(crate) energies: Vec<f64>,
+    /// Mean of the diagonal of C.
+    pub(crate) scale: f64,
+}
+
+impl<'r> State<'r> {
+    /// Of plants under drives of so many channels and samples.
+    ///
+    /// # Errors
+    /// [`FocusError::Count`] for too many coordinates, [`FocusError::Decomposition`].
+    pub fn new(plants: Vec<Plant<'r>>, channels: usize, length: usize) -> Result<Self, FocusError> {
+        let sizes: Vec<usize> = plants.iter().map(Plant::coordinates).collect();
+        let total: usize = sizes.iter().sum();
+        if total > MOST_COORDINATES || total == 0 {
+            let expected = format!("1 to {MOST_COORDINATES}");
+            return Err(FocusError::Count { what: "modes or points of a state", expected, found: total });
+        }
+        let starts = starts(&sizes);
+        let mut gram = Mat::<f64>::zeros(total, total);
+        for (i, one) in plants.iter().enumerate() {
+            for (j, other) in plants.iter().enumerate().take(i + 1) {
+                let block = one.gram(other)?;
+                let size = (block.nrows(), block.ncols());
+                gram.as_mut().submatrix_mut(starts[i], starts[j], size.0, size.1).copy_from(block.as_ref());
+                gram.as_mut()
+                    .submatrix_mut(starts[j], starts[i], size.1, size.0)
+                    .copy_from(block.transpose());
+            }
+        }
+        let scale = (0..total).map(|i| gram[(i, i)]).sum::<f64>() / total as f64;
+        let finite = scale.is_finite() && scale > 0.0;
+        crate::error::require("energy of the responses", finite, "a positive finite number", scale)?;
+        let eigen = gram.self_adjoint_eigen(Side::Lower).map_err(|_| FocusError::Decomposition)?;
+        let (vectors, values) = (eigen.U(), eigen.S().column_vector());
+        let most = values[total - 1];
+        let first = (0..total).position(|i| values[i] > FAINT * most).ok_or(FocusError::Decomposition)?;
+        let energies: Vec<f64> = (first..total).map(|i| values[i]).collect();
+        let rank = energies.len();
+        let white = Mat::from_fn(rank, total, |i, j| energies[i].sqrt() * vectors[(j, first + i)]);
+        let back = Mat::from_fn(total, rank, |i, j| vectors[(i, first + j)] / energies[j].sqrt());
+        Ok(Self { plants, length, channels, white, back, energies, scale })
+    }
+
+    /// Samples of a drive.
+    pub fn length(&self) -> usize {
+        self.length
+    }
+
+    /// Coordinates of unit energy.
+    pub fn rank(&self) -> usize {
+        self.energies.len()
+    }
+
+    /// How many plants there are.
+    pub fn plants(&self) -> usize {
+        self.plants.len()
+    }
+
+    /// Readouts of the nominal plant at a target's points, rank x points, and the points that stand for them.
+    ///
+    /// # Errors
+    /// [`FocusError::Unknown`] for points without responses.
+    pub fn readout(&self, target: usize, points: &[Point]) -> Result<(Mat<f64>, Vec<Point>), FocusError> {
+        let (weights, used) = self.plants[0].readout(target, points)?;
+        Ok((self.whiten(0, weights.as_ref()), used))
+    }
+
+    /// Readouts all over a plant, rank x cells, where the cells are, and the mean square of their weights.
+    pub fn cells(&self, plant: usize) -> (Mat<f64>, Vec<Point>, f64) {
+        let (weights, points) = self.plants[plant].cells();
+        let square: f64 = (0..weights.ncols()).map(|c| weights.col(c).squared_norm_l2()).sum();
+        let mean = square / (weights.ncols() * weights.nrows()).max(1) as f64;
+        (self.whiten(plant, weights.as_ref()), points, mean)
+    }
+
+    fn whiten(&self, plant: usize, weights: MatRef<'_, f64>) -> Mat<f64> {
+        let first: usize = self.plants[..plant].iter().map(Plant::coordinates).sum();
+        self.white.as_ref().subcols(first, weights.nrows()) * weights
+    }
+
+    /// The drive `Wᵀ y`, a row of samples per channel, one behind the other.
+    ///
+    /// # Errors
+    /// [`FocusError::Dsp`] if the plants do not fit together.
+    pub fn emit(&self, y: MatRef<'_, f64>) -> Result<Vec<f64>, FocusError> {
+        let z = &self.back * y;
+        let z = z.col_as_slice(0);
+        let mut channels = vec![0.0; self.channels * self.length];
+        let mut first = 0;
+        for plant in &self.plants {
+            plant.emit(&z[first..first + plant.coordinates()], &mut channels)?;
+            first += plant.coordinates();
+        }
+        Ok(channels)
+    }
+
+    /// W whole, rank x samples of all channels.
+    ///
+    /// # Errors
+    /// As [`State::emit`].
+    pub fn map(&self) -> Result<Mat<f64>, FocusError> {
+        let mut map = Mat::zeros(self.channels * self.length, self.rank());
+        for i in 0..self.rank() {
+            let unit = Mat::from_fn(self.rank(), 1, |row, _| f64::from(row == i));
+            map.col_as_slice_mut(i).copy_from_slice(&self.emit(unit.as_ref())?);
+        }
+        Ok(map.transpose().to_owned())
+    }
+}
+
+fn starts(sizes: &[usize]) -> Vec<usize> {
+    sizes
+        .iter()
+        .scan(0, |next, size| {
+            let start = *next;
+            *next += size;
+            Some(start)
+        })
+        .collect()
+}

@@ -1,0 +1,143 @@
+use crate::FocusError;
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, Par};
+use unripple_core::{ModalResponses, Point, Pole};
+use unripple_dsp::ModalSynth;
+
+/// Cells per shortest wavelength along each side, where velocity is kept low.
+const CELLS: f64 = 6.0;
+
+/// What a coordinate of a mode is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Keeps {
+    /// Its velocity.
+    Velocity,
+    /// Its displacement times its angular frequency: to be brought to rest, read nowhere.
+    Displacement,
+}
+
+/// Modes under a drive: their velocities at the focal instant.
+#[derive(Debug)]
+pub(crate) struct ModalPlant<'r> {
+    responses: &'r ModalResponses,
+    keeps: Keeps,
+    /// Velocity of each mode at the focal instant after an impulse at each sample, over the rate: samples x modes.
+    table: Mat<f64>,
+    /// Makes drives of one window faster than the table does.
+    synth: Option<ModalSynth>,
+}
+
+impl<'r> ModalPlant<'r> {
+    /// Under drives of one window of `length` samples, the last of which is the focal instant; frequencies times `stretch`.
+    pub fn once(
+        responses: &'r ModalResponses,
+        length: usize,
+        stretch: f64,
+        keeps: Keeps,
+        accuracy: f64,
+    ) -> Self {
+        let rate = responses.conditions.rate;
+        let poles = stretched(&responses.poles, stretch);
+        let table = Mat::from_fn(length, poles.len(), |j, m| {
+            let age = (length - 1 - j) as f64 / rate;
+            let value = match keeps {
+                Keeps::Velocity => poles[m].velocity(age),
+                Keeps::Displacement => poles[m].omega * poles[m].displacement(age),
+            };
+            value / rate
+        });
+        let synth = (keeps == Keeps::Velocity).then(|| ModalSynth::new(&poles, rate, length, accuracy));
+        Self { responses, keeps, table, synth }
+    }
+
+    /// Under drives that come again every `length` samples for ever; the last sample of a period is the focal instant.
+    ///
+    /// The state after the kicks of all periods is that after `(1 - A)⁻¹` times one kick, A the free motion over a period.
+    ///
+    /// # Errors
+    /// [`FocusError::Count`] if a mode never becomes steady.
+    pub fn again(responses: &'r ModalResponses, length: usize, stretch: f64) -> Result<Self, FocusError> {
+        let rate = responses.conditions.rate;
+        let poles = stretched(&responses.poles, stretch);
+        let mut table = Mat::zeros(length, poles.len());
+        for (m, pole) in poles.iter().enumerate() {
+            let [[a, b], [c, d]] = pole.step(length as f64 / rate);
+            let determinant = (1.0 - a) * (1.0 - d) - b * c;
+            if determinant.is_nan() || determinant.abs() <= 1e-12 {
+                let expected = "one, since a mode without losses never becomes steady".to_owned();
+                return Err(FocusError::Count { what: "duration of a repeated drive", expected, found: 0 });
+            }
+            let [u, v] = pole.kick();
+            let steady = [((1.0 - d) * u + b * v) / determinant, (c * u + (1.0 - a) * v) / determinant];
+            for (j, to) in table.col_as_slice_mut(m).iter_mut().enumerate() {
+                let [_, [c, d]] = pole.step((length - 1 - j) as f64 / rate);
+                *to = (c * steady[0] + d * steady[1]) / rate;
+            }
+        }
+        Ok(Self { responses, keeps: Keeps::Velocity, table, synth: None })
+    }
+
+    pub fn modes(&self) -> usize {
+        self.table.ncols()
+    }
+
+    /// `(BᵀB') ∘ (VᵀV')` with B the input weights and V the tables.
+    pub fn gram(&self, other: &Self) -> Mat<f64> {
+        let inputs = self.responses.input.transpose() * &other.responses.input;
+        let tables = self.table.transpose() * &other.table;
+        Mat::from_fn(self.modes(), other.modes(), |i, j| inputs[(i, j)] * tables[(i, j)])
+    }
+
+    /// Adds the drive of the weights z of modes.
+    pub fn emit(&self, z: &[f64], channels: &mut [f64]) -> Result<(), FocusError> {
+        let input = &self.responses.input;
+        let (length, rate) = (self.table.nrows(), self.responses.conditions.rate);
+        let weights = Mat::from_fn(input.nrows(), input.ncols(), |a, m| input[(a, m)] * z[m]);
+        if let Some(synth) = &self.synth {
+            let mut rows = vec![0.0; channels.len()];
+            synth.respond(weights.as_ref(), &mut rows)?;
+            for (channel, row) in channels.chunks_exact_mut(length).zip(rows.chunks_exact(length)) {
+                channel.iter_mut().zip(row.iter().rev()).for_each(|(d, h)| *d += h / rate);
+            }
+            return Ok(());
+        }
+        let mut made = Mat::<f64>::zeros(length, input.nrows());
+        matmul(made.as_mut(), Accum::Replace, self.table.as_ref(), weights.transpose(), 1.0, Par::Seq);
+        for (a, channel) in channels.chunks_exact_mut(length).enumerate() {
+            channel.iter_mut().zip(made.col_as_slice(a)).for_each(|(d, made)| *d += made);
+        }
+        Ok(())
+    }
+
+    pub fn readout(&self, points: &[Point]) -> Mat<f64> {
+        match self.keeps {
+            Keeps::Displacement => Mat::zeros(self.modes(), points.len()),
+            Keeps::Velocity => match points {
+                [point] => {
+                    let mut row = vec![0.0; self.responses.shapes.modes()];
+                    self.responses.shapes.at(*point, &mut row);
+                    Mat::from_fn(row.len(), 1, |m, _| row[m])
+                }
+                _ => self.responses.shapes.at_all(points).transpose().to_owned(),
+            },
+        }
+    }
+
+    pub fn cells(&self) -> (Mat<f64>, Vec<Point>) {
+        let conditions = &self.responses.conditions;
+        let (width, height) = conditions.outline.extent();
+        let count = |side: f64| (CELLS * side / conditions.lambda_min).ceil().max(1.0) as usize;
+        let (columns, rows) = (count(width), count(height));
+        let centre = |cell: usize| {
+            let at = |i: usize, count: usize, side: f64| (i as f64 + 0.5) / count as f64 * side;
+            Point::new(at(cell % columns, columns, width), at(cell / columns, rows, height))
+        };
+        let points: Vec<Point> =
+            (0..columns * rows).map(centre).filter(|p| conditions.outline.contains(*p)).collect();
+        (self.readout(&points), points)
+    }
+}
+
+fn stretched(poles: &[Pole], stretch: f64) -> Vec<Pole> {
+    poles.iter().map(|pole| Pole { omega: pole.omega * stretch, ..*pole }).collect()
+}

@@ -1,0 +1,64 @@
+use crate::FocusError;
+use crate::recording::SampledRecorder;
+use faer::{Mat, MatRef};
+use unripple_core::{Point, SampledResponses};
+
+/// Most values of responses that are held at once.
+const MOST_VALUES: usize = 1 << 27;
+
+/// Stored points under a drive of one window: their velocities at the focal instant.
+#[derive(Debug)]
+pub(crate) struct SampledPlant<'r> {
+    responses: &'r SampledResponses,
+    recorder: SampledRecorder<'r>,
+    /// Velocity of each point at the focal instant after an impulse at each sample, over the rate: samples of all channels x points.
+    map: Mat<f64>,
+}
+
+impl<'r> SampledPlant<'r> {
+    /// Under drives of one window of `length` samples, the last of which is the focal instant.
+    ///
+    /// # Errors
+    /// [`FocusError::Count`] if the responses are shorter, or too many.
+    pub fn once(responses: &'r SampledResponses, length: usize) -> Result<Self, FocusError> {
+        let recorder = SampledRecorder::new(responses, length)?;
+        let (channels, points) = (responses.ports.len(), responses.points.len());
+        let found = channels.saturating_mul(length).saturating_mul(points);
+        if found > MOST_VALUES {
+            let expected = format!("at most {MOST_VALUES} (thin the points to half the shortest wavelength)");
+            return Err(FocusError::Count { what: "values of the responses", expected, found });
+        }
+        let rate = responses.conditions.rate;
+        let map = Mat::from_fn(channels * length, points, |row, point| {
+            let age = length - 1 - row % length;
+            f64::from(responses.response(row / length, point)[age]) / rate
+        });
+        Ok(Self { responses, recorder, map })
+    }
+
+    pub fn points(&self) -> usize {
+        self.map.ncols()
+    }
+
+    pub fn gram(&self, other: &Self) -> Mat<f64> {
+        self.map.transpose() * &other.map
+    }
+
+    /// Adds the drive of the weights z of points.
+    pub fn emit(&self, z: &[f64], channels: &mut [f64]) {
+        let made = &self.map * MatRef::from_column_major_slice(z, z.len(), 1);
+        channels.iter_mut().zip(made.col_as_slice(0)).for_each(|(d, made)| *d += made);
+    }
+
+    pub fn readout(&self, target: usize, points: &[Point]) -> Result<(Mat<f64>, Vec<Point>), FocusError> {
+        let stored =
+            points.iter().map(|at| self.recorder.locate(target, *at)).collect::<Result<Vec<_>, _>>()?;
+        let weights = Mat::from_fn(self.points(), stored.len(), |p, k| f64::from(stored[k] == p));
+        Ok((weights, stored.iter().map(|p| self.responses.points[*p]).collect()))
+    }
+
+    pub fn cells(&self) -> (Mat<f64>, Vec<Point>) {
+        let count = self.points();
+        (Mat::identity(count, count), self.responses.points.clone())
+    }
+}

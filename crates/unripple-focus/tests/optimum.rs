@@ -1,0 +1,204 @@
+//! Every method's drive against the same problem written out sample by sample and solved at once.
+
+mod common;
+
+use common::Membrane;
+use faer::linalg::solvers::{PartialPivLu, Solve};
+use faer::{Mat, MatRef};
+use unripple_core::{ModalResponses, Point, Pole};
+use unripple_focus::{Method, Options, Target, focus};
+
+const WINDOW: usize = 96;
+
+fn options(method: Method, strength: f64) -> Options {
+    let window = WINDOW as f64 / Membrane::small().rate;
+    Options { method, window, strength: Some(strength), ..Options::default() }
+}
+
+fn target() -> Point {
+    Point::new(0.062, 0.031)
+}
+
+/// Modal velocities at the focal instant after an impulse at each sample of each actuator: modes x samples.
+fn map(modal: &ModalResponses, stretch: f64) -> Mat<f64> {
+    let rate = modal.conditions.rate;
+    Mat::from_fn(modal.poles.len(), modal.ports.len() * (WINDOW + 1), |m, row| {
+        let (a, j) = (row / (WINDOW + 1), row % (WINDOW + 1));
+        let pole = Pole { omega: stretch * modal.poles[m].omega, ..modal.poles[m] };
+        modal.input[(a, m)] * pole.velocity((WINDOW - j) as f64 / rate) / rate
+    })
+}
+
+fn column(values: Vec<f64>) -> Mat<f64> {
+    Mat::from_fn(values.len(), 1, |i, _| values[i])
+}
+
+fn weights(modal: &ModalResponses, at: Point) -> Mat<f64> {
+    modal.shapes.at_all(&[at]).transpose().to_owned()
+}
+
+fn scale(map: &Mat<f64>) -> f64 {
+    map.squared_norm_l2() / map.nrows() as f64
+}
+
+/// Mean of φφᵀ over the cells outside the target's disc, over the mean square weight of all cells.
+fn outside(modal: &ModalResponses, targets: &[Point]) -> Mat<f64> {
+    let lambda = modal.conditions.lambda_min;
+    let (width, height) = modal.conditions.outline.extent();
+    let (columns, rows) = ((6.0 * width / lambda).ceil() as usize, (6.0 * height / lambda).ceil() as usize);
+    let cells: Vec<Point> = (0..columns * rows)
+        .map(|c| {
+            Point::new(
+                ((c % columns) as f64 + 0.5) / columns as f64 * width,
+                ((c / columns) as f64 + 0.5) / rows as f64 * height,
+            )
+        })
+        .collect();
+    let all = modal.shapes.at_all(&cells);
+    let far: Vec<Point> = cells
+        .iter()
+        .copied()
+        .filter(|c| targets.iter().all(|at| at.distance(*c) > 4.0 / 3.0 * lambda))
+        .collect();
+    let far = modal.shapes.at_all(&far);
+    let modes = modal.poles.len() as f64;
+    (far.transpose() * &far) * faer::Scale(modes / all.squared_norm_l2())
+}
+
+fn solve(matrix: &Mat<f64>, right: &Mat<f64>) -> Mat<f64> {
+    PartialPivLu::new(matrix.as_ref()).solve(right)
+}
+
+fn identity(n: usize, factor: f64) -> Mat<f64> {
+    Mat::from_fn(n, n, |i, j| if i == j { factor } else { 0.0 })
+}
+
+/// Compares a drive with samples that are right up to a factor.
+fn agrees(method: &str, drive: &unripple_core::Drive, samples: &Mat<f64>) {
+    let most = samples.col_as_slice(0).iter().fold(0.0_f64, |m, d| m.max(d.abs()));
+    for (found, right) in drive.channels().iter().flatten().zip(samples.col_as_slice(0)) {
+        assert!((found - right / most).abs() < 2e-6, "{method}: {found} {}", right / most);
+    }
+}
+
+#[test]
+fn inverse_is_the_least_energy_drive_of_a_delta() {
+    let modal = Membrane::small().modal();
+    let map = map(&modal, 1.0);
+    for strength in [0.0, 0.5, 0.97, 1.0] {
+        let drive = focus(
+            &Membrane::small().responses(),
+            &[Target::at(target())],
+            &options(Method::Inverse, strength),
+        );
+        let gram = &map * map.transpose() * faer::Scale(strength)
+            + identity(map.nrows(), (1.0 - strength) * scale(&map));
+        let right = map.transpose() * solve(&gram, &weights(&modal, target()));
+        agrees("inverse", &drive.unwrap().drive, &right);
+    }
+}
+
+/// `min dᵀ(κ Σ GᵀSG / plants + (1 - κ) s) d` at a given velocity of the target, in the space of drives.
+fn least(modal: &ModalResponses, stretches: &[f64], strength: f64) -> Mat<f64> {
+    let nominal = map(modal, stretches[0]);
+    let maps: Vec<Mat<f64>> = stretches.iter().map(|stretch| map(modal, *stretch)).collect();
+    let cost = outside(modal, &[target()]);
+    let mean = maps.iter().map(scale).sum::<f64>() / maps.len() as f64;
+    let mut whole = identity(nominal.ncols(), (1.0 - strength) * mean);
+    for map in &maps {
+        whole += map.transpose() * (&cost * map) * faer::Scale(strength / maps.len() as f64);
+    }
+    solve(&whole, &(nominal.transpose() * weights(modal, target())))
+}
+
+#[test]
+fn concentrate_leaves_least_outside() {
+    let modal = Membrane::small().modal();
+    for strength in [0.0, 0.5, 0.92, 0.99] {
+        let options = options(Method::Concentrate, strength);
+        let drive = focus(&Membrane::small().responses(), &[Target::at(target())], &options).unwrap().drive;
+        agrees("concentrate", &drive, &least(&modal, &[1.0], strength));
+    }
+}
+
+#[test]
+fn robust_leaves_least_over_all_plants() {
+    let modal = Membrane::small().modal();
+    let options = Options { spread: 0.01, ..options(Method::Robust, 0.95) };
+    let drive = focus(&Membrane::small().responses(), &[Target::at(target())], &options).unwrap().drive;
+    agrees("robust", &drive, &least(&modal, &[1.0, 0.99, 1.01], 0.95));
+}
+
+/// Conditions of Karush, Kuhn and Tucker: free samples have no slope along the constraint's price, clipped ones point outwards.
+#[test]
+fn limited_is_optimal_within_its_limits() {
+    let modal = Membrane::small().modal();
+    let (map, strength) = (map(&modal, 1.0), 0.95);
+    let whole = map.transpose() * (outside(&modal, &[target()]) * &map) * faer::Scale(strength)
+        + identity(map.ncols(), (1.0 - strength) * scale(&map));
+    let reading = map.transpose() * weights(&modal, target());
+    for push in [0.1, 0.4, 0.7, 0.9] {
+        let options = Options { push, limit: 0.3, ..options(Method::Limited, strength) };
+        let drive = focus(&Membrane::small().responses(), &[Target::at(target())], &options).unwrap().drive;
+        let samples = column(drive.channels().iter().flatten().copied().collect());
+        let slope = &whole * &samples;
+        let pairs: Vec<(f64, f64, f64)> =
+            (0..samples.nrows()).map(|i| (samples[(i, 0)], slope[(i, 0)], reading[(i, 0)])).collect();
+        let free = || pairs.iter().filter(|(d, ..)| d.abs() < 0.3 * (1.0 - 1e-9));
+        let price = free().map(|(_, s, r)| s * r).sum::<f64>() / free().map(|(_, _, r)| r * r).sum::<f64>();
+        let size = pairs.iter().map(|(_, s, _)| s.abs()).fold(0.0, f64::max);
+        let clipped = pairs.len() - free().count();
+        assert!(clipped > 3, "{clipped} clipped");
+        for (d, s, r) in &pairs {
+            let left = s - price * r;
+            if d.abs() < 0.3 * (1.0 - 1e-9) {
+                assert!(left.abs() < 1e-3 * size, "push {push}: {left} of {size}");
+            } else {
+                assert!(left * d.signum() < 1e-3 * size, "push {push}: {left} of {size} at the limit");
+            }
+        }
+    }
+}
+
+#[test]
+fn limited_keeps_the_rms_of_each_actuator() {
+    let options = Options { push: 0.6, rms_limit: Some(0.35), ..options(Method::Limited, 0.95) };
+    let drive = focus(&Membrane::small().responses(), &[Target::at(target())], &options).unwrap().drive;
+    let rms = |c: &Vec<f64>| (c.iter().map(|d| d * d).sum::<f64>() / c.len() as f64).sqrt();
+    let most = drive.channels().iter().map(rms).fold(0.0, f64::max);
+    assert!(drive.peak() <= 1.0 && (most - 0.35).abs() < 1e-6, "{} {most}", drive.peak());
+}
+
+/// The drive of one period against the sum of many, written out.
+#[test]
+fn periodic_drives_are_least_in_their_steady_state() {
+    let modal = Membrane::small().modal();
+    let (rate, period) = (modal.conditions.rate, 150);
+    let steady = Mat::from_fn(modal.poles.len(), modal.ports.len() * period, |m, row| {
+        let (a, j) = (row / period, row % period);
+        let at = |p: usize| (period - 1 - j + p * period) as f64 / rate;
+        let sum: f64 = (0..60).map(|p| modal.poles[m].velocity(at(p))).sum();
+        modal.input[(a, m)] * sum / rate
+    });
+    let strength = 0.9;
+    let whole = steady.transpose() * (outside(&modal, &[target()]) * &steady) * faer::Scale(strength)
+        + identity(steady.ncols(), (1.0 - strength) * scale(&steady));
+    let right = solve(&whole, &(steady.transpose() * weights(&modal, target())));
+    let hz = rate / period as f64;
+    let focused = focus(
+        &Membrane::small().responses(),
+        &[Target::at(target()).repeated(hz)],
+        &options(Method::Concentrate, strength),
+    )
+    .unwrap();
+    let instant = focused.timing[0].instant;
+    let most = right.col_as_slice(0).iter().fold(0.0_f64, |m, d| m.max(d.abs()));
+    for (a, channel) in focused.drive.channels().iter().enumerate() {
+        let last = &channel[instant + 1 - period..=instant];
+        let right =
+            MatRef::from_column_major_slice(&right.col_as_slice(0)[a * period..][..period], period, 1);
+        for (found, right) in last.iter().zip(right.col(0).iter()) {
+            assert!((found - right / most).abs() < 2e-6, "{found} {}", right / most);
+        }
+    }
+}
