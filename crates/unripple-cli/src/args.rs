@@ -26,6 +26,8 @@ pub enum Command {
     Modes(ModesOptions),
     /// A drive that focuses on points or shapes, with its report and figures.
     Focus(FocusOptions),
+    /// Every method on the same targets: one table, one figure.
+    Compare(CompareOptions),
     /// What any drive does to a surface.
     Field(FieldOptions),
     /// All faults of a surface file.
@@ -161,6 +163,24 @@ pub struct FocusOptions {
     /// Folder for drive.wav, report.json, report.md and figures. An earlier run's folder is replaced whole.
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
+}
+
+/// Options of `compare`.
+#[derive(Debug, Args)]
+pub struct CompareOptions {
+    /// A surface file, or the name of a built-in surface.
+    pub surface: String,
+    #[command(flatten)]
+    pub targets: TargetOptions,
+    /// Window T in ms; by default the one that `design` recommends.
+    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
+    pub window_ms: Option<f64>,
+    /// Judge on modes up to this frequency, in Hz; by default to twice the band.
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    pub judge_hz: Option<f64>,
+    /// Folder for the report and figure; without it the table alone is made.
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
 }
 
 /// Options of `field`.

@@ -2,6 +2,7 @@
 
 mod args;
 mod check;
+mod compare;
 mod design;
 mod error;
 mod field;
@@ -36,6 +37,7 @@ fn run(arguments: &Arguments) -> Result<(), CliError> {
         Command::Design(options) => design::run(options, json),
         Command::Modes(options) => modes::run(options, json),
         Command::Focus(options) => focus::run(options, json),
+        Command::Compare(options) => compare::run(options, json),
         Command::Field(options) => field::run(options, json),
         Command::Reproduce(options) => reproduce::run(options, json),
     }

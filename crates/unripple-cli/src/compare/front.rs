@@ -1,0 +1,95 @@
+use super::Ground;
+use crate::error::CliError;
+use serde::Serialize;
+use unripple::core::Point;
+use unripple::field::Field;
+use unripple::focus::{Focuser, Method, Options};
+
+/// What turning a method's knob gives, point by point.
+#[derive(Debug, Serialize)]
+pub struct Front {
+    pub method: &'static str,
+    /// `strength` or `push`.
+    pub knob: &'static str,
+    pub at: Vec<f64>,
+    /// Contrast at the first target and its focal instant.
+    pub contrast: Vec<f64>,
+    /// Energy for the same peak, over time reversal's.
+    pub energy_for_peak: Vec<f64>,
+    /// Peak velocity at the drive limit, over time reversal's.
+    pub peak: Vec<f64>,
+}
+
+/// Cells per shortest wavelength, half as many as figures are taken on: enough for a curve.
+const CELLS: f64 = 4.0;
+
+/// Radius of what does not count as outside, in shortest wavelengths.
+const DISC: f64 = 4.0 / 3.0;
+
+const STRENGTHS: [f64; 7] = [0.0, 0.3, 0.6, 0.8, 0.9, 0.96, 0.99];
+/// Planning for several plants takes its time.
+const ROBUST: [f64; 4] = [0.0, 0.7, 0.93, 0.98];
+const PUSHES: [f64; 6] = [0.1, 0.3, 0.5, 0.7, 0.85, 0.95];
+
+/// Contrast, energy per squared peak, peak.
+type Trade = [f64; 3];
+
+/// The fronts of all methods that have a knob.
+pub fn all(ground: &Ground<'_>) -> Result<Vec<Front>, CliError> {
+    let reversal = trade(ground, ground.options)?;
+    let strong = |method, values: &[f64]| front(ground, reversal, method, "strength", values);
+    Ok(vec![
+        strong(Method::Inverse, &STRENGTHS)?,
+        strong(Method::Concentrate, &STRENGTHS)?,
+        strong(Method::Robust, &ROBUST)?,
+        front(ground, reversal, Method::Limited, "push", &PUSHES)?,
+    ])
+}
+
+fn front(
+    ground: &Ground<'_>,
+    reversal: Trade,
+    method: Method,
+    knob: &'static str,
+    values: &[f64],
+) -> Result<Front, CliError> {
+    let found = values.iter().map(|value| {
+        let mut options = Options { method, ..ground.options.clone() };
+        match method {
+            Method::Limited => options.push = *value,
+            _ => options.strength = Some(*value),
+        }
+        trade(ground, &options)
+    });
+    let found = found.collect::<Result<Vec<Trade>, CliError>>()?;
+    let of = |i: usize, unit: f64| found.iter().map(|trade| trade[i] / unit).collect();
+    Ok(Front {
+        method: method.name(),
+        knob,
+        at: values.to_vec(),
+        contrast: of(0, 1.0),
+        energy_for_peak: of(1, reversal[1]),
+        peak: of(2, reversal[2]),
+    })
+}
+
+fn trade(ground: &Ground<'_>, options: &Options) -> Result<Trade, CliError> {
+    let focuser = Focuser::new(ground.known, options).map_err(CliError::input)?;
+    let focused = focuser.focus(ground.targets).map_err(CliError::input)?;
+    let drive = focused.drive.as_emitted();
+    let instant = focused.timing.first().map_or(0.0, |timing| timing.instant as f64 / drive.rate());
+    let field = Field::new(ground.plant, &drive, CELLS).map_err(CliError::input)?;
+    let target = &ground.targets[0];
+    let traces = field.traces(&target.points, instant).map_err(CliError::input)?;
+    let last = traces.iter().filter_map(|trace| trace.velocity.last());
+    let peak = last.sum::<f64>() / traces.len() as f64;
+    let shots = field.snapshots(&[instant]).map_err(CliError::input)?;
+    let radius = DISC * ground.plant.conditions().lambda_min;
+    let near = |p: &Point| ground.targets.iter().flat_map(|t| &t.points).any(|at| at.distance(*p) <= radius);
+    let moved = shots.iter().flat_map(|shot| field.points().iter().zip(&shot.velocity));
+    let (count, sum) = moved
+        .filter(|(p, _)| !near(p))
+        .fold((0, 0.0), |(count, sum), (_, v)| (count + 1, sum + f64::from(*v).powi(2)));
+    let rms = (sum / f64::from(count.max(1))).sqrt();
+    Ok([peak.abs() / rms, drive.energy() / (peak * peak), peak.abs()])
+}

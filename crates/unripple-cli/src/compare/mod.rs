@@ -1,0 +1,84 @@
+//! `unripple compare`: every method on the same targets.
+
+mod figure;
+mod front;
+mod row;
+
+use crate::args::CompareOptions;
+use crate::error::CliError;
+use crate::focus::finish;
+use crate::targets::{self, seconds};
+use crate::{figures, input, judge, output};
+use row::Row;
+use serde::Serialize;
+use unripple::core::Responses;
+use unripple::focus::{Method, Options, Target};
+use unripple::physics::design::recommended_window;
+use unripple_store::OutputDir;
+
+/// Everything that is compared with.
+pub struct Ground<'a> {
+    /// What drives are made from.
+    pub known: &'a Responses,
+    /// What they are judged on.
+    pub plant: &'a Responses,
+    pub targets: &'a [Target],
+    pub options: &'a Options,
+}
+
+/// All methods, one row each, and what a method's knob trades.
+#[derive(Debug, Serialize)]
+struct Comparison {
+    program: &'static str,
+    version: &'static str,
+    command: &'static str,
+    surface: String,
+    window_s: f64,
+    judged_to_hz: f64,
+    methods: Vec<Row>,
+    fronts: Vec<front::Front>,
+    files: Vec<String>,
+}
+
+pub fn run(options: &CompareOptions, as_json: bool) -> Result<(), CliError> {
+    let surface = input::surface(&options.surface)?;
+    let out = options.output.as_ref().map(OutputDir::create).transpose()?;
+    let known = judge::model(&surface, None, &[])?;
+    let targets = targets::all(&options.targets, known.conditions().lambda_min)?;
+    let judged_to = options.judge_hz.unwrap_or(2.0 * surface.emission.band[1]);
+    let plant = judge::model(&surface, Some(judged_to), &[])?;
+    let modes = match &known {
+        Responses::Modal(modal) => Some(modal.poles.len()),
+        Responses::Sampled(_) => None,
+    };
+    let window =
+        seconds(options.window_ms, "--window-ms")?.unwrap_or_else(|| recommended_window(&surface, modes));
+    let (limit, rms_limit) = (surface.emission.limit, surface.emission.rms_limit);
+    let settings = Options { window, limit, rms_limit, ..Options::default() };
+    let ground = Ground { known: &known, plant: &plant, targets: &targets, options: &settings };
+    let mut rows = Method::ALL.iter().map(|m| row::judge(&ground, *m)).collect::<Result<Vec<_>, _>>()?;
+    row::relate(&mut rows);
+    let fronts = front::all(&ground)?;
+
+    let mut files = Vec::new();
+    let mut found = Comparison {
+        program: "unripple",
+        version: env!("CARGO_PKG_VERSION"),
+        command: "compare",
+        surface: surface.name.clone(),
+        window_s: window,
+        judged_to_hz: judged_to,
+        methods: rows,
+        fronts,
+        files: Vec::new(),
+    };
+    let text = row::table(&found.methods, window, judged_to);
+    if let Some(out) = out {
+        files.extend(figures::write(&out, &[("compare", figure::draw(&found.methods, &found.fronts))])?);
+        found.files = files;
+        out.write("report.json", output::json(&found)?.as_bytes())?;
+        out.write("report.md", row::markdown(&found.surface, &found.methods, window, judged_to).as_bytes())?;
+        finish(out)?;
+    }
+    output::answer(as_json, &found, &text)
+}

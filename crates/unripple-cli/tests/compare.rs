@@ -1,0 +1,68 @@
+//! `compare`: every method judged alike, its knobs' trades, its files.
+
+mod common;
+
+use common::{Scratch, json, number, refused, run};
+use serde_json::Value;
+
+const FILM: &str = "format = 1\nname = \"A film\"\n[outline]\nrectangle_mm = [150, 150]\n[sheet]\nmaterial = \"BoPET\"\n\
+                    thickness_mm = 0.125\ntension_n_per_m = 200\ndecay_time_ms = 70\n[drive]\nband_hz = [0, 1000]\n\
+                    sample_rate_hz = 16000\n[[actuator]]\nat_mm = [12, 31]\n[[actuator]]\nat_mm = [140, 44]\n\
+                    [[actuator]]\nat_mm = [40, 140]\n";
+
+fn values(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
+}
+
+#[test]
+fn all_methods_stand_side_by_side() {
+    let scratch = Scratch::new("compare");
+    let (file, out) = (scratch.file("film.toml", FILM), scratch.join("out"));
+    let report = json(&["compare", &file, "--at", "62,90", "--window-ms", "30", "-o", &out]);
+    let methods = report["methods"].as_array().unwrap();
+    let names: Vec<&str> = methods.iter().map(|row| row["method"].as_str().unwrap()).collect();
+    assert_eq!(&names[..4], ["time-reversal", "one-bit", "inverse", "concentrate"]);
+    let of = |i: usize, key: &str| number(&report, &format!("/methods/{i}/{key}"));
+    assert_eq!(of(0, "energy_for_peak"), 1.0);
+    assert!(of(3, "targets/0/contrast") > 1.5 * of(0, "targets/0/contrast"));
+    assert!(of(1, "targets/0/peak_velocity_m_s") > of(0, "targets/0/peak_velocity_m_s"));
+    // The knob at 0 is time reversal itself, and contrast rises along it.
+    for front in report["fronts"].as_array().unwrap().iter().filter(|f| f["knob"] == "strength") {
+        let (contrast, energy) = (values(&front["contrast"]), values(&front["energy_for_peak"]));
+        assert!((energy[0] - 1.0).abs() < 1e-6, "{energy:?}");
+        assert!(contrast.last() > contrast.first(), "{contrast:?}");
+        assert!(energy.windows(2).all(|pair| pair[1] >= pair[0] * (1.0 - 1e-6)), "{energy:?}");
+    }
+    for name in ["compare.svg", "compare.png", "report.json", "report.md"] {
+        assert!(std::path::Path::new(&out).join(name).exists(), "{name}");
+    }
+    let focus = scratch.join("focus");
+    let alone = json(&[
+        "focus",
+        &file,
+        "--at",
+        "62,90",
+        "--window-ms",
+        "30",
+        "--method",
+        "concentrate",
+        "--judge-hz",
+        "2000",
+        "-o",
+        &focus,
+    ]);
+    assert!((number(&alone, "/targets/0/contrast") / of(3, "targets/0/contrast") - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_table_needs_no_folder() {
+    let scratch = Scratch::new("compare-table");
+    let file = scratch.file("film.toml", FILM);
+    let out = run(&["compare", &file, "--at", "62,90", "--window-ms", "20"]);
+    let text = String::from_utf8(out.stdout).unwrap();
+    assert!(text.contains("concentrate") && text.contains("energy for peak"), "{text}");
+    assert!(refused(&["compare", &file], 2).contains("targets"));
+    let errors =
+        refused(&["focus", &file, "--at", "62,90", "--method", "inverse", "--strength", "1.5", "-o", "x"], 2);
+    assert!(errors.contains("strength: expected 0 to 1, found 1.5"), "{errors}");
+}
