@@ -27,6 +27,7 @@ pub struct Focused {
 #[derive(Debug)]
 pub struct Focuser<'r> {
     responses: &'r Responses,
+    others: &'r [Responses],
     maker: Maker<'r>,
     options: Options,
     window: usize,
@@ -48,6 +49,19 @@ impl<'r> Focuser<'r> {
     /// [`FocusError::Range`] for options without meaning, [`FocusError::Count`] for a window of no sample, of too
     /// many, or longer than the responses, [`FocusError::NeedsModes`].
     pub fn new(responses: &'r Responses, options: &Options) -> Result<Self, FocusError> {
+        Self::beside(responses, &[], options)
+    }
+
+    /// Plans for a surface and for others that it may turn into: with another tension, under a finger. [`Method::Robust`]
+    /// bears them as well as its spread; other methods do not look at them.
+    ///
+    /// # Errors
+    /// As [`Focuser::new`], and if actuators or rates differ.
+    pub fn beside(
+        responses: &'r Responses,
+        others: &'r [Responses],
+        options: &Options,
+    ) -> Result<Self, FocusError> {
         options.check()?;
         let window = window_samples(options.window, responses.conditions().rate);
         let channels = responses.ports().len();
@@ -65,9 +79,9 @@ impl<'r> Focuser<'r> {
         }
         let maker = match options.method.reverses() {
             true => Maker::Reversal(Recorder::plan(responses, window + 1, options)?),
-            false => Maker::Planned(Box::new(Planned::new(responses, options, window + 1, false)?)),
+            false => Maker::Planned(Box::new(Planned::new(responses, others, options, window + 1, false)?)),
         };
-        Ok(Self { responses, maker, options: options.clone(), window })
+        Ok(Self { responses, others, maker, options: options.clone(), window })
     }
 
     /// The drive that focuses on these targets.
@@ -139,7 +153,10 @@ impl<'r> Focuser<'r> {
                 targets.iter().enumerate().filter(|(i, _)| schedule.timing[*i] == timing).collect();
             let (drive, used) = match timing.period {
                 None => once.drive(&group)?,
-                Some(period) => Planned::new(self.responses, &self.options, period, true)?.drive(&group)?,
+                Some(period) => {
+                    let steady = Planned::new(self.responses, self.others, &self.options, period, true)?;
+                    steady.drive(&group)?
+                }
             };
             add(&drive, timing, self.window, channels);
             group.iter().zip(used).for_each(|((index, _), used)| points[*index] = used);

@@ -25,13 +25,18 @@ pub(crate) struct Levels {
     pub points: Vec<Point>,
 }
 
-/// What states cost: `yᵀ A y = κ · velocity² outside + (1 - κ) · energy`, both in units of what they are on average.
+/// What states cost: `yᵀ A y = κ · velocity² + (1 - κ) · e · energy`.
 ///
-/// κ is 0 for time reversal and 1 for nothing but velocity outside. Velocity outside is the mean over plants and cells.
+/// κ is 0 for time reversal and 1 for nothing but velocity, the mean square over cells and plants. With `K = Σ x xᵀ` over the
+/// whole nominal surface, x the readouts of its cells, `e = tr K² / tr K` is what velocity costs on average for the drive
+/// of a target: so that κ means the same on every surface, whatever its state is written in.
 #[derive(Debug)]
 pub(crate) struct Objective {
-    /// A with nothing left out, rank x rank.
+    /// A with nothing left out, rank x rank, and its factor.
     whole: Mat<f64>,
+    factor: Llt<f64>,
+    /// `(1 - κ) e`.
+    pub(crate) energy: f64,
     /// Readouts of the cells, scaled so that A loses `q qᵀ` for each one that is left out: rank x cells, for every plant.
     cells: Vec<Mat<f64>>,
     points: Vec<Point>,
@@ -39,24 +44,37 @@ pub(crate) struct Objective {
 }
 
 impl Objective {
-    /// Everything about it that does not depend on targets.
-    pub fn new(state: &State<'_>, strength: f64, conditions: &Conditions) -> Self {
+    /// Everything about it that does not depend on targets. Around these nothing is left out if `all` counts.
+    ///
+    /// # Errors
+    /// [`FocusError::Decomposition`] if A is not positive definite.
+    pub fn new(
+        state: &State<'_>,
+        strength: f64,
+        conditions: &Conditions,
+        all: bool,
+    ) -> Result<Self, FocusError> {
         let rank = state.rank();
         let mut whole = Mat::<f64>::zeros(rank, rank);
-        let (mut cells, mut places) = (Vec::new(), Vec::new());
+        let (mut cells, mut places, mut unit) = (Vec::new(), Vec::new(), 0.0);
         for plant in 0..state.plants() {
-            let (readout, points, mean) = state.cells(plant);
-            if mean == 0.0 {
-                continue;
-            }
-            let share = strength / (mean * (points.len() * state.plants()) as f64);
+            let (readout, points) = state.cells(plant);
+            let share = 1.0 / (points.len() * state.plants()) as f64;
             let scaled = readout * faer::Scale(share.sqrt());
-            whole += &scaled * scaled.transpose();
-            cells.push(scaled);
-            places = points;
+            let square = &scaled * scaled.transpose();
+            if plant == 0 {
+                let trace = (0..rank).map(|i| square[(i, i)]).sum::<f64>();
+                unit = state.plants() as f64 * square.squared_norm_l2() / trace;
+                places = points;
+            }
+            whole += square * faer::Scale(strength);
+            cells.push(scaled * faer::Scale(strength.sqrt()));
         }
-        (0..rank).for_each(|i| whole[(i, i)] += (1.0 - strength).max(LEAST) * state.scale);
-        Self { whole, cells, points: places, radius: DISC * conditions.lambda_min }
+        let energy = (1.0 - strength).max(LEAST) * unit;
+        (0..rank).for_each(|i| whole[(i, i)] += energy);
+        let factor = Llt::new(whole.as_ref(), Side::Lower).map_err(|_| FocusError::Decomposition)?;
+        let radius = if all { -1.0 } else { DISC * conditions.lambda_min };
+        Ok(Self { whole, factor, energy, cells, points: places, radius })
     }
 
     /// A for targets, the cells in their discs left out; the lower triangle.
@@ -90,10 +108,14 @@ impl Objective {
     /// # Errors
     /// [`FocusError::Decomposition`] if A is not positive definite.
     pub fn least(&self, levels: &Levels) -> Result<Mat<f64>, FocusError> {
-        let matrix = self.around(&levels.points);
-        let factor = Llt::new(matrix.as_ref(), Side::Lower).map_err(|_| FocusError::Decomposition)?;
         let mut solved = levels.readout.clone();
-        factor.solve_in_place(solved.as_mut());
+        if self.radius < 0.0 {
+            self.factor.solve_in_place(solved.as_mut());
+        } else {
+            let matrix = self.around(&levels.points);
+            let factor = Llt::new(matrix.as_ref(), Side::Lower).map_err(|_| FocusError::Decomposition)?;
+            factor.solve_in_place(solved.as_mut());
+        }
         level(solved, levels)
     }
 }
@@ -102,7 +124,7 @@ impl Objective {
 ///
 /// # Errors
 /// [`FocusError::Decomposition`] if no combination meets them.
-pub(crate) fn level(states: Mat<f64>, levels: &Levels) -> Result<Mat<f64>, FocusError> {
+fn level(states: Mat<f64>, levels: &Levels) -> Result<Mat<f64>, FocusError> {
     let mut system = levels.readout.transpose() * &states;
     let count = system.nrows();
     let mean = (0..count).map(|k| system[(k, k)]).sum::<f64>() / count.max(1) as f64;

@@ -42,9 +42,9 @@ impl Method {
     pub fn strength(self) -> f64 {
         match self {
             Self::TimeReversal | Self::OneBit => 0.0,
-            Self::Concentrate => 0.92,
-            Self::Inverse | Self::Limited => 0.97,
-            Self::Robust => 0.977,
+            Self::Concentrate => 0.945,
+            Self::Inverse | Self::Limited => 0.98,
+            Self::Robust => 0.985,
         }
     }
 

@@ -1,9 +1,9 @@
 use crate::limited::Limits;
-use crate::objective::{Levels, Objective, level};
-use crate::state::{Keeps, ModalPlant, Plant, SampledPlant, State};
+use crate::objective::{Levels, Objective};
+use crate::state::{Keeps, ModalPlant, Plant, ReducedPlant, SampledPlant, State};
 use crate::{FocusError, Method, Options, Target};
 use faer::Mat;
-use unripple_core::{Point, Responses};
+use unripple_core::{Onset, Point, Responses};
 
 /// Accuracy of drives that modes are summed to.
 const ACCURACY: f64 = 1e-9;
@@ -12,10 +12,8 @@ const ACCURACY: f64 = 1e-9;
 #[derive(Debug)]
 pub(crate) struct Planned<'r> {
     state: State<'r>,
-    /// `None` where energy alone is spared.
-    objective: Option<Objective>,
+    objective: Objective,
     options: Options,
-    strength: f64,
 }
 
 impl<'r> Planned<'r> {
@@ -25,16 +23,21 @@ impl<'r> Planned<'r> {
     /// [`FocusError::Count`], [`FocusError::NeedsModes`] and [`FocusError::Decomposition`].
     pub fn new(
         responses: &'r Responses,
+        others: &'r [Responses],
         options: &Options,
         length: usize,
         again: bool,
     ) -> Result<Self, FocusError> {
-        let plants = plants(responses, options, length, again)?;
-        let state = State::new(plants, responses.ports().len(), length)?;
+        let mut all = plants(responses, options, length, again)?;
+        for other in others.iter().filter(|_| options.method == Method::Robust) {
+            alike(responses, other)?;
+            all.push(plant(other, length, 1.0, again)?);
+        }
+        let state = State::new(all, responses.ports().len(), length)?;
         let strength = options.strength.unwrap_or(options.method.strength());
-        let outside = options.method != Method::Inverse;
-        let objective = outside.then(|| Objective::new(&state, strength, responses.conditions()));
-        Ok(Self { state, objective, options: options.clone(), strength })
+        let all = options.method == Method::Inverse;
+        let objective = Objective::new(&state, strength, responses.conditions(), all)?;
+        Ok(Self { state, objective, options: options.clone() })
     }
 
     /// The drive that gives targets their gains as velocity at the focal instant, in m/s, and the points they stand for;
@@ -44,35 +47,18 @@ impl<'r> Planned<'r> {
     /// [`FocusError::Still`] and [`FocusError::Unknown`] for targets that cannot be reached.
     pub fn drive(&self, targets: &[(usize, &Target)]) -> Result<(Vec<f64>, Vec<Vec<Point>>), FocusError> {
         let (levels, used) = self.levels(targets)?;
-        let state = match &self.objective {
-            None => self.inverse(&levels)?,
-            Some(objective) => objective.least(&levels)?,
+        let state = self.objective.least(&levels)?;
+        if self.options.method != Method::Limited {
+            return Ok((self.state.emit(state.as_ref())?, used));
+        }
+        let limits = Limits {
+            peak: self.options.limit,
+            rms: self.options.rms_limit,
+            push: self.options.push,
+            samples: self.state.length(),
         };
-        if self.options.method == Method::Limited
-            && let Some(objective) = &self.objective
-        {
-            let limits = Limits {
-                peak: self.options.limit,
-                rms: self.options.rms_limit,
-                push: self.options.push,
-                samples: self.state.length(),
-            };
-            let matrix = objective.around(&levels.points);
-            let energy = (1.0 - self.strength).max(1e-6) * self.state.scale;
-            return Ok((limits.drive(&self.state, matrix, energy, &levels, &state)?, used));
-        }
-        Ok((self.state.emit(state.as_ref())?, used))
-    }
-
-    /// `y = ((1 - κ) s + κ Λ)⁻¹ P μ`: from time reversal to the least-energy drive of a band-limited delta.
-    fn inverse(&self, levels: &Levels) -> Result<Mat<f64>, FocusError> {
-        let mut states = levels.readout.clone();
-        let weak = (1.0 - self.strength) * self.state.scale;
-        for column in 0..states.ncols() {
-            let rows = states.col_as_slice_mut(column).iter_mut().zip(&self.state.energies);
-            rows.for_each(|(y, energy)| *y /= weak + self.strength * energy);
-        }
-        level(states, levels)
+        let matrix = self.objective.around(&levels.points);
+        Ok((limits.drive(&self.state, matrix, self.objective.energy, &levels, &state)?, used))
     }
 
     fn levels(&self, targets: &[(usize, &Target)]) -> Result<(Levels, Vec<Vec<Point>>), FocusError> {
@@ -110,31 +96,55 @@ fn plants<'r>(
     length: usize,
     again: bool,
 ) -> Result<Vec<Plant<'r>>, FocusError> {
-    let modal = match responses {
-        Responses::Modal(modal) => modal,
-        Responses::Sampled(_) if again => return Err(FocusError::NeedsModes("a drive for a period")),
-        Responses::Sampled(_) if options.method == Method::Robust => {
-            return Err(FocusError::NeedsModes("a drive for a spread of frequencies"));
-        }
-        Responses::Sampled(_) if options.rest => {
-            return Err(FocusError::NeedsModes("displacements brought to rest"));
-        }
-        Responses::Sampled(sampled) => return Ok(vec![Plant::Sampled(SampledPlant::once(sampled, length)?)]),
-    };
-    let plant = |stretch: f64| -> Result<Plant<'r>, FocusError> {
-        Ok(Plant::Modal(Box::new(match again {
-            true => ModalPlant::again(modal, length, stretch)?,
-            false => ModalPlant::once(modal, length, stretch, Keeps::Velocity, ACCURACY),
-        })))
-    };
-    let mut plants = vec![plant(1.0)?];
-    if options.method == Method::Robust {
-        plants.push(plant(1.0 - options.spread)?);
-        plants.push(plant(1.0 + options.spread)?);
+    let mut plants = vec![plant(responses, length, 1.0, again)?];
+    if options.method == Method::Robust && options.spread > 0.0 {
+        plants.push(plant(responses, length, 1.0 - options.spread, again)?);
+        plants.push(plant(responses, length, 1.0 + options.spread, again)?);
     }
-    if options.rest && !again {
+    if options.rest && options.method == Method::Inverse && !again {
+        let Responses::Modal(modal) = responses else {
+            return Err(FocusError::NeedsModes("displacements brought to rest"));
+        };
         let resting = ModalPlant::once(modal, length, 1.0, Keeps::Displacement, ACCURACY);
         plants.push(Plant::Modal(Box::new(resting)));
     }
     Ok(plants)
+}
+
+/// One plant, its frequencies times `stretch`.
+fn plant(responses: &Responses, length: usize, stretch: f64, again: bool) -> Result<Plant<'_>, FocusError> {
+    match responses {
+        // Under loads, oscillations share shapes.
+        Responses::Modal(modal) if modal.poles.iter().any(|pole| pole.onset == Onset::Displacement) => {
+            Ok(Plant::Reduced(Box::new(ReducedPlant::new(modal, length, stretch, again)?)))
+        }
+        Responses::Modal(modal) if again => {
+            Ok(Plant::Modal(Box::new(ModalPlant::again(modal, length, stretch)?)))
+        }
+        Responses::Modal(modal) => {
+            let once = ModalPlant::once(modal, length, stretch, Keeps::Velocity, ACCURACY);
+            Ok(Plant::Modal(Box::new(once)))
+        }
+        Responses::Sampled(_) if again => Err(FocusError::NeedsModes("a drive for a period")),
+        Responses::Sampled(_) if stretch != 1.0 => {
+            Err(FocusError::NeedsModes("a drive for a spread of frequencies"))
+        }
+        Responses::Sampled(sampled) => Ok(Plant::Sampled(SampledPlant::once(sampled, length)?)),
+    }
+}
+
+/// Refuses plants that are not under the same drive.
+fn alike(one: &Responses, other: &Responses) -> Result<(), FocusError> {
+    let [expected, found] = [one, other].map(|responses| responses.ports().len());
+    if expected != found {
+        let expected = format!("{expected}, as the first plant has");
+        return Err(FocusError::Count { what: "actuators of another plant", expected, found });
+    }
+    let [expected, found] = [one, other].map(|responses| responses.conditions().rate);
+    crate::error::require(
+        "sample rate of another plant (Hz)",
+        expected == found,
+        format!("{expected}"),
+        found,
+    )
 }

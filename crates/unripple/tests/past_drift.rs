@@ -3,10 +3,10 @@
 mod bench;
 
 use bench::*;
-use unripple::core::{ModalResponses, Point, Responses};
+use unripple::core::{Contact, ModalResponses, Point, Responses};
 use unripple::focus::{Focuser, Method, Options, Target};
 use unripple::physics::design::papers_surface;
-use unripple::physics::sample;
+use unripple::physics::{ResponseOptions, responses, sample};
 
 fn modal(responses: &Responses) -> &ModalResponses {
     match responses {
@@ -112,5 +112,54 @@ fn targets_keep_their_gains() {
         for (peak, gain) in peaks.iter().zip(gains) {
             assert!((peak / peaks[0] / gain - 1.0).abs() < 0.01, "{method}: {peaks:?}");
         }
+    }
+}
+
+/// The drive that bears a finger that may or may not be there, and a tension that may be off by 1 %.
+#[test]
+fn robust_bears_fingers_and_tensions() {
+    let surface = papers_surface();
+    let at = Point::from_mm(62.0, 90.0);
+    let under = |tension: f64, finger: bool| {
+        let mut surface = surface.clone();
+        surface.sheet.tension *= tension;
+        let contacts = if finger { vec![Contact { at, finger: surface.finger }] } else { Vec::new() };
+        responses(&surface, &ResponseOptions { contacts, ..Default::default() }).unwrap()
+    };
+    let known = under(1.0, false);
+    let others = [under(1.0, true), under(0.99, false), under(1.01, false)];
+    let options = |method| Options { method, window: WINDOW, spread: 0.0, ..Options::default() };
+    let robust = Focuser::beside(&known, &others, &options(Method::Robust)).unwrap();
+    let plans = [Method::TimeReversal, Method::Concentrate]
+        .map(|method| Focuser::new(&known, &options(method)).unwrap());
+    let worst = |plan: &Focuser| {
+        let drive = plan.focus(&[Target::at(at)]).unwrap().drive.as_emitted();
+        let all = [known.clone()].into_iter().chain(others.clone());
+        let each: Vec<f64> = all.map(|plant| on(&plant, &drive, at, WINDOW).contrast).collect();
+        println!("{each:.1?}");
+        spread(&each)[1]
+    };
+    let [reversal, plain, robust] = [&plans[0], &plans[1], &robust].map(worst);
+    println!("worst of four plants: time reversal {reversal:.1}, concentrate {plain:.1}, robust {robust:.1}");
+    assert!(robust > 1.5 * plain && robust > 1.5 * reversal);
+}
+
+/// A drive made for the surface under a finger restores what the finger takes from the focus.
+#[test]
+fn a_finger_is_focused_through() {
+    let surface = papers_surface();
+    let at = Point::from_mm(62.0, 90.0);
+    let contacts = vec![Contact { at, finger: surface.finger }];
+    let under = responses(&surface, &ResponseOptions { contacts, ..Default::default() }).unwrap();
+    let bare = responses(&surface, &ResponseOptions::default()).unwrap();
+    let focus = |responses: &Responses, method| {
+        let options = Options { method, window: WINDOW, ..Options::default() };
+        let plan = Focuser::new(responses, &options).unwrap();
+        on(&under, &plan.focus(&[Target::at(at)]).unwrap().drive.as_emitted(), at, WINDOW)
+    };
+    for method in [Method::TimeReversal, Method::Concentrate] {
+        let [unaware, aware] = [&bare, &under].map(|responses| focus(responses, method));
+        println!("{method} under a finger: unaware {unaware:.3?}, aware {aware:.3?}");
+        assert!(aware.contrast > 1.2 * unaware.contrast);
     }
 }

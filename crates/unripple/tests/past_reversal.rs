@@ -93,7 +93,7 @@ fn limited_reaches_twice_the_peak_with_three_times_the_contrast() {
 #[test]
 fn repetition_at_the_decay_time() {
     let bench = Bench::new();
-    let plan = |method| bench.plan(method, Options { strength: Some(0.9), ..Options::default() });
+    let plan = |method| bench.plan(method, Options { strength: Some(0.948), ..Options::default() });
     let (comb, periodic) = (plan(Method::TimeReversal), plan(Method::Concentrate));
     let (mut ratios, mut costs) = (Vec::new(), Vec::new());
     for at in targets(5) {

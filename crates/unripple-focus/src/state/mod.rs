@@ -1,13 +1,16 @@
 //! What a drive makes of the surface at the focal instant.
 
 mod modal;
+mod reduced;
 mod sampled;
 
 pub(crate) use modal::{Keeps, ModalPlant};
+pub(crate) use reduced::ReducedPlant;
 pub(crate) use sampled::SampledPlant;
 
 use crate::FocusError;
 use faer::{Mat, MatRef, Side};
+use std::borrow::Cow;
 use unripple_core::Point;
 
 /// Directions of the drive that move the surface less than this share of the strongest are left alone, in energy.
@@ -21,6 +24,8 @@ const MOST_COORDINATES: usize = 4000;
 pub(crate) enum Plant<'r> {
     /// Velocities of modes.
     Modal(Box<ModalPlant<'r>>),
+    /// Velocities of independent shapes.
+    Reduced(Box<ReducedPlant<'r>>),
     /// Velocities at stored points.
     Sampled(SampledPlant<'r>),
 }
@@ -29,16 +34,25 @@ impl Plant<'_> {
     fn coordinates(&self) -> usize {
         match self {
             Self::Modal(modal) => modal.modes(),
+            Self::Reduced(reduced) => reduced.shapes(),
             Self::Sampled(sampled) => sampled.points(),
         }
     }
 
     /// `G Hᵀ` of this plant's map and another's, both from the same drives.
-    fn gram(&self, other: &Self) -> Result<Mat<f64>, FocusError> {
+    fn gram(&self, other: &Self) -> Mat<f64> {
         match (self, other) {
-            (Self::Modal(one), Self::Modal(other)) => Ok(one.gram(other)),
-            (Self::Sampled(one), Self::Sampled(other)) => Ok(one.gram(other)),
-            _ => Err(FocusError::NeedsModes("plants beside a modal one")),
+            (Self::Modal(one), Self::Modal(other)) => one.gram(other),
+            (one, other) => one.map().transpose() * &*other.map(),
+        }
+    }
+
+    /// G transposed, samples of all channels x coordinates.
+    fn map(&self) -> Cow<'_, Mat<f64>> {
+        match self {
+            Self::Modal(modal) => Cow::Owned(modal.map()),
+            Self::Reduced(reduced) => Cow::Borrowed(reduced.map()),
+            Self::Sampled(sampled) => Cow::Borrowed(sampled.map()),
         }
     }
 
@@ -46,6 +60,10 @@ impl Plant<'_> {
     fn emit(&self, z: &[f64], channels: &mut [f64]) -> Result<(), FocusError> {
         match self {
             Self::Modal(modal) => modal.emit(z, channels),
+            Self::Reduced(reduced) => {
+                reduced.emit(z, channels);
+                Ok(())
+            }
             Self::Sampled(sampled) => {
                 sampled.emit(z, channels);
                 Ok(())
@@ -57,6 +75,7 @@ impl Plant<'_> {
     fn readout(&self, target: usize, points: &[Point]) -> Result<(Mat<f64>, Vec<Point>), FocusError> {
         match self {
             Self::Modal(modal) => Ok((modal.readout(points), points.to_vec())),
+            Self::Reduced(reduced) => Ok((reduced.readout(points), points.to_vec())),
             Self::Sampled(sampled) => sampled.readout(target, points),
         }
     }
@@ -65,6 +84,7 @@ impl Plant<'_> {
     fn cells(&self) -> (Mat<f64>, Vec<Point>) {
         match self {
             Self::Modal(modal) => modal.cells(),
+            Self::Reduced(reduced) => reduced.cells(),
             Self::Sampled(sampled) => sampled.cells(),
         }
     }
@@ -87,8 +107,6 @@ pub(crate) struct State<'r> {
     back: Mat<f64>,
     /// Λ, as far as it matters.
     pub(crate) energies: Vec<f64>,
-    /// Mean of the diagonal of C.
-    pub(crate) scale: f64,
 }
 
 impl<'r> State<'r> {
@@ -107,7 +125,7 @@ impl<'r> State<'r> {
         let mut gram = Mat::<f64>::zeros(total, total);
         for (i, one) in plants.iter().enumerate() {
             for (j, other) in plants.iter().enumerate().take(i + 1) {
-                let block = one.gram(other)?;
+                let block = one.gram(other);
                 let size = (block.nrows(), block.ncols());
                 gram.as_mut().submatrix_mut(starts[i], starts[j], size.0, size.1).copy_from(block.as_ref());
                 gram.as_mut()
@@ -115,9 +133,9 @@ impl<'r> State<'r> {
                     .copy_from(block.transpose());
             }
         }
-        let scale = (0..total).map(|i| gram[(i, i)]).sum::<f64>() / total as f64;
-        let finite = scale.is_finite() && scale > 0.0;
-        crate::error::require("energy of the responses", finite, "a positive finite number", scale)?;
+        let energy = (0..total).map(|i| gram[(i, i)]).sum::<f64>();
+        let finite = energy.is_finite() && energy > 0.0;
+        crate::error::require("energy of the responses", finite, "a positive finite number", energy)?;
         let eigen = gram.self_adjoint_eigen(Side::Lower).map_err(|_| FocusError::Decomposition)?;
         let (vectors, values) = (eigen.U(), eigen.S().column_vector());
         let most = values[total - 1];
@@ -126,7 +144,7 @@ impl<'r> State<'r> {
         let rank = energies.len();
         let white = Mat::from_fn(rank, total, |i, j| energies[i].sqrt() * vectors[(j, first + i)]);
         let back = Mat::from_fn(total, rank, |i, j| vectors[(i, first + j)] / energies[j].sqrt());
-        Ok(Self { plants, length, channels, white, back, energies, scale })
+        Ok(Self { plants, length, channels, white, back, energies })
     }
 
     /// Samples of a drive.
@@ -153,12 +171,10 @@ impl<'r> State<'r> {
         Ok((self.whiten(0, weights.as_ref()), used))
     }
 
-    /// Readouts all over a plant, rank x cells, where the cells are, and the mean square of their weights.
-    pub fn cells(&self, plant: usize) -> (Mat<f64>, Vec<Point>, f64) {
+    /// Readouts all over a plant, rank x cells, and where the cells are.
+    pub fn cells(&self, plant: usize) -> (Mat<f64>, Vec<Point>) {
         let (weights, points) = self.plants[plant].cells();
-        let square: f64 = (0..weights.ncols()).map(|c| weights.col(c).squared_norm_l2()).sum();
-        let mean = square / (weights.ncols() * weights.nrows()).max(1) as f64;
-        (self.whiten(plant, weights.as_ref()), points, mean)
+        (self.whiten(plant, weights.as_ref()), points)
     }
 
     fn whiten(&self, plant: usize, weights: MatRef<'_, f64>) -> Mat<f64> {

@@ -12,7 +12,7 @@ const CELLS: f64 = 6.0;
 pub(crate) enum Keeps {
     /// Its velocity.
     Velocity,
-    /// Its displacement times its angular frequency: to be brought to rest, read nowhere.
+    /// Its displacement times its angular frequency: to be brought to rest.
     Displacement,
 }
 
@@ -20,7 +20,6 @@ pub(crate) enum Keeps {
 #[derive(Debug)]
 pub(crate) struct ModalPlant<'r> {
     responses: &'r ModalResponses,
-    keeps: Keeps,
     /// Velocity of each mode at the focal instant after an impulse at each sample, over the rate: samples x modes.
     table: Mat<f64>,
     /// Makes drives of one window faster than the table does.
@@ -38,43 +37,22 @@ impl<'r> ModalPlant<'r> {
     ) -> Self {
         let rate = responses.conditions.rate;
         let poles = stretched(&responses.poles, stretch);
-        let table = Mat::from_fn(length, poles.len(), |j, m| {
-            let age = (length - 1 - j) as f64 / rate;
-            let value = match keeps {
-                Keeps::Velocity => poles[m].velocity(age),
-                Keeps::Displacement => poles[m].omega * poles[m].displacement(age),
-            };
-            value / rate
-        });
+        let table = match keeps {
+            Keeps::Velocity => ringing(responses, length, stretch),
+            Keeps::Displacement => Mat::from_fn(length, poles.len(), |j, m| {
+                poles[m].omega * poles[m].displacement((length - 1 - j) as f64 / rate) / rate
+            }),
+        };
         let synth = (keeps == Keeps::Velocity).then(|| ModalSynth::new(&poles, rate, length, accuracy));
-        Self { responses, keeps, table, synth }
+        Self { responses, table, synth }
     }
 
     /// Under drives that come again every `length` samples for ever; the last sample of a period is the focal instant.
     ///
-    /// The state after the kicks of all periods is that after `(1 - A)⁻¹` times one kick, A the free motion over a period.
-    ///
     /// # Errors
     /// [`FocusError::Count`] if a mode never becomes steady.
     pub fn again(responses: &'r ModalResponses, length: usize, stretch: f64) -> Result<Self, FocusError> {
-        let rate = responses.conditions.rate;
-        let poles = stretched(&responses.poles, stretch);
-        let mut table = Mat::zeros(length, poles.len());
-        for (m, pole) in poles.iter().enumerate() {
-            let [[a, b], [c, d]] = pole.step(length as f64 / rate);
-            let determinant = (1.0 - a) * (1.0 - d) - b * c;
-            if determinant.is_nan() || determinant.abs() <= 1e-12 {
-                let expected = "one, since a mode without losses never becomes steady".to_owned();
-                return Err(FocusError::Count { what: "duration of a repeated drive", expected, found: 0 });
-            }
-            let [u, v] = pole.kick();
-            let steady = [((1.0 - d) * u + b * v) / determinant, (c * u + (1.0 - a) * v) / determinant];
-            for (j, to) in table.col_as_slice_mut(m).iter_mut().enumerate() {
-                let [_, [c, d]] = pole.step((length - 1 - j) as f64 / rate);
-                *to = (c * steady[0] + d * steady[1]) / rate;
-            }
-        }
-        Ok(Self { responses, keeps: Keeps::Velocity, table, synth: None })
+        Ok(Self { responses, table: steady(responses, length, stretch)?, synth: None })
     }
 
     pub fn modes(&self) -> usize {
@@ -110,32 +88,73 @@ impl<'r> ModalPlant<'r> {
     }
 
     pub fn readout(&self, points: &[Point]) -> Mat<f64> {
-        match self.keeps {
-            Keeps::Displacement => Mat::zeros(self.modes(), points.len()),
-            Keeps::Velocity => match points {
-                [point] => {
-                    let mut row = vec![0.0; self.responses.shapes.modes()];
-                    self.responses.shapes.at(*point, &mut row);
-                    Mat::from_fn(row.len(), 1, |m, _| row[m])
-                }
-                _ => self.responses.shapes.at_all(points).transpose().to_owned(),
-            },
-        }
+        let &[point] = points else { return self.responses.shapes.at_all(points).transpose().to_owned() };
+        let mut row = vec![0.0; self.responses.shapes.modes()];
+        self.responses.shapes.at(point, &mut row);
+        Mat::from_fn(row.len(), 1, |m, _| row[m])
     }
 
     pub fn cells(&self) -> (Mat<f64>, Vec<Point>) {
-        let conditions = &self.responses.conditions;
-        let (width, height) = conditions.outline.extent();
-        let count = |side: f64| (CELLS * side / conditions.lambda_min).ceil().max(1.0) as usize;
-        let (columns, rows) = (count(width), count(height));
-        let centre = |cell: usize| {
-            let at = |i: usize, count: usize, side: f64| (i as f64 + 0.5) / count as f64 * side;
-            Point::new(at(cell % columns, columns, width), at(cell / columns, rows, height))
-        };
-        let points: Vec<Point> =
-            (0..columns * rows).map(centre).filter(|p| conditions.outline.contains(*p)).collect();
+        let points = lattice(self.responses);
         (self.readout(&points), points)
     }
+
+    /// Velocity of each mode at the focal instant after an impulse at each sample of each channel: samples x modes.
+    pub fn map(&self) -> Mat<f64> {
+        let (length, input) = (self.table.nrows(), &self.responses.input);
+        Mat::from_fn(length * input.nrows(), self.modes(), |row, m| {
+            input[(row / length, m)] * self.table[(row % length, m)]
+        })
+    }
+}
+
+/// Cells all over a surface, where velocity is kept low.
+pub(super) fn lattice(responses: &ModalResponses) -> Vec<Point> {
+    let conditions = &responses.conditions;
+    let (width, height) = conditions.outline.extent();
+    let count = |side: f64| (CELLS * side / conditions.lambda_min).ceil().max(1.0) as usize;
+    let (columns, rows) = (count(width), count(height));
+    let centre = |cell: usize| {
+        let at = |i: usize, count: usize, side: f64| (i as f64 + 0.5) / count as f64 * side;
+        Point::new(at(cell % columns, columns, width), at(cell / columns, rows, height))
+    };
+    (0..columns * rows).map(centre).filter(|p| conditions.outline.contains(*p)).collect()
+}
+
+/// Velocity of each mode at the end of one window after an impulse at each sample, over the rate: samples x modes.
+pub(super) fn ringing(responses: &ModalResponses, length: usize, stretch: f64) -> Mat<f64> {
+    let (poles, rate) = (stretched(&responses.poles, stretch), responses.conditions.rate);
+    Mat::from_fn(length, poles.len(), |j, m| poles[m].velocity((length - 1 - j) as f64 / rate) / rate)
+}
+
+/// The same at the end of a period of drives that come again for ever.
+///
+/// The state after the kicks of all periods is that after `(1 - A)⁻¹` times one kick, A the free motion over a period.
+///
+/// # Errors
+/// [`FocusError::Count`] if a mode never becomes steady.
+pub(super) fn steady(
+    responses: &ModalResponses,
+    length: usize,
+    stretch: f64,
+) -> Result<Mat<f64>, FocusError> {
+    let (poles, rate) = (stretched(&responses.poles, stretch), responses.conditions.rate);
+    let mut table = Mat::zeros(length, poles.len());
+    for (m, pole) in poles.iter().enumerate() {
+        let [[a, b], [c, d]] = pole.step(length as f64 / rate);
+        let determinant = (1.0 - a) * (1.0 - d) - b * c;
+        if determinant.is_nan() || determinant.abs() <= 1e-12 {
+            let expected = "one, since a mode without losses never becomes steady".to_owned();
+            return Err(FocusError::Count { what: "duration of a repeated drive", expected, found: 0 });
+        }
+        let [u, v] = pole.kick();
+        let steady = [((1.0 - d) * u + b * v) / determinant, (c * u + (1.0 - a) * v) / determinant];
+        for (j, to) in table.col_as_slice_mut(m).iter_mut().enumerate() {
+            let [_, [c, d]] = pole.step((length - 1 - j) as f64 / rate);
+            *to = (c * steady[0] + d * steady[1]) / rate;
+        }
+    }
+    Ok(table)
 }
 
 fn stretched(poles: &[Pole], stretch: f64) -> Vec<Pole> {

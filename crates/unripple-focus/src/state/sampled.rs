@@ -40,8 +40,9 @@ impl<'r> SampledPlant<'r> {
         self.map.ncols()
     }
 
-    pub fn gram(&self, other: &Self) -> Mat<f64> {
-        self.map.transpose() * &other.map
+    /// Samples of all channels x points.
+    pub fn map(&self) -> &Mat<f64> {
+        &self.map
     }
 
     /// Adds the drive of the weights z of points.

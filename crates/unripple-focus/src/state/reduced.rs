@@ -1,0 +1,80 @@
+use super::modal::{lattice, ringing, steady};
+use crate::FocusError;
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatRef, Par, Side};
+use unripple_core::{ModalResponses, Point};
+
+/// Shapes that add less than this share of the strongest to the surface, in energy, are the others' combinations.
+const ALIKE: f64 = 1e-12;
+
+/// Oscillations that share shapes under a drive of one window: the velocities of as many independent shapes as there are.
+///
+/// Under loads, responses are sums of oscillations whose large parts cancel. With Φ their shapes over the surface and
+/// `ΦᵀΦ = R Σ² Rᵀ`, every readout lies in the span of R, and `Rᵀ c` is small where c is not.
+#[derive(Debug)]
+pub(crate) struct ReducedPlant<'r> {
+    responses: &'r ModalResponses,
+    /// R, oscillations x independent shapes.
+    basis: Mat<f64>,
+    /// `Rᵀ G` transposed: samples of all channels x independent shapes.
+    map: Mat<f64>,
+}
+
+impl<'r> ReducedPlant<'r> {
+    /// Under drives of one window of `length` samples, the last of which is the focal instant, or of such a period.
+    ///
+    /// # Errors
+    /// [`FocusError::Decomposition`]; [`FocusError::Count`] if an oscillation never becomes steady.
+    pub fn new(
+        responses: &'r ModalResponses,
+        length: usize,
+        stretch: f64,
+        again: bool,
+    ) -> Result<Self, FocusError> {
+        let shapes = responses.shapes.at_all(&lattice(responses));
+        let gram = shapes.transpose() * &shapes;
+        let eigen = gram.self_adjoint_eigen(Side::Lower).map_err(|_| FocusError::Decomposition)?;
+        let (vectors, values) = (eigen.U(), eigen.S().column_vector());
+        let count = values.nrows();
+        let most = values[count - 1];
+        let first = (0..count).position(|i| values[i] > ALIKE * most).ok_or(FocusError::Decomposition)?;
+        let basis = vectors.subcols(first, count - first).to_owned();
+        let ringing = match again {
+            true => steady(responses, length, stretch)?,
+            false => ringing(responses, length, stretch),
+        };
+        let channels = responses.ports.len();
+        let mut map = Mat::zeros(channels * length, basis.ncols());
+        for a in 0..channels {
+            let weighed =
+                Mat::from_fn(basis.nrows(), basis.ncols(), |m, i| responses.input[(a, m)] * basis[(m, i)]);
+            let part = map.as_mut().subrows_mut(a * length, length);
+            matmul(part, Accum::Replace, ringing.as_ref(), weighed.as_ref(), 1.0, Par::rayon(0));
+        }
+        Ok(Self { responses, basis, map })
+    }
+
+    pub fn shapes(&self) -> usize {
+        self.basis.ncols()
+    }
+
+    /// Samples of all channels x coordinates.
+    pub fn map(&self) -> &Mat<f64> {
+        &self.map
+    }
+
+    /// Adds the drive of the weights z of shapes.
+    pub fn emit(&self, z: &[f64], channels: &mut [f64]) {
+        let made = &self.map * MatRef::from_column_major_slice(z, z.len(), 1);
+        channels.iter_mut().zip(made.col_as_slice(0)).for_each(|(d, made)| *d += made);
+    }
+
+    pub fn readout(&self, points: &[Point]) -> Mat<f64> {
+        self.basis.transpose() * self.responses.shapes.at_all(points).transpose()
+    }
+
+    pub fn cells(&self) -> (Mat<f64>, Vec<Point>) {
+        let points = lattice(self.responses);
+        (self.readout(&points), points)
+    }
+}
