@@ -75,6 +75,10 @@ pub struct TargetOptions {
     /// Peak displacement wanted at the first target, in µm; by default as much as the drive limit gives.
     #[arg(long, value_name = "UM", allow_negative_numbers = true)]
     pub peak_um: Option<f64>,
+    /// Level wanted at the first target as felt, in dB above the threshold of touch; by default as much as the drive limit
+    /// gives.
+    #[arg(long, value_name = "L", allow_negative_numbers = true, conflicts_with = "peak_um")]
+    pub felt_db: Option<f64>,
 }
 
 /// Methods by the names the command line and reports use.

@@ -111,6 +111,7 @@ impl Shown<'_> {
             vec![("traces", figures::traces(&measured.targets, &self.judged.traces, self.drive.rate()))];
         figures.extend(figures::snapshots(&scene, measured).map(|figure| ("snapshot", figure)));
         figures.extend(figures::peaks(&scene, measured).map(|figure| ("peaks", figure)));
+        figures.extend(figures::felt(&scene, measured).map(|figure| ("felt", figure)));
         report.files = figures::write(out, &figures)?;
         if self.options.frames > 0
             && let Some(movie) = figures::movie(field, &scene, self.span()?, self.options.frames)?

@@ -5,6 +5,7 @@ use crate::error::CliError;
 use crate::figures::{self, Scene};
 use crate::fingers::{self, Felt};
 use crate::judge::{self, CELLS, Judged};
+use crate::level::felt_gain;
 use crate::report::{self, Report};
 use crate::targets::{self, positive, seconds};
 use crate::{input, output};
@@ -119,6 +120,11 @@ fn levelled(
         judge::judge(surface, &field, &aims, period, until)
     };
     let drive = focused.drive.clone().as_emitted();
+    if let Some(level) = options.targets.felt_db {
+        let gain = felt_gain(level, responses, &drive, &aims, period)?;
+        let drive = focused.drive.clone().scaled(gain).as_emitted();
+        return Ok((judge(&drive)?, drive));
+    }
     let Some(um) = options.targets.peak_um else { return Ok((judge(&drive)?, drive)) };
 
     let wanted = positive(um, "--peak-um", "µm")?;
@@ -171,6 +177,7 @@ fn write(
     ];
     figures.extend(figures::snapshots(&scene, measured).map(|figure| ("focus", figure)));
     figures.extend(figures::peaks(&scene, measured).map(|figure| ("peaks", figure)));
+    figures.extend(figures::felt(&scene, measured).map(|figure| ("felt", figure)));
     write_wav(out.path().join("drive.wav"), drive)?;
     report.files = vec!["drive.wav".into()];
     report.files.extend(figures::write(out, &figures)?);

@@ -11,6 +11,7 @@ mod fingers;
 mod focus;
 mod input;
 mod judge;
+mod level;
 mod modes;
 mod output;
 mod report;

@@ -6,7 +6,7 @@ use serde::Serialize;
 use std::fmt::Write;
 use unripple::Touch;
 use unripple::core::{Actuator, ActuatorKind, Drive, Surface};
-use unripple::field::{DriveFigures, TakenOn, TargetFigures};
+use unripple::field::{DriveFigures, TakenOn, TargetFigures, Threshold};
 use unripple::physics::design::Linearity;
 
 /// Everything said about one drive on one surface. Lengths in metres, times in seconds, drive in its own unit.
@@ -38,6 +38,8 @@ pub struct Report {
     focal_radius_m: f64,
     taken_on: TakenOn,
     outside_points: usize,
+    /// The highest level felt outside the focal discs, in dB above the threshold of touch.
+    felt_outside_db: Option<f64>,
     notes: Vec<Note>,
     pub files: Vec<String>,
 }
@@ -75,6 +77,7 @@ impl Report {
             focal_radius_m: measured.focal_radius_m,
             taken_on: measured.taken_on,
             outside_points: measured.outside_points,
+            felt_outside_db: measured.felt_outside_db,
             notes: judged.notes.clone(),
             files: Vec::new(),
         }
@@ -93,14 +96,17 @@ impl Report {
                 y * 1e3,
                 target.instant_s * 1e3
             );
-            for [name, velocity, displacement] in rows(target) {
-                let _ = writeln!(text, "  {name:<22}{velocity:>16}{displacement:>18}");
+            for [name, velocity, displacement, felt] in rows(target) {
+                let _ = writeln!(text, "  {name:<22}{velocity:>16}{displacement:>18}{felt:>14}");
             }
         }
         for finger in &self.fingers {
             let _ = writeln!(text, "\n{}", finger_line(finger));
         }
         let _ = writeln!(text, "\n{}", self.drive_line());
+        if let Some(line) = self.felt_line() {
+            let _ = writeln!(text, "{line}");
+        }
         for note in &self.notes {
             let _ = writeln!(text, "note ({}): {}", note.topic, note.text);
         }
@@ -122,14 +128,17 @@ impl Report {
             if target.points > 1 {
                 let _ = writeln!(text, "{} points; levels are means over them.\n", target.points);
             }
-            text += "| | velocity | displacement |\n|---|---:|---:|\n";
-            for [name, velocity, displacement] in rows(target).into_iter().skip(1) {
-                let _ = writeln!(text, "| {name} | {velocity} | {displacement} |");
+            text += "| | velocity | displacement | as felt |\n|---|---:|---:|---:|\n";
+            for [name, velocity, displacement, felt] in rows(target).into_iter().skip(1) {
+                let _ = writeln!(text, "| {name} | {velocity} | {displacement} | {felt} |");
             }
             text.push('\n');
         }
         for finger in &self.fingers {
             let _ = writeln!(text, "{}\n", finger_line(finger));
+        }
+        if let Some(line) = self.felt_line() {
+            let _ = writeln!(text, "{line}\n");
         }
         let _ = writeln!(text, "## Drive\n\n{}\n", self.drive_line());
         text += "| channel | actuator | at mm | unit |\n|---:|---|---|---|\n";
@@ -154,7 +163,8 @@ impl Report {
             let _ = write!(text, "\n![{}]({file})\n", file.trim_end_matches(".png"));
         }
         text += "\nContrast: the peak over the rms outside every focal disc at the same instant. Background contrast: over the rms \
-                 there during the whole span measured. Worst spot: over the largest magnitude there.\n";
+                 there during the whole span measured. Worst spot: over the largest magnitude there. As felt: in displacement weighed \
+                 by the threshold of touch, in dB above it; ratios in dB.\n";
         text
     }
 
@@ -167,13 +177,32 @@ impl Report {
         parts.concat()
     }
 
+    /// What is felt elsewhere than at the targets.
+    fn felt_line(&self) -> Option<String> {
+        let outside = self.felt_outside_db?;
+        let reached = self.targets.iter().any(|target| target.felt_level_db.is_some_and(|level| level > 0.0));
+        let what = if outside > 0.0 {
+            format!(
+                "up to {outside:.2} dB above threshold, too high by that for nothing to be felt but at the foci"
+            )
+        } else {
+            let but = if reached { " but at the foci" } else { ", not even at the foci" };
+            format!("{:.2} dB below threshold or more: nothing is felt{but}", -outside)
+        };
+        let persons = Threshold::BETWEEN_PERSONS_DB;
+        Some(format!(
+            "felt outside the focal discs: {what} (thresholds of persons differ by about ±{persons} dB)"
+        ))
+    }
+
     fn drive_line(&self) -> String {
         let unit = self.actuators.first().map_or("", |a| a.unit);
         let d = &self.drive;
+        let level = |x: f64| if x < 0.01 { format!("{x:.3e}") } else { format!("{x:.4}") };
         format!(
-            "drive: peak {:.4} {unit}, rms {:.4} {unit}, energy {:.4e} {unit}²s, {:.2} % of it above the band",
-            d.peak,
-            d.rms,
+            "drive: peak {} {unit}, rms {} {unit}, energy {:.4e} {unit}²s, {:.2} % of it above the band",
+            level(d.peak),
+            level(d.rms),
             d.energy,
             100.0 * d.share_above_band
         )
@@ -207,37 +236,47 @@ pub fn unit(kind: &ActuatorKind) -> &'static str {
     }
 }
 
-/// Name, velocity and displacement of every figure, headings first.
-fn rows(t: &TargetFigures) -> Vec<[String; 3]> {
+/// Name, velocity, displacement and what is felt of every figure, headings first.
+fn rows(t: &TargetFigures) -> Vec<[String; 4]> {
     let ratio = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.2}"));
     let scaled = |x: Option<f64>, factor: f64, unit: &str| {
         x.map_or("-".into(), |x| format!("{:.3} {unit}", x * factor))
     };
-    let row = |name: &str, v: String, u: String| [name.to_owned(), v, u];
+    let felt = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.2} dB"));
+    let row = |name: &str, v: String, u: String, f: String| [name.to_owned(), v, u, f];
     vec![
-        row("", "velocity".into(), "displacement".into()),
+        row("", "velocity".into(), "displacement".into(), "as felt".into()),
         row(
             "peak",
             format!("{:.4} m/s", t.peak_velocity_m_s),
             format!("{:.2} µm", t.peak_displacement_m * 1e6),
+            felt(t.felt_level_db),
         ),
         row(
             "largest at",
             format!("{:.3} ms", t.peak_time_s * 1e3),
             format!("{:.3} ms", t.displacement_peak_time_s * 1e3),
+            format!("{:.3} ms", t.felt_peak_time_s * 1e3),
         ),
-        row("contrast", ratio(t.contrast), ratio(t.displacement_contrast)),
-        row("background contrast", ratio(t.background_contrast), ratio(t.displacement_background_contrast)),
-        row("worst spot", ratio(t.worst_spot), ratio(t.displacement_worst_spot)),
+        row("contrast", ratio(t.contrast), ratio(t.displacement_contrast), felt(t.felt_contrast_db)),
+        row(
+            "background contrast",
+            ratio(t.background_contrast),
+            ratio(t.displacement_background_contrast),
+            felt(t.felt_background_db),
+        ),
+        row("worst spot", ratio(t.worst_spot), ratio(t.displacement_worst_spot), felt(t.felt_worst_spot_db)),
         row(
             "spot diameter",
             scaled(t.spot_diameter_m, 1e3, "mm"),
             scaled(t.displacement_spot_diameter_m, 1e3, "mm"),
+            "-".into(),
         ),
         row(
             "pulse duration",
             scaled(t.pulse_duration_s, 1e3, "ms"),
             scaled(t.displacement_pulse_duration_s, 1e3, "ms"),
+            "-".into(),
         ),
     ]
 }

@@ -116,7 +116,7 @@ mod tests {
 
     fn options(at: &[&str], shape: &[&str]) -> TargetOptions {
         let owned = |list: &[&str]| list.iter().map(|s| (*s).to_owned()).collect();
-        TargetOptions { at: owned(at), shape: owned(shape), peak_um: None }
+        TargetOptions { at: owned(at), shape: owned(shape), peak_um: None, felt_db: None }
     }
 
     #[test]

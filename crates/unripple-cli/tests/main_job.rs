@@ -4,7 +4,7 @@ mod common;
 
 use common::{Scratch, json, number, run};
 
-const FIGURES: [&str; 14] = [
+const FIGURES: [&str; 19] = [
     "peak_velocity_m_s",
     "peak_displacement_m",
     "peak_time_s",
@@ -19,6 +19,11 @@ const FIGURES: [&str; 14] = [
     "displacement_worst_spot",
     "displacement_spot_diameter_m",
     "displacement_pulse_duration_s",
+    "felt_level_db",
+    "felt_peak_time_s",
+    "felt_contrast_db",
+    "felt_background_db",
+    "felt_worst_spot_db",
 ];
 
 #[test]
@@ -88,6 +93,30 @@ fn a_run_leaves_drive_report_and_figures() {
     assert!(report["files"].as_array().unwrap().len() >= 9);
     let page = std::fs::read_to_string(format!("{out}/report.md")).unwrap();
     assert!(page.contains("| contrast |") && page.contains("![focus](focus.png)"));
+}
+
+#[test]
+fn a_level_as_felt_is_met_and_what_is_felt_elsewhere_is_said() {
+    let scratch = Scratch::new("felt");
+    let out = scratch.join("out");
+    for (level, at, said) in [
+        ("2", "62,90", "below threshold or more: nothing is felt but at the foci"),
+        ("-6", "62,90", "nothing is felt, not even at the foci"),
+        ("20", "40,50", "too high by that for nothing to be felt but at the foci"),
+    ] {
+        let report =
+            json(&["focus", "hudin-2012", "--at", at, "--felt-db", level, "--window-ms", "30", "-o", &out]);
+        let wanted: f64 = level.parse().unwrap();
+        let reached = number(&report, "/targets/0/felt_level_db");
+        assert!((reached - wanted).abs() < 1e-4);
+        let elsewhere = reached - number(&report, "/targets/0/felt_worst_spot_db");
+        assert!((number(&report, "/felt_outside_db") - elsewhere).abs() < 1e-9);
+        let page = std::fs::read_to_string(format!("{out}/report.md")).unwrap();
+        assert!(
+            page.contains(said) && page.contains("| as felt |") && page.contains("![felt](felt.png)"),
+            "{page}"
+        );
+    }
 }
 
 #[test]

@@ -114,6 +114,10 @@ fn targets_must_lie_on_the_surface() {
     assert!(errors.contains("expected --at X,Y or --shape SHAPE"), "{errors}");
     let most = refused(&["focus", "hudin-2012", "--at", "62,90", "--peak-um", "1e9", "-o", &out], 2);
     assert!(most.contains("which the drive limit gives"), "{most}");
+    let most = refused(&["focus", "hudin-2012", "--at", "62,90", "--felt-db", "300", "-o", &out], 2);
+    assert!(most.contains("dB above threshold, which the drive limit gives, found 300"), "{most}");
+    let both = ["focus", "hudin-2012", "--at", "62,90", "--felt-db", "3", "--peak-um", "3", "-o", &out];
+    assert!(refused(&both, 2).contains("cannot be used with"));
     assert!(scratch.names().is_empty(), "{:?}", scratch.names());
 }
 
@@ -126,6 +130,7 @@ fn numbers_without_meaning_are_usage_errors() {
     };
     assert!(focus("--window-ms", "-3").contains("--window-ms: expected a number above 0 ms, found -3"));
     assert!(focus("--window-ms", "NaN").contains("found NaN"));
+    assert!(focus("--felt-db", "inf").contains("--felt-db: expected a finite number of dB, found inf"));
     assert!(focus("--method", "one-bti").contains("one-bit"));
     assert!(focus("--judge-hz", "0").contains("Hz"));
     assert!(refused(&["modes", "hudin-2012", "--max-hz", "-1"], 2).contains("--max-hz"));

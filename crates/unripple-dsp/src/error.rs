@@ -1,4 +1,4 @@
-/// Why a signal could not be made.
+/// Why a signal or a plan could not be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DspError {
     /// Two sizes that must agree do not.
@@ -10,5 +10,15 @@ pub enum DspError {
         expected: usize,
         /// How many there are.
         found: usize,
+    },
+    /// A number is out of its range.
+    #[error("{what}: expected {expected}, found {found}")]
+    Range {
+        /// What the number is, with its unit.
+        what: &'static str,
+        /// The legal values.
+        expected: String,
+        /// The value.
+        found: f64,
     },
 }

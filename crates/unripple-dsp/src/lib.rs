@@ -1,4 +1,4 @@
-//! Signal processing: synthesis of modal responses, spectra, convolution.
+//! Signal processing: synthesis of modal responses, spectra, convolution, the threshold of touch.
 
 mod convolve;
 mod error;
@@ -6,9 +6,13 @@ mod interpolate;
 mod kernel;
 mod spectrum;
 mod synth;
+mod threshold;
+mod weighting;
 
 pub use convolve::{Convolver, convolve};
 pub use error::DspError;
 pub use realfft::num_complex::Complex;
 pub use spectrum::share_above;
 pub use synth::ModalSynth;
+pub use threshold::Threshold;
+pub use weighting::Weighting;

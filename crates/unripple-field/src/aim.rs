@@ -1,6 +1,7 @@
 use crate::{Field, FieldError};
 use std::ops::Range;
 use unripple_core::Point;
+use unripple_dsp::Threshold;
 
 /// What to measure at: a point or a set of points, and when it is in focus.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,12 +27,14 @@ pub struct MeasureOptions {
     pub period: Option<f64>,
     /// Cells of the grid per shortest wavelength along each side of the surface.
     pub cells: f64,
+    /// The least vibration that is felt, for the figures as felt.
+    pub threshold: Threshold,
 }
 
 impl Default for MeasureOptions {
-    /// A single pulse on eight cells per wavelength.
+    /// A single pulse on eight cells per wavelength, felt above the published threshold.
     fn default() -> Self {
-        Self { period: None, cells: 8.0 }
+        Self { period: None, cells: 8.0, threshold: Threshold::default() }
     }
 }
 

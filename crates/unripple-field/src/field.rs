@@ -4,6 +4,7 @@ use crate::sampled::SampledField;
 use crate::source::{Quantity, Source};
 use crate::{FieldError, Grid, Trace};
 use unripple_core::{Conditions, Drive, Point, Responses};
+use unripple_dsp::Threshold;
 
 /// Values that snapshots or traces may hold in all.
 const MOST_VALUES: usize = 100_000_000;
@@ -16,6 +17,7 @@ pub struct Field<'a> {
     pub(crate) source: Box<dyn Source + 'a>,
     pub(crate) conditions: &'a Conditions,
     pub(crate) drive: &'a Drive,
+    pub(crate) threshold: Threshold,
     grid: Option<Grid>,
 }
 
@@ -53,7 +55,14 @@ impl<'a> Field<'a> {
             }
             Responses::Sampled(sampled) => (Box::new(SampledField::new(sampled, drive)), None),
         };
-        Ok(Self { source, conditions, drive, grid })
+        Ok(Self { source, conditions, drive, threshold: Threshold::default(), grid })
+    }
+
+    /// The same field, felt above another threshold than the published one.
+    #[must_use]
+    pub fn felt_above(mut self, threshold: Threshold) -> Self {
+        self.threshold = threshold;
+        self
     }
 
     /// The points that snapshots and maps have values for.

@@ -17,6 +17,9 @@ pub struct Measured {
     pub taken_on: TakenOn,
     /// How many points lie outside every target's disc.
     pub outside_points: usize,
+    /// The highest level felt at any outside point over all spans, in dB above the threshold; `None` where nothing is
+    /// outside, and in silence.
+    pub felt_outside_db: Option<f64>,
     /// Pictures of the field; not part of the report.
     #[serde(skip)]
     pub maps: Maps,
@@ -79,6 +82,18 @@ pub struct TargetFigures {
     pub displacement_spot_diameter_m: Option<f64>,
     /// As `pulse_duration_s`.
     pub displacement_pulse_duration_s: Option<f64>,
+    /// Largest magnitude of the weighed displacement at the target within the span, in dB above the threshold; `None` in
+    /// silence. Weighed is displacement filtered by 1/threshold(f) without delay, in units of the threshold; the figures
+    /// below are ratios of this level, in dB, higher being better.
+    pub felt_level_db: Option<f64>,
+    /// When that is, in seconds.
+    pub felt_peak_time_s: f64,
+    /// The level over the rms of the weighed displacement of the outside points at that instant.
+    pub felt_contrast_db: Option<f64>,
+    /// Over the rms of the outside points and the span.
+    pub felt_background_db: Option<f64>,
+    /// Over the largest magnitude of the outside points and the span.
+    pub felt_worst_spot_db: Option<f64>,
     /// Least and greatest velocity over a set of points at T, in m/s; `None` for one point.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub velocity_range_m_s: Option<[f64; 2]>,
@@ -115,6 +130,8 @@ pub struct Maps {
     pub peak_velocity: Vec<f32>,
     /// Largest magnitude of the displacement over all spans, in metres.
     pub peak_displacement: Vec<f32>,
+    /// Largest magnitude of the weighed displacement over all spans, in units of the threshold: 1 is just felt.
+    pub felt_peak: Vec<f32>,
     /// The field at each target's T.
     pub at_peak: Vec<Snapshot>,
     /// The field at each target's extreme of displacement.

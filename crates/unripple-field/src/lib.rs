@@ -6,7 +6,7 @@
 //! # In reading order
 //!
 //! [`Field`] is the motion a drive makes, as traces at points and snapshots on a [`Grid`]; [`Aim`] says where and when a
-//! focus should be; [`measure()`] judges it.
+//! focus should be; [`measure()`] judges it, in velocity, in displacement and as felt above a [`Threshold`].
 //!
 //! ```
 //! use faer::Mat;
@@ -45,6 +45,8 @@
 
 mod aim;
 mod error;
+mod feeling;
+mod felt;
 mod field;
 mod figures;
 mod grid;
@@ -65,3 +67,4 @@ pub use grid::Grid;
 pub use measure::measure;
 pub use source::Trace;
 pub use steepness::Steepness;
+pub use unripple_dsp::Threshold;

@@ -1,5 +1,6 @@
 use crate::aim::{Resolved, last_period, segments};
 use crate::error::require;
+use crate::felt::{AllFelt, decibels, felt};
 use crate::figures::{DriveFigures, Maps, Measured, TakenOn, TargetFigures};
 use crate::source::{Quantity, Survey, Trace};
 use crate::{Aim, Field, FieldError, MeasureOptions, pulse};
@@ -10,7 +11,7 @@ use unripple_core::{Drive, Point, Responses};
 /// Radius of the focal disc in shortest wavelengths.
 const FOCAL_RADIUS: f64 = 4.0 / 3.0;
 
-/// How good `drive` is at focusing on `aims` through `responses`: all figures, in velocity and in displacement.
+/// How good `drive` is at focusing on `aims` through `responses`: all figures, in velocity, in displacement and as felt.
 ///
 /// "Outside" are the points of the field farther than (4/3) λ_min from every point of every aim; the span is [0, 2T] with
 /// T the aim's instant, or the last full period of a repeated drive. Without aims, the span is that of a focus at the
@@ -24,7 +25,8 @@ pub fn measure(
     aims: &[Aim],
     options: &MeasureOptions,
 ) -> Result<Measured, FieldError> {
-    Field::new(responses, drive, options.cells)?.measure(aims, options.period)
+    let field = Field::new(responses, drive, options.cells)?.felt_above(options.threshold.clone());
+    field.measure(aims, options.period)
 }
 
 impl Field<'_> {
@@ -49,6 +51,7 @@ impl Field<'_> {
             resolved.iter().map(|aim| aim.instant).chain(peaks.iter().map(|p| p.extreme)).collect();
         let survey = field.source.survey(&segments, &instants);
         let spots = spots(&resolved, &peaks, field);
+        let felt = felt(field, &resolved, &spans, period, &outside);
         let judge = Judge {
             field,
             aims,
@@ -57,6 +60,7 @@ impl Field<'_> {
             survey: &survey,
             segments: &segments,
             outside: &outside,
+            felt: &felt,
         };
         let targets = (0..aims.len()).map(|i| judge.figures(i, spots[i])).collect();
         Ok(Measured {
@@ -66,7 +70,8 @@ impl Field<'_> {
             focal_radius_m: radius,
             taken_on: if field.grid().is_some() { TakenOn::Grid } else { TakenOn::Library },
             outside_points: outside.iter().filter(|out| **out).count(),
-            maps: maps(field, survey, outside, &instants),
+            felt_outside_db: loudest(&felt.peak, &outside),
+            maps: maps(field, survey, felt.peak, outside, &instants),
         })
     }
 }
@@ -164,6 +169,7 @@ struct Judge<'a> {
     survey: &'a Survey,
     segments: &'a [Range<usize>],
     outside: &'a [bool],
+    felt: &'a AllFelt,
 }
 
 /// What a level is compared with.
@@ -183,6 +189,7 @@ impl Judge<'_> {
         let seconds = |sample: usize| sample as f64 / rate;
         let [velocity, displacement] = [0, 1].map(|q| self.surroundings(index, q));
         let ranges = self.ranges(index);
+        let felt = &self.felt.targets[index];
         let count = aim.points.len() as f64;
         let mean = |of: fn(&Point) -> f64| aim.points.iter().map(of).sum::<f64>() / count;
         let apart = aim.points.iter().zip(&resolved.points).map(|(a, b)| a.distance(*b)).sum::<f64>();
@@ -207,6 +214,11 @@ impl Judge<'_> {
             displacement_worst_spot: ratio(peaks.levels[1], displacement.worst),
             displacement_spot_diameter_m: spots[1],
             displacement_pulse_duration_s: peaks.widths[1].map(|width| width / rate),
+            felt_level_db: felt.level_db,
+            felt_peak_time_s: seconds(felt.extreme),
+            felt_contrast_db: felt.contrast_db,
+            felt_background_db: felt.background_db,
+            felt_worst_spot_db: felt.worst_spot_db,
             velocity_range_m_s: ranges.map(|[velocity, _]| velocity),
             displacement_range_m: ranges.map(|[_, displacement]| displacement),
         }
@@ -264,7 +276,19 @@ fn drive_figures(field: &Field<'_>, period: Option<usize>) -> DriveFigures {
     }
 }
 
-fn maps(field: &Field<'_>, survey: Survey, outside: Vec<bool>, instants: &[usize]) -> Maps {
+/// The highest level outside, in dB above the threshold.
+fn loudest(felt: &[f32], outside: &[bool]) -> Option<f64> {
+    let levels = felt.iter().zip(outside).filter(|(_, out)| **out).map(|(level, _)| f64::from(*level));
+    Some(levels.fold(0.0, f64::max)).filter(|level| *level > 0.0).map(decibels)
+}
+
+fn maps(
+    field: &Field<'_>,
+    survey: Survey,
+    felt_peak: Vec<f32>,
+    outside: Vec<bool>,
+    instants: &[usize],
+) -> Maps {
     let peak = |quantity: usize| {
         let mut peak = vec![0.0_f32; field.points().len()];
         for pair in &survey.tallies {
@@ -283,6 +307,7 @@ fn maps(field: &Field<'_>, survey: Survey, outside: Vec<bool>, instants: &[usize
         outside,
         peak_velocity,
         peak_displacement,
+        felt_peak,
         at_peak,
         at_displacement_peak,
     }

@@ -1,5 +1,6 @@
+use crate::feeling::Feeling;
 use crate::motion::Motion;
-use crate::source::{Quantity, Source, Survey, Tally, Trace};
+use crate::source::{Passage, Quantity, Source, Survey, Tally, Trace, Weighed};
 use crate::spot::Around;
 use crate::{FieldError, spot};
 use faer::{Accum, Mat, MatRef, Par, linalg::matmul::matmul};
@@ -12,11 +13,11 @@ use unripple_core::{Drive, ModalResponses, Point};
 const MOST_SAMPLES: usize = 20_000_000;
 
 /// Points and samples of a block of the field: small enough to stay in cache while it is tallied.
-const POINTS: usize = 256;
+pub(crate) const POINTS: usize = 256;
 const SAMPLES: usize = 128;
 
 /// Values of states (modes x samples) that are held at once.
-const STATES: usize = 1 << 22;
+pub(crate) const STATES: usize = 1 << 22;
 
 /// Readout weights that are kept between surveys; more are computed again for each block of time.
 const KEPT: usize = 1 << 27;
@@ -24,9 +25,9 @@ const KEPT: usize = 1 << 27;
 /// The field of a modal system: states of all modes over time, read out in blocks and never stored as a whole.
 #[derive(Debug)]
 pub(crate) struct ModalField<'a> {
-    responses: &'a ModalResponses,
-    drive: &'a Drive,
-    points: Vec<Point>,
+    pub(crate) responses: &'a ModalResponses,
+    pub(crate) drive: &'a Drive,
+    pub(crate) points: Vec<Point>,
     readout: OnceLock<Vec<Mat<f32>>>,
 }
 
@@ -51,12 +52,12 @@ impl<'a> ModalField<'a> {
         Self { responses, drive, points, readout: OnceLock::new() }
     }
 
-    fn modes(&self) -> usize {
+    pub(crate) fn modes(&self) -> usize {
         self.responses.poles.len()
     }
 
     /// Samples whose states are held at once.
-    fn samples_at_once(&self) -> usize {
+    pub(crate) fn samples_at_once(&self) -> usize {
         (STATES / self.modes().max(1)).max(SAMPLES)
     }
 
@@ -67,7 +68,7 @@ impl<'a> ModalField<'a> {
     }
 
     /// Applies `work` to the weights of every chunk of points and what belongs to it, in parallel.
-    fn for_chunks<T: Send>(&self, owned: &mut [T], work: impl Fn(&Mat<f32>, &mut T) + Sync) {
+    pub(crate) fn for_chunks<T: Send>(&self, owned: &mut [T], work: impl Fn(&Mat<f32>, &mut T) + Sync) {
         if self.points.len() * self.modes() > KEPT {
             let chunks = self.points.par_chunks(POINTS);
             chunks.zip(owned.par_iter_mut()).for_each(|(points, own)| work(&self.weights(points), own));
@@ -168,6 +169,10 @@ impl Source for ModalField<'_> {
         Survey { tallies: joined(tallies, segments.len()), snapshots: self.snapshots(instants) }
     }
 
+    fn weighed(&self, passage: &Passage) -> Weighed {
+        Feeling::of(self, passage).weighed()
+    }
+
     fn spots(&self, requests: &[(Point, usize, Quantity)]) -> Vec<Option<f64>> {
         let instants: Vec<usize> = requests.iter().map(|(_, sample, _)| *sample).collect();
         let states = self.states(&instants);
@@ -211,7 +216,7 @@ fn states<T: faer::traits::ComplexField>(
 }
 
 /// Adds the field of a block of states to a tally.
-fn add_to(tally: &mut Tally, weights: MatRef<'_, f32>, states: MatRef<'_, f32>) {
+pub(crate) fn add_to(tally: &mut Tally, weights: MatRef<'_, f32>, states: MatRef<'_, f32>) {
     let mut field = Mat::<f32>::zeros(weights.nrows(), SAMPLES.min(states.ncols()));
     let mut squares = vec![0.0_f32; weights.nrows()];
     for first in (0..states.ncols()).step_by(SAMPLES) {

@@ -24,18 +24,24 @@ pub(crate) struct Motion<'a> {
 impl<'a> Motion<'a> {
     /// Everything at rest before sample 0.
     pub fn new(responses: &ModalResponses, drive: &'a Drive) -> Self {
+        Self::of(responses, drive, 0..responses.poles.len())
+    }
+
+    /// The same for some of the modes.
+    pub fn of(responses: &ModalResponses, drive: &'a Drive, modes: Range<usize>) -> Self {
         let rate = drive.rate();
-        let modes = responses.poles.len();
-        let steps: Vec<_> = responses.poles.iter().map(|pole| pole.step(1.0 / rate)).collect();
+        let poles = &responses.poles[modes.clone()];
+        let input = |m: usize, a: usize| responses.input[(a, modes.start + m)] / rate;
+        let steps: Vec<_> = poles.iter().map(|pole| pole.step(1.0 / rate)).collect();
         let entry = |i: usize, j: usize| steps.iter().map(|step| step[i][j]).collect();
-        let kicks: Vec<_> = responses.poles.iter().map(|pole| pole.kick()).collect();
+        let kicks: Vec<_> = poles.iter().map(|pole| pole.kick()).collect();
         Self {
             drive,
-            input: Mat::from_fn(modes, drive.channels().len(), |m, a| responses.input[(a, m)] / rate),
+            input: Mat::from_fn(poles.len(), drive.channels().len(), input),
             step: [entry(0, 0), entry(0, 1), entry(1, 0), entry(1, 1)],
             kick: [0, 1].map(|i| kicks.iter().map(|kick| kick[i]).collect()),
-            displacement: vec![0.0; modes],
-            velocity: vec![0.0; modes],
+            displacement: vec![0.0; poles.len()],
+            velocity: vec![0.0; poles.len()],
             next: 0,
         }
     }

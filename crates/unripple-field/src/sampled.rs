@@ -1,4 +1,4 @@
-use crate::source::{Quantity, Source, Survey, Tally, Trace};
+use crate::source::{Passage, Quantity, Source, Survey, Tally, Trace, Weighed};
 use crate::{FieldError, spot};
 use rayon::prelude::*;
 use std::collections::HashMap;
@@ -121,6 +121,27 @@ impl Source for SampledField<'_> {
         }
     }
 
+    /// Responses are taken to be at rest after their end.
+    fn weighed(&self, passage: &Passage) -> Weighed {
+        let Passage { taken, span, instants, weighting, .. } = passage;
+        let player = Player::plan(self, taken.clone());
+        let of_point = |point: usize| {
+            let felt = weighting.weigh(&player.moved(point));
+            let within = &felt[span.start - taken.start..span.end - taken.start];
+            let peak = within.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+            let values: Vec<f32> = instants.iter().map(|i| felt[i - taken.start] as f32).collect();
+            (peak as f32, within.iter().map(|x| x * x).sum::<f64>(), values)
+        };
+        let points: Vec<_> = (0..self.responses.points.len()).into_par_iter().map(of_point).collect();
+        Weighed {
+            tally: Tally {
+                peak: points.iter().map(|point| point.0).collect(),
+                squares: points.iter().map(|point| point.1).collect(),
+            },
+            snapshots: (0..instants.len()).map(|i| points.iter().map(|point| point.2[i]).collect()).collect(),
+        }
+    }
+
     fn spots(&self, requests: &[(Point, usize, Quantity)]) -> Vec<Option<f64>> {
         let mut players = HashMap::new();
         let spot = |(at, sample, quantity): &(Point, usize, Quantity)| {
@@ -160,21 +181,24 @@ impl<'a> Player<'a> {
 
     /// The trace of one stored point over the range.
     fn play(&self, point: usize) -> Trace {
-        let lines = self.plan.size() / 2 + 1;
-        let mut sums = [vec![Complex::default(); lines], vec![Complex::default(); lines]];
+        let velocity = self.sum(point, |response| response.iter().map(|h| f64::from(*h)).collect());
+        Trace { velocity, displacement: self.moved(point) }
+    }
+
+    /// The displacement of one stored point over the range.
+    fn moved(&self, point: usize) -> Vec<f64> {
+        self.sum(point, |response| integral(response, self.responses.conditions.rate))
+    }
+
+    /// The drive through something made of each response of one stored point, over the range.
+    fn sum(&self, point: usize, made: impl Fn(&[f32]) -> Vec<f64>) -> Vec<f64> {
+        let mut sum = vec![Complex::default(); self.plan.size() / 2 + 1];
         for (actuator, sent) in self.sent.iter().enumerate() {
-            let response = self.responses.response(actuator, point);
-            let velocity = self.plan.spectrum(response.iter().map(|h| f64::from(*h)));
-            let displacement = self.plan.spectrum(integral(response, self.responses.conditions.rate));
-            for (sum, own) in sums.iter_mut().zip([velocity, displacement]) {
-                sum.iter_mut().zip(sent).zip(own).for_each(|((sum, d), h)| *sum += d * h);
-            }
+            let own = self.plan.spectrum(made(self.responses.response(actuator, point)));
+            sum.iter_mut().zip(sent).zip(own).for_each(|((sum, d), h)| *sum += d * h);
         }
-        let [velocity, displacement] = sums.map(|sum| {
-            let signal = self.plan.signal(sum);
-            signal[self.range.start - self.first..self.range.end - self.first].to_vec()
-        });
-        Trace { velocity, displacement }
+        let signal = self.plan.signal(sum);
+        signal[self.range.start - self.first..self.range.end - self.first].to_vec()
     }
 }
 

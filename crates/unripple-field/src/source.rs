@@ -1,6 +1,7 @@
 use crate::FieldError;
 use std::ops::Range;
 use unripple_core::Point;
+use unripple_dsp::Weighting;
 
 /// Velocity or displacement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,6 +53,30 @@ pub(crate) struct Survey {
     pub snapshots: Vec<[Vec<f32>; 2]>,
 }
 
+/// A stretch of displacement to be weighed by the threshold of touch.
+#[derive(Clone, Debug)]
+pub(crate) struct Passage {
+    /// Samples that are weighed together; what lies beyond them is the weighting's to say.
+    pub taken: Range<usize>,
+    /// Those of them that are tallied.
+    pub span: Range<usize>,
+    /// Those of the span that snapshots are taken at.
+    pub instants: Vec<usize>,
+    /// 1/threshold, for as many samples as are taken.
+    pub weighting: Weighting,
+    /// By how much the result may be off anywhere, in units of the threshold.
+    pub slack: f64,
+}
+
+/// What is felt at every point of a field during a passage, in units of the threshold.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Weighed {
+    /// Over the span.
+    pub tally: Tally,
+    /// One per instant.
+    pub snapshots: Vec<Vec<f32>>,
+}
+
 /// A field under a drive, whatever its responses are kept in. Samples count from the drive's first.
 pub(crate) trait Source: Send + Sync {
     /// The points it is taken on.
@@ -68,6 +93,9 @@ pub(crate) trait Source: Send + Sync {
 
     /// Tallies over segments (ascending, apart from each other) and snapshots at instants.
     fn survey(&self, segments: &[Range<usize>], instants: &[usize]) -> Survey;
+
+    /// What is felt during a passage.
+    fn weighed(&self, passage: &Passage) -> Weighed;
 
     /// Full width at half maximum around a point at a sample, in metres, for each request.
     fn spots(&self, requests: &[(Point, usize, Quantity)]) -> Vec<Option<f64>>;

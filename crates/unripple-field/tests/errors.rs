@@ -161,6 +161,11 @@ fn the_report_has_the_agreed_keys() {
         "displacement_spot_diameter_m",
         "displacement_pulse_duration_s",
         "displacement_peak_time_s",
+        "felt_level_db",
+        "felt_peak_time_s",
+        "felt_contrast_db",
+        "felt_background_db",
+        "felt_worst_spot_db",
     ] {
         let value = &json["targets"][0][key];
         assert!(value.is_number() || value.is_array(), "{key}: {value}");
@@ -168,6 +173,6 @@ fn the_report_has_the_agreed_keys() {
     for key in ["peak", "rms", "energy", "share_above_band"] {
         assert!(json["drive"][key].is_number(), "{key}");
     }
-    assert!(json["lambda_min_m"].is_number());
+    assert!(json["lambda_min_m"].is_number() && json["felt_outside_db"].is_number());
     assert!(json.get("maps").is_none());
 }

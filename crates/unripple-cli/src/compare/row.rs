@@ -56,7 +56,7 @@ pub fn relate(rows: &mut [Row]) {
     rows.iter_mut().for_each(|row| row.energy_for_peak = price(row) / first);
 }
 
-const HEADINGS: [&str; 9] = [
+const HEADINGS: [&str; 13] = [
     "method",
     "contrast",
     "background",
@@ -64,6 +64,10 @@ const HEADINGS: [&str; 9] = [
     "spot mm",
     "peak m/s",
     "energy for peak",
+    "felt dB",
+    "felt contrast",
+    "felt background",
+    "felt worst",
     "plan ms",
     "drive ms",
 ];
@@ -81,6 +85,10 @@ fn cells(row: &Row) -> Vec<String> {
         number(of(|t| t.spot_diameter_m.map(|d| d * 1e3)), 2),
         number(of(|t| Some(t.peak_velocity_m_s)), 1),
         format!("{:.2}", row.energy_for_peak),
+        number(of(|t| t.felt_level_db), 1),
+        number(of(|t| t.felt_contrast_db), 1),
+        number(of(|t| t.felt_background_db), 1),
+        number(of(|t| t.felt_worst_spot_db), 1),
         format!("{:.1}", row.plan_s * 1e3),
         format!("{:.2}", row.drive_s * 1e3),
     ]
@@ -118,7 +126,7 @@ pub fn markdown(surface: &str, rows: &[Row], window: f64, judged_to: f64) -> Str
 fn conditions(window: f64, judged_to: f64) -> String {
     format!(
         "Window {:.1} ms, first target, at the drive limit, judged on modes to {judged_to:.0} Hz. Energy for the same peak is relative \
-         to time reversal's.",
+         to time reversal's; felt: dB above threshold, and below the target's level.",
         window * 1e3
     )
 }

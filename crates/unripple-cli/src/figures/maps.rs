@@ -107,6 +107,38 @@ pub fn peaks(scene: &Scene, measured: &Measured) -> Option<Figure> {
     Some(side_by_side(left, right, "Largest velocity and displacement of the surface over the time measured"))
 }
 
+/// Decibels below the largest value at which the map of what is felt ends.
+const FELT_RANGE: f64 = 30.0;
+
+/// The largest vibration everywhere over the whole time measured, as felt: in dB above the threshold of touch.
+pub fn felt(scene: &Scene, measured: &Measured) -> Option<Figure> {
+    let maps = &measured.maps;
+    let most = maps.felt_peak.iter().copied().fold(0.0, f32::max);
+    if most <= 0.0 {
+        return None;
+    }
+    let high = 20.0 * f64::from(most).log10();
+    let low = high - FELT_RANGE;
+    let level = |x: &f32| (20.0 * x.log10()).max(low as f32);
+    let levels: Vec<f32> = maps.felt_peak.iter().map(level).collect();
+    let colours = Colours {
+        title: "Felt (dB above threshold)".into(),
+        map: ColourMap::Sequential,
+        low: Some(low),
+        high: Some(high),
+        ..Colours::default()
+    };
+    let map = scene.map(grid(maps, &levels)?, "largest over time, as felt", colours);
+    Some(Figure {
+        width_mm: 89.0,
+        panels: vec![map.into()],
+        description:
+            "Largest vibration of the surface over the time measured, in dB above the threshold of touch"
+                .into(),
+        ..Figure::default()
+    })
+}
+
 fn side_by_side(left: Map, right: Map, description: &str) -> Figure {
     Figure {
         width_mm: 178.0,

@@ -6,7 +6,7 @@ mod movie;
 mod traces;
 
 pub use drive::channels;
-pub use maps::{Scene, drawn, peaks, snapshots};
+pub use maps::{Scene, drawn, felt, peaks, snapshots};
 pub use movie::movie;
 pub use traces::traces;
 

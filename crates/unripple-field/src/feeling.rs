@@ -1,0 +1,145 @@
+use crate::modal::{ModalField, POINTS, STATES, add_to};
+use crate::motion::Motion;
+use crate::source::{Passage, Tally, Weighed};
+use faer::Mat;
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Values of weighed modes that are held at once.
+const HELD: usize = 1 << 25;
+
+/// How a modal field is felt: every mode's displacement is weighed over the whole passage, then all that matter are read out
+/// at every point.
+pub(crate) struct Feeling<'a> {
+    field: &'a ModalField<'a>,
+    passage: &'a Passage,
+    /// Largest magnitude of every mode's shape over the points.
+    reach: Vec<f64>,
+}
+
+/// Weighed modes over some samples.
+struct Block {
+    /// One row of samples per mode.
+    rows: Vec<Vec<f32>>,
+    /// Largest magnitude of every mode over the whole span.
+    peaks: Vec<f64>,
+}
+
+impl<'a> Feeling<'a> {
+    pub fn of(field: &'a ModalField<'a>, passage: &'a Passage) -> Self {
+        let mut own = vec![Vec::new(); field.points.len().div_ceil(POINTS)];
+        field.for_chunks(&mut own, |weights, own| {
+            let largest = |m: usize| weights.col_as_slice(m).iter().fold(0.0, |r: f32, w| r.max(w.abs()));
+            *own = (0..weights.ncols()).map(largest).collect();
+        });
+        let most = |m: usize| own.iter().map(|chunk: &Vec<f32>| f64::from(chunk[m])).fold(0.0, f64::max);
+        Self { field, passage, reach: (0..field.modes()).map(most).collect() }
+    }
+
+    pub fn weighed(&self) -> Weighed {
+        let span = &self.passage.span;
+        let stride = (HELD / self.field.modes().max(1)).max(1);
+        let mut tallies: Vec<Tally> =
+            self.field.points.chunks(POINTS).map(|points| Tally::zeros(points.len())).collect();
+        let mut snapshots = vec![Vec::new(); self.passage.instants.len()];
+        for start in span.clone().step_by(stride) {
+            let part = start..span.end.min(start + stride);
+            let block = self.block(&part);
+            let most: Vec<f64> =
+                block.peaks.iter().zip(&self.reach).map(|(peak, reach)| peak * reach).collect();
+            let kept = kept(&most, self.passage.slack);
+            let states = Mat::from_fn(kept.len(), part.len(), |m, i| block.rows[kept[m]][i]);
+            drop(block);
+            let instants: Vec<usize> =
+                (0..snapshots.len()).filter(|i| part.contains(&self.passage.instants[*i])).collect();
+            let then = Mat::from_fn(kept.len(), instants.len(), |m, i| {
+                states[(m, self.passage.instants[instants[i]] - part.start)]
+            });
+            let mut read: Vec<(&mut Tally, Mat<f32>)> =
+                tallies.iter_mut().map(|tally| (tally, Mat::zeros(0, 0))).collect();
+            self.field.for_chunks(&mut read, |weights, (tally, values)| {
+                let own = Mat::from_fn(weights.nrows(), kept.len(), |p, m| weights[(p, kept[m])]);
+                add_to(tally, own.as_ref(), states.as_ref());
+                *values = own * &then;
+            });
+            for (column, instant) in instants.into_iter().enumerate() {
+                snapshots[instant] =
+                    read.iter().flat_map(|(_, values)| values.col_as_slice(column)).copied().collect();
+            }
+        }
+        let mut tally = Tally::default();
+        for own in tallies {
+            tally.peak.extend(own.peak);
+            tally.squares.extend(own.squares);
+        }
+        Weighed { tally, snapshots }
+    }
+
+    /// Every mode weighed, over part of the span.
+    fn block(&self, part: &Range<usize>) -> Block {
+        let Passage { taken, span, weighting, .. } = self.passage;
+        let modes = self.field.modes();
+        let together = (STATES / taken.len().max(1)).max(1);
+        let mut block = Block { rows: Vec::with_capacity(modes), peaks: Vec::with_capacity(modes) };
+        for first in (0..modes).step_by(together) {
+            let traces = self.traces(first..modes.min(first + together));
+            let weigh = |trace: &Vec<f64>| {
+                let felt = weighting.weigh(trace);
+                let at = |samples: &Range<usize>| samples.start - taken.start..samples.end - taken.start;
+                let peak = felt[at(span)].iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+                (felt[at(part)].iter().map(|x| *x as f32).collect::<Vec<f32>>(), peak)
+            };
+            let weighed: Vec<_> = traces.par_iter().map(weigh).collect();
+            for (row, peak) in weighed {
+                block.rows.push(row);
+                block.peaks.push(peak);
+            }
+        }
+        block
+    }
+
+    /// Displacement of some modes over the samples taken, a row for each.
+    fn traces(&self, modes: Range<usize>) -> Vec<Vec<f64>> {
+        let taken = &self.passage.taken;
+        let mut traces = vec![Vec::with_capacity(taken.len()); modes.len()];
+        let mut motion = Motion::of(self.field.responses, self.field.drive, modes);
+        motion.skip_to(taken.start, self.field.samples_at_once());
+        while motion.next() < taken.end {
+            let count = (taken.end - motion.next()).min(self.field.samples_at_once());
+            motion.advance(count, |displacement, _| {
+                traces.iter_mut().zip(displacement).for_each(|(trace, u)| trace.push(*u));
+            });
+        }
+        traces
+    }
+}
+
+/// The modes that matter, in order, from the largest magnitude of each anywhere and at any time. Those of the modes left out
+/// add up to at most `slack`, so that nothing is off by more.
+fn kept(most: &[f64], slack: f64) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..most.len()).collect();
+    order.sort_by(|a, b| most[*a].total_cmp(&most[*b]));
+    let mut sum = 0.0;
+    let dropped = order.iter().take_while(|m| {
+        sum += most[**m];
+        sum <= slack
+    });
+    let mut kept = order[dropped.count()..].to_vec();
+    kept.sort_unstable();
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_out_adds_up_to_the_slack_at_most() {
+        let most = [3.0, 0.25, 0.0, 0.5, 7.0, 0.5];
+        assert_eq!(kept(&most, 0.0), [0, 1, 3, 4, 5]);
+        assert_eq!(kept(&most, 0.3), [0, 3, 4, 5]);
+        assert_eq!(kept(&most, 1.25), [0, 4]);
+        assert_eq!(kept(&most, 100.0), [0; 0]);
+        assert_eq!(kept(&[], 1.0), [0; 0]);
+    }
+}

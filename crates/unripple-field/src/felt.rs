@@ -1,0 +1,131 @@
+use crate::Field;
+use crate::aim::Resolved;
+use crate::source::{Passage, Quantity, Tally};
+use std::ops::Range;
+use unripple_core::Point;
+use unripple_dsp::Weighting;
+
+/// By how much of the level at the target what is felt elsewhere may be off.
+const SLACK: f64 = 1e-4;
+
+/// One target's figures as felt, in dB; `None` where there is nothing to compare, and in silence.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Felt {
+    /// Largest magnitude at the target, above the threshold.
+    pub level_db: Option<f64>,
+    /// The sample at which that is.
+    pub extreme: usize,
+    /// Over the rms of the outside points at that sample.
+    pub contrast_db: Option<f64>,
+    /// Over the rms of the outside points and the span.
+    pub background_db: Option<f64>,
+    /// Over the largest magnitude of the outside points and the span.
+    pub worst_spot_db: Option<f64>,
+}
+
+/// What is felt of a field.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct AllFelt {
+    /// One per aim.
+    pub targets: Vec<Felt>,
+    /// Largest magnitude at every point over all spans, in units of the threshold.
+    pub peak: Vec<f32>,
+}
+
+/// Displacement weighed by 1/threshold(f), judged at every aim; without aims, over `spans` for the map alone.
+///
+/// A single pulse in focus at T is weighed from −T to 3T: at rest before the drive's first sample at 0, and again at rest where
+/// what is taken ends. A repeated one is weighed as if its last period had always been.
+pub(crate) fn felt(
+    field: &Field<'_>,
+    aims: &[Resolved],
+    spans: &[Range<usize>],
+    period: Option<usize>,
+    outside: &[bool],
+) -> AllFelt {
+    let mut all =
+        AllFelt { targets: vec![Felt::default(); aims.len()], peak: vec![0.0; field.points().len()] };
+    for (mut passage, members) in passages(field, aims, spans, period) {
+        let own = own(field, members.iter().map(|i| &aims[*i]), &passage);
+        passage.slack = SLACK * own.iter().map(|own| own.1).reduce(f64::min).unwrap_or(0.0);
+        passage.instants = own.iter().map(|own| own.0).collect();
+        let weighed = field.source.weighed(&passage);
+        for ((i, own), snapshot) in members.iter().zip(own).zip(&weighed.snapshots) {
+            all.targets[*i] = figures(own, snapshot, &weighed.tally, outside, passage.span.len());
+        }
+        all.peak.iter_mut().zip(&weighed.tally.peak).for_each(|(peak, own)| *peak = peak.max(*own));
+    }
+    all
+}
+
+/// What is to be weighed, and the aims that each passage serves.
+fn passages(
+    field: &Field<'_>,
+    aims: &[Resolved],
+    spans: &[Range<usize>],
+    period: Option<usize>,
+) -> Vec<(Passage, Vec<usize>)> {
+    let mut found: Vec<(Passage, Vec<usize>)> = Vec::new();
+    for (i, span) in spans.iter().enumerate() {
+        let focal = aims.get(i).map_or(field.drive.samples() - 1, |aim| aim.instant);
+        let taken = if period.is_some() { span.clone() } else { 0..3 * focal + 1 };
+        let member = aims.get(i).map(|_| i);
+        let same = |(passage, _): &&mut (Passage, _)| (&passage.span, &passage.taken) == (span, &taken);
+        if let Some((_, members)) = found.iter_mut().find(same) {
+            members.extend(member);
+            continue;
+        }
+        let (threshold, rate) = (&field.threshold, field.rate());
+        let weighting = match period {
+            Some(_) => Weighting::periodic(threshold, rate, taken.len()),
+            None => Weighting::padded(threshold, rate, taken.len(), focal),
+        };
+        let passage = Passage { taken, span: span.clone(), instants: Vec::new(), weighting, slack: 0.0 };
+        found.push((passage, member.into_iter().collect()));
+    }
+    found
+}
+
+/// At each aim, the sample at which it is felt most and the magnitude then, in units of the threshold.
+fn own<'a>(
+    field: &Field<'_>,
+    aims: impl Iterator<Item = &'a Resolved>,
+    passage: &Passage,
+) -> Vec<(usize, f64)> {
+    let sets: Vec<Vec<Point>> = aims.map(|aim| aim.points.clone()).collect();
+    let Passage { taken, span, weighting, .. } = passage;
+    let traces = field.source.traces(&sets, taken.clone());
+    let largest = |felt: &[f64]| {
+        let within = span.clone().map(|i| (i, felt[i - taken.start].abs()));
+        within.fold((span.start, 0.0), |best, own| if own.1 > best.1 { own } else { best })
+    };
+    traces.iter().map(|trace| largest(&weighting.weigh(trace.of(Quantity::Displacement)))).collect()
+}
+
+fn figures(
+    (extreme, level): (usize, f64),
+    then: &[f32],
+    tally: &Tally,
+    outside: &[bool],
+    samples: usize,
+) -> Felt {
+    let points = || outside.iter().enumerate().filter(|(_, out)| **out).map(|(point, _)| point);
+    let count = points().count().max(1) as f64;
+    let rms = |squares: f64, count: f64| (squares / count).sqrt();
+    let now = rms(points().map(|p| f64::from(then[p]).powi(2)).sum(), count);
+    let background = rms(points().map(|p| tally.squares[p]).sum(), count * samples as f64);
+    let worst = points().map(|p| f64::from(tally.peak[p])).fold(0.0, f64::max);
+    let over = |other: f64| (level > 0.0 && other > 0.0).then(|| decibels(level / other));
+    Felt {
+        level_db: over(1.0),
+        extreme,
+        contrast_db: over(now),
+        background_db: over(background),
+        worst_spot_db: over(worst),
+    }
+}
+
+/// 20 log10 of a ratio.
+pub(crate) fn decibels(ratio: f64) -> f64 {
+    20.0 * ratio.log10()
+}
