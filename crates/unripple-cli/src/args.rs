@@ -158,6 +158,15 @@ pub struct FocusOptions {
     /// A finger resting at X,Y in mm while the drive is judged: the drive is what it would be without. Repeatable.
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     pub finger: Vec<String>,
+    /// Make the drive for the surface under those fingers.
+    #[arg(long)]
+    pub finger_aware: bool,
+    /// For `robust`: bear a tension off by this many per cent, up and down.
+    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true)]
+    pub bear_tension_percent: Option<f64>,
+    /// For `robust`: bear a finger at X,Y in mm that may be there or not. Repeatable.
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    pub bear_finger: Vec<String>,
     /// Judge the drive on another surface than the one it was computed for.
     #[arg(long, value_name = "SURFACE")]
     pub on: Option<String>,

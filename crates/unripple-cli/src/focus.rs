@@ -1,6 +1,7 @@
 //! `unripple focus`: a drive, its report and its figures.
 
 use crate::args::{FocusOptions, LossName};
+use crate::aware::Aware;
 use crate::error::CliError;
 use crate::figures::{self, Scene};
 use crate::fingers::{self, Felt};
@@ -11,7 +12,7 @@ use crate::targets::{self, positive, seconds};
 use crate::{input, output};
 use unripple::core::{ActuatorKind, Contact, Decay, Drive, Responses, Surface};
 use unripple::field::{Aim, Field};
-use unripple::focus::{Focused, LossCorrection, Options, Target, focus};
+use unripple::focus::{Focused, LossCorrection, Options, Target};
 use unripple::physics::design::recommended_window;
 use unripple_store::{OutputDir, write_wav};
 
@@ -22,7 +23,8 @@ pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
     let responses = judge::model(&surface, None, &[])?;
     let targets = targets::all(&options.targets, responses.conditions().lambda_min)?;
     let settings = settings(options, &surface, &responses)?;
-    let focused = focus(&responses, &targets, &settings).map_err(CliError::input)?;
+    let aware = Aware::of(options, &surface)?;
+    let focused = aware.focus(&responses, &targets, &settings)?;
 
     let judged_surface = plant.as_ref().unwrap_or(&surface);
     let other = plant.is_some() || options.judge_hz.is_some();
@@ -37,6 +39,7 @@ pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
 
     let mut report = Report::new("focus", &surface, &drive, &judged);
     report.fingers = felt;
+    report.notes.extend(aware.note(&responses, &targets, &settings, &focused)?);
     report.judged_on = other.then(|| judged_on(judged_surface, options.judge_hz));
     report.method = Some(focused.method.name());
     report.window_s = Some(settings.window);

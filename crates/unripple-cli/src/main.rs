@@ -1,6 +1,7 @@
 //! `unripple`: time-reversed focusing of touch, from the command line.
 
 mod args;
+mod aware;
 mod check;
 mod compare;
 mod design;

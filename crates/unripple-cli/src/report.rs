@@ -40,7 +40,7 @@ pub struct Report {
     outside_points: usize,
     /// The highest level felt outside the focal discs, in dB above the threshold of touch.
     felt_outside_db: Option<f64>,
-    notes: Vec<Note>,
+    pub notes: Vec<Note>,
     pub files: Vec<String>,
 }
 

@@ -2,7 +2,8 @@
 
 mod common;
 
-use common::{Scratch, json, number, run};
+use common::{Scratch, json, number, refused, run};
+use serde_json::Value;
 
 const FIGURES: [&str; 19] = [
     "peak_velocity_m_s",
@@ -234,4 +235,21 @@ fn actuators_may_lie_on_top_of_each_other() {
     assert!((two / one - 2.0).abs() < 1e-6, "{one} {two}");
     let three = peak("coils.toml", &coil.repeat(3));
     assert!(three > 0.0 && three.is_finite());
+}
+
+#[test]
+fn a_drive_may_know_of_the_finger() {
+    let scratch = Scratch::new("aware");
+    let out = scratch.join("out");
+    let common =
+        ["focus", "hudin-2012", "--at", "62,90", "--window-ms", "20", "--finger", "62,90", "-o", &out];
+    let peak = |report: &Value| number(report, "/targets/0/peak_velocity_m_s").abs();
+    let unaware = json(&common);
+    let aware = json(&[&common[..], &["--finger-aware"]].concat());
+    assert!(peak(&aware) > 1.5 * peak(&unaware));
+    let notes = aware["notes"].as_array().unwrap();
+    assert!(notes.iter().any(|note| note["topic"] == "fingers"), "{notes:?}");
+    assert!(refused(&[&common[..6], &["--finger-aware", "-o", &out]].concat(), 2).contains("--finger"));
+    let wide = [&common[..], &["--method", "robust", "--bear-tension-percent", "60"]].concat();
+    assert!(refused(&wide, 2).contains("below 50"));
 }
