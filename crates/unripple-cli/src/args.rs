@@ -140,6 +140,9 @@ pub struct FocusOptions {
     /// For `limited`: from the level of the unlimited drive (0) to that of one-bit (1).
     #[arg(long, value_name = "SHARE", default_value_t = 0.5, allow_negative_numbers = true)]
     pub push: f64,
+    /// Largest rms of all actuators together, in the drive's unit.
+    #[arg(long, value_name = "RMS", allow_negative_numbers = true)]
+    pub total_rms: Option<f64>,
     /// For `robust`: the stretch of frequencies to be borne up and down, in per cent.
     #[arg(long, value_name = "PERCENT", default_value_t = 0.5, allow_negative_numbers = true)]
     pub spread_percent: f64,

@@ -86,6 +86,7 @@ fn settings(options: &FocusOptions, surface: &Surface, responses: &Responses) ->
         window,
         limit: surface.emission.limit,
         rms_limit: surface.emission.rms_limit,
+        total_rms: options.total_rms,
         loss,
         duration: seconds(options.duration_ms, "--duration-ms")?,
         ..Options::default()

@@ -207,25 +207,30 @@ impl<'r> Focuser<'r> {
         }
     }
 
-    /// Brings the drive to the limits: its peak to `limit`, then its largest rms down to `rms_limit`.
+    /// Brings the drive to the limits: its peak to `limit`, then down to the rms limits.
     fn limit(&self, channels: &mut [Vec<f64>]) -> Result<(), FocusError> {
         let limit = self.options.limit;
         let peak = channels.iter().map(|channel| peak(channel)).fold(0.0, f64::max);
         let usable = peak.is_finite() && peak > 0.0;
         crate::error::require("peak of the unscaled drive", usable, "a positive finite number", peak)?;
+        let power = self.options.rms_limit.is_some() || self.options.total_rms.is_some();
         let shape = |d: f64| match self.options.method {
             Method::OneBit if d == 0.0 => 0.0,
             Method::OneBit => limit.copysign(d),
+            // It keeps all limits already, and may stay below the peak for the sake of the rms.
+            Method::Limited if power && peak <= limit * (1.0 + 1e-9) => d.clamp(-limit, limit),
             _ => d / peak * limit,
         };
         for channel in channels.iter_mut() {
             channel.iter_mut().for_each(|d| *d = shape(*d));
         }
-        let Some(rms_limit) = self.options.rms_limit else { return Ok(()) };
-        let rms = |channel: &Vec<f64>| (energy(channel) / channel.len() as f64).sqrt();
-        let rms = channels.iter().map(rms).fold(0.0, f64::max);
-        if rms > rms_limit {
-            channels.iter_mut().flatten().for_each(|d| *d *= rms_limit / rms);
+        let squares: Vec<f64> = channels.iter().map(|c| energy(c) / c.len() as f64).collect();
+        let largest = squares.iter().copied().fold(0.0, f64::max).sqrt();
+        let together = squares.iter().sum::<f64>().sqrt();
+        let share = |limit: Option<f64>, found: f64| limit.map_or(1.0, |limit| limit / found);
+        let scale = share(self.options.rms_limit, largest).min(share(self.options.total_rms, together));
+        if scale < 1.0 {
+            channels.iter_mut().flatten().for_each(|d| *d *= scale);
         }
         Ok(())
     }

@@ -28,6 +28,8 @@ const BISECTIONS: usize = 60;
 pub(crate) struct Limits {
     pub peak: f64,
     pub rms: Option<f64>,
+    /// Of all channels together: √(Σ mean d²).
+    pub total_rms: Option<f64>,
     /// From the level that the unlimited drive reaches when scaled to the limit (0) to that of one-bit (1). Several targets
     /// may not reach the latter together: then the way there is halved until they do.
     pub push: f64,
@@ -99,9 +101,12 @@ impl Limits {
     /// How many times a drive fits the limits.
     fn scale(&self, drive: &[f64]) -> f64 {
         let mut most = drive.iter().fold(0.0_f64, |m, d| m.max(d.abs())) / self.peak;
+        let rms = |c: &[f64]| (c.iter().map(|d| d * d).sum::<f64>() / self.samples as f64).sqrt();
         if let Some(limit) = self.rms {
-            let rms = |c: &[f64]| (c.iter().map(|d| d * d).sum::<f64>() / self.samples as f64).sqrt();
             most = drive.chunks_exact(self.samples).fold(most, |m, c| m.max(rms(c) / limit));
+        }
+        if let Some(limit) = self.total_rms {
+            most = most.max(rms(drive) / limit);
         }
         1.0 / most
     }
@@ -120,26 +125,38 @@ impl Limits {
         fit * ratios.map(|(reached, wanted)| reached / wanted).fold(f64::INFINITY, f64::min)
     }
 
-    /// Clips a channel's `q/ε` to the limits; returns 1/(ε + ν).
-    fn clip(&self, channel: &mut [f64], energy: f64) -> f64 {
-        let Some(limit) = self.rms else {
-            channel.iter_mut().for_each(|d| *d = (*d / energy).clamp(-self.peak, self.peak));
-            return 1.0 / energy;
+    /// For each channel 1/(ε + ν), ν the price of its rms limit and of that of all together; `forced` is `Wᵀ(P μ - B η)`.
+    fn slopes(&self, forced: &[f64], energy: f64) -> Vec<f64> {
+        let each = |start: f64| -> Vec<f64> {
+            let channels = forced.chunks_exact(self.samples);
+            channels
+                .map(|channel| self.within(start, self.rms, |slope| self.square(channel, slope)))
+                .collect()
         };
-        let most = limit * limit * self.samples as f64;
-        let square = |slope: f64| -> f64 {
-            channel.iter().map(|q| (q * slope).clamp(-self.peak, self.peak).powi(2)).sum()
+        let all = |start: f64| -> f64 {
+            let channels = forced.chunks_exact(self.samples);
+            channels.zip(each(start)).map(|(channel, slope)| self.square(channel, slope)).sum()
         };
-        let mut slope = 1.0 / energy;
-        if square(slope) > most {
-            let (mut low, mut high) = (0.0, slope);
-            for _ in 0..BISECTIONS {
-                slope = 0.5 * (low + high);
-                if square(slope) > most { high = slope } else { low = slope }
-            }
+        each(self.within(1.0 / energy, self.total_rms, all))
+    }
+
+    /// The largest slope up to `start` whose sum of squares keeps an rms limit.
+    fn within(&self, start: f64, limit: Option<f64>, square: impl Fn(f64) -> f64) -> f64 {
+        let Some(most) = limit.map(|limit| limit * limit * self.samples as f64) else { return start };
+        if square(start) <= most {
+            return start;
         }
-        channel.iter_mut().for_each(|d| *d = (*d * slope).clamp(-self.peak, self.peak));
-        slope
+        let (mut low, mut high) = (0.0, start);
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (low + high);
+            if square(middle) > most { high = middle } else { low = middle }
+        }
+        low
+    }
+
+    /// Σd² of a channel clipped to its peak.
+    fn square(&self, channel: &[f64], slope: f64) -> f64 {
+        channel.iter().map(|q| (q * slope).clamp(-self.peak, self.peak).powi(2)).sum()
     }
 }
 
@@ -186,11 +203,13 @@ impl Program<'_> {
         let forced = self.map.transpose() * &push;
         let mut drive = forced.col_as_slice(0).to_vec();
         let mut slopes = vec![0.0; drive.len()];
-        let samples = self.limits.samples;
-        for (channel, slopes) in drive.chunks_exact_mut(samples).zip(slopes.chunks_exact_mut(samples)) {
-            let slope = self.limits.clip(channel, self.energy);
-            let free = channel.iter().zip(slopes).filter(|(d, _)| d.abs() < self.limits.peak);
-            free.for_each(|(_, to)| *to = slope);
+        let (samples, peak) = (self.limits.samples, self.limits.peak);
+        let channels = drive.chunks_exact_mut(samples).zip(slopes.chunks_exact_mut(samples));
+        for ((channel, to), slope) in channels.zip(self.limits.slopes(forced.col_as_slice(0), self.energy)) {
+            for (d, to) in channel.iter_mut().zip(to) {
+                *d = (*d * slope).clamp(-peak, peak);
+                *to = if d.abs() < peak { slope } else { 0.0 };
+            }
         }
         let state = &self.map * MatRef::from_column_major_slice(&drive, drive.len(), 1);
         let cost = -0.5 * (eta.transpose() * &omega)[(0, 0)];

@@ -95,6 +95,9 @@ pub struct Options {
     pub limit: f64,
     /// Largest rms per actuator over the whole drive, in the drive's unit. A drive above it is scaled down as a whole.
     pub rms_limit: Option<f64>,
+    /// Largest rms of all actuators together, √(Σ mean d²) in the drive's unit: the square root of the power that they may take.
+    /// A drive above it is scaled down as a whole.
+    pub total_rms: Option<f64>,
     /// How far from time reversal (0) to the method's own limit (1); `None` for [`Method::strength`]. Nothing to time
     /// reversal and one-bit.
     pub strength: Option<f64>,
@@ -122,6 +125,7 @@ impl Default for Options {
             window: 30e-3,
             limit: 1.0,
             rms_limit: None,
+            total_rms: None,
             strength: None,
             push: 0.5,
             spread: 0.005,
@@ -140,8 +144,9 @@ impl Options {
         require("window (s)", positive(self.window), "a positive number", self.window)?;
         require("limit", positive(self.limit), "a positive number", self.limit)?;
         require("accuracy", positive(self.accuracy), "a positive number", self.accuracy)?;
-        if let Some(rms) = self.rms_limit {
-            require("rms limit", positive(rms), "a positive number", rms)?;
+        for (what, rms) in [("rms limit", self.rms_limit), ("total rms limit", self.total_rms)] {
+            let rms = rms.unwrap_or(1.0);
+            require(what, positive(rms), "a positive number", rms)?;
         }
         if let Some(duration) = self.duration {
             require("duration (s)", positive(duration), "a positive number", duration)?;

@@ -54,6 +54,7 @@ impl<'r> Planned<'r> {
         let limits = Limits {
             peak: self.options.limit,
             rms: self.options.rms_limit,
+            total_rms: self.options.total_rms,
             push: self.options.push,
             samples: self.state.length(),
         };

@@ -162,12 +162,23 @@ fn limited_is_optimal_within_its_limits() {
 }
 
 #[test]
-fn limited_keeps_the_rms_of_each_actuator() {
-    let options = Options { push: 0.6, rms_limit: Some(0.35), ..options(Method::Limited, 0.95) };
-    let drive = focus(&Membrane::small().responses(), &[Target::at(target())], &options).unwrap().drive;
-    let rms = |c: &Vec<f64>| (c.iter().map(|d| d * d).sum::<f64>() / c.len() as f64).sqrt();
-    let most = drive.channels().iter().map(rms).fold(0.0, f64::max);
-    assert!(drive.peak() <= 1.0 && (most - 0.35).abs() < 1e-6, "{} {most}", drive.peak());
+fn limited_keeps_every_rms() {
+    let responses = Membrane::small().responses();
+    let square = |c: &Vec<f64>| c.iter().map(|d| d * d).sum::<f64>() / c.len() as f64;
+    let squares = |options: Options| -> Vec<f64> {
+        let drive = focus(&responses, &[Target::at(target())], &options).unwrap().drive;
+        assert!(drive.peak() <= 1.0);
+        drive.channels().iter().map(square).collect()
+    };
+    let plain = Options { push: 0.6, ..options(Method::Limited, 0.95) };
+    let each = squares(Options { rms_limit: Some(0.35), ..plain.clone() });
+    let most = each.iter().copied().fold(0.0, f64::max).sqrt();
+    assert!((most - 0.35).abs() < 1e-6, "{most}");
+    let together = squares(Options { total_rms: Some(0.5), ..plain.clone() }).iter().sum::<f64>().sqrt();
+    assert!((together - 0.5).abs() < 1e-6, "{together}");
+    let both = squares(Options { rms_limit: Some(0.3), total_rms: Some(0.4), ..plain });
+    assert!(both.iter().all(|square| square.sqrt() < 0.3 + 1e-6));
+    assert!(both.iter().sum::<f64>().sqrt() < 0.4 + 1e-6);
 }
 
 /// The drive of one period against the sum of many, written out.
