@@ -64,7 +64,7 @@ pub struct ModesOptions {
 }
 
 /// Where to focus, and how strongly.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub struct TargetOptions {
     /// A point in mm, with an optional gain and repetition rate in Hz. Repeatable.
     #[arg(long, value_name = "X,Y[,GAIN[,HZ]]", allow_hyphen_values = true)]
@@ -79,6 +79,21 @@ pub struct TargetOptions {
     /// gives.
     #[arg(long, value_name = "L", allow_negative_numbers = true, conflicts_with = "peak_um")]
     pub felt_db: Option<f64>,
+    /// A waveform at a point in mm: sine:HZ,MS, burst:HZ,CYCLES, click:MS or a WAV file, with its peak in µm. Repeatable.
+    #[arg(long, value_name = "X,Y,WHAT[,UM]", allow_hyphen_values = true)]
+    pub waveform: Vec<String>,
+    /// A point in mm that is to be still while waveforms are played. Repeatable.
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    pub silent: Vec<String>,
+    /// A path in mm that a focus moves along: line:X1,Y1,X2,Y2, a shape as above, or an SVG file.
+    #[arg(long, value_name = "PATH")]
+    pub path: Option<String>,
+    /// How fast it moves, in mm/s.
+    #[arg(long, value_name = "V", allow_negative_numbers = true)]
+    pub speed_mm_s: Option<f64>,
+    /// Velocity of its pulses, in mm/s; 10 by default.
+    #[arg(long, value_name = "V", allow_negative_numbers = true)]
+    pub level_mm_s: Option<f64>,
 }
 
 /// Methods by the names the command line and reports use.

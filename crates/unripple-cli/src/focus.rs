@@ -9,7 +9,7 @@ use crate::judge::{self, CELLS, Judged};
 use crate::level::felt_gain;
 use crate::report::{self, Report};
 use crate::targets::{self, positive, seconds};
-use crate::{input, output};
+use crate::{input, output, played, waveforms};
 use unripple::core::{ActuatorKind, Contact, Decay, Drive, Responses, Surface};
 use unripple::field::{Aim, Field};
 use unripple::focus::{Focused, LossCorrection, Options, Target};
@@ -17,6 +17,10 @@ use unripple::physics::design::recommended_window;
 use unripple_store::{OutputDir, write_wav};
 
 pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
+    waveforms::check(options)?;
+    if !options.targets.waveform.is_empty() || options.targets.path.is_some() {
+        return played::run(options, as_json);
+    }
     let surface = input::surface(&options.surface)?;
     let plant = options.on.as_deref().map(input::surface).transpose()?;
     let out = OutputDir::create(&options.output)?;

@@ -15,9 +15,11 @@ mod judge;
 mod level;
 mod modes;
 mod output;
+mod played;
 mod report;
 mod reproduce;
 mod targets;
+mod waveforms;
 
 use args::{Arguments, Command};
 use clap::Parser;

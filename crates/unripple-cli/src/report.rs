@@ -2,11 +2,12 @@
 
 use crate::fingers::Felt;
 use crate::judge::{Judged, Note};
+use crate::played::{self, Followed, Stroked};
 use serde::Serialize;
 use std::fmt::Write;
 use unripple::Touch;
 use unripple::core::{Actuator, ActuatorKind, Drive, Surface};
-use unripple::field::{DriveFigures, TakenOn, TargetFigures, Threshold};
+use unripple::field::{DriveFigures, SilenceFigures, TakenOn, TargetFigures, Threshold};
 use unripple::physics::design::Linearity;
 
 /// Everything said about one drive on one surface. Lengths in metres, times in seconds, drive in its own unit.
@@ -27,6 +28,15 @@ pub struct Report {
     sample_rate_hz: f64,
     actuators: Vec<Channel>,
     targets: Vec<TargetFigures>,
+    /// Waveforms at targets, where they were asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub waveforms: Vec<Followed>,
+    /// Points that were to be silent meanwhile.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub silent: Vec<SilenceFigures>,
+    /// A focus that was to move.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stroke: Option<Stroked>,
     /// Fingers that rest on the surface.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub fingers: Vec<Felt>,
@@ -70,6 +80,9 @@ impl Report {
             sample_rate_hz: drive.rate(),
             actuators: surface.actuators.iter().map(channel).collect(),
             targets: measured.targets.clone(),
+            waveforms: Vec::new(),
+            silent: Vec::new(),
+            stroke: None,
             fingers: Vec::new(),
             linearity: judged.linearity,
             drive: measured.drive.clone(),
@@ -100,6 +113,8 @@ impl Report {
                 let _ = writeln!(text, "  {name:<22}{velocity:>16}{displacement:>18}{felt:>14}");
             }
         }
+        let played = played::lines(&self.waveforms, &self.silent, self.stroke.as_ref());
+        played.iter().for_each(|line| text.extend(["\n", line, "\n"]));
         for finger in &self.fingers {
             let _ = writeln!(text, "\n{}", finger_line(finger));
         }
@@ -134,6 +149,8 @@ impl Report {
             }
             text.push('\n');
         }
+        let played = played::lines(&self.waveforms, &self.silent, self.stroke.as_ref());
+        played.iter().for_each(|line| text.extend([line, "\n\n"]));
         for finger in &self.fingers {
             let _ = writeln!(text, "{}\n", finger_line(finger));
         }

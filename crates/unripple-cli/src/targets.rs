@@ -55,7 +55,7 @@ pub fn seconds(ms: Option<f64>, option: &str) -> Result<Option<f64>, CliError> {
 pub fn all(options: &TargetOptions, lambda_min: f64) -> Result<Vec<Target>, CliError> {
     let mut targets = options.at.iter().map(|text| point(text)).collect::<Result<Vec<_>, _>>()?;
     for text in &options.shape {
-        let points = pattern(text)?
+        let points = pattern(text, "--shape")?
             .sample(Pattern::pitch(lambda_min))
             .map_err(|error| CliError::Input(format!("--shape {text}: {error}")))?;
         targets.push(Target::of(points));
@@ -79,10 +79,10 @@ fn point(text: &str) -> Result<Target, CliError> {
 }
 
 /// `triangle:X,Y,SIZE` and `circle:X,Y,R` are outlines; an SVG file says by itself what is filled and what is stroked.
-fn pattern(text: &str) -> Result<Pattern, CliError> {
+pub fn pattern(text: &str, option: &str) -> Result<Pattern, CliError> {
     let form = |rest: &str, name: &str| {
-        let values = numbers(rest, &format!("--shape {name}"), "X,Y and a size in mm", 3, 3)?;
-        let size = positive(values[2], &format!("--shape {text}: size"), "mm")?;
+        let values = numbers(rest, &format!("{option} {name}"), "X,Y and a size in mm", 3, 3)?;
+        let size = positive(values[2], &format!("{option} {text}: size"), "mm")?;
         Ok((Point::from_mm(values[0], values[1]), size / 1e3))
     };
     if let Some(rest) = text.strip_prefix("triangle:") {
@@ -90,11 +90,11 @@ fn pattern(text: &str) -> Result<Pattern, CliError> {
     } else if let Some(rest) = text.strip_prefix("circle:") {
         form(rest, "circle:").map(|(centre, radius)| Pattern::circle(centre, radius))
     } else {
-        drawn(text)
+        drawn(text, option)
     }
 }
 
-fn drawn(file: &str) -> Result<Pattern, CliError> {
+fn drawn(file: &str, option: &str) -> Result<Pattern, CliError> {
     let drawing = Drawing::read(file, TOLERANCE)?;
     let filled = drawing.shapes.iter().any(|shape| shape.fill.is_some());
     let meant = drawing.shapes.iter().filter(|shape| shape.fill.is_some() == filled);
@@ -104,7 +104,7 @@ fn drawn(file: &str) -> Result<Pattern, CliError> {
         .collect();
     if lines.is_empty() {
         return Err(CliError::Input(format!(
-            "--shape {file}: expected a filled or stroked path, found none"
+            "{option} {file}: expected a filled or stroked path, found none"
         )));
     }
     Ok(Pattern { lines, filled })
@@ -116,7 +116,7 @@ mod tests {
 
     fn options(at: &[&str], shape: &[&str]) -> TargetOptions {
         let owned = |list: &[&str]| list.iter().map(|s| (*s).to_owned()).collect();
-        TargetOptions { at: owned(at), shape: owned(shape), peak_um: None, felt_db: None }
+        TargetOptions { at: owned(at), shape: owned(shape), ..TargetOptions::default() }
     }
 
     #[test]

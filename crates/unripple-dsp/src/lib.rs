@@ -2,6 +2,7 @@
 
 mod convolve;
 mod error;
+mod integral;
 mod interpolate;
 mod kernel;
 mod spectrum;
@@ -11,6 +12,7 @@ mod weighting;
 
 pub use convolve::{Convolver, convolve};
 pub use error::DspError;
+pub use integral::integral;
 pub use realfft::num_complex::Complex;
 pub use spectrum::share_above;
 pub use synth::ModalSynth;

@@ -58,6 +58,7 @@ mod sampled;
 mod source;
 mod spot;
 mod steepness;
+mod waveform;
 
 pub use aim::{Aim, MeasureOptions};
 pub use error::FieldError;
@@ -68,3 +69,4 @@ pub use measure::measure;
 pub use source::Trace;
 pub use steepness::Steepness;
 pub use unripple_dsp::Threshold;
+pub use waveform::{SilenceFigures, Wanted, WaveformFigures};

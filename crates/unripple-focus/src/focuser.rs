@@ -1,8 +1,9 @@
 use crate::planned::Planned;
 use crate::recording::{Recorder, Recording, energy, peak};
 use crate::schedule::{self, MOST_SAMPLES, Schedule};
+use crate::settle::settle;
 use crate::{FocusError, LossCorrection, Method, Options, Target, Timing, target};
-use unripple_core::{Drive, Point, Pole, Responses, window_samples};
+use unripple_core::{Drive, Point, Responses, window_samples};
 
 /// Decay after which the past no longer matters to a repeated drive, in nepers: to 1/1000.
 const SETTLED: f64 = 6.9;
@@ -172,21 +173,9 @@ impl<'r> Focuser<'r> {
             window: self.window,
             channels: self.responses.ports().len(),
             duration: self.options.duration.map(|seconds| window_samples(seconds, rate)),
-            settle: self.settle(),
+            settle: settle(self.responses, SETTLED),
         };
         Schedule::plan(&rates, conditions)
-    }
-
-    /// Samples until the slowest mode has died out, or responses end.
-    fn settle(&self) -> Option<usize> {
-        match self.responses {
-            Responses::Modal(modal) => {
-                let slowest = modal.poles.iter().map(slowest_decay).fold(f64::INFINITY, f64::min);
-                let samples = SETTLED / slowest * modal.conditions.rate;
-                (samples < MOST_SAMPLES as f64).then_some(samples.ceil() as usize)
-            }
-            Responses::Sampled(sampled) => Some(sampled.samples()),
-        }
     }
 
     fn correct(&self, recording: &mut Recording) {
@@ -252,12 +241,6 @@ fn add(drive: &[f64], timing: Timing, window: usize, channels: &mut [Vec<f64>]) 
             }
         }
     }
-}
-
-/// Decay rate of the slower part of a mode, in 1/s.
-fn slowest_decay(pole: &Pole) -> f64 {
-    let square = (pole.sigma - pole.omega) * (pole.sigma + pole.omega);
-    pole.sigma - square.max(0.0).sqrt()
 }
 
 /// The drive that focuses on `targets` through `responses`, at the responses' rate, one channel per actuator.

@@ -6,7 +6,8 @@
 //! # In reading order
 //!
 //! [`Target`] says what is to be felt and where, [`Pattern`] turns shapes into the points of one, [`Options`] and its
-//! [`Method`] say how, [`focus`] makes the drive, and [`Focuser`] makes many for one surface.
+//! [`Method`] say how, [`focus`] makes the drive, and [`Focuser`] makes many for one surface. [`play`] makes places follow
+//! whole waveforms, [`strike`] gives many pulses their levels, and a [`Stroke`] is the pulses of a focus that moves.
 //!
 //! ```
 //! use faer::Mat;
@@ -43,20 +44,29 @@
 
 mod error;
 mod focuser;
+mod gains;
+mod level;
 mod limited;
 mod modal;
 mod objective;
 mod options;
 mod pattern;
 mod planned;
+mod pulses;
 mod recording;
 mod schedule;
+mod settle;
 mod state;
+mod stroke;
 mod target;
+pub mod waveform;
 
 pub use error::FocusError;
 pub use focuser::{Focused, Focuser, focus};
 pub use options::{LossCorrection, Method, Options};
 pub use pattern::{Line, Pattern};
+pub use pulses::{Pulse, PulseOptions, Struck, strike};
 pub use schedule::Timing;
+pub use stroke::Stroke;
 pub use target::Target;
+pub use waveform::{PlayOptions, Played, Quantity, Waveform, play};

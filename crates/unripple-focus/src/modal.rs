@@ -9,7 +9,7 @@ use unripple_dsp::ModalSynth;
 const VALUES_AT_ONCE: usize = 1 << 22;
 
 /// A shape weight below this share of those elsewhere on the surface is rounding error, not motion.
-const REST: f64 = 1e-9;
+pub(crate) const REST: f64 = 1e-9;
 
 /// Accuracy for which single precision is enough.
 const SINGLE: f64 = 1e-6;
@@ -33,13 +33,7 @@ pub(crate) struct ModalRecorder<'r> {
 
 impl<'r> ModalRecorder<'r> {
     pub fn plan(responses: &'r ModalResponses, length: usize, options: &Options) -> Self {
-        let (width, height) = responses.conditions.outline.extent();
-        let lattice = (0..25).map(|i| {
-            let at = |cell: usize| (cell as f64 + 0.4) / 5.0;
-            Point::new(width * at(i % 5), height * at(i / 5))
-        });
-        let inside: Vec<Point> = lattice.filter(|p| responses.conditions.outline.contains(*p)).collect();
-        let usual = largest(responses.shapes.at_all(&inside).as_ref());
+        let usual = usual(responses);
         let (lossless, accuracy) = (options.loss == LossCorrection::PerMode, options.accuracy);
         let planned = !lossless && responses.poles.len().saturating_mul(length) <= PLANNED;
         let rate = responses.conditions.rate;
@@ -131,7 +125,18 @@ impl<'r> ModalRecorder<'r> {
     }
 }
 
-fn largest(weights: MatRef<'_, f64>) -> f64 {
+/// Size of the shape weights where the surface does move: the largest over a lattice.
+pub(crate) fn usual(responses: &ModalResponses) -> f64 {
+    let (width, height) = responses.conditions.outline.extent();
+    let lattice = (0..25).map(|i| {
+        let at = |cell: usize| (cell as f64 + 0.4) / 5.0;
+        Point::new(width * at(i % 5), height * at(i / 5))
+    });
+    let inside: Vec<Point> = lattice.filter(|p| responses.conditions.outline.contains(*p)).collect();
+    largest(responses.shapes.at_all(&inside).as_ref())
+}
+
+pub(crate) fn largest(weights: MatRef<'_, f64>) -> f64 {
     (0..weights.ncols())
         .flat_map(|m| (0..weights.nrows()).map(move |p| weights[(p, m)].abs()))
         .fold(0.0, f64::max)

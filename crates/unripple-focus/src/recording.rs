@@ -105,7 +105,7 @@ impl<'r> SampledRecorder<'r> {
         let mut energies = 0.0;
         let mut used = Vec::with_capacity(points.len());
         for &at in points {
-            let stored = self.locate(target, at)?;
+            let stored = locate(self.responses, target, at)?;
             used.push(self.responses.points[stored]);
             for (actuator, row) in sum.chunks_exact_mut(self.length).enumerate() {
                 let response = &self.responses.response(actuator, stored)[..self.length];
@@ -117,22 +117,22 @@ impl<'r> SampledRecorder<'r> {
         }
         Ok((sum, energies, used))
     }
+}
 
-    /// Index of the stored point that stands for a place: the nearest, at most λ_min/4 away, where a focus still has
-    /// most of its height.
-    pub fn locate(&self, target: usize, at: Point) -> Result<usize, FocusError> {
-        let reach = self.responses.conditions.lambda_min / 4.0;
-        let stored = self.responses.nearest(at).ok_or(FocusError::Count {
-            what: "points with responses",
-            expected: "at least 1".to_owned(),
-            found: 0,
-        })?;
-        let nearest = self.responses.points[stored];
-        let distance = nearest.distance(at);
-        if distance <= reach || distance == 0.0 {
-            Ok(stored)
-        } else {
-            Err(FocusError::Unknown { target, at, nearest, distance, reach })
-        }
+/// Index of the stored point that stands for a place: the nearest, at most λ_min/4 away, where a focus still has most of
+/// its height.
+pub(crate) fn locate(responses: &SampledResponses, target: usize, at: Point) -> Result<usize, FocusError> {
+    let reach = responses.conditions.lambda_min / 4.0;
+    let stored = responses.nearest(at).ok_or(FocusError::Count {
+        what: "points with responses",
+        expected: "at least 1".to_owned(),
+        found: 0,
+    })?;
+    let nearest = responses.points[stored];
+    let distance = nearest.distance(at);
+    if distance <= reach || distance == 0.0 {
+        Ok(stored)
+    } else {
+        Err(FocusError::Unknown { target, at, nearest, distance, reach })
     }
 }

@@ -1,5 +1,5 @@
 use crate::FocusError;
-use crate::recording::SampledRecorder;
+use crate::recording::{SampledRecorder, locate};
 use faer::{Mat, MatRef};
 use unripple_core::{Point, SampledResponses};
 
@@ -10,7 +10,6 @@ const MOST_VALUES: usize = 1 << 27;
 #[derive(Debug)]
 pub(crate) struct SampledPlant<'r> {
     responses: &'r SampledResponses,
-    recorder: SampledRecorder<'r>,
     /// Velocity of each point at the focal instant after an impulse at each sample, over the rate: samples of all channels x points.
     map: Mat<f64>,
 }
@@ -21,7 +20,7 @@ impl<'r> SampledPlant<'r> {
     /// # Errors
     /// [`FocusError::Count`] if the responses are shorter, or too many.
     pub fn once(responses: &'r SampledResponses, length: usize) -> Result<Self, FocusError> {
-        let recorder = SampledRecorder::new(responses, length)?;
+        SampledRecorder::new(responses, length)?;
         let (channels, points) = (responses.ports.len(), responses.points.len());
         let found = channels.saturating_mul(length).saturating_mul(points);
         if found > MOST_VALUES {
@@ -33,7 +32,7 @@ impl<'r> SampledPlant<'r> {
             let age = length - 1 - row % length;
             f64::from(responses.response(row / length, point)[age]) / rate
         });
-        Ok(Self { responses, recorder, map })
+        Ok(Self { responses, map })
     }
 
     pub fn points(&self) -> usize {
@@ -53,7 +52,7 @@ impl<'r> SampledPlant<'r> {
 
     pub fn readout(&self, target: usize, points: &[Point]) -> Result<(Mat<f64>, Vec<Point>), FocusError> {
         let stored =
-            points.iter().map(|at| self.recorder.locate(target, *at)).collect::<Result<Vec<_>, _>>()?;
+            points.iter().map(|at| locate(self.responses, target, *at)).collect::<Result<Vec<_>, _>>()?;
         let weights = Mat::from_fn(self.points(), stored.len(), |p, k| f64::from(stored[k] == p));
         Ok((weights, stored.iter().map(|p| self.responses.points[*p]).collect()))
     }

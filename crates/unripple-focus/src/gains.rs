@@ -1,0 +1,61 @@
+use crate::FocusError;
+use crate::error::require;
+use crate::recording::Recording;
+use faer::linalg::solvers::Solve;
+use faer::{Mat, Side};
+
+/// Gains of reversed responses that bring every focus to its own level, whatever they do to each other.
+///
+/// Response k is played backwards so that its sample 0 falls on `instants[k]`, over samples 0 and later of the drive. The velocity
+/// at focus k is then `Σ_l G_kl c_l / rate` with `G_kl = Σ_a Σ_j h_ak[f_k − j] h_al[f_l − j]`, the Gram matrix of the reversed
+/// responses, so that the drive `Σ_k c_k h_ak[f_k − j]` is the one of least energy among all that reach these levels. `ridge`,
+/// as a share of the mean of the diagonal, keeps foci finite that lie too close to differ; recordings hold `[actuator][sample]` with
+/// as many samples each.
+///
+/// # Errors
+/// [`FocusError::Range`] where no finite gains meet the levels.
+pub(crate) fn gains(
+    recordings: &[Recording],
+    instants: &[usize],
+    levels: &[f64],
+    (ports, rate): (usize, f64),
+    ridge: f64,
+) -> Result<Vec<f64>, FocusError> {
+    let count = recordings.len();
+    let length = |k: usize| recordings[k].samples.len() / ports.max(1);
+    let mut gram = Mat::<f64>::zeros(count, count);
+    for k in 0..count {
+        for l in 0..=k {
+            let (early, late) = if instants[k] < instants[l] { (k, l) } else { (l, k) };
+            let delay = instants[late] - instants[early];
+            let ages = (instants[early] + 1).min(length(early)).min(length(late).saturating_sub(delay));
+            let of = |i: usize| recordings[i].samples.chunks_exact(length(i).max(1));
+            let meet = of(early).zip(of(late)).map(|(a, b)| dot(&a[..ages], &b[delay.min(b.len())..]));
+            let sum: f64 = meet.sum();
+            (gram[(k, l)], gram[(l, k)]) = (sum, sum);
+        }
+    }
+    let mean = (0..count).map(|k| gram[(k, k)]).sum::<f64>() / count.max(1) as f64;
+    (0..count).for_each(|k| gram[(k, k)] += ridge * mean);
+    let wanted = Mat::from_fn(count, 1, |k, _| levels[k] * rate);
+    let unreachable = || "foci far enough apart for their levels to differ, or a larger ridge".to_owned();
+    let Ok(factors) = gram.llt(Side::Lower) else {
+        return Err(FocusError::Range { what: "ridge".to_owned(), expected: unreachable(), found: ridge });
+    };
+    let found = factors.solve(&wanted);
+    let gains: Vec<f64> = (0..count).map(|k| found[(k, 0)]).collect();
+    require("ridge", gains.iter().all(|c| c.is_finite()), unreachable(), ridge)?;
+    Ok(gains)
+}
+
+/// Σab in eight independent sums, as far as the shorter goes.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let length = a.len().min(b.len());
+    let (a, b) = (&a[..length], &b[..length]);
+    let mut sums = [0.0; 8];
+    let whole = a.chunks_exact(8).zip(b.chunks_exact(8));
+    whole.for_each(|(a, b)| sums.iter_mut().zip(a.iter().zip(b)).for_each(|(s, (a, b))| *s += a * b));
+    let rest = length / 8 * 8;
+    let tail: f64 = a[rest..].iter().zip(&b[rest..]).map(|(a, b)| a * b).sum();
+    tail + sums.iter().sum::<f64>()
+}

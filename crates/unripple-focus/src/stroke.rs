@@ -1,0 +1,108 @@
+use crate::error::require;
+use crate::{FocusError, Pattern, Pulse};
+use unripple_core::{Point, Responses};
+
+/// A focus that moves along a path: pulses at successive places, all at one level.
+///
+/// ```
+/// use unripple_core::Point;
+/// use unripple_focus::{Line, Pattern, Stroke};
+///
+/// let ends = vec![Point::from_mm(40.0, 75.0), Point::from_mm(110.0, 75.0)];
+/// let line = Pattern { lines: vec![Line { points: ends, closed: false }], filled: false };
+/// let stroke = Stroke::along(line, 0.1);
+/// assert!((stroke.duration() - 0.7).abs() < 1e-12);
+/// assert!(stroke.place(0.35).distance(Point::from_mm(75.0, 75.0)) < 1e-12);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stroke {
+    /// The lines it follows, one after the other; from the end of one to the start of the next it jumps.
+    pub path: Pattern,
+    /// How fast, in m/s.
+    pub speed: f64,
+    /// Velocity of each pulse, in m/s.
+    pub level: f64,
+    /// Pulses per second, or more where the path would otherwise be left between two of them.
+    pub rate_hz: f64,
+    /// Whether every second pulse is turned over: what is felt is then half as many periods per second, without an offset.
+    pub alternating: bool,
+}
+
+impl Stroke {
+    /// 200 pulses of 1 m/s per second along a path.
+    pub fn along(path: Pattern, speed: f64) -> Self {
+        Self { path, speed, level: 1.0, rate_hz: 200.0, alternating: false }
+    }
+
+    /// How long it takes, in seconds.
+    pub fn duration(&self) -> f64 {
+        self.sides().map(|(a, b)| a.distance(b)).sum::<f64>() / self.speed
+    }
+
+    /// Where it is at a time (s) after its start.
+    pub fn place(&self, time: f64) -> Point {
+        let mut left = (time * self.speed).max(0.0);
+        let mut end = Point::default();
+        for (a, b) in self.sides() {
+            let length = a.distance(b);
+            if left <= length && length > 0.0 {
+                let share = left / length;
+                return Point::new(a.x + share * (b.x - a.x), a.y + share * (b.y - a.y));
+            }
+            left -= length;
+            end = b;
+        }
+        end
+    }
+
+    /// The pulses that make it, from its start to its end in equal steps of no more than an eighth of the shortest wavelength.
+    ///
+    /// # Errors
+    /// [`FocusError::Range`] for a speed, rate or level that is not positive, a path that is filled or has no length, and a
+    /// speed at which pulses would follow one another within half a period of the highest frequency.
+    pub fn pulses(&self, responses: &Responses) -> Result<Vec<Pulse>, FocusError> {
+        let conditions = responses.conditions();
+        for (what, x) in [
+            ("speed of a stroke (m/s)", self.speed),
+            ("pulses per second of a stroke", self.rate_hz),
+            ("level of a stroke (m/s)", self.level),
+        ] {
+            require(what, x.is_finite() && x > 0.0, "a positive number", x)?;
+        }
+        let duration = self.duration();
+        let length = duration * self.speed;
+        require("length of the path of a stroke (m)", length.is_finite() && length > 0.0, "above 0", length)?;
+        let most = conditions.band[1] * conditions.lambda_min / 4.0;
+        require("speed of a stroke (m/s)", self.speed <= most, format!("at most {most:.3}"), self.speed)?;
+        let rate = self.rate_hz.max(8.0 * self.speed / conditions.lambda_min);
+        let fastest = 2.0 * conditions.band[1];
+        require(
+            "pulses per second of a stroke",
+            rate <= fastest,
+            format!("at most {fastest}"),
+            self.rate_hz,
+        )?;
+        let steps = (duration * rate - 1e-9).ceil().max(1.0) as usize;
+        let pulse = |i: usize| {
+            let instant = duration * i as f64 / steps as f64;
+            let sign = if self.alternating && i % 2 == 1 { -1.0 } else { 1.0 };
+            Pulse { points: vec![self.place(instant)], instant, level: sign * self.level }
+        };
+        let last = usize::from(!self.returns());
+        Ok((0..steps + last).map(pulse).collect())
+    }
+
+    /// Whether it ends where it started.
+    fn returns(&self) -> bool {
+        matches!(&self.path.lines[..], [line] if line.closed)
+    }
+
+    /// Every side of every line, in order.
+    fn sides(&self) -> impl Iterator<Item = (Point, Point)> + '_ {
+        self.path.lines.iter().flat_map(|line| {
+            let last = line.points.len().saturating_sub(usize::from(!line.closed));
+            let next = line.points.iter().cycle().skip(1);
+            line.points.iter().zip(next).take(last).map(|(a, b)| (*a, *b))
+        })
+    }
+}

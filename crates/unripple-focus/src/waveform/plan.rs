@@ -1,0 +1,120 @@
+use super::{PlayOptions, Waveform};
+use crate::FocusError;
+use crate::error::require;
+use crate::settle::settle;
+use std::f64::consts::PI;
+use std::ops::Range;
+use unripple_core::{Responses, window_samples};
+use unripple_dsp::Convolver;
+
+/// Decay, in nepers, after which what wraps round the transform no longer matters: to 1/10 000.
+const FORGOTTEN: f64 = 9.2;
+
+/// Most values of a transfer function: lines x points x actuators.
+const MOST_VALUES: usize = 1 << 27;
+
+/// Most samples of the transform.
+const MOST_SAMPLES: usize = 1 << 24;
+
+/// Periods of the highest frequency over which a drive rises at its start and falls at its end.
+const EDGE: f64 = 8.0;
+
+/// Share of the band over which it fades out at its top.
+const FADE: f64 = 0.1;
+
+/// Times and frequencies of a solution.
+#[derive(Debug)]
+pub(crate) struct Plan {
+    /// Samples per second.
+    pub rate: f64,
+    /// First sample of each waveform in the drive.
+    pub starts: Vec<usize>,
+    /// The share p of the drive that is let through at each of its samples.
+    pub taper: Vec<f64>,
+    /// Lines of the transform that are played.
+    pub lines: Range<usize>,
+    /// The share of what is asked for that is kept, for each of these lines.
+    pub fade: Vec<f64>,
+    /// The transform: the drive from its first sample, then silence until it has died out.
+    pub convolver: Convolver,
+}
+
+impl Plan {
+    pub fn new(
+        responses: &Responses,
+        waveforms: &[Waveform],
+        silent: usize,
+        options: &PlayOptions,
+    ) -> Result<Self, FocusError> {
+        let rate = responses.conditions().rate;
+        let [low, high] = band(responses, options)?;
+        let at = |seconds: f64| window_samples(seconds, rate);
+        let starts: Vec<usize> =
+            waveforms.iter().map(|w| at(options.lead[0]).saturating_add(at(w.delay))).collect();
+        let ends = starts.iter().zip(waveforms).map(|(start, w)| start.saturating_add(w.samples.len()));
+        let support = ends.max().unwrap_or(0).saturating_add(at(options.lead[1]));
+        let expected = || "responses that die out, or a shorter waveform".to_owned();
+        let tail = settle(responses, FORGOTTEN).ok_or_else(|| FocusError::Count {
+            what: "samples until a mode without losses has died out",
+            expected: expected(),
+            found: usize::MAX,
+        })?;
+        let samples = support.saturating_add(tail);
+        if samples > MOST_SAMPLES {
+            let expected = format!("at most {MOST_SAMPLES}: {}", expected());
+            return Err(FocusError::Count {
+                what: "samples of a waveform and its decay",
+                expected,
+                found: samples,
+            });
+        }
+        let convolver = Convolver::new(samples);
+        let width = rate / convolver.size() as f64;
+        let lines = (low / width).ceil() as usize..(high / width).floor() as usize + 1;
+        let rows = waveforms.iter().map(|w| w.points.len()).sum::<usize>() + silent;
+        let values = lines.len().saturating_mul(rows).saturating_mul(responses.ports().len());
+        if values > MOST_VALUES {
+            let expected = format!("at most {MOST_VALUES} over all points and actuators");
+            return Err(FocusError::Count { what: "lines of the spectra", expected, found: values });
+        }
+        let fade = lines.clone().map(|line| fade(line as f64 * width, high)).collect();
+        let taper = taper(support, (EDGE * rate / high).round() as usize);
+        Ok(Self { rate, starts, taper, lines, fade, convolver })
+    }
+
+    /// What a line counts in sums over all frequencies, negative ones included.
+    pub fn multiplicity(&self, line: usize) -> f64 {
+        if self.lines.start + line == 0 { 1.0 } else { 2.0 }
+    }
+}
+
+fn band(responses: &Responses, options: &PlayOptions) -> Result<[f64; 2], FocusError> {
+    let own = responses.conditions().band;
+    let [low, high] = options.band.unwrap_or(own);
+    let nyquist = responses.conditions().rate / 2.0;
+    let top = own[1].min(nyquist);
+    require(
+        "top of the band played (Hz)",
+        high > 0.0 && high <= top,
+        format!("above 0, at most {top}"),
+        high,
+    )?;
+    require("bottom of the band played (Hz)", low >= 0.0 && low < high, format!("0 to {high}"), low)?;
+    Ok([low, high.min(0.99 * nyquist)])
+}
+
+/// 1 below, 0 at the top of the band.
+fn fade(hz: f64, high: f64) -> f64 {
+    let into = ((hz / high - (1.0 - FADE)) / FADE).clamp(0.0, 1.0);
+    (PI / 2.0 * into).cos().powi(2)
+}
+
+/// A raised cosine at either end, nothing at the ends themselves.
+fn taper(length: usize, edge: usize) -> Vec<f64> {
+    let edge = edge.clamp(1, length.div_ceil(2).max(1));
+    let share = |i: usize| {
+        let into = ((i.min(length - 1 - i) as f64 + 0.5) / edge as f64).min(1.0);
+        (PI / 2.0 * into).sin().powi(2)
+    };
+    (0..length).map(share).collect()
+}
