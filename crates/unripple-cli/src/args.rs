@@ -111,6 +111,8 @@ pub enum MethodName {
     Limited,
     /// The same over a spread of frequencies: for a sheet that warms.
     Robust,
+    /// The least that a fingertip feels elsewhere, over all time.
+    Felt,
 }
 
 impl MethodName {
@@ -124,6 +126,7 @@ impl MethodName {
             Self::Concentrate => Method::Concentrate,
             Self::Limited => Method::Limited,
             Self::Robust => Method::Robust,
+            Self::Felt => Method::Felt,
         }
     }
 }
@@ -161,6 +164,12 @@ pub struct FocusOptions {
     /// For `robust`: the stretch of frequencies to be borne up and down, in per cent.
     #[arg(long, value_name = "PERCENT", default_value_t = 0.5, allow_negative_numbers = true)]
     pub spread_percent: f64,
+    /// For `felt`: from the mean of what is felt elsewhere (0) to its worst spot (1).
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    pub worst: Option<f64>,
+    /// For `felt`: weight of the drive's energy.
+    #[arg(long, value_name = "WEIGHT", allow_negative_numbers = true)]
+    pub economy: Option<f64>,
     /// For `inverse`: bring displacements to zero as well.
     #[arg(long)]
     pub rest: bool,

@@ -87,6 +87,8 @@ fn settings(options: &FocusOptions, surface: &Surface, responses: &Responses) ->
         push: options.push,
         spread: options.spread_percent / 100.0,
         rest: options.rest,
+        worst: options.worst.unwrap_or(Options::default().worst),
+        economy: options.economy.unwrap_or(Options::default().economy),
         window,
         limit: surface.emission.limit,
         rms_limit: surface.emission.rms_limit,

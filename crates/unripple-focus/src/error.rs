@@ -72,6 +72,17 @@ pub enum FocusError {
     /// Samples do not tell what single modes do.
     #[error("{0}: expected modal responses, found sampled ones")]
     NeedsModes(&'static str),
+    /// Two targets are so close that their levels cannot differ.
+    #[error(
+        "targets {} and {}: expected places whose levels can differ, found no drive that tells them apart", other + 1,
+        target + 1
+    )]
+    Inseparable {
+        /// Index of the target.
+        target: usize,
+        /// Index of an earlier one.
+        other: usize,
+    },
     /// A matrix of the responses has no decomposition, as those of real surfaces have.
     #[error("responses: expected a positive definite system of equations, found one that is not")]
     Decomposition,

@@ -2,7 +2,7 @@ use crate::planned::Planned;
 use crate::recording::{Recorder, Recording, energy, peak};
 use crate::schedule::{self, MOST_SAMPLES, Schedule};
 use crate::settle::settle;
-use crate::{FocusError, LossCorrection, Method, Options, Target, Timing, target};
+use crate::{FeltPlan, FocusError, LossCorrection, Method, Options, Target, Timing, target};
 use unripple_core::{Drive, Point, Responses, window_samples};
 
 /// Decay after which the past no longer matters to a repeated drive, in nepers: to 1/1000.
@@ -41,6 +41,8 @@ enum Maker<'r> {
     Reversal(Recorder<'r>),
     /// By seeking the state at the focal instant.
     Planned(Box<Planned<'r>>),
+    /// By keeping down what is felt elsewhere.
+    Felt(Box<FeltPlan<'r>>),
 }
 
 impl<'r> Focuser<'r> {
@@ -80,6 +82,9 @@ impl<'r> Focuser<'r> {
         }
         let maker = match options.method.reverses() {
             true => Maker::Reversal(Recorder::plan(responses, window + 1, options)?),
+            false if options.method == Method::Felt => {
+                Maker::Felt(Box::new(FeltPlan::new(responses, &options.felt())?))
+            }
             false => Maker::Planned(Box::new(Planned::new(responses, others, options, window + 1, false)?)),
         };
         Ok(Self { responses, others, maker, options: options.clone(), window })
@@ -101,6 +106,7 @@ impl<'r> Focuser<'r> {
         let points = match &self.maker {
             Maker::Reversal(recorder) => self.reverse(recorder, targets, &schedule, &mut channels)?,
             Maker::Planned(planned) => self.seek(planned, targets, &schedule, &mut channels)?,
+            Maker::Felt(plan) => return plan.focus(targets),
         };
         self.limit(&mut channels)?;
         let names = self.responses.ports().iter().map(|port| port.name.clone()).collect();

@@ -43,6 +43,7 @@
 //! ```
 
 mod error;
+mod felt;
 mod focuser;
 mod gains;
 mod level;
@@ -62,6 +63,7 @@ mod target;
 pub mod waveform;
 
 pub use error::FocusError;
+pub use felt::{FeltOptions, FeltPlan};
 pub use focuser::{Focused, Focuser, focus};
 pub use options::{LossCorrection, Method, Options};
 pub use pattern::{Line, Pattern};

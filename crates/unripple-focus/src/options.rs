@@ -1,5 +1,5 @@
-use crate::FocusError;
 use crate::error::require;
+use crate::{FeltOptions, FocusError};
 
 /// How the drive is made from the reversed responses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -19,12 +19,21 @@ pub enum Method {
     Limited,
     /// As [`Method::Concentrate`], over a spread of frequencies at a fixed window.
     Robust,
+    /// The least that is felt elsewhere over all time, as [`FeltPlan`](crate::FeltPlan) says.
+    Felt,
 }
 
 impl Method {
     /// Every method, the default first.
-    pub const ALL: [Self; 6] =
-        [Self::TimeReversal, Self::OneBit, Self::Inverse, Self::Concentrate, Self::Limited, Self::Robust];
+    pub const ALL: [Self; 7] = [
+        Self::TimeReversal,
+        Self::OneBit,
+        Self::Inverse,
+        Self::Concentrate,
+        Self::Limited,
+        Self::Robust,
+        Self::Felt,
+    ];
 
     /// The name the command line uses.
     pub fn name(self) -> &'static str {
@@ -35,13 +44,14 @@ impl Method {
             Self::Concentrate => "concentrate",
             Self::Limited => "limited",
             Self::Robust => "robust",
+            Self::Felt => "felt",
         }
     }
 
     /// The strength that is used unless another is asked for; 0 where strength means nothing.
     pub fn strength(self) -> f64 {
         match self {
-            Self::TimeReversal | Self::OneBit => 0.0,
+            Self::TimeReversal | Self::OneBit | Self::Felt => 0.0,
             Self::Concentrate => 0.945,
             Self::Inverse | Self::Limited => 0.98,
             Self::Robust => 0.985,
@@ -107,6 +117,12 @@ pub struct Options {
     pub spread: f64,
     /// Of [`Method::Inverse`]: whether the displacement of every mode is brought to zero as well.
     pub rest: bool,
+    /// Of [`Method::Felt`]: from the mean of what is felt elsewhere (0) to its worst spot (1).
+    pub worst: f64,
+    /// Of [`Method::Felt`]: weight of the drive's energy, above 0.
+    pub economy: f64,
+    /// Of [`Method::Felt`]: how long before the end of the drive the focus is, in seconds.
+    pub lead: f64,
     /// What is done about losses; of time reversal and one-bit.
     pub loss: LossCorrection,
     /// Length of the drive, in seconds; `None` for as long as is needed: the window, or with repetition until the last
@@ -130,6 +146,9 @@ impl Default for Options {
             push: 0.5,
             spread: 0.005,
             rest: false,
+            worst: FeltOptions::default().worst,
+            economy: FeltOptions::default().economy,
+            lead: FeltOptions::default().lead,
             loss: LossCorrection::None,
             duration: None,
             accuracy: 1e-6,
@@ -138,6 +157,19 @@ impl Default for Options {
 }
 
 impl Options {
+    /// Those of [`Method::Felt`].
+    pub(crate) fn felt(&self) -> FeltOptions {
+        FeltOptions {
+            window: self.window,
+            lead: self.lead,
+            limit: self.limit,
+            rms_limit: self.rms_limit,
+            worst: self.worst,
+            economy: self.economy,
+            ..FeltOptions::default()
+        }
+    }
+
     /// Refuses numbers without meaning.
     pub(crate) fn check(&self) -> Result<(), FocusError> {
         let positive = |x: f64| x.is_finite() && x > 0.0;

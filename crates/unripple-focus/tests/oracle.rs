@@ -308,7 +308,7 @@ fn refuses_what_cannot_be_done() {
     let unknown = "one-bits".parse::<Method>().unwrap_err();
     assert_eq!(
         unknown.to_string(),
-        "no method `one-bits`: expected one of `time-reversal`, `one-bit`, `inverse`, `concentrate`, `limited`, `robust`"
+        "no method `one-bits`: expected one of `time-reversal`, `one-bit`, `inverse`, `concentrate`, `limited`, `robust`, `felt`"
     );
     assert_eq!("one-bit".parse(), Ok(Method::OneBit));
 }

@@ -39,6 +39,7 @@ fn run() -> Outcome {
         (Method::Inverse, 10),
         (Method::Concentrate, 1),
         (Method::Concentrate, 10),
+        (Method::Felt, 1),
         (Method::Robust, 1),
         (Method::Limited, 1),
     ] {

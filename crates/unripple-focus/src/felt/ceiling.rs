@@ -1,0 +1,92 @@
+use faer::linalg::solvers::{Llt, Solve};
+use faer::{Mat, Side};
+
+/// Slopes below this share of the largest count as zero.
+const LEVEL: f64 = 1e-9;
+
+/// The λ ≥ 0 that minimises ½ λᵀQλ − bᵀλ for a positive definite Q, from a first guess: an active set as in Lawson and Hanson
+/// (1974), Solving Least Squares Problems, chapter 23.
+///
+/// `form` gives the elements of Q. Where rounding would let the set go round in circles, what was reached is kept: every λ ≥ 0
+/// is a lower bound of the ceiling.
+pub(crate) fn multipliers(form: impl Fn(usize, usize) -> f64, slope: &[f64], guess: Vec<f64>) -> Vec<f64> {
+    let count = slope.len();
+    let mut found = Descent { form, slope, value: guess, free: Vec::new() };
+    found.free = (0..count).filter(|i| found.value[*i] > 0.0).collect();
+    found.settle();
+    let enough = LEVEL * slope.iter().fold(0.0, |m: f64, b| m.max(b.abs()));
+    for _ in 0..4 * count {
+        let held = (0..count).filter(|i| !found.free.contains(i));
+        let steepest = held.map(|i| (i, found.ascent(i))).max_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((next, _)) = steepest.filter(|(_, ascent)| *ascent > enough) else { break };
+        found.free.push(next);
+        found.settle();
+    }
+    found.value
+}
+
+struct Descent<'a, F> {
+    form: F,
+    slope: &'a [f64],
+    value: Vec<f64>,
+    /// Those that are not held at zero.
+    free: Vec<usize>,
+}
+
+impl<F: Fn(usize, usize) -> f64> Descent<'_, F> {
+    /// How fast the objective falls if one of them rises.
+    fn ascent(&self, i: usize) -> f64 {
+        self.slope[i] - self.free.iter().map(|j| (self.form)(i, *j) * self.value[*j]).sum::<f64>()
+    }
+
+    /// Goes to the optimum of the free ones; those that would fall below zero on the way are held there.
+    fn settle(&mut self) {
+        while !self.free.is_empty() {
+            let free = &self.free;
+            let form = Mat::from_fn(free.len(), free.len(), |i, j| (self.form)(free[i], free[j]));
+            let Ok(factor) = Llt::new(form.as_ref(), Side::Lower) else { return };
+            let optimum = factor.solve(Mat::from_fn(free.len(), 1, |i, _| self.slope[free[i]]));
+            let low = (0..free.len()).filter(|i| optimum[(*i, 0)] <= 0.0);
+            let reach = |i: usize| {
+                let from = self.value[free[i]];
+                from / (from - optimum[(i, 0)]).max(f64::MIN_POSITIVE)
+            };
+            let first = low.map(|i| (i, reach(i))).min_by(|a, b| a.1.total_cmp(&b.1));
+            let step = first.map_or(1.0, |(_, reach)| reach.clamp(0.0, 1.0));
+            for (i, at) in free.iter().enumerate() {
+                let value = self.value[*at];
+                self.value[*at] = (value + step * (optimum[(i, 0)] - value)).max(0.0);
+            }
+            let Some((held, _)) = first else { return };
+            let held = self.free.remove(held);
+            self.value[held] = 0.0;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// What makes it the optimum: no slope where λ > 0, none downwards where λ = 0.
+        #[test]
+        fn is_at_rest(
+            rows in prop::collection::vec(prop::collection::vec(-1.0..1.0_f64, 6), 1..14),
+            slope in prop::collection::vec(-1.0..1.0_f64, 14), guess in prop::collection::vec(-1.0..1.0_f64, 14),
+        ) {
+            let n = rows.len();
+            let form = |i: usize, j: usize| {
+                rows[i].iter().zip(&rows[j]).map(|(a, b)| a * b).sum::<f64>() + if i == j { 0.01 } else { 0.0 }
+            };
+            let guess = guess[..n].iter().map(|g| g.max(0.0)).collect();
+            let found = multipliers(form, &slope[..n], guess);
+            for i in 0..n {
+                let gradient = (0..n).map(|j| form(i, j) * found[j]).sum::<f64>() - slope[i];
+                prop_assert!(found[i] >= 0.0);
+                prop_assert!(gradient > -1e-7 && (found[i] == 0.0 || gradient.abs() < 1e-7), "{i}: {gradient}");
+            }
+        }
+    }
+}

@@ -1,0 +1,102 @@
+use super::reduced::Reduced;
+use faer::Mat;
+use unripple_core::{Outline, Point};
+
+/// Points whose shape weights are computed at once.
+const AT_ONCE: usize = 1024;
+
+/// Every so many points of the lattice, along each side, one belongs to the coarse lattice.
+const COARSE: usize = 3;
+
+/// Points at which what is felt is looked at, on a lattice over the outline's bounding box.
+#[derive(Clone, Debug)]
+pub(crate) struct Control {
+    /// The points, within the outline.
+    pub points: Vec<Point>,
+    /// Shape weights of the modes that are looked at, and springs, (modes and springs) x points.
+    pub shapes: Mat<f32>,
+    /// Distance between points, in metres.
+    pub pitch: f64,
+    /// Whether each point is looked at wherever the targets are.
+    coarse: Vec<bool>,
+}
+
+/// A lattice that is fine around targets, and around actuators, where the surface is bent sharply, and coarse elsewhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Lattice {
+    /// Columns and rows.
+    cells: [usize; 2],
+    pitch: f64,
+}
+
+impl Lattice {
+    /// A coarse lattice of at most `pitch` metres, and at least 8 points along the shorter side.
+    pub fn new(outline: &Outline, pitch: f64) -> Self {
+        let (width, height) = outline.extent();
+        let pitch = pitch.min(width.min(height) / 8.0) / COARSE as f64;
+        let cells = [width, height].map(|side| ((side / pitch).ceil() as usize).max(1));
+        Self { cells, pitch }
+    }
+
+    /// Number of points, those outside the outline included.
+    pub fn count(&self) -> usize {
+        self.cells[0].saturating_mul(self.cells[1])
+    }
+
+    /// The points within the outline, and whether they are of the coarse lattice.
+    fn points(&self, outline: &Outline) -> (Vec<Point>, Vec<bool>) {
+        let (width, height) = outline.extent();
+        let place = |cell: usize, side: f64, cells: usize| (cell as f64 + 0.5) * side / cells as f64;
+        let [columns, rows] = self.cells;
+        let all = (0..self.count()).map(|i| {
+            let (column, row) = (i % columns, i / columns);
+            let at = Point::new(place(column, width, columns), place(row, height, rows));
+            (at, column % COARSE == 1 && row % COARSE == 1)
+        });
+        all.filter(|(at, _)| outline.contains(*at)).unzip()
+    }
+}
+
+impl Control {
+    /// Reads the shapes that are `watched` on the lattice, and the means over the surface of the products of any two that are
+    /// `heard`.
+    pub fn read(
+        outline: &Outline,
+        lattice: Lattice,
+        watched: &Reduced<'_>,
+        heard: &Reduced<'_>,
+    ) -> (Self, Mat<f64>) {
+        let (points, mut coarse) = lattice.points(outline);
+        for port in watched.ports() {
+            let near = |p: &Point| p.distance(port.at) < COARSE as f64 / 2.0 * lattice.pitch;
+            coarse.iter_mut().zip(&points).for_each(|(coarse, p)| *coarse |= near(p));
+        }
+        let mut shapes = Mat::zeros(watched.count(), points.len());
+        let mut products = Mat::zeros(heard.count(), heard.count());
+        for (chunk, some) in points.chunks(AT_ONCE).enumerate() {
+            let read = heard.at_all(some);
+            products += read.transpose() * &read;
+            let read = watched.at_all(some);
+            for p in 0..some.len() {
+                (0..watched.count()).for_each(|m| shapes[(m, chunk * AT_ONCE + p)] = read[(p, m)] as f32);
+            }
+        }
+        products *= faer::Scale(1.0 / points.len().max(1) as f64);
+        (Self { points, shapes, pitch: lattice.pitch, coarse }, products)
+    }
+
+    /// Distance between points of the coarse lattice, in metres.
+    pub fn coarse_pitch(&self) -> f64 {
+        self.pitch * COARSE as f64
+    }
+
+    /// The points farther than `radius` from all of `targets`: those of the coarse lattice, and all that are hardly farther.
+    pub fn outside(&self, targets: &[Point], radius: f64) -> Vec<usize> {
+        let nearest = |p: &Point| targets.iter().map(|t| t.distance(*p)).fold(f64::INFINITY, f64::min);
+        let apart = |i: &usize| {
+            let distance = nearest(&self.points[*i]);
+            distance > radius && (self.coarse[*i] || distance <= radius + self.pitch)
+        };
+        (0..self.points.len()).filter(apart).collect()
+    }
+}

@@ -1,0 +1,127 @@
+use realfft::num_complex::Complex;
+use realfft::{RealFftPlanner, RealToComplex};
+use std::sync::Arc;
+use unripple_core::Pole;
+use unripple_dsp::Threshold;
+
+/// What is felt at a frequency this far below what is felt best does not count: 40 dB.
+const UNFELT: f64 = 100.0;
+
+/// Frequencies looked at for the top of what is felt.
+const LOOKED_AT: i32 = 2000;
+
+/// Nepers by which oscillations have died out where the transform wraps around.
+const DIED_OUT: f64 = 4.0;
+
+/// Most samples of the transform beyond what the drive itself needs.
+const MOST_DECAY: usize = 1 << 16;
+
+/// The highest frequency, in Hz, that is felt at less than 40 dB below the best one; at most `limit`.
+pub(crate) fn felt_top(threshold: &Threshold, limit: f64) -> f64 {
+    let hz = |i: i32| limit * 1e-4_f64.powf(1.0 - f64::from(i) / f64::from(LOOKED_AT));
+    let all = || (0..=LOOKED_AT).map(hz);
+    let least = all().map(|f| threshold.at(f)).fold(f64::INFINITY, f64::min);
+    all().filter(|f| threshold.at(*f) <= UNFELT * least).fold(0.0, f64::max)
+}
+
+/// The lines of a Fourier transform up to the top of what is felt.
+#[derive(Clone)]
+pub(crate) struct Lines {
+    /// Samples per second.
+    pub rate: f64,
+    /// Samples of the transform.
+    pub size: usize,
+    /// 1/threshold at each line.
+    pub gains: Vec<f64>,
+    /// Samples during which responses are exact; afterwards those that hardly decay are made to.
+    exact: usize,
+    transform: Arc<dyn RealToComplex<f64>>,
+}
+
+impl std::fmt::Debug for Lines {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Lines").field("size", &self.size).field("lines", &self.gains.len()).finish()
+    }
+}
+
+impl Lines {
+    /// Lines fine enough for a window of `window` samples and for what decays with these poles.
+    pub fn new(threshold: &Threshold, rate: f64, window: usize, poles: &[Pole], top: f64) -> Self {
+        let slowest = poles.iter().map(slowest_decay).fold(f64::INFINITY, f64::min);
+        let decay = (DIED_OUT * rate / slowest.max(f64::MIN_POSITIVE)).min(MOST_DECAY as f64) as usize;
+        let size = (4 * window + decay).next_power_of_two();
+        let count = ((top * size as f64 / rate) as usize + 1).min(size / 2);
+        let gains = (0..count).map(|k| 1.0 / threshold.at(k as f64 * rate / size as f64)).collect();
+        let transform = RealFftPlanner::new().plan_fft_forward(size);
+        Self { rate, size, gains, exact: 2 * window, transform }
+    }
+
+    /// Number of lines.
+    pub fn count(&self) -> usize {
+        self.gains.len()
+    }
+
+    /// How much of a signal each line makes: x[i] = Σ share · Re(X e^{jωi}).
+    pub fn share(&self, line: usize) -> f64 {
+        if line == 0 { 1.0 / self.size as f64 } else { 2.0 / self.size as f64 }
+    }
+
+    /// Phase of a line at a sample, in radians.
+    pub fn phase(&self, line: usize, sample: i64) -> f64 {
+        let turns = (line as i64 * sample).rem_euclid(self.size as i64);
+        std::f64::consts::TAU * turns as f64 / self.size as f64
+    }
+
+    /// The lines of a signal that starts at sample 0.
+    pub fn of(&self, signal: &[f64]) -> Vec<Complex<f64>> {
+        let mut padded = self.transform.make_input_vec();
+        let length = signal.len().min(self.size);
+        padded[..length].copy_from_slice(&signal[..length]);
+        let mut lines = self.transform.make_output_vec();
+        let done = self.transform.process(&mut padded, &mut lines);
+        debug_assert!(done.is_ok(), "sizes come from the plan itself");
+        lines.truncate(self.count());
+        lines
+    }
+
+    /// Displacement per drive of an oscillation: the lines of its response, times the time between samples.
+    pub fn of_pole(&self, pole: Pole) -> Vec<Complex<f64>> {
+        let wanted = DIED_OUT * self.rate / (self.size - self.exact) as f64;
+        let more = (wanted - slowest_decay(&pole)).max(0.0) / self.rate;
+        let sample = |i: usize| {
+            let late = i.saturating_sub(self.exact) as f64;
+            pole.displacement(i as f64 / self.rate) * (-more * late).exp() / self.rate
+        };
+        self.of(&(0..self.size).map(sample).collect::<Vec<_>>())
+    }
+}
+
+/// Decay rate of the slower part of a mode, in 1/s.
+fn slowest_decay(pole: &Pole) -> f64 {
+    let square = (pole.sigma - pole.omega) * (pole.sigma + pole.omega);
+    pole.sigma - square.max(0.0).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fingers_feel_up_to_about_fourteen_hundred_hertz() {
+        // 10 µm on 20 dB per octave from 3 µm at 1 kHz.
+        let top = felt_top(&Threshold::default(), 3000.0);
+        assert!((top - 1434.0).abs() < 10.0, "{top}");
+        assert_eq!(felt_top(&Threshold::default(), 600.0), 600.0);
+    }
+
+    #[test]
+    fn lines_of_a_struck_oscillation_are_its_transfer_function() {
+        let pole = Pole::new(1000.0, 30.0);
+        let lines = Lines::new(&Threshold::default(), 48e3, 480, &[pole], 1000.0);
+        for (k, found) in lines.of_pole(pole).iter().enumerate().skip(1) {
+            let w = std::f64::consts::TAU * k as f64 * 48e3 / lines.size as f64;
+            let exact = Complex::new(1e6 - w * w, 60.0 * w).inv();
+            assert!((found - exact).norm() < 0.03 * exact.norm() + 1e-9, "{k}: {found} {exact}");
+        }
+    }
+}

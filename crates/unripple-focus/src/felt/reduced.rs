@@ -1,0 +1,89 @@
+use super::lines::Lines;
+use faer::{Accum, Mat, Par, linalg::matmul::matmul};
+use realfft::num_complex::Complex;
+use unripple_core::{ModalResponses, Onset, Point, Pole, Port};
+
+/// The first modes of a surface one by one, and all others as springs: what each actuator bends at once, without delay.
+///
+/// Far below their frequencies the others follow the drive: u = Σ_a spring_a(x) · d_a with spring_a(x) =
+/// Σ_m input[a, m] shape_m(x) / ω_m². That is little, except close to an actuator. Springs come after the modes, as columns
+/// of their own.
+#[derive(Clone, Debug)]
+pub(crate) struct Reduced<'r> {
+    responses: &'r ModalResponses,
+    /// Modes kept one by one.
+    pub kept: usize,
+    /// What the others yield per drive, modes x actuators.
+    yields: Mat<f64>,
+}
+
+impl<'r> Reduced<'r> {
+    /// The first `kept` modes and the springs of the others.
+    pub fn new(responses: &'r ModalResponses, kept: usize) -> Self {
+        let others = &responses.poles[kept..];
+        let yields = Mat::from_fn(others.len(), responses.ports.len(), |m, a| {
+            responses.input[(a, kept + m)] * compliance(others[m])
+        });
+        Self { responses, kept, yields }
+    }
+
+    /// The actuators.
+    pub fn ports(&self) -> &[Port] {
+        &self.responses.ports
+    }
+
+    /// Modes and springs.
+    pub fn count(&self) -> usize {
+        self.kept + self.yields.ncols()
+    }
+
+    /// Shape weights and springs at points, points x (modes and springs).
+    pub fn at_all(&self, points: &[Point]) -> Mat<f64> {
+        let all = self.responses.shapes.at_all(points);
+        let mut shapes = Mat::zeros(points.len(), self.count());
+        shapes.as_mut().subcols_mut(0, self.kept).copy_from(all.subcols(0, self.kept));
+        let springs = shapes.as_mut().subcols_mut(self.kept, self.yields.ncols());
+        let others = all.subcols(self.kept, self.yields.nrows());
+        matmul(springs, Accum::Replace, others, &self.yields, 1.0, Par::Seq);
+        shapes
+    }
+
+    /// Input weights, actuators x (modes and springs).
+    pub fn input(&self) -> Mat<f64> {
+        Mat::from_fn(self.yields.ncols(), self.count(), |a, m| match m {
+            m if m < self.kept => self.responses.input[(a, m)],
+            m if m - self.kept == a => 1.0,
+            _ => 0.0,
+        })
+    }
+
+    /// Displacement per drive of modes and springs, at the lines.
+    pub fn lines(&self, lines: &Lines) -> Vec<Vec<Complex<f64>>> {
+        let modes = self.responses.poles[..self.kept].iter().map(|pole| lines.of_pole(*pole));
+        let springs = (0..self.yields.ncols()).map(|_| vec![Complex::new(1.0, 0.0); lines.count()]);
+        modes.chain(springs).collect()
+    }
+}
+
+/// Displacement under a steady drive: the integral of the response.
+fn compliance(pole: Pole) -> f64 {
+    let yields = match pole.onset {
+        Onset::Velocity => pole.omega.powi(-2),
+        Onset::Displacement => 2.0 * pole.sigma * pole.omega.powi(-3),
+    };
+    if yields.is_finite() { yields } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn compliance_is_the_integral_of_the_response() {
+        for pole in [Pole::new(900.0, 60.0), Pole::moved(900.0, 60.0), Pole::new(300.0, 500.0)] {
+            let step = 1e-6;
+            let sum: f64 = (0..400_000).map(|i| pole.displacement((f64::from(i) + 0.5) * step) * step).sum();
+            assert!((sum / compliance(pole) - 1.0).abs() < 1e-6, "{pole:?}: {sum}");
+        }
+    }
+}

@@ -1,0 +1,144 @@
+use super::background::Actuation;
+use super::control::Control;
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::{Accum, Mat, MatRef, Par, linalg::matmul::matmul};
+
+/// Of neighbouring maxima of one sign, only the largest is taken at once: within this many periods of the top of what is
+/// felt, and this many points of the coarse lattice.
+const APART: [f64; 2] = [0.85, 1.5];
+
+/// Most maxima that are taken at once.
+const AT_ONCE: usize = 24;
+
+/// Where and when what is felt is looked at: one point of the control lattice at one of the times, and its sign.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Sample {
+    pub point: usize,
+    pub time: usize,
+    pub sign: f64,
+}
+
+/// What is felt at the control points around the focal instant.
+#[derive(Clone, Debug)]
+pub(crate) struct Watch {
+    /// Samples from the focal instant.
+    pub times: Vec<i64>,
+    /// Samples within which neighbouring maxima are one.
+    apart: f64,
+    splines: usize,
+    /// Input weights, actuators x modes.
+    input: Mat<f64>,
+    /// Weighed displacement per spline at unit force, `[mode][spline][time]`.
+    motion: Vec<f32>,
+    /// Weighed displacement of every mode per whitened coefficient, `[time][mode][coefficient]`.
+    rows: Vec<f32>,
+}
+
+impl Watch {
+    /// Times around the focus, in samples: close ones near it, half as many farther out. `rate` in samples per second, `top`
+    /// the highest frequency felt.
+    pub fn times(rate: f64, top: f64) -> Vec<i64> {
+        let step = (rate / (3.0 * top)).round().max(1.0) as i64;
+        let (near, far) = (12, 42);
+        let each = (-far..=far).filter(|i: &i64| i.abs() <= near || i % 2 == 0);
+        each.map(|i| i * step).collect()
+    }
+
+    /// `factor` is the lower triangular one that whitens coefficients.
+    pub fn new(actuation: &Actuation<'_>, factor: MatRef<'_, f64>, focal: usize, top: f64) -> Self {
+        let modes = actuation.modes.len();
+        let times = Self::times(actuation.lines.rate, top);
+        let clock: Vec<i64> = times.iter().map(|t| focal as i64 + t).collect();
+        let phases = actuation.phases(&clock);
+        let splines = actuation.splines.len();
+        let motions: Vec<Mat<f64>> = (0..modes).map(|m| actuation.motion(m, &phases)).collect();
+        let mut rows = Vec::with_capacity(times.len() * modes * factor.nrows());
+        for t in 0..times.len() {
+            let mut read = Mat::from_fn(factor.nrows(), modes, |i, m| {
+                actuation.input[(i / splines, m)] * motions[m][(t, i % splines)]
+            });
+            solve_lower_triangular_in_place(factor, read.as_mut(), Par::rayon(0));
+            (0..modes).for_each(|m| rows.extend(read.col_as_slice(m).iter().map(|x| *x as f32)));
+        }
+        let single = |m: &Mat<f64>| -> Vec<f32> {
+            (0..splines).flat_map(|k| m.col_as_slice(k).iter().map(|x| *x as f32)).collect()
+        };
+        let motion = motions.iter().flat_map(single).collect();
+        let apart = APART[0] * actuation.lines.rate / top;
+        Self { times, apart, splines, input: actuation.input.clone(), motion, rows }
+    }
+
+    /// What is felt at chosen points for drives with these coefficients: times x points. `shapes` as modes x points.
+    pub fn field(&self, coefficients: &[f64], shapes: &Mat<f32>) -> Mat<f32> {
+        let times = self.times.len();
+        let mut motion = Mat::<f32>::zeros(times, self.input.ncols());
+        for m in 0..self.input.ncols() {
+            let column = motion.col_as_slice_mut(m);
+            let read = self.motion[m * self.splines * times..].chunks_exact(times);
+            for (k, spline) in read.take(self.splines).enumerate() {
+                let force = (0..self.input.nrows())
+                    .map(|a| self.input[(a, m)] * coefficients[a * self.splines + k])
+                    .sum::<f64>();
+                let force = force as f32;
+                column.iter_mut().zip(spline).for_each(|(u, s)| *u += force * s);
+            }
+        }
+        let mut field = Mat::zeros(times, shapes.ncols());
+        matmul(field.as_mut(), Accum::Replace, &motion, shapes, 1.0, Par::Seq);
+        field
+    }
+
+    /// What is felt at a sample per whitened coefficient, positive where the field is.
+    pub fn row(&self, control: &Control, sample: Sample) -> Vec<f64> {
+        let shapes = control.shapes.col_as_slice(sample.point);
+        let count = self.rows.len() / (self.times.len() * self.input.ncols());
+        let read = self.rows[sample.time * self.input.ncols() * count..].chunks_exact(count);
+        let mut row = vec![0.0_f32; count];
+        for (weight, mode) in shapes.iter().zip(read) {
+            row.iter_mut().zip(mode).for_each(|(x, w)| *x += weight * w);
+        }
+        row.iter().map(|x| sample.sign * f64::from(*x)).collect()
+    }
+
+    /// The largest magnitude of a field, and its maxima above `least(largest)` that are not yet known, the largest first.
+    /// Columns of the field belong to `chosen` points.
+    pub fn peaks(
+        &self,
+        field: &Mat<f32>,
+        control: &Control,
+        chosen: &[usize],
+        known: &[Sample],
+        least: impl Fn(f64) -> f64,
+    ) -> (f64, Vec<Sample>) {
+        let columns = || (0..chosen.len()).map(|p| field.col_as_slice(p));
+        let largest = f64::from(columns().flatten().fold(0.0_f32, |m, x| m.max(x.abs())));
+        let least = least(largest) as f32;
+        let mut maxima = Vec::new();
+        for (column, point) in columns().zip(chosen) {
+            for (time, value) in column.iter().enumerate().filter(|(_, x)| x.abs() > least) {
+                let at = |i: usize| column.get(i).map_or(0.0, |x| x.abs());
+                if value.abs() >= at(time.wrapping_sub(1)) && value.abs() > at(time + 1) {
+                    let sign = if *value < 0.0 { -1.0 } else { 1.0 };
+                    maxima.push((value.abs(), Sample { point: *point, time, sign }));
+                }
+            }
+        }
+        maxima.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let mut taken: Vec<Sample> = Vec::new();
+        for (_, sample) in maxima {
+            if !known.contains(&sample) && !taken.iter().any(|other| self.near(control, sample, *other)) {
+                taken.push(sample);
+                if taken.len() == AT_ONCE {
+                    break;
+                }
+            }
+        }
+        (largest, taken)
+    }
+
+    fn near(&self, control: &Control, a: Sample, b: Sample) -> bool {
+        let distance = control.points[a.point].distance(control.points[b.point]);
+        let time = (self.times[a.time] - self.times[b.time]).abs() as f64;
+        a.sign == b.sign && time < self.apart && distance < APART[1] * control.coarse_pitch()
+    }
+}
