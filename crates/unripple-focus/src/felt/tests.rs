@@ -57,3 +57,83 @@ fn what_is_watched_is_what_is_felt() {
     // Modes above 0.8 of the highest frequency felt are left out of the watch: as much as its slack.
     assert!(worst < 0.03, "{worst} of the target's level");
 }
+
+/// The form of the mean and of the energy, and what is felt at a point at the focal instant, from sums over time.
+struct Sums {
+    form: Mat<f64>,
+    level: Vec<f64>,
+}
+
+impl Sums {
+    fn of(plan: &FeltPlan<'_>, modal: &ModalResponses, membrane: &Membrane, at: Point) -> Self {
+        let (rate, count, ports) = (membrane.rate, plan.splines.count(), modal.ports.len());
+        let (before, length) = (plan.splines.samples, 12 * plan.splines.samples);
+        let weighting = Weighting::padded(&plan.options.threshold, rate, length, before);
+        let mut row = vec![0.0; modal.poles.len()];
+        modal.shapes.at(at, &mut row);
+        let size = ports * count;
+        let (mut form, mut level) = (Mat::<f64>::zeros(size, size), vec![0.0; size]);
+        for (m, pole) in modal.poles.iter().enumerate() {
+            let ringing: Vec<f64> = (0..length).map(|i| pole.displacement(i as f64 / rate) / rate).collect();
+            // As if each spline began a window later, so that what is felt beforehand counts as well.
+            let mut motion = Mat::<f64>::zeros(length, count);
+            for k in 0..count {
+                let mut force = vec![0.0; before];
+                force.extend(plan.splines.signal(k));
+                let whole = unripple_dsp::convolve(&force, &ringing);
+                let felt = weighting.weigh(&whole[..length]);
+                motion.col_as_slice_mut(k).copy_from_slice(&felt[..length]);
+            }
+            let squares = motion.transpose() * &motion;
+            for i in 0..size {
+                let weight = |i: usize| modal.input[(i / count, m)];
+                level[i] += row[m] * weight(i) * motion[(before + plan.focal, i % count)];
+                for j in 0..size {
+                    form[(i, j)] += weight(i) * weight(j) * squares[(i % count, j % count)];
+                }
+            }
+        }
+        // Over the surface, the product of two shapes is 1/(ρ A) on average, or nothing.
+        let mass = membrane.areal_density * membrane.width * membrane.height;
+        let mean = 1.0 / (mass * 2.0 * (plan.splines.samples - 1) as f64);
+        let products = plan.splines.products();
+        let trace = |of: &dyn Fn(usize) -> f64| (0..size).map(of).sum::<f64>();
+        let energy = plan.options.economy * mean * trace(&|i| form[(i, i)])
+            / trace(&|i| products[(i % count, i % count)]);
+        let form = Mat::from_fn(size, size, |i, j| {
+            let own = if i / count == j / count { products[(i % count, j % count)] } else { 0.0 };
+            mean * form[(i, j)] + energy * own
+        });
+        Self { form, level }
+    }
+
+    fn cost(&self, coefficients: &[f64]) -> f64 {
+        let n = coefficients.len();
+        (0..n)
+            .map(|i| (0..n).map(|j| coefficients[i] * self.form[(i, j)] * coefficients[j]).sum::<f64>())
+            .sum()
+    }
+}
+
+#[test]
+fn no_drive_is_felt_less_on_average() {
+    let membrane = Membrane { top_hz: 2000.0, ..Membrane::small() };
+    let modal = membrane.modal();
+    let responses = Responses::Modal(modal.clone());
+    for economy in [0.01, 0.1, 1.0] {
+        let options =
+            FeltOptions { window: 12e-3, lead: 3e-3, worst: 0.0, economy, ..FeltOptions::default() };
+        let plan = FeltPlan::new(&responses, &options).unwrap();
+        let at = Point::new(0.041, 0.052);
+        let found = plan.coefficients(&[Target::at(at)]).unwrap();
+        let sums = Sums::of(&plan, &modal, &membrane, at);
+        let right = Mat::from_fn(found.len(), 1, |i, _| sums.level[i]);
+        let best = faer::linalg::solvers::PartialPivLu::new(sums.form.as_ref());
+        let best = faer::linalg::solvers::Solve::solve(&best, &right);
+        let level = |c: &[f64]| c.iter().zip(&sums.level).map(|(c, g)| c * g).sum::<f64>();
+        let price = |c: &[f64]| sums.cost(c) / level(c).powi(2);
+        let (ours, least) = (price(&found), price(best.col_as_slice(0)));
+        assert!((level(&found) - 1.0).abs() < 0.01, "{}", level(&found));
+        assert!(ours < 1.01 * least, "economy {economy}: {ours} {least}");
+    }
+}
