@@ -33,6 +33,10 @@ fn all_methods_stand_side_by_side() {
         assert!(contrast.last() > contrast.first(), "{contrast:?}");
         assert!(energy.windows(2).all(|pair| pair[1] >= pair[0] * (1.0 - 1e-6)), "{energy:?}");
     }
+    let felt = report["felt"].as_array().unwrap();
+    let drive: Vec<f64> = felt.iter().map(|row| row["drive_for_level_db"].as_f64().unwrap()).collect();
+    assert_eq!(drive[0], 0.0);
+    assert!(drive[1..].windows(2).all(|pair| pair[1] < pair[0]), "{drive:?}");
     for name in ["compare.svg", "compare.png", "report.json", "report.md"] {
         assert!(std::path::Path::new(&out).join(name).exists(), "{name}");
     }

@@ -1,13 +1,21 @@
 use super::front::Front;
 use super::row::Row;
+use unripple::field::TargetFigures;
+use unripple::focus::Method;
 use unripple_plot::{Axis, Figure, Ink, Layer, Line, Plot, Points};
 
 /// What is drawn of a front: abscissae and ordinates.
 type Drawn = fn(&Front) -> (Vec<f64>, Vec<f64>);
 
-/// Contrast against the energy that a peak takes, and against the peak at the drive limit.
-pub fn draw(rows: &[Row], fronts: &[Front]) -> Figure {
-    let peak = |row: &Row| row.targets.first().map_or(f64::NAN, |t| t.peak_velocity_m_s.abs());
+/// A felt figure of a target.
+type Felt = fn(&TargetFigures) -> Option<f64>;
+
+/// Contrast against the energy that a peak takes, and against the peak at the drive limit; what is felt elsewhere against the
+/// drive that it takes.
+pub fn draw(rows: &[Row], fronts: &[Front], felt: &[Row]) -> Figure {
+    // What is felt is not made for contrast.
+    let rows: Vec<&Row> = rows.iter().filter(|row| row.method != Method::Felt.name()).collect();
+    let peak = |row: &&Row| row.targets.first().map_or(f64::NAN, |t| t.peak_velocity_m_s.abs());
     let first = rows.first().map_or(f64::NAN, peak);
     let energy = plot(
         "Energy for the same peak, time reversal = 1",
@@ -24,10 +32,11 @@ pub fn draw(rows: &[Row], fronts: &[Front]) -> Figure {
     Figure {
         width_mm: 178.0,
         columns: 2,
-        panels: vec![energy.into(), level.into()],
+        panels: vec![energy.into(), level.into(), quiet(felt).into()],
         letters: true,
         description: "Contrast of every method against the energy that the same peak takes and against the peak that the \
-                      drive limit allows, each method's knob turned from end to end"
+                      drive limit allows, each method's knob turned from end to end; what is felt elsewhere against the drive \
+                      that a felt level takes"
             .into(),
         ..Figure::default()
     }
@@ -49,4 +58,25 @@ fn plot(label: &str, fronts: &[Front], drawn: Drawn, marks: (Vec<f64>, Vec<f64>)
         Points { x, y, label: "as they come".into(), ink: Ink::Palette(7), ..Points::default() }.into(),
     );
     Plot { x: Axis::log(label), y: Axis::log("Contrast"), layers, ..Plot::default() }
+}
+
+/// Background and worst spot as felt, against the drive for the same level.
+fn quiet(felt: &[Row]) -> Plot {
+    let of = |figure: Felt, row: &Row| row.targets.first().and_then(figure).unwrap_or(f64::NAN);
+    let mut layers: Vec<Layer> = Vec::new();
+    let figures: [(&str, Felt); 2] =
+        [("background", |t| t.felt_background_db), ("worst spot", |t| t.felt_worst_spot_db)];
+    for (i, (name, figure)) in figures.into_iter().enumerate() {
+        let (x, y) = felt.iter().skip(1).map(|row| (row.drive_for_level_db, of(figure, row))).unzip();
+        layers.push(Line { x, y, label: name.into(), ink: Ink::Palette(i), ..Line::default() }.into());
+        let (x, y) = felt.iter().take(1).map(|row| (row.drive_for_level_db, of(figure, row))).unzip();
+        let label = if i == 0 { "time reversal".into() } else { String::new() };
+        layers.push(Points { x, y, label, ink: Ink::Palette(i), ..Points::default() }.into());
+    }
+    Plot {
+        x: Axis::new("Drive for the same felt level (dB)"),
+        y: Axis::new("Felt: target over elsewhere (dB)"),
+        layers,
+        ..Plot::default()
+    }
 }

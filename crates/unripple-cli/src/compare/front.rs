@@ -1,4 +1,5 @@
 use super::Ground;
+use super::row::{self, Row};
 use crate::error::CliError;
 use serde::Serialize;
 use unripple::core::Point;
@@ -28,11 +29,26 @@ const DISC: f64 = 4.0 / 3.0;
 
 const STRENGTHS: [f64; 7] = [0.0, 0.3, 0.6, 0.8, 0.9, 0.96, 0.99];
 /// Planning for several plants takes its time.
-const ROBUST: [f64; 4] = [0.0, 0.7, 0.93, 0.98];
+const ROBUST: [f64; 4] = [0.0, 0.7, 0.95, 0.99];
+/// Of `felt`: weights of energy, and of the worst spot that goes with each.
+const ECONOMIES: [[f64; 2]; 5] = [[0.01, 0.04], [0.06, 0.04], [0.2, 0.05], [0.5, 0.06], [1.5, 0.08]];
 const PUSHES: [f64; 6] = [0.1, 0.3, 0.5, 0.7, 0.85, 0.95];
 
 /// Contrast, energy per squared peak, peak.
 type Trade = [f64; 3];
+
+/// What is felt elsewhere against the drive that it takes: one row per weight of energy, the first that of time reversal.
+pub fn felt(ground: &Ground<'_>) -> Result<Vec<Row>, CliError> {
+    let mut rows = vec![row::with(ground, ground.options)?];
+    for [economy, worst] in ECONOMIES {
+        rows.push(row::with(
+            ground,
+            &Options { method: Method::Felt, economy, worst, ..ground.options.clone() },
+        )?);
+    }
+    row::relate(&mut rows);
+    Ok(rows)
+}
 
 /// The fronts of all methods that have a knob.
 pub fn all(ground: &Ground<'_>) -> Result<Vec<Front>, CliError> {

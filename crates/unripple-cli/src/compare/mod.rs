@@ -37,6 +37,8 @@ struct Comparison {
     judged_to_hz: f64,
     methods: Vec<Row>,
     fronts: Vec<front::Front>,
+    /// What is felt elsewhere against the drive that it takes, time reversal first.
+    felt: Vec<Row>,
     files: Vec<String>,
 }
 
@@ -59,6 +61,7 @@ pub fn run(options: &CompareOptions, as_json: bool) -> Result<(), CliError> {
     let mut rows = Method::ALL.iter().map(|m| row::judge(&ground, *m)).collect::<Result<Vec<_>, _>>()?;
     row::relate(&mut rows);
     let fronts = front::all(&ground)?;
+    let felt = front::felt(&ground)?;
 
     let mut files = Vec::new();
     let mut found = Comparison {
@@ -70,11 +73,15 @@ pub fn run(options: &CompareOptions, as_json: bool) -> Result<(), CliError> {
         judged_to_hz: judged_to,
         methods: rows,
         fronts,
+        felt,
         files: Vec::new(),
     };
     let text = row::table(&found.methods, window, judged_to);
     if let Some(out) = out {
-        files.extend(figures::write(&out, &[("compare", figure::draw(&found.methods, &found.fronts))])?);
+        files.extend(figures::write(
+            &out,
+            &[("compare", figure::draw(&found.methods, &found.fronts, &found.felt))],
+        )?);
         found.files = files;
         out.write("report.json", output::json(&found)?.as_bytes())?;
         out.write("report.md", row::markdown(&found.surface, &found.methods, window, judged_to).as_bytes())?;

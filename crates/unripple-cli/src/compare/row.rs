@@ -16,21 +16,29 @@ pub struct Row {
     pub drive_s: f64,
     /// Energy that the peak velocity of the first target takes, over that of time reversal.
     pub energy_for_peak: f64,
+    /// Rms of the drive that the felt level of the first target takes, over that of time reversal, in dB.
+    pub drive_for_level_db: f64,
     pub targets: Vec<TargetFigures>,
     pub drive: DriveFigures,
 }
 
 /// Makes and judges the drive of one method.
 pub fn judge(ground: &Ground<'_>, method: Method) -> Result<Row, CliError> {
+    with(ground, &Options { method, ..ground.options.clone() })
+}
+
+/// Makes and judges the drive of some options.
+pub fn with(ground: &Ground<'_>, options: &Options) -> Result<Row, CliError> {
     let start = Instant::now();
-    let options = Options { method, ..ground.options.clone() };
-    let focuser = Focuser::new(ground.known, &options).map_err(CliError::input)?;
+    let focuser = Focuser::new(ground.known, options).map_err(CliError::input)?;
     let plan_s = start.elapsed().as_secs_f64();
     let start = Instant::now();
     let focused = focuser.focus(ground.targets).map_err(CliError::input)?;
     let drive_s = start.elapsed().as_secs_f64();
     let Measured { targets, drive, .. } = measured(ground, &focused)?;
-    Ok(Row { method: method.name(), plan_s, drive_s, energy_for_peak: 1.0, targets, drive })
+    let (energy_for_peak, drive_for_level_db) = (1.0, 0.0);
+    let method = options.method.name();
+    Ok(Row { method, plan_s, drive_s, energy_for_peak, drive_for_level_db, targets, drive })
 }
 
 fn measured(ground: &Ground<'_>, focused: &Focused) -> Result<Measured, CliError> {
@@ -46,17 +54,24 @@ fn measured(ground: &Ground<'_>, focused: &Focused) -> Result<Measured, CliError
     field.measure(&aims, focused.period.map(seconds)).map_err(CliError::input)
 }
 
-/// Energies for the same peak, over that of the first row.
+/// Energies for the same peak, and drives for the same felt level, over those of the first row.
 pub fn relate(rows: &mut [Row]) {
-    let price = |row: &Row| {
-        let peak = row.targets.first().map_or(f64::NAN, |target| target.peak_velocity_m_s);
-        row.drive.energy / (peak * peak)
-    };
-    let first = rows.first().map_or(f64::NAN, price);
-    rows.iter_mut().for_each(|row| row.energy_for_peak = price(row) / first);
+    let first = rows.first().map_or([f64::NAN; 2], prices);
+    rows.iter_mut().for_each(|row| {
+        let [energy, drive] = prices(row);
+        (row.energy_for_peak, row.drive_for_level_db) = (energy / first[0], drive - first[1]);
+    });
 }
 
-const HEADINGS: [&str; 13] = [
+/// Energy per squared peak of the first target, and dB of drive rms per felt level.
+fn prices(row: &Row) -> [f64; 2] {
+    let target = row.targets.first();
+    let peak = target.map_or(f64::NAN, |target| target.peak_velocity_m_s);
+    let level = target.and_then(|target| target.felt_level_db).unwrap_or(f64::NAN);
+    [row.drive.energy / (peak * peak), 20.0 * row.drive.rms.log10() - level]
+}
+
+const HEADINGS: [&str; 14] = [
     "method",
     "contrast",
     "background",
@@ -68,6 +83,7 @@ const HEADINGS: [&str; 13] = [
     "felt contrast",
     "felt background",
     "felt worst",
+    "drive for felt",
     "plan ms",
     "drive ms",
 ];
@@ -89,6 +105,7 @@ fn cells(row: &Row) -> Vec<String> {
         number(of(|t| t.felt_contrast_db), 1),
         number(of(|t| t.felt_background_db), 1),
         number(of(|t| t.felt_worst_spot_db), 1),
+        format!("{:.1}", row.drive_for_level_db),
         format!("{:.1}", row.plan_s * 1e3),
         format!("{:.2}", row.drive_s * 1e3),
     ]
@@ -126,7 +143,8 @@ pub fn markdown(surface: &str, rows: &[Row], window: f64, judged_to: f64) -> Str
 fn conditions(window: f64, judged_to: f64) -> String {
     format!(
         "Window {:.1} ms, first target, at the drive limit, judged on modes to {judged_to:.0} Hz. Energy for the same peak is relative \
-         to time reversal's; felt: dB above threshold, and below the target's level.",
+         to time reversal's; felt: dB above threshold, and below the target's level; drive for the same felt level in \
+         dB over time reversal's.",
         window * 1e3
     )
 }
