@@ -200,18 +200,21 @@ impl Ruler {
 /// Largest magnitude drawn; anything beyond counts as a gap.
 pub(crate) const LARGEST: f64 = 1e100;
 
+/// Smallest value on a logarithmic axis, so that the ratio of any two is a number.
+const SMALLEST: f64 = 1e-100;
+
 /// Both ends of the range, in the unit shown.
 fn range(axis: &Axis, data: impl Iterator<Item = f64>, padding: Padding) -> Result<(f64, f64), PlotError> {
     let log = axis.scale == Scale::Logarithmic;
     let name = || if axis.label.is_empty() { "axis".to_owned() } else { format!("axis `{}`", axis.label) };
     check(&name, "a finite, non-zero multiplier", axis.multiplier, |m| usable(m) && m != 0.0)?;
-    for end in [axis.low, axis.high].into_iter().flatten() {
+    for end in [axis.low, axis.high].into_iter().flatten().map(|end| end * axis.multiplier) {
         check(&name, "a finite end", end, usable)?;
-        check(&name, "a positive end on a logarithmic axis", end, |end| !log || end * axis.multiplier > 0.0)?;
+        check(&name, "a positive end, 1e-100 or more, on a logarithmic axis", end, |end| !log || end >= SMALLEST)?;
     }
     let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
     for value in data.map(|datum| datum * axis.multiplier).filter(|value| usable(*value)) {
-        check(&name, "a positive value on a logarithmic axis", value, |value| !log || value > 0.0)?;
+        check(&name, "a positive value, 1e-100 or more, on a logarithmic axis", value, |v| !log || v >= SMALLEST)?;
         (least, most) = (least.min(value), most.max(value));
     }
     let (least, most) = if least <= most { (least, most) } else { (1.0, 1.0) };

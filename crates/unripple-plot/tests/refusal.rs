@@ -39,10 +39,19 @@ fn lengths_that_disagree_are_refused() {
 fn what_is_not_positive_is_refused_on_logarithmic_axes() {
     let log = |x: Axis, y: Axis| Plot { x, y, ..plot(vec![0.5, 1.0], vec![0.0, 1.0]) };
     let found = refusal(log(Axis::default(), Axis::log("Contrast")));
-    let expected = "axis `Contrast`: expected a positive value on a logarithmic axis, found 0";
+    let expected = "axis `Contrast`: expected a positive value, 1e-100 or more, on a logarithmic axis, found 0";
     assert_eq!(found.to_string(), expected);
     assert!(matches!(refusal(log(Axis::log("T").from(-1.0), Axis::default())), PlotError::Range { .. }));
     assert!(Figure::of(log(Axis::log("T"), Axis::default())).draw().is_ok());
+}
+
+#[test]
+fn values_too_far_apart_for_a_logarithm_are_refused() {
+    let wide = |y: Vec<f64>| Plot { y: Axis::log("Gain"), ..plot(vec![0.0, 1.0], y) };
+    assert!(matches!(refusal(wide(vec![5e-324, 1e100])), PlotError::Range { .. }));
+    assert!(Figure::of(wide(vec![1e-100, 1e100])).draw().is_ok());
+    let tiny = Plot { y: Axis::log("Gain").times(1e-200).from(1e-200), ..plot(vec![0.0, 1.0], vec![1.0; 2]) };
+    assert!(matches!(refusal(tiny), PlotError::Range { .. }));
 }
 
 #[test]
