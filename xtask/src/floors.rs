@@ -10,6 +10,8 @@ const FLOORS: &[(&str, u8)] = &[
     ("unripple-field", 2),
     ("unripple-store", 3),
     ("unripple-plot", 3),
+    ("unripple-devices", 3),
+    ("unripple-calibrate", 3),
     ("unripple", 4),
     ("unripple-cli", 5),
 ];

@@ -25,6 +25,7 @@
 //! assert_eq!(sheet.area(), 0.015);
 //! ```
 
+mod device;
 mod drive;
 mod error;
 mod material;
@@ -37,6 +38,7 @@ mod side;
 mod surface;
 mod uneven;
 
+pub use device::{Device, DeviceError, Layout, State, Status};
 pub use drive::Drive;
 pub use error::CoreError;
 pub use material::{MATERIALS, Material};

@@ -210,11 +210,15 @@ fn range(axis: &Axis, data: impl Iterator<Item = f64>, padding: Padding) -> Resu
     check(&name, "a finite, non-zero multiplier", axis.multiplier, |m| usable(m) && m != 0.0)?;
     for end in [axis.low, axis.high].into_iter().flatten().map(|end| end * axis.multiplier) {
         check(&name, "a finite end", end, usable)?;
-        check(&name, "a positive end, 1e-100 or more, on a logarithmic axis", end, |end| !log || end >= SMALLEST)?;
+        check(&name, "a positive end, 1e-100 or more, on a logarithmic axis", end, |end| {
+            !log || end >= SMALLEST
+        })?;
     }
     let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
     for value in data.map(|datum| datum * axis.multiplier).filter(|value| usable(*value)) {
-        check(&name, "a positive value, 1e-100 or more, on a logarithmic axis", value, |v| !log || v >= SMALLEST)?;
+        check(&name, "a positive value, 1e-100 or more, on a logarithmic axis", value, |v| {
+            !log || v >= SMALLEST
+        })?;
         (least, most) = (least.min(value), most.max(value));
     }
     let (least, most) = if least <= most { (least, most) } else { (1.0, 1.0) };

@@ -39,7 +39,8 @@ fn lengths_that_disagree_are_refused() {
 fn what_is_not_positive_is_refused_on_logarithmic_axes() {
     let log = |x: Axis, y: Axis| Plot { x, y, ..plot(vec![0.5, 1.0], vec![0.0, 1.0]) };
     let found = refusal(log(Axis::default(), Axis::log("Contrast")));
-    let expected = "axis `Contrast`: expected a positive value, 1e-100 or more, on a logarithmic axis, found 0";
+    let expected =
+        "axis `Contrast`: expected a positive value, 1e-100 or more, on a logarithmic axis, found 0";
     assert_eq!(found.to_string(), expected);
     assert!(matches!(refusal(log(Axis::log("T").from(-1.0), Axis::default())), PlotError::Range { .. }));
     assert!(Figure::of(log(Axis::log("T"), Axis::default())).draw().is_ok());

@@ -1,0 +1,1 @@
+//! Recordings to responses: measuring, interpolating, fitting a model, following drift.

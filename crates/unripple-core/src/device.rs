@@ -1,0 +1,144 @@
+use std::fmt;
+
+/// Where drives meet the world: blocks of drive go out, blocks of what is heard come back. Virtual surfaces, sound
+/// servers and files all are devices; so calibration and play know one kind of thing.
+///
+/// A device is open from when it is made until it is dropped. Samples are float32 between -1 and 1 of full scale, or in the
+/// actuator's own unit where the device knows it: [`Layout::full_scale`] says how much drive one is.
+pub trait Device: Send {
+    /// Its channels, rate and block.
+    fn layout(&self) -> &Layout;
+
+    /// How it fares.
+    fn status(&self) -> Status;
+
+    /// Plays one block and hears one, taking as long as the device's own clock takes. `drive` holds [`Layout::block`]
+    /// samples for each output, one output after another, and `heard` as many for each input. What is heard in a block
+    /// answers drive of the same and earlier blocks, later by the round trip's latency.
+    ///
+    /// # Errors
+    /// [`DeviceError::Size`] for slices of another length; [`DeviceError::Lost`] once the device is gone;
+    /// [`DeviceError::Stalled`] when no block passed within the device's patience.
+    fn exchange(&mut self, drive: &[f32], heard: &mut [f32]) -> Result<(), DeviceError>;
+}
+
+/// What a device has.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layout {
+    /// What it is called: `virtual`, `jack`, a file's name.
+    pub device: String,
+    /// Samples per second.
+    pub rate: f64,
+    /// Samples per block.
+    pub block: usize,
+    /// Names of the outputs, in the order of the drive.
+    pub outputs: Vec<String>,
+    /// Names of the inputs, in the order of what is heard.
+    pub inputs: Vec<String>,
+    /// Drive, in the actuators' unit, of a sample of 1.
+    pub full_scale: f64,
+}
+
+/// How a device fares.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Status {
+    /// Whether blocks pass.
+    pub state: State,
+    /// Blocks exchanged so far.
+    pub blocks: u64,
+    /// Blocks that came late or were lost so far.
+    pub lost: u64,
+}
+
+/// Whether blocks pass, and if not, why.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum State {
+    /// They do.
+    #[default]
+    Running,
+    /// None has passed for a while; some may again.
+    Stalled(String),
+    /// None will pass any more.
+    Lost(String),
+}
+
+impl fmt::Display for State {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Running => f.write_str("running"),
+            Self::Stalled(why) => write!(f, "stalled: {why}"),
+            Self::Lost(why) => write!(f, "lost: {why}"),
+        }
+    }
+}
+
+/// Why a device did not exchange a block.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum DeviceError {
+    /// A block of another size than the device's.
+    #[error("device `{device}`: expected {expected} samples of {what}, found {found}")]
+    Size {
+        /// The device.
+        device: String,
+        /// `drive` or `heard`.
+        what: &'static str,
+        /// Samples there should be.
+        expected: usize,
+        /// Samples there are.
+        found: usize,
+    },
+    /// The device is gone.
+    #[error("device `{device}` is lost: {why}")]
+    Lost {
+        /// The device.
+        device: String,
+        /// What happened.
+        why: String,
+    },
+    /// No block passed within the device's patience.
+    #[error("device `{device}` stalled: {why}")]
+    Stalled {
+        /// The device.
+        device: String,
+        /// What happened.
+        why: String,
+    },
+}
+
+impl Layout {
+    /// Holds a block against the layout.
+    ///
+    /// # Errors
+    /// [`DeviceError::Size`] with what was expected and found.
+    pub fn fits(&self, drive: usize, heard: usize) -> Result<(), DeviceError> {
+        let wanted = [("drive", self.outputs.len(), drive), ("heard", self.inputs.len(), heard)];
+        for (what, channels, found) in wanted {
+            let expected = channels * self.block;
+            if found != expected {
+                return Err(DeviceError::Size { device: self.device.clone(), what, expected, found });
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blocks_of_another_size_are_refused() {
+        let names = |n: usize| (0..n).map(|i| format!("c{i}")).collect::<Vec<_>>();
+        let layout = Layout {
+            device: "virtual".into(),
+            rate: 48e3,
+            block: 64,
+            outputs: names(2),
+            inputs: names(3),
+            full_scale: 1.0,
+        };
+        assert!(layout.fits(128, 192).is_ok());
+        let error = layout.fits(128, 128).unwrap_err();
+        assert_eq!(error.to_string(), "device `virtual`: expected 192 samples of heard, found 128");
+    }
+}

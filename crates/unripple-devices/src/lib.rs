@@ -1,0 +1,1 @@
+//! Virtual surfaces, sound servers and files as one kind of device.
