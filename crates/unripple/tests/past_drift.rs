@@ -30,7 +30,7 @@ fn robust_bears_half_a_per_cent_of_stretch() {
     let [reversal, concentrate, robust] = [Method::TimeReversal, Method::Concentrate, Method::Robust]
         .map(|method| bench.plan(method, Options::default()));
     let (mut ratios, mut shares, mut costs, mut plain) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    for at in targets(6) {
+    for at in few(6) {
         let judge = |plan: &Focuser| {
             let drive = plan.focus(&[Target::at(at)]).unwrap().drive.as_emitted();
             let all: Vec<Focus> = plants.iter().map(|plant| on(plant, &drive, at, WINDOW)).collect();
@@ -61,7 +61,7 @@ fn what_a_wrong_tension_leaves() {
         surface.sheet.tension *= 1.0 + off;
         let plant = modes_to(&surface, 6000.0);
         let mean = |plan: &Focuser| {
-            let each: Vec<f64> = targets(4)
+            let each: Vec<f64> = few(4)
                 .into_iter()
                 .map(|at| on(&plant, &plan.focus(&[Target::at(at)]).unwrap().drive, at, WINDOW).contrast)
                 .collect();
@@ -89,7 +89,7 @@ fn points_half_a_wavelength_apart_are_enough() {
     let (measured, modal) =
         (Focuser::new(&library, &options).unwrap(), Focuser::new(&bench.known, &options).unwrap());
     let mut shares = Vec::new();
-    for near in targets(10) {
+    for near in few(10) {
         let at = *points.iter().min_by(|a, b| a.distance(near).total_cmp(&b.distance(near))).unwrap();
         shares.push(bench.judge(&measured, at).contrast / bench.judge(&modal, at).contrast);
     }

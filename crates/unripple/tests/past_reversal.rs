@@ -96,7 +96,7 @@ fn repetition_at_the_decay_time() {
     let plan = |method| bench.plan(method, Options { strength: Some(0.948), ..Options::default() });
     let (comb, periodic) = (plan(Method::TimeReversal), plan(Method::Concentrate));
     let (mut ratios, mut costs) = (Vec::new(), Vec::new());
-    for at in targets(5) {
+    for at in few(5) {
         let judge = |plan: &unripple::focus::Focuser| {
             let focused = plan.focus(&[Target::at(at).repeated(1.0 / 0.070)]).unwrap();
             let drive = focused.drive.as_emitted();

@@ -89,6 +89,11 @@ pub fn targets(count: usize) -> Vec<Point> {
     (0..count).map(|_| Point::new(random.between(0.02, 0.13), random.between(0.02, 0.13))).collect()
 }
 
+/// The first few of the twenty targets, and all of them where `UNRIPPLE_ALL_TARGETS` is set: what is costly to judge.
+pub fn few(count: usize) -> Vec<Point> {
+    targets(if std::env::var_os("UNRIPPLE_ALL_TARGETS").is_some() { 20 } else { count })
+}
+
 /// Mean, least and greatest.
 pub fn spread(values: &[f64]) -> [f64; 3] {
     let mean = values.iter().sum::<f64>() / values.len() as f64;
