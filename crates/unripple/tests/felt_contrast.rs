@@ -1,12 +1,14 @@
 //! How much less of the paper's surface is felt elsewhere than by time reversal.
 
+mod bench;
+
+use bench::few;
 use std::sync::LazyLock;
 use unripple::core::{Drive, Point, Responses};
 use unripple::field::{Aim, Field};
 use unripple::focus::{FeltOptions, FeltPlan, Focuser, Options, Target};
 use unripple::physics::design::papers_surface;
 use unripple::physics::{ResponseOptions, responses};
-use unripple::study::Random;
 
 const WINDOW: f64 = 0.030;
 
@@ -59,14 +61,9 @@ fn over(gains: &[Vec<[f64; 3]>], balance: usize, figure: usize) -> [f64; 3] {
     found
 }
 
-fn twenty() -> Vec<Point> {
-    let mut random = Random::seeded(2012);
-    (0..20).map(|_| Point::new(random.between(0.02, 0.13), random.between(0.02, 0.13))).collect()
-}
-
 #[test]
-fn twenty_targets_are_felt_alone() {
-    let gains = gains(&twenty(), &[FeltOptions::default(), thrifty()]);
+fn targets_are_felt_alone() {
+    let gains = gains(&few(10), &[FeltOptions::default(), thrifty()]);
     let [background, worst, drive] = [0, 1, 2].map(|figure| over(&gains, 0, figure));
     let [less_background, less_worst, less_drive] = [0, 1, 2].map(|figure| over(&gains, 1, figure));
     assert!(background[0] >= 6.0 && background[1] >= 5.5, "{background:?}");

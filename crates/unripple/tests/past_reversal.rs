@@ -38,7 +38,7 @@ fn concentrate_has_four_and_a_half_times_the_contrast() {
         let (before, after) = (bench.judge(&reversal, at), bench.judge(&concentrate, at));
         ratios.push(after.contrast / before.contrast);
         costs.push(after.cost(&before));
-        if i < 5 {
+        if i < few(5).len() {
             let width = |plan| bench.figures(plan, at).targets[0].spot_diameter_m.unwrap();
             widths.push(width(&concentrate) / width(&reversal));
         }
