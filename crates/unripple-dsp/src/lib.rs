@@ -1,10 +1,11 @@
-//! Signal processing: synthesis of modal responses, spectra, convolution, the threshold of touch.
+//! Signal processing: synthesis of modal responses, spectra, convolution, the threshold of touch, measuring responses.
 
 mod convolve;
 mod error;
 mod integral;
 mod interpolate;
 mod kernel;
+mod measure;
 mod spectrum;
 mod synth;
 mod threshold;
@@ -13,6 +14,11 @@ mod weighting;
 pub use convolve::{Convolver, convolve};
 pub use error::DspError;
 pub use integral::integral;
+pub use measure::{
+    Average, Band, CrossSpectra, Decay, Deconvolver, Delay, Gate, Harmonic, Harmonics, Inversion, Mls,
+    Outliers, Pair, Quality, Reciprocity, Schedule, Split, Stimulus, Sweep, Workspace, clipped, onset, shift,
+    snr_db,
+};
 pub use realfft::num_complex::Complex;
 pub use spectrum::share_above;
 pub use synth::ModalSynth;

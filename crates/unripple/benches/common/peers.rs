@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// What the peers are made of.
-const PACKAGES: [&str; 3] = ["numpy>=2,<3", "scipy>=1.11,<2", "scikit-fem>=12,<13"];
+const PACKAGES: [&str; 4] = ["numpy>=2,<3", "scipy>=1.11,<2", "scikit-fem>=12,<13", "pyfar>=0.8,<0.9"];
 
 /// What a script printed: lists of numbers by name.
 pub type Answer = BTreeMap<String, Vec<f64>>;
@@ -48,7 +48,7 @@ fn environment() -> Result<PathBuf, String> {
         text_of(Command::new("python3").args(["-m", "venv"]).arg(&folder))?;
     }
     let python = found().ok_or("the environment has no interpreter")?;
-    if text_of(Command::new(&python).args(["-c", "import numpy, scipy, skfem"])).is_err() {
+    if text_of(Command::new(&python).args(["-c", "import numpy, scipy, skfem, pyfar"])).is_err() {
         let options = ["-m", "pip", "install", "--quiet", "--retries", "1", "--timeout", "20"];
         text_of(Command::new(&python).args(options).args(PACKAGES))?;
     }

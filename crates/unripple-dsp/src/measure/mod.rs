@@ -1,0 +1,56 @@
+//! Measuring responses: what to play, responses from what was heard, and how good they are.
+
+mod average;
+mod band;
+mod comb;
+mod cross;
+mod cut;
+mod decay;
+mod deconvolver;
+mod delay;
+mod gate;
+mod harmonics;
+mod mls;
+mod quality;
+mod reciprocity;
+mod schedule;
+mod stimulus;
+mod sweep;
+mod transform;
+
+pub use average::{Average, Outliers};
+pub use band::Band;
+pub use cross::CrossSpectra;
+pub use decay::Decay;
+pub use deconvolver::{Deconvolver, Inversion, Workspace};
+pub use delay::{Delay, shift};
+pub use gate::{Gate, onset};
+pub use harmonics::{Harmonic, Harmonics, Split};
+pub use mls::Mls;
+pub use quality::{Quality, clipped, snr_db};
+pub use reciprocity::{Pair, Reciprocity};
+pub use schedule::Schedule;
+pub use stimulus::Stimulus;
+pub use sweep::Sweep;
+
+use crate::DspError;
+
+/// # Errors
+/// [`DspError::Range`] if a number is not positive and finite.
+fn positive(what: &'static str, found: f64) -> Result<(), DspError> {
+    if found > 0.0 && found.is_finite() {
+        return Ok(());
+    }
+    Err(DspError::Range { what, expected: "positive and finite".into(), found })
+}
+
+/// # Errors
+/// [`DspError::Size`] if two counts differ.
+fn same(what: &'static str, expected: usize, found: usize) -> Result<(), DspError> {
+    if expected == found { Ok(()) } else { Err(DspError::Size { what, expected, found }) }
+}
+
+/// Mean of squares; 0 of nothing.
+fn mean_square(signal: &[f64]) -> f64 {
+    signal.iter().map(|x| x * x).sum::<f64>() / signal.len().max(1) as f64
+}
