@@ -226,3 +226,26 @@ fn nothing_at_all_is_fine() {
     let (heard, _) = run(&mut surface, &[1.0, f64::NAN, f64::INFINITY, 0.0]);
     assert!(heard.iter().all(|x| x.is_finite()) && heard[3] != 0.0);
 }
+
+#[test]
+fn a_channel_that_is_moved_strikes_where_it_went() {
+    let places = [(40.0, 50.0), (90.0, 33.0)];
+    let strip = load(20.0, 70.0, [2e-3, 0.1, 500.0], None);
+    let loaded = Channel { load: Some(strip.clone()), ..Channel::force(strip.footprint) };
+    let at = |(x, y)| {
+        let channels = [loaded.clone(), force(x, y)];
+        VirtualSurface::new(&membrane(49, 20.0), &channels, 48e3, &StepperOptions::default()).unwrap()
+    };
+    let (mut moved, mut there) = (at(places[0]), at(places[1]));
+    let footing = moved.plant().footing(mm(90.0, 33.0), 0.0).unwrap();
+    assert!(moved.seat(0, &footing).is_err() && moved.seat(2, &footing).is_err());
+    moved.seat(1, &footing).unwrap();
+    let drive = noise(3, 2 * 512);
+    let (found, expected) = (run(&mut moved, &drive), run(&mut there, &drive));
+    assert!(apart(&found.0, &expected.0) < 1e-12);
+    // Under way, what rings already goes on.
+    let footing = moved.plant().footing(mm(40.0, 50.0), 0.0).unwrap();
+    let energy = moved.energy();
+    moved.seat(1, &footing).unwrap();
+    assert_eq!(moved.energy(), energy);
+}

@@ -192,6 +192,13 @@ impl Engine {
         self.stale = true;
     }
 
+    /// Gives a port without load other weights.
+    pub(super) fn reseat(&mut self, port: usize, weights: &[f64]) {
+        self.weights.fill(port, weights);
+        self.measure(port..port + 1);
+        self.stale = true;
+    }
+
     /// Forgets a finger; [`Engine::renew_now`] must follow.
     #[cold]
     pub(super) fn drop_finger(&mut self, finger: usize) {

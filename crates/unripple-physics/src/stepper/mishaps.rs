@@ -50,6 +50,8 @@ pub struct Misbehaving {
     surface: VirtualSurface,
     mishaps: Mishaps,
     most: usize,
+    /// Channels at the end that no wire leads to.
+    spare: usize,
     drive: Vec<f64>,
     /// For each channel, the last samples of its sensor, the next to be given first.
     late: Vec<f64>,
@@ -87,6 +89,7 @@ impl Misbehaving {
         Ok(Self {
             surface,
             most,
+            spare: 0,
             drive: vec![0.0; channels * most],
             late,
             oldest: 0,
@@ -94,6 +97,22 @@ impl Misbehaving {
             lost: 0,
             mishaps,
         })
+    }
+
+    /// The same, the last `spare` channels being forces that no wire leads to, taps for example: nothing happens to their
+    /// drive, and their sensors are as told.
+    ///
+    /// # Errors
+    /// [`PhysicsError::Range`] for more of them than channels, or if a mishap happens to one.
+    pub fn with_spare(self, spare: usize) -> Result<Self, PhysicsError> {
+        let channels = self.surface.channels();
+        check("spare channels", spare as f64, spare <= channels, &format!("at most {channels}"))?;
+        let pairs = self.mishaps.swapped.iter().flat_map(|(a, b)| [*a, *b]);
+        for channel in pairs.chain(self.mishaps.dead.iter().copied()) {
+            let expected = format!("less than {}, the channels with wires", channels - spare);
+            check("channel of a mishap", channel as f64, channel < channels - spare, &expected)?;
+        }
+        Ok(Self { spare, ..self })
     }
 
     /// The surface as it really is.
@@ -138,15 +157,16 @@ impl Misbehaving {
         }
         self.surface.process(frames, &self.drive[..channels * frames], sensors, probes)?;
         if !sensors.is_empty() {
-            self.mislead(sensors, frames, lost);
+            let wired = (channels - self.spare) * frames;
+            self.mislead(&mut sensors[..wired], frames, lost);
         }
         Ok(())
     }
 
     /// What of the drive gets through, into the scratch.
     fn distort(&mut self, drive: &[f64], frames: usize, lost: bool) {
-        let scratch = &mut self.drive[..drive.len()];
-        scratch.copy_from_slice(drive);
+        self.drive[..drive.len()].copy_from_slice(drive);
+        let scratch = &mut self.drive[..drive.len() - self.spare * frames];
         for (a, b) in &self.mishaps.swapped {
             swap(scratch, frames, *a, *b);
         }

@@ -137,6 +137,30 @@ impl VirtualSurface {
         Ok(())
     }
 
+    /// Moves a channel on which nothing hangs to another footing, from the next sample on: a tap comes anywhere as drive of
+    /// such a channel. Allocates nothing unless it fails.
+    ///
+    /// # Errors
+    /// [`PhysicsError::Range`] for a channel that there is not or a footing of another sheet; [`PhysicsError::Unsupported`]
+    /// for a channel with a load.
+    pub fn seat(&mut self, channel: usize, footing: &Footing) -> Result<(), PhysicsError> {
+        self.check_footing(footing)?;
+        let lead = self.engine.leads.get(channel).copied();
+        let Some(lead) = lead else {
+            let expected = format!("less than {}, the number of channels", self.channels());
+            return check("channel to be moved", channel as f64, false, &expected);
+        };
+        if lead.port >= self.engine.felt.plain {
+            return Err(PhysicsError::Unsupported {
+                what: "channel to be moved",
+                expected: "one on which nothing hangs",
+                found: format!("channel {channel}, with a load"),
+            });
+        }
+        self.engine.reseat(lead.port, &footing.weights);
+        Ok(())
+    }
+
     /// Takes in so many samples of all channels and gives as many of all sensors and probes. Never allocates.
     ///
     /// All three are planar: the samples of channel 0, then those of channel 1, and so on. A sensor or probe at sample i
