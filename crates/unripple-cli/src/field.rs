@@ -14,21 +14,33 @@ use unripple::field::{Aim, Field};
 use unripple_store::{OutputDir, read_wav};
 
 pub fn run(options: &FieldOptions, as_json: bool) -> Result<(), CliError> {
-    let surface = input::surface(&options.surface)?;
-    let names: Vec<String> = surface.actuators.iter().map(|a| a.name.clone()).collect();
+    let source = input::source(&options.surface)?;
+    source.allows(&[("--finger", !options.finger.is_empty()), ("--judge-hz", options.judge_hz.is_some())])?;
+    let names: Vec<String> = source.surface.actuators.iter().map(|a| a.name.clone()).collect();
     let drive = read_wav(&options.drive)?.into_drive(&names, &options.drive.display().to_string())?;
     let out = options.output.as_ref().map(OutputDir::create).transpose()?;
-    let contacts = fingers::contacts(&options.finger, &surface)?;
-    let responses = judge::model(&surface, options.judge_hz, &contacts)?;
+    let contacts = fingers::contacts(&options.finger, &source.surface)?;
+    let places = options.at.iter().map(|text| place(text, "--at")).collect::<Result<Vec<_>, _>>()?;
+    let (surface, responses, stored) = match source.stored {
+        Some(_) => source.respond(&places, options.between.interpolation())?,
+        None => {
+            let responses = judge::model(&source.surface, options.judge_hz, &contacts)?;
+            (source.surface, responses, None)
+        }
+    };
     let period = seconds(options.period_ms, "--period-ms")?;
     let field = Field::new(&responses, &drive, CELLS).map_err(CliError::input)?;
-    let aims = aims(options, &field, &drive, period)?;
+    let aims = aims(options, places, &field, &drive, period)?;
     let last = aims.iter().map(|aim| aim.instant).fold(0.0, f64::max);
     let until = if period.is_some() { drive.duration() - 1.0 / drive.rate() } else { 2.0 * last };
     let judged = judge::judge(&surface, &field, &aims, period, until)?;
 
     let mut report = Report::new("field", &surface, &drive, &judged);
     report.period_s = period;
+    if let Some((told, notes)) = stored {
+        report.notes.extend(notes);
+        report.judged_on = Some(told);
+    }
     if !contacts.is_empty() {
         let without = judge::model(&surface, options.judge_hz, &[])?;
         let without = Field::new(&without, &drive, 1.0).map_err(CliError::input)?;
@@ -45,11 +57,11 @@ pub fn run(options: &FieldOptions, as_json: bool) -> Result<(), CliError> {
 /// Where and when to measure: as asked, or at the strongest place and at each place's own peak.
 fn aims(
     options: &FieldOptions,
+    mut points: Vec<Point>,
     field: &Field,
     drive: &Drive,
     period: Option<f64>,
 ) -> Result<Vec<Aim>, CliError> {
-    let mut points = options.at.iter().map(|text| place(text, "--at")).collect::<Result<Vec<_>, _>>()?;
     if points.is_empty() {
         points.push(strongest(field, drive, period)?);
     }

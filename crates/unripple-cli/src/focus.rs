@@ -1,18 +1,19 @@
 //! `unripple focus`: a drive, its report and its figures.
 
-use crate::args::{FocusOptions, LossName};
+use crate::args::{FocusOptions, LossName, MethodName};
 use crate::aware::Aware;
 use crate::error::CliError;
 use crate::figures::{self, Scene};
 use crate::fingers::{self, Felt};
-use crate::judge::{self, CELLS, Judged};
+use crate::judge::{self, CELLS, Judged, Note};
 use crate::level::felt_gain;
 use crate::report::{self, Report};
 use crate::targets::{self, positive, seconds};
 use crate::{input, output, played, waveforms};
-use unripple::core::{ActuatorKind, Contact, Decay, Drive, Responses, Surface};
+use unripple::core::{ActuatorKind, Contact, Decay, Drive, Point, Responses, Surface};
 use unripple::field::{Aim, Field};
 use unripple::focus::{Focused, LossCorrection, Options, Target};
+use unripple::physics::Medium;
 use unripple::physics::design::recommended_window;
 use unripple_store::{OutputDir, write_wav};
 
@@ -21,11 +22,16 @@ pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
     if !options.targets.waveform.is_empty() || options.targets.path.is_some() {
         return played::run(options, as_json);
     }
-    let surface = input::surface(&options.surface)?;
+    let source = input::source(&options.surface)?;
+    source.allows(&needing_modes(options))?;
     let plant = options.on.as_deref().map(input::surface).transpose()?;
     let out = OutputDir::create(&options.output)?;
-    let responses = judge::model(&surface, None, &[])?;
-    let targets = targets::all(&options.targets, responses.conditions().lambda_min)?;
+    let known = source.lambda_min();
+    let lambda_min = known
+        .unwrap_or_else(|| Medium::of(&source.surface.sheet).lambda_min(source.surface.emission.band[1]));
+    let targets = targets::all(&options.targets, lambda_min)?;
+    let places: Vec<Point> = targets.iter().flat_map(|target| target.points.iter().copied()).collect();
+    let (surface, responses, stored) = source.respond(&places, options.between.interpolation())?;
     let settings = settings(options, &surface, &responses)?;
     let aware = Aware::of(options, &surface)?;
     let focused = aware.focus(&responses, &targets, &settings)?;
@@ -45,12 +51,46 @@ pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
     report.fingers = felt;
     report.notes.extend(aware.note(&responses, &targets, &settings, &focused)?);
     report.judged_on = other.then(|| judged_on(judged_surface, options.judge_hz));
+    if let Some((told, notes)) = stored {
+        report.notes.extend(notes.into_iter().chain(nearby(&focused, &targets)));
+        report.judged_on.get_or_insert(told);
+    }
     report.method = Some(focused.method.name());
     report.window_s = Some(settings.window);
     report.period_s = focused.period.map(|samples| samples as f64 / drive.rate());
     write(&out, &mut report, judged_surface, &drive, &judged, &focused)?;
     finish(out)?;
     output::answer(as_json, &report, &report.text())
+}
+
+/// Options that a library cannot serve, and whether they were given.
+fn needing_modes(options: &FocusOptions) -> [(&'static str, bool); 7] {
+    let on_surface = options.on.is_some();
+    [
+        ("--finger-aware", options.finger_aware),
+        ("--bear-tension-percent", options.bear_tension_percent.is_some()),
+        ("--bear-finger", !options.bear_finger.is_empty()),
+        ("--judge-hz without --on", options.judge_hz.is_some() && !on_surface),
+        ("--finger without --on", !options.finger.is_empty() && !on_surface),
+        ("--method robust", options.method == MethodName::Robust),
+        ("--method felt", options.method == MethodName::Felt),
+    ]
+}
+
+/// Where stored points stand for the places asked for.
+fn nearby(focused: &Focused, targets: &[Target]) -> Vec<Note> {
+    let places = targets.iter().zip(&focused.points).filter_map(|(target, used)| {
+        let (asked, stored) = (*target.points.first()?, *used.first()?);
+        let apart = asked.distance(stored);
+        (apart > 1e-9).then(|| Note {
+            topic: "library",
+            text: format!(
+                "{stored} stands for {asked}, {:.2} mm away: the nearest finished point",
+                apart * 1e3
+            ),
+        })
+    });
+    places.collect()
 }
 
 /// What every finger feels of a drive, from the responses under the fingers and without them.
@@ -70,7 +110,7 @@ fn felt(
 
 fn settings(options: &FocusOptions, surface: &Surface, responses: &Responses) -> Result<Options, CliError> {
     let window = seconds(options.window_ms, "--window-ms")?
-        .unwrap_or_else(|| recommended_window(surface, responses_count(responses)));
+        .unwrap_or_else(|| recommended_window(surface, responses_count(responses)).min(longest(responses)));
     let loss = match (options.losses, &surface.sheet.decay) {
         (LossName::None, _) => LossCorrection::None,
         (LossName::PerMode, _) => LossCorrection::PerMode,
@@ -104,6 +144,14 @@ fn responses_count(responses: &Responses) -> Option<usize> {
     match responses {
         Responses::Modal(modal) => Some(modal.poles.len()),
         Responses::Sampled(_) => None,
+    }
+}
+
+/// The longest window that responses are long enough for, in seconds.
+fn longest(responses: &Responses) -> f64 {
+    match responses {
+        Responses::Modal(_) => f64::INFINITY,
+        Responses::Sampled(sampled) => sampled.samples().saturating_sub(1) as f64 / sampled.conditions.rate,
     }
 }
 
@@ -158,7 +206,7 @@ fn largest(
 ) -> Result<f64, CliError> {
     let field = Field::new(responses, drive, 1.0).map_err(CliError::input)?;
     let points = aims.first().map_or(&[][..], |aim| &aim.points);
-    let traces = field.traces(points, until).map_err(CliError::input)?;
+    let traces = field.traces(points, until.min(judge::known(&field))).map_err(CliError::input)?;
     let first = period.map_or(0, |period| drive.samples().saturating_sub(period));
     let samples = traces.first().map_or(0, |trace| trace.displacement.len());
     let mean = |i: usize| traces.iter().map(|t| t.displacement[i]).sum::<f64>() / traces.len() as f64;

@@ -1,8 +1,11 @@
-//! Surfaces and drives as named on the command line.
+//! Surfaces and libraries as named on the command line.
 
+use crate::between;
 use crate::error::CliError;
-use unripple::core::Surface;
-use unripple_store::{StoreError, load_surface};
+use crate::judge::{self, Note};
+use unripple::core::{Point, Responses, SampledResponses, Surface};
+use unripple_calibrate::Interpolation;
+use unripple_store::{Library, StoreError, load_surface};
 
 impl From<StoreError> for CliError {
     fn from(error: StoreError) -> Self {
@@ -17,4 +20,103 @@ impl From<StoreError> for CliError {
 /// A built-in surface or a surface file.
 pub fn surface(name: &str) -> Result<Surface, CliError> {
     Ok(load_surface(name)?)
+}
+
+/// What a command works on.
+pub struct Source {
+    /// The surface; of a library, the one it was made for.
+    pub surface: Surface,
+    /// Its responses, where they are stored.
+    pub stored: Option<Stored>,
+}
+
+/// Responses from a library.
+pub struct Stored {
+    /// Those of the finished points that can be read.
+    pub responses: SampledResponses,
+    /// What figures taken on them are of.
+    pub told: String,
+    /// What is wrong with it.
+    pub notes: Vec<Note>,
+}
+
+/// A surface by name or file, or a library by its folder.
+pub fn source(name: &str) -> Result<Source, CliError> {
+    if !Library::is_at(name) {
+        return Ok(Source { surface: surface(name)?, stored: None });
+    }
+    let library = Library::open(name)?;
+    let Some(surface) = library.plan().surface.clone() else {
+        return Err(CliError::Input(format!(
+            "{name}: expected a library that describes its surface, found one without"
+        )));
+    };
+    let names = |list: Vec<&String>| list.into_iter().cloned().collect::<Vec<_>>().join(", ");
+    let (ports, actuators) = (&library.plan().ports, &surface.actuators);
+    let expected = names(actuators.iter().map(|a| &a.name).collect());
+    let found = names(ports.iter().map(|p| &p.name).collect());
+    if expected != found {
+        return Err(CliError::Input(format!(
+            "{name}: expected responses of {expected}, found those of {found}"
+        )));
+    }
+    let (responses, damage) = library.intact()?;
+    let (points, all) = (responses.points.len(), library.points().len());
+    if points == 0 {
+        return Err(CliError::Input(format!(
+            "{name}: expected a library with finished points, found 0 of {all}"
+        )));
+    }
+    let note = |text| Note { topic: "library", text };
+    let mut notes: Vec<Note> =
+        damage.iter().take(LISTED).map(|damage| note(format!("damaged, and left out: {damage}"))).collect();
+    if damage.len() > LISTED {
+        notes.push(note(format!("{} files more are damaged", damage.len() - LISTED)));
+    }
+    if points < all {
+        notes.push(note(format!("{points} of {all} points are finished and sound")));
+    }
+    let told = format!("the {points} points of {name}");
+    Ok(Source { surface, stored: Some(Stored { responses, told, notes }) })
+}
+
+/// What figures taken on a library are of, and notes on it.
+pub type Told = (String, Vec<Note>);
+
+/// Damaged files named one by one.
+const LISTED: usize = 5;
+
+impl Source {
+    /// Its shortest wavelength, where responses are stored.
+    pub fn lambda_min(&self) -> Option<f64> {
+        self.stored.as_ref().map(|stored| stored.responses.conditions.lambda_min)
+    }
+
+    /// The surface, its responses within the band, and, of a library, what to say of them. A library's are made complete at
+    /// `places`.
+    pub fn respond(
+        self,
+        places: &[Point],
+        way: Interpolation,
+    ) -> Result<(Surface, Responses, Option<Told>), CliError> {
+        match self.stored {
+            Some(Stored { responses, told, mut notes }) => {
+                let (responses, more) = between::completed(responses, &self.surface, places, way)?;
+                notes.extend(more);
+                Ok((self.surface, Responses::Sampled(responses), Some((told, notes))))
+            }
+            None => {
+                let responses = judge::model(&self.surface, None, &[])?;
+                Ok((self.surface, responses, None))
+            }
+        }
+    }
+
+    /// Refuses, for a library, options that need a model. Each is a name and whether it was given.
+    pub fn allows(&self, options: &[(&str, bool)]) -> Result<(), CliError> {
+        let given = options.iter().find(|(_, given)| *given && self.stored.is_some());
+        given.map_or(Ok(()), |(name, _)| {
+            Err(CliError::Input(format!("{name}: expected a surface, whose modes it needs, found a library")))
+        })
+    }
 }

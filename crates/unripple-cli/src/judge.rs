@@ -62,7 +62,7 @@ pub fn model(surface: &Surface, max_hz: Option<f64>, contacts: &[Contact]) -> Re
     })
 }
 
-/// Measures what the field of a drive is at the aims. Traces last until `until` seconds.
+/// Measures what the field of a drive is at the aims. Traces last until `until` seconds, or as long as the field is known.
 pub fn judge(
     surface: &Surface,
     field: &Field,
@@ -70,6 +70,7 @@ pub fn judge(
     period: Option<f64>,
     until: f64,
 ) -> Result<Judged, CliError> {
+    let until = until.min(known(field));
     let spinner = (until > LONG).then(|| waiting(format!("measuring {until:.2} s of the whole surface")));
     let measured = field.measure(aims, period).map_err(CliError::input)?;
     if let Some(spinner) = spinner {
@@ -80,6 +81,11 @@ pub fn judge(
     let linearity = small(surface, &measured);
     let notes = notes(surface, &measured, linearity.as_ref());
     Ok(Judged { measured, traces, until, linearity, notes })
+}
+
+/// The last instant at which a field is known, in seconds.
+pub fn known(field: &Field) -> f64 {
+    field.known().saturating_sub(1) as f64 / field.rate()
 }
 
 /// The largest displacement anywhere, in metres.

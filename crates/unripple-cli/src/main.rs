@@ -2,14 +2,18 @@
 
 mod args;
 mod aware;
+mod between;
+mod calibrate;
 mod check;
 mod compare;
 mod design;
+mod devices;
 mod error;
 mod field;
 mod figures;
 mod fingers;
 mod focus;
+mod grid;
 mod input;
 mod judge;
 mod level;
@@ -18,6 +22,7 @@ mod output;
 mod played;
 mod report;
 mod reproduce;
+mod respond;
 mod targets;
 mod waveforms;
 
@@ -37,12 +42,15 @@ fn main() -> ExitCode {
 fn run(arguments: &Arguments) -> Result<(), CliError> {
     let json = arguments.json;
     match &arguments.command {
+        Command::Calibrate(options) => calibrate::run(options, json),
         Command::Check(options) => check::run(options, json),
         Command::Design(options) => design::run(options, json),
         Command::Modes(options) => modes::run(options, json),
+        Command::Respond(options) => respond::run(options, json),
         Command::Focus(options) => focus::run(options, json),
         Command::Compare(options) => compare::run(options, json),
         Command::Field(options) => field::run(options, json),
+        Command::Devices(options) => devices::run(options, json),
         Command::Reproduce(options) => reproduce::run(options, json),
     }
 }

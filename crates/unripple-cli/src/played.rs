@@ -72,7 +72,9 @@ struct Work {
 }
 
 pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
-    let surface = input::surface(&options.surface)?;
+    let source = input::source(&options.surface)?;
+    source.allows(&[("--waveform and --path", true)])?;
+    let surface = source.surface;
     let plant = options.on.as_deref().map(input::surface).transpose()?;
     let plant = plant.as_ref().unwrap_or(&surface);
     let out = OutputDir::create(&options.output)?;

@@ -1,1 +1,27 @@
 //! Virtual surfaces, sound servers and files as one kind of device.
+//!
+//! [`Virtual`] is the surface of the time-stepper behind the trait [`Device`](unripple_core::Device), with [`Unknowns`] that no
+//! model is told; [`Tape`] keeps a drive and brings recordings back; [`Jack`] is a sound server; [`check_wiring`] says which
+//! channel is silent, swapped or reversed; [`list`] says what there is.
+
+mod delay;
+mod error;
+mod interface;
+pub mod jack;
+mod list;
+mod random;
+mod tap;
+mod tape;
+mod unknowns;
+mod virtual_surface;
+mod wiring;
+
+pub use error::DevicesError;
+pub use interface::Interface;
+pub use jack::{Bridge, Jack, JackOptions, Links};
+pub use list::{Found, Server, Stream, list};
+pub use tap::Tap;
+pub use tape::Tape;
+pub use unknowns::{Truth, Unknowns};
+pub use virtual_surface::{Handle, PROBE, Virtual, VirtualOptions};
+pub use wiring::{Expected, Lead, WiringOptions, WiringReport, check_wiring};

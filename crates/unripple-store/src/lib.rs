@@ -7,6 +7,7 @@
 //!   [`to_toml`] writes one.
 //! - [`write_wav`] and [`read_wav`] carry drives, one channel per actuator.
 //! - [`Drawing`] reads the shapes of an SVG document in metres as polylines, [`read_curves`] its curves as curves.
+//! - [`Library`] keeps responses, measured or modelled, as a Zarr v3 folder that survives being killed.
 //! - [`OutputDir`] gathers what a run writes and puts it in place in one step.
 //!
 //! ```
@@ -21,6 +22,7 @@ mod degrees;
 mod error;
 mod fault;
 mod file;
+mod library;
 mod load;
 mod names;
 mod output;
@@ -32,6 +34,7 @@ pub use builtin::{BUILTINS, Builtin};
 pub use error::StoreError;
 pub use fault::{Fault, SurfaceFaults};
 pub use file::{LARGEST_TEXT, write_file};
+pub use library::{Damage, Library, LibraryPlan, MAY_DIFFER, PointState, Quality, Take};
 pub use load::load_surface;
 pub use output::{Committed, MARKER, OutputDir};
 pub use surface::{parse_surface, parse_surface_with, to_toml};

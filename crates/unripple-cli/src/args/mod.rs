@@ -1,11 +1,16 @@
 //! What can be typed. Lengths in mm, times in ms.
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+mod calibrate;
+mod names;
+
+pub use calibrate::{CalibrateOptions, DeviceOptions};
+use clap::{Args, Parser, Subcommand};
+pub use names::{BetweenName, DeviceName, LossName, MethodName, WayName};
 use std::path::PathBuf;
 
 /// Waves that meet under a fingertip: design, simulate and focus a reverberant touch surface.
 ///
-/// SURFACE is a TOML file or the name of a built-in surface, such as hudin-2012.
+/// SURFACE is a TOML file or the name of a built-in surface, such as hudin-2012. LIBRARY is a folder of responses.
 #[derive(Debug, Parser)]
 #[command(version, propagate_version = true)]
 pub struct Arguments {
@@ -24,14 +29,20 @@ pub enum Command {
     Design(DesignOptions),
     /// Modal analysis: frequencies and decay times.
     Modes(ModesOptions),
+    /// Responses from the model, as a library.
+    Respond(RespondOptions),
     /// A drive that focuses on points or shapes, with its report and figures.
     Focus(FocusOptions),
     /// Every method on the same targets: one table, one figure.
     Compare(CompareOptions),
     /// What any drive does to a surface.
     Field(FieldOptions),
+    /// Responses measured through a device, as a library that `focus` and `field` take in place of a surface.
+    Calibrate(CalibrateOptions),
     /// All faults of a surface file.
     Check(CheckOptions),
+    /// What drives can be played through: virtual surface, files, sound server, cards.
+    Devices(DevicesOptions),
     /// The paper's table and figures beside ours, as one page.
     Reproduce(ReproduceOptions),
 }
@@ -41,6 +52,14 @@ pub enum Command {
 pub struct CheckOptions {
     /// A surface file, or the name of a built-in surface.
     pub surface: String,
+}
+
+/// Options of `devices`.
+#[derive(Debug, Args)]
+pub struct DevicesOptions {
+    /// Name of the JACK server to look at; by default the default one.
+    #[arg(long, value_name = "NAME")]
+    pub server: Option<String>,
 }
 
 /// Options of `design`.
@@ -61,6 +80,22 @@ pub struct ModesOptions {
     /// Relative accuracy of the frequencies.
     #[arg(long, value_name = "FRACTION", default_value_t = 1e-6, allow_negative_numbers = true)]
     pub accuracy: f64,
+}
+
+/// Options of `respond`.
+#[derive(Debug, Args)]
+pub struct RespondOptions {
+    /// A surface file, or the name of a built-in surface.
+    pub surface: String,
+    /// Distance between points, in mm: they lie at its multiples, those near the rim left out.
+    #[arg(long, value_name = "P", allow_negative_numbers = true)]
+    pub grid_mm: f64,
+    /// Length of the responses in ms; by default twice the window that `design` recommends.
+    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
+    pub length_ms: Option<f64>,
+    /// Folder of the library. One of the same plan is taken up where it was left.
+    #[arg(short, long, value_name = "LIBRARY")]
+    pub output: PathBuf,
 }
 
 /// Where to focus, and how strongly.
@@ -96,56 +131,11 @@ pub struct TargetOptions {
     pub level_mm_s: Option<f64>,
 }
 
-/// Methods by the names the command line and reports use.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum MethodName {
-    /// The response from every actuator to the target, played backwards.
-    TimeReversal,
-    /// The sign of time reversal, at the limit throughout.
-    OneBit,
-    /// The least-energy drive of a delta: more contrast for more energy.
-    Inverse,
-    /// The least velocity elsewhere at the focal instant: several times the contrast of time reversal.
-    Concentrate,
-    /// The same within each actuator's limit, pushed towards the highest peak.
-    Limited,
-    /// The same over a spread of frequencies: for a sheet that warms.
-    Robust,
-    /// The least that a fingertip feels elsewhere, over all time.
-    Felt,
-}
-
-impl MethodName {
-    /// What it stands for.
-    pub fn method(self) -> unripple::focus::Method {
-        use unripple::focus::Method;
-        match self {
-            Self::TimeReversal => Method::TimeReversal,
-            Self::OneBit => Method::OneBit,
-            Self::Inverse => Method::Inverse,
-            Self::Concentrate => Method::Concentrate,
-            Self::Limited => Method::Limited,
-            Self::Robust => Method::Robust,
-            Self::Felt => Method::Felt,
-        }
-    }
-}
-
-/// How the decay of what is played back is made up for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum LossName {
-    /// Not at all: the paper's time reversal.
-    None,
-    /// By e^{+t/τ} with the surface's one decay time.
-    Uniform,
-    /// Mode by mode, by e^{+t/τ} with each mode's own decay time.
-    PerMode,
-}
-
 /// Options of `focus`.
 #[derive(Debug, Args)]
 pub struct FocusOptions {
-    /// A surface file, or the name of a built-in surface.
+    /// A surface file, the name of a built-in surface, or a library of responses.
+    #[arg(value_name = "SURFACE|LIBRARY")]
     pub surface: String,
     #[command(flatten)]
     pub targets: TargetOptions,
@@ -176,6 +166,9 @@ pub struct FocusOptions {
     /// Window T in ms; by default the one that `design` recommends.
     #[arg(long, value_name = "MS", allow_negative_numbers = true)]
     pub window_ms: Option<f64>,
+    /// What stands for a target between the points of a library.
+    #[arg(long, value_enum, default_value_t)]
+    pub between: BetweenName,
     /// Make up for losses in what is played back.
     #[arg(long, value_enum, default_value_t = LossName::None)]
     pub losses: LossName,
@@ -194,7 +187,7 @@ pub struct FocusOptions {
     /// For `robust`: bear a finger at X,Y in mm that may be there or not. Repeatable.
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     pub bear_finger: Vec<String>,
-    /// Judge the drive on another surface than the one it was computed for.
+    /// Judge the drive on another surface than the one, or than the library, it was computed for.
     #[arg(long, value_name = "SURFACE")]
     pub on: Option<String>,
     /// Judge on modes up to this frequency, in Hz; by default those of the band.
@@ -226,7 +219,8 @@ pub struct CompareOptions {
 /// Options of `field`.
 #[derive(Debug, Args)]
 pub struct FieldOptions {
-    /// A surface file, or the name of a built-in surface.
+    /// A surface file, the name of a built-in surface, or a library of responses.
+    #[arg(value_name = "SURFACE|LIBRARY")]
     pub surface: String,
     /// The drive: a WAV file with one channel per actuator, in the actuators' units.
     #[arg(long, value_name = "WAV")]
@@ -255,6 +249,9 @@ pub struct FieldOptions {
     /// Frames of the animation; 0 for none.
     #[arg(long, value_name = "N", default_value_t = 60)]
     pub frames: usize,
+    /// What stands for a place between the points of a library.
+    #[arg(long, value_enum, default_value_t)]
+    pub between: BetweenName,
 }
 
 /// Options of `reproduce`.

@@ -1,0 +1,83 @@
+use super::bessel::Bessel;
+use super::options::BetweenOptions;
+use super::spectra::Spectra;
+use crate::CalibrateError;
+use crate::error::require;
+use std::f64::consts::TAU;
+
+/// Stray waves have any wavenumber up to this multiple of the one told.
+const STRAY: f64 = 1.5;
+
+/// Least power of the errors of a response over its own power: well above what the tables of covariances are off by.
+const LEAST: f64 = 1e-6;
+
+/// Waves of one frequency as the points see them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Line {
+    /// Wavenumber, in rad/m.
+    pub k: f64,
+    /// Largest wavenumber of stray waves, in rad/m.
+    pub stray_k: f64,
+    /// Share of the power in stray waves.
+    pub stray: f64,
+    /// Power of the errors at one point, of its own alone, over that of the field.
+    pub error: f64,
+    /// What displaced points leave of the field, as a factor.
+    pub kept: f64,
+}
+
+/// Waves of every frequency.
+#[derive(Clone, Debug)]
+pub(crate) struct Waves {
+    pub lines: Vec<Line>,
+    bessel: Bessel,
+}
+
+impl Waves {
+    /// Of the bins of `spectra`; wavenumbers (rad/m) from angular frequencies (rad/s), distances up to `reach` (m).
+    ///
+    /// # Errors
+    /// [`CalibrateError::Range`] for a wavenumber that cannot be.
+    pub fn of(
+        spectra: &Spectra,
+        wavenumber: impl Fn(f64) -> f64,
+        floor: f64,
+        reach: f64,
+        options: &BetweenOptions,
+    ) -> Result<Self, CalibrateError> {
+        let mut lines = Vec::with_capacity(spectra.bins());
+        // A cosine transform doubles what is not at its ends; noise adds by power.
+        let noise = options.noise.powi(2) * spectra.square * spectra.cosines.period() as f64;
+        let loudest = (0..spectra.bins()).map(|bin| spectra.power(bin)).fold(f64::MIN_POSITIVE, f64::max);
+        for bin in 0..spectra.bins() {
+            let hz = bin as f64 * spectra.step;
+            let k = wavenumber(TAU * hz);
+            require(
+                format!("wavenumber at {hz:.1} Hz (rad/m)"),
+                (0.0..1e7).contains(&k),
+                "0 or more, finite",
+                k,
+            )?;
+            let field = (spectra.power(bin) - noise).max(1e-3 * noise).max(1e-12 * loudest);
+            let moved = (k * options.position_error).powi(2) / 2.0;
+            lines.push(Line {
+                k,
+                stray_k: (STRAY * k).max(floor),
+                stray: options.stray,
+                error: (noise / field + options.gain_error.powi(2) + moved.exp_m1()).max(LEAST),
+                kept: (-moved / 2.0).exp(),
+            });
+        }
+        let most = lines.iter().fold(0.0, |most: f64, line| most.max(line.stray_k));
+        Ok(Self { lines, bessel: Bessel::up_to((most * reach).min(1e5)) })
+    }
+
+    /// Covariance of the field at two places a distance (m) apart, over its power.
+    pub fn covariance(&self, line: &Line, distance: f64) -> f64 {
+        let ring = self.bessel.ring(line.k * distance);
+        if line.stray == 0.0 {
+            return ring;
+        }
+        ring + line.stray * (self.bessel.disc(line.stray_k * distance) - ring)
+    }
+}

@@ -1,0 +1,15 @@
+//! Responses at any place from those at points, by what is known of waves.
+
+mod bessel;
+mod medium;
+mod neighbourhood;
+mod options;
+mod plan;
+mod spectra;
+mod system;
+mod triangles;
+mod uncertainty;
+
+pub use options::{BetweenOptions, Interpolation};
+pub use plan::Between;
+pub use uncertainty::Uncertainty;

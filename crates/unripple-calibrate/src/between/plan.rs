@@ -1,0 +1,237 @@
+use super::medium::{Line, Waves};
+use super::neighbourhood::{Quilt, nearest};
+use super::options::{BetweenOptions, Interpolation};
+use super::spectra::Spectra;
+use super::system::{System, distances};
+use super::triangles::Triangles;
+use super::uncertainty::Uncertainty;
+use crate::CalibrateError;
+use rayon::prelude::*;
+use unripple_core::{Point, SampledResponses};
+
+/// Frequencies that an error is worked out at; it is a smooth function of theirs.
+const NODES: usize = 32;
+
+/// Nearest points that an error is worked out from.
+const WITNESSES: usize = 160;
+
+/// A plan that makes responses at any place from those at points.
+///
+/// With [`Interpolation::Kernel`], what an actuator makes of the surface is taken, frequency by frequency, for a random
+/// isotropic field of the sheet's wavenumber k, whose values at two places a distance r apart have the covariance J0(kr) (Cook et
+/// al., J. Acoust. Soc. Am. 27, 1955, in two dimensions). The most likely value at a place given those at the points is a
+/// Gaussian process's (Rasmussen and Williams, *Gaussian Processes for Machine Learning*, 2006, eqs. 2.25 and 2.26):
+///
+/// ```text
+/// h(x) = k(x)ᵀ (K + N)⁻¹ h,   variance 1 - k(x)ᵀ (K + N)⁻¹ k(x)
+/// ```
+///
+/// with N the power of noise, of errors of gain and of errors of position. Factors are made once; a new place is a product.
+///
+/// The whole of the band that the plan keeps is interpolated; the two plainer ways interpolate every sample as it is.
+///
+/// ```
+/// use unripple_calibrate::{Between, BetweenOptions};
+/// use unripple_core::{Conditions, Outline, Point, Port, SampledResponses, Shape};
+///
+/// // A wave of 300 Hz and 50 m/s to the right, known every 40 mm, a quarter of its length.
+/// let k = |omega: f64| omega / 50.0;
+/// let omega = std::f64::consts::TAU * 300.0;
+/// let wave = |x: f64, i: usize| ((k(omega) * x).cos() * (omega * i as f64 / 8e3).cos()) as f32;
+/// let points: Vec<Point> =
+///     (0..40).map(|i| Point::new(0.02 + 0.04 * f64::from(i % 8), 0.02 + 0.04 * f64::from(i / 8))).collect();
+/// let data = points.iter().flat_map(|p| (0..161).map(|i| wave(p.x, i))).collect();
+/// let outline = Outline::new(Shape::Rectangle { width: 0.32, height: 0.2 });
+/// let conditions = Conditions { rate: 8e3, band: [0.0, 400.0], lambda_min: 0.125, outline };
+/// let ports = vec![Port { name: "a1".into(), at: Point::new(0.01, 0.01) }];
+/// let measured = SampledResponses::new(ports, points, conditions, 161, data)?;
+///
+/// let between = Between::plan(&measured, k, &BetweenOptions::default())?;
+/// let place = Point::new(0.155, 0.1);
+/// let found = between.at(place)?;
+/// assert!((0..161).all(|i| (found.response(0, 0)[i] - wave(place.x, i)).abs() < 0.05));
+/// assert!(between.error(place)?.relative < 0.1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Between<'r> {
+    responses: &'r SampledResponses,
+    spectra: Spectra,
+    waves: Waves,
+    way: Way,
+}
+
+#[derive(Debug)]
+enum Way {
+    Nearest,
+    Linear(Triangles),
+    Kernel(Quilt),
+}
+
+impl<'r> Between<'r> {
+    /// Plans from `responses` at their points; `wavenumber` gives k (rad/m) of the sheet's waves at an angular frequency
+    /// (rad/s).
+    ///
+    /// # Errors
+    /// [`CalibrateError::Count`] without points, actuators or samples; [`CalibrateError::Range`] for numbers without meaning;
+    /// [`CalibrateError::Singular`] if two points are at one place and nothing is said of their errors.
+    pub fn plan(
+        responses: &'r SampledResponses,
+        wavenumber: impl Fn(f64) -> f64,
+        options: &BetweenOptions,
+    ) -> Result<Self, CalibrateError> {
+        options.check()?;
+        let spectra = Spectra::of(responses, options.top)?;
+        let outline = &responses.conditions.outline;
+        let points = &responses.points;
+        let pitch = (outline.area() / points.len() as f64).sqrt();
+        let (width, height) = outline.extent();
+        let waves = Waves::of(&spectra, wavenumber, 1.0 / pitch, width.hypot(height), options)?;
+        let way = match options.interpolation {
+            Interpolation::Nearest => Way::Nearest,
+            Interpolation::Linear => Way::Linear(Triangles::of(points)),
+            Interpolation::Kernel => Way::Kernel(Quilt::of(&spectra, &waves, points, options.most)?),
+        };
+        Ok(Self { responses, spectra, waves, way })
+    }
+
+    /// The responses of every actuator at one place.
+    ///
+    /// # Errors
+    /// [`CalibrateError::Outside`] for a place that is not on the surface.
+    pub fn at(&self, place: Point) -> Result<SampledResponses, CalibrateError> {
+        self.onto(&[place])
+    }
+
+    /// The responses of every actuator at places of one's own, such as a denser grid.
+    ///
+    /// # Errors
+    /// As [`Between::at`].
+    pub fn onto(&self, places: &[Point]) -> Result<SampledResponses, CalibrateError> {
+        for (place, at) in places.iter().enumerate() {
+            self.check(place, *at)?;
+        }
+        let (actuators, samples) = (self.responses.ports.len(), self.responses.samples());
+        let mut data = vec![0.0; places.len() * actuators * samples];
+        data.par_chunks_mut(actuators * samples)
+            .zip(places)
+            .for_each(|(responses, place)| self.respond(*place, responses));
+        let conditions = self.responses.conditions.clone();
+        Ok(SampledResponses::new(self.responses.ports.clone(), places.to_vec(), conditions, samples, data)?)
+    }
+
+    /// How far the responses at a place are expected to be off.
+    ///
+    /// # Errors
+    /// As [`Between::at`], and [`CalibrateError::Singular`].
+    pub fn error(&self, place: Point) -> Result<Uncertainty, CalibrateError> {
+        self.check(0, place)?;
+        let bins = self.spectra.bins();
+        let nodes: Vec<usize> = (0..NODES).map(|i| i * (bins - 1) / (NODES - 1)).collect();
+        let witnesses = nearest(&self.responses.points, place, WITNESSES);
+        let points: Vec<Point> = witnesses.iter().map(|i| self.responses.points[*i]).collect();
+        let apart = distances(&points);
+        let weights = self.weights(place);
+        let share_at = |node: usize| -> Result<f64, CalibrateError> {
+            let line = self.line(node);
+            if let Some(weights) = &weights {
+                return Ok(self.plain_share(&line, weights, place));
+            }
+            let hz = node as f64 * self.spectra.step;
+            let system = System::factor(&self.waves, &line, &apart, points.len())
+                .ok_or(CalibrateError::Singular { points: points.len(), hz })?;
+            let row: Vec<f64> =
+                points.iter().map(|p| self.waves.covariance(&line, p.distance(place))).collect();
+            Ok((1.0 - system.explained(&row)).max(0.0))
+        };
+        let known = nodes.par_iter().map(|node| share_at(*node)).collect::<Result<Vec<f64>, _>>()?;
+        Ok(self.uncertainty(&nodes, &known))
+    }
+
+    fn check(&self, place: usize, at: Point) -> Result<(), CalibrateError> {
+        let outline = &self.responses.conditions.outline;
+        if outline.contains(at) {
+            return Ok(());
+        }
+        Err(CalibrateError::Outside { place, at, nearest: outline.nearest(at) })
+    }
+
+    /// The weights of points that the plainer ways take at all frequencies.
+    fn weights(&self, place: Point) -> Option<Vec<(usize, f64)>> {
+        match &self.way {
+            Way::Nearest => Some(self.responses.nearest(place).map(|i| (i, 1.0)).into_iter().collect()),
+            Way::Linear(triangles) => Some(triangles.weights(place)),
+            Way::Kernel(_) => None,
+        }
+    }
+
+    /// The responses at a place, `[actuator][sample]`.
+    fn respond(&self, place: Point, responses: &mut [f32]) {
+        let (actuators, samples) = (self.responses.ports.len(), self.responses.samples());
+        if let Way::Kernel(quilt) = &self.way {
+            let Some(neighbourhood) = quilt.around(place) else { return };
+            let bins = neighbourhood.bins(&self.waves, place, actuators);
+            responses.par_chunks_mut(samples).enumerate().for_each(|(actuator, response)| {
+                let own = bins.iter().skip(actuator).step_by(actuators).copied();
+                self.spectra.cosines.response(own, response);
+            });
+            return;
+        }
+        for (point, weight) in self.weights(place).unwrap_or_default() {
+            for (actuator, response) in responses.chunks_mut(samples).enumerate() {
+                let from = self.responses.response(actuator, point);
+                response.iter_mut().zip(from).for_each(|(to, h)| *to += weight as f32 * h);
+            }
+        }
+    }
+
+    /// The waves around a bin, with errors over the power there: that of single bins is mostly their distance from a resonance.
+    fn line(&self, bin: usize) -> Line {
+        let reach = self.waves.lines.len() / NODES + 6;
+        let around = bin.saturating_sub(reach)..(bin + reach).min(self.waves.lines.len());
+        let (mut errors, mut powers) = (0.0, f64::MIN_POSITIVE);
+        for bin in around {
+            let power = self.spectra.power(bin);
+            errors += power * self.waves.lines[bin].error;
+            powers += power;
+        }
+        Line { error: errors / powers, ..self.waves.lines[bin] }
+    }
+
+    /// Expected power of the error of fixed weights w: wᵀ (K + N) w - 2 wᵀ k + 1.
+    fn plain_share(&self, line: &Line, weights: &[(usize, f64)], place: Point) -> f64 {
+        let points = &self.responses.points;
+        let covariance = |a: Point, b: Point| self.waves.covariance(line, a.distance(b));
+        let mut share = 1.0;
+        for (i, w) in weights {
+            share += w * w * line.error - 2.0 * w * covariance(points[*i], place);
+            share += weights.iter().map(|(j, v)| w * v * covariance(points[*i], points[*j])).sum::<f64>();
+        }
+        share.max(0.0)
+    }
+
+    /// Shares known at some bins, spread over all.
+    fn uncertainty(&self, nodes: &[usize], known: &[f64]) -> Uncertainty {
+        let spectra = &self.spectra;
+        let share: Vec<f64> = (0..spectra.bins())
+            .map(|bin| {
+                let next = nodes.partition_point(|node| *node < bin).clamp(1, nodes.len() - 1);
+                let [from, to] = [nodes[next - 1], nodes[next]];
+                let t = (bin.saturating_sub(from)) as f64 / (to - from).max(1) as f64;
+                known[next - 1] + t.min(1.0) * (known[next] - known[next - 1])
+            })
+            .collect();
+        let scale = 1.0 / (spectra.cosines.period() * self.responses.samples()) as f64;
+        let mut squares = vec![0.0; spectra.actuators];
+        for (share, powers) in share.iter().zip(spectra.powers.chunks(spectra.actuators)) {
+            squares.iter_mut().zip(powers).for_each(|(sum, power)| *sum += scale * share * power);
+        }
+        let mean = squares.iter().sum::<f64>() / squares.len() as f64;
+        Uncertainty {
+            hz: (0..spectra.bins()).map(|bin| bin as f64 * spectra.step).collect(),
+            share,
+            relative: (mean / spectra.square.max(f64::MIN_POSITIVE)).sqrt(),
+            rms: squares.iter().map(|square| square.sqrt()).collect(),
+        }
+    }
+}

@@ -1,0 +1,114 @@
+use super::session::{Channel, Listen};
+use super::{Rig, Session, TapSession};
+use crate::CalibrateError;
+use unripple_core::Point;
+
+/// Where finished points go, one by one.
+pub trait Sink {
+    /// Points that are still to be measured.
+    fn missing(&self) -> Vec<usize>;
+
+    /// Keeps a point; what is kept must outlive whatever happens next. `fault` says why it is bad, if it is.
+    ///
+    /// # Errors
+    /// [`CalibrateError::Sink`] if it could not be kept.
+    fn keep(&mut self, number: usize, channel: &Channel, fault: Option<&str>) -> Result<(), CalibrateError>;
+}
+
+/// How far a campaign has come.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Progress {
+    /// Points kept so far, in this run.
+    pub done: usize,
+    /// Points that this run has to measure.
+    pub total: usize,
+    /// The point last kept.
+    pub number: usize,
+    /// Recordings that it took.
+    pub attempts: u64,
+    /// Why it was kept as bad, if it was.
+    pub fault: Option<String>,
+}
+
+/// How places are measured.
+#[derive(Clone, Debug)]
+pub enum Way {
+    /// A probe on the surface, actuators driving.
+    Probe(Box<Session>),
+    /// Taps on the surface, actuators listening.
+    Tap(Box<TapSession>),
+}
+
+impl Way {
+    fn measure(
+        &self,
+        rig: &mut dyn Rig,
+        number: usize,
+        at: Point,
+        attempt: u64,
+    ) -> Result<Channel, CalibrateError> {
+        match self {
+            Self::Probe(session) => {
+                let found = session.measure(rig, number, at, attempt, Listen::Probe)?;
+                found.into_iter().next().ok_or_else(|| CalibrateError::Recording {
+                    what: "recording".into(),
+                    expected: "what the probe heard".into(),
+                    found: "nothing".into(),
+                })
+            }
+            Self::Tap(session) => session.measure(rig, number, at, attempt),
+        }
+    }
+
+    fn fault(&self, channel: &Channel) -> Option<String> {
+        match self {
+            Self::Probe(session) => session.fault(channel),
+            Self::Tap(session) => session.fault(channel),
+        }
+    }
+}
+
+/// Measures every point that a sink misses, in order, each kept as soon as it is finished; returns how many were kept as bad.
+/// A bad point is measured again, up to `again` times, and the best of its recordings is kept.
+///
+/// # Errors
+/// Those of rig, device and sink. What was kept before stays kept, and a later run goes on from there.
+pub fn campaign(
+    rig: &mut dyn Rig,
+    way: &Way,
+    points: &[Point],
+    sink: &mut dyn Sink,
+    again: u64,
+    tell: &mut dyn FnMut(&Progress),
+) -> Result<usize, CalibrateError> {
+    let missing = sink.missing();
+    let mut bad = 0;
+    for (done, number) in missing.iter().copied().enumerate() {
+        let Some(at) = points.get(number).copied() else {
+            let expected = format!("less than {}", points.len());
+            return Err(CalibrateError::Count { what: "number of a missing point", expected, found: number });
+        };
+        let (mut best, mut attempts) = (None::<(f64, Channel, Option<String>)>, 0);
+        while attempts <= again && best.as_ref().is_none_or(|(_, _, fault)| fault.is_some()) {
+            let channel = match way.measure(rig, number, at, attempts) {
+                // A gap is the device's, and passes.
+                Err(CalibrateError::Gap { .. }) if attempts < again => {
+                    attempts += 1;
+                    continue;
+                }
+                other => other?,
+            };
+            attempts += 1;
+            let fault = way.fault(&channel);
+            let worst = channel.quality.iter().map(|q| q.snr_db).fold(f64::INFINITY, f64::min);
+            if fault.is_none() || best.as_ref().is_none_or(|(before, _, _)| worst > *before) {
+                best = Some((worst, channel, fault));
+            }
+        }
+        let Some((_, channel, fault)) = best else { continue };
+        sink.keep(number, &channel, fault.as_deref())?;
+        bad += usize::from(fault.is_some());
+        tell(&Progress { done: done + 1, total: missing.len(), number, attempts, fault });
+    }
+    Ok(bad)
+}

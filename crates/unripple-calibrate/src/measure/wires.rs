@@ -1,0 +1,129 @@
+use crate::CalibrateError;
+use unripple_core::{Layout, Port};
+
+/// Name of the input that hears the probe, and of the one that hears what is sent.
+pub const PROBE: &str = "probe";
+/// Name of the input that hears what a reference output sends.
+pub const REFERENCE: &str = "reference";
+
+/// Which channel of a device is what: actuators by name, their sensors by the same names, a probe, a reference.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Wires {
+    /// Output of each actuator.
+    pub drives: Vec<usize>,
+    /// Input of each actuator's own sensor; empty unless all have one.
+    pub sensors: Vec<usize>,
+    /// Input of the probe on the surface.
+    pub probe: Option<usize>,
+    /// Input that hears what is sent.
+    pub reference: Option<usize>,
+}
+
+impl Wires {
+    /// Maps channels by name. `named` gives the channel of a name where they differ: `("a1", "playback_3")`; it goes for
+    /// outputs and inputs alike. Where no output at all has an actuator's name, actuators take the outputs in order, and
+    /// sensors and probe the inputs.
+    ///
+    /// # Errors
+    /// [`CalibrateError::Wire`] when an actuator finds no output, with what there is and how to mend it.
+    ///
+    /// ```
+    /// use unripple_calibrate::measure::Wires;
+    /// use unripple_core::{Layout, Point, Port};
+    /// let names = |all: &[&str]| all.iter().map(|name| name.to_string()).collect::<Vec<_>>();
+    /// let layout = Layout { device: "card".into(), rate: 48e3, block: 64, outputs: names(&["b", "a"]),
+    ///     inputs: names(&["a", "b", "probe"]), full_scale: 1.0 };
+    /// let ports = ["a", "b"].map(|name| Port { name: name.into(), at: Point::new(0.0, 0.0) });
+    /// let wires = Wires::by_name(&ports, &layout, &[])?;
+    /// assert_eq!((wires.drives, wires.sensors, wires.probe), (vec![1, 0], vec![0, 1], Some(2)));
+    /// # Ok::<(), unripple_calibrate::CalibrateError>(())
+    /// ```
+    pub fn by_name(
+        ports: &[Port],
+        layout: &Layout,
+        named: &[(String, String)],
+    ) -> Result<Self, CalibrateError> {
+        let known =
+            |name: &str| named.iter().find(|(own, _)| own == name).map(|(_, channel)| channel.as_str());
+        let find = |channels: &[String], name: &str| {
+            let wanted = known(name).unwrap_or(name);
+            channels.iter().position(|channel| channel == wanted)
+        };
+        let in_order =
+            ports.iter().all(|port| find(&layout.outputs, &port.name).is_none()) && named.is_empty();
+        let drive = |(i, port): (usize, &Port)| match find(&layout.outputs, &port.name) {
+            Some(found) => Ok(found),
+            None if in_order && i < layout.outputs.len() => Ok(i),
+            None => Err(missing(port, ports.len(), layout)),
+        };
+        let drives = ports.iter().enumerate().map(drive).collect::<Result<Vec<_>, _>>()?;
+        let sensors: Option<Vec<usize>> = ports.iter().map(|port| find(&layout.inputs, &port.name)).collect();
+        let ordered = (in_order && layout.inputs.len() >= ports.len()).then(|| (0..ports.len()).collect());
+        let sensors = sensors.or(ordered).unwrap_or_default();
+        let spare = in_order && sensors.len() < layout.inputs.len();
+        let probe = find(&layout.inputs, PROBE).or_else(|| spare.then_some(sensors.len()));
+        Ok(Self { drives, sensors, probe, reference: find(&layout.inputs, REFERENCE) })
+    }
+}
+
+fn missing(port: &Port, actuators: usize, layout: &Layout) -> CalibrateError {
+    let mend = if layout.outputs.len() < actuators {
+        "choose a device or a profile with more outputs, or a surface with fewer actuators".to_owned()
+    } else {
+        format!("name the channel, as in `--wire {}={}`", port.name, layout.outputs[0])
+    };
+    CalibrateError::Wire {
+        actuator: port.name.clone(),
+        device: layout.device.clone(),
+        actuators,
+        outputs: layout.outputs.join(", "),
+        count: layout.outputs.len(),
+        mend,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use unripple_core::Point;
+
+    fn layout(outputs: &[&str], inputs: &[&str]) -> Layout {
+        let names = |all: &[&str]| all.iter().map(|name| (*name).to_owned()).collect();
+        Layout {
+            device: "card".into(),
+            rate: 48e3,
+            block: 64,
+            outputs: names(outputs),
+            inputs: names(inputs),
+            full_scale: 1.0,
+        }
+    }
+
+    fn ports(names: &[&str]) -> Vec<Port> {
+        names.iter().map(|name| Port { name: (*name).into(), at: Point::new(0.0, 0.0) }).collect()
+    }
+
+    #[test]
+    fn channels_without_known_names_are_taken_in_order() {
+        let found =
+            Wires::by_name(&ports(&["a", "b"]), &layout(&["1", "2", "3"], &["1", "2", "3"]), &[]).unwrap();
+        assert_eq!((found.drives, found.sensors, found.probe), (vec![0, 1], vec![0, 1], Some(2)));
+        let found = Wires::by_name(&ports(&["a", "b"]), &layout(&["1", "2"], &["1"]), &[]).unwrap();
+        assert_eq!((found.sensors, found.probe), (vec![], Some(0)));
+    }
+
+    #[test]
+    fn too_few_channels_are_refused_with_what_to_do() {
+        let few = Wires::by_name(&ports(&["a", "b", "c"]), &layout(&["1", "2"], &[]), &[]).unwrap_err();
+        let text = few.to_string();
+        assert!(
+            text.contains("3 outputs") && text.contains("2 (1, 2)") && text.contains("more outputs"),
+            "{text}"
+        );
+        let half = Wires::by_name(&ports(&["a", "b"]), &layout(&["a", "x"], &[]), &[]).unwrap_err();
+        assert!(half.to_string().contains("--wire b=a"), "{half}");
+        let named = [("b".to_owned(), "x".to_owned())];
+        let wires = Wires::by_name(&ports(&["a", "b"]), &layout(&["a", "x"], &["x", "a"]), &named).unwrap();
+        assert_eq!((wires.drives, wires.sensors), (vec![0, 1], vec![1, 0]));
+    }
+}

@@ -1,0 +1,110 @@
+//! The same measurement through a real JACK server, whose ports lead to the virtual surface as another client.
+//!
+//! Needs `jackd` and libjack (Debian: jackd2). Without them the test says so and passes.
+
+mod measured_bench;
+
+use measured_bench::*;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+use unripple_calibrate::measure::{Listen, MeasureOptions, PROBE};
+use unripple_core::{Device, Point};
+use unripple_devices::{Bridge, DevicesError, Jack, JackOptions, Links, VirtualOptions};
+
+const AT: Point = Point { x: 0.062, y: 0.090 };
+const PERIOD: usize = 256;
+
+/// A server of this test's own, with its dummy driver; gone afterwards.
+struct Server {
+    child: Child,
+    name: String,
+}
+
+impl Server {
+    fn start() -> Option<Self> {
+        let name = format!("unripple-calibrate-{}", std::process::id());
+        let period = PERIOD.to_string();
+        let child = Command::new("jackd")
+            .args([
+                "--no-realtime",
+                "--no-mlock",
+                "--name",
+                &name,
+                "-d",
+                "dummy",
+                "-r",
+                "48000",
+                "-p",
+                &period,
+            ])
+            .args(["-C", "2", "-P", "2"])
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .ok()?;
+        Some(Self { child, name })
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        let _ = Command::new("kill").arg(self.child.id().to_string()).status();
+        let _ = self.child.wait();
+    }
+}
+
+#[test]
+fn a_jack_server_changes_nothing() {
+    let Some(server) = Server::start() else {
+        println!("SKIPPED: there is no jackd here (Debian: apt install jackd2)");
+        return;
+    };
+    let options = VirtualOptions { block: PERIOD, ..VirtualOptions::default() };
+    let direct = WORLD.device_with(&options);
+    let start = Instant::now();
+    let (bridge, handle) = loop {
+        let device = WORLD.device_with(&options);
+        let handle = device.handle();
+        match Bridge::start(Box::new(device), "surface", Some(&server.name)) {
+            Ok(bridge) => break (bridge, handle),
+            Err(DevicesError::Jack { .. }) if start.elapsed() < Duration::from_secs(10) => {
+                std::thread::sleep(Duration::from_millis(100));
+            }
+            Err(error) => panic!("{error}"),
+        }
+    };
+    let names: Vec<String> = WORLD.surface.actuators.iter().map(|actuator| actuator.name.clone()).collect();
+    let joined = JackOptions {
+        server: Some(server.name.clone()),
+        inputs: names.iter().cloned().chain([PROBE.to_owned()]).collect(),
+        outputs: names,
+        links: Links::Client("surface".into()),
+        full_scale: WORLD.surface.emission.limit,
+        freewheel: true,
+        ..JackOptions::default()
+    };
+    let jack = Jack::open(&joined).unwrap();
+    assert_eq!(jack.layout().block, PERIOD);
+
+    let mut rig = Hands::new(jack, handle);
+    let first = WORLD.session(&rig.device, &MeasureOptions::default());
+    use unripple_calibrate::measure::Rig;
+    let [late, _] = first.find_latency(&mut rig, 0, AT, &WORLD.model).unwrap().unwrap();
+    // A server delays by whole periods.
+    let periods = (late / PERIOD as f64).round();
+    println!("latency {late:.3} samples, {periods} periods");
+    assert!(periods >= 1.0 && (late - periods * PERIOD as f64).abs() < 0.1);
+
+    let options = MeasureOptions { latency: late, ..MeasureOptions::default() };
+    let session = WORLD.session(&rig.device, &options);
+    let through = session.measure(&mut rig, 0, AT, 0, Listen::Probe).unwrap();
+    assert_eq!(rig.device().status().lost, 0);
+    let handle = direct.handle();
+    let session = WORLD.session(&direct, &MeasureOptions::default());
+    let plain = session.measure(&mut Hands::new(direct, handle), 0, AT, 0, Listen::Probe).unwrap();
+    let [a, b] = [&through, &plain].map(|found| WORLD.share(&WORLD.sampled(&[AT], found), AT));
+    println!("contrast: {a:.4} of the true one through the server, {b:.4} directly");
+    assert!((a / b - 1.0).abs() < 0.02);
+    drop(rig);
+    drop(bridge);
+}

@@ -1,0 +1,68 @@
+use super::{DeviceName, WayName};
+use clap::Args;
+use std::path::PathBuf;
+
+/// The device, and what is virtual about it.
+#[derive(Debug, Args)]
+pub struct DeviceOptions {
+    /// What plays and listens.
+    #[arg(long, value_enum, default_value_t)]
+    pub device: DeviceName,
+    /// JACK: another client whose ports `in_NAME` and `out_NAME` are to be joined, instead of the system's.
+    #[arg(long, value_name = "CLIENT")]
+    pub jack_client: Option<String>,
+    /// JACK: name of the server.
+    #[arg(long, value_name = "SERVER")]
+    pub jack_server: Option<String>,
+    /// JACK: let the server run without a clock, so that nothing is lost however slow the machine. Only for servers
+    /// without hardware.
+    #[arg(long)]
+    pub freewheel: bool,
+    /// Virtual: make the true surface another than SURFACE says, by this seed: noise, gains, places, tension, damping, stray
+    /// masses.
+    #[arg(long, value_name = "SEED")]
+    pub unknowns: Option<u64>,
+    /// Virtual, with --unknowns: signal to noise, in dB.
+    #[arg(long, value_name = "DB", requires = "unknowns", allow_negative_numbers = true)]
+    pub snr_db: Option<f64>,
+}
+
+/// Options of `calibrate`.
+#[derive(Debug, Args)]
+pub struct CalibrateOptions {
+    /// A surface file, or the name of a built-in surface: what is known of the surface beforehand.
+    pub surface: String,
+    /// What plays and listens.
+    #[command(flatten)]
+    pub device: DeviceOptions,
+    /// Distance of the points of a square grid, in mm.
+    #[arg(long, value_name = "P", allow_negative_numbers = true)]
+    pub grid_mm: Option<f64>,
+    /// A point in mm. Repeatable.
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    pub at: Vec<String>,
+    /// How points are measured.
+    #[arg(long, value_enum, default_value_t)]
+    pub by: WayName,
+    /// Recordings of each point, averaged; taps of each point.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub repeats: usize,
+    /// Length of an actuator's sweep, in ms.
+    #[arg(long, value_name = "MS", default_value_t = 500.0, allow_negative_numbers = true)]
+    pub sweep_ms: f64,
+    /// Length of each response that is kept, in ms.
+    #[arg(long, value_name = "MS", default_value_t = 100.0, allow_negative_numbers = true)]
+    pub response_ms: f64,
+    /// Drive, as a share of the surface's limit.
+    #[arg(long, value_name = "SHARE", default_value_t = 1.0, allow_negative_numbers = true)]
+    pub level: f64,
+    /// Name of a channel where it is not that of the actuator, sensor, probe or reference. Repeatable.
+    #[arg(long, value_name = "NAME=CHANNEL")]
+    pub wire: Vec<String>,
+    /// Go on although the wiring test finds a fault.
+    #[arg(long)]
+    pub any_wiring: bool,
+    /// The library: a new folder, or one that a run like this one was filling.
+    #[arg(short, long, value_name = "LIBRARY")]
+    pub output: PathBuf,
+}

@@ -1,0 +1,84 @@
+//! Targets between the points of a library.
+
+use crate::error::CliError;
+use crate::judge::Note;
+use unripple::core::{Point, SampledResponses, Surface};
+use unripple::physics::Medium;
+use unripple_calibrate::{Between, BetweenOptions, Interpolation};
+
+/// Points farther than this from all places, in shortest wavelengths, say nothing of them.
+const REACH: f64 = 5.0;
+
+/// A place this near to a stored point, in metres, is that point.
+const SAME: f64 = 1e-6;
+
+/// The stored responses with those at places that are not among them, and what to say of these.
+pub fn completed(
+    stored: SampledResponses,
+    surface: &Surface,
+    places: &[Point],
+    way: Interpolation,
+) -> Result<(SampledResponses, Vec<Note>), CliError> {
+    let known = |place: &Point| stored.points.iter().any(|point| point.distance(*place) < SAME);
+    let new: Vec<Point> = places.iter().copied().filter(|place| !known(place)).collect();
+    if new.is_empty() || way == Interpolation::Nearest {
+        return Ok((stored, Vec::new()));
+    }
+    let witnesses = witnesses(&stored, &new)?;
+    let medium = Medium::of(&surface.sheet).with_air(surface.sheet.air);
+    let options = BetweenOptions { interpolation: way, ..BetweenOptions::default() };
+    let between =
+        Between::plan(&witnesses, |omega| medium.wavenumber(omega), &options).map_err(CliError::input)?;
+    let made = between.onto(&new).map_err(CliError::input)?;
+    let worst = new
+        .iter()
+        .try_fold(0.0, |worst: f64, place| Ok::<_, CliError>(worst.max(error(&between, *place)?)))?;
+    let lies = if new.len() == 1 { format!("{} lies", new[0]) } else { format!("{} places lie", new.len()) };
+    let text = format!(
+        "{lies} between the points: responses there are interpolated ({}), off by about {:.1} %",
+        way.name(),
+        worst * 100.0
+    );
+    Ok((joined(&stored, &made)?, vec![Note { topic: "library", text }]))
+}
+
+fn error(between: &Between, place: Point) -> Result<f64, CliError> {
+    Ok(between.error(place).map_err(CliError::input)?.relative)
+}
+
+/// The stored points around some places, but for those at actuators: near these there is more than waves.
+fn witnesses(stored: &SampledResponses, places: &[Point]) -> Result<SampledResponses, CliError> {
+    let reach = REACH * stored.conditions.lambda_min;
+    let free = |point: &Point| stored.ports.iter().all(|port| port.at.distance(*point) > SAME);
+    let near = |point: &Point| places.iter().any(|place| place.distance(*point) <= reach);
+    let all: Vec<usize> = (0..stored.points.len()).filter(|i| free(&stored.points[*i])).collect();
+    let close: Vec<usize> = all.iter().copied().filter(|i| near(&stored.points[*i])).collect();
+    let chosen = if close.len() < 4 { all } else { close };
+    let ports = stored.ports.len();
+    let data =
+        chosen.iter().flat_map(|i| (0..ports).flat_map(move |a| stored.response(a, *i).iter().copied()));
+    SampledResponses::new(
+        stored.ports.clone(),
+        chosen.iter().map(|i| stored.points[*i]).collect(),
+        stored.conditions.clone(),
+        stored.samples(),
+        data.collect(),
+    )
+    .map_err(CliError::work)
+}
+
+fn joined(stored: &SampledResponses, made: &SampledResponses) -> Result<SampledResponses, CliError> {
+    let all = |own: &SampledResponses| {
+        let pairs =
+            (0..own.points.len()).flat_map(|point| (0..own.ports.len()).map(move |port| (port, point)));
+        pairs.flat_map(|(port, point)| own.response(port, point).to_vec()).collect::<Vec<f32>>()
+    };
+    SampledResponses::new(
+        stored.ports.clone(),
+        stored.points.iter().chain(&made.points).copied().collect(),
+        stored.conditions.clone(),
+        stored.samples(),
+        [all(stored), all(made)].concat(),
+    )
+    .map_err(CliError::work)
+}

@@ -1,0 +1,77 @@
+//! Devices by the names of the command line.
+
+use super::rigs::{HandRig, VirtualRig};
+use crate::args::{DeviceName, DeviceOptions};
+use crate::error::CliError;
+use unripple::core::Surface;
+use unripple_calibrate::measure::{PROBE, Rig};
+use unripple_devices::{DevicesError, Jack, JackOptions, Links, Unknowns, Virtual, VirtualOptions};
+
+/// An open device with whoever moves its probe.
+pub struct Opened {
+    pub rig: Box<dyn Rig>,
+    /// What is true of a virtual surface and was not told.
+    pub truth: Option<String>,
+}
+
+/// A failure of the device, or a device that does not fit.
+fn failed(error: DevicesError) -> CliError {
+    match error {
+        DevicesError::Jack { .. } | DevicesError::Device(_) => CliError::work(error),
+        error => CliError::input(error),
+    }
+}
+
+pub fn open(options: &DeviceOptions, surface: &Surface) -> Result<Opened, CliError> {
+    match options.device {
+        DeviceName::Virtual => virtual_surface(options, surface),
+        DeviceName::Jack => jack(options, surface),
+    }
+}
+
+fn virtual_surface(options: &DeviceOptions, surface: &Surface) -> Result<Opened, CliError> {
+    let plain = VirtualOptions { accuracy: 1e-4, ..VirtualOptions::default() };
+    let Some(seed) = options.unknowns else {
+        let device = Virtual::new(surface, &VirtualOptions::default()).map_err(failed)?;
+        return Ok(Opened { rig: Box::new(VirtualRig::new(device, 0)), truth: None });
+    };
+    let unknowns = Unknowns { seed, ..Unknowns::default() };
+    let unknowns = Unknowns { snr_db: options.snr_db.unwrap_or(unknowns.snr_db), ..unknowns };
+    let truth = unknowns.truth(surface).map_err(failed)?;
+    let device = Virtual::of_truth(&truth, &plain).map_err(failed)?;
+    let said = format!(
+        "signal to noise {} dB, gains off by {} %, actuators by {} mm, tension by {} %, {} stray masses, other damping",
+        unknowns.snr_db,
+        unknowns.gain * 100.0,
+        unknowns.misplacement * 1e3,
+        unknowns.tension * 100.0,
+        unknowns.masses.len(),
+    );
+    Ok(Opened { rig: Box::new(VirtualRig::new(device, seed)), truth: Some(said) })
+}
+
+fn jack(options: &DeviceOptions, surface: &Surface) -> Result<Opened, CliError> {
+    let names: Vec<String> = surface.actuators.iter().map(|actuator| actuator.name.clone()).collect();
+    let known = JackOptions {
+        server: options.jack_server.clone(),
+        inputs: names.iter().cloned().chain([PROBE.to_owned()]).collect(),
+        outputs: names,
+        links: options.jack_client.clone().map_or(Links::System, Links::Client),
+        full_scale: surface.emission.limit,
+        freewheel: options.freewheel,
+        ..JackOptions::default()
+    };
+    let device = Jack::open(&known).map_err(failed)?;
+    Ok(Opened { rig: Box::new(HandRig::new(device)), truth: None })
+}
+
+/// Channels by other names: `a1=system:playback_3`.
+pub fn named(wires: &[String]) -> Result<Vec<(String, String)>, CliError> {
+    let split = |text: &String| match text.split_once('=') {
+        Some((name, channel)) if !name.is_empty() && !channel.is_empty() => {
+            Ok((name.to_owned(), channel.to_owned()))
+        }
+        _ => Err(CliError::Input(format!("--wire {text}: expected NAME=CHANNEL, found `{text}`"))),
+    };
+    wires.iter().map(split).collect()
+}

@@ -1,0 +1,42 @@
+//! The places to be measured.
+
+use crate::args::CalibrateOptions;
+use crate::error::CliError;
+use crate::grid;
+use crate::targets::{place, positive};
+use unripple::core::{Point, Surface};
+
+/// A grid, points typed, and last the actuators themselves, whose own sensors hear them.
+pub struct Places {
+    /// All of them.
+    pub points: Vec<Point>,
+    /// How many are measured by a probe or by taps; the rest are the actuators.
+    pub probed: usize,
+}
+
+/// The places that were asked for.
+pub fn places(options: &CalibrateOptions, surface: &Surface, sensing: bool) -> Result<Places, CliError> {
+    let mut points = Vec::new();
+    if let Some(pitch) = options.grid_mm {
+        points = grid::points(&surface.outline, positive(pitch, "--grid-mm", "mm")? / 1e3)?;
+    }
+    for text in &options.at {
+        let at = place(text, "--at")?;
+        if !surface.outline.contains(at) {
+            return Err(CliError::Input(format!(
+                "--at {text}: expected a point on the surface, found one beyond its edge"
+            )));
+        }
+        points.push(at);
+    }
+    let probed = points.len();
+    if probed == 0 && !sensing {
+        return Err(CliError::Input(
+            "expected --grid-mm P or --at X,Y: the places to be measured, found neither".into(),
+        ));
+    }
+    if sensing {
+        points.extend(surface.actuators.iter().map(|actuator| actuator.at));
+    }
+    Ok(Places { points, probed })
+}

@@ -1,0 +1,137 @@
+//! What a calibration found.
+
+use super::points::Places;
+use crate::error::CliError;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde::Serialize;
+use std::fmt::Write;
+use std::time::Duration;
+use unripple_calibrate::measure::Progress;
+use unripple_store::{Library, PointState, Quality};
+
+/// The library and its quality, SI units.
+#[derive(Debug, Serialize)]
+pub struct Report {
+    library: String,
+    points: usize,
+    probed: usize,
+    measured: usize,
+    bad: Vec<usize>,
+    latency_samples: Option<f64>,
+    latency_spread_samples: Option<f64>,
+    signal_to_noise_db: Spread,
+    distortion_db: Spread,
+    decay_time_s: Spread,
+    reciprocity_error: Option<f64>,
+    seconds_per_recording: f64,
+    seconds: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    truth: Option<String>,
+}
+
+/// Median and worst over all responses; `null` where it is not known.
+#[derive(Debug, Serialize)]
+struct Spread {
+    median: Option<f64>,
+    worst: Option<f64>,
+}
+
+impl Spread {
+    /// Of the values that are known, the worst being the greatest after `toll`.
+    fn of(values: impl Iterator<Item = f64>, toll: impl Fn(f64) -> f64) -> Self {
+        let mut known: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+        known.sort_unstable_by(|a, b| toll(*a).total_cmp(&toll(*b)));
+        Self { median: known.get(known.len() / 2).copied(), worst: known.last().copied() }
+    }
+
+    fn text(&self, unit: &str, scale: f64) -> String {
+        match (self.median, self.worst) {
+            (Some(median), Some(worst)) => {
+                format!("{:.1} {unit} (worst {:.1})", median * scale, worst * scale)
+            }
+            _ => "not known".into(),
+        }
+    }
+}
+
+impl Report {
+    pub fn of(
+        library: &Library,
+        places: &Places,
+        latency: Option<[f64; 2]>,
+        truth: Option<&str>,
+        seconds_per_recording: f64,
+        taken: Duration,
+    ) -> Result<Self, CliError> {
+        let qualities: Vec<Quality> = library
+            .done()
+            .into_iter()
+            .map(|point| library.quality(point))
+            .collect::<Result<Vec<_>, _>>()?
+            .into_iter()
+            .flatten()
+            .collect();
+        let over = |value: fn(&Quality) -> f64| qualities.iter().map(value).collect::<Vec<_>>().into_iter();
+        Ok(Self {
+            library: library.path().display().to_string(),
+            points: library.points().len(),
+            probed: places.probed,
+            measured: library.done().len(),
+            bad: library.in_state(PointState::Bad),
+            latency_samples: latency.map(|found| found[0]),
+            latency_spread_samples: latency.map(|found| found[1]),
+            signal_to_noise_db: Spread::of(over(|q| q.signal_to_noise_db), |db| -db),
+            distortion_db: Spread::of(over(|q| 20.0 * q.distortion.log10()), |db| db),
+            decay_time_s: Spread::of(over(|q| q.decay_time), |s| -s),
+            reciprocity_error: library.reciprocity_error()?,
+            seconds_per_recording,
+            seconds: taken.as_secs_f64(),
+            truth: truth.map(str::to_owned),
+        })
+    }
+
+    /// For people.
+    pub fn text(&self) -> String {
+        let mut text = format!("{}: {} of {} points measured", self.library, self.measured, self.points);
+        if !self.bad.is_empty() {
+            let bad: Vec<String> = self.bad.iter().map(|point| (point + 1).to_string()).collect();
+            let _ = write!(text, ", bad: {}", bad.join(", "));
+        }
+        let _ = writeln!(text, "\n  signal to noise  {}", self.signal_to_noise_db.text("dB", 1.0));
+        let _ = writeln!(text, "  distortion       {}", self.distortion_db.text("dB", 1.0));
+        let _ = writeln!(text, "  decay time       {}", self.decay_time_s.text("ms", 1e3));
+        if let (Some(late), Some(spread)) = (self.latency_samples, self.latency_spread_samples) {
+            let _ =
+                writeln!(text, "  latency          {late:.2} samples (actuators agree within {spread:.2})");
+        }
+        if let Some(error) = self.reciprocity_error {
+            let _ = writeln!(text, "  reciprocity      {:.2} % error", error * 100.0);
+        }
+        if let Some(truth) = &self.truth {
+            let _ = writeln!(text, "  not told         {truth}");
+        }
+        text
+    }
+}
+
+/// A bar on a terminal, with the time that is left; nothing elsewhere.
+pub fn bar(as_json: bool, total: usize) -> ProgressBar {
+    let bar = ProgressBar::new(total as u64);
+    if as_json {
+        bar.set_draw_target(ProgressDrawTarget::hidden());
+    }
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} points, {eta} left {msg}");
+    if let Ok(style) = style {
+        bar.set_style(style);
+    }
+    bar
+}
+
+/// One point more.
+pub fn tell(bar: &ProgressBar, progress: &Progress) {
+    bar.set_length(progress.total as u64);
+    bar.set_position(progress.done as u64);
+    if let Some(fault) = &progress.fault {
+        bar.suspend(|| eprintln!("point {}: {fault}; kept as bad", progress.number + 1));
+    }
+}

@@ -1,0 +1,92 @@
+//! `unripple devices`: what drives can be played through.
+
+use crate::args::DevicesOptions;
+use crate::error::CliError;
+use crate::output;
+use serde_json::{Value, json};
+use std::fmt::Write;
+use unripple_devices::{Found, Stream, list};
+
+pub fn run(options: &DevicesOptions, as_json: bool) -> Result<(), CliError> {
+    let found = list(options.server.as_deref());
+    let report = json!({ "devices": found.iter().map(entry).collect::<Vec<_>>() });
+    let text: String = found.iter().map(told).collect();
+    output::answer(as_json, &report, &text)
+}
+
+fn entry(found: &Found) -> Value {
+    match found {
+        Found::Virtual => json!({ "device": "virtual", "available": true }),
+        Found::Tape => json!({ "device": "wav", "available": true }),
+        Found::Jack(server) => json!({
+            "device": "jack",
+            "available": true,
+            "sample_rate_hz": server.rate,
+            "block": server.block,
+            "playback": server.playback,
+            "capture": server.capture,
+        }),
+        Found::NoJack(why) => json!({ "device": "jack", "available": false, "why": why }),
+        Found::Card { index, name, streams } => json!({
+            "device": "alsa",
+            "card": index,
+            "name": name,
+            "streams": streams.iter().map(stream).collect::<Vec<_>>(),
+        }),
+    }
+}
+
+fn stream(stream: &Stream) -> Value {
+    json!({
+        "device": stream.device,
+        "direction": direction(stream),
+        "channels": stream.channels,
+        "sample_rates_hz": stream.rates,
+    })
+}
+
+fn direction(stream: &Stream) -> &'static str {
+    if stream.playback { "playback" } else { "capture" }
+}
+
+fn told(found: &Found) -> String {
+    let mut text = String::new();
+    let _ = match found {
+        Found::Virtual => {
+            writeln!(text, "virtual   the surface itself, simulated: a channel for each actuator")
+        }
+        Found::Tape => writeln!(text, "wav       files: play offline, record elsewhere, bring back"),
+        Found::NoJack(why) => writeln!(text, "jack      not there. {why}"),
+        Found::Jack(server) => {
+            let _ = writeln!(
+                text,
+                "jack      {} Hz, {} samples a block, {} playback ports, {} capture ports",
+                server.rate,
+                server.block,
+                server.playback.len(),
+                server.capture.len()
+            );
+            let ports = server.playback.iter().map(|port| ("to", port));
+            let ports = ports.chain(server.capture.iter().map(|port| ("from", port)));
+            ports.into_iter().try_for_each(|(way, port)| writeln!(text, "            {way:4} {port}"))
+        }
+        Found::Card { index, name, streams } => {
+            let _ = writeln!(text, "card {index}    {name}: reached through JACK or PipeWire");
+            streams.iter().try_for_each(|stream| {
+                writeln!(text, "            {:8} {:8} {}", stream.device, direction(stream), offers(stream))
+            })
+        }
+    };
+    text
+}
+
+/// Channel counts and rates, as far as the kernel tells.
+fn offers(stream: &Stream) -> String {
+    let listed = |values: Vec<String>| values.join(", ");
+    if stream.channels.is_empty() && stream.rates.is_empty() {
+        return "channels and rates are known only once it is opened".into();
+    }
+    let channels = listed(stream.channels.iter().map(usize::to_string).collect());
+    let rates = listed(stream.rates.iter().map(f64::to_string).collect());
+    format!("channels {channels}; rates {rates} Hz")
+}

@@ -1,0 +1,74 @@
+use unripple_core::DeviceError;
+use unripple_physics::PhysicsError;
+
+/// What goes wrong with devices, beyond a block that does not pass ([`DeviceError`]).
+#[derive(Debug, thiserror::Error)]
+pub enum DevicesError {
+    /// The surface behind a virtual device cannot be.
+    #[error(transparent)]
+    Physics(#[from] PhysicsError),
+    /// A block did not pass.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
+    /// A value is out of its range.
+    #[error("{what}: expected {expected}, found {found}")]
+    Range {
+        /// What the value is.
+        what: &'static str,
+        /// The legal values.
+        expected: String,
+        /// The value.
+        found: f64,
+    },
+    /// Sizes do not agree.
+    #[error("{what}: expected {expected}, found {found}")]
+    Size {
+        /// What is counted.
+        what: &'static str,
+        /// How many there should be.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// A device has too few channels.
+    #[error("{device}: expected at least {expected} {what}, found {found}; {fix}")]
+    Channels {
+        /// The device.
+        device: String,
+        /// Playback or capture ports, or what else is counted.
+        what: &'static str,
+        /// How many are needed.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+        /// How to fix it.
+        fix: String,
+    },
+    /// More taps at once than the virtual surface was made for.
+    #[error("taps at once: expected at most {most}, found one more")]
+    Taps {
+        /// How many there may be.
+        most: usize,
+    },
+    /// No sound server answers, or it refuses.
+    #[error("JACK: {what}; {fix}")]
+    Jack {
+        /// What happened.
+        what: String,
+        /// How to fix it.
+        fix: String,
+    },
+}
+
+/// A typed error unless a value is finite and legal.
+pub(crate) fn check(what: &'static str, found: f64, legal: bool, expected: &str) -> Result<(), DevicesError> {
+    if legal && found.is_finite() {
+        return Ok(());
+    }
+    Err(DevicesError::Range { what, expected: expected.to_owned(), found })
+}
+
+/// A typed error unless two counts agree.
+pub(crate) fn same(what: &'static str, found: usize, expected: usize) -> Result<(), DevicesError> {
+    if found == expected { Ok(()) } else { Err(DevicesError::Size { what, expected, found }) }
+}

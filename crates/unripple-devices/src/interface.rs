@@ -1,0 +1,104 @@
+use crate::DevicesError;
+use crate::delay::{Delay, HALF};
+use crate::error::{check, same};
+use crate::random::Random;
+use unripple_core::Layout;
+
+/// What stands between a computer and a surface: converters, amplifiers and wires. The default is perfect.
+///
+/// Mishaps of the surface itself, of its sensors and of whole channels are
+/// [`Mishaps`](unripple_physics::stepper::Mishaps); these here act on what goes out and on all that is heard, the probe
+/// included.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Interface {
+    /// Factor of each output's drive; empty for 1. Negative where a wire is reversed.
+    pub drive_gains: Vec<f64>,
+    /// Factor of each input; empty for 1.
+    pub heard_gains: Vec<f64>,
+    /// Root mean square of white noise on each input, in its own unit; empty for none.
+    pub noise: Vec<f64>,
+    /// Samples by which everything heard comes late: a whole number, or at least 24.
+    pub latency: f64,
+    /// Blocks after which the device is gone.
+    pub vanish_after: Option<u64>,
+    /// Seed of the noise.
+    pub seed: u64,
+}
+
+impl Default for Interface {
+    fn default() -> Self {
+        Self {
+            drive_gains: Vec::new(),
+            heard_gains: Vec::new(),
+            noise: Vec::new(),
+            latency: 0.0,
+            vanish_after: None,
+            seed: 1,
+        }
+    }
+}
+
+/// An interface at work.
+#[derive(Clone, Debug)]
+pub(crate) struct Converter {
+    interface: Interface,
+    delay: Delay,
+    random: Random,
+}
+
+impl Converter {
+    pub(crate) fn new(interface: &Interface, layout: &Layout) -> Result<Self, DevicesError> {
+        let mut interface = interface.clone();
+        let (outputs, inputs) = (layout.outputs.len(), layout.inputs.len());
+        let lists = [
+            ("gains of the drive", &mut interface.drive_gains, outputs, 1.0),
+            ("gains of what is heard", &mut interface.heard_gains, inputs, 1.0),
+            ("levels of noise", &mut interface.noise, inputs, 0.0),
+        ];
+        for (what, list, count, default) in lists {
+            if list.is_empty() {
+                list.resize(count, default);
+            }
+            same(what, list.len(), count)?;
+            list.iter().try_for_each(|value| check(what, *value, true, "finite numbers"))?;
+        }
+        let late = interface.latency;
+        let whole = late.fract() == 0.0;
+        let expected = format!("a whole number of samples up to 1e7, or at least {HALF}");
+        let legal = (0.0..=1e7).contains(&late) && (whole || late >= HALF as f64);
+        check("latency of an interface in samples", late, legal, &expected)?;
+        let random = Random::new(interface.seed);
+        Ok(Self { delay: Delay::new(inputs, late), random, interface })
+    }
+
+    /// Other noise for another seed.
+    pub(crate) fn reseed(&mut self, seed: u64) {
+        self.random = Random::new(self.interface.seed ^ seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+    }
+
+    /// Whether the device is gone after so many blocks.
+    pub(crate) fn vanished(&self, blocks: u64) -> bool {
+        self.interface.vanish_after.is_some_and(|most| blocks >= most)
+    }
+
+    /// What of a block leaves, in the actuators' unit.
+    pub(crate) fn send(&self, layout: &Layout, drive: &[f32], sent: &mut [f64]) {
+        let planes = sent.chunks_exact_mut(layout.block).zip(drive.chunks_exact(layout.block));
+        for ((sent, drive), gain) in planes.zip(&self.interface.drive_gains) {
+            let gain = gain * layout.full_scale;
+            sent.iter_mut().zip(drive).for_each(|(to, from)| *to = gain * f64::from(*from));
+        }
+    }
+
+    /// What of a block arrives.
+    pub(crate) fn hear(&mut self, frames: usize, planes: &mut [f64]) {
+        self.delay.process(planes, frames);
+        let levels = self.interface.heard_gains.iter().zip(&self.interface.noise);
+        for (plane, (gain, noise)) in planes.chunks_exact_mut(frames).zip(levels) {
+            plane.iter_mut().for_each(|x| *x *= gain);
+            if *noise != 0.0 {
+                plane.iter_mut().for_each(|x| *x += noise * self.random.normal());
+            }
+        }
+    }
+}

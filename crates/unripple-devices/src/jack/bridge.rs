@@ -1,0 +1,93 @@
+use super::library::{Client, Cycle, Process};
+use crate::DevicesError;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use unripple_core::Device;
+
+/// A device run as a client of a JACK server: what a virtual surface is to others, as a sound card with the surface on it would
+/// be. For tests, and for trying things.
+///
+/// It hears drive on ports `in_NAME`, one for each output of the device, and speaks on `out_NAME`, one for each input;
+/// [`Links::Client`](super::Links::Client) connects to them. The server's own thread exchanges the blocks, so a device that
+/// takes its time delays the server: nothing is lost while it freewheels, otherwise cycles may be.
+///
+/// ```no_run
+/// use unripple_devices::{Bridge, DevicesError, Virtual, VirtualOptions};
+///
+/// # fn run(surface: &unripple_core::Surface) -> Result<(), DevicesError> {
+/// let device = Virtual::new(surface, &VirtualOptions { block: 256, ..Default::default() })?;
+/// let bridge = Bridge::start(Box::new(device), "surface", None)?;
+/// assert_eq!(bridge.faults(), 0);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug)]
+pub struct Bridge {
+    client: Client,
+    faults: Arc<AtomicU64>,
+}
+
+impl Bridge {
+    /// Joins the named server, or the default one.
+    ///
+    /// # Errors
+    /// [`DevicesError::Jack`] if there is no library or server or it refuses; [`DevicesError::Size`] if the device's block is not
+    /// the server's period; [`DevicesError::Range`] if its rate is not the server's.
+    pub fn start(device: Box<dyn Device>, name: &str, server: Option<&str>) -> Result<Self, DevicesError> {
+        let layout = device.layout().clone();
+        let mut client = Client::open(name, server)?;
+        crate::error::same("samples of a block, against the server's period", layout.block, client.period())?;
+        let rate = client.rate();
+        let expected = format!("{rate}, the server's");
+        crate::error::check("sample rate in Hz", layout.rate, layout.rate == rate, &expected)?;
+        layout.outputs.iter().try_for_each(|name| client.add(&format!("in_{name}"), true))?;
+        layout.inputs.iter().try_for_each(|name| client.add(&format!("out_{name}"), false))?;
+        let faults = Arc::new(AtomicU64::new(0));
+        let [drive, heard] =
+            [&layout.outputs, &layout.inputs].map(|names| vec![0.0; names.len() * layout.block]);
+        let inputs = layout.inputs.len();
+        let worker = Worker { device, block: layout.block, inputs, drive, heard, faults: faults.clone() };
+        client.start(Box::new(worker))?;
+        Ok(Self { client, faults })
+    }
+
+    /// Cycles in which the device gave nothing: it was lost, or the server's period changed.
+    pub fn faults(&self) -> u64 {
+        self.faults.load(Ordering::Relaxed)
+    }
+
+    /// Name of the client, as the server gave it.
+    pub fn name(&self) -> String {
+        self.client.name()
+    }
+}
+
+/// What the server's thread has.
+struct Worker {
+    device: Box<dyn Device>,
+    block: usize,
+    inputs: usize,
+    drive: Vec<f32>,
+    heard: Vec<f32>,
+    faults: Arc<AtomicU64>,
+}
+
+impl Process for Worker {
+    fn cycle(&mut self, cycle: &mut Cycle) {
+        let fits = cycle.frames() == self.block;
+        if fits {
+            for (output, plane) in self.drive.chunks_exact_mut(self.block).enumerate() {
+                plane.iter_mut().zip(cycle.input(output)).for_each(|(to, x)| *to = *x);
+            }
+        }
+        let passed = fits && self.device.exchange(&self.drive, &mut self.heard).is_ok();
+        if !passed {
+            self.faults.fetch_add(1, Ordering::Relaxed);
+            (0..self.inputs).for_each(|input| cycle.output(input).fill(0.0));
+            return;
+        }
+        for (input, plane) in self.heard.chunks_exact(self.block).enumerate() {
+            cycle.output(input).iter_mut().zip(plane).for_each(|(to, x)| *to = *x);
+        }
+    }
+}

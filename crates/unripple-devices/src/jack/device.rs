@@ -1,0 +1,338 @@
+use super::crossing::{Crossing, Shore};
+use super::events::Side;
+use super::library::Client;
+use crate::DevicesError;
+use crate::error::check;
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
+use unripple_core::{Device, DeviceError, Layout, State, Status};
+
+/// Frames that the rings hold at least, should the server's period grow.
+const ROOM: usize = 8192;
+
+/// What ports are connected to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Links {
+    /// The system's playback and capture ports, in order.
+    #[default]
+    System,
+    /// Another client, by its name: our `out_a1` to its `in_a1`, its `out_a1` to our `in_a1`. [`Bridge`](super::Bridge) has
+    /// such ports.
+    Client(String),
+    /// Ports by their full names: one to play to for each output, one to hear from for each input.
+    Ports {
+        /// Ports that hear, in the order of the outputs.
+        playback: Vec<String>,
+        /// Ports that speak, in the order of the inputs.
+        capture: Vec<String>,
+    },
+    /// Nothing: somebody else connects them.
+    None,
+}
+
+/// How to join a JACK server.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JackOptions {
+    /// Name of the client.
+    pub client: String,
+    /// Name of the server; the default one where `None`.
+    pub server: Option<String>,
+    /// Names of the outputs: actuators. The port of `a1` is `out_a1`.
+    pub outputs: Vec<String>,
+    /// Names of the inputs: sensors, probe. The port of `a1` is `in_a1`.
+    pub inputs: Vec<String>,
+    /// What ports are connected to.
+    pub links: Links,
+    /// Drive, in the actuators' unit, of a sample of 1.
+    pub full_scale: f64,
+    /// Blocks that drive is ahead of the server: so many blocks a program may be late, and so many more all latencies are.
+    pub lead: usize,
+    /// How long to wait for a cycle before the server counts as stalled, in s.
+    pub patience: f64,
+    /// Whether the server is to run without a clock while the device is open, as fast as all can follow: nothing is lost then
+    /// however slow the machine. JACK 2 takes no new clients meanwhile: start those first.
+    pub freewheel: bool,
+}
+
+impl Default for JackOptions {
+    fn default() -> Self {
+        Self {
+            client: "unripple".into(),
+            server: None,
+            outputs: Vec::new(),
+            inputs: Vec::new(),
+            links: Links::System,
+            full_scale: 1.0,
+            lead: 4,
+            patience: 3.0,
+            freewheel: false,
+        }
+    }
+}
+
+/// A JACK server as a device. Its block is the server's period.
+///
+/// In real time the server's thread neither waits nor allocates: where drive is late it plays silence, hears nothing, and counts.
+/// What was missed, a pause between exchanges included, is in [`Status::lost`] as soon as the first block after it is heard. So let
+/// some blocks of silence pass before a measurement, and hold `lost` after them against `lost` at its end. A server
+/// that freewheels waits for drive instead, two seconds at most.
+///
+/// ```no_run
+/// use unripple_core::Device;
+/// use unripple_devices::{Jack, JackOptions, Links};
+///
+/// let names = vec!["a1".to_owned(), "a2".to_owned()];
+/// let options = JackOptions { outputs: names.clone(), inputs: names, ..Default::default() };
+/// let mut device = Jack::open(&options)?;
+/// let block = device.layout().block;
+/// device.exchange(&vec![0.0; 2 * block], &mut vec![0.0; 2 * block])?;
+/// # Ok::<(), unripple_devices::DevicesError>(())
+/// ```
+pub struct Jack {
+    client: Client,
+    shore: Shore,
+    layout: Layout,
+    lead: u64,
+    patience: Duration,
+    /// Whether it let the server run without a clock.
+    freewheel: bool,
+    /// Blocks driven, and blocks whose answer was not there in time and is to be thrown away.
+    driven: u64,
+    owed: u64,
+    xruns: u64,
+    frames: Vec<f32>,
+    status: Status,
+}
+
+impl std::fmt::Debug for Jack {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        f.debug_struct("Jack")
+            .field("layout", &self.layout)
+            .field("status", &self.status)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Jack {
+    /// Joins a server, with ports connected.
+    ///
+    /// # Errors
+    /// [`DevicesError::Jack`] if there is no library or server, or it refuses a port or a connection;
+    /// [`DevicesError::Channels`] for fewer ports than channels; [`DevicesError::Range`] for options that cannot be.
+    pub fn open(options: &JackOptions) -> Result<Self, DevicesError> {
+        let lead = options.lead as f64;
+        check("blocks of lead", lead, (1.0..=1000.0).contains(&lead), "1 to 1000")?;
+        let legal = (1e-3..=3600.0).contains(&options.patience);
+        check("patience with a server in s", options.patience, legal, "0.001 to 3600")?;
+        let scale = options.full_scale;
+        check("full scale of the drive", scale, scale > 0.0, "a positive number")?;
+        let mut client = Client::open(&options.client, options.server.as_deref())?;
+        let wires = wires(&client, options)?;
+        options.outputs.iter().try_for_each(|name| client.add(&format!("out_{name}"), false))?;
+        options.inputs.iter().try_for_each(|name| client.add(&format!("in_{name}"), true))?;
+        let (block, rate) = (client.period(), client.rate());
+        let (outputs, inputs) = (options.outputs.len(), options.inputs.len());
+        let room = ((options.lead + 2) * block).max(ROOM);
+        let (crossing, shore) = Crossing::new(outputs, inputs, room, client.events.clone());
+        client.start(Box::new(crossing))?;
+        let own = client.name();
+        for (from, to) in wires {
+            client.connect(&from.replacen(OWN, &own, 1), &to.replacen(OWN, &own, 1))?;
+        }
+        let layout = Layout {
+            device: "jack".into(),
+            rate,
+            block,
+            outputs: options.outputs.clone(),
+            inputs: options.inputs.clone(),
+            full_scale: scale,
+        };
+        if options.freewheel {
+            client.freewheel(true)?;
+        }
+        let (lead, patience) = (options.lead as u64, Duration::from_secs_f64(options.patience));
+        let frames = Vec::with_capacity(block * (outputs.max(inputs) + 1));
+        let status = Status::default();
+        let freewheel = options.freewheel;
+        Ok(Self {
+            client,
+            shore,
+            layout,
+            lead,
+            patience,
+            freewheel,
+            driven: 0,
+            owed: 0,
+            xruns: 0,
+            frames,
+            status,
+        })
+    }
+
+    fn push(&mut self, drive: &[f32]) -> Result<(), DeviceError> {
+        let (block, width) = (self.layout.block, self.layout.outputs.len() + 1);
+        self.frames.clear();
+        self.frames.resize(block * width, 0.0);
+        for (output, plane) in drive.chunks_exact(block).enumerate() {
+            let slots = self.frames.iter_mut().skip(output).step_by(width);
+            slots.zip(plane).for_each(|(to, x)| *to = *x);
+        }
+        let Ok(mut chunk) = self.shore.drive.write_chunk(block * width) else {
+            return Err(self.stall("the server takes no drive".into()));
+        };
+        let (first, second) = chunk.as_mut_slices();
+        let (a, b) = self.frames.split_at(first.len());
+        first.copy_from_slice(a);
+        second.copy_from_slice(b);
+        chunk.commit_all();
+        Ok(())
+    }
+
+    /// Waits for one block and takes it.
+    fn pop(&mut self, heard: &mut [f32]) -> Result<(), DeviceError> {
+        let (block, inputs) = (self.layout.block, self.layout.inputs.len());
+        let wanted = block * (inputs + 1);
+        let start = Instant::now();
+        let cycles = self.client.events.cycles.load(Ordering::Acquire);
+        let mut rounds = 0;
+        while self.shore.heard.slots() < wanted {
+            if self.client.events.gone.load(Ordering::Acquire) {
+                let why = "the server shut down".to_owned();
+                self.status.state = State::Lost(why.clone());
+                return Err(DeviceError::Lost { device: self.layout.device.clone(), why });
+            }
+            if start.elapsed() > self.patience {
+                let passed = self.client.events.cycles.load(Ordering::Acquire) - cycles;
+                let time = self.patience.as_secs_f64();
+                let why = match passed {
+                    0 => format!("no cycle for {time} s"),
+                    _ => format!(
+                        "{passed} cycles in {time} s, none of them ours; the server's period is {} samples, was {block}",
+                        self.client.period()
+                    ),
+                };
+                return Err(self.stall(why));
+            }
+            rounds += 1;
+            let nap = if rounds < 200 { 20 } else { 200 };
+            std::thread::sleep(Duration::from_micros(nap));
+        }
+        let Ok(chunk) = self.shore.heard.read_chunk(wanted) else { return Ok(()) };
+        let (first, second) = chunk.as_slices();
+        for (input, plane) in heard.chunks_exact_mut(block).enumerate() {
+            let samples = first.iter().chain(second).skip(input).step_by(inputs + 1);
+            plane.iter_mut().zip(samples).for_each(|(to, x)| *to = *x);
+        }
+        let missed: f32 = first.iter().chain(second).skip(inputs).step_by(inputs + 1).sum();
+        chunk.commit_all();
+        self.status.lost += missed as u64;
+        Ok(())
+    }
+
+    fn stall(&mut self, why: String) -> DeviceError {
+        self.status.state = State::Stalled(why.clone());
+        DeviceError::Stalled { device: self.layout.device.clone(), why }
+    }
+}
+
+impl Device for Jack {
+    fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    fn status(&self) -> Status {
+        let mut status = self.status.clone();
+        if self.client.events.gone.load(Ordering::Acquire) {
+            status.state = State::Lost("the server shut down".into());
+        }
+        status
+    }
+
+    fn exchange(&mut self, drive: &[f32], heard: &mut [f32]) -> Result<(), DeviceError> {
+        self.layout.fits(drive.len(), heard.len())?;
+        // Answers that came too late once are thrown away, so that latency stays what it is.
+        while self.owed > 0 {
+            self.pop(heard)?;
+            self.owed -= 1;
+        }
+        self.push(drive)?;
+        self.driven += 1;
+        if self.driven <= self.lead {
+            heard.fill(0.0);
+        } else if let Err(error) = self.pop(heard) {
+            self.owed += 1;
+            return Err(error);
+        }
+        let xruns = self.client.events.xruns.load(Ordering::Relaxed);
+        // What came late before the first block is nobody's loss.
+        if self.driven > 1 && !self.client.events.freewheeling.load(Ordering::Acquire) {
+            self.status.lost += xruns - self.xruns;
+        }
+        self.xruns = xruns;
+        self.status.blocks += 1;
+        self.status.state = State::Running;
+        Ok(())
+    }
+}
+
+impl Drop for Jack {
+    fn drop(&mut self) {
+        self.shore.closing.store(true, Ordering::Release);
+        if self.freewheel && !self.client.events.gone.load(Ordering::Acquire) {
+            // A server that cannot go back to its clock is beyond help from here.
+            let _ = self.client.freewheel(false);
+        }
+    }
+}
+
+/// Stands for our own client's name, which the server decides.
+const OWN: &str = "\u{1}";
+
+/// Pairs of ports to connect, from and to.
+fn wires(client: &Client, options: &JackOptions) -> Result<Vec<(String, String)>, DevicesError> {
+    let (outputs, inputs) = (&options.outputs, &options.inputs);
+    let (playback, capture) = match &options.links {
+        Links::None => return Ok(Vec::new()),
+        Links::System => {
+            let fix = |what: &str| {
+                format!(
+                    "start the server on a card with more {what} channels, or name the ports of several (Links::Ports, \
+                     Links::Client)"
+                )
+            };
+            let playback = client.ports(Side::Playback, true);
+            let capture = client.ports(Side::Capture, true);
+            enough("playback ports", outputs.len(), playback.len(), fix("playback"))?;
+            enough("capture ports", inputs.len(), capture.len(), fix("capture"))?;
+            (playback, capture)
+        }
+        Links::Ports { playback, capture } => {
+            let fix = || "name one port for each channel".to_owned();
+            enough("named playback ports", outputs.len(), playback.len(), fix())?;
+            enough("named capture ports", inputs.len(), capture.len(), fix())?;
+            (playback.clone(), capture.clone())
+        }
+        Links::Client(other) => (
+            outputs.iter().map(|name| format!("{other}:in_{name}")).collect(),
+            inputs.iter().map(|name| format!("{other}:out_{name}")).collect(),
+        ),
+    };
+    let known = [client.ports(Side::Playback, false), client.ports(Side::Capture, false)];
+    let (wanted, theirs) = ([&playback[..outputs.len()], &capture[..inputs.len()]], ["playback", "capture"]);
+    for ((wanted, known), side) in wanted.into_iter().zip(&known).zip(theirs) {
+        if let Some(missing) = wanted.iter().find(|port| !known.contains(port)) {
+            let what = format!("there is no {side} port `{missing}`");
+            return Err(DevicesError::Jack { what, fix: format!("there are: {}", known.join(", ")) });
+        }
+    }
+    let out = outputs.iter().zip(playback).map(|(name, to)| (format!("{OWN}:out_{name}"), to));
+    let back = inputs.iter().zip(capture).map(|(name, from)| (from, format!("{OWN}:in_{name}")));
+    Ok(out.chain(back).collect())
+}
+
+fn enough(what: &'static str, expected: usize, found: usize, fix: String) -> Result<(), DevicesError> {
+    if found >= expected {
+        return Ok(());
+    }
+    Err(DevicesError::Channels { device: "jack".into(), what, expected, found, fix })
+}

@@ -1,0 +1,23 @@
+use std::sync::atomic::{AtomicBool, AtomicU64};
+
+/// What happens to a client, told by atomics.
+#[derive(Debug, Default)]
+pub(super) struct Events {
+    /// Cycles so far.
+    pub(super) cycles: AtomicU64,
+    /// Cycles that the server says came late.
+    pub(super) xruns: AtomicU64,
+    /// Whether the server waits for nobody's clock.
+    pub(super) freewheeling: AtomicBool,
+    /// Whether the server is gone.
+    pub(super) gone: AtomicBool,
+}
+
+/// Which ports to list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    /// Those that sound can be sent to.
+    Playback,
+    /// Those that sound comes from.
+    Capture,
+}

@@ -1,0 +1,391 @@
+//! The C library of JACK, opened at run time: no build depends on it, and where it is missing that is an error like any
+//! other. The one place of this crate with `unsafe`: calls across the C interface, as `jack/jack.h` declares it.
+//!
+//! What makes them sound: the library stays loaded for ever; a client's raw pointer lives from [`Client::open`] until its
+//! drop, which closes it before the context of the callbacks is freed; the process callback alone touches the context's
+//! process part, on one thread at a time, as JACK promises; strings that JACK gives are copied at once; panics do not cross
+//! the interface.
+#![allow(unsafe_code)]
+
+use super::events::{Events, Side};
+use crate::DevicesError;
+use libloading::Library;
+use std::ffi::{CStr, CString, c_char, c_int, c_uint, c_ulong, c_void};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::ptr;
+use std::sync::atomic::Ordering;
+use std::sync::{Arc, Mutex, OnceLock};
+
+const NO_START_SERVER: c_uint = 0x01;
+const SERVER_NAME: c_uint = 0x04;
+const PORT_IS_INPUT: c_ulong = 0x1;
+const PORT_IS_OUTPUT: c_ulong = 0x2;
+const PORT_IS_PHYSICAL: c_ulong = 0x4;
+/// A connection that is there already.
+const EXISTS: c_int = 17;
+
+/// A client as the library knows it, and a port.
+enum RawClient {}
+enum RawPort {}
+
+type Arg = *mut c_void;
+
+/// The functions used, by their C names without `jack_`.
+macro_rules! functions {
+    ($($name:ident: fn($($arg:ty),*) $(-> $result:ty)?;)*) => {
+        struct Api {
+            // The only variadic one: the server's name follows the status.
+            client_open: unsafe extern "C" fn(*const c_char, c_uint, *mut c_uint, ...) -> *mut RawClient,
+            $($name: unsafe extern "C" fn($($arg),*) $(-> $result)?,)*
+        }
+
+        impl Api {
+            unsafe fn find(library: &'static Library) -> Result<Self, libloading::Error> {
+                // SAFETY: the types are those that jack.h declares for these names.
+                unsafe {
+                    Ok(Self {
+                        client_open: *library.get(b"jack_client_open\0")?,
+                        $($name: *library.get(concat!("jack_", stringify!($name), "\0").as_bytes())?,)*
+                    })
+                }
+            }
+        }
+    };
+}
+
+functions! {
+    client_close: fn(*mut RawClient) -> c_int;
+    activate: fn(*mut RawClient) -> c_int;
+    get_sample_rate: fn(*mut RawClient) -> u32;
+    get_buffer_size: fn(*mut RawClient) -> u32;
+    get_client_name: fn(*mut RawClient) -> *const c_char;
+    port_register: fn(*mut RawClient, *const c_char, *const c_char, c_ulong, c_ulong) -> *mut RawPort;
+    port_get_buffer: fn(*mut RawPort, u32) -> *mut c_void;
+    set_process_callback: fn(*mut RawClient, unsafe extern "C" fn(u32, Arg) -> c_int, Arg) -> c_int;
+    set_xrun_callback: fn(*mut RawClient, unsafe extern "C" fn(Arg) -> c_int, Arg) -> c_int;
+    set_freewheel_callback: fn(*mut RawClient, unsafe extern "C" fn(c_int, Arg), Arg) -> c_int;
+    on_shutdown: fn(*mut RawClient, unsafe extern "C" fn(Arg), Arg);
+    set_freewheel: fn(*mut RawClient, c_int) -> c_int;
+    connect: fn(*mut RawClient, *const c_char, *const c_char) -> c_int;
+    get_ports: fn(*mut RawClient, *const c_char, *const c_char, c_ulong) -> *mut *const c_char;
+    free: fn(*mut c_void);
+    set_error_function: fn(unsafe extern "C" fn(*const c_char));
+    set_info_function: fn(unsafe extern "C" fn(*const c_char));
+}
+
+/// Opening and closing clients is not for two threads at once.
+static DOOR: Mutex<()> = Mutex::new(());
+
+fn api() -> Result<&'static Api, DevicesError> {
+    static API: OnceLock<Result<Api, String>> = OnceLock::new();
+    let names: &[&str] = if cfg!(target_os = "macos") {
+        &["libjack.0.dylib", "/usr/local/lib/libjack.dylib", "/opt/homebrew/lib/libjack.dylib"]
+    } else if cfg!(windows) {
+        &["libjack64.dll", "libjack.dll"]
+    } else {
+        &["libjack.so.0", "libjack.so"]
+    };
+    let found = API.get_or_init(|| {
+        let mut why = String::new();
+        for name in names {
+            // SAFETY: JACK's library has no initialisers that matter, and is never unloaded.
+            match unsafe { Library::new(name) } {
+                Ok(library) => {
+                    let library: &'static Library = Box::leak(Box::new(library));
+                    // SAFETY: see the function.
+                    let api = unsafe { Api::find(library) }.map_err(|error| error.to_string())?;
+                    // SAFETY: the functions live for ever and ignore what they get.
+                    unsafe {
+                        (api.set_error_function)(ignore);
+                        (api.set_info_function)(ignore);
+                    }
+                    return Ok(api);
+                }
+                Err(error) => why = error.to_string(),
+            }
+        }
+        Err(why)
+    });
+    found.as_ref().map_err(|why| DevicesError::Jack {
+        what: format!("its library is not there ({why})"),
+        fix: "install it (Debian: apt install jackd2, or pipewire-jack)".into(),
+    })
+}
+
+unsafe extern "C" fn ignore(_: *const c_char) {}
+
+/// What is done in each cycle.
+pub(super) trait Process: Send + 'static {
+    /// One cycle, in real time unless the server freewheels.
+    fn cycle(&mut self, cycle: &mut Cycle);
+}
+
+/// The buffers of one cycle.
+pub(super) struct Cycle<'a> {
+    api: &'static Api,
+    frames: u32,
+    inputs: &'a [*mut RawPort],
+    outputs: &'a [*mut RawPort],
+}
+
+impl Cycle<'_> {
+    pub(super) fn frames(&self) -> usize {
+        self.frames as usize
+    }
+
+    /// What came in at a port, by the order of registration; empty beyond the last.
+    pub(super) fn input(&self, port: usize) -> &[f32] {
+        let Some(port) = self.inputs.get(port) else { return &[] };
+        // SAFETY: within the callback a port's buffer holds `frames` floats; inputs are only read.
+        unsafe {
+            let buffer = (self.api.port_get_buffer)(*port, self.frames).cast::<f32>();
+            if buffer.is_null() { &[] } else { std::slice::from_raw_parts(buffer, self.frames as usize) }
+        }
+    }
+
+    /// What is to go out at a port.
+    pub(super) fn output(&mut self, port: usize) -> &mut [f32] {
+        let Some(port) = self.outputs.get(port) else { return &mut [] };
+        // SAFETY: as above; every output has a buffer of its own, and `self` is borrowed for as long as it.
+        unsafe {
+            let buffer = (self.api.port_get_buffer)(*port, self.frames).cast::<f32>();
+            if buffer.is_null() {
+                &mut []
+            } else {
+                std::slice::from_raw_parts_mut(buffer, self.frames as usize)
+            }
+        }
+    }
+}
+
+/// What the callbacks get.
+struct Context {
+    api: &'static Api,
+    inputs: Vec<*mut RawPort>,
+    outputs: Vec<*mut RawPort>,
+    process: Box<dyn Process>,
+    events: Arc<Events>,
+}
+
+/// A client of a server.
+pub(super) struct Client {
+    api: &'static Api,
+    raw: *mut RawClient,
+    inputs: Vec<*mut RawPort>,
+    outputs: Vec<*mut RawPort>,
+    /// Once active: what the callbacks get, owned.
+    context: *mut Context,
+    pub(super) events: Arc<Events>,
+}
+
+// SAFETY: JACK's functions on a client may be called from any thread; the context is the callbacks' while active.
+unsafe impl Send for Client {}
+
+impl std::fmt::Debug for Client {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        f.debug_struct("Client").field("name", &self.name()).finish_non_exhaustive()
+    }
+}
+
+fn text(string: &str) -> Result<CString, DevicesError> {
+    CString::new(string).map_err(|_| DevicesError::Jack {
+        what: format!("a name with a zero byte in it: {string:?}"),
+        fix: "choose another".into(),
+    })
+}
+
+impl Client {
+    /// A client of the named server, or of the default one; none is started.
+    pub(super) fn open(name: &str, server: Option<&str>) -> Result<Self, DevicesError> {
+        let api = api()?;
+        let (name, server_name) = (text(name)?, text(server.unwrap_or_default())?);
+        let _door = DOOR.lock();
+        let mut status = 0;
+        // SAFETY: strings outlive the calls; the variadic argument is the server's name exactly with SERVER_NAME.
+        let raw = unsafe {
+            match server {
+                None => (api.client_open)(name.as_ptr(), NO_START_SERVER, &mut status),
+                Some(_) => (api.client_open)(
+                    name.as_ptr(),
+                    NO_START_SERVER | SERVER_NAME,
+                    &mut status,
+                    server_name.as_ptr(),
+                ),
+            }
+        };
+        if raw.is_null() {
+            return Err(DevicesError::Jack {
+                what: format!("no server `{}` answers (status {status:#x})", server.unwrap_or("default")),
+                fix: "start one, for example `jackd -d alsa`, or log in to a PipeWire session".into(),
+            });
+        }
+        let (inputs, outputs) = (Vec::new(), Vec::new());
+        Ok(Self { api, raw, inputs, outputs, context: ptr::null_mut(), events: Arc::default() })
+    }
+
+    /// Its name, as the server gave it.
+    pub(super) fn name(&self) -> String {
+        // SAFETY: the name lives as long as the client, and is copied.
+        unsafe {
+            let name = (self.api.get_client_name)(self.raw);
+            if name.is_null() { String::new() } else { CStr::from_ptr(name).to_string_lossy().into_owned() }
+        }
+    }
+
+    /// Samples per second.
+    pub(super) fn rate(&self) -> f64 {
+        // SAFETY: the client is open.
+        f64::from(unsafe { (self.api.get_sample_rate)(self.raw) })
+    }
+
+    /// Samples per cycle.
+    pub(super) fn period(&self) -> usize {
+        // SAFETY: the client is open.
+        unsafe { (self.api.get_buffer_size)(self.raw) as usize }
+    }
+
+    /// Adds a port of its own, before [`Client::start`]: one that hears, or one that speaks.
+    pub(super) fn add(&mut self, name: &str, hears: bool) -> Result<(), DevicesError> {
+        let (short, kind) = (text(name)?, c"32 bit float mono audio");
+        let flags = if hears { PORT_IS_INPUT } else { PORT_IS_OUTPUT };
+        // SAFETY: the client is open, strings outlive the call.
+        let port = unsafe { (self.api.port_register)(self.raw, short.as_ptr(), kind.as_ptr(), flags, 0) };
+        if port.is_null() {
+            return Err(DevicesError::Jack {
+                what: format!("no port `{name}` to be had"),
+                fix: "names must differ and be short; the server may be out of ports".into(),
+            });
+        }
+        if hears {
+            self.inputs.push(port)
+        } else {
+            self.outputs.push(port)
+        }
+        Ok(())
+    }
+
+    /// Begins to take part in cycles. Once for each client.
+    pub(super) fn start(&mut self, process: Box<dyn Process>) -> Result<(), DevicesError> {
+        let context = Context {
+            api: self.api,
+            inputs: self.inputs.clone(),
+            outputs: self.outputs.clone(),
+            process,
+            events: self.events.clone(),
+        };
+        if !self.context.is_null() {
+            return Ok(());
+        }
+        self.context = Box::into_raw(Box::new(context));
+        let arg = self.context.cast::<c_void>();
+        // SAFETY: the context is freed only after the client is closed.
+        let failed = unsafe {
+            (self.api.on_shutdown)(self.raw, on_shutdown, arg);
+            let set = [
+                (self.api.set_process_callback)(self.raw, on_process, arg),
+                (self.api.set_xrun_callback)(self.raw, on_xrun, arg),
+                (self.api.set_freewheel_callback)(self.raw, on_freewheel, arg),
+            ];
+            set.iter().any(|result| *result != 0) || (self.api.activate)(self.raw) != 0
+        };
+        if failed {
+            let fix = "restart the server".into();
+            return Err(DevicesError::Jack { what: "the client cannot be activated".into(), fix });
+        }
+        Ok(())
+    }
+
+    /// All audio ports of one side, by their full names, in the server's order.
+    pub(super) fn ports(&self, side: Side, physical: bool) -> Vec<String> {
+        let flags = if side == Side::Playback { PORT_IS_INPUT } else { PORT_IS_OUTPUT };
+        let flags = if physical { flags | PORT_IS_PHYSICAL } else { flags };
+        let mut names = Vec::new();
+        // SAFETY: the list ends with a null pointer and is freed once; its strings are copied.
+        unsafe {
+            let list =
+                (self.api.get_ports)(self.raw, ptr::null(), c"32 bit float mono audio".as_ptr(), flags);
+            if list.is_null() {
+                return names;
+            }
+            let mut at = list;
+            while !(*at).is_null() {
+                names.push(CStr::from_ptr(*at).to_string_lossy().into_owned());
+                at = at.add(1);
+            }
+            (self.api.free)(list.cast());
+        }
+        names
+    }
+
+    /// Connects two ports by their full names.
+    pub(super) fn connect(&self, from: &str, to: &str) -> Result<(), DevicesError> {
+        let (source, sink) = (text(from)?, text(to)?);
+        // SAFETY: the client is open, strings outlive the call.
+        let result = unsafe { (self.api.connect)(self.raw, source.as_ptr(), sink.as_ptr()) };
+        if result == 0 || result == EXISTS {
+            return Ok(());
+        }
+        let fix = "`unripple devices` lists the ports there are".into();
+        Err(DevicesError::Jack { what: format!("`{from}` cannot be connected to `{to}`"), fix })
+    }
+
+    /// Lets the server run without a clock, or with it again.
+    pub(super) fn freewheel(&self, on: bool) -> Result<(), DevicesError> {
+        // SAFETY: the client is open.
+        if unsafe { (self.api.set_freewheel)(self.raw, c_int::from(on)) } == 0 {
+            return Ok(());
+        }
+        let fix = "not every server can; PipeWire and JACK 2 do".into();
+        Err(DevicesError::Jack { what: "freewheeling cannot be switched".into(), fix })
+    }
+}
+
+impl Drop for Client {
+    fn drop(&mut self) {
+        let _door = DOOR.lock();
+        // SAFETY: closing ends the callbacks; after it nobody has the context.
+        unsafe {
+            (self.api.client_close)(self.raw);
+            if !self.context.is_null() {
+                drop(Box::from_raw(self.context));
+            }
+        }
+    }
+}
+
+unsafe extern "C" fn on_process(frames: u32, arg: Arg) -> c_int {
+    let context = arg.cast::<Context>();
+    // SAFETY: JACK calls this on one thread, between activation and closing; no other code reaches `process` meanwhile, and
+    // the other fields are only read.
+    let (process, api, inputs, outputs, events) = unsafe {
+        let process = &mut *ptr::addr_of_mut!((*context).process);
+        let ports = (&*ptr::addr_of!((*context).inputs), &*ptr::addr_of!((*context).outputs));
+        (process, *ptr::addr_of!((*context).api), ports.0, ports.1, &*ptr::addr_of!((*context).events))
+    };
+    let mut cycle = Cycle { api, frames, inputs, outputs };
+    let done = catch_unwind(AssertUnwindSafe(|| process.cycle(&mut cycle)));
+    events.cycles.fetch_add(1, Ordering::Release);
+    c_int::from(done.is_err())
+}
+
+/// What other callbacks may touch: the events alone, which are atomics. The context's other parts are the process callback's.
+unsafe fn events<'a>(arg: Arg) -> &'a Events {
+    // SAFETY: the context lives until the client is closed; only this field is reached, never the whole.
+    unsafe { &*Arc::as_ptr(&*ptr::addr_of!((*arg.cast::<Context>()).events)) }
+}
+
+unsafe extern "C" fn on_xrun(arg: Arg) -> c_int {
+    // SAFETY: see `events`.
+    unsafe { events(arg) }.xruns.fetch_add(1, Ordering::Relaxed);
+    0
+}
+
+unsafe extern "C" fn on_freewheel(starting: c_int, arg: Arg) {
+    // SAFETY: see `events`.
+    unsafe { events(arg) }.freewheeling.store(starting != 0, Ordering::Release);
+}
+
+unsafe extern "C" fn on_shutdown(arg: Arg) {
+    // SAFETY: see `events`.
+    unsafe { events(arg) }.gone.store(true, Ordering::Release);
+}

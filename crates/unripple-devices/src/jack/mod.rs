@@ -1,0 +1,33 @@
+//! A JACK server (which PipeWire is, too) as a device, and a virtual surface as a client of one.
+
+mod bridge;
+mod crossing;
+mod device;
+mod events;
+mod library;
+
+pub use bridge::Bridge;
+pub use device::{Jack, JackOptions, Links};
+
+use events::Side;
+use library::Client;
+
+/// What a server has: rate, samples per cycle, and the names of all ports that sound can be sent to and comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Seen {
+    pub(crate) rate: f64,
+    pub(crate) block: usize,
+    pub(crate) playback: Vec<String>,
+    pub(crate) capture: Vec<String>,
+}
+
+/// Looks at a server, if one answers.
+pub(crate) fn look(server: Option<&str>) -> Result<Seen, crate::DevicesError> {
+    let client = Client::open("unripple-devices", server)?;
+    Ok(Seen {
+        rate: client.rate(),
+        block: client.period(),
+        playback: client.ports(Side::Playback, false),
+        capture: client.ports(Side::Capture, false),
+    })
+}

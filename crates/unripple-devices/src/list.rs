@@ -1,0 +1,173 @@
+use crate::jack;
+use std::path::Path;
+
+/// A device that there is, or what stands for one.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Found {
+    /// A virtual surface: as many channels as a surface has actuators, any rate and block.
+    Virtual,
+    /// Samples in files: as many channels as wanted, any rate.
+    Tape,
+    /// A JACK server that answers.
+    Jack(Server),
+    /// No JACK server, and why.
+    NoJack(String),
+    /// A sound card, by what the kernel says of it.
+    Card {
+        /// Its number.
+        index: usize,
+        /// Its name.
+        name: String,
+        /// Its streams.
+        streams: Vec<Stream>,
+    },
+}
+
+/// A JACK server.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Server {
+    /// Samples per second.
+    pub rate: f64,
+    /// Samples per cycle.
+    pub block: usize,
+    /// Full names of the ports that sound can be sent to.
+    pub playback: Vec<String>,
+    /// Full names of the ports that sound comes from.
+    pub capture: Vec<String>,
+}
+
+/// One direction of a sound card's device.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stream {
+    /// The ALSA device, such as `hw:1,0`.
+    pub device: String,
+    /// Whether it plays; otherwise it records.
+    pub playback: bool,
+    /// Channel counts it offers, ascending; empty where the kernel does not say (only USB cards do).
+    pub channels: Vec<usize>,
+    /// Sample rates it offers, in Hz, ascending; empty likewise.
+    pub rates: Vec<f64>,
+}
+
+/// Everything there is, the virtual surface first. Looks at the named JACK server, or at the default one.
+///
+/// ```
+/// assert_eq!(unripple_devices::list(None)[0], unripple_devices::Found::Virtual);
+/// ```
+pub fn list(server: Option<&str>) -> Vec<Found> {
+    let mut found = vec![Found::Virtual, Found::Tape];
+    found.push(match jack::look(server) {
+        Ok(jack::Seen { rate, block, playback, capture }) => {
+            Found::Jack(Server { rate, block, playback, capture })
+        }
+        Err(error) => Found::NoJack(error.to_string()),
+    });
+    found.extend(cards(Path::new("/proc/asound")));
+    found
+}
+
+/// The cards that a folder such as `/proc/asound` tells of.
+fn cards(root: &Path) -> Vec<Found> {
+    let names = |path: &Path, prefix: &str| -> Vec<(usize, String)> {
+        let entries = std::fs::read_dir(path).into_iter().flatten().flatten();
+        let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
+        let mut found: Vec<(usize, String)> =
+            names.filter_map(|name| Some((index(&name, prefix)?, name))).collect();
+        found.sort();
+        found
+    };
+    let card = |(number, folder): (usize, String)| {
+        let path = root.join(&folder);
+        let name = std::fs::read_to_string(path.join("id")).unwrap_or_default().trim().to_owned();
+        let streams = names(&path, "pcm").into_iter().map(|(device, pcm)| {
+            let usb = std::fs::read_to_string(path.join(format!("stream{device}"))).unwrap_or_default();
+            let playback = pcm.ends_with('p');
+            let (channels, rates) = offers(&usb, playback);
+            Stream { device: format!("hw:{number},{device}"), playback, channels, rates }
+        });
+        Found::Card { index: number, name, streams: streams.collect() }
+    };
+    names(root, "card").into_iter().map(card).collect()
+}
+
+/// The number in `card3`, `pcm0p`, `pcm0c`.
+fn index(name: &str, prefix: &str) -> Option<usize> {
+    let rest = name.strip_prefix(prefix)?;
+    rest.trim_end_matches(['p', 'c']).parse().ok()
+}
+
+/// Channel counts and rates in the text of a USB card's `stream` file, for one direction.
+fn offers(text: &str, playback: bool) -> (Vec<usize>, Vec<f64>) {
+    let (mut channels, mut rates, mut within) = (Vec::new(), Vec::new(), false);
+    for line in text.lines().map(str::trim) {
+        match line.split_once(':') {
+            Some(("Playback", "")) => within = playback,
+            Some(("Capture", "")) => within = !playback,
+            Some(("Channels", count)) if within => channels.extend(count.trim().parse::<usize>()),
+            Some(("Rates", list)) if within => {
+                let known = |rate: &str| rate.trim().parse::<f64>().ok();
+                rates.extend(list.split(['-', ',']).filter_map(known));
+            }
+            _ => {}
+        }
+    }
+    channels.sort_unstable();
+    channels.dedup();
+    rates.sort_by(f64::total_cmp);
+    rates.dedup();
+    (channels, rates)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const USB: &str = "\
+Focusrite Scarlett 18i20 USB at usb-0000:00:14.0-2, high speed : USB Audio
+
+Playback:
+  Status: Stop
+  Interface 1
+    Altset 1
+    Format: S32_LE
+    Channels: 20
+    Endpoint: 0x01 (1 OUT) (ASYNC)
+    Rates: 44100, 48000
+  Interface 1
+    Altset 2
+    Channels: 16
+    Rates: 88200, 96000
+
+Capture:
+  Interface 2
+    Altset 1
+    Channels: 18
+    Rates: 44100, 48000, 88200, 96000
+";
+
+    #[test]
+    fn a_usb_card_says_what_it_offers() {
+        assert_eq!(offers(USB, true), (vec![16, 20], vec![44100.0, 48000.0, 88200.0, 96000.0]));
+        assert_eq!(offers(USB, false).0, [18]);
+        assert_eq!(offers("", true), (vec![], vec![]));
+    }
+
+    #[test]
+    fn cards_are_read_from_their_folder() {
+        let root = std::env::temp_dir().join(format!("unripple-asound-{}", std::process::id()));
+        let card = root.join("card1");
+        ["pcm0p", "pcm0c", "pcm3p"].iter().for_each(|pcm| std::fs::create_dir_all(card.join(pcm)).unwrap());
+        std::fs::write(card.join("id"), "USB\n").unwrap();
+        std::fs::write(card.join("stream0"), USB).unwrap();
+        let found = cards(&root);
+        std::fs::remove_dir_all(&root).unwrap();
+        let [Found::Card { index: 1, name, streams }] = &found[..] else { panic!("{found:?}") };
+        assert_eq!((name.as_str(), streams.len()), ("USB", 3));
+        assert_eq!(
+            (streams[0].device.as_str(), streams[0].playback, &streams[0].channels[..]),
+            ("hw:1,0", false, &[18][..])
+        );
+        assert!(streams[2].channels.is_empty());
+        assert!(cards(Path::new("/nowhere")).is_empty());
+    }
+}

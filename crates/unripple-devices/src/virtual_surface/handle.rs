@@ -1,0 +1,83 @@
+use super::lock;
+use super::workings::Workings;
+use crate::error::check;
+use crate::{DevicesError, Tap};
+use std::sync::{Arc, Mutex};
+use unripple_core::{Contact, Point};
+use unripple_physics::stepper::{FingerMotion, Reading};
+
+/// Reaches a virtual surface while its device is in other hands: moves the probe, taps, and puts fingers on it. What it
+/// does takes effect with the next block.
+#[derive(Clone, Debug)]
+pub struct Handle {
+    workings: Arc<Mutex<Workings>>,
+}
+
+impl Handle {
+    pub(super) fn new(workings: Arc<Mutex<Workings>>) -> Self {
+        Self { workings }
+    }
+
+    /// Samples that the surface has taken in.
+    pub fn samples(&self) -> u64 {
+        lock(&self.workings).surface.surface().samples()
+    }
+
+    /// Begins anew: the surface at rest as it was made, at time 0, no taps or fingers, the probe where it was at first. The noise
+    /// of the interface is another for each seed and the same for one.
+    pub fn rest(&self, seed: u64) {
+        lock(&self.workings).rest(seed);
+    }
+
+    /// Puts the probe elsewhere.
+    ///
+    /// # Errors
+    /// [`DevicesError::Physics`] for a place that is not finite.
+    pub fn move_probe(&self, at: Point) -> Result<(), DevicesError> {
+        Ok(lock(&self.workings).surface.surface_mut().set_probes(&[(at, Reading::Velocity)])?)
+    }
+
+    /// Taps at a place, some time (s) after the next block begins; that a tap lasts counts from there on. Its force acts as that
+    /// of an actuator would: with everything that hangs on the sheet.
+    ///
+    /// # Errors
+    /// [`DevicesError::Taps`] if more taps would fall into one block than the device was made for, [`DevicesError::Range`]
+    /// for a time that is negative or beyond a day, [`DevicesError::Physics`] for a place that is not finite.
+    pub fn tap(&self, tap: &Tap, at: Point, after: f64) -> Result<(), DevicesError> {
+        check("time until a tap in s", after, (0.0..=86_400.0).contains(&after), "between 0 and 86400")?;
+        let mut workings = lock(&self.workings);
+        let surface = workings.surface.surface();
+        let footing = surface.plant().footing(at, 0.0)?;
+        let start = surface.samples() + (after * surface.rate()).round() as u64;
+        workings.add(start, tap.force().to_vec(), footing)
+    }
+
+    /// Puts a finger down under a name of its own.
+    ///
+    /// # Errors
+    /// [`DevicesError::Physics`], as [`touch`](unripple_physics::VirtualSurface::touch).
+    pub fn touch(&self, id: u64, contact: &Contact) -> Result<(), DevicesError> {
+        Ok(lock(&self.workings).surface.surface_mut().touch(id, contact)?)
+    }
+
+    /// Moves a finger.
+    ///
+    /// # Errors
+    /// [`DevicesError::Physics`], as [`move_to`](unripple_physics::VirtualSurface::move_to).
+    pub fn move_finger(&self, id: u64, to: Point) -> Result<(), DevicesError> {
+        Ok(lock(&self.workings).surface.surface_mut().move_to(id, to)?)
+    }
+
+    /// Lifts a finger.
+    ///
+    /// # Errors
+    /// [`DevicesError::Physics`], as [`lift`](unripple_physics::VirtualSurface::lift).
+    pub fn lift(&self, id: u64) -> Result<(), DevicesError> {
+        Ok(lock(&self.workings).surface.surface_mut().lift(id)?)
+    }
+
+    /// How a finger moves, and what it gets.
+    pub fn finger_motion(&self, id: u64) -> Option<FingerMotion> {
+        lock(&self.workings).surface.surface().finger_motion(id)
+    }
+}

@@ -1,0 +1,221 @@
+//! The surface of the stepper as a device.
+
+mod handle;
+mod workings;
+
+pub use handle::Handle;
+
+use crate::interface::Converter;
+use crate::{DevicesError, Interface, Truth};
+use std::sync::{Arc, Mutex, MutexGuard};
+use std::time::{Duration, Instant};
+use unripple_core::{Device, DeviceError, Layout, Point, State, Status, Surface};
+use unripple_physics::stepper::{
+    Channel, Misbehaving, Mishaps, Plant, Reading, StepperOptions, VirtualSurface,
+};
+use unripple_physics::{Footprint, Modes};
+use workings::Workings;
+
+/// Name of the input that a probe is heard on.
+pub const PROBE: &str = "probe";
+
+/// How a virtual device is made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VirtualOptions {
+    /// Samples per block.
+    pub block: usize,
+    /// How the surface is stepped, and how many fingers there may be.
+    pub stepper: StepperOptions,
+    /// What goes wrong with the surface and its wires.
+    pub mishaps: Mishaps,
+    /// What stands between.
+    pub interface: Interface,
+    /// Where the probe is at first; in the middle of the outline's bounding box where `None`.
+    pub probe: Option<Point>,
+    /// Top frequency of the modes, in Hz; the band's where `None`.
+    pub max_hz: Option<f64>,
+    /// Relative accuracy of the frequencies.
+    pub accuracy: f64,
+    /// Taps at once.
+    pub taps: usize,
+    /// Whether a block takes as long as it lasts. Otherwise a block passes as fast as it can be computed.
+    pub real_time: bool,
+}
+
+impl Default for VirtualOptions {
+    fn default() -> Self {
+        Self {
+            block: 128,
+            stepper: StepperOptions::default(),
+            mishaps: Mishaps::default(),
+            interface: Interface::default(),
+            probe: None,
+            max_hz: None,
+            accuracy: 1e-6,
+            taps: 1,
+            real_time: false,
+        }
+    }
+}
+
+/// A virtual surface as a device, microphone included.
+///
+/// An output for each actuator, by its name; an input for the sensor of each, by the same names, then [`PROBE`], the normal
+/// velocity (m/s) at a place that can be moved. A sample of 1 drives with the surface's emission limit. What is heard is in
+/// the sensors' own unit, m/s for ideal forces. Time passes only in [`Device::exchange`].
+///
+/// ```
+/// use unripple_core::*;
+/// use unripple_devices::{Tap, Virtual, VirtualOptions};
+/// # let sheet = Sheet { material: "BoPET".into(), young: 4e9, density: 1400.0, poisson: 0.3, strength: None,
+/// #     thickness: 0.125e-3, tension: 200.0, decay: Decay::Time(0.07), air: Air::None,
+/// #     uneven: Uneven::default() };
+/// # let a1 = Actuator { name: "a1".into(), at: Point::from_mm(12.0, 31.0), kind: ActuatorKind::Force,
+/// #     contact_radius: 0.0 };
+/// # let surface = Surface { name: "film".into(), outline: Outline::new(Shape::Rectangle { width: 0.15, height: 0.15 }),
+/// #     sheet, emission: Emission { band: [0.0, 1e3], rate: 48e3, limit: 1.0, rms_limit: None },
+/// #     finger: Finger::default(), actuators: vec![a1] };
+///
+/// let mut device = Virtual::new(&surface, &VirtualOptions { block: 64, ..Default::default() })?;
+/// assert_eq!(device.layout().inputs, ["a1", "probe"]);
+/// let handle = device.handle();
+/// handle.tap(&Tap::half_sine(1.0, 1e-3, 48e3), Point::from_mm(62.0, 90.0), 0.0)?;
+/// let (drive, mut heard) = ([0.0; 64], [0.0; 128]);
+/// device.exchange(&drive, &mut heard)?;
+/// assert!(heard.iter().any(|v| *v != 0.0));
+/// # Ok::<(), unripple_devices::DevicesError>(())
+/// ```
+#[derive(Debug)]
+pub struct Virtual {
+    layout: Layout,
+    workings: Arc<Mutex<Workings>>,
+    real_time: bool,
+    start: Option<Instant>,
+    status: Status,
+}
+
+impl Virtual {
+    /// A surface at rest, its modes solved here.
+    ///
+    /// # Errors
+    /// Those of [`Modes::solve`] and [`Virtual::with_modes`].
+    pub fn new(surface: &Surface, options: &VirtualOptions) -> Result<Self, DevicesError> {
+        let top = options.max_hz.unwrap_or(surface.emission.band[1]);
+        let modes = Modes::solve(surface, top, options.accuracy)?;
+        Self::with_modes(surface, Arc::new(modes), options)
+    }
+
+    /// A surface at rest with modes that are known.
+    ///
+    /// # Errors
+    /// [`DevicesError::Range`] and [`DevicesError::Size`] for values that cannot be; those of [`VirtualSurface::new`].
+    pub fn with_modes(
+        surface: &Surface,
+        modes: Arc<Modes>,
+        options: &VirtualOptions,
+    ) -> Result<Self, DevicesError> {
+        let (block, taps) = (options.block as f64, options.taps as f64);
+        crate::error::check(
+            "samples of a block",
+            block,
+            (1.0..=1e6).contains(&block),
+            "between 1 and 1000000",
+        )?;
+        crate::error::check("taps at once", taps, taps <= 64.0, "at most 64")?;
+        let plant = Plant::of(surface, modes)?;
+        let (width, height) = surface.outline.extent();
+        let place = options.probe.unwrap_or(Point::new(width / 2.0, height / 2.0));
+        let mut channels = Channel::all(surface)?;
+        let spare = Channel::force(Footprint::point(Point::new(width / 2.0, height / 2.0)));
+        channels.extend(std::iter::repeat_n(spare, options.taps));
+        let mut stepped = VirtualSurface::new(&plant, &channels, surface.emission.rate, &options.stepper)?;
+        stepped.set_probes(&[(place, Reading::Velocity)])?;
+        let mishaps = options.mishaps.clone();
+        let surface_at_work = Misbehaving::new(stepped, mishaps, options.block)?.with_spare(options.taps)?;
+        let names: Vec<String> = surface.actuators.iter().map(|a| a.name.clone()).collect();
+        let layout = Layout {
+            device: "virtual".into(),
+            rate: surface.emission.rate,
+            block: options.block,
+            inputs: names.iter().cloned().chain([PROBE.to_owned()]).collect(),
+            outputs: names,
+            full_scale: surface.emission.limit,
+        };
+        let converter = Converter::new(&options.interface, &layout)?;
+        let workings = Workings::new(surface_at_work, converter, &layout, options.taps);
+        Ok(Self {
+            layout,
+            workings: Arc::new(Mutex::new(workings)),
+            real_time: options.real_time,
+            start: None,
+            status: Status::default(),
+        })
+    }
+
+    /// The true surface, with its own gains and noise besides what the options say of mishaps, latency and vanishing. Its
+    /// modes are those of [`Truth::modes`], whatever accuracy the options ask for.
+    ///
+    /// # Errors
+    /// Those of [`Virtual::new`].
+    pub fn of_truth(truth: &Truth, options: &VirtualOptions) -> Result<Self, DevicesError> {
+        Self::of_truth_with_modes(truth, truth.modes(options.max_hz)?, options)
+    }
+
+    /// The same with modes of the true surface that are known.
+    ///
+    /// # Errors
+    /// Those of [`Virtual::with_modes`].
+    pub fn of_truth_with_modes(
+        truth: &Truth,
+        modes: Arc<Modes>,
+        options: &VirtualOptions,
+    ) -> Result<Self, DevicesError> {
+        let interface = truth.interface(&modes, &options.interface);
+        Self::with_modes(&truth.surface, modes, &VirtualOptions { interface, ..options.clone() })
+    }
+
+    /// Reaches the surface while the device is in other hands.
+    pub fn handle(&self) -> Handle {
+        Handle::new(self.workings.clone())
+    }
+
+    /// Waits until this block would be over.
+    fn keep_time(&mut self) {
+        let start = *self.start.get_or_insert_with(Instant::now);
+        let over = (self.status.blocks + 1) as f64 * self.layout.block as f64 / self.layout.rate;
+        let left = Duration::from_secs_f64(over).saturating_sub(start.elapsed());
+        if !left.is_zero() {
+            std::thread::sleep(left);
+        }
+    }
+}
+
+impl Device for Virtual {
+    fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    fn status(&self) -> Status {
+        self.status.clone()
+    }
+
+    fn exchange(&mut self, drive: &[f32], heard: &mut [f32]) -> Result<(), DeviceError> {
+        self.layout.fits(drive.len(), heard.len())?;
+        let result = lock(&self.workings).exchange(&self.layout, self.status.blocks, drive, heard);
+        if let Err(why) = result {
+            self.status.state = State::Lost(why.clone());
+            return Err(DeviceError::Lost { device: self.layout.device.clone(), why });
+        }
+        if self.real_time {
+            self.keep_time();
+        }
+        self.status.blocks += 1;
+        self.status.lost = lock(&self.workings).lost();
+        Ok(())
+    }
+}
+
+/// What another thread left behind when it panicked is still a surface.
+fn lock(workings: &Mutex<Workings>) -> MutexGuard<'_, Workings> {
+    workings.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+}

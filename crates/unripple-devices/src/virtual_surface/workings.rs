@@ -1,0 +1,139 @@
+use crate::DevicesError;
+use crate::interface::Converter;
+use unripple_core::Layout;
+use unripple_physics::stepper::{Footing, Misbehaving};
+
+/// What is behind a virtual device.
+#[derive(Debug)]
+pub(super) struct Workings {
+    pub(super) surface: Misbehaving,
+    converter: Converter,
+    /// Both as they were at first.
+    first: (Misbehaving, Converter),
+    block: usize,
+    outputs: usize,
+    slots: Vec<Slot>,
+    /// Planes of drive, those of taps last; of sensors, those of taps last; and of what is heard.
+    drive: Vec<f64>,
+    sensors: Vec<f64>,
+    heard: Vec<f64>,
+}
+
+/// A spare channel for taps one after the other.
+#[derive(Clone, Debug, Default)]
+struct Slot {
+    /// Taps under way or to come, by their start.
+    strikes: Vec<Strike>,
+}
+
+/// A tap at its place and time.
+#[derive(Clone, Debug)]
+struct Strike {
+    start: u64,
+    force: Vec<f64>,
+    footing: Footing,
+    seated: bool,
+}
+
+impl Strike {
+    fn end(&self) -> u64 {
+        self.start + self.force.len() as u64
+    }
+}
+
+impl Workings {
+    pub(super) fn new(surface: Misbehaving, converter: Converter, layout: &Layout, taps: usize) -> Self {
+        let (block, outputs) = (layout.block, layout.outputs.len());
+        let planes = vec![0.0; (outputs + taps) * block];
+        let heard = vec![0.0; layout.inputs.len() * block];
+        let slots = vec![Slot::default(); taps];
+        let first = (surface.clone(), converter.clone());
+        Self {
+            surface,
+            converter,
+            first,
+            block,
+            outputs,
+            slots,
+            drive: planes.clone(),
+            sensors: planes,
+            heard,
+        }
+    }
+
+    /// Begins anew, with noise of its own for each seed.
+    pub(super) fn rest(&mut self, seed: u64) {
+        (self.surface, self.converter) = self.first.clone();
+        self.converter.reseed(seed);
+        self.slots.fill(Slot::default());
+    }
+
+    /// Blocks lost so far.
+    pub(super) fn lost(&self) -> u64 {
+        self.surface.lost() as u64
+    }
+
+    /// One block; an error says why there is none any more.
+    pub(super) fn exchange(
+        &mut self,
+        layout: &Layout,
+        blocks: u64,
+        drive: &[f32],
+        heard: &mut [f32],
+    ) -> Result<(), String> {
+        if self.converter.vanished(blocks) {
+            return Err(format!("it vanished after {blocks} blocks"));
+        }
+        let wired = self.outputs * self.block;
+        self.converter.send(layout, drive, &mut self.drive[..wired]);
+        self.strike().map_err(|error| error.to_string())?;
+        let lost = self.surface.lost();
+        let probe = &mut self.heard[wired..];
+        self.surface
+            .process(self.block, &self.drive, &mut self.sensors, probe)
+            .map_err(|error| error.to_string())?;
+        if self.surface.lost() > lost {
+            probe.fill(0.0);
+        }
+        self.heard[..wired].copy_from_slice(&self.sensors[..wired]);
+        self.converter.hear(self.block, &mut self.heard);
+        heard.iter_mut().zip(&self.heard).for_each(|(to, from)| *to = *from as f32);
+        Ok(())
+    }
+
+    /// Lays the taps of this block on the spare channels.
+    fn strike(&mut self) -> Result<(), DevicesError> {
+        let (now, block) = (self.surface.surface().samples(), self.block as u64);
+        let planes = self.drive[self.outputs * self.block..].chunks_exact_mut(self.block);
+        for (index, (slot, plane)) in self.slots.iter_mut().zip(planes).enumerate() {
+            plane.fill(0.0);
+            slot.strikes.retain(|strike| strike.end() > now);
+            let Some(strike) = slot.strikes.first_mut().filter(|s| s.start < now + block) else { continue };
+            if !strike.seated {
+                self.surface.surface_mut().seat(self.outputs + index, &strike.footing)?;
+                strike.seated = true;
+            }
+            for (i, to) in plane.iter_mut().enumerate() {
+                let from = (now + i as u64).checked_sub(strike.start);
+                *to = from.and_then(|at| strike.force.get(at as usize)).copied().unwrap_or(0.0);
+            }
+        }
+        Ok(())
+    }
+
+    /// Puts a tap on a slot that has room for it, from a sample on.
+    pub(super) fn add(&mut self, start: u64, force: Vec<f64>, footing: Footing) -> Result<(), DevicesError> {
+        let strike = Strike { start, force, footing, seated: false };
+        let block = self.block as u64;
+        // A slot has one place within a block.
+        let span = |s: &Strike| s.start / block..=s.end() / block;
+        let (first, last) = (*span(&strike).start(), *span(&strike).end());
+        let apart = |other: &Strike| *span(other).end() < first || last < *span(other).start();
+        let most = self.slots.len();
+        let free = self.slots.iter_mut().find(|slot| slot.strikes.iter().all(apart));
+        let slot = free.ok_or(DevicesError::Taps { most })?;
+        slot.strikes.push(strike);
+        slot.strikes.sort_by_key(|strike| strike.start);
+        Ok(())
+    }
+}

@@ -1,0 +1,90 @@
+use crate::DevicesError;
+use crate::error::{check, same};
+use unripple_core::{ModalResponses, Point};
+
+/// What a model says that each input hears of an impulse of drive at each output.
+///
+/// ```
+/// use unripple_devices::Expected;
+///
+/// let expected = Expected::new(vec![vec![vec![1.0, 0.5], vec![0.0, 0.2]]])?;
+/// assert_eq!((expected.outputs(), expected.inputs(), expected.samples()), (1, 2, 2));
+/// assert_eq!(expected.response(0, 1), [0.0, 0.2]);
+/// # Ok::<(), unripple_devices::DevicesError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expected {
+    outputs: usize,
+    inputs: usize,
+    samples: usize,
+    data: Vec<f64>,
+}
+
+impl Expected {
+    /// Responses `[output][input][sample]`, each per unit impulse of drive in the actuator's own unit.
+    ///
+    /// # Errors
+    /// [`DevicesError::Size`] unless all rows are equally long, [`DevicesError::Range`] for a value that is not finite.
+    pub fn new(responses: Vec<Vec<Vec<f64>>>) -> Result<Self, DevicesError> {
+        let outputs = responses.len();
+        let inputs = responses.first().map_or(0, Vec::len);
+        let samples = responses.first().and_then(|row| row.first()).map_or(0, Vec::len);
+        for row in &responses {
+            same("inputs in a row of expected responses", row.len(), inputs)?;
+            for response in row {
+                same("samples of an expected response", response.len(), samples)?;
+                response
+                    .iter()
+                    .try_for_each(|h| check("sample of an expected response", *h, true, "a finite number"))?;
+            }
+        }
+        Ok(Self { outputs, inputs, samples, data: responses.concat().concat() })
+    }
+
+    /// What modes say of the sensor at each actuator, then of a probe if there is one, over some time (s).
+    ///
+    /// Sensors are taken to be reciprocal, their weights those of the drive: true of forces, and of coils and patches whose
+    /// signal is in the unit that reciprocity asks for.
+    pub fn of_modes(responses: &ModalResponses, probe: Option<Point>, duration: f64) -> Self {
+        let ModalResponses { ports, poles, input, shapes, conditions } = responses;
+        let samples = (duration.clamp(0.0, 60.0) * conditions.rate).ceil() as usize;
+        let outputs = ports.len();
+        let mut heard: Vec<Vec<f64>> = (0..outputs).map(|a| input.row(a).iter().copied().collect()).collect();
+        if let Some(at) = probe {
+            let mut row = vec![0.0; poles.len()];
+            shapes.at(at, &mut row);
+            heard.push(row);
+        }
+        let inputs = heard.len();
+        let mut data = vec![0.0; outputs * inputs * samples];
+        for (m, pole) in poles.iter().enumerate() {
+            let ring: Vec<f64> = (0..samples).map(|i| pole.velocity(i as f64 / conditions.rate)).collect();
+            for (pair, response) in data.chunks_exact_mut(samples.max(1)).enumerate() {
+                let weight = input[(pair / inputs, m)] * heard[pair % inputs][m];
+                response.iter_mut().zip(&ring).for_each(|(h, v)| *h += weight * v);
+            }
+        }
+        Self { outputs, inputs, samples, data }
+    }
+
+    /// Number of outputs.
+    pub fn outputs(&self) -> usize {
+        self.outputs
+    }
+
+    /// Number of inputs.
+    pub fn inputs(&self) -> usize {
+        self.inputs
+    }
+
+    /// Samples of each response.
+    pub fn samples(&self) -> usize {
+        self.samples
+    }
+
+    /// What an input hears of an output; empty beyond them.
+    pub fn response(&self, output: usize, input: usize) -> &[f64] {
+        let start = (output * self.inputs + input) * self.samples;
+        self.data.get(start..start + self.samples).unwrap_or(&[])
+    }
+}

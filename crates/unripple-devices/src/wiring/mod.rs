@@ -1,0 +1,129 @@
+//! Which channel is silent, swapped or reversed: one actuator at a time is heard by all, and held against a model.
+
+mod expected;
+mod likeness;
+mod report;
+mod take;
+
+pub use expected::Expected;
+pub use report::{Lead, WiringReport};
+
+use crate::DevicesError;
+use crate::error::{check, same};
+use likeness::{Likeness, Routes, routes, signs};
+use report::leads;
+use take::{Takes, record};
+use unripple_core::Device;
+
+/// How wires are tried.
+///
+/// ```
+/// let options = unripple_devices::WiringOptions::for_band([0.0, 3e3]);
+/// assert_eq!(options.frequency, 600.0);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WiringOptions {
+    /// Centre frequency of the bursts, in Hz: low in the band, where a model that is a little wrong still holds.
+    pub frequency: f64,
+    /// Length of a burst, in periods.
+    pub cycles: f64,
+    /// Its peak, as a share of full scale.
+    pub level: f64,
+    /// Time compared with the model from the burst's start on, in s.
+    pub listen: f64,
+    /// Longest latency that is looked for, in s.
+    pub max_latency: f64,
+    /// Silence before each burst, in s.
+    pub pause: f64,
+    /// Likeness (0 to 1) that a channel must at least have to its model, on average.
+    pub least_likeness: f64,
+}
+
+impl Default for WiringOptions {
+    fn default() -> Self {
+        Self {
+            frequency: 600.0,
+            cycles: 2.0,
+            level: 0.5,
+            listen: 0.02,
+            max_latency: 0.1,
+            pause: 0.2,
+            least_likeness: 0.5,
+        }
+    }
+}
+
+impl WiringOptions {
+    /// For a band (Hz): bursts at a fifth of it.
+    pub fn for_band(band: [f64; 2]) -> Self {
+        Self { frequency: band[0] + 0.2 * (band[1] - band[0]), ..Self::default() }
+    }
+
+    fn check(&self, rate: f64) -> Result<(), DevicesError> {
+        let in_band = self.frequency > 0.0 && self.frequency < rate / 2.0;
+        check("frequency of a burst in Hz", self.frequency, in_band, "positive, below half the rate")?;
+        check("periods of a burst", self.cycles, (0.5..=100.0).contains(&self.cycles), "0.5 to 100")?;
+        check("level of a burst", self.level, self.level > 0.0 && self.level <= 1.0, "above 0, at most 1")?;
+        for (what, time) in [
+            ("time to listen in s", self.listen),
+            ("longest latency in s", self.max_latency),
+            ("pause in s", self.pause),
+        ] {
+            check(what, time, (0.0..=10.0).contains(&time), "0 to 10")?;
+        }
+        check("time to listen in samples", self.listen * rate, self.listen * rate >= 2.0, "2 or more")?;
+        let least = self.least_likeness;
+        check("least likeness", least, (0.0..=1.0).contains(&least), "0 to 1")
+    }
+}
+
+/// Sends a burst through one output at a time, listens on all inputs, and says which actuator and sensor each wire leads to.
+///
+/// Each recording r of output o and input i is held against each prediction p by its normalised correlation, at the one latency that
+/// explains most of all; the wires are those whose sum of magnitudes is largest, found from the expected ones by exchanging
+/// two outputs, two inputs, or both of one name as long as that helps. Signs follow from the product of an output's and an
+/// input's. That all outputs and all inputs are reversed together cannot be heard.
+///
+/// # Errors
+/// [`DevicesError::Device`] if a block does not pass, [`DevicesError::Size`] if the model has other channels than the
+/// device, [`DevicesError::Range`] for options that cannot be.
+///
+/// ```
+/// # use unripple_core::*;
+/// # use unripple_physics::{ResponseOptions, responses};
+/// use unripple_devices::{Expected, Interface, Virtual, VirtualOptions, WiringOptions, check_wiring};
+/// # let sheet = Sheet { material: "BoPET".into(), young: 4e9, density: 1400.0, poisson: 0.3, strength: None,
+/// #     thickness: 0.125e-3, tension: 200.0, decay: Decay::Time(0.07), air: Air::None,
+/// #     uneven: Uneven::default() };
+/// # let at = [(12.0, 31.0), (40.0, 140.0), (141.0, 106.0)];
+/// # let actuators = at.iter().enumerate().map(|(i, (x, y))| Actuator { name: format!("a{}", i + 1),
+/// #     at: Point::from_mm(*x, *y), kind: ActuatorKind::Force, contact_radius: 0.0 }).collect();
+/// # let surface = Surface { name: "film".into(), outline: Outline::new(Shape::Rectangle { width: 0.15, height: 0.15 }),
+/// #     sheet, emission: Emission { band: [0.0, 1e3], rate: 48e3, limit: 1.0, rms_limit: None },
+/// #     finger: Finger::default(), actuators };
+///
+/// let interface = Interface { drive_gains: vec![1.0, -1.0, 1.0], ..Default::default() };
+/// let mut device = Virtual::new(&surface, &VirtualOptions { interface, ..Default::default() })?;
+/// let Responses::Modal(model) = responses(&surface, &ResponseOptions::default())? else { unreachable!() };
+/// let expected = Expected::of_modes(&model, Some(Point::from_mm(75.0, 75.0)), 0.02);
+/// let report = check_wiring(&mut device, &expected, &WiringOptions::for_band([0.0, 1e3]))?;
+/// assert_eq!(report.faults(), ["output `a2` is reversed"]);
+/// # Ok::<(), unripple_devices::DevicesError>(())
+/// ```
+pub fn check_wiring(
+    device: &mut dyn Device,
+    expected: &Expected,
+    options: &WiringOptions,
+) -> Result<WiringReport, DevicesError> {
+    let layout = device.layout().clone();
+    options.check(layout.rate)?;
+    same("outputs of the wiring's model", expected.outputs(), layout.outputs.len())?;
+    same("inputs of the wiring's model", expected.inputs(), layout.inputs.len())?;
+    let takes: Takes = record(device, &layout, options)?;
+    let predicted = take::predict(expected, &layout, options);
+    let latency = likeness::latency(&takes, &predicted);
+    let mut likeness = Likeness::new(&takes, &predicted, latency);
+    let found: Routes = routes(&mut likeness, &layout);
+    let signs = signs(&mut likeness, &found);
+    Ok(leads(&mut likeness, &found, &signs, &layout, options))
+}

@@ -1,0 +1,170 @@
+//! A real JACK server with its dummy driver, freewheeling: nothing is lost between two clients, and latency stays.
+//!
+//! Needs `jackd` and libjack (Debian: jackd2). Without them the test says so and passes.
+
+mod common;
+
+use common::{noise, play};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+use unripple_core::*;
+use unripple_devices::*;
+
+const PERIOD: usize = 256;
+
+/// A server of this test's own, gone afterwards.
+struct Server {
+    child: Child,
+    name: String,
+}
+
+impl Server {
+    /// `None` where there is no `jackd`.
+    fn start() -> Option<Self> {
+        let name = format!("unripple-test-{}", std::process::id());
+        let child = Command::new("jackd")
+            .args(["--no-realtime", "--no-mlock", "--name", &name])
+            .args(["-d", "dummy", "-r", "48000", "-p", &PERIOD.to_string(), "-C", "2", "-P", "2"])
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .ok()?;
+        Some(Self { child, name })
+    }
+
+    /// Asks the server to end, and waits until it has.
+    fn stop(&mut self) {
+        if let Ok(None) = self.child.try_wait() {
+            let _ = Command::new("kill").arg(self.child.id().to_string()).status();
+            let _ = self.child.wait();
+        }
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        self.stop();
+    }
+}
+
+/// A device that hears what it plays, in the same block.
+struct Loop(Layout);
+
+impl Device for Loop {
+    fn layout(&self) -> &Layout {
+        &self.0
+    }
+
+    fn status(&self) -> Status {
+        Status::default()
+    }
+
+    fn exchange(&mut self, drive: &[f32], heard: &mut [f32]) -> Result<(), DeviceError> {
+        self.0.fits(drive.len(), heard.len())?;
+        heard.copy_from_slice(drive);
+        Ok(())
+    }
+}
+
+fn names(count: usize) -> Vec<String> {
+    (0..count).map(|i| format!("c{i}")).collect()
+}
+
+/// Joins as soon as the server answers.
+fn bridge(server: &Server) -> Result<Bridge, DevicesError> {
+    let layout = Layout {
+        device: "loop".into(),
+        rate: 48e3,
+        block: PERIOD,
+        outputs: names(3),
+        inputs: names(3),
+        full_scale: 1.0,
+    };
+    let start = Instant::now();
+    loop {
+        match Bridge::start(Box::new(Loop(layout.clone())), "loop", Some(&server.name)) {
+            Err(DevicesError::Jack { .. }) if start.elapsed() < Duration::from_secs(5) => {
+                std::thread::sleep(Duration::from_millis(50));
+            }
+            other => return other,
+        }
+    }
+}
+
+fn options(server: &Server, links: Links) -> JackOptions {
+    let server = Some(server.name.clone());
+    JackOptions { server, outputs: names(3), inputs: names(3), links, lead: 2, ..Default::default() }
+}
+
+/// Latency in samples, if everything sent comes back unchanged after it and nothing else does.
+fn latency(device: &mut Jack) -> usize {
+    let samples = 60 * PERIOD;
+    let sent: Vec<Vec<f64>> = (0..3).map(|seed| noise(seed + 1, samples)).collect();
+    let heard = play(device, samples + 20 * PERIOD, |o, i| sent[o].get(i).copied().unwrap_or(0.0));
+    let first = f64::from(sent[0][0] as f32);
+    let late = heard[0].iter().position(|x| *x == first).expect("what was sent comes back");
+    for (sent, heard) in sent.iter().zip(&heard) {
+        assert!(heard[..late].iter().all(|x| *x == 0.0));
+        let same = sent.iter().zip(&heard[late..]).position(|(a, b)| f64::from(*a as f32) != *b);
+        assert_eq!(same, None, "changed or lost");
+    }
+    late
+}
+
+#[test]
+fn samples_pass_a_real_server_unchanged_and_latency_stays() {
+    let Some(mut server) = Server::start() else {
+        println!("SKIPPED: there is no jackd here (Debian: apt install jackd2)");
+        return;
+    };
+    let bridge = match bridge(&server) {
+        Err(DevicesError::Jack { what, .. }) => {
+            println!("SKIPPED: {what}");
+            return;
+        }
+        other => other.unwrap(),
+    };
+    let client = || options(&server, Links::Client(bridge.name()));
+    let mut found = Vec::new();
+    for _ in 0..3 {
+        let mut device = Jack::open(&JackOptions { freewheel: true, ..client() }).unwrap();
+        found.push(latency(&mut device));
+        found.push(latency(&mut device));
+        assert_eq!((device.status().lost, device.status().state), (0, State::Running));
+    }
+    println!("latency {found:?} samples at {PERIOD} a period, lead 2");
+    assert!(found.iter().all(|late| *late == found[0]), "{found:?}");
+    assert_eq!((bridge.faults(), found[0] % PERIOD), (0, 0));
+    refusals(&server);
+    let device = Jack::open(&client()).unwrap();
+    lost(&mut server, device);
+}
+
+/// Too few channels, ports that there are not, and a device of another block.
+fn refusals(server: &Server) {
+    let refused = |links| Jack::open(&options(server, links)).unwrap_err().to_string();
+    let few = refused(Links::System);
+    assert!(few.contains("expected at least 3 playback ports, found 2; start the server on"), "{few}");
+    assert!(refused(Links::Client("nobody".into())).contains("there is no playback port `nobody:in_c0`"));
+    let listed = list(Some(&server.name));
+    let Some(Found::Jack(seen)) = listed.get(2) else { panic!("{listed:?}") };
+    assert_eq!((seen.rate, seen.block), (48e3, PERIOD));
+    assert!(seen.playback.contains(&"system:playback_2".to_owned()));
+    assert!(seen.capture.contains(&"loop:out_c2".to_owned()));
+}
+
+/// A server that ends is a device that is lost, not one that hangs.
+fn lost(server: &mut Server, mut device: Jack) {
+    server.stop();
+    let (drive, mut heard) = (vec![0.0; 3 * PERIOD], vec![0.0; 3 * PERIOD]);
+    let error = (0..20).find_map(|_| device.exchange(&drive, &mut heard).err());
+    assert!(matches!(error, Some(DeviceError::Lost { .. } | DeviceError::Stalled { .. })), "{error:?}");
+    println!("after the server ended: {}", device.status().state);
+}
+
+#[test]
+fn no_server_is_an_error_that_says_what_to_do() {
+    let options = JackOptions { server: Some("unripple-none".into()), ..Default::default() };
+    let error = Jack::open(&options).unwrap_err().to_string();
+    assert!(error.contains("start one") || error.contains("install it"), "{error}");
+}

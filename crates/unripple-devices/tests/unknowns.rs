@@ -1,0 +1,87 @@
+//! The truth that is not the model: what it is off by, and how much noise there is.
+
+mod common;
+
+use common::*;
+use std::f64::consts::TAU;
+use unripple_core::*;
+use unripple_devices::*;
+
+#[test]
+fn a_truth_is_off_by_what_was_asked() {
+    let surface = film(3000.0);
+    let unknowns = Unknowns { actuator_mass: 5e-6, ..Default::default() };
+    let truth = unknowns.truth(&surface).unwrap();
+    assert_eq!(truth, unknowns.truth(&surface).unwrap());
+    for (there, said) in truth.surface.actuators.iter().zip(&surface.actuators) {
+        assert!((there.at.distance(said.at) - 1e-3).abs() < 1e-12);
+    }
+    let (low, high) = truth.surface.sheet.uneven.tension.as_ref().unwrap().range();
+    assert!(
+        (low.min(2.0 - high) - 0.99).abs() < 1e-12 && (0.99..1.01).contains(&low) && high <= 1.01 + 1e-12
+    );
+    assert_eq!(truth.surface.sheet.uneven.scatterers.len(), 10);
+    let Decay::Table(table) = &truth.surface.sheet.decay else { panic!() };
+    assert_eq!((table[0], table[3].0), ((0.0, 1.15 * 0.07), 3000.0));
+    let many: Vec<f64> = (0..200)
+        .flat_map(|seed| Unknowns { seed, ..Default::default() }.truth(&surface).unwrap().drive_gains)
+        .map(|gain| gain - 1.0)
+        .collect();
+    assert!((rms(&many) / 0.005 - 1.0).abs() < 0.1);
+}
+
+#[test]
+fn nothing_unknown_is_the_surface_itself() {
+    let surface = film(3000.0);
+    let none = Unknowns {
+        gain: 0.0,
+        misplacement: 0.0,
+        tension: 0.0,
+        decay: vec![],
+        masses: vec![],
+        ..Default::default()
+    };
+    let truth = none.truth(&surface).unwrap();
+    assert_eq!((truth.surface, truth.drive_gains), (surface, vec![1.0; 8]));
+    let refused = |unknowns: Unknowns| unknowns.truth(&film(3000.0)).unwrap_err().to_string();
+    assert!(refused(Unknowns { tension: 1.5, ..none.clone() }).contains("tension"));
+    assert!(refused(Unknowns { masses: vec![-1.0], ..none.clone() }).contains("mass"));
+    assert!(refused(Unknowns { decay: vec![(0.5, 1.0), (0.2, 1.0)], ..none }).contains("ascending"));
+}
+
+/// A sweep over the band at the drive limit, heard over its length and ringing.
+fn sweep(top: f64, samples: usize) -> impl Fn(usize) -> f64 {
+    let (start, end) = (50.0, top);
+    move |i| {
+        let t = i as f64 / 48e3;
+        let duration = samples as f64 / 48e3;
+        (TAU * (start * t + (end - start) * t * t / (2.0 * duration))).sin()
+    }
+}
+
+#[test]
+fn signal_to_noise_under_a_sweep_is_what_was_asked() {
+    let truth = Unknowns { seed: 3, ..Default::default() }.truth(&film(1500.0)).unwrap();
+    let modes = truth.modes(None).unwrap();
+    let options = VirtualOptions { accuracy: 1e-4, ..Default::default() };
+    let (mut sensors, mut probe) = (Vec::new(), Vec::new());
+    for actuator in 0..8 {
+        let mut device = Virtual::of_truth_with_modes(&truth, modes.clone(), &options).unwrap();
+        let at = [(50.0, 60.0), (90.0, 80.0), (70.0, 110.0), (110.0, 45.0)][actuator % 4];
+        device.handle().move_probe(Point::from_mm(at.0, at.1)).unwrap();
+        let play_on = sweep(1500.0, 24_000);
+        let heard = play(&mut device, 24_000, |o, i| if o == actuator { play_on(i) } else { 0.0 });
+        sensors.extend(heard[..8].iter().map(|line| rms(line)));
+        probe.push(rms(&heard[8]));
+    }
+    let noise = truth.noise(&modes);
+    let db = |lines: &[f64], noise: f64| 20.0 * (rms(lines) / noise).log10();
+    let found = [db(&sensors, noise.0), db(&probe, noise.1)];
+    println!("signal to noise {found:?} dB, noise {noise:?} m/s");
+    assert!(found.iter().all(|db| (db - 50.0).abs() < 2.0), "{found:?}");
+    // And that noise is there.
+    let mut device = Virtual::of_truth_with_modes(&truth, modes.clone(), &options).unwrap();
+    let heard = play(&mut device, 24_000, silence);
+    assert!((rms(&heard[3]) / noise.0 - 1.0).abs() < 0.05);
+    assert!((rms(&heard[8]) / noise.1 - 1.0).abs() < 0.05);
+}

@@ -1,0 +1,96 @@
+use super::{Library, PointState, manifest};
+use crate::StoreError;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// One file of a library that is not as it was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Damage {
+    /// The file.
+    pub file: PathBuf,
+    /// The point whose responses are lost, if they are.
+    pub point: Option<usize>,
+    /// What the file should hold.
+    pub expected: String,
+    /// What it holds.
+    pub found: String,
+}
+
+impl fmt::Display for Damage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: expected {}, found {}", self.file.display(), self.expected, self.found)
+    }
+}
+
+impl Damage {
+    pub(crate) fn of(error: &StoreError, file: &Path, point: Option<usize>) -> Self {
+        let (expected, found) = match error {
+            StoreError::Content { expected, found, .. } => (expected.clone(), found.clone()),
+            StoreError::Read { reason, .. } => ("a file".to_owned(), reason.to_string()),
+            other => ("a sound file".to_owned(), other.to_string()),
+        };
+        Self { file: file.into(), point, expected, found }
+    }
+}
+
+impl Library {
+    /// Reads everything and says what is damaged: chunks of the wrong size or checksum, missing ones, metadata that are not
+    /// those of the plan. Points without damage stay readable.
+    pub fn verify(&self) -> Vec<Damage> {
+        let mut damage = Vec::new();
+        let mut note = |result: Result<(), StoreError>, file: PathBuf, point| {
+            if let Err(error) = result {
+                damage.push(Damage::of(&error, &file, point));
+            }
+        };
+        note(manifest::read(&self.root).map(drop), manifest::path(&self.root), None);
+        let arrays = &self.arrays;
+        for array in arrays.all() {
+            note(array.check(&self.root), manifest::path(&array.folder(&self.root)), None);
+        }
+        for array in [&arrays.position, &arrays.quality, &arrays.reciprocity] {
+            for chunk in 0..array.chunks() {
+                note(array.read(&self.root, chunk).map(drop), array.chunk(&self.root, chunk), None);
+            }
+        }
+        let (states, blocks) = self.read_states();
+        let stored = states.iter().enumerate().filter(|(_, state)| **state != PointState::Missing);
+        for (point, _) in stored {
+            let file = arrays.responses.chunk(&self.root, point);
+            note(arrays.responses.read(&self.root, point).map(drop), file, Some(point));
+        }
+        damage.extend(blocks);
+        damage
+    }
+
+    /// Makes a damaged library writable again: points whose responses are lost become missing, so that they can be taken
+    /// again; states and qualities that cannot be read are written anew. Returns what was damaged.
+    ///
+    /// # Errors
+    /// [`StoreError::Write`], or [`StoreError::Occupied`] if another process writes. The description of the whole and the
+    /// positions cannot be made anew: [`Library::open`] refuses a library without them.
+    pub fn repair(&mut self) -> Result<Vec<Damage>, StoreError> {
+        self.acquire()?;
+        let damage = self.verify();
+        for point in damage.iter().filter_map(|damage| damage.point) {
+            self.states[point] = PointState::Missing;
+        }
+        let arrays = &self.arrays;
+        let unknown = f64::NAN.to_le_bytes();
+        for array in [&arrays.quality, &arrays.reciprocity] {
+            for chunk in (0..array.chunks()).filter(|chunk| array.read(&self.root, *chunk).is_err()) {
+                let bytes: Vec<u8> = unknown.into_iter().cycle().take(array.bytes()).collect();
+                array.write(&self.root, chunk, &bytes)?;
+            }
+            array.sync(&self.root)?;
+        }
+        for array in arrays.all().into_iter().filter(|array| array.check(&self.root).is_err()) {
+            array.describe(&self.root)?;
+        }
+        if !damage.is_empty() {
+            self.write_states(&(0..arrays.state.chunks()).collect::<Vec<_>>())?;
+            self.damaged.clear();
+        }
+        Ok(damage)
+    }
+}

@@ -1,0 +1,261 @@
+//! Responses of a surface on disk: a Zarr v3 group with one chunk of float32 per point.
+
+mod array;
+mod damage;
+mod disk;
+mod gather;
+mod manifest;
+mod outline;
+mod plan;
+mod put;
+mod quality;
+mod state;
+mod wav;
+
+use crate::StoreError;
+use crate::file::sibling;
+use array::Arrays;
+use std::fs::{self, File};
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+use unripple_core::Point;
+
+pub use damage::Damage;
+pub use plan::{LibraryPlan, MAY_DIFFER};
+pub use put::Take;
+pub use quality::Quality;
+pub use state::PointState;
+
+/// The file that a process holds a lock on while it writes; within an array, where readers of Zarr do not wonder at it.
+const LOCK: &str = "state/.lock";
+
+/// A library of responses on disk.
+///
+/// What is in the folder: `zarr.json` with the whole plan and its checksum; `position` (metres), `state`, `quality` and
+/// `reciprocity_error` in few chunks, so that opening reads few files; `responses`, float32 in the order
+/// `[point][actuator][sample]`, one chunk per point. Every chunk ends in its crc32c.
+///
+/// A point counts as finished once its chunk is on the medium and its state says so, in that order, each file put in place
+/// by renaming: whoever is killed, and whenever, loses no finished point, and others may read meanwhile. Only one process
+/// writes at a time.
+///
+/// ```
+/// use unripple_core::{Conditions, Outline, Point, Port, Shape};
+/// use unripple_store::{Library, LibraryPlan, Quality};
+/// let outline = Outline::new(Shape::Rectangle { width: 0.15, height: 0.15 });
+/// let conditions = Conditions { rate: 48e3, band: [0.0, 3e3], lambda_min: 14.6e-3, outline };
+/// let port = Port { name: "a1".into(), at: Point::from_mm(12.0, 31.0) };
+/// let points = vec![Point::from_mm(62.0, 90.0), Point::from_mm(70.0, 90.0)];
+/// let plan = LibraryPlan::new(vec![port], points, conditions, 3);
+///
+/// let folder = std::env::temp_dir().join(format!("unripple-doc-library-{}", std::process::id()));
+/// let mut library = Library::create(&folder, &plan)?;
+/// library.put(1, &[0.0, 1.0, -0.5], &[Quality::UNKNOWN])?;
+///
+/// let reader = Library::open(&folder)?;
+/// assert_eq!(reader.done(), [1]);
+/// assert_eq!(reader.get(1)?, [0.0, 1.0, -0.5]);
+/// assert!(reader.verify().is_empty());
+/// # std::fs::remove_dir_all(&folder).unwrap();
+/// # Ok::<(), unripple_store::StoreError>(())
+/// ```
+#[derive(Debug)]
+pub struct Library {
+    root: PathBuf,
+    plan: LibraryPlan,
+    arrays: Arrays,
+    states: Vec<PointState>,
+    damaged: Vec<Damage>,
+    lock: Option<File>,
+}
+
+impl Library {
+    /// A library to be filled: a new one, or the one there if its plan is the same but for [`MAY_DIFFER`].
+    ///
+    /// # Errors
+    /// [`StoreError::Content`] if no library can hold the plan; [`StoreError::Occupied`] if something else is there, a
+    /// library of another plan (with what differs), or one that another process is writing; [`StoreError::Write`]; and those
+    /// of [`Library::open`].
+    pub fn create(folder: impl AsRef<Path>, plan: &LibraryPlan) -> Result<Self, StoreError> {
+        let folder = folder.as_ref();
+        plan.check(&folder.display().to_string())?;
+        if manifest::path(folder).exists() {
+            return Self::resume(folder, plan);
+        }
+        vacant(folder)?;
+        let build = sibling(folder)?;
+        let made = make(&build, plan).and_then(|()| {
+            // Unlike on other systems, a folder cannot be renamed onto an empty one everywhere.
+            let _ = fs::remove_dir(folder);
+            fs::rename(&build, folder).map_err(StoreError::write(folder))
+        });
+        if let Err(error) = made {
+            // The first error is the one to report.
+            let _ = fs::remove_dir_all(&build);
+            return Err(error);
+        }
+        disk::sync_folder(above(folder))?;
+        let mut library = Self::open(folder)?;
+        library.acquire()?;
+        Ok(library)
+    }
+
+    fn resume(folder: &Path, plan: &LibraryPlan) -> Result<Self, StoreError> {
+        let mut library = Self::open(folder)?;
+        if let Some(difference) = plan.difference(&library.plan) {
+            let expected = "a library of the same plan, or none";
+            return Err(StoreError::Occupied { path: folder.into(), expected, found: difference });
+        }
+        library.acquire()?;
+        Ok(library)
+    }
+
+    /// A library as it is now. Damage to states is borne: a point whose state cannot be read counts as measured if its
+    /// responses can.
+    ///
+    /// # Errors
+    /// [`StoreError::Read`] and [`StoreError::Content`] if the description of the whole or the positions are missing or
+    /// damaged, with the file, what it should hold and what it holds.
+    pub fn open(folder: impl AsRef<Path>) -> Result<Self, StoreError> {
+        let root = folder.as_ref().to_path_buf();
+        let (mut plan, count) = manifest::read(&root)?;
+        let file = manifest::path(&root).display().to_string();
+        // Before any memory is taken for them: there can be as many points as the positions' file has room for.
+        let room = fs::metadata(root.join("position").join("c.0.0")).map_or(0, |m| m.len() / 16);
+        if count as u64 > room.max(1) {
+            let found = format!("room for {room} in {}", root.join("position").display());
+            return Err(StoreError::content(&file, format!("positions of {count} points"), found));
+        }
+        plan.points = vec![Point::default(); count];
+        plan.check(&file)?;
+        let arrays = Arrays::of(&plan);
+        let bytes = arrays.position.read(&root, 0)?;
+        let coordinates: Vec<f64> = array::floats(&bytes).collect();
+        plan.points = coordinates.as_chunks::<2>().0.iter().map(|[x, y]| Point::new(*x, *y)).collect();
+        plan.check(&arrays.position.chunk(&root, 0).display().to_string())?;
+        let mut library = Self { root, plan, arrays, states: Vec::new(), damaged: Vec::new(), lock: None };
+        library.refresh();
+        Ok(library)
+    }
+
+    /// Whether a folder looks like a library, sound or damaged, rather than anything else.
+    pub fn is_at(folder: impl AsRef<Path>) -> bool {
+        folder.as_ref().is_dir() && manifest::path(folder.as_ref()).is_file()
+    }
+
+    /// Looks again which points are finished, for a reader while another process writes.
+    pub fn refresh(&mut self) {
+        (self.states, self.damaged) = self.read_states();
+    }
+
+    /// What it was made to hold.
+    pub fn plan(&self) -> &LibraryPlan {
+        &self.plan
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.root
+    }
+
+    /// All points, finished or not.
+    pub fn points(&self) -> &[Point] {
+        &self.plan.points
+    }
+
+    /// What has become of a point; `None` beyond the last.
+    pub fn state(&self, point: usize) -> Option<PointState> {
+        self.states.get(point).copied()
+    }
+
+    /// The points that are measured and not bad, ascending.
+    pub fn done(&self) -> Vec<usize> {
+        self.in_state(PointState::Measured)
+    }
+
+    /// The points in one state, ascending.
+    pub fn in_state(&self, state: PointState) -> Vec<usize> {
+        self.states.iter().enumerate().filter(|(_, s)| **s == state).map(|(point, _)| point).collect()
+    }
+
+    /// The finished point nearest to a place; `None` if there is none.
+    pub fn nearest(&self, place: Point) -> Option<usize> {
+        let distance = |point: &usize| self.plan.points[*point].distance(place);
+        self.done().into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+
+    /// Becomes the one process that writes, and forgets what was read before.
+    fn acquire(&mut self) -> Result<(), StoreError> {
+        if self.lock.is_some() {
+            return Ok(());
+        }
+        let path = self.root.join(LOCK);
+        let file = File::options().create(true).truncate(false).write(true).open(&path);
+        let file = file.map_err(StoreError::write(&path))?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(fs::TryLockError::WouldBlock) => {
+                return Err(StoreError::Occupied {
+                    path: self.root.clone(),
+                    expected: "a library that nobody else is writing",
+                    found: "one that another process is writing".into(),
+                });
+            }
+            Err(fs::TryLockError::Error(error)) => return Err(StoreError::write(&path)(error)),
+        }
+        self.lock = Some(file);
+        self.refresh();
+        Ok(())
+    }
+}
+
+/// Refuses a place that something else is at.
+fn vacant(folder: &Path) -> Result<(), StoreError> {
+    let occupied = |found: &str| StoreError::Occupied {
+        path: folder.into(),
+        expected: "no such folder yet, an empty one, or a library",
+        found: found.into(),
+    };
+    match fs::symlink_metadata(folder) {
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            fs::create_dir_all(above(folder)).map_err(StoreError::write(folder))
+        }
+        Err(error) => Err(StoreError::write(folder)(error)),
+        Ok(metadata) if !metadata.is_dir() => Err(occupied("something that is not a folder")),
+        Ok(_) => match fs::read_dir(folder).map_err(StoreError::write(folder))?.next() {
+            None => Ok(()),
+            Some(_) => Err(occupied("a folder with other things in it")),
+        },
+    }
+}
+
+/// The folder that a path is in.
+fn above(path: &Path) -> &Path {
+    path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// A library without any response.
+fn make(root: &Path, plan: &LibraryPlan) -> Result<(), StoreError> {
+    fs::create_dir(root).map_err(StoreError::write(root))?;
+    let file = manifest::path(root);
+    let description = manifest::encode(plan, &file.display().to_string())?;
+    let arrays = Arrays::of(plan);
+    for array in arrays.all() {
+        array.describe(root)?;
+    }
+    let places = plan.points.iter().flat_map(|p| [p.x.to_le_bytes(), p.y.to_le_bytes()]);
+    arrays.position.write(root, 0, &places.flatten().collect::<Vec<u8>>())?;
+    let unknown = f64::NAN.to_le_bytes();
+    arrays.reciprocity.write(root, 0, &unknown)?;
+    let states = vec![0; arrays.state.bytes()];
+    let qualities: Vec<u8> = unknown.into_iter().cycle().take(arrays.quality.bytes()).collect();
+    for block in 0..arrays.state.chunks() {
+        arrays.state.write(root, block, &states)?;
+        arrays.quality.write(root, block, &qualities)?;
+    }
+    for array in arrays.all() {
+        array.sync(root)?;
+    }
+    disk::write(&file, &[&description])?;
+    disk::sync_folder(root)
+}

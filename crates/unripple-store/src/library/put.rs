@@ -1,0 +1,96 @@
+use super::array::BLOCK;
+use super::{Library, PointState, Quality};
+use crate::StoreError;
+use std::collections::BTreeMap;
+
+/// The responses of one point, to be stored.
+#[derive(Clone, Copy, Debug)]
+pub struct Take<'a> {
+    /// Index of the point.
+    pub point: usize,
+    /// Its responses, actuators x samples.
+    pub samples: &'a [f32],
+    /// The quality of each.
+    pub quality: &'a [Quality],
+    /// [`PointState::Measured`], or [`PointState::Bad`].
+    pub state: PointState,
+}
+
+impl Library {
+    /// Stores the responses of one point, actuators x samples, in place of any it had. When this returns they are on the
+    /// medium.
+    ///
+    /// # Errors
+    /// [`StoreError::Content`] if sizes do not fit or a sample is not finite; [`StoreError::Write`] if the folder cannot be
+    /// written to: the point is then as it was; [`StoreError::Occupied`] if another process writes.
+    pub fn put(&mut self, point: usize, samples: &[f32], quality: &[Quality]) -> Result<(), StoreError> {
+        self.put_all(&[Take { point, samples, quality, state: PointState::Measured }])
+    }
+
+    /// Stores responses that are too bad to be used, so that they can be looked at.
+    ///
+    /// # Errors
+    /// As [`Library::put`].
+    pub fn put_bad(&mut self, point: usize, samples: &[f32], quality: &[Quality]) -> Result<(), StoreError> {
+        self.put_all(&[Take { point, samples, quality, state: PointState::Bad }])
+    }
+
+    /// Stores the responses of many points, faster than one by one. None of them is finished before all are on the medium.
+    ///
+    /// # Errors
+    /// As [`Library::put`].
+    pub fn put_all(&mut self, takes: &[Take<'_>]) -> Result<(), StoreError> {
+        takes.iter().try_for_each(|take| self.fits(take))?;
+        self.acquire()?;
+        for take in takes {
+            let bytes: Vec<u8> = take.samples.iter().flat_map(|x| x.to_le_bytes()).collect();
+            self.arrays.responses.write(&self.root, take.point, &bytes)?;
+        }
+        self.arrays.responses.sync(&self.root)?;
+        let mut blocks: BTreeMap<usize, Vec<&Take<'_>>> = BTreeMap::new();
+        takes.iter().for_each(|take| blocks.entry(take.point / BLOCK).or_default().push(take));
+        for (block, takes) in &blocks {
+            self.write_qualities(*block, takes)?;
+        }
+        self.arrays.quality.sync(&self.root)?;
+        let before = self.states.clone();
+        takes.iter().for_each(|take| self.states[take.point] = take.state);
+        let written = self.write_states(&blocks.into_keys().collect::<Vec<_>>());
+        if written.is_err() {
+            self.states = before;
+        }
+        written
+    }
+
+    fn fits(&self, take: &Take<'_>) -> Result<(), StoreError> {
+        self.within(take.point)?;
+        let name = self.root.display().to_string();
+        let require = |legal: bool, expected: String, found: String| {
+            if legal { Ok(()) } else { Err(StoreError::content(&name, expected, found)) }
+        };
+        let (ports, samples) = (self.plan.ports.len(), self.plan.samples);
+        require(
+            take.samples.len() == self.plan.values(),
+            format!("responses of {ports} x {samples} samples"),
+            format!("{} samples", take.samples.len()),
+        )?;
+        require(
+            take.quality.len() == ports,
+            format!("the quality of {ports} responses"),
+            format!("that of {}", take.quality.len()),
+        )?;
+        require(take.state != PointState::Missing, "a point measured or bad".into(), "a missing one".into())?;
+        let bad = take.samples.iter().find(|x| !x.is_finite());
+        require(bad.is_none(), "finite samples".into(), bad.map_or(String::new(), f32::to_string))
+    }
+
+    /// Refuses a point beyond the last.
+    pub(crate) fn within(&self, point: usize) -> Result<(), StoreError> {
+        let count = self.plan.points.len();
+        if point < count {
+            return Ok(());
+        }
+        let expected = format!("a point from 0 to {}", count - 1);
+        Err(StoreError::content(&self.root.display().to_string(), expected, point.to_string()))
+    }
+}
