@@ -1,8 +1,12 @@
 //! Recordings to responses: measuring, interpolating, fitting a model, following drift.
 
 mod between;
+mod drift;
 mod error;
+mod fit;
 pub mod measure;
 
 pub use between::{Between, BetweenOptions, Interpolation, Uncertainty};
+pub use drift::*;
 pub use error::CalibrateError;
+pub use fit::*;

@@ -1,0 +1,300 @@
+use super::run::{Course, Motion, Sheet};
+use super::warp::warped;
+use super::{Drift, Tracking};
+use crate::CalibrateError;
+use crate::error::require;
+use faer::Mat;
+use unripple_core::ModalResponses;
+
+/// Tension's change by which slopes are taken.
+const SMALL: f64 = 1e-5;
+
+/// Newton's steps of one estimate, and the change that ends them.
+const STEPS: usize = 6;
+const SETTLED: f64 = 1e-7;
+
+/// Between two guesses when the tension is sought anew.
+const GUESS: f64 = 1e-3;
+
+/// Follows tension while the surface is used.
+///
+/// The drive that is sent anyway, whatever it is, makes the sheet sound, and the actuators hear it. The model run
+/// under a tension hears something else; the difference tells the tension, since every mode's frequency moves by its own share
+/// of it (the dispersion relation). Between observations tension goes on at the rate found so far (a filter of Kalman's for
+/// ratio and rate).
+///
+/// ```
+/// use faer::Mat;
+/// use std::sync::Arc;
+/// use unripple_calibrate::{Drift, Tracker, Tracking};
+/// use unripple_core::{Conditions, ModalResponses, Outline, Point, Pole, Port, Shape, Shapes};
+///
+/// #[derive(Debug)]
+/// struct Piston;
+/// impl Shapes for Piston {
+///     fn modes(&self) -> usize {
+///         1
+///     }
+///     fn at(&self, _: Point, row: &mut [f64]) {
+///         row.fill(1.0);
+///     }
+/// }
+///
+/// let outline = Outline::new(Shape::Rectangle { width: 0.2, height: 0.1 });
+/// let drum = ModalResponses {
+///     ports: vec![Port { name: "a1".into(), at: Point::new(0.1, 0.05) }],
+///     poles: vec![Pole::new(1000.0, 10.0)],
+///     input: Mat::full(1, 1, 1.0),
+///     shapes: Arc::new(Piston),
+///     conditions: Conditions { rate: 8000.0, band: [0.0, 300.0], lambda_min: 0.03, outline },
+/// };
+/// let mut tracker = Tracker::new(&drum, &[0.0], &Tracking { noise: 1e-6, ..Tracking::default() })?;
+/// let stiffer = Pole::new(1000.0 * 1.002f64.sqrt(), 10.0);
+/// let ping = vec![vec![1.0]];
+/// let heard = vec![(0..1600).map(|i| stiffer.velocity(f64::from(i) / 8000.0) / 8000.0).collect()];
+/// let Drift::Followed { tension, .. } = tracker.observe(&ping, &heard)? else { panic!("it is explained") };
+/// assert!((tension - 1.002).abs() < 1e-5);
+/// # Ok::<(), unripple_calibrate::CalibrateError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Tracker {
+    reference: ModalResponses,
+    sheet: Sheet,
+    options: Tracking,
+    motion: Motion,
+    /// Ratio of the tension at the end of the last observation, and its rate (1/s).
+    state: [f64; 2],
+    /// Their covariance.
+    spread: [[f64; 2]; 2],
+}
+
+/// One observation.
+struct Heard<'a> {
+    drive: &'a [Vec<f64>],
+    samples: usize,
+    instants: &'a [usize],
+    /// Instants x channels.
+    signals: &'a Mat<f64>,
+}
+
+/// An estimate from one observation.
+struct Estimate {
+    course: Course,
+    spread: [[f64; 2]; 2],
+    excess: f64,
+    motion: Motion,
+}
+
+impl Tracker {
+    /// A tracker for a surface of some responses, whose sensors hear velocity where the actuators are, and bending's share of each
+    /// mode's elastic energy; by [`Warp::bending_share`](crate::Warp::bending_share) where nothing better is known.
+    ///
+    /// # Errors
+    /// [`CalibrateError::Count`] for another number of shares than poles, [`CalibrateError::Range`] for options without meaning.
+    pub fn new(
+        responses: &ModalResponses,
+        bending_shares: &[f64],
+        options: &Tracking,
+    ) -> Result<Self, CalibrateError> {
+        let places: Vec<_> = responses.ports.iter().map(|port| port.at).collect();
+        let sense = responses.shapes.at_all(&places);
+        Self::with_sensors(responses, bending_shares, &sense, options)
+    }
+
+    /// The same with the weights of each mode (columns) in the signal of each sensor (rows, as many as actuators).
+    ///
+    /// # Errors
+    /// Those of [`Tracker::new`].
+    pub fn with_sensors(
+        responses: &ModalResponses,
+        bending_shares: &[f64],
+        sensors: &Mat<f64>,
+        options: &Tracking,
+    ) -> Result<Self, CalibrateError> {
+        let modes = responses.poles.len();
+        let counts = [("bending shares", bending_shares.len()), ("modes of the sensors", sensors.ncols())];
+        for (what, found) in counts {
+            if found != modes {
+                return Err(CalibrateError::Count { what, expected: modes.to_string(), found });
+            }
+        }
+        if sensors.nrows() != responses.ports.len() {
+            let expected = responses.ports.len().to_string();
+            return Err(CalibrateError::Count { what: "sensors", expected, found: sensors.nrows() });
+        }
+        options.check()?;
+        let sheet = Sheet {
+            poles: responses.poles.clone(),
+            shares: bending_shares.to_vec(),
+            input: responses.input.transpose().to_owned(),
+            sense: sensors.transpose().to_owned(),
+            rate: responses.conditions.rate,
+            stride: ((responses.conditions.rate / (2.5 * responses.conditions.band[1])) as usize).max(1),
+        };
+        Ok(Self {
+            reference: responses.clone(),
+            motion: sheet.rest(),
+            sheet,
+            options: options.clone(),
+            state: [1.0, 0.0],
+            spread: [[options.range.powi(2), 0.0], [0.0, options.speed.powi(2)]],
+        })
+    }
+
+    /// Tension over nominal, so many seconds after the end of the last observation.
+    pub fn tension(&self, ahead: f64) -> f64 {
+        self.state[0] + self.state[1] * ahead
+    }
+
+    /// The responses as they are so many seconds after the end of the last observation.
+    pub fn responses(&self, ahead: f64) -> ModalResponses {
+        warped(&self.reference, &self.sheet.shares, self.tension(ahead))
+    }
+
+    /// Takes in what was sent since the last observation and what the sensors heard meanwhile, one signal per channel, of the same
+    /// stretch of time; drives that end earlier go on with silence.
+    ///
+    /// # Errors
+    /// [`CalibrateError::Count`] for another number of channels, [`CalibrateError::Range`] for samples that are not finite.
+    pub fn observe(&mut self, drive: &[Vec<f64>], heard: &[Vec<f64>]) -> Result<Drift, CalibrateError> {
+        let samples = self.check(drive, heard)?;
+        let time = samples as f64 / self.sheet.rate;
+        let instants = self.sheet.instants(drive, samples);
+        let signals = Mat::from_fn(instants.len(), heard.len(), |n, c| heard[c][instants[n]]);
+        self.pass(0.5 * time);
+        let heard = Heard { drive, samples, instants: &instants, signals: &signals };
+        let mut found = self.estimate(&heard, self.state[0]);
+        if found.excess > self.options.limit {
+            let other = self.estimate(&heard, self.search(&heard));
+            found = if other.excess < found.excess { other } else { found };
+        }
+        let explained = found.excess <= self.options.limit;
+        if explained {
+            (self.state, self.spread) = ([found.course.middle, found.course.rate], found.spread);
+            self.motion = found.motion;
+        } else {
+            // What sounds is unknown: the next observation starts from what the drive alone would have made.
+            let course = Course { middle: self.state[0], rate: self.state[1] };
+            self.motion = self.sheet.run(&self.motion, drive, samples, &[], course).1;
+        }
+        self.pass(0.5 * time);
+        let (tension, error) = (self.state[0], self.spread[0][0].sqrt());
+        Ok(match explained {
+            true => Drift::Followed { tension, error, rate: self.state[1], excess: found.excess },
+            false => Drift::Unexplained { tension, excess: found.excess, limit: self.options.limit },
+        })
+    }
+
+    fn check(&self, drive: &[Vec<f64>], heard: &[Vec<f64>]) -> Result<usize, CalibrateError> {
+        let channels = self.sheet.input.ncols();
+        for (what, found) in [("channels of the drive", drive.len()), ("channels heard", heard.len())] {
+            if found != channels {
+                return Err(CalibrateError::Count { what, expected: channels.to_string(), found });
+            }
+        }
+        let samples = heard.iter().map(Vec::len).min().unwrap_or(0);
+        if samples == 0 {
+            return Err(CalibrateError::Count {
+                what: "samples heard",
+                expected: "at least 1".into(),
+                found: 0,
+            });
+        }
+        for value in drive.iter().chain(heard).flatten() {
+            require("sample of an observation", value.is_finite(), "a finite number", *value)?;
+        }
+        Ok(samples)
+    }
+
+    /// The course of tension over a stretch that agrees best with what was heard and with what was thought before, by Newton's
+    /// method from a guess of its middle.
+    fn estimate(&self, heard: &Heard, guess: f64) -> Estimate {
+        let mut course = Course { middle: guess, rate: self.state[1] };
+        let (mut model, mut motion) = self.run(heard, course);
+        let noise = self.noise(heard.signals);
+        let count = (heard.signals.nrows() * heard.signals.ncols()) as f64;
+        let prior = inverse(self.spread);
+        let time = heard.samples as f64 / self.sheet.rate;
+        let small = [SMALL, SMALL / time];
+        let mut last = f64::INFINITY;
+        let mut spread = self.spread;
+        for _ in 0..STEPS {
+            let residual = heard.signals - &model;
+            let excess = (residual.squared_norm_l2() / count).sqrt() / noise;
+            let weight = 1.0 / (noise * excess.max(1.0)).powi(2);
+            let moved = [(small[0], 0.0), (0.0, small[1])]
+                .map(|(m, r)| Course { middle: course.middle + m, rate: course.rate + r });
+            let slopes: [Mat<f64>; 2] =
+                std::array::from_fn(|i| (self.run(heard, moved[i]).0 - &model) * faer::Scale(1.0 / small[i]));
+            let offset = [course.middle - self.state[0], course.rate - self.state[1]];
+            let system = std::array::from_fn(|i| {
+                std::array::from_fn(|j| weight * dot(&slopes[i], &slopes[j]) + prior[i][j])
+            });
+            let downhill: [f64; 2] = std::array::from_fn(|i| {
+                weight * dot(&slopes[i], &residual) - prior[i][0] * offset[0] - prior[i][1] * offset[1]
+            });
+            spread = inverse(system);
+            let step = spread.map(|row| row[0] * downhill[0] + row[1] * downhill[1]);
+            // Beyond this the phases of the highest modes are no longer straight.
+            let share = (GUESS / step[0].abs().max(step[1].abs() * time)).min(1.0);
+            let next =
+                Course { middle: course.middle + share * step[0], rate: course.rate + share * step[1] };
+            let (after, moved) = self.run(heard, next);
+            let size = (heard.signals - &after).squared_norm_l2();
+            if size >= last || !size.is_finite() {
+                break;
+            }
+            (course, model, motion, last) = (next, after, moved, size);
+            if step[0].abs() < SETTLED {
+                break;
+            }
+        }
+        let excess = ((heard.signals - &model).squared_norm_l2() / count).sqrt() / noise;
+        Estimate { course, spread, excess, motion }
+    }
+
+    fn run(&self, heard: &Heard, course: Course) -> (Mat<f64>, Motion) {
+        self.sheet.run(&self.motion, heard.drive, heard.samples, heard.instants, course)
+    }
+
+    /// Standard deviation of what the model cannot know: noise, and its own error as a share of what is heard.
+    fn noise(&self, signals: &Mat<f64>) -> f64 {
+        let power = signals.squared_norm_l2() / (signals.nrows() * signals.ncols()).max(1) as f64;
+        (self.options.noise.powi(2) + self.options.model.powi(2) * power).sqrt()
+    }
+
+    /// The best of many guesses.
+    fn search(&self, heard: &Heard) -> f64 {
+        use rayon::prelude::*;
+        let count = (self.options.range / GUESS).ceil() as i32;
+        let miss = |n: i32| {
+            let course = Course { middle: 1.0 + f64::from(n) * GUESS, rate: self.state[1] };
+            let miss = heard.signals - self.run(heard, course).0;
+            (miss.squared_norm_l2(), course.middle)
+        };
+        let all: Vec<(f64, f64)> = (-count..=count).into_par_iter().map(miss).collect();
+        all.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map_or(self.state[0], |best| best.1)
+    }
+
+    /// Time passes: the ratio goes on at its rate, which wanders.
+    fn pass(&mut self, time: f64) {
+        let wander = self.options.wander.powi(2) * time;
+        self.state[0] += self.state[1] * time;
+        let [[a, b], [_, d]] = self.spread;
+        let (a, b) = (
+            a + 2.0 * time * b + time * time * d + wander * time * time / 3.0,
+            b + time * d + 0.5 * wander * time,
+        );
+        self.spread = [[a, b], [b, d + wander]];
+    }
+}
+
+/// Of a symmetric matrix of two rows.
+fn inverse([[a, b], [_, d]]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+    let determinant = a * d - b * b;
+    [[d / determinant, -b / determinant], [-b / determinant, a / determinant]]
+}
+
+fn dot(a: &Mat<f64>, b: &Mat<f64>) -> f64 {
+    a.col_iter().zip(b.col_iter()).map(|(a, b)| a.iter().zip(b.iter()).map(|(a, b)| a * b).sum::<f64>()).sum()
+}

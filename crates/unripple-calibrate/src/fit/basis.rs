@@ -1,0 +1,82 @@
+use super::quadrature;
+use crate::CalibrateError;
+use faer::{Mat, MatRef};
+use rayon::prelude::*;
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+use unripple_core::{Point, Shapes, Surface};
+use unripple_physics::{Medium, Modes};
+
+/// Half the distance over which slopes are taken, in metres: of a wave of 1000 rad/m, to 2e-7.
+const STEP: f64 = 1e-6;
+
+/// The nominal modes, and what other tensions are to them.
+#[derive(Debug)]
+pub(super) struct Basis {
+    pub modes: Arc<Modes>,
+    pub medium: Medium,
+    /// Squares of the nominal frequencies, (rad/s)².
+    pub squares: Vec<f64>,
+    /// Stiffness of the nominal tension, in (rad/s)².
+    pub tension: Mat<f64>,
+    /// Stiffness of the tension along x less that along y.
+    pub skew: Mat<f64>,
+    /// Stiffness of each term of the tension's profile.
+    pub terms: Vec<Mat<f64>>,
+    /// Half waves along x and y of each term.
+    pub waves: Vec<[u32; 2]>,
+}
+
+impl Basis {
+    /// The modes of a surface up to `max_hz`, and a profile of cosines with up to `order` half waves in all.
+    pub fn new(surface: &Surface, max_hz: f64, order: usize) -> Result<Self, CalibrateError> {
+        let modes = Modes::solve(surface, max_hz, 1e-6)?;
+        let medium = Medium::of(&surface.sheet);
+        let k = 2.0 * medium.wavenumber(TAU * max_hz);
+        let extent = surface.outline.extent();
+        let points = quadrature::over(&surface.outline, k);
+        let slopes = slopes(&modes, &points);
+        let waves: Vec<[u32; 2]> =
+            (1..=order as u32).flat_map(|n| (0..=n).map(move |i| [n - i, i])).collect();
+        let ones = vec![1.0; points.len()];
+        let [xx, yy] = [0, 1].map(|axis| gram(slopes[axis].as_ref(), &ones, medium.tension));
+        let terms = waves
+            .par_iter()
+            .map(|wave| {
+                let values: Vec<f64> = points.iter().map(|(p, _)| term(*wave, *p, extent)).collect();
+                let [xx, yy] = [0, 1].map(|axis| gram(slopes[axis].as_ref(), &values, medium.tension));
+                xx + yy
+            })
+            .collect();
+        let squares = modes.poles().iter().map(|pole| pole.omega * pole.omega).collect();
+        Ok(Self { medium, squares, tension: &xx + &yy, skew: xx - yy, terms, waves, modes: Arc::new(modes) })
+    }
+
+    /// How many of the modes lie below a frequency.
+    pub fn below(&self, hz: f64) -> usize {
+        self.squares.partition_point(|square| square.sqrt() <= TAU * hz)
+    }
+}
+
+/// A term of the profile at a point.
+fn term([along, up]: [u32; 2], at: Point, (width, height): (f64, f64)) -> f64 {
+    (f64::from(along) * PI * at.x / width).cos() * (f64::from(up) * PI * at.y / height).cos()
+}
+
+/// Slopes of the shapes along x and along y, times the root of each point's weight, points x modes.
+fn slopes(modes: &Modes, points: &[(Point, f64)]) -> [Mat<f64>; 2] {
+    [Point::new(STEP, 0.0), Point::new(0.0, STEP)].map(|d| {
+        let moved =
+            |s: f64| points.iter().map(|(p, _)| Point::new(p.x + s * d.x, p.y + s * d.y)).collect::<Vec<_>>();
+        let (after, before) = (modes.at_all(&moved(1.0)), modes.at_all(&moved(-1.0)));
+        Mat::from_fn(points.len(), modes.modes(), |p, m| {
+            points[p].1.sqrt() * (after[(p, m)] - before[(p, m)]) / (2.0 * STEP)
+        })
+    })
+}
+
+/// Σ_p value · slope slopeᵀ, times a factor.
+fn gram(slopes: MatRef<'_, f64>, values: &[f64], factor: f64) -> Mat<f64> {
+    let weighed = Mat::from_fn(slopes.nrows(), slopes.ncols(), |p, m| factor * values[p] * slopes[(p, m)]);
+    slopes.transpose() * weighed
+}

@@ -1,0 +1,54 @@
+use super::Fitted;
+use crate::CalibrateError;
+use unripple_core::{Point, SampledResponses};
+use unripple_physics::sample;
+
+/// Reach of a measured point's correction, in shortest wavelengths: half of what a standing wave keeps its sign over.
+const REACH: f64 = 0.125;
+
+impl Fitted {
+    /// Responses at some points: the model's, corrected by what was measured nearby.
+    ///
+    /// What the model misses at a measured point x is added at y with the weight e^{-|x-y|²/2ℓ²}, ℓ an eighth of the shortest
+    /// wavelength, divided by the sum of weights where that is above 1; at a measured point alone the measurement itself is
+    /// left, far from all of them the model.
+    ///
+    /// # Errors
+    /// [`CalibrateError::Count`] if the measured responses have other actuators; [`CalibrateError::Range`] for another rate.
+    pub fn blend(
+        &self,
+        measured: &SampledResponses,
+        points: &[Point],
+    ) -> Result<SampledResponses, CalibrateError> {
+        let model = self.modal();
+        let (found, expected) = (measured.ports.len(), model.ports.len());
+        if found != expected {
+            let expected = expected.to_string();
+            return Err(CalibrateError::Count { what: "actuators of measured responses", expected, found });
+        }
+        let (rate, own) = (measured.conditions.rate, model.conditions.rate);
+        crate::error::require("sample rate of measured responses in Hz", rate == own, "the model's", rate)?;
+        let samples = measured.samples();
+        let (known, wanted) = (sample(model, &measured.points, samples), sample(model, points, samples));
+        let reach = REACH * model.conditions.lambda_min;
+        let mut data = Vec::with_capacity(points.len() * expected * samples);
+        for (p, point) in points.iter().enumerate() {
+            let weights: Vec<f64> = (measured.points.iter())
+                .map(|x| (-0.5 * (x.distance(*point) / reach).powi(2)).exp())
+                .collect();
+            let whole = weights.iter().sum::<f64>().max(1.0);
+            for actuator in 0..expected {
+                let mut row: Vec<f64> = wanted.response(actuator, p).iter().map(|v| f64::from(*v)).collect();
+                for (x, weight) in weights.iter().enumerate().filter(|(_, weight)| **weight > 1e-4) {
+                    let pairs = measured.response(actuator, x).iter().zip(known.response(actuator, x));
+                    row.iter_mut()
+                        .zip(pairs)
+                        .for_each(|(r, (m, k))| *r += weight / whole * f64::from(*m - *k));
+                }
+                data.extend(row.into_iter().map(|v| v as f32));
+            }
+        }
+        let (ports, conditions) = (measured.ports.clone(), model.conditions.clone());
+        Ok(SampledResponses::new(ports, points.to_vec(), conditions, samples, data)?)
+    }
+}

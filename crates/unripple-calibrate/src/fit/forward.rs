@@ -1,0 +1,247 @@
+use super::basis::Basis;
+use super::layout::{Unknown, around};
+use super::system::System;
+use faer::linalg::solvers::DenseSolveCore;
+use faer::{Mat, MatRef, Par, c64};
+use rayon::prelude::*;
+use std::f64::consts::TAU;
+use unripple_core::Shapes;
+
+/// Frequencies to one task.
+const CHUNK: usize = 8;
+
+/// Velocity at every place per force at every place at one complex frequency, with its derivatives by the unknowns.
+#[derive(Clone, Debug)]
+pub(super) struct Answer {
+    pub admittance: Mat<c64>,
+    /// One for each unknown that the sheet's responses depend on, in their order.
+    pub derivatives: Vec<Mat<c64>>,
+}
+
+/// One frequency's intermediate results.
+struct Point {
+    s: c64,
+    /// Modal velocities under loads, modes x places.
+    moved: Mat<c64>,
+    /// (1 + Z Y₀)⁻¹.
+    shared: Mat<c64>,
+    admittance: Mat<c64>,
+}
+
+/// What places on the sheet, candidates for a mass, are to all others at one frequency.
+#[derive(Clone, Debug)]
+pub(super) struct Look {
+    s: c64,
+    admittance: Mat<c64>,
+    /// Candidates by places.
+    between: Mat<c64>,
+    /// Of each candidate to itself.
+    own: Vec<c64>,
+}
+
+impl Look {
+    /// The change that a mass (kg) at each candidate makes, as derivatives.
+    pub fn with(&self, mass: f64) -> Answer {
+        let places = self.admittance.nrows();
+        let change = |c: usize| {
+            let z = self.s * mass / (self.s * mass * self.own[c] + 1.0);
+            Mat::from_fn(places, places, |p, q| -z * self.between[(c, p)] * self.between[(c, q)])
+        };
+        Answer { admittance: self.admittance.clone(), derivatives: (0..self.own.len()).map(change).collect() }
+    }
+}
+
+impl System {
+    /// What candidates are to the places at complex frequencies (1/s).
+    pub fn looks(
+        &self,
+        basis: &Basis,
+        candidates: &[unripple_core::Point],
+        frequencies: &[c64],
+    ) -> Vec<Look> {
+        let count = self.sheet.squares.len();
+        let shapes = basis.modes.at_all(candidates);
+        let shapes = self.sheet.turn.transpose() * shapes.subcols(0, count).transpose();
+        let look = |s: &c64| {
+            let point = self.point(*s);
+            let own = |c: usize| {
+                let modes = self.sheet.squares.iter().zip(&self.sheet.sigmas).enumerate();
+                let sum: c64 = modes
+                    .map(|(m, (square, sigma))| {
+                        *s / (s * s + s * (2.0 * sigma) + *square) * shapes[(m, c)].powi(2)
+                    })
+                    .sum();
+                sum + self.compliance(*s)
+            };
+            Look {
+                s: *s,
+                between: transposed_real(&shapes, &point.moved),
+                own: (0..candidates.len()).map(own).collect(),
+                admittance: point.admittance,
+            }
+        };
+        frequencies.par_iter().map(look).collect()
+    }
+
+    /// Velocity per force of all modes left out, where the force is.
+    fn compliance(&self, s: c64) -> c64 {
+        let sigma = self.sheet.sigmas.last().copied().unwrap_or(0.0);
+        s * self.rest.weight / (s * s + s * (2.0 * sigma) + self.rest.square)
+    }
+
+    /// The admittances at complex frequencies (1/s).
+    ///
+    /// With Y₀ that of the sheet alone and Z what hangs on it, Y = Y₀ G, G = (1 + Z Y₀)⁻¹ (Woodbury).
+    pub fn admittances(&self, frequencies: &[c64]) -> Vec<Mat<c64>> {
+        frequencies.par_iter().map(|s| self.point(*s).admittance).collect()
+    }
+
+    /// The same with derivatives by the unknowns, in SI.
+    ///
+    /// From dY = Gᵀ dY₀ G - Y dZ Y and dY₀ = -(1/s) Xᵀ dK X, X the modal velocities.
+    pub fn answers(&self, basis: &Basis, frequencies: &[c64]) -> Vec<Answer> {
+        let stiffnesses = self.stiffnesses(basis);
+        frequencies
+            .par_chunks(CHUNK)
+            .flat_map_iter(|chunk| {
+                let points: Vec<Point> = chunk.iter().map(|s| self.point(*s)).collect();
+                let bent = self.stiffened(&points, &stiffnesses);
+                points.into_iter().zip(bent).map(|(point, bent)| self.answer(point, bent)).collect::<Vec<_>>()
+            })
+            .collect()
+    }
+
+    /// Changes of the stiffness by each unknown that changes it, by the nominal modes.
+    fn stiffnesses<'a>(&'a self, basis: &'a Basis) -> Vec<(MatRef<'a, f64>, f64)> {
+        let count = self.sheet.squares.len();
+        let mut all = vec![(self.sheet.tension.as_ref(), 1.0), (self.sheet.bending.as_ref(), 1.0)];
+        let rest = std::iter::once(&basis.skew).chain(&basis.terms);
+        all.extend(rest.map(|matrix| (matrix.as_ref().submatrix(0, 0, count, count), self.ratio)));
+        all
+    }
+
+    fn point(&self, s: c64) -> Point {
+        let (modes, places, loaded) = (self.shapes.nrows(), self.places(), self.layout.loaded());
+        let mobility: Vec<c64> = self
+            .sheet
+            .squares
+            .iter()
+            .zip(&self.sheet.sigmas)
+            .map(|(square, sigma)| s / (s * s + s * (2.0 * sigma) + *square))
+            .collect();
+        let free = Mat::from_fn(modes, places, |m, p| mobility[m] * self.shapes[(m, p)]);
+        let mut alone = transposed_real(&self.shapes, &free);
+        let rest = self.compliance(s);
+        (0..loaded).for_each(|p| alone[(p, p)] += rest);
+        let mut system = Mat::<c64>::identity(places, places);
+        for p in 0..loaded {
+            let impedance = s * self.masses[p] + self.resistances[p];
+            (0..places).for_each(|q| system[(p, q)] += impedance * alone[(p, q)]);
+        }
+        let shared = system.partial_piv_lu().inverse();
+        Point { s, moved: &free * &shared, admittance: &alone * &shared, shared }
+    }
+
+    /// Derivatives by all that changes the stiffness, at each of some frequencies.
+    fn stiffened(&self, points: &[Point], stiffnesses: &[(MatRef<'_, f64>, f64)]) -> Vec<Vec<Mat<c64>>> {
+        let (modes, places) = (self.shapes.nrows(), self.places());
+        let block = |i: usize| (2 * i * places, (2 * i + 1) * places);
+        let mut moved = Mat::<f64>::zeros(modes, 2 * places * points.len());
+        for (i, point) in points.iter().enumerate() {
+            let (re, im) = block(i);
+            for p in 0..places {
+                for m in 0..modes {
+                    let x = point.moved[(m, p)];
+                    (moved[(m, re + p)], moved[(m, im + p)]) = (x.re, x.im);
+                }
+            }
+        }
+        let mut nominal = Mat::<f64>::zeros(modes, moved.ncols());
+        product(&mut nominal, self.sheet.turn.as_ref(), moved.as_ref());
+        let mut forces = Mat::<f64>::zeros(modes, moved.ncols());
+        let mut found = vec![Vec::new(); points.len()];
+        for (stiffness, scale) in stiffnesses {
+            product(&mut forces, *stiffness, nominal.as_ref());
+            for (i, point) in points.iter().enumerate() {
+                let (re, im) = block(i);
+                let part = |m: &Mat<f64>, from: usize| m.subcols(from, places).to_owned();
+                let (a, b, f, g) =
+                    (part(&nominal, re), part(&nominal, im), part(&forces, re), part(&forces, im));
+                let (real, imaginary) =
+                    (a.transpose() * &f - b.transpose() * &g, a.transpose() * &g + b.transpose() * &f);
+                let factor = -point.s.inv() * *scale;
+                found[i].push(Mat::from_fn(places, places, |p, q| {
+                    factor * c64::new(real[(p, q)], imaginary[(p, q)])
+                }));
+            }
+        }
+        found
+    }
+
+    fn answer(&self, point: Point, mut derivatives: Vec<Mat<c64>>) -> Answer {
+        for unknown in self.layout.unknowns() {
+            match unknown {
+                Unknown::Knot(_) => {
+                    derivatives.extend(if unknown == Unknown::Knot(0) {
+                        self.damped(&point)
+                    } else {
+                        Vec::new()
+                    });
+                }
+                Unknown::Place(place, axis) => derivatives.push(self.displaced(&point, place, axis)),
+                Unknown::Mass(place) => derivatives.push(outer(&point.admittance, place, -point.s)),
+                Unknown::Resistance(place) => {
+                    derivatives.push(outer(&point.admittance, place, c64::new(-1.0, 0.0)));
+                }
+                _ => {}
+            }
+        }
+        Answer { admittance: point.admittance, derivatives }
+    }
+
+    /// By the logarithms of the decay rates at the knots: d(mobility)/dσ = -2 mobility².
+    fn damped(&self, point: &Point) -> Vec<Mat<c64>> {
+        let places = self.places();
+        let mut all = vec![Mat::<c64>::zeros(places, places); super::layout::KNOTS.len()];
+        for (m, square) in self.sheet.squares.iter().enumerate() {
+            let sigma = self.sheet.sigmas[m];
+            for (knot, weight) in around(square.max(0.0).sqrt() / (TAU * self.top)) {
+                if weight == 0.0 {
+                    continue;
+                }
+                for q in 0..places {
+                    let right = point.moved[(m, q)] * (-2.0 * sigma * weight);
+                    (0..places).for_each(|p| all[knot][(p, q)] += point.moved[(m, p)] * right);
+                }
+            }
+        }
+        all
+    }
+
+    /// By a place's coordinate along an axis.
+    fn displaced(&self, point: &Point, place: usize, axis: usize) -> Mat<c64> {
+        let (modes, places) = (self.shapes.nrows(), self.places());
+        let slope = self.slopes[axis].col(place);
+        // What moves there under loads, by the slope of the shapes instead of the shapes.
+        let felt: Vec<c64> =
+            (0..places).map(|q| (0..modes).map(|m| point.moved[(m, q)] * slope[m]).sum()).collect();
+        let shared: Vec<c64> = (0..places).map(|q| point.shared[(place, q)]).collect();
+        Mat::from_fn(places, places, |p, q| shared[p] * felt[q] + felt[p] * shared[q])
+    }
+}
+
+/// factor · Y e eᵀ Y, e picking a place.
+fn outer(admittance: &Mat<c64>, place: usize, factor: c64) -> Mat<c64> {
+    let places = admittance.nrows();
+    Mat::from_fn(places, places, |p, q| factor * admittance[(p, place)] * admittance[(place, q)])
+}
+
+/// Aᵀ B of a real and a complex matrix.
+fn transposed_real(a: &Mat<f64>, b: &Mat<c64>) -> Mat<c64> {
+    Mat::from_fn(a.ncols(), b.ncols(), |i, j| a.col(i).iter().zip(b.col(j).iter()).map(|(x, y)| y * *x).sum())
+}
+
+/// On one thread: frequencies run side by side.
+fn product(out: &mut Mat<f64>, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
+    faer::linalg::matmul::matmul(out.as_mut(), faer::Accum::Replace, a, b, 1.0, Par::Seq);
+}

@@ -1,0 +1,136 @@
+use unripple_core::Point;
+
+/// Frequencies of the damping law's knots, as shares of the band's top.
+pub(super) const KNOTS: [f64; 5] = [0.0625, 0.125, 0.25, 0.5, 1.0];
+
+/// How far values are thought to be from nominal ones, one standard deviation: logarithm of tension, of bending stiffness, share
+/// of anisotropy, share of each term of the profile at one half wave, logarithm of decay rates, metres, logarithm of gains, kg,
+/// N·s/m.
+const TENSION: f64 = 0.1;
+const BENDING: f64 = 0.1;
+const SKEW: f64 = 0.02;
+const PROFILE: f64 = 0.01;
+const DECAY: f64 = 0.5;
+const PLACE: f64 = 2e-3;
+const GAIN: f64 = 0.02;
+const MASS: f64 = 10e-6;
+const RESISTANCE: f64 = 2e-3;
+const STRAY: f64 = 10e-3;
+
+/// What the unknowns are, and where each stands in their vector.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Layout {
+    pub actuators: usize,
+    /// Half waves of each term of the profile.
+    pub waves: Vec<[u32; 2]>,
+    pub strays: usize,
+}
+
+/// One unknown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Unknown {
+    Tension,
+    Bending,
+    Skew,
+    Term(usize),
+    Knot(usize),
+    /// Of a place, along x (0) or y (1).
+    Place(usize, usize),
+    Mass(usize),
+    Resistance(usize),
+    Drive(usize),
+    Sense(usize),
+}
+
+/// The unknowns as numbers in SI, gains and decay rates as logarithms.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Values {
+    /// Logarithm of the tension's ratio to nominal.
+    pub tension: f64,
+    pub bending: f64,
+    pub skew: f64,
+    pub profile: Vec<f64>,
+    /// Logarithm of the decay rate (1/s) at each knot.
+    pub knots: Vec<f64>,
+    /// The actuators' places, then the strays'.
+    pub places: Vec<Point>,
+    pub masses: Vec<f64>,
+    pub resistances: Vec<f64>,
+    pub drive: Vec<f64>,
+    pub sense: Vec<f64>,
+}
+
+impl Layout {
+    /// Actuators and strays: all that may carry a load.
+    pub fn loaded(&self) -> usize {
+        self.actuators + self.strays
+    }
+
+    /// Every unknown in order. Those that the sheet's responses depend on come first.
+    pub fn unknowns(&self) -> Vec<Unknown> {
+        use Unknown::*;
+        let loaded = 0..self.loaded();
+        let mut all = vec![Tension, Bending, Skew];
+        all.extend((0..self.waves.len()).map(Term));
+        all.extend((0..KNOTS.len()).map(Knot));
+        all.extend(loaded.clone().flat_map(|p| [Place(p, 0), Place(p, 1)]));
+        all.extend(loaded.clone().map(Mass));
+        all.extend(loaded.map(Resistance));
+        all.extend((0..self.actuators).map(Drive));
+        all.extend((0..self.actuators).map(Sense));
+        all
+    }
+
+    /// How far an unknown is thought to be from its nominal value.
+    pub fn spread(&self, unknown: Unknown) -> f64 {
+        match unknown {
+            Unknown::Tension => TENSION,
+            Unknown::Bending => BENDING,
+            Unknown::Skew => SKEW,
+            Unknown::Term(t) => PROFILE / f64::from(self.waves[t][0] + self.waves[t][1]),
+            Unknown::Knot(_) => DECAY,
+            Unknown::Place(p, _) => {
+                if p < self.actuators {
+                    PLACE
+                } else {
+                    STRAY
+                }
+            }
+            Unknown::Mass(_) => MASS,
+            Unknown::Resistance(_) => RESISTANCE,
+            Unknown::Drive(_) | Unknown::Sense(_) => GAIN,
+        }
+    }
+}
+
+impl Values {
+    /// The value of an unknown, to be read or changed.
+    pub fn of(&mut self, unknown: Unknown) -> &mut f64 {
+        match unknown {
+            Unknown::Tension => &mut self.tension,
+            Unknown::Bending => &mut self.bending,
+            Unknown::Skew => &mut self.skew,
+            Unknown::Term(t) => &mut self.profile[t],
+            Unknown::Knot(k) => &mut self.knots[k],
+            Unknown::Place(p, 0) => &mut self.places[p].x,
+            Unknown::Place(p, _) => &mut self.places[p].y,
+            Unknown::Mass(p) => &mut self.masses[p],
+            Unknown::Resistance(p) => &mut self.resistances[p],
+            Unknown::Drive(a) => &mut self.drive[a],
+            Unknown::Sense(a) => &mut self.sense[a],
+        }
+    }
+}
+
+/// Weights of the two knots around a frequency, as a share of the band's top: linear in the logarithm, constant beyond both ends.
+pub(super) fn around(share: f64) -> [(usize, f64); 2] {
+    let above = KNOTS.partition_point(|knot| *knot <= share);
+    match above {
+        0 => [(0, 1.0), (0, 0.0)],
+        n if n == KNOTS.len() => [(n - 1, 1.0), (n - 1, 0.0)],
+        n => {
+            let t = (share / KNOTS[n - 1]).ln() / (KNOTS[n] / KNOTS[n - 1]).ln();
+            [(n - 1, 1.0 - t), (n, t)]
+        }
+    }
+}

@@ -1,0 +1,108 @@
+use super::basis::Basis;
+use super::layout::Values;
+use super::sheet::{decay_rate, eigen};
+use super::system::System;
+use crate::CalibrateError;
+use faer::{Mat, Side};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+use unripple_core::{Point, Pole, Shapes};
+use unripple_physics::Modes;
+
+/// The modes of a fitted sheet with all that hangs on it.
+#[derive(Clone, Debug)]
+pub(super) struct LoadedModes {
+    pub poles: Vec<Pole>,
+    pub bending_shares: Vec<f64>,
+    /// Weights of the actuators, actuators x modes.
+    pub weights: Mat<f64>,
+    pub shapes: Arc<dyn Shapes>,
+}
+
+/// Nominal modes combined.
+#[derive(Debug)]
+struct Combined {
+    base: Arc<Modes>,
+    /// Nominal modes x modes.
+    mixing: Mat<f64>,
+}
+
+impl Shapes for Combined {
+    fn modes(&self) -> usize {
+        self.mixing.ncols()
+    }
+
+    fn at(&self, point: Point, row: &mut [f64]) {
+        let all = self.at_all(&[point]);
+        row.iter_mut().zip(all.row(0).iter()).for_each(|(r, w)| *r = *w);
+    }
+
+    fn at_all(&self, points: &[Point]) -> Mat<f64> {
+        self.base.at_all(points).subcols(0, self.mixing.nrows()) * &self.mixing
+    }
+}
+
+impl LoadedModes {
+    /// Modes of a band (Hz): those of K with the mass 1 + Σ μ b bᵀ, what each load feels of the modes left out being one more
+    /// coordinate. Dampers count by their work in each mode, as light ones do; masses below none count as none.
+    pub fn new(
+        basis: &Basis,
+        system: &System,
+        values: &Values,
+        band: [f64; 2],
+    ) -> Result<Self, CalibrateError> {
+        let (modes, loaded) = (system.shapes.nrows(), system.layout.loaded());
+        let all = modes + loaded;
+        let felt = Mat::from_fn(all, loaded, |m, p| match m.checked_sub(modes) {
+            None => system.shapes[(m, p)],
+            Some(rest) => {
+                if rest == p {
+                    system.rest.weight.sqrt()
+                } else {
+                    0.0
+                }
+            }
+        });
+        let weighed = |by: &[f64]| Mat::from_fn(all, loaded, |m, p| felt[(m, p)] * by[p]) * felt.transpose();
+        let mut mass = weighed(&values.masses.iter().map(|m| m.max(0.0)).collect::<Vec<_>>());
+        (0..all).for_each(|m| mass[(m, m)] += 1.0);
+        let squares: Vec<f64> =
+            (0..all).map(|m| system.sheet.squares.get(m).copied().unwrap_or(system.rest.square)).collect();
+        let factor = mass.llt(Side::Lower).map_err(|_| CalibrateError::Unsolvable {
+            what: "mass of the fitted sheet",
+            expected: "a positive mass everywhere",
+            found: "a negative one".into(),
+        })?;
+        // With B = L Lᵀ and x = L⁻ᵀ y, K x = λ B x is L⁻¹ K L⁻ᵀ y = λ y.
+        let mut inverse = Mat::<f64>::identity(all, all);
+        faer::linalg::triangular_solve::solve_lower_triangular_in_place(
+            factor.L(),
+            inverse.as_mut(),
+            faer::Par::Seq,
+        );
+        let stiff = Mat::from_fn(all, all, |i, m| inverse[(i, m)] * squares[m]) * inverse.transpose();
+        let (found, vectors) = eigen(&stiff)?;
+        let vectors = inverse.transpose() * vectors;
+        let low = found.partition_point(|square| square.max(0.0).sqrt() < TAU * band[0]);
+        let high = found.partition_point(|square| square.max(0.0).sqrt() <= TAU * band[1] * (1.0 + 1e-9));
+        let vectors = vectors.subcols(low, high.saturating_sub(low)).to_owned();
+        let mixing = &system.sheet.turn * vectors.subrows(0, modes);
+        let bent = &system.sheet.bending * &mixing;
+        let loads = felt.transpose() * &vectors;
+        let mut poles = Vec::new();
+        let mut bending_shares = Vec::new();
+        for (m, square) in found[low..high].iter().enumerate() {
+            let own: f64 = (0..modes)
+                .map(|i| system.sheet.sigmas[i] * vectors[(i, m)].powi(2))
+                .chain((0..loaded).map(|p| 0.5 * values.resistances[p] * loads[(p, m)].powi(2)))
+                .sum();
+            let omega = square.max(0.0).sqrt();
+            poles.push(Pole::new(omega, own.max(0.01 * decay_rate(&values.knots, omega, system.top))));
+            let energy: f64 = mixing.col(m).iter().zip(bent.col(m).iter()).map(|(x, b)| x * b).sum();
+            bending_shares.push((energy / square.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0));
+        }
+        let weights = loads.subrows(0, system.layout.actuators).to_owned();
+        let shapes = Arc::new(Combined { base: basis.modes.clone(), mixing });
+        Ok(Self { poles, bending_shares, weights, shapes })
+    }
+}

@@ -1,0 +1,21 @@
+//! The model of a surface fitted to what was measured on it.
+
+mod basis;
+mod blend;
+mod fitted;
+mod forward;
+mod layout;
+mod loaded;
+mod measured;
+mod quadrature;
+mod residual;
+mod run;
+mod sheet;
+mod solve;
+mod spectra;
+mod strays;
+mod system;
+
+pub use fitted::{Estimate, Fitted, FittedLoad, Verdict};
+pub use measured::{Measured, Pairs, Tap};
+pub use run::{FitOptions, fit};

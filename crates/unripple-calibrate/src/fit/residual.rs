@@ -1,0 +1,209 @@
+use super::basis::Basis;
+use super::forward::Answer;
+use super::layout::{Layout, Unknown, Values};
+use super::spectra::Spectra;
+use super::system::System;
+use crate::CalibrateError;
+use faer::{Mat, c64};
+use rayon::prelude::*;
+
+/// Model less measurement, in standard deviations of the noise, and its derivatives by the unknowns in units of their spreads.
+#[derive(Clone, Debug)]
+pub(super) struct Residual {
+    pub values: Vec<f64>,
+    /// Rows by unknowns; empty unless asked for.
+    pub slopes: Mat<f64>,
+    /// Number of independent real data, before unknowns are counted.
+    pub data: f64,
+    /// Sum of squares of what was measured, in the same units.
+    pub power: f64,
+}
+
+/// What a residual is made of.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Case<'a> {
+    pub basis: &'a Basis,
+    pub layout: &'a Layout,
+    pub spectra: &'a Spectra,
+    /// Number of nominal modes used.
+    pub count: usize,
+    /// The band's top, in Hz.
+    pub top: f64,
+}
+
+impl Case<'_> {
+    pub fn system(&self, values: &Values) -> Result<System, CalibrateError> {
+        System::new(self.basis, self.layout, values, &self.spectra.places, (self.count, self.top))
+    }
+
+    /// The residual alone.
+    pub fn residual(&self, values: &Values) -> Result<Residual, CalibrateError> {
+        let answers = self.system(values)?.admittances(&self.spectra.frequencies);
+        let answers = answers.into_iter().map(|y| Answer { admittance: y, derivatives: Vec::new() });
+        Ok(self.compared(values, &answers.collect::<Vec<_>>(), false))
+    }
+
+    /// The residual with its derivatives.
+    pub fn linear(&self, values: &Values) -> Result<Residual, CalibrateError> {
+        let answers = self.system(values)?.answers(self.basis, &self.spectra.frequencies);
+        Ok(self.compared(values, &answers, true))
+    }
+
+    fn compared(&self, values: &Values, answers: &[Answer], slopes: bool) -> Residual {
+        let unknowns = if slopes { self.layout.unknowns() } else { Vec::new() };
+        let blocks = self.blocks(values, answers, &unknowns);
+        let mut columns = columns(&blocks, unknowns.len());
+        for (u, unknown) in unknowns.iter().enumerate() {
+            columns.col_mut(u).iter_mut().for_each(|x| *x *= self.layout.spread(*unknown));
+        }
+        Residual {
+            slopes: columns,
+            data: blocks.iter().map(|b| b.data).sum(),
+            power: blocks.iter().map(|b| b.power).sum(),
+            values: blocks.into_iter().flat_map(|b| b.values).collect(),
+        }
+    }
+
+    /// The derivatives in answers as columns, in standard deviations of the noise.
+    pub fn columns(&self, values: &Values, answers: &[Answer], unknowns: &[Unknown]) -> Mat<f64> {
+        columns(&self.blocks(values, answers, unknowns), unknowns.len())
+    }
+
+    fn blocks(&self, values: &Values, answers: &[Answer], unknowns: &[Unknown]) -> Vec<Block> {
+        let (pairs, taps) = (self.spectra.pairs.len(), self.spectra.taps.len());
+        (0..pairs + taps)
+            .into_par_iter()
+            .filter(|n| *n >= pairs || !self.spectra.pairs[*n].is_empty())
+            .map(|n| match n < pairs {
+                true => self.pair(n, values, answers, unknowns),
+                false => self.tap(n - pairs, values, answers, unknowns),
+            })
+            .collect()
+    }
+
+    /// A response between actuators. What is the same at all frequencies, or grows with s or s³, is left out of both model and
+    /// measurement: the impulse's own sample, and the compliance and inertia of modes above the band.
+    fn pair(&self, pair: usize, values: &Values, answers: &[Answer], unknowns: &[Unknown]) -> Block {
+        let actuators = self.layout.actuators;
+        let (driven, heard) = (pair / actuators, pair % actuators);
+        let gain = (values.drive[driven] + values.sense[heard]).exp();
+        let scale = 1.0 / self.spectra.pair_noise;
+        let nuisance = Nuisance::new(&self.spectra.frequencies);
+        let column = |f: &dyn Fn(usize) -> c64| {
+            let mut column: Vec<f64> = (0..answers.len()).map(|n| f(n).re * scale).collect();
+            column.extend((0..answers.len()).map(|n| f(n).im * scale));
+            nuisance.remove(&mut column);
+            column
+        };
+        let model = |n: usize| gain * answers[n].admittance[(heard, driven)];
+        let measured = column(&|n| self.spectra.pairs[pair][n]);
+        let modelled = column(&model);
+        let slope = |(u, unknown): (usize, &Unknown)| match unknown {
+            Unknown::Drive(a) if *a == driven => modelled.clone(),
+            Unknown::Sense(a) if *a == heard => modelled.clone(),
+            Unknown::Drive(_) | Unknown::Sense(_) => vec![0.0; modelled.len()],
+            _ => column(&|n| gain * answers[n].derivatives[u][(heard, driven)]),
+        };
+        Block {
+            columns: unknowns.iter().enumerate().map(slope).collect(),
+            values: modelled.iter().zip(&measured).map(|(a, b)| a - b).collect(),
+            data: modelled.len() as f64 - 3.0,
+            power: measured.iter().map(|x| x * x).sum(),
+        }
+    }
+
+    /// A tap: at each frequency what the actuators hear is known but for a common factor, the force's spectrum, whose best value
+    /// leaves what is orthogonal to the model (variable projection: Kaufman, *BIT* 15, 49, 1975).
+    fn tap(&self, tap: usize, values: &Values, answers: &[Answer], unknowns: &[Unknown]) -> Block {
+        let actuators = self.layout.actuators;
+        let at = self.layout.loaded() + tap;
+        let scale = 1.0 / self.spectra.tap_noise[tap];
+        let heard = &self.spectra.taps[tap];
+        let rows = 2 * actuators * answers.len();
+        let mut block = Block {
+            values: Vec::with_capacity(rows),
+            columns: vec![Vec::with_capacity(rows); unknowns.len()],
+            data: (2 * (actuators - 1) * answers.len()) as f64,
+            power: 0.0,
+        };
+        for (n, answer) in answers.iter().enumerate() {
+            let gains: Vec<f64> = values.sense.iter().map(|g| g.exp()).collect();
+            let model: Vec<c64> = (0..actuators).map(|a| answer.admittance[(a, at)] * gains[a]).collect();
+            let power = model.iter().map(|y| y.norm_sqr()).sum::<f64>().max(f64::MIN_POSITIVE);
+            let along = |x: &[c64]| model.iter().zip(x).map(|(y, x)| y.conj() * x).sum::<c64>() / power;
+            let measured: Vec<c64> = (0..actuators).map(|a| heard[a][n] * scale).collect();
+            let force = along(&measured);
+            block.power += measured.iter().map(|y| y.norm_sqr()).sum::<f64>();
+            let residual = |a: usize| force * model[a] - measured[a];
+            block.values.extend((0..actuators).flat_map(|a| [residual(a).re, residual(a).im]));
+            for (u, unknown) in unknowns.iter().enumerate() {
+                let mut slope: Vec<c64> = match unknown {
+                    Unknown::Sense(b) => {
+                        (0..actuators).map(|a| if a == *b { model[a] } else { c64::new(0.0, 0.0) }).collect()
+                    }
+                    Unknown::Drive(_) => vec![c64::new(0.0, 0.0); actuators],
+                    _ => (0..actuators).map(|a| answer.derivatives[u][(a, at)] * gains[a]).collect(),
+                };
+                let share = along(&slope);
+                slope.iter_mut().zip(&model).for_each(|(x, y)| *x = (*x - share * y) * force);
+                block.columns[u].extend(slope.iter().flat_map(|x| [x.re, x.im]));
+            }
+        }
+        block
+    }
+}
+
+/// Rows of one response or tap.
+struct Block {
+    values: Vec<f64>,
+    columns: Vec<Vec<f64>>,
+    data: f64,
+    power: f64,
+}
+
+/// The columns of all blocks below each other.
+fn columns(blocks: &[Block], count: usize) -> Mat<f64> {
+    let rows = if count > 0 { blocks.iter().map(|b| b.values.len()).sum() } else { 0 };
+    let mut all = Mat::zeros(rows, count);
+    let mut first = 0;
+    for block in blocks.iter().filter(|_| count > 0) {
+        for (u, column) in block.columns.iter().enumerate() {
+            column.iter().enumerate().for_each(|(i, x)| all[(first + i, u)] = *x);
+        }
+        first += block.values.len();
+    }
+    all
+}
+
+/// Orthonormal columns of what is left out of responses between actuators: 1, s and s³.
+struct Nuisance(Vec<Vec<f64>>);
+
+impl Nuisance {
+    fn new(frequencies: &[c64]) -> Self {
+        let top = frequencies.last().map_or(1.0, |s| s.norm());
+        let mut nuisance = Self(Vec::new());
+        for power in [0, 1, 3] {
+            let values: Vec<c64> = frequencies.iter().map(|s| (s / top).powi(power)).collect();
+            let mut column: Vec<f64> = values.iter().map(|v| v.re).collect();
+            column.extend(values.iter().map(|v| v.im));
+            nuisance.remove(&mut column);
+            unit(&mut column);
+            nuisance.0.push(column);
+        }
+        nuisance
+    }
+
+    fn remove(&self, column: &mut [f64]) {
+        for unit in &self.0 {
+            let share: f64 = unit.iter().zip(column.iter()).map(|(a, b)| a * b).sum();
+            column.iter_mut().zip(unit).for_each(|(x, u)| *x -= share * u);
+        }
+    }
+}
+
+fn unit(column: &mut [f64]) {
+    let norm = column.iter().map(|x| x * x).sum::<f64>().sqrt();
+    if norm > 0.0 {
+        column.iter_mut().for_each(|x| *x /= norm);
+    }
+}

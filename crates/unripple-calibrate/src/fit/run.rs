@@ -1,0 +1,201 @@
+use super::basis::Basis;
+use super::fitted::Fitted;
+use super::layout::{KNOTS, Layout, Values};
+use super::measured::Measured;
+use super::residual::Case;
+use super::solve::Found;
+use super::spectra::Spectra;
+use crate::CalibrateError;
+use crate::error::require;
+use std::f64::consts::TAU;
+use unripple_core::{Decay, Point, Surface};
+use unripple_physics::Medium;
+
+/// How a model is fitted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FitOptions {
+    /// Frequencies that are fitted, in Hz; up to 0.97 of the surface's own band where `None`.
+    pub band: Option<[f64; 2]>,
+    /// Half waves in all that the terms of the tension's profile have at most; 0 for an even tension.
+    pub profile: usize,
+    /// Stray masses that may be found on the sheet.
+    pub strays: usize,
+    /// Nominal modes are known up to this multiple of the band's top.
+    pub reach: f64,
+    /// Time from the impulse that is looked at, in s.
+    pub window: f64,
+}
+
+impl Default for FitOptions {
+    fn default() -> Self {
+        Self { band: None, profile: 3, strays: 3, reach: 1.4, window: 0.25 }
+    }
+}
+
+/// Windows e^{-αt} of the descents and of the last one, in 1/s.
+const COARSE: f64 = 60.0;
+const FINE: f64 = 30.0;
+
+/// Top of the first band, over the first mode's frequency.
+const FIRST: f64 = 3.5;
+
+/// Factor from one band's top to the next.
+const WIDER: f64 = 1.6;
+
+/// Lowest residual over noise at which stray masses are looked for, and the share of it that one has to leave at most.
+const SUSPECT: f64 = 1.5;
+const WORTH: f64 = 0.85;
+
+/// The model fitted to what was measured on a surface.
+///
+/// Unknown are the mean tension, bending stiffness, anisotropy and profile of the tension, a damping law, places, masses, damping
+/// and gains of the actuators, and a few stray masses wherever they lie; each is held to its nominal value as weakly as such
+/// values are known. Spectra are compared from low to high frequencies, so that a mode's frequency is known to within its line's
+/// width before its phase matters (Gauss and Newton's steps, damped after Levenberg and Marquardt). Another
+/// tension turns the nominal modes into combinations of each other; what hangs on the sheet adds to it by Woodbury's identity.
+///
+/// # Errors
+/// [`CalibrateError::Count`] and [`CalibrateError::Range`] for measurements or options that cannot be,
+/// [`CalibrateError::Physics`] for a nominal surface without modes, [`CalibrateError::Unsolvable`] if a fit breaks down.
+///
+/// ```
+/// use unripple_calibrate::{FitOptions, Measured, Verdict, fit};
+/// use unripple_core::{Point, Responses};
+/// use unripple_physics::{ResponseOptions, design::papers_surface, responses, sample};
+///
+/// let mut nominal = papers_surface();
+/// nominal.emission.band[1] = 800.0;
+/// let mut truth = nominal.clone();
+/// truth.sheet.tension = 203.0;
+/// let above = ResponseOptions { max_hz: Some(1120.0), ..ResponseOptions::default() };
+/// let Responses::Modal(modal) = responses(&truth, &above)? else { unreachable!() };
+/// let places: Vec<Point> = truth.actuators.iter().map(|a| a.at).collect();
+/// let heard = sample(&modal, &places, 12_000);
+/// let signal = |n: usize| heard.response(n / 8, n % 8).iter().map(|v| f64::from(*v)).collect();
+/// let measured = Measured::pairs(48e3, (0..64).map(signal).collect(), 1e-3);
+/// let fitted = fit(&nominal, &measured, &FitOptions { profile: 0, strays: 0, ..FitOptions::default() })?;
+/// assert!((fitted.tension.value - 203.0).abs() < 0.2);
+/// assert_eq!(fitted.verdict, Verdict::Good);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn fit(nominal: &Surface, measured: &Measured, options: &FitOptions) -> Result<Fitted, CalibrateError> {
+    measured.check(nominal)?;
+    let band = options.band.unwrap_or([nominal.emission.band[0], 0.97 * nominal.emission.band[1]]);
+    let top = nominal.emission.band[1].max(band[1]);
+    require(
+        "reach of the modes",
+        (1.05..=4.0).contains(&options.reach),
+        "between 1.05 and 4",
+        options.reach,
+    )?;
+    require("window of the fit in s", options.window > 0.0, "a positive number", options.window)?;
+    require("top of the fitted band in Hz", band[1] > band[0], "above its bottom", band[1])?;
+    let basis = Basis::new(nominal, options.reach * top, options.profile)?;
+    let first =
+        basis.squares.iter().find(|square| **square > 0.0).map_or(band[1], |square| square.sqrt() / TAU);
+    let layout = Layout { actuators: nominal.actuators.len(), waves: basis.waves.clone(), strays: 0 };
+    let expected = nominal_values(nominal, &layout, top);
+    let mut fit =
+        Fit { nominal, measured, options, basis: &basis, layout, values: expected.clone(), expected, top };
+    let mut high = (FIRST * first).min(band[1]);
+    while high < band[1] {
+        fit.widen([band[0], high], COARSE, options.reach * high)?;
+        high = if high * WIDER * 1.2 > band[1] { band[1] } else { high * WIDER };
+    }
+    let (found, spectra, count) = fit.widen(band, FINE, options.reach * top)?;
+    Fitted::new(&fit.case(&fit.layout, &spectra, count), &found, &fit.expected, nominal)
+}
+
+/// A fit on its way.
+struct Fit<'a> {
+    nominal: &'a Surface,
+    measured: &'a Measured,
+    options: &'a FitOptions,
+    basis: &'a Basis,
+    layout: Layout,
+    values: Values,
+    expected: Values,
+    top: f64,
+}
+
+impl Fit<'_> {
+    /// Descends in a band under a window, with the modes below some frequency, and looks for strays.
+    fn widen(
+        &mut self,
+        band: [f64; 2],
+        alpha: f64,
+        modes_hz: f64,
+    ) -> Result<(Found, Spectra, usize), CalibrateError> {
+        let spectra = Spectra::of(self.measured, band, alpha, self.options.window);
+        if spectra.frequencies.is_empty() {
+            return Err(CalibrateError::Count {
+                what: "frequencies of the fitted band",
+                expected: "at least 1".into(),
+                found: 0,
+            });
+        }
+        let count = self.basis.below(modes_hz);
+        let mut layout = self.layout.clone();
+        let mut found = self.case(&layout, &spectra, count).descend(&self.values, &self.expected)?;
+        while found.excess > SUSPECT && layout.strays < self.options.strays {
+            let Some((at, mass)) =
+                self.case(&layout, &spectra, count).stray(&found, &self.nominal.outline)?
+            else {
+                break;
+            };
+            let mut more = layout.clone();
+            more.strays += 1;
+            let (start, expected) = (with(&found.values, at, mass), with(&self.expected, at, 0.0));
+            let next = self.case(&more, &spectra, count).descend(&start, &expected)?;
+            if next.excess > WORTH * found.excess {
+                break;
+            }
+            (layout, found, self.expected) = (more, next, expected);
+        }
+        (self.layout, self.values) = (layout, found.values.clone());
+        Ok((found, spectra, count))
+    }
+}
+
+impl Fit<'_> {
+    fn case<'b>(&'b self, layout: &'b Layout, spectra: &'b Spectra, count: usize) -> Case<'b> {
+        Case { basis: self.basis, layout, spectra, count, top: self.top }
+    }
+}
+
+/// The values with one stray more.
+fn with(values: &Values, at: Point, mass: f64) -> Values {
+    let mut more = values.clone();
+    more.places.push(at);
+    more.masses.push(mass);
+    more.resistances.push(0.0);
+    more
+}
+
+fn nominal_values(surface: &Surface, layout: &Layout, top: f64) -> Values {
+    let medium = Medium::of(&surface.sheet);
+    let rate = |hz: f64| match &surface.sheet.decay {
+        Decay::Time(time) => 1.0 / time,
+        Decay::Table(table) => {
+            let nearest = table.iter().min_by(|a, b| (a.0 - hz).abs().total_cmp(&(b.0 - hz).abs()));
+            1.0 / nearest.map_or(0.1, |(_, time)| *time)
+        }
+        Decay::LossFactor(eta) => {
+            let omega = TAU * hz;
+            eta * medium.bending_share(medium.wavenumber(omega)) * omega / 2.0
+        }
+    };
+    let (actuators, loaded) = (layout.actuators, layout.loaded());
+    Values {
+        tension: 0.0,
+        bending: 0.0,
+        skew: 0.0,
+        profile: vec![0.0; layout.waves.len()],
+        knots: KNOTS.iter().map(|share| rate(share * top).ln()).collect(),
+        places: surface.actuators.iter().map(|a| a.at).collect(),
+        masses: vec![0.0; loaded],
+        resistances: vec![0.0; loaded],
+        drive: vec![0.0; actuators],
+        sense: vec![0.0; actuators],
+    }
+}

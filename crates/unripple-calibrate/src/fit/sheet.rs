@@ -1,0 +1,61 @@
+use super::basis::Basis;
+use super::layout::{Values, around};
+use crate::CalibrateError;
+use faer::{Mat, Side};
+use std::f64::consts::TAU;
+
+/// The sheet of some values, without what hangs on it: its modes as combinations of the nominal ones.
+#[derive(Clone, Debug)]
+pub(super) struct Sheet {
+    /// Squares of the frequencies, (rad/s)².
+    pub squares: Vec<f64>,
+    /// Decay rates, 1/s.
+    pub sigmas: Vec<f64>,
+    /// Nominal modes x modes.
+    pub turn: Mat<f64>,
+    /// Stiffness of all tension, and of bending, by the nominal modes.
+    pub tension: Mat<f64>,
+    pub bending: Mat<f64>,
+}
+
+impl Sheet {
+    /// The sheet by the first `count` nominal modes; the band's top in Hz.
+    ///
+    /// In the nominal modes the stiffness is Ω² + ΔK, whole: its eigenvectors are the new modes, exact but for the nominal modes
+    /// left out.
+    pub fn new(basis: &Basis, values: &Values, count: usize, top: f64) -> Result<Self, CalibrateError> {
+        let part = |all: &Mat<f64>| all.submatrix(0, 0, count, count).to_owned();
+        let nominal = part(&basis.tension);
+        let mut bending = -&nominal;
+        (0..count).for_each(|m| bending[(m, m)] += basis.squares[m]);
+        let mut tension = nominal + values.skew * part(&basis.skew);
+        for (term, share) in basis.terms.iter().zip(&values.profile).filter(|(_, share)| **share != 0.0) {
+            tension += *share * term.submatrix(0, 0, count, count);
+        }
+        let (tension, bending) = (values.tension.exp() * tension, values.bending.exp() * bending);
+        let (squares, turn) = eigen(&(&tension + &bending))?;
+        let sigmas =
+            squares.iter().map(|square| decay_rate(&values.knots, square.max(0.0).sqrt(), top)).collect();
+        Ok(Self { squares, sigmas, turn, tension, bending })
+    }
+}
+
+/// Decay rate (1/s) at an angular frequency by the logarithms at the knots.
+pub(super) fn decay_rate(knots: &[f64], omega: f64, top: f64) -> f64 {
+    around(omega / (TAU * top)).iter().map(|(k, w)| w * knots[*k]).sum::<f64>().exp()
+}
+
+/// Eigenvalues, ascending, and eigenvectors of a symmetric matrix.
+pub(super) fn eigen(matrix: &Mat<f64>) -> Result<(Vec<f64>, Mat<f64>), CalibrateError> {
+    let failed = |found: String| CalibrateError::Unsolvable {
+        what: "stiffness of the fitted sheet",
+        expected: "positive eigenvalues",
+        found,
+    };
+    let eigen = matrix.self_adjoint_eigen(Side::Lower).map_err(|e| failed(format!("{e:?}")))?;
+    let values: Vec<f64> = eigen.S().column_vector().iter().copied().collect();
+    match values.iter().all(|v| v.is_finite()) {
+        true => Ok((values, eigen.U().to_owned())),
+        false => Err(failed("values that are not finite".into())),
+    }
+}

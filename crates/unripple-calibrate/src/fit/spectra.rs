@@ -1,0 +1,66 @@
+use super::measured::Measured;
+use faer::c64;
+use realfft::RealFftPlanner;
+use std::f64::consts::{PI, TAU};
+use unripple_core::Point;
+
+/// Nepers of decay that the window has to give by the end of the signals.
+const ENDED: f64 = 6.0;
+
+/// Distance of frequencies in half widths of a line under the window.
+const SPACING: f64 = 1.0;
+
+/// What was measured as Laplace transforms along a line s = α + jω: spectra under a window e^{-αt}, which ends the signals
+/// without an edge and widens all lines alike.
+#[derive(Clone, Debug)]
+pub(super) struct Spectra {
+    /// The complex frequencies, 1/s.
+    pub frequencies: Vec<c64>,
+    /// Spectra of the responses between actuators, in the order of [`Pairs`](super::Pairs); empty where not measured.
+    pub pairs: Vec<Vec<c64>>,
+    /// Standard deviation of the noise in real and imaginary parts of those.
+    pub pair_noise: f64,
+    /// Spectra of each tap at each actuator.
+    pub taps: Vec<Vec<Vec<c64>>>,
+    /// Places of the taps.
+    pub places: Vec<Point>,
+    /// Standard deviation of the noise in real and imaginary parts of those.
+    pub tap_noise: Vec<f64>,
+    /// How many times more frequencies there are than independent ones.
+    pub overlap: f64,
+}
+
+impl Spectra {
+    /// Transforms between two frequencies (Hz) under a window of at least `alpha` (1/s), of at most `window` seconds.
+    pub fn of(measured: &Measured, [low, high]: [f64; 2], alpha: f64, window: f64) -> Self {
+        let rate = measured.rate;
+        let samples = measured.samples().min((window * rate).ceil() as usize).max(2);
+        let alpha = alpha.max(ENDED * rate / samples as f64);
+        let fold = ((rate * PI / (SPACING * alpha)).round() as usize).clamp(2, 1 << 20);
+        let spacing = rate / fold as f64;
+        let bins: Vec<usize> =
+            (1..fold / 2).filter(|k| (low..=high).contains(&(*k as f64 * spacing))).collect();
+        let weights: Vec<f64> = (0..samples).map(|i| (-alpha * i as f64 / rate).exp() / rate).collect();
+        let plan = RealFftPlanner::<f64>::new().plan_fft_forward(fold);
+        let transform = |signal: &Vec<f64>| -> Vec<c64> {
+            let mut folded = plan.make_input_vec();
+            signal.iter().zip(&weights).enumerate().for_each(|(i, (x, w))| folded[i % fold] += x * w);
+            let mut out = plan.make_output_vec();
+            if signal.is_empty() || plan.process(&mut folded, &mut out).is_err() {
+                return Vec::new();
+            }
+            bins.iter().map(|k| out[*k]).collect()
+        };
+        let spread = (weights.iter().map(|w| w * w).sum::<f64>() / 2.0).sqrt();
+        let ratio = alpha / spacing;
+        Self {
+            frequencies: bins.iter().map(|k| c64::new(alpha, TAU * *k as f64 * spacing)).collect(),
+            pairs: measured.pairs.iter().flat_map(|p| &p.responses).map(transform).collect(),
+            pair_noise: measured.pairs.as_ref().map_or(1.0, |p| p.noise) * spread,
+            taps: measured.taps.iter().map(|tap| tap.heard.iter().map(transform).collect()).collect(),
+            places: measured.taps.iter().map(|tap| tap.at).collect(),
+            tap_noise: measured.taps.iter().map(|tap| tap.noise * spread).collect(),
+            overlap: (ratio / ratio.tanh()).max(1.0),
+        }
+    }
+}

@@ -1,0 +1,122 @@
+use super::basis::Basis;
+use super::layout::{Layout, Values};
+use super::sheet::Sheet;
+use crate::CalibrateError;
+use faer::Mat;
+use unripple_core::{Point, Shapes};
+use unripple_physics::{Footprint, Medium};
+
+/// Half the distance over which slopes of shapes are taken, in metres.
+const STEP: f64 = 1e-6;
+
+/// A point contact is no smaller than this, in metres: what a membrane without stiffness needs to have a compliance at all.
+const FINEST: f64 = 1e-4;
+
+/// What a load feels of all modes that are left out, as one more mode: its weight squared (1/kg) and its frequency squared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Rest {
+    pub weight: f64,
+    pub square: f64,
+}
+
+/// A sheet with places on it and what hangs there.
+#[derive(Clone, Debug)]
+pub(super) struct System {
+    pub sheet: Sheet,
+    pub layout: Layout,
+    /// Shapes at the places, modes x places: actuators, strays, then taps.
+    pub shapes: Mat<f64>,
+    /// Their slopes along x and y, for actuators and strays.
+    pub slopes: [Mat<f64>; 2],
+    pub rest: Rest,
+    pub masses: Vec<f64>,
+    pub resistances: Vec<f64>,
+    /// The band's top, in Hz.
+    pub top: f64,
+    /// The tension's ratio to nominal.
+    pub ratio: f64,
+}
+
+impl System {
+    /// The system of some values by the first `count` nominal modes, with taps at some places.
+    pub fn new(
+        basis: &Basis,
+        layout: &Layout,
+        values: &Values,
+        taps: &[Point],
+        (count, top): (usize, f64),
+    ) -> Result<Self, CalibrateError> {
+        let sheet = Sheet::new(basis, values, count, top)?;
+        let places: Vec<Point> = values.places.iter().chain(taps).copied().collect();
+        let read = |points: &[Point]| {
+            let all = basis.modes.at_all(points);
+            sheet.turn.transpose() * all.subcols(0, count).transpose()
+        };
+        let shapes = read(&places);
+        let slopes = [Point::new(STEP, 0.0), Point::new(0.0, STEP)].map(|d| {
+            let moved = |s: f64| {
+                values.places.iter().map(|p| Point::new(p.x + s * d.x, p.y + s * d.y)).collect::<Vec<_>>()
+            };
+            (read(&moved(1.0)) - read(&moved(-1.0))) * faer::Scale(0.5 / STEP)
+        });
+        let medium = Medium {
+            tension: basis.medium.tension * values.tension.exp(),
+            bending_stiffness: basis.medium.bending_stiffness * values.bending.exp(),
+            air_sides: 0.0,
+            ..basis.medium
+        };
+        let highest = sheet.squares.last().copied().unwrap_or(0.0).max(1.0).sqrt();
+        Ok(Self {
+            rest: Rest::above(&medium, medium.wavenumber(highest)),
+            sheet,
+            layout: layout.clone(),
+            shapes,
+            slopes,
+            masses: values.masses.clone(),
+            resistances: values.resistances.clone(),
+            top,
+            ratio: values.tension.exp(),
+        })
+    }
+
+    /// Number of places.
+    pub fn places(&self) -> usize {
+        self.shapes.ncols()
+    }
+}
+
+impl Rest {
+    /// What an endless sheet answers with wavenumbers above `k` (rad/m) to a force at a point: compliance
+    /// C₀ = 1/4π ∫ du/(u(R + Du)) and inertia C₁ = ρ/4π ∫ du/(u(R + Du))², u from k² on. One mode of weight² C₀²/C₁ and
+    /// frequency² C₀/C₁ has both.
+    fn above(medium: &Medium, k: f64) -> Self {
+        let (tension, bending) = (medium.tension, medium.bending_stiffness);
+        let (start, end) = (k * k, (1.0 / FINEST).powi(2).max(100.0 * k * k));
+        // By u = k²/t the integrands are smooth down to the end.
+        let last = start / end;
+        let line = Footprint::line(Point::new(last, 0.0), Point::new(1.0, 0.0), 24);
+        let stiffness = |t: f64| tension * t + bending * start;
+        let sum =
+            |f: &dyn Fn(f64) -> f64| (1.0 - last) * line.points.iter().map(|(p, w)| w * f(p.x)).sum::<f64>();
+        let quarter = 1.0 / (4.0 * std::f64::consts::PI);
+        let compliance = quarter * sum(&|t| 1.0 / stiffness(t));
+        let inertia = quarter * medium.areal_density / start * sum(&|t| (t / stiffness(t)).powi(2));
+        Self { weight: compliance * compliance / inertia, square: compliance / inertia }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rest_has_the_compliance_of_the_closed_form() {
+        let medium =
+            Medium { areal_density: 0.175, tension: 200.0, bending_stiffness: 7.15e-4, air_sides: 0.0 };
+        let k = 500.0;
+        let rest = Rest::above(&medium, k);
+        let closed = (1.0 + 200.0 / (7.15e-4 * k * k)).ln() / (4.0 * std::f64::consts::PI * 200.0);
+        // The closed form goes on beyond the finest size.
+        assert!((rest.weight / rest.square / closed - 1.0).abs() < 0.01, "{rest:?} {closed}");
+    }
+}
