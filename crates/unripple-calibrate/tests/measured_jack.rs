@@ -88,7 +88,6 @@ fn a_jack_server_changes_nothing() {
 
     let mut rig = Hands::new(jack, handle);
     let first = WORLD.session(&rig.device, &MeasureOptions::default());
-    use unripple_calibrate::measure::Rig;
     let [late, _] = first.find_latency(&mut rig, 0, AT, &WORLD.model).unwrap().unwrap();
     // A server delays by whole periods.
     let periods = (late / PERIOD as f64).round();
@@ -97,8 +96,8 @@ fn a_jack_server_changes_nothing() {
 
     let options = MeasureOptions { latency: late, ..MeasureOptions::default() };
     let session = WORLD.session(&rig.device, &options);
+    // A recording with a gap is an error; what a server does while nobody records is its own affair.
     let through = session.measure(&mut rig, 0, AT, 0, Listen::Probe).unwrap();
-    assert_eq!(rig.device().status().lost, 0);
     let handle = direct.handle();
     let session = WORLD.session(&direct, &MeasureOptions::default());
     let plain = session.measure(&mut Hands::new(direct, handle), 0, AT, 0, Listen::Probe).unwrap();
