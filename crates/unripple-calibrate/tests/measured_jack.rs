@@ -3,76 +3,35 @@
 //! Needs `jackd` and libjack (Debian: jackd2). Without them the test says so and passes.
 
 mod measured_bench;
+#[path = "../../unripple-devices/tests/common/server.rs"]
+mod server;
 
 use measured_bench::*;
-use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant};
-use unripple_calibrate::measure::{Listen, MeasureOptions, PROBE};
-use unripple_core::{Device, Point};
-use unripple_devices::{Bridge, DevicesError, Jack, JackOptions, Links, VirtualOptions};
+use server::Server;
+use std::cell::RefCell;
+use unripple_calibrate::measure::{Listen, MeasureOptions};
+use unripple_core::{Device, PROBE, Point};
+use unripple_devices::{Jack, JackOptions, Links, VirtualOptions};
 
 const AT: Point = Point { x: 0.062, y: 0.090 };
 const PERIOD: usize = 256;
 
-/// A server of this test's own, with its dummy driver; gone afterwards.
-struct Server {
-    child: Child,
-    name: String,
-}
-
-impl Server {
-    fn start() -> Option<Self> {
-        let name = format!("unripple-calibrate-{}", std::process::id());
-        let period = PERIOD.to_string();
-        let child = Command::new("jackd")
-            .args([
-                "--no-realtime",
-                "--no-mlock",
-                "--name",
-                &name,
-                "-d",
-                "dummy",
-                "-r",
-                "48000",
-                "-p",
-                &period,
-            ])
-            .args(["-C", "2", "-P", "2"])
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn()
-            .ok()?;
-        Some(Self { child, name })
-    }
-}
-
-impl Drop for Server {
-    fn drop(&mut self) {
-        let _ = Command::new("kill").arg(self.child.id().to_string()).status();
-        let _ = self.child.wait();
-    }
-}
-
 #[test]
 fn a_jack_server_changes_nothing() {
-    let Some(server) = Server::start() else {
+    let Some(server) = Server::start(PERIOD) else {
         println!("SKIPPED: there is no jackd here (Debian: apt install jackd2)");
         return;
     };
     let options = VirtualOptions { block: PERIOD, ..VirtualOptions::default() };
     let direct = WORLD.device_with(&options);
-    let start = Instant::now();
-    let (bridge, handle) = loop {
+    let reach = RefCell::new(None);
+    let surface = || {
         let device = WORLD.device_with(&options);
-        let handle = device.handle();
-        match Bridge::start(Box::new(device), "surface", Some(&server.name)) {
-            Ok(bridge) => break (bridge, handle),
-            Err(DevicesError::Jack { .. }) if start.elapsed() < Duration::from_secs(10) => {
-                std::thread::sleep(Duration::from_millis(100));
-            }
-            Err(error) => panic!("{error}"),
-        }
+        reach.replace(Some(device.handle()));
+        Box::new(device) as Box<dyn Device>
     };
+    let bridge = server.bridge("surface", surface).unwrap();
+    let handle = reach.take().unwrap();
     let names: Vec<String> = WORLD.surface.actuators.iter().map(|actuator| actuator.name.clone()).collect();
     let joined = JackOptions {
         server: Some(server.name.clone()),

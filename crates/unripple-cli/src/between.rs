@@ -39,7 +39,7 @@ pub fn completed(
         way.name(),
         worst * 100.0
     );
-    Ok((joined(&stored, &made)?, vec![Note { topic: "library", text }]))
+    Ok((stored.joined(made).map_err(CliError::work)?, vec![Note { topic: "library", text }]))
 }
 
 fn error(between: &Between, place: Point) -> Result<f64, CliError> {
@@ -54,31 +54,5 @@ fn witnesses(stored: &SampledResponses, places: &[Point]) -> Result<SampledRespo
     let all: Vec<usize> = (0..stored.points.len()).filter(|i| free(&stored.points[*i])).collect();
     let close: Vec<usize> = all.iter().copied().filter(|i| near(&stored.points[*i])).collect();
     let chosen = if close.len() < 4 { all } else { close };
-    let ports = stored.ports.len();
-    let data =
-        chosen.iter().flat_map(|i| (0..ports).flat_map(move |a| stored.response(a, *i).iter().copied()));
-    SampledResponses::new(
-        stored.ports.clone(),
-        chosen.iter().map(|i| stored.points[*i]).collect(),
-        stored.conditions.clone(),
-        stored.samples(),
-        data.collect(),
-    )
-    .map_err(CliError::work)
-}
-
-fn joined(stored: &SampledResponses, made: &SampledResponses) -> Result<SampledResponses, CliError> {
-    let all = |own: &SampledResponses| {
-        let pairs =
-            (0..own.points.len()).flat_map(|point| (0..own.ports.len()).map(move |port| (port, point)));
-        pairs.flat_map(|(port, point)| own.response(port, point).to_vec()).collect::<Vec<f32>>()
-    };
-    SampledResponses::new(
-        stored.ports.clone(),
-        stored.points.iter().chain(&made.points).copied().collect(),
-        stored.conditions.clone(),
-        stored.samples(),
-        [all(stored), all(made)].concat(),
-    )
-    .map_err(CliError::work)
+    stored.select(&chosen).map_err(CliError::work)
 }

@@ -48,12 +48,17 @@ pub struct Note {
     pub text: String,
 }
 
-/// The responses of a surface, on modes up to `max_hz` if given, under fingers.
-pub fn model(surface: &Surface, max_hz: Option<f64>, contacts: &[Contact]) -> Result<Responses, CliError> {
+/// Accuracy that a surface's frequencies are worth: of what takes a mesh, no more than a drive can tell.
+pub fn accuracy(surface: &Surface) -> f64 {
     let plain = matches!(surface.outline.shape, Shape::Rectangle { .. })
         && surface.outline.holes.is_empty()
         && surface.sheet.uneven.is_nothing();
-    let accuracy = if plain { ResponseOptions::default().accuracy } else { MESHED };
+    if plain { ResponseOptions::default().accuracy } else { MESHED }
+}
+
+/// The responses of a surface, on modes up to `max_hz` if given, under fingers.
+pub fn model(surface: &Surface, max_hz: Option<f64>, contacts: &[Contact]) -> Result<Responses, CliError> {
+    let accuracy = accuracy(surface);
     let options =
         ResponseOptions { max_hz, accuracy, contacts: contacts.to_vec(), ..ResponseOptions::default() };
     responses(surface, &options).map_err(|error| match error {

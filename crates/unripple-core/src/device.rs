@@ -22,6 +22,9 @@ pub trait Device: Send {
     fn exchange(&mut self, drive: &[f32], heard: &mut [f32]) -> Result<(), DeviceError>;
 }
 
+/// Name of the input that hears a probe on the surface.
+pub const PROBE: &str = "probe";
+
 /// What a device has.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {

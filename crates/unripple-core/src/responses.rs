@@ -129,9 +129,84 @@ impl SampledResponses {
         &self.data[start..start + self.samples]
     }
 
+    /// The responses at some of the points, by their indices, in that order.
+    ///
+    /// # Errors
+    /// [`CoreError::Size`] for an index beyond the points.
+    pub fn select(&self, chosen: &[usize]) -> Result<Self, CoreError> {
+        let expected = self.points.len();
+        if let Some(found) = chosen.iter().copied().find(|point| *point >= expected) {
+            return Err(CoreError::Size { what: "points that are chosen from", expected, found: found + 1 });
+        }
+        let each = self.ports.len() * self.samples;
+        Ok(Self {
+            ports: self.ports.clone(),
+            points: chosen.iter().map(|point| self.points[*point]).collect(),
+            conditions: self.conditions.clone(),
+            samples: self.samples,
+            data: chosen.iter().flat_map(|point| &self.data[point * each..][..each]).copied().collect(),
+        })
+    }
+
+    /// The same with the points of another, of as many actuators and samples, after its own.
+    ///
+    /// # Errors
+    /// [`CoreError::Size`] if they have others.
+    pub fn joined(mut self, other: Self) -> Result<Self, CoreError> {
+        for (what, expected, found) in [
+            ("actuators of the responses to be joined", self.ports.len(), other.ports.len()),
+            ("samples of the responses to be joined", self.samples, other.samples),
+        ] {
+            if expected != found {
+                return Err(CoreError::Size { what, expected, found });
+            }
+        }
+        self.points.extend(other.points);
+        self.data.extend(other.data);
+        Ok(self)
+    }
+
     /// Index of the stored point nearest to a place; `None` without points.
     pub fn nearest(&self, place: Point) -> Option<usize> {
         (0..self.points.len())
             .min_by(|&a, &b| self.points[a].distance(place).total_cmp(&self.points[b].distance(place)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Outline, Shape};
+
+    fn two_ports(points: &[f64]) -> SampledResponses {
+        let port = |name: &str| Port { name: name.into(), at: Point::new(0.0, 0.0) };
+        let conditions = Conditions {
+            rate: 48e3,
+            band: [0.0, 3e3],
+            lambda_min: 0.0145,
+            outline: Outline::new(Shape::Rectangle { width: 1.0, height: 1.0 }),
+        };
+        let data = points.iter().flat_map(|x| [*x as f32, 1.0, -*x as f32, 2.0]).collect();
+        let points = points.iter().map(|x| Point::new(*x, 0.5)).collect();
+        SampledResponses::new(vec![port("a1"), port("a2")], points, conditions, 2, data).unwrap()
+    }
+
+    #[test]
+    fn what_is_parted_and_joined_is_the_same() {
+        let whole = two_ports(&[0.1, 0.2, 0.3]);
+        let parts = whole.select(&[0, 1]).unwrap().joined(whole.select(&[2]).unwrap()).unwrap();
+        assert_eq!(parts, whole);
+        let turned = whole.select(&[2, 0]).unwrap();
+        assert_eq!(turned.points, [whole.points[2], whole.points[0]]);
+        assert_eq!(turned.response(1, 0), whole.response(1, 2));
+    }
+
+    #[test]
+    fn others_are_refused() {
+        let whole = two_ports(&[0.1, 0.2]);
+        assert!(whole.select(&[2]).is_err());
+        let mut one = whole.clone();
+        one.ports.pop();
+        assert!(whole.joined(one).is_err());
     }
 }

@@ -1,8 +1,7 @@
 use crate::DevicesError;
 use crate::delay::{Delay, HALF};
 use crate::error::{check, same};
-use crate::random::Random;
-use unripple_core::Layout;
+use unripple_core::{Layout, Random};
 
 /// What stands between a computer and a surface: converters, amplifiers and wires. The default is perfect.
 ///
@@ -67,13 +66,13 @@ impl Converter {
         let expected = format!("a whole number of samples up to 1e7, or at least {HALF}");
         let legal = (0.0..=1e7).contains(&late) && (whole || late >= HALF as f64);
         check("latency of an interface in samples", late, legal, &expected)?;
-        let random = Random::new(interface.seed);
+        let random = Random::seeded(interface.seed);
         Ok(Self { delay: Delay::new(inputs, late), random, interface })
     }
 
     /// Other noise for another seed.
     pub(crate) fn reseed(&mut self, seed: u64) {
-        self.random = Random::new(self.interface.seed ^ seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        self.random = Random::seeded(self.interface.seed ^ seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
     }
 
     /// Whether the device is gone after so many blocks.

@@ -1,5 +1,5 @@
-use crate::random::Random;
 use std::f64::consts::PI;
+use unripple_core::Random;
 
 /// A force pulse on the sheet: a fingertip's, a ballpoint's, a small hammer's. Samples of force in N.
 ///
@@ -34,7 +34,7 @@ impl Tap {
     /// A pulse such as nobody knows beforehand, the same for one seed: 0.1 to 1 ms long, 0.5 to 5 N strong, skewed, more or
     /// less peaked, and in one of three cases with a weaker bounce 3 to 12 ms later.
     pub fn random(seed: u64, rate: f64) -> Self {
-        let mut random = Random::new(seed);
+        let mut random = Random::seeded(seed);
         let mut force = Self::bump(&mut random, rate);
         if random.uniform() < 1.0 / 3.0 {
             let (share, later) = (random.between(0.1, 0.4), random.between(3e-3, 12e-3));

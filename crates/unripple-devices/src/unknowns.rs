@@ -1,9 +1,8 @@
 use crate::error::check;
-use crate::random::Random;
 use crate::{DevicesError, Interface};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
-use unripple_core::{Decay, Point, Profile, Scatterer, ScattererKind, Surface};
+use unripple_core::{Decay, Point, Profile, Random, Scatterer, ScattererKind, Surface};
 use unripple_physics::{Entry, Medium, Modes, transducers};
 
 /// Nodes of the profile of tension along each side.
@@ -94,7 +93,7 @@ impl Unknowns {
         for mass in self.masses.iter().chain([&self.actuator_mass]) {
             check("stray mass in kg", *mass, *mass >= 0.0, "0 or more")?;
         }
-        let mut random = Random::new(self.seed);
+        let mut random = Random::seeded(self.seed);
         let mut truth = surface.clone();
         self.misplace(&mut truth, &mut random);
         if self.tension > 0.0 {

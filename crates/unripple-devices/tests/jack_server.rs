@@ -4,48 +4,12 @@
 
 mod common;
 
+use common::server::Server;
 use common::{noise, play};
-use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant};
 use unripple_core::*;
 use unripple_devices::*;
 
 const PERIOD: usize = 256;
-
-/// A server of this test's own, gone afterwards.
-struct Server {
-    child: Child,
-    name: String,
-}
-
-impl Server {
-    /// `None` where there is no `jackd`.
-    fn start() -> Option<Self> {
-        let name = format!("unripple-test-{}", std::process::id());
-        let child = Command::new("jackd")
-            .args(["--no-realtime", "--no-mlock", "--name", &name])
-            .args(["-d", "dummy", "-r", "48000", "-p", &PERIOD.to_string(), "-C", "2", "-P", "2"])
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn()
-            .ok()?;
-        Some(Self { child, name })
-    }
-
-    /// Asks the server to end, and waits until it has.
-    fn stop(&mut self) {
-        if let Ok(None) = self.child.try_wait() {
-            let _ = Command::new("kill").arg(self.child.id().to_string()).status();
-            let _ = self.child.wait();
-        }
-    }
-}
-
-impl Drop for Server {
-    fn drop(&mut self) {
-        self.stop();
-    }
-}
 
 /// A device that hears what it plays, in the same block.
 struct Loop(Layout);
@@ -80,15 +44,7 @@ fn bridge(server: &Server) -> Result<Bridge, DevicesError> {
         inputs: names(3),
         full_scale: 1.0,
     };
-    let start = Instant::now();
-    loop {
-        match Bridge::start(Box::new(Loop(layout.clone())), "loop", Some(&server.name)) {
-            Err(DevicesError::Jack { .. }) if start.elapsed() < Duration::from_secs(5) => {
-                std::thread::sleep(Duration::from_millis(50));
-            }
-            other => return other,
-        }
-    }
+    server.bridge("loop", || Box::new(Loop(layout.clone())))
 }
 
 fn options(server: &Server, links: Links) -> JackOptions {
@@ -113,7 +69,7 @@ fn latency(device: &mut Jack) -> usize {
 
 #[test]
 fn samples_pass_a_real_server_unchanged_and_latency_stays() {
-    let Some(mut server) = Server::start() else {
+    let Some(mut server) = Server::start(PERIOD) else {
         println!("SKIPPED: there is no jackd here (Debian: apt install jackd2)");
         return;
     };

@@ -18,4 +18,4 @@ pub use rig::Rig;
 pub use session::{Channel, Listen, Session};
 pub use tap::{TapOptions, Tapped, tapped};
 pub use taps::TapSession;
-pub use wires::{PROBE, REFERENCE, Wires};
+pub use wires::{REFERENCE, Wires};

@@ -1,3 +1,4 @@
+use super::Channel;
 use crate::CalibrateError;
 use crate::error::require;
 use unripple_core::{Layout, Surface};
@@ -88,6 +89,24 @@ impl MeasureOptions {
             seconds: self.sweep,
             amplitude: self.level * emission.limit,
             ..Sweep::default()
+        })
+    }
+
+    /// Why a channel is bad, if it is: its first response that is worse than asked. `each` is what its responses are counted by.
+    pub(super) fn fault(&self, channel: &Channel, each: &str) -> Option<String> {
+        channel.quality.iter().enumerate().find_map(|(index, quality)| {
+            let (number, snr_db) = (index + 1, quality.snr_db);
+            if snr_db.is_nan() || snr_db < self.least_snr_db {
+                let least = self.least_snr_db;
+                return Some(format!(
+                    "{each} {number}: signal to noise {snr_db:.1} dB, expected {least:.0} or more"
+                ));
+            }
+            let most = self.most_distortion_db;
+            let distortion = quality.distortion_db.filter(|db| *db > most)?;
+            Some(format!(
+                "{each} {number}: distortion {distortion:.1} dB, expected {most:.0} or less (is the drive clipped?)"
+            ))
         })
     }
 

@@ -1,9 +1,8 @@
 use super::{MeasureOptions, Rig, Wires, latency, record};
 use crate::CalibrateError;
-use unripple_core::{Layout, ModalResponses, Point, Surface};
+use unripple_core::{Layout, ModalResponses, PROBE, Point, Surface};
 use unripple_dsp::{
-    Average, Band, Deconvolver, Delay, Harmonics, Inversion, Outliers, Quality, Schedule, Split, Stimulus,
-    Sweep,
+    Average, Band, Deconvolver, Delay, Harmonics, Inversion, Outliers, Quality, Schedule, Split, Sweep,
 };
 use unripple_physics::sample;
 
@@ -73,7 +72,7 @@ impl Session {
         let band = Band::within(sweep.from, sweep.to);
         let inversion =
             Inversion { band: Some(band), latency: options.latency, lead: LEAD, ..Inversion::default() };
-        let plan = Deconvolver::new(&padded(schedule.stimulus(), band)?, heard, &inversion)?;
+        let plan = Deconvolver::new(schedule.stimulus(), heard, &inversion)?;
         Ok(Self { options: options.clone(), wires, sweep, schedule, plan, drive, heard, band })
     }
 
@@ -110,7 +109,7 @@ impl Session {
             (Listen::Probe, None) => {
                 return Err(CalibrateError::Recording {
                     what: "inputs of the device".into(),
-                    expected: format!("one that hears the probe, under the name `{}`", super::PROBE),
+                    expected: format!("one that hears the probe, under the name `{}`", PROBE),
                     found: "none".into(),
                 });
             }
@@ -224,26 +223,6 @@ impl Session {
 
     /// Why a channel is bad, if it is: its worst response against the least that is asked.
     pub fn fault(&self, channel: &Channel) -> Option<String> {
-        channel.quality.iter().enumerate().find_map(|(actuator, quality)| {
-            let options = &self.options;
-            if quality.snr_db.is_nan() || quality.snr_db < options.least_snr_db {
-                let least = options.least_snr_db;
-                return Some(format!(
-                    "actuator {}: signal to noise {:.1} dB, expected {least:.0} or more",
-                    actuator + 1,
-                    quality.snr_db
-                ));
-            }
-            let distortion = quality.distortion_db.filter(|db| *db > options.most_distortion_db)?;
-            let most = options.most_distortion_db;
-            Some(format!(
-                "actuator {}: distortion {distortion:.1} dB, expected {most:.0} or less (is the drive clipped?)",
-                actuator + 1
-            ))
-        })
+        self.options.fault(channel, "actuator")
     }
-}
-
-fn padded(stimulus: &Stimulus, band: Band) -> Result<Stimulus, CalibrateError> {
-    Ok(stimulus.clone().in_band(band)?)
 }

@@ -97,14 +97,6 @@ impl TapSession {
 
     /// Why a channel is bad, if it is: too little signal.
     pub fn fault(&self, channel: &Channel) -> Option<String> {
-        let least = self.options.least_snr_db;
-        let bad = channel.quality.iter().enumerate().find(|(_, q)| q.snr_db.is_nan() || q.snr_db < least);
-        bad.map(|(sensor, quality)| {
-            format!(
-                "sensor {}: signal to noise {:.1} dB, expected {least:.0} or more",
-                sensor + 1,
-                quality.snr_db
-            )
-        })
+        self.options.fault(channel, "sensor")
     }
 }

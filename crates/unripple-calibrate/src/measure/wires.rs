@@ -1,8 +1,6 @@
 use crate::CalibrateError;
-use unripple_core::{Layout, Port};
+use unripple_core::{Layout, PROBE, Port};
 
-/// Name of the input that hears the probe, and of the one that hears what is sent.
-pub const PROBE: &str = "probe";
 /// Name of the input that hears what a reference output sends.
 pub const REFERENCE: &str = "reference";
 

@@ -2,9 +2,8 @@
 
 #![allow(dead_code)]
 
-use std::f64::consts::TAU;
 use unripple_calibrate::{Between, BetweenOptions, Interpolation};
-use unripple_core::{Drive, ModalResponses, Outline, Point, Responses, SampledResponses, Surface};
+use unripple_core::{Drive, ModalResponses, Outline, Point, Random, Responses, SampledResponses, Surface};
 use unripple_field::Field;
 use unripple_focus::{Focuser, Method, Options, Target};
 use unripple_physics::design::papers_surface;
@@ -12,23 +11,6 @@ use unripple_physics::{Medium, ResponseOptions, responses, sample};
 
 pub const WINDOW: f64 = 0.030;
 pub const RATE: f64 = 48e3;
-
-/// Repeatable random numbers: SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn even(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    pub fn normal(&mut self) -> f64 {
-        (-2.0 * (1.0 - self.even()).ln()).sqrt() * (TAU * self.even()).cos()
-    }
-}
 
 /// What goes wrong in measuring: relative rms of noise and gains, rms distance (m) of points from where they should be.
 #[derive(Clone, Copy)]
@@ -66,7 +48,7 @@ impl Truth {
 
     /// Responses at points as a measurement finds them.
     pub fn measured(&self, points: &[Point], samples: usize, errors: Errors, seed: u64) -> SampledResponses {
-        let mut random = Random(seed);
+        let mut random = Random::seeded(seed);
         let aside = errors.position / 2f64.sqrt();
         let (low, high) = (0.2e-3, 149.8e-3);
         let displaced: Vec<Point> = points
@@ -131,8 +113,8 @@ pub fn grid(pitch: f64) -> Vec<Point> {
 
 /// Places 20 mm or more from every edge.
 pub fn targets(count: usize, seed: u64) -> Vec<Point> {
-    let mut random = Random(seed);
-    (0..count).map(|_| Point::new(0.02 + 0.11 * random.even(), 0.02 + 0.11 * random.even())).collect()
+    let mut random = Random::seeded(seed);
+    (0..count).map(|_| Point::new(0.02 + 0.11 * random.uniform(), 0.02 + 0.11 * random.uniform())).collect()
 }
 
 pub fn options(interpolation: Interpolation, errors: Errors) -> BetweenOptions {

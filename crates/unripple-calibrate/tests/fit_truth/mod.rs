@@ -6,7 +6,8 @@ use faer::Mat;
 use std::sync::Arc;
 use unripple_calibrate::{Measured, Tap};
 use unripple_core::{
-    Decay, Drive, ModalResponses, Point, Profile, Responses, Scatterer, ScattererKind, Shapes, Surface,
+    Decay, Drive, ModalResponses, Point, Profile, Random, Responses, Scatterer, ScattererKind, Shapes,
+    Surface,
 };
 use unripple_field::Field;
 use unripple_focus::{Focuser, Method, Options, Target};
@@ -14,32 +15,6 @@ use unripple_physics::design::papers_surface;
 use unripple_physics::{ResponseOptions, responses, sample};
 
 pub const WINDOW: f64 = 0.030;
-
-/// Repeatable numbers.
-pub struct Random(u64);
-
-impl Random {
-    pub fn seeded(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    pub fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.uniform()
-    }
-
-    pub fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();
-        radius * (std::f64::consts::TAU * self.uniform()).cos()
-    }
-}
 
 /// What is wrong with the truth.
 #[derive(Clone, Debug)]

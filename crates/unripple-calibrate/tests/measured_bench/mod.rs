@@ -34,7 +34,7 @@ pub static WORLD: LazyLock<World> = LazyLock::new(|| {
         Ok(Responses::Modal(modal)) => modal,
         other => panic!("{other:?}"),
     };
-    let modes = Arc::new(Modes::solve(&truth.surface, surface.emission.band[1], 1e-4).unwrap());
+    let modes = truth.modes(None).unwrap();
     let mut plant = modal(&truth.surface);
     for (a, gain) in truth.drive_gains.iter().enumerate() {
         (0..plant.poles.len()).for_each(|m| plant.input[(a, m)] *= gain);

@@ -3,8 +3,9 @@
 use super::rigs::{HandRig, VirtualRig};
 use crate::args::{DeviceName, DeviceOptions};
 use crate::error::CliError;
-use unripple::core::Surface;
-use unripple_calibrate::measure::{PROBE, Rig};
+use crate::judge;
+use unripple::core::{PROBE, Surface};
+use unripple_calibrate::measure::Rig;
 use unripple_devices::{DevicesError, Jack, JackOptions, Links, Unknowns, Virtual, VirtualOptions};
 
 /// An open device with whoever moves its probe.
@@ -30,9 +31,9 @@ pub fn open(options: &DeviceOptions, surface: &Surface) -> Result<Opened, CliErr
 }
 
 fn virtual_surface(options: &DeviceOptions, surface: &Surface) -> Result<Opened, CliError> {
-    let plain = VirtualOptions { accuracy: 1e-4, ..VirtualOptions::default() };
+    let plain = VirtualOptions { accuracy: judge::accuracy(surface), ..VirtualOptions::default() };
     let Some(seed) = options.unknowns else {
-        let device = Virtual::new(surface, &VirtualOptions::default()).map_err(failed)?;
+        let device = Virtual::new(surface, &plain).map_err(failed)?;
         return Ok(Opened { rig: Box::new(VirtualRig::new(device, 0)), truth: None });
     };
     let unknowns = Unknowns { seed, ..Unknowns::default() };

@@ -155,15 +155,13 @@ fn own(
     places: &Places,
     middle: Point,
 ) -> Result<(), CliError> {
-    let missing = |shelf: &Shelf| {
-        let missing = shelf.library.in_state(PointState::Missing);
-        missing.into_iter().filter(|point| *point >= places.probed).collect::<Vec<_>>()
-    };
-    if missing(shelf).is_empty() {
+    let mut missing = shelf.library.in_state(PointState::Missing);
+    missing.retain(|point| *point >= places.probed);
+    if missing.is_empty() {
         return Ok(());
     }
     let sensors = session.measure(rig, places.points.len(), middle, 2, Listen::Sensors)?;
-    for point in missing(shelf) {
+    for point in missing {
         if let Some(channel) = sensors.get(point - places.probed) {
             let fault = session.fault(channel);
             unripple_calibrate::measure::Sink::keep(shelf, point, channel, fault.as_deref())?;

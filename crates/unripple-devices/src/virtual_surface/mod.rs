@@ -9,15 +9,12 @@ use crate::interface::Converter;
 use crate::{DevicesError, Interface, Truth};
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::{Duration, Instant};
-use unripple_core::{Device, DeviceError, Layout, Point, State, Status, Surface};
+use unripple_core::{Device, DeviceError, Layout, PROBE, Point, State, Status, Surface};
 use unripple_physics::stepper::{
     Channel, Misbehaving, Mishaps, Plant, Reading, StepperOptions, VirtualSurface,
 };
 use unripple_physics::{Footprint, Modes};
 use workings::Workings;
-
-/// Name of the input that a probe is heard on.
-pub const PROBE: &str = "probe";
 
 /// How a virtual device is made.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,48 +1,17 @@
 //! A film with actuators, and blocks through a device.
 #![allow(dead_code)] // Each test file uses its own part of this.
 
-use unripple_core::*;
+pub mod server;
 
-/// The paper's actuators, in mm.
-pub const PLACES: [(f64, f64); 8] = [
-    (12.0, 31.0),
-    (9.0, 84.0),
-    (40.0, 140.0),
-    (95.0, 137.0),
-    (141.0, 106.0),
-    (138.0, 44.0),
-    (103.0, 11.0),
-    (50.0, 9.0),
-];
+use unripple_core::*;
 
 /// The paper's film, up to a frequency.
 pub fn film(top: f64) -> Surface {
-    let sheet = Sheet {
-        material: "BoPET".into(),
-        young: 4e9,
-        density: 1400.0,
-        poisson: 0.3,
-        strength: None,
-        thickness: 0.125e-3,
-        tension: 200.0,
-        decay: Decay::Time(0.07),
-        air: Air::None,
-        uneven: Uneven::default(),
-    };
-    let actuator = |(i, (x, y)): (usize, &(f64, f64))| Actuator {
-        name: format!("a{}", i + 1),
-        at: Point::from_mm(*x, *y),
-        kind: ActuatorKind::Force,
-        contact_radius: 0.0,
-    };
-    Surface {
-        name: "film".into(),
-        outline: Outline::new(Shape::Rectangle { width: 0.15, height: 0.15 }),
-        sheet,
-        emission: Emission { band: [0.0, top], rate: 48e3, limit: 2.0, rms_limit: None },
-        finger: Finger::default(),
-        actuators: PLACES.iter().enumerate().map(actuator).collect(),
-    }
+    let mut film = unripple_physics::design::papers_surface();
+    film.name = "film".into();
+    film.sheet.strength = None;
+    film.emission = Emission { band: [0.0, top], limit: 2.0, ..film.emission };
+    film
 }
 
 /// Every input over so many samples, while outputs play what they are told; 1 is full scale.

@@ -2,11 +2,11 @@ use super::SpectrumError;
 use super::factor::Factor;
 use super::panel::{LANES, NONE, Panel, Row, project, subtract, transform};
 use super::pencil::Pencil;
-use super::random::Random;
 use super::solve::solve;
 use super::square::{Square, Triangle, identity, product, transposed};
 use crate::modes::eigen::{Method, symmetric};
 use faer::{Mat, Par};
+use unripple_core::Random;
 
 /// Ratio of the smallest to the largest pivot of a panel's Gram matrix, its columns scaled to one, below which rounding
 /// calls for another pass.
@@ -63,8 +63,8 @@ impl<'a> Lanczos<'a> {
         known: Vec<Panel>,
         seed: u64,
     ) -> Result<Self, SpectrumError> {
-        let mut random = Random(seed);
-        let mut start: Panel = (0..pencil.len()).map(|_| random.row()).collect();
+        let mut random = Random::seeded(seed);
+        let mut start: Panel = (0..pencil.len()).map(|_| any(&mut random)).collect();
         let mut lanczos = Self {
             pencil,
             factor,
@@ -157,7 +157,7 @@ impl<'a> Lanczos<'a> {
     /// Puts random vectors in place of those that the basis holds already.
     fn replace(&mut self, new: &mut Panel, spent: [bool; LANES], coefficients: &mut Square) {
         for row in new.iter_mut() {
-            let random = self.random.row();
+            let random = any(&mut self.random);
             for ((x, random), spent) in row.iter_mut().zip(random).zip(spent) {
                 if spent {
                     *x = random;
@@ -213,6 +213,11 @@ impl<'a> Lanczos<'a> {
         }
         out
     }
+}
+
+/// A row of numbers between -1 and 1.
+fn any(random: &mut Random) -> Row {
+    std::array::from_fn(|_| random.between(-1.0, 1.0))
 }
 
 /// Whether what is taken from each vector is nothing but rounding, given the squares of their norms.

@@ -15,7 +15,6 @@ mod pencil;
 mod piece;
 mod plan;
 mod quotient;
-mod random;
 mod run;
 mod solve;
 mod square;

@@ -1,7 +1,7 @@
 use super::surface::VirtualSurface;
 use crate::PhysicsError;
 use crate::modes::check;
-use std::f64::consts::TAU;
+use unripple_core::Random;
 
 /// What goes wrong on request, as it does between a computer and a real surface. The default is nothing.
 ///
@@ -56,7 +56,7 @@ pub struct Misbehaving {
     /// For each channel, the last samples of its sensor, the next to be given first.
     late: Vec<f64>,
     oldest: usize,
-    random: u64,
+    random: Random,
     lost: usize,
 }
 
@@ -85,7 +85,7 @@ impl Misbehaving {
             before = *time;
         }
         let late = vec![0.0; channels * mishaps.latency];
-        let random = mishaps.seed;
+        let random = Random::seeded(mishaps.seed);
         Ok(Self {
             surface,
             most,
@@ -148,7 +148,7 @@ impl Misbehaving {
             let expected = format!("at most {}", self.most);
             check("samples of a block", frames as f64, false, &expected)?;
         }
-        let lost = self.uniform() < self.mishaps.dropped;
+        let lost = self.random.uniform() < self.mishaps.dropped;
         self.lost += usize::from(lost);
         self.distort(drive, frames, lost);
         let now = self.surface.samples() as f64 / self.surface.rate();
@@ -201,27 +201,12 @@ impl Misbehaving {
         }
         if self.mishaps.noise > 0.0 {
             for value in sensors.iter_mut() {
-                *value += self.mishaps.noise * self.normal();
+                *value += self.mishaps.noise * self.random.normal();
             }
         }
         if lost {
             sensors.fill(0.0);
         }
-    }
-
-    /// Between 0 and 1 (SplitMix64: Steele, Lea and Flood 2014).
-    fn uniform(&mut self) -> f64 {
-        self.random = self.random.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.random;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Of mean 0 and variance 1 (Box and Muller 1958).
-    fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();
-        radius * (TAU * self.uniform()).cos()
     }
 }
 

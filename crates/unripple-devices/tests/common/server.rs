@@ -1,0 +1,54 @@
+//! A JACK server with its dummy driver, for tests.
+
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+use unripple_core::Device;
+use unripple_devices::{Bridge, DevicesError};
+
+/// A server of one test's own, gone afterwards.
+pub struct Server {
+    child: Child,
+    pub name: String,
+}
+
+impl Server {
+    /// `None` where there is no `jackd`.
+    pub fn start(period: usize) -> Option<Self> {
+        let name = format!("unripple-test-{}", std::process::id());
+        let child = Command::new("jackd")
+            .args(["--no-realtime", "--no-mlock", "--name", &name])
+            .args(["-d", "dummy", "-r", "48000", "-p", &period.to_string(), "-C", "2", "-P", "2"])
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .ok()?;
+        Some(Self { child, name })
+    }
+
+    /// Asks the server to end, and waits until it has.
+    pub fn stop(&mut self) {
+        if let Ok(None) = self.child.try_wait() {
+            let _ = Command::new("kill").arg(self.child.id().to_string()).status();
+            let _ = self.child.wait();
+        }
+    }
+
+    /// Puts a device behind ports, as soon as the server answers.
+    pub fn bridge(&self, client: &str, device: impl Fn() -> Box<dyn Device>) -> Result<Bridge, DevicesError> {
+        let start = Instant::now();
+        loop {
+            match Bridge::start(device(), client, Some(&self.name)) {
+                Err(DevicesError::Jack { .. }) if start.elapsed() < Duration::from_secs(10) => {
+                    std::thread::sleep(Duration::from_millis(50));
+                }
+                other => return other,
+            }
+        }
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        self.stop();
+    }
+}
