@@ -174,3 +174,33 @@ fn a_surface_that_begins_anew_does_the_same_again() {
     let (first, other) = (run(1), run(2));
     assert!(first != other && first == run(1));
 }
+
+#[test]
+fn what_is_watched_is_the_displacement_of_the_responses() {
+    let (here, there) = (Point::from_mm(62.0, 90.0), Point::from_mm(20.0, 33.0));
+    let mut device = device(&options());
+    let handle = device.handle();
+    handle.watch(&[here, there], 2).unwrap();
+    play(&mut device, SAMPLES, impulse(4));
+    let seen = handle.watched();
+    for (trace, at) in seen.iter().zip([here, there]) {
+        // Half of a full scale of 2 N over one sample; velocity summed by the trapezium rule is displacement.
+        let velocity: Vec<f64> = exact(at)[4].iter().map(|h| h / 48e3).collect();
+        let mut moved = 0.0;
+        let mut summed = vec![0.0];
+        for pair in velocity.windows(2) {
+            moved += 0.5 * (pair[0] + pair[1]) / 48e3;
+            summed.push(moved);
+        }
+        let summed: Vec<f64> = summed.into_iter().step_by(2).collect();
+        let trace: Vec<f64> = trace.iter().take(summed.len()).map(|u| f64::from(*u)).collect();
+        assert!(apart(&trace, &summed) < 0.01, "{}", apart(&trace, &summed));
+    }
+    // Traces go on where the places move, and a probe stays where it is.
+    handle.move_probe(here).unwrap();
+    handle.move_watched(&[there, here]).unwrap();
+    let heard = play(&mut device, 64, silence);
+    assert_eq!(handle.watched()[1].len(), device.layout().block.div_ceil(2));
+    assert!(heard[8].iter().any(|v| *v != 0.0));
+    assert!(handle.move_watched(&[here]).is_err());
+}

@@ -1,10 +1,11 @@
 use super::lock;
+use super::watch::Watch;
 use super::workings::Workings;
 use crate::error::check;
 use crate::{DevicesError, Tap};
 use std::sync::{Arc, Mutex};
 use unripple_core::{Contact, Point};
-use unripple_physics::stepper::{FingerMotion, Reading};
+use unripple_physics::stepper::FingerMotion;
 
 /// Reaches a virtual surface while its device is in other hands: moves the probe, taps, and puts fingers on it. What it
 /// does takes effect with the next block.
@@ -34,7 +35,39 @@ impl Handle {
     /// # Errors
     /// [`DevicesError::Physics`] for a place that is not finite.
     pub fn move_probe(&self, at: Point) -> Result<(), DevicesError> {
-        Ok(lock(&self.workings).surface.surface_mut().set_probes(&[(at, Reading::Velocity)])?)
+        let mut workings = lock(&self.workings);
+        let watch = std::mem::take(&mut workings.watch).with_probe(at);
+        workings.listen(at, watch)
+    }
+
+    /// Watches displacement (m) at some places instead of any before, every `stride`-th sample from the next block on;
+    /// [`Handle::watched`] takes it. None of it is noisy or late.
+    ///
+    /// # Errors
+    /// [`DevicesError::Physics`] for a place that is not finite.
+    pub fn watch(&self, places: &[Point], stride: usize) -> Result<(), DevicesError> {
+        let mut workings = lock(&self.workings);
+        let probe = workings.watch.probe();
+        let first = workings.first_probe;
+        workings.listen(probe.unwrap_or(first), Watch::new(places, stride, probe))
+    }
+
+    /// Moves the watched places, as many as there are: their traces go on. What moves within a block is not heard.
+    ///
+    /// # Errors
+    /// [`DevicesError::Range`] for another number of places, [`DevicesError::Physics`] for one that is not finite.
+    pub fn move_watched(&self, places: &[Point]) -> Result<(), DevicesError> {
+        let mut workings = lock(&self.workings);
+        let (most, found) = (workings.watch.places(), places.len());
+        check("places that are watched", found as f64, found == most, &format!("{most}, as before"))?;
+        let probe = workings.watch.probe().unwrap_or(workings.first_probe);
+        let watch = std::mem::take(&mut workings.watch).moved(places);
+        workings.listen(probe, watch)
+    }
+
+    /// What was watched since this was last called, a trace for each place; the newest 65536 samples at most.
+    pub fn watched(&self) -> Vec<Vec<f32>> {
+        lock(&self.workings).watch.take()
     }
 
     /// Taps at a place, some time (s) after the next block begins; that a tap lasts counts from there on. Its force acts as that

@@ -1,6 +1,7 @@
 //! The surface of the stepper as a device.
 
 mod handle;
+mod watch;
 mod workings;
 
 pub use handle::Handle;
@@ -139,7 +140,7 @@ impl Virtual {
             full_scale: surface.emission.limit,
         };
         let converter = Converter::new(&options.interface, &layout)?;
-        let workings = Workings::new(surface_at_work, converter, &layout, options.taps);
+        let workings = Workings::new(surface_at_work, converter, &layout, options.taps, place);
         Ok(Self {
             layout,
             workings: Arc::new(Mutex::new(workings)),

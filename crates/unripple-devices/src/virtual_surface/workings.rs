@@ -1,21 +1,27 @@
+use super::watch::Watch;
 use crate::DevicesError;
 use crate::interface::Converter;
-use unripple_core::Layout;
+use unripple_core::{Layout, Point};
 use unripple_physics::stepper::{Footing, Misbehaving};
 
 /// What is behind a virtual device.
 #[derive(Debug)]
 pub(super) struct Workings {
     pub(super) surface: Misbehaving,
+    pub(super) watch: Watch,
+    /// Where the probe is at first.
+    pub(super) first_probe: Point,
     converter: Converter,
-    /// Both as they were at first.
+    /// Surface and converter as they were at first.
     first: (Misbehaving, Converter),
     block: usize,
     outputs: usize,
     slots: Vec<Slot>,
-    /// Planes of drive, those of taps last; of sensors, those of taps last; and of what is heard.
+    /// Planes of drive, those of taps last; of sensors, those of taps last; of the probe and what is watched; and of what is
+    /// heard.
     drive: Vec<f64>,
     sensors: Vec<f64>,
+    probes: Vec<f64>,
     heard: Vec<f64>,
 }
 
@@ -42,7 +48,13 @@ impl Strike {
 }
 
 impl Workings {
-    pub(super) fn new(surface: Misbehaving, converter: Converter, layout: &Layout, taps: usize) -> Self {
+    pub(super) fn new(
+        surface: Misbehaving,
+        converter: Converter,
+        layout: &Layout,
+        taps: usize,
+        probe: Point,
+    ) -> Self {
         let (block, outputs) = (layout.block, layout.outputs.len());
         let planes = vec![0.0; (outputs + taps) * block];
         let heard = vec![0.0; layout.inputs.len() * block];
@@ -50,6 +62,8 @@ impl Workings {
         let first = (surface.clone(), converter.clone());
         Self {
             surface,
+            watch: Watch::default(),
+            first_probe: probe,
             converter,
             first,
             block,
@@ -57,6 +71,7 @@ impl Workings {
             slots,
             drive: planes.clone(),
             sensors: planes,
+            probes: vec![0.0; block],
             heard,
         }
     }
@@ -66,6 +81,17 @@ impl Workings {
         (self.surface, self.converter) = self.first.clone();
         self.converter.reseed(seed);
         self.slots.fill(Slot::default());
+        self.watch = Watch::default();
+        self.probes.resize(self.block, 0.0);
+    }
+
+    /// Puts the probe at a place, or leaves it, and watches the sheet elsewhere.
+    pub(super) fn listen(&mut self, probe: Point, watch: Watch) -> Result<(), DevicesError> {
+        let probes = watch.probes(probe);
+        self.surface.surface_mut().set_probes(&probes)?;
+        self.probes.resize(probes.len() * self.block, 0.0);
+        self.watch = watch;
+        Ok(())
     }
 
     /// Blocks lost so far.
@@ -88,12 +114,14 @@ impl Workings {
         self.converter.send(layout, drive, &mut self.drive[..wired]);
         self.strike().map_err(|error| error.to_string())?;
         let lost = self.surface.lost();
-        let probe = &mut self.heard[wired..];
         self.surface
-            .process(self.block, &self.drive, &mut self.sensors, probe)
+            .process(self.block, &self.drive, &mut self.sensors, &mut self.probes)
             .map_err(|error| error.to_string())?;
-        if self.surface.lost() > lost {
-            probe.fill(0.0);
+        let (probe, watched) = self.probes.split_at(self.block);
+        self.watch.keep(watched, self.block);
+        match self.surface.lost() > lost {
+            true => self.heard[wired..].fill(0.0),
+            false => self.heard[wired..].copy_from_slice(probe),
         }
         self.heard[..wired].copy_from_slice(&self.sensors[..wired]);
         self.converter.hear(self.block, &mut self.heard);

@@ -1,0 +1,94 @@
+use std::collections::VecDeque;
+use unripple_core::Point;
+use unripple_physics::stepper::Reading;
+
+/// Samples of each place that are kept until they are taken: the newest.
+const KEPT: usize = 1 << 16;
+
+/// Displacement at some places, kept for whoever looks.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Watch {
+    /// Where.
+    places: Vec<Point>,
+    stride: usize,
+    /// Samples until the next that is kept.
+    wait: usize,
+    traces: Vec<VecDeque<f32>>,
+    /// Where the probe is, once it was moved.
+    probe: Option<Point>,
+}
+
+impl Watch {
+    /// Every `stride`-th sample at these places.
+    pub fn new(places: &[Point], stride: usize, probe: Option<Point>) -> Self {
+        let traces = vec![VecDeque::new(); places.len()];
+        Self { places: places.to_vec(), stride: stride.max(1), wait: 0, traces, probe }
+    }
+
+    /// The same with the probe elsewhere.
+    pub fn with_probe(self, at: Point) -> Self {
+        Self { probe: Some(at), ..self }
+    }
+
+    /// The same at other places, as many.
+    pub fn moved(self, places: &[Point]) -> Self {
+        Self { places: places.to_vec(), ..self }
+    }
+
+    /// Number of places.
+    pub fn places(&self) -> usize {
+        self.places.len()
+    }
+
+    /// Where the probe is, once it was moved.
+    pub fn probe(&self) -> Option<Point> {
+        self.probe
+    }
+
+    /// The readings of the surface: the probe's velocity, then displacement everywhere else.
+    pub fn probes(&self, probe: Point) -> Vec<(Point, Reading)> {
+        let watched = self.places.iter().map(|place| (*place, Reading::Displacement));
+        [(probe, Reading::Velocity)].into_iter().chain(watched).collect()
+    }
+
+    /// Keeps what is to be kept of a block, one plane for each place.
+    pub fn keep(&mut self, planes: &[f64], frames: usize) {
+        if self.places.is_empty() || frames == 0 {
+            return;
+        }
+        let first = self.wait;
+        for (trace, plane) in self.traces.iter_mut().zip(planes.chunks_exact(frames)) {
+            for value in plane.iter().skip(first).step_by(self.stride) {
+                if trace.len() == KEPT {
+                    trace.pop_front();
+                }
+                trace.push_back(*value as f32);
+            }
+        }
+        let kept = frames.saturating_sub(first).div_ceil(self.stride);
+        self.wait = first + kept * self.stride - frames;
+    }
+
+    /// What was kept since it was last taken, for each place.
+    pub fn take(&mut self) -> Vec<Vec<f32>> {
+        self.traces.iter_mut().map(|trace| std::mem::take(trace).into()).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_third_sample_is_kept_whatever_the_blocks() {
+        let place = Point::new(0.0, 0.0);
+        let line: Vec<f64> = (0..100).map(f64::from).collect();
+        for block in [1, 2, 5, 20, 100] {
+            let mut watch = Watch::new(&[place], 3, None);
+            line.chunks(block).for_each(|part| watch.keep(part, part.len()));
+            let expected: Vec<f32> = (0..34).map(|i| (3 * i) as f32).collect();
+            assert_eq!(watch.take(), [expected]);
+            assert_eq!(watch.take(), [Vec::new()]);
+        }
+    }
+}
