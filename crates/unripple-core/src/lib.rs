@@ -37,6 +37,7 @@ mod responses;
 mod shape;
 mod side;
 mod surface;
+mod touch;
 mod uneven;
 
 pub use device::{Device, DeviceError, Layout, PROBE, State, Status};
@@ -53,4 +54,5 @@ pub use side::Side;
 pub use surface::{
     Actuator, ActuatorKind, Air, CoilDrive, Contact, Decay, Emission, Finger, Sheet, Surface, window_samples,
 };
+pub use touch::{Phase, Touch};
 pub use uneven::{Grain, Profile, Scatterer, ScattererKind, Uneven};
