@@ -8,11 +8,15 @@ const FLOORS: &[(&str, u8)] = &[
     ("unripple-physics", 2),
     ("unripple-focus", 2),
     ("unripple-field", 2),
+    ("unripple-player", 2),
+    ("unripple-effects", 2),
     ("unripple-store", 3),
     ("unripple-plot", 3),
+    ("unripple-touch", 3),
     ("unripple-devices", 3),
     ("unripple-calibrate", 3),
     ("unripple", 4),
+    ("unripple-live", 4),
     ("unripple-cli", 5),
 ];
 

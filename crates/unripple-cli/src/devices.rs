@@ -7,17 +7,64 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 use unripple_devices::{Found, Stream, list};
 
+/// What a build without sound cards says of them.
+#[cfg(not(feature = "cards"))]
+pub const HOW_TO_GET_CARDS: &str = "build it with `cargo install --path crates/unripple-cli --features cards` (Debian: \
+                                    libasound2-dev, pkg-config), or go through JACK or PipeWire";
+
 pub fn run(options: &DevicesOptions, as_json: bool) -> Result<(), CliError> {
     let found = list(options.server.as_deref());
-    let report = json!({ "devices": found.iter().map(entry).collect::<Vec<_>>() });
-    let text: String = found.iter().map(told).collect();
-    output::answer(as_json, &report, &text)
+    let mut entries: Vec<Value> = found.iter().map(entry).collect();
+    let mut text: String = found.iter().map(told).collect();
+    cards(&mut entries, &mut text);
+    output::answer(as_json, &json!({ "devices": entries }), &text)
+}
+
+/// Sound cards as they can be opened.
+#[cfg(feature = "cards")]
+fn cards(entries: &mut Vec<Value>, text: &mut String) {
+    use unripple_devices::cards::{Offer, found};
+    let told = |offer: &Offer| {
+        let [few, many] = offer.channels;
+        let [low, high] = offer.rates;
+        let blocks =
+            offer.blocks.map_or_else(String::new, |[small, large]| format!(", blocks {small} to {large}"));
+        format!("{few} to {many} channels, {low} to {high} Hz{blocks}")
+    };
+    let entry = |offer: &Offer| json!({ "channels": offer.channels, "sample_rates_hz": offer.rates, "blocks": offer.blocks });
+    let found = found();
+    if found.is_empty() {
+        let _ = writeln!(text, "card      none that can play or record");
+    }
+    for card in found {
+        let _ = writeln!(text, "card      {}: {}", card.id, card.name.replace('\n', ", "));
+        for (way, offer) in [("playback", &card.playback), ("capture", &card.capture)] {
+            if let Some(offer) = offer {
+                let _ = writeln!(text, "            {way:8} {}", told(offer));
+            }
+        }
+        entries.push(json!({
+            "device": "card",
+            "available": true,
+            "id": card.id,
+            "name": card.name,
+            "playback": card.playback.as_ref().map(entry),
+            "capture": card.capture.as_ref().map(entry),
+        }));
+    }
+}
+
+/// Says how to get a program that knows cards.
+#[cfg(not(feature = "cards"))]
+fn cards(entries: &mut Vec<Value>, text: &mut String) {
+    entries.push(json!({ "device": "card", "available": false, "why": HOW_TO_GET_CARDS }));
+    let _ = writeln!(text, "card      not in this build: {HOW_TO_GET_CARDS}");
 }
 
 fn entry(found: &Found) -> Value {
     match found {
         Found::Virtual => json!({ "device": "virtual", "available": true }),
-        Found::Tape => json!({ "device": "wav", "available": true }),
+        Found::Tape => json!({ "device": "tape", "available": true }),
         Found::Jack(server) => json!({
             "device": "jack",
             "available": true,
@@ -55,7 +102,7 @@ fn told(found: &Found) -> String {
         Found::Virtual => {
             writeln!(text, "virtual   the surface itself, simulated: a channel for each actuator")
         }
-        Found::Tape => writeln!(text, "wav       files: play offline, record elsewhere, bring back"),
+        Found::Tape => writeln!(text, "tape      WAV files: play offline, record elsewhere, bring back"),
         Found::NoJack(why) => writeln!(text, "jack      not there. {why}"),
         Found::Jack(server) => {
             let _ = writeln!(
@@ -71,7 +118,7 @@ fn told(found: &Found) -> String {
             ports.into_iter().try_for_each(|(way, port)| writeln!(text, "            {way:4} {port}"))
         }
         Found::Card { index, name, streams } => {
-            let _ = writeln!(text, "card {index}    {name}: reached through JACK or PipeWire");
+            let _ = writeln!(text, "card {index}    {name}, as the kernel knows it");
             streams.iter().try_for_each(|stream| {
                 writeln!(text, "            {:8} {:8} {}", stream.device, direction(stream), offers(stream))
             })

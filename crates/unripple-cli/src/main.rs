@@ -9,6 +9,7 @@ mod compare;
 mod design;
 mod devices;
 mod error;
+mod export;
 mod field;
 mod figures;
 mod fingers;
@@ -43,6 +44,7 @@ fn run(arguments: &Arguments) -> Result<(), CliError> {
     let json = arguments.json;
     match &arguments.command {
         Command::Calibrate(options) => calibrate::run(options, json),
+        Command::Export(options) => export::run(options, json),
         Command::Check(options) => check::run(options, json),
         Command::Design(options) => design::run(options, json),
         Command::Modes(options) => modes::run(options, json),

@@ -58,6 +58,14 @@ pub enum DevicesError {
         /// How to fix it.
         fix: String,
     },
+    /// There is no such sound card, or it refuses.
+    #[error("sound card: {what}; {fix}")]
+    Card {
+        /// What happened.
+        what: String,
+        /// How to fix it.
+        fix: String,
+    },
 }
 
 /// A typed error unless a value is finite and legal.

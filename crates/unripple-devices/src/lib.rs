@@ -1,9 +1,12 @@
 //! Virtual surfaces, sound servers and files as one kind of device.
 //!
 //! [`Virtual`] is the surface of the time-stepper behind the trait [`Device`](unripple_core::Device), with [`Unknowns`] that no
-//! model is told; [`Tape`] keeps a drive and brings recordings back; [`Jack`] is a sound server; [`check_wiring`] says which
+//! model is told; [`Tape`] keeps a drive and brings recordings back; [`Jack`] is a sound server; with the
+//! feature `cards`, `cards::Card` is a sound card; [`check_wiring`] says which
 //! channel is silent, swapped or reversed; [`list`] says what there is.
 
+#[cfg(feature = "cards")]
+pub mod cards;
 mod delay;
 mod error;
 mod interface;

@@ -7,7 +7,8 @@
 //!   [`to_toml`] writes one.
 //! - [`write_wav`] and [`read_wav`] carry drives, one channel per actuator.
 //! - [`Drawing`] reads the shapes of an SVG document in metres as polylines, [`read_curves`] its curves as curves.
-//! - [`Library`] keeps responses, measured or modelled, as a Zarr v3 folder that survives being killed.
+//! - [`Library`] keeps responses, measured or modelled, as a Zarr v3 folder that survives being killed, and exports them as
+//!   WAV and SOFA.
 //! - [`OutputDir`] gathers what a run writes and puts it in place in one step.
 //!
 //! ```
@@ -26,6 +27,7 @@ mod library;
 mod load;
 mod names;
 mod output;
+mod sofa;
 mod surface;
 mod svg;
 mod wav;
@@ -37,6 +39,7 @@ pub use file::{LARGEST_TEXT, write_file};
 pub use library::{Damage, Library, LibraryPlan, MAY_DIFFER, PointState, Quality, Take};
 pub use load::load_surface;
 pub use output::{Committed, MARKER, OutputDir};
+pub use sofa::SofaAbout;
 pub use surface::{parse_surface, parse_surface_with, to_toml};
 pub use svg::{Curve, Drawing, FillRule, Polyline, SvgShape, read_curves};
 pub use wav::{Wav, decode_wav, read_wav, write_wav};

@@ -18,6 +18,22 @@ pub struct DeviceOptions {
     /// without hardware.
     #[arg(long)]
     pub freewheel: bool,
+    /// Card: the device that plays, as `unripple devices` lists it; by default the system's.
+    #[arg(long, value_name = "ID")]
+    pub card: Option<String>,
+    /// Card: the device that records, of the same card; by default the one that plays.
+    #[arg(long, value_name = "ID")]
+    pub capture_card: Option<String>,
+    /// Card: samples per block.
+    #[arg(long, value_name = "N", default_value_t = 256)]
+    pub card_block: usize,
+    /// Tape: folder of what is to be played, and of what was recorded of it.
+    #[arg(long, value_name = "DIR")]
+    pub tape: Option<PathBuf>,
+    /// Tape: what the channels of a recording hear, in order; by default all actuators, by name, and then the probe. There may
+    /// be a `reference`.
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    pub tape_inputs: Vec<String>,
     /// Virtual: make the true surface another than SURFACE says, by this seed: noise, gains, places, tension, damping, stray
     /// masses.
     #[arg(long, value_name = "SEED")]

@@ -1,10 +1,12 @@
 //! What can be typed. Lengths in mm, times in ms.
 
 mod calibrate;
+mod export;
 mod names;
 
 pub use calibrate::{CalibrateOptions, DeviceOptions};
 use clap::{Args, Parser, Subcommand};
+pub use export::{ExportOptions, FormatName};
 pub use names::{BetweenName, DeviceName, LossName, MethodName, WayName};
 use std::path::PathBuf;
 
@@ -39,6 +41,8 @@ pub enum Command {
     Field(FieldOptions),
     /// Responses measured through a device, as a library that `focus` and `field` take in place of a surface.
     Calibrate(CalibrateOptions),
+    /// A library of responses as WAV files or as one SOFA file.
+    Export(ExportOptions),
     /// All faults of a surface file.
     Check(CheckOptions),
     /// What drives can be played through: virtual surface, files, sound server, cards.

@@ -8,6 +8,10 @@ pub enum DeviceName {
     Virtual,
     /// A JACK server, or PipeWire.
     Jack,
+    /// A sound card without a sound server, in a build with the feature `cards`.
+    Card,
+    /// WAV files: what is to be played is written, what was recorded of it elsewhere is brought back.
+    Tape,
 }
 
 /// How a place is measured.

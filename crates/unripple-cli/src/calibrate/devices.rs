@@ -18,7 +18,9 @@ pub struct Opened {
 /// A failure of the device, or a device that does not fit.
 fn failed(error: DevicesError) -> CliError {
     match error {
-        DevicesError::Jack { .. } | DevicesError::Device(_) => CliError::work(error),
+        DevicesError::Jack { .. } | DevicesError::Card { .. } | DevicesError::Device(_) => {
+            CliError::work(error)
+        }
         error => CliError::input(error),
     }
 }
@@ -27,6 +29,10 @@ pub fn open(options: &DeviceOptions, surface: &Surface) -> Result<Opened, CliErr
     match options.device {
         DeviceName::Virtual => virtual_surface(options, surface),
         DeviceName::Jack => jack(options, surface),
+        DeviceName::Card => card(options, surface),
+        DeviceName::Tape => Err(CliError::Input(
+            "--device tape: expected a device that plays and listens at once, found files".into(),
+        )),
     }
 }
 
@@ -64,6 +70,37 @@ fn jack(options: &DeviceOptions, surface: &Surface) -> Result<Opened, CliError> 
     };
     let device = Jack::open(&known).map_err(failed)?;
     Ok(Opened { rig: Box::new(HandRig::new(device)), truth: None })
+}
+
+/// A sound card, whose first channels are the actuators, and their sensors with the probe after them.
+#[cfg(feature = "cards")]
+fn card(options: &DeviceOptions, surface: &Surface) -> Result<Opened, CliError> {
+    use unripple_devices::cards::{Card, CardOptions};
+    let names: Vec<String> = surface.actuators.iter().map(|actuator| actuator.name.clone()).collect();
+    let known = CardOptions {
+        playback: options.card.clone(),
+        capture: options.capture_card.clone(),
+        inputs: names.iter().cloned().chain([PROBE.to_owned()]).collect(),
+        outputs: names,
+        rate: surface.emission.rate,
+        block: options.card_block,
+        full_scale: surface.emission.limit,
+        ..CardOptions::default()
+    };
+    let device = Card::open(&known).map_err(failed)?;
+    Ok(Opened { rig: Box::new(HandRig::new(device)), truth: None })
+}
+
+/// Says how to get a program that knows cards.
+#[cfg(not(feature = "cards"))]
+fn card(options: &DeviceOptions, _surface: &Surface) -> Result<Opened, CliError> {
+    let named = options.card.as_ref().or(options.capture_card.as_ref());
+    let named = named
+        .map_or_else(String::new, |id| format!(" for `{id}` with {} samples a block", options.card_block));
+    Err(CliError::Input(format!(
+        "--device card: expected a build with sound cards{named}, found one without; {}",
+        crate::devices::HOW_TO_GET_CARDS
+    )))
 }
 
 /// Channels by other names: `a1=system:playback_3`.

@@ -5,8 +5,9 @@ mod points;
 mod report;
 mod rigs;
 mod shelf;
+mod tape;
 
-use crate::args::{CalibrateOptions, WayName};
+use crate::args::{CalibrateOptions, DeviceName, WayName};
 use crate::error::CliError;
 use crate::targets::positive;
 use crate::{input, judge, output};
@@ -42,6 +43,9 @@ pub fn run(options: &CalibrateOptions, as_json: bool) -> Result<(), CliError> {
     let Responses::Modal(model) = judge::model(&surface, None, &[])? else {
         return Err(CliError::Input("expected a surface, found responses at points".into()));
     };
+    if options.device.device == DeviceName::Tape {
+        return tape::run(options, &surface, &settings, &model, as_json);
+    }
     let Opened { mut rig, truth } = devices::open(&options.device, &surface)?;
     let layout = rig.device().layout().clone();
     let wires = Wires::by_name(&model.ports, &layout, &devices::named(&options.wire)?)?;

@@ -1,0 +1,118 @@
+//! What passes between a program and the two threads of a card, one that plays and one that records.
+
+use rtrb::{Consumer, Producer, RingBuffer};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex};
+
+/// What happens to a card, told by its threads.
+#[derive(Debug, Default)]
+pub(super) struct Events {
+    /// Whether it has begun to play: frames are counted from there.
+    pub(super) started: AtomicBool,
+    /// Times that the card itself ran out of samples.
+    pub(super) xruns: AtomicU64,
+    /// Why it is gone, once it is.
+    pub(super) gone: Mutex<Option<String>>,
+}
+
+impl Events {
+    /// Why it is gone.
+    pub(super) fn why_gone(&self) -> Option<String> {
+        self.gone.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).clone()
+    }
+
+    /// Says that it is gone; the first reason stays.
+    pub(super) fn lose(&self, why: String) {
+        self.gone.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).get_or_insert(why);
+    }
+}
+
+/// The side of the thread that plays. It neither waits nor allocates: where drive is late it plays silence.
+pub(super) struct Player {
+    outputs: usize,
+    drive: Consumer<f32>,
+    /// When each frame of drive was played, in frames since the card began, around 2^32.
+    when: Producer<u32>,
+    at: u32,
+    events: Arc<Events>,
+}
+
+/// The side of the thread that records. It neither waits nor allocates: what nobody takes is dropped.
+pub(super) struct Recorder {
+    inputs: usize,
+    heard: Producer<u32>,
+    at: u32,
+    events: Arc<Events>,
+}
+
+/// The side of the program.
+pub(super) struct Shore {
+    pub(super) drive: Producer<f32>,
+    pub(super) when: Consumer<u32>,
+    /// Frames of what is heard, as bits: a sample of each input, and the frame's number since the card began.
+    pub(super) heard: Consumer<u32>,
+}
+
+/// The three sides, with room for so many frames.
+pub(super) fn crossing(
+    outputs: usize,
+    inputs: usize,
+    frames: usize,
+    events: &Arc<Events>,
+) -> (Player, Recorder, Shore) {
+    let (drive, take) = RingBuffer::new(frames * outputs);
+    let (tell, when) = RingBuffer::new(frames);
+    let (give, heard) = RingBuffer::new(frames * (inputs + 1));
+    let player = Player { outputs, drive: take, when: tell, at: 0, events: events.clone() };
+    let recorder = Recorder { inputs, heard: give, at: 0, events: events.clone() };
+    (player, recorder, Shore { drive, when, heard })
+}
+
+impl Player {
+    /// Counts frames from another number, as after a long time.
+    #[cfg(test)]
+    pub(super) fn begin_at(&mut self, at: u32) {
+        self.at = at;
+    }
+
+    /// Plays so many frames: `put` takes a frame's number, an output and its sample.
+    pub(super) fn play(&mut self, frames: usize, mut put: impl FnMut(usize, usize, f32)) {
+        self.events.started.store(true, Ordering::Release);
+        let outputs = self.outputs.max(1);
+        let ready = (self.drive.slots() / outputs).min(self.when.slots()).min(frames);
+        let chunks = (self.drive.read_chunk(ready * outputs), self.when.write_chunk_uninit(ready));
+        let mut played = 0;
+        if let (Ok(drive), Ok(when)) = chunks {
+            drive.into_iter().enumerate().for_each(|(i, x)| put(i / outputs, i % outputs, x));
+            when.fill_from_iter((0..ready as u32).map(|i| self.at.wrapping_add(i)));
+            played = ready;
+        }
+        (played..frames).for_each(|frame| (0..outputs).for_each(|output| put(frame, output, 0.0)));
+        self.at = self.at.wrapping_add(frames as u32);
+    }
+}
+
+impl Recorder {
+    /// As [`Player::begin_at`].
+    #[cfg(test)]
+    pub(super) fn begin_at(&mut self, at: u32) {
+        self.at = at;
+    }
+
+    /// Hears so many frames: `get` gives the sample of a frame and an input. Before anything is played none counts.
+    pub(super) fn hear(&mut self, frames: usize, get: impl Fn(usize, usize) -> f32) {
+        if !self.events.started.load(Ordering::Acquire) {
+            return;
+        }
+        let (inputs, width) = (self.inputs, self.inputs + 1);
+        let room = (self.heard.slots() / width).min(frames);
+        if let Ok(chunk) = self.heard.write_chunk_uninit(room * width) {
+            let at = self.at;
+            chunk.fill_from_iter((0..room * width).map(|i| match (i / width, i % width) {
+                (frame, input) if input == inputs => at.wrapping_add(frame as u32),
+                (frame, input) => get(frame, input).to_bits(),
+            }));
+        }
+        self.at = self.at.wrapping_add(frames as u32);
+    }
+}

@@ -1,0 +1,150 @@
+use super::crossing::{Events, crossing};
+use super::ferry::{Ferry, Manners};
+use super::streams::{self, Side};
+use crate::DevicesError;
+use crate::error::{check, same};
+use cpal::traits::StreamTrait;
+use std::sync::Arc;
+use std::time::Duration;
+use unripple_core::{Device, DeviceError, Layout, Status};
+
+/// Frames that the rings hold at least, should the card take many at once.
+const ROOM: usize = 16_384;
+
+/// How to open a sound card.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CardOptions {
+    /// The device that plays, as [`found`](super::found) calls it; the system's own choice where `None`.
+    pub playback: Option<String>,
+    /// The device that records; the one that plays where `None`. Both have to be of one card: two have two clocks.
+    pub capture: Option<String>,
+    /// Names of the outputs: actuators, on the card's first channels in order.
+    pub outputs: Vec<String>,
+    /// Names of the inputs: sensors, probe, on the card's first channels in order.
+    pub inputs: Vec<String>,
+    /// Samples per second.
+    pub rate: f64,
+    /// Samples per block.
+    pub block: usize,
+    /// Drive, in the actuators' unit, of a sample of 1.
+    pub full_scale: f64,
+    /// Blocks that drive is ahead of the card: so many blocks a program may be late, and so many more all latencies are.
+    pub lead: usize,
+    /// How long to wait for a block before the card counts as stalled, in s.
+    pub patience: f64,
+    /// Whether a card that itself ran out of samples is lost. Its latency is another then, which matters when measuring.
+    pub strict: bool,
+}
+
+impl Default for CardOptions {
+    fn default() -> Self {
+        Self {
+            playback: None,
+            capture: None,
+            outputs: Vec::new(),
+            inputs: Vec::new(),
+            rate: 48e3,
+            block: 256,
+            full_scale: 1.0,
+            lead: 4,
+            patience: 3.0,
+            strict: true,
+        }
+    }
+}
+
+/// A sound card as a device, playing and recording at once.
+///
+/// The card's threads neither wait nor allocate: where drive is late silence is played, and what nobody takes is dropped.
+/// What was missed, a pause between exchanges included, is in [`Status::lost`] as soon as the first block after it is heard, and
+/// latency is the same after it as before. So let some blocks of silence pass before a measurement, and hold `lost` after
+/// them against `lost` at its end.
+///
+/// ```no_run
+/// use unripple_core::Device;
+/// use unripple_devices::cards::{Card, CardOptions};
+///
+/// let names = vec!["a1".to_owned(), "a2".to_owned()];
+/// let options = CardOptions { outputs: names.clone(), inputs: names, ..Default::default() };
+/// let mut device = Card::open(&options)?;
+/// let block = device.layout().block;
+/// device.exchange(&vec![0.0; 2 * block], &mut vec![0.0; 2 * block])?;
+/// # Ok::<(), unripple_devices::DevicesError>(())
+/// ```
+pub struct Card {
+    ferry: Ferry,
+    /// Playing and recording while they are there.
+    _streams: Vec<cpal::Stream>,
+}
+
+impl std::fmt::Debug for Card {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        let (layout, status) = (self.ferry.layout(), self.ferry.status());
+        f.debug_struct("Card").field("layout", layout).field("status", &status).finish_non_exhaustive()
+    }
+}
+
+impl Card {
+    /// Opens a card, playing silence.
+    ///
+    /// # Errors
+    /// [`DevicesError::Card`] if there is none by that name, or it refuses the rate or the format of samples;
+    /// [`DevicesError::Channels`] if it has fewer channels than asked for; [`DevicesError::Range`] and [`DevicesError::Size`] for
+    /// options that cannot be.
+    pub fn open(options: &CardOptions) -> Result<Self, DevicesError> {
+        let (block, lead) = (options.block as f64, options.lead as f64);
+        check("samples of a block", block, (1.0..=65_536.0).contains(&block), "1 to 65536")?;
+        check("blocks of lead", lead, (1.0..=1000.0).contains(&lead), "1 to 1000")?;
+        let legal = (1e-3..=3600.0).contains(&options.patience);
+        check("patience with a card in s", options.patience, legal, "0.001 to 3600")?;
+        let (scale, rate) = (options.full_scale, options.rate);
+        check("full scale of the drive", scale, scale > 0.0, "a positive number")?;
+        let whole = rate.fract() == 0.0 && (1.0..=1e6).contains(&rate);
+        check("samples per second of a card", rate, whole, "a whole number, 1 to 1000000")?;
+        same("outputs of a card", options.outputs.len().min(1), 1)?;
+
+        let events = Arc::new(Events::default());
+        let room = ((options.lead + 2) * options.block).max(ROOM);
+        let (outputs, inputs) = (options.outputs.len(), options.inputs.len());
+        let (player, recorder, shore) = crossing(outputs, inputs, room, &events);
+        let playback = streams::find(options.playback.as_deref(), Side::Playback)?;
+        let play = streams::config(&playback, Side::Playback, outputs, rate as u32, options.block)?;
+        let name = streams::name(&playback);
+        let mut opened = Vec::new();
+        if inputs > 0 {
+            let named = options.capture.as_deref().or(options.playback.as_deref());
+            let capture = streams::find(named, Side::Capture)?;
+            let hear = streams::config(&capture, Side::Capture, inputs, rate as u32, options.block)?;
+            opened.push(streams::capture(&capture, hear, recorder, &events)?);
+        }
+        opened.push(streams::playback(&playback, play, player, &events)?);
+        for stream in &opened {
+            stream.play().map_err(|error| streams::refused(&name, &error))?;
+        }
+        let layout = Layout {
+            device: name,
+            rate,
+            block: options.block,
+            outputs: options.outputs.clone(),
+            inputs: options.inputs.clone(),
+            full_scale: scale,
+        };
+        let patience = Duration::from_secs_f64(options.patience);
+        let manners = Manners { lead: options.lead as u64, patience, strict: options.strict };
+        Ok(Self { ferry: Ferry::new(layout, shore, events, manners), _streams: opened })
+    }
+}
+
+impl Device for Card {
+    fn layout(&self) -> &Layout {
+        self.ferry.layout()
+    }
+
+    fn status(&self) -> Status {
+        self.ferry.status()
+    }
+
+    fn exchange(&mut self, drive: &[f32], heard: &mut [f32]) -> Result<(), DeviceError> {
+        self.ferry.exchange(drive, heard)
+    }
+}

@@ -1,0 +1,201 @@
+//! A card as the program sees it, whatever plays and records behind it.
+
+use super::crossing::{Events, Shore};
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
+use unripple_core::{Device, DeviceError, Layout, State, Status};
+
+/// How a card is waited for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Manners {
+    /// Blocks that drive is ahead.
+    pub(super) lead: u64,
+    /// How long to wait for a block.
+    pub(super) patience: Duration,
+    /// Whether a card that ran out of samples is lost, since its latency is no longer what it was.
+    pub(super) strict: bool,
+}
+
+/// Exchanges blocks with a card's two threads.
+///
+/// Frame `i` of drive is answered by the frame that was recorded when it was handed to the card, so that latency stays the same
+/// whatever was missed in between: silence that was played for want of drive, or sound that nobody took.
+pub(super) struct Ferry {
+    layout: Layout,
+    shore: Shore,
+    events: Arc<Events>,
+    manners: Manners,
+    driven: u64,
+    /// Blocks whose answer was not there in time.
+    owed: u64,
+    /// Of the block that is being heard: its frames so far, when its next frame was played, frames missed.
+    frames: Vec<f32>,
+    next: Option<u32>,
+    missed: u64,
+    last: Option<u32>,
+    xruns: u64,
+    sent: Vec<f32>,
+    status: Status,
+}
+
+impl Ferry {
+    pub(super) fn new(layout: Layout, shore: Shore, events: Arc<Events>, manners: Manners) -> Self {
+        let (block, outputs, inputs) = (layout.block, layout.outputs.len(), layout.inputs.len());
+        Self {
+            frames: Vec::with_capacity(block * inputs),
+            sent: Vec::with_capacity(block * outputs),
+            layout,
+            shore,
+            events,
+            manners,
+            driven: 0,
+            owed: 0,
+            next: None,
+            missed: 0,
+            last: None,
+            xruns: 0,
+            status: Status::default(),
+        }
+    }
+
+    fn stall(&mut self, why: String) -> DeviceError {
+        self.status.state = State::Stalled(why.clone());
+        DeviceError::Stalled { device: self.layout.device.clone(), why }
+    }
+
+    fn lose(&mut self, why: String) -> DeviceError {
+        self.status.state = State::Lost(why.clone());
+        DeviceError::Lost { device: self.layout.device.clone(), why }
+    }
+
+    fn push(&mut self, drive: &[f32]) -> Result<(), DeviceError> {
+        let (block, outputs) = (self.layout.block, self.layout.outputs.len());
+        self.sent.clear();
+        for frame in 0..block {
+            self.sent.extend((0..outputs).map(|output| drive[output * block + frame]));
+        }
+        match self.shore.drive.write_chunk_uninit(self.sent.len()) {
+            Ok(chunk) => {
+                chunk.fill_from_iter(self.sent.iter().copied());
+                Ok(())
+            }
+            Err(_) => Err(self.stall("the card takes no drive".into())),
+        }
+    }
+
+    /// Waits a little, unless the card is gone or was waited for long enough.
+    fn nap(&mut self, since: Instant) -> Result<(), DeviceError> {
+        if let Some(why) = self.events.why_gone() {
+            return Err(self.lose(why));
+        }
+        if since.elapsed() > self.manners.patience {
+            let time = self.manners.patience.as_secs_f64();
+            return Err(self.stall(format!("no samples for {time} s")));
+        }
+        std::thread::sleep(Duration::from_micros(100));
+        Ok(())
+    }
+
+    /// Waits for one block and takes it. If that takes too long, what there is of it is kept for the next time.
+    fn pop(&mut self, heard: &mut [f32]) -> Result<(), DeviceError> {
+        let (block, inputs) = (self.layout.block, self.layout.inputs.len());
+        let since = Instant::now();
+        while self.frames.len() < block * inputs.max(1) {
+            let Some(played) = self.next.or_else(|| self.shore.when.pop().ok()) else {
+                self.nap(since)?;
+                continue;
+            };
+            if self.next.is_none() {
+                let gap = self.last.map_or(0, |last| played.wrapping_sub(last).wrapping_sub(1));
+                self.missed += u64::from(gap);
+                (self.next, self.last) = (Some(played), Some(played));
+            }
+            while !self.frame(played) {
+                self.nap(since)?;
+            }
+            self.next = None;
+        }
+        for (input, plane) in heard.chunks_exact_mut(block).enumerate() {
+            let samples = self.frames.iter().skip(input).step_by(inputs);
+            plane.iter_mut().zip(samples).for_each(|(to, x)| *to = *x);
+        }
+        self.frames.clear();
+        self.status.lost += self.missed.div_ceil(block as u64);
+        self.missed = 0;
+        Ok(())
+    }
+
+    /// Takes the frame recorded at some time, if it is there; `false` to wait for it.
+    fn frame(&mut self, played: u32) -> bool {
+        let inputs = self.layout.inputs.len();
+        if inputs == 0 {
+            self.frames.push(0.0);
+            return true;
+        }
+        loop {
+            let Ok(chunk) = self.shore.heard.read_chunk(inputs + 1) else { return false };
+            let (first, second) = chunk.as_slices();
+            let bits = || first.iter().chain(second).copied();
+            let ahead = bits().next_back().unwrap_or_default().wrapping_sub(played) as i32;
+            if ahead > 0 {
+                // It was dropped; this one is for a later frame.
+                self.frames.extend(std::iter::repeat_n(0.0, inputs));
+                self.missed += 1;
+                return true;
+            }
+            if ahead == 0 {
+                self.frames.extend(bits().take(inputs).map(f32::from_bits));
+            }
+            chunk.commit_all();
+            if ahead == 0 {
+                return true;
+            }
+        }
+    }
+}
+
+impl Device for Ferry {
+    fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    fn status(&self) -> Status {
+        let mut status = self.status.clone();
+        if let Some(why) = self.events.why_gone() {
+            status.state = State::Lost(why);
+        }
+        status
+    }
+
+    fn exchange(&mut self, drive: &[f32], heard: &mut [f32]) -> Result<(), DeviceError> {
+        self.layout.fits(drive.len(), heard.len())?;
+        let xruns = self.events.xruns.load(Ordering::Relaxed);
+        let more = xruns - self.xruns;
+        (self.xruns, self.status.lost) = (xruns, self.status.lost + more);
+        if more > 0 && self.manners.strict && self.driven > 0 {
+            let why = "the card ran out of samples, and its latency is no longer what it was; open it again, with \
+                       larger blocks if that happens often";
+            self.events.lose(why.into());
+        }
+        if let Some(why) = self.events.why_gone() {
+            return Err(self.lose(why));
+        }
+        // Answers that came too late once are thrown away, so that latency stays what it is.
+        while self.owed > 0 {
+            self.pop(heard)?;
+            self.owed -= 1;
+        }
+        self.push(drive)?;
+        self.driven += 1;
+        if self.driven <= self.manners.lead {
+            heard.fill(0.0);
+        } else if let Err(error) = self.pop(heard) {
+            self.owed += 1;
+            return Err(error);
+        }
+        self.status.blocks += 1;
+        self.status.state = State::Running;
+        Ok(())
+    }
+}

@@ -1,0 +1,66 @@
+use super::streams::{Side, name};
+use cpal::traits::{DeviceTrait, HostTrait};
+
+/// A device of the sound system.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CardFound {
+    /// What [`CardOptions`](super::CardOptions) call it.
+    pub id: String,
+    /// What people call it.
+    pub name: String,
+    /// What it can play; `None` if it cannot.
+    pub playback: Option<Offer>,
+    /// What it can record; `None` if it cannot.
+    pub capture: Option<Offer>,
+}
+
+/// What a device offers in one direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Offer {
+    /// Fewest and most channels.
+    pub channels: [usize; 2],
+    /// Lowest and highest rate, in Hz.
+    pub rates: [f64; 2],
+    /// Smallest and largest block, in samples, where the system tells.
+    pub blocks: Option<[usize; 2]>,
+}
+
+/// The devices of the sound system that can play or record; some may be ways to the same card.
+///
+/// ```
+/// for card in unripple_devices::cards::found() {
+///     assert!(card.playback.is_some() || card.capture.is_some());
+/// }
+/// ```
+pub fn found() -> Vec<CardFound> {
+    let devices = cpal::default_host().devices().into_iter().flatten();
+    let card = |device: cpal::Device| {
+        let id = name(&device);
+        let told = device.description().map(|said| said.name().to_owned());
+        let [playback, capture] = [Side::Playback, Side::Capture].map(|side| offer(side, &device));
+        CardFound { name: told.unwrap_or_else(|_| id.clone()), id, playback, capture }
+    };
+    devices.map(card).filter(|card| card.playback.is_some() || card.capture.is_some()).collect()
+}
+
+fn offer(side: Side, device: &cpal::Device) -> Option<Offer> {
+    let offers = side.offers(device);
+    let span = |values: &mut dyn Iterator<Item = f64>| {
+        values.fold([f64::INFINITY, 0.0], |[low, high], x| [x.min(low), x.max(high)])
+    };
+    let channels = span(&mut offers.iter().map(|offer| f64::from(offer.channels())));
+    let rates = offers.iter().flat_map(|offer| [offer.min_sample_rate(), offer.max_sample_rate()]);
+    let rates = span(&mut rates.map(f64::from));
+    let blocks: Vec<[u32; 2]> = offers
+        .iter()
+        .filter_map(|offer| match *offer.buffer_size() {
+            cpal::SupportedBufferSize::Range { min, max } => Some([min, max]),
+            cpal::SupportedBufferSize::Unknown => None,
+        })
+        .collect();
+    let blocks = match blocks.is_empty() {
+        true => None,
+        false => Some(span(&mut blocks.iter().flatten().map(|x| f64::from(*x))).map(|x| x as usize)),
+    };
+    (!offers.is_empty()).then(|| Offer { channels: channels.map(|x| x as usize), rates, blocks })
+}

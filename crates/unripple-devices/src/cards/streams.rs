@@ -1,0 +1,183 @@
+//! A card's two streams, as `cpal` has them.
+
+use super::crossing::{Events, Player, Recorder};
+use crate::DevicesError;
+use cpal::traits::{DeviceTrait, HostTrait};
+use cpal::{BufferSize, Error, ErrorKind, FromSample, Sample, SampleFormat, SizedSample, StreamConfig};
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+/// Formats of samples that are understood, the best first.
+const FORMATS: [SampleFormat; 3] = [SampleFormat::F32, SampleFormat::I32, SampleFormat::I16];
+
+/// Which way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    Playback,
+    Capture,
+}
+
+impl Side {
+    fn channels(self) -> &'static str {
+        match self {
+            Self::Playback => "output channels",
+            Self::Capture => "input channels",
+        }
+    }
+
+    /// What a device offers this way.
+    pub(super) fn offers(self, device: &cpal::Device) -> Vec<cpal::SupportedStreamConfigRange> {
+        match self {
+            Self::Playback => device.supported_output_configs().map(Iterator::collect),
+            Self::Capture => device.supported_input_configs().map(Iterator::collect),
+        }
+        .unwrap_or_default()
+    }
+}
+
+/// What a device is called.
+pub(super) fn name(device: &cpal::Device) -> String {
+    device.id().map_or_else(|_| "card".into(), |id| id.id().to_owned())
+}
+
+/// The device of a name, with or without its host's before it, or the system's choice.
+pub(super) fn find(named: Option<&str>, side: Side) -> Result<cpal::Device, DevicesError> {
+    let host = cpal::default_host();
+    let found = match (named, side) {
+        (Some(text), _) => {
+            let id = text.parse().unwrap_or_else(|_| cpal::DeviceId::new(host.id(), text));
+            host.device_by_id(&id)
+        }
+        (None, Side::Playback) => host.default_output_device(),
+        (None, Side::Capture) => host.default_input_device(),
+    };
+    found.ok_or_else(|| {
+        let known = super::found().into_iter().map(|card| card.id).collect::<Vec<_>>().join(", ");
+        DevicesError::Card {
+            what: named.map_or_else(|| "there is none".into(), |text| format!("there is no `{text}`")),
+            fix: if known.is_empty() { "plug one in".into() } else { format!("there are: {known}") },
+        }
+    })
+}
+
+/// The format in which a device is to be opened: of those with enough channels at that rate, the one with fewest.
+pub(super) fn config(
+    device: &cpal::Device,
+    side: Side,
+    channels: usize,
+    rate: u32,
+    block: usize,
+) -> Result<(StreamConfig, SampleFormat), DevicesError> {
+    let (offers, name) = (side.offers(device), name(device));
+    let most = offers.iter().map(|offer| usize::from(offer.channels())).max().unwrap_or(0);
+    if most < channels {
+        let fix =
+            "choose a card with more (`unripple devices` lists them), or a surface with fewer actuators";
+        let (what, expected) = (side.channels(), channels);
+        return Err(DevicesError::Channels { device: name, what, expected, found: most, fix: fix.into() });
+    }
+    let refuse = |what: String, fix: &str| Err(DevicesError::Card { what, fix: fix.into() });
+    let wide = offers.iter().filter(|offer| usize::from(offer.channels()) >= channels);
+    let at_rate: Vec<_> = wide.filter(|offer| offer.contains_rate(rate)).collect();
+    if at_rate.is_empty() {
+        let what = format!("`{name}` has no {rate} Hz with {channels} {}", side.channels());
+        return refuse(what, "use a surface file with a `sample_rate_hz` that the card has");
+    }
+    let rank = |format: SampleFormat| FORMATS.iter().position(|known| *known == format);
+    let known =
+        at_rate.iter().filter_map(|offer| Some((rank(offer.sample_format())?, offer.channels(), *offer)));
+    let Some((_, _, offer)) = known.min_by_key(|(rank, channels, _)| (*channels, *rank)) else {
+        return refuse(
+            format!("`{name}` has none of the formats float32, int32, int16"),
+            "name its `plughw:` device, which converts",
+        );
+    };
+    let fits = match *offer.buffer_size() {
+        cpal::SupportedBufferSize::Range { min, max } => (min..=max).contains(&(block as u32)),
+        cpal::SupportedBufferSize::Unknown => false,
+    };
+    let buffer_size = if fits { BufferSize::Fixed(block as u32) } else { BufferSize::Default };
+    let config = StreamConfig { channels: offer.channels(), sample_rate: rate, buffer_size };
+    Ok((config, offer.sample_format()))
+}
+
+/// An error of the card's.
+pub(super) fn refused(name: &str, error: &Error) -> DevicesError {
+    let fix = match error.kind() {
+        ErrorKind::DeviceBusy => "another program has it: close that one, or go through JACK or PipeWire",
+        ErrorKind::PermissionDenied => "add yourself to the group `audio`",
+        _ => "try its `plughw:` device, or JACK or PipeWire",
+    };
+    DevicesError::Card { what: format!("`{name}`: {error}"), fix: fix.into() }
+}
+
+/// What becomes of an error while the card runs.
+fn told(events: &Events, error: &Error) {
+    match error.kind() {
+        ErrorKind::Xrun => {
+            events.xruns.fetch_add(1, Ordering::Relaxed);
+        }
+        ErrorKind::RealtimeDenied | ErrorKind::DeviceChanged => {}
+        _ => events.lose(error.to_string()),
+    }
+}
+
+/// A stream that plays.
+pub(super) fn playback(
+    device: &cpal::Device,
+    (config, format): (StreamConfig, SampleFormat),
+    player: Player,
+    events: &Arc<Events>,
+) -> Result<cpal::Stream, DevicesError> {
+    match format {
+        SampleFormat::I32 => playback_as::<i32>(device, config, player, events),
+        SampleFormat::I16 => playback_as::<i16>(device, config, player, events),
+        _ => playback_as::<f32>(device, config, player, events),
+    }
+    .map_err(|error| refused(&name(device), &error))
+}
+
+fn playback_as<T: SizedSample + FromSample<f32>>(
+    device: &cpal::Device,
+    config: StreamConfig,
+    mut player: Player,
+    events: &Arc<Events>,
+) -> Result<cpal::Stream, Error> {
+    let (width, events) = (usize::from(config.channels).max(1), events.clone());
+    let play = move |data: &mut [T], _: &cpal::OutputCallbackInfo| {
+        data.fill(T::EQUILIBRIUM);
+        player.play(data.len() / width, |frame, output, x| data[frame * width + output] = T::from_sample(x));
+    };
+    device.build_output_stream(config, play, move |error| told(&events, &error), None)
+}
+
+/// A stream that records.
+pub(super) fn capture(
+    device: &cpal::Device,
+    (config, format): (StreamConfig, SampleFormat),
+    recorder: Recorder,
+    events: &Arc<Events>,
+) -> Result<cpal::Stream, DevicesError> {
+    match format {
+        SampleFormat::I32 => capture_as::<i32>(device, config, recorder, events),
+        SampleFormat::I16 => capture_as::<i16>(device, config, recorder, events),
+        _ => capture_as::<f32>(device, config, recorder, events),
+    }
+    .map_err(|error| refused(&name(device), &error))
+}
+
+fn capture_as<T: SizedSample>(
+    device: &cpal::Device,
+    config: StreamConfig,
+    mut recorder: Recorder,
+    events: &Arc<Events>,
+) -> Result<cpal::Stream, Error>
+where
+    f32: FromSample<T>,
+{
+    let (width, events) = (usize::from(config.channels).max(1), events.clone());
+    let hear = move |data: &[T], _: &cpal::InputCallbackInfo| {
+        recorder.hear(data.len() / width, |frame, input| f32::from_sample(data[frame * width + input]));
+    };
+    device.build_input_stream(config, hear, move |error| told(&events, &error), None)
+}
