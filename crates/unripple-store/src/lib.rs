@@ -9,6 +9,7 @@
 //! - [`Drawing`] reads the shapes of an SVG document in metres as polylines, [`read_curves`] its curves as curves.
 //! - [`Library`] keeps responses, measured or modelled, as a Zarr v3 folder that survives being killed, and exports them as
 //!   WAV and SOFA.
+//! - [`load_effects`] reads built-in effects, a file of effects, or one for phones; [`effects_to_toml`] writes one.
 //! - [`OutputDir`] gathers what a run writes and puts it in place in one step.
 //!
 //! ```
@@ -20,6 +21,7 @@
 mod builtin;
 mod decimal;
 mod degrees;
+mod effects;
 mod error;
 mod fault;
 mod file;
@@ -33,6 +35,10 @@ mod svg;
 mod wav;
 
 pub use builtin::{BUILTINS, Builtin};
+pub use effects::{
+    BuiltinEffects, EFFECTS_SCHEMA, builtin_effect, builtin_effects, effects_to_toml, import_haptic,
+    load_effects, parse_effects,
+};
 pub use error::StoreError;
 pub use fault::{Fault, SurfaceFaults};
 pub use file::{LARGEST_TEXT, write_file};

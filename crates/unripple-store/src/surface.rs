@@ -14,8 +14,8 @@ mod piezo;
 mod place;
 mod polygon;
 mod profile;
-mod range;
-mod reader;
+pub(crate) mod range;
+pub(crate) mod reader;
 mod ring;
 mod scatterer;
 mod sheet;
@@ -193,7 +193,7 @@ fn thickness_at(sheet: &Sheet, ground: &Ground, at: Point) -> f64 {
 }
 
 /// What to call a surface whose file does not say.
-fn stem(file: &str) -> String {
+pub(crate) fn stem(file: &str) -> String {
     let stem = std::path::Path::new(file).file_stem().map(|s| s.to_string_lossy().into_owned());
     stem.map(|s| s.chars().filter(|c| !c.is_control()).take(50).collect::<String>().trim().to_owned())
         .filter(|s| !s.is_empty())

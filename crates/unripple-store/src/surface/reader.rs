@@ -10,7 +10,7 @@ use toml::de::{DeTable, DeValue};
 const LONGEST_QUOTE: usize = 40;
 
 /// The faults found so far in one text.
-pub(super) struct Faults<'t> {
+pub(crate) struct Faults<'t> {
     text: &'t str,
     list: Vec<Fault>,
 }
@@ -48,7 +48,7 @@ impl<'t> Faults<'t> {
 }
 
 /// A piece of a file short enough for a message, on one line.
-pub(super) fn clip(text: &str) -> String {
+pub(crate) fn clip(text: &str) -> String {
     let line: String = text.split_whitespace().collect::<Vec<_>>().join(" ");
     match line.char_indices().nth(LONGEST_QUOTE) {
         Some((at, _)) => format!("{}…", &line[..at]),
@@ -58,7 +58,7 @@ pub(super) fn clip(text: &str) -> String {
 
 /// A value of the file, with its key path and place.
 #[derive(Clone)]
-pub(super) struct Entry<'a> {
+pub(crate) struct Entry<'a> {
     pub key: String,
     pub span: Range<usize>,
     value: &'a DeValue<'a>,
@@ -175,7 +175,7 @@ impl<'a> Entry<'a> {
 }
 
 /// A table of the file, with its key path and place.
-pub(super) struct Section<'a> {
+pub(crate) struct Section<'a> {
     pub key: String,
     pub span: Range<usize>,
     table: &'a DeTable<'a>,

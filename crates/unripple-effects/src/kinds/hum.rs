@@ -1,0 +1,115 @@
+use crate::error::within;
+use crate::play::{Maker, Moment, Out, Play, Sounding};
+use crate::{Act, Curve, EffectsError, Envelope, Wave, limits};
+
+/// Least change of the gain that is told, as a share of full gain.
+const CHANGE: f64 = 0.02;
+
+/// A waveform at the finger while it is there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hum {
+    /// The waveform.
+    pub tone: Tone,
+    /// Gain over speed in m/s.
+    pub speed_gain: Curve,
+    /// Time over which it rises and falls, in s.
+    pub fade: f64,
+}
+
+/// A waveform of some length.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Tone {
+    /// A sine of a frequency in Hz, without end.
+    Sine(f64),
+    /// An envelope, once.
+    Once(Envelope),
+    /// An envelope, over and over.
+    Looped(Envelope),
+}
+
+impl Tone {
+    fn envelope(&self) -> Result<Envelope, EffectsError> {
+        match self {
+            Self::Sine(frequency) => Envelope::sine(*frequency),
+            Self::Once(envelope) | Self::Looped(envelope) => Ok(envelope.clone()),
+        }
+    }
+
+    fn wave(&self, rate: f64) -> Result<Wave, EffectsError> {
+        let envelope = self.envelope()?;
+        if self.is_looped() { envelope.looped(rate) } else { envelope.sampled(rate) }
+    }
+
+    fn is_looped(&self) -> bool {
+        !matches!(self, Self::Once(_))
+    }
+}
+
+impl Hum {
+    pub(super) fn check(&self) -> Result<(), EffectsError> {
+        within("fade of a hum", self.fade, limits::FADE)?;
+        self.tone.envelope().map(|_| ())
+    }
+
+    pub(super) fn sounding(&self) -> f64 {
+        self.tone.envelope().map_or(0.0, |envelope| envelope.duration())
+    }
+
+    pub(super) fn maker(&self, rate: f64) -> Result<Maker, EffectsError> {
+        let (hum, wave) = (self.clone(), self.tone.wave(rate)?);
+        Ok(Box::new(move |_| Box::new(Humming { hum: hum.clone(), wave: wave.clone(), on: None })))
+    }
+}
+
+struct Humming {
+    hum: Hum,
+    wave: Wave,
+    /// The finger when last heard of, and the gain told last.
+    on: Option<(Moment, f64)>,
+}
+
+impl Humming {
+    fn follow(&mut self, at: f64, speed: f64, out: &mut Out) {
+        let Some((_, told)) = &mut self.on else { return };
+        let gain = self.hum.speed_gain.at(speed);
+        if (gain - *told).abs() > CHANGE || (gain == 0.0 && *told != 0.0) {
+            *told = gain;
+            let gain = out.level.scaled(gain);
+            out.push(0, at, Act::Gain { gain });
+        }
+    }
+}
+
+impl Play for Humming {
+    fn enter(&mut self, now: &Moment, _touched: bool, out: &mut Out) {
+        let gain = self.hum.speed_gain.at(now.speed_at(now.time));
+        let (wave, looped) = (self.wave.clone(), self.hum.tone.is_looped());
+        out.wave(0, now.time, now.at, Sounding { wave, gain, looped, fade: self.hum.fade });
+        self.on = Some((*now, gain));
+    }
+
+    fn step(&mut self, from: &Moment, to: &Moment, out: &mut Out) {
+        if from.at != to.at {
+            out.push(0, to.time, Act::Move { place: to.at });
+        }
+        self.follow(to.time, to.speed_at(to.time), out);
+        if let Some((last, _)) = &mut self.on {
+            *last = *to;
+        }
+    }
+
+    fn leave(&mut self, now: &Moment, out: &mut Out) {
+        if self.on.take().is_some() {
+            out.stop(0, now.time, self.hum.fade);
+        }
+    }
+
+    fn due(&mut self, until: f64, out: &mut Out) {
+        let Some((last, _)) = self.on else { return };
+        // A finger that rests sends no news.
+        let rest = last.time + limits::HOLD;
+        if until > rest {
+            self.follow(rest, 0.0, out);
+        }
+    }
+}

@@ -1,0 +1,71 @@
+use crate::error::{place, within};
+use crate::play::{Maker, Moment, Out, Play};
+use crate::region::lerp;
+use crate::{EffectsError, limits};
+use unripple_core::Point;
+
+/// Detents along an axis, as of a ruler or a rotary switch laid flat: a pulse whenever the finger comes to the next one.
+///
+/// Detents lie whole pitches from the origin. The finger comes to the next one midway to it, and a little later: by the
+/// hysteresis, so that it does not rattle midway.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Notch {
+    /// Distance between detents, in m.
+    pub pitch: f64,
+    /// Direction of the axis, in rad anticlockwise from x.
+    pub axis: f64,
+    /// A place where a detent lies.
+    pub origin: Point,
+    /// How far beyond the middle the next one begins, as a share of the pitch.
+    pub hysteresis: f64,
+}
+
+impl Notch {
+    pub(super) fn check(&self) -> Result<(), EffectsError> {
+        within("pitch of notches", self.pitch, limits::PITCH)?;
+        within("axis of notches", self.axis, limits::ANGLE)?;
+        within("hysteresis of notches", self.hysteresis, limits::HYSTERESIS)?;
+        place("origin of notches", self.origin)
+    }
+
+    pub(super) fn maker(&self) -> Maker {
+        let notch = *self;
+        Box::new(move |_| Box::new(Sliding { notch, on: 0.0 }))
+    }
+
+    /// Pitches from the origin, along the axis.
+    fn along(&self, p: Point) -> f64 {
+        let (sin, cos) = self.axis.sin_cos();
+        ((p.x - self.origin.x) * cos + (p.y - self.origin.y) * sin) / self.pitch
+    }
+}
+
+struct Sliding {
+    notch: Notch,
+    /// The detent that the finger is in, a whole number.
+    on: f64,
+}
+
+impl Play for Sliding {
+    fn enter(&mut self, now: &Moment, _touched: bool, _out: &mut Out) {
+        self.on = self.notch.along(now.at).round();
+    }
+
+    fn step(&mut self, from: &Moment, to: &Moment, out: &mut Out) {
+        let (start, end) = (self.notch.along(from.at), self.notch.along(to.at));
+        let reach = 0.5 + self.notch.hysteresis;
+        for _ in 0..limits::MOST_IN_STEP {
+            let way = if end > self.on + reach {
+                1.0
+            } else if end < self.on - reach {
+                -1.0
+            } else {
+                return;
+            };
+            let share = ((self.on + way * reach - start) / (end - start)).clamp(0.0, 1.0);
+            self.on += way;
+            out.pulse(from.time + share * (to.time - from.time), lerp(from.at, to.at, share), 1.0);
+        }
+        self.on = end.round();
+    }
+}

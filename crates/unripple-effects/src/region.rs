@@ -1,0 +1,125 @@
+use crate::error::{counted, place, within};
+use crate::{EffectsError, limits};
+use unripple_core::Point;
+
+/// Where an effect holds.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Region {
+    /// The whole sheet.
+    Everywhere,
+    /// A rectangle along the axes.
+    Rectangle {
+        /// Its lower-left corner.
+        corner: Point,
+        /// Along x, in m.
+        width: f64,
+        /// Along y, in m.
+        height: f64,
+    },
+    /// A disc.
+    Circle {
+        /// Its centre.
+        centre: Point,
+        /// Its radius, in m.
+        radius: f64,
+    },
+    /// What the corners enclose, either way round; where sides cross, what is enclosed an odd number of times.
+    Polygon(Vec<Point>),
+}
+
+impl Region {
+    /// Whether a place lies in it.
+    ///
+    /// ```
+    /// use unripple_core::Point;
+    /// use unripple_effects::Region;
+    ///
+    /// let disc = Region::Circle { centre: Point::from_mm(50.0, 50.0), radius: 0.01 };
+    /// assert!(disc.contains(Point::from_mm(55.0, 50.0)) && !disc.contains(Point::from_mm(61.0, 50.0)));
+    /// ```
+    pub fn contains(&self, p: Point) -> bool {
+        match self {
+            Self::Everywhere => true,
+            Self::Rectangle { corner, width, height } => {
+                (0.0..=*width).contains(&(p.x - corner.x)) && (0.0..=*height).contains(&(p.y - corner.y))
+            }
+            Self::Circle { centre, radius } => p.distance(*centre) <= *radius,
+            Self::Polygon(corners) => {
+                let next = corners.iter().cycle().skip(1);
+                let crossed = |(a, b): &(&Point, &Point)| {
+                    (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) * (b.x - a.x) / (b.y - a.y)
+                };
+                corners.iter().zip(next).filter(crossed).count() % 2 == 1
+            }
+        }
+    }
+
+    /// Where the way from one place to another crosses the border, as shares of the way, ascending.
+    pub fn crossings(&self, from: Point, to: Point) -> Vec<f64> {
+        let mut found: Vec<f64> = match self {
+            Self::Everywhere => Vec::new(),
+            Self::Rectangle { corner: c, width, height } => {
+                let (x, y) = (c.x + width, c.y + height);
+                let corners = [*c, Point::new(x, c.y), Point::new(x, y), Point::new(c.x, y)];
+                ring(&corners, from, to)
+            }
+            Self::Circle { centre, radius } => circle(*centre, *radius, from, to),
+            Self::Polygon(corners) => ring(corners, from, to),
+        };
+        found.sort_by(f64::total_cmp);
+        found
+    }
+
+    pub(crate) fn check(&self) -> Result<(), EffectsError> {
+        match self {
+            Self::Everywhere => Ok(()),
+            Self::Rectangle { corner, width, height } => {
+                place("corner of a region", *corner)?;
+                within("width of a region", *width, limits::LENGTH)?;
+                within("height of a region", *height, limits::LENGTH)
+            }
+            Self::Circle { centre, radius } => {
+                place("centre of a region", *centre)?;
+                within("radius of a region", *radius, limits::LENGTH)
+            }
+            Self::Polygon(corners) => {
+                counted("corners of a region", corners.len(), 3, limits::MOST_CORNERS)?;
+                corners.iter().try_for_each(|corner| place("corner of a region", *corner))
+            }
+        }
+    }
+}
+
+/// Where the way from one place to another crosses a straight line between two points, as a share of the way.
+pub(crate) fn crossing((a, b): (Point, Point), from: Point, to: Point) -> Option<f64> {
+    let side = |p: Point| (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+    let (before, after) = (side(from), side(to));
+    // A place on the line counts as left of it, so that a way through it crosses once.
+    if (before >= 0.0) == (after >= 0.0) {
+        return None;
+    }
+    let share = before / (before - after);
+    let met = lerp(from, to, share);
+    let along = (met.x - a.x) * (b.x - a.x) + (met.y - a.y) * (b.y - a.y);
+    let length = (b.x - a.x).powi(2) + (b.y - a.y).powi(2);
+    (0.0..length).contains(&along).then_some(share)
+}
+
+/// The point at a share of the way.
+pub(crate) fn lerp(from: Point, to: Point, share: f64) -> Point {
+    Point::new(from.x + share * (to.x - from.x), from.y + share * (to.y - from.y))
+}
+
+fn ring(corners: &[Point], from: Point, to: Point) -> Vec<f64> {
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().zip(next).filter_map(|(a, b)| crossing((*a, *b), from, to)).collect()
+}
+
+fn circle(centre: Point, radius: f64, from: Point, to: Point) -> Vec<f64> {
+    let (d, f) = ((to.x - from.x, to.y - from.y), (from.x - centre.x, from.y - centre.y));
+    let (a, b) = (d.0 * d.0 + d.1 * d.1, f.0 * d.0 + f.1 * d.1);
+    let c = f.0 * f.0 + f.1 * f.1 - radius * radius;
+    let root = (b * b - a * c).sqrt();
+    // Without two crossings the root is not a number, and no share is within the way.
+    [(-b - root) / a, (-b + root) / a].into_iter().filter(|s| *s > 0.0 && *s <= 1.0).collect()
+}
