@@ -1,0 +1,59 @@
+/// What goes wrong when a source of touches is opened. Once open, a source counts what it refuses: see [`Counts`](crate::Counts).
+#[derive(Debug, thiserror::Error)]
+pub enum TouchError {
+    /// A socket, a device or a file does not do what it should.
+    #[error("{what}: {error}; {fix}")]
+    Io {
+        /// What was tried.
+        what: String,
+        /// What the system said.
+        error: std::io::Error,
+        /// How to fix it.
+        fix: &'static str,
+    },
+    /// A value is out of its range.
+    #[error("{what}: expected {expected}, found {found}")]
+    Range {
+        /// What the value is.
+        what: &'static str,
+        /// The legal values.
+        expected: &'static str,
+        /// The value.
+        found: f64,
+    },
+    /// A line of a recording is not what it should be.
+    #[error("line {line}: {what}")]
+    Line {
+        /// Which line, counted from 1.
+        line: usize,
+        /// What was expected and what was found.
+        what: String,
+    },
+    /// A device is no touch screen that can be read.
+    #[error("{device}: expected a multi-touch screen, found none: {what}")]
+    Screen {
+        /// The device.
+        device: String,
+        /// What is missing.
+        what: String,
+    },
+}
+
+impl TouchError {
+    pub(crate) fn io(what: impl Into<String>, error: std::io::Error, fix: &'static str) -> Self {
+        Self::Io { what: what.into(), error, fix }
+    }
+}
+
+/// A typed error unless a value is finite and legal.
+pub(crate) fn check(
+    what: &'static str,
+    found: f64,
+    legal: bool,
+    expected: &'static str,
+) -> Result<(), TouchError> {
+    if legal && found.is_finite() {
+        return Ok(());
+    }
+    Err(TouchError::Range { what, expected, found })
+}

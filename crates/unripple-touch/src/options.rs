@@ -1,0 +1,49 @@
+use crate::error::{TouchError, check};
+use crate::mapping::Mapping;
+use unripple_core::Outline;
+
+/// What a source of touches must know, and how much it takes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// The surface; a place that is not on it is refused.
+    pub surface: Outline,
+    /// Where a sensor that speaks of 0 to 1 lies on the surface.
+    pub mapping: Mapping,
+    /// A finger that nobody spoke of for as long is lifted, in s. TUIO trackers repeat a resting finger once a second.
+    pub timeout: f64,
+    /// Fingers at once; more are counted and dropped.
+    pub most: usize,
+    /// Fingers at once from one sender, so that no sender takes the place of all others.
+    pub most_per_sender: usize,
+    /// The force in N of a sensor's full pressure, where that is known.
+    pub full_force: Option<f64>,
+}
+
+impl Options {
+    /// A sensor that covers the whole surface, 2 s, 32 fingers, 16 from one sender, no force.
+    pub fn new(surface: &Outline) -> Self {
+        let mapping = Mapping::covering(surface);
+        let surface = surface.clone();
+        Self { surface, mapping, timeout: 2.0, most: 32, most_per_sender: 16, full_force: None }
+    }
+
+    /// A typed error for the first value that cannot be.
+    pub fn check(&self) -> Result<(), TouchError> {
+        self.mapping.check()?;
+        check("time-out, s", self.timeout, (0.05..=3600.0).contains(&self.timeout), "0.05 to 3600")?;
+        let counted = |n: usize| (1..=1024).contains(&n);
+        check("fingers at once", self.most as f64, counted(self.most), "1 to 1024")?;
+        let each = self.most_per_sender;
+        check("fingers at once from one sender", each as f64, counted(each), "1 to 1024")?;
+        let force = self.full_force.unwrap_or(1.0);
+        check(
+            "force of full pressure, N",
+            force,
+            force > 0.0 && force <= MOST_FORCE,
+            "more than 0, at most 100",
+        )
+    }
+}
+
+/// The hardest press that is believed, in N.
+pub(crate) const MOST_FORCE: f64 = 100.0;

@@ -1,0 +1,14 @@
+//! OSC over UDP: TUIO 1.1, TUIO 2.0 and addresses of our own.
+
+mod frame;
+mod own;
+mod packet;
+mod port;
+mod receiver;
+mod senders;
+mod sequence;
+mod tuio;
+mod tuio2;
+
+pub use port::OscPort;
+pub use receiver::OscReceiver;

@@ -1,0 +1,77 @@
+use super::sequence::Sequence;
+use std::net::SocketAddr;
+
+/// Addresses known at once.
+const MOST: usize = 16;
+/// Names that one address may use.
+const MOST_NAMES: usize = 4;
+/// The longest name, in bytes.
+const LONGEST_NAME: usize = 128;
+/// Lists of fingers that one name keeps: 2Dcur, 2Dobj, 2Dblb, and that of TUIO 2.
+pub(super) const LISTS: usize = 4;
+
+#[derive(Clone, Debug)]
+struct Sender {
+    address: SocketAddr,
+    peer: u32,
+    names: Vec<(String, [Sequence; LISTS])>,
+    spoken: f64,
+}
+
+/// Who has sent something lately. Whoever is known keeps its place until it falls silent; newcomers beyond the most are
+/// turned away.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Senders {
+    known: Vec<Sender>,
+    given: u32,
+}
+
+impl Senders {
+    /// The place of a sender that speaks now, at a time in s, and whether it is new; nothing if there is no room for it.
+    pub(super) fn find(&mut self, address: SocketAddr, now: f64) -> Option<(usize, bool)> {
+        if let Some(i) = self.known.iter().position(|sender| sender.address == address) {
+            self.known[i].spoken = now;
+            return Some((i, false));
+        }
+        if self.known.len() >= MOST {
+            return None;
+        }
+        let names = vec![(String::new(), Default::default())];
+        self.known.push(Sender { address, peer: self.given, names, spoken: now });
+        self.given = self.given.wrapping_add(1);
+        Some((self.known.len() - 1, true))
+    }
+
+    /// The number of the sender at a place, which no other ever had.
+    pub(super) fn peer(&self, i: usize) -> u32 {
+        self.known[i].peer
+    }
+
+    /// The place of a name among those of a sender; nothing if there is no room for it.
+    pub(super) fn name(&mut self, i: usize, name: &str) -> Option<usize> {
+        let names = &mut self.known[i].names;
+        if let Some(found) = names.iter().position(|(known, _)| known == name) {
+            return Some(found);
+        }
+        if names.len() >= MOST_NAMES || name.len() > LONGEST_NAME {
+            return None;
+        }
+        names.push((name.to_owned(), Default::default()));
+        Some(names.len() - 1)
+    }
+
+    /// The numbers of a sender's frames.
+    pub(super) fn sequence(&mut self, i: usize, name: usize, list: usize) -> &mut Sequence {
+        &mut self.known[i].names[name].1[list]
+    }
+
+    /// Forgets whoever was last heard before a time in s.
+    pub(super) fn forget(&mut self, before: f64) {
+        self.known.retain(|sender| sender.spoken >= before);
+    }
+
+    /// How many addresses and names are kept.
+    pub(super) fn count(&self) -> usize {
+        self.known.iter().map(|sender| 1 + sender.names.len()).sum()
+    }
+}

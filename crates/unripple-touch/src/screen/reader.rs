@@ -1,0 +1,164 @@
+use super::slots::{Event, Report, Slots};
+use crate::error::check;
+use crate::{Counts, Fingers, Heard, Key, Options, Source, TouchError};
+use std::io;
+
+/// Batches of events read in one poll.
+const BATCHES: usize = 16;
+/// How long to wait before a lost screen is opened again, in s.
+const RETRY: f64 = 1.0;
+
+/// The range of an axis, as the screen states it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Axis {
+    /// Its least value.
+    pub minimum: i32,
+    /// Its largest value.
+    pub maximum: i32,
+}
+
+impl Axis {
+    /// A value as a share of the range.
+    fn share(self, value: i32) -> f64 {
+        let (low, high) = (f64::from(self.minimum), f64::from(self.maximum));
+        (f64::from(value) - low) / (high - low)
+    }
+
+    fn check(self, what: &'static str) -> Result<(), TouchError> {
+        let span = f64::from(self.maximum) - f64::from(self.minimum);
+        check(what, span, span > 0.0, "more than 0")
+    }
+}
+
+/// Where a screen's events come from: the kernel, or a list of them.
+pub trait Contacts: Send {
+    /// Appends events that are there; never blocks, and takes some tens at a time. Nothing appended means that there is
+    /// nothing more.
+    fn read(&mut self, events: &mut Vec<Event>) -> io::Result<()>;
+
+    /// Which slot the next events are of; asked for after events were lost.
+    fn slot(&mut self) -> io::Result<usize>;
+
+    /// Opens a screen again that was lost.
+    fn reopen(&mut self) -> io::Result<()>;
+}
+
+/// A multi-touch screen.
+///
+/// A resting finger stays as long as the screen says so. When the screen is unplugged its fingers leave; it is opened
+/// again when it comes back.
+pub struct Screen {
+    name: String,
+    contacts: Box<dyn Contacts>,
+    axes: (Axis, Axis),
+    pressure: Option<Axis>,
+    slots: Slots,
+    fingers: Fingers,
+    events: Vec<Event>,
+    lost: Option<f64>,
+}
+
+impl Screen {
+    /// A screen whose events come from anywhere, with the ranges of x to the right, y down, and pressure.
+    pub fn new(
+        name: impl Into<String>,
+        contacts: Box<dyn Contacts>,
+        axes: (Axis, Axis),
+        pressure: Option<Axis>,
+        options: Options,
+    ) -> Result<Self, TouchError> {
+        axes.0.check("range of a screen's x")?;
+        axes.1.check("range of a screen's y")?;
+        pressure.map_or(Ok(()), |axis| axis.check("range of a screen's pressure"))?;
+        let (slots, fingers, name) = (Slots::new(), Fingers::new(options)?, name.into());
+        Ok(Self { name, contacts, axes, pressure, slots, fingers, events: Vec::new(), lost: None })
+    }
+
+    /// Opens a device file such as `/dev/input/event5`, which the user must be allowed to read.
+    #[cfg(target_os = "linux")]
+    pub fn open(path: &std::path::Path, options: Options) -> Result<Self, TouchError> {
+        let found = super::linux::Kernel::open(path)?;
+        Self::new(found.name, Box::new(found.kernel), found.axes, found.pressure, options)
+    }
+
+    /// The multi-touch screens that there are and may be read: device files and names.
+    #[cfg(target_os = "linux")]
+    pub fn list() -> Vec<(std::path::PathBuf, String)> {
+        super::linux::list()
+    }
+
+    fn take(&mut self, heard: &mut Heard) {
+        let events = std::mem::take(&mut self.events);
+        for event in &events {
+            match self.slots.push(*event) {
+                Report::Open => {}
+                Report::Whole => self.report(heard),
+                Report::Lost => {
+                    self.fingers.counts.malformed += 1;
+                    self.fingers.lift_where(|_| true, heard);
+                    match self.contacts.slot() {
+                        Ok(slot) => self.slots.resume(slot),
+                        Err(_) => self.lose(heard),
+                    }
+                }
+            }
+        }
+        self.fingers.counts.packets += events.len() as u64;
+        self.events = events;
+        self.events.clear();
+    }
+
+    fn report(&mut self, heard: &mut Heard) {
+        let Self { slots, fingers, axes, pressure, .. } = self;
+        let key = |slot: usize, contact: i64| Key { peer: 0, stream: slot as u32, session: contact };
+        let there = |k: &Key| slots.contacts().any(|(slot, contact, ..)| key(slot, contact) == *k);
+        fingers.lift_where(|k| !there(k), heard);
+        for (slot, contact, (x, y), pressed) in slots.contacts() {
+            let place = (axes.0.share(x), axes.1.share(y));
+            let pressed = pressure.zip(pressed).map(|(axis, value)| axis.share(value));
+            // A refusal is counted where it is made.
+            let _ = fingers.put_sensed(key(slot, contact), place, pressed, heard);
+        }
+    }
+
+    fn lose(&mut self, heard: &mut Heard) {
+        self.fingers.counts.failed += 1;
+        self.fingers.lift_where(|_| true, heard);
+        self.lost = Some(self.fingers.now());
+    }
+}
+
+impl Source for Screen {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn poll(&mut self, now: f64, heard: &mut Heard) {
+        self.fingers.begin(now);
+        if let Some(since) = self.lost {
+            if self.fingers.now() - since < RETRY {
+                return;
+            }
+            if self.contacts.reopen().is_err() {
+                self.lost = Some(self.fingers.now());
+                return;
+            }
+            (self.lost, self.slots) = (None, Slots::new());
+        }
+        for _ in 0..BATCHES {
+            let read = self.contacts.read(&mut self.events);
+            let more = !self.events.is_empty();
+            self.take(heard);
+            if read.is_err() {
+                self.lose(heard);
+            }
+            if !more || self.lost.is_some() {
+                break;
+            }
+        }
+    }
+
+    fn counts(&self) -> Counts {
+        self.fingers.counts
+    }
+}

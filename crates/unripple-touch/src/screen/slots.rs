@@ -1,0 +1,130 @@
+/// One event of the kernel's, as `linux/input.h` has it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Event {
+    /// Kind: 0 for `EV_SYN`, 3 for `EV_ABS`.
+    pub kind: u16,
+    /// Which of that kind.
+    pub code: u16,
+    /// The value.
+    pub value: i32,
+}
+
+const EV_SYN: u16 = 0;
+const EV_ABS: u16 = 3;
+const SYN_REPORT: u16 = 0;
+const SYN_DROPPED: u16 = 3;
+const SLOT: u16 = 0x2f;
+const X: u16 = 0x35;
+const Y: u16 = 0x36;
+const TRACKING_ID: u16 = 0x39;
+const PRESSURE: u16 = 0x3a;
+
+/// Slots that are followed; screens have ten or so.
+const MOST: usize = 64;
+
+/// What is known of one slot.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Slot {
+    /// The contact in it; contacts whose number was lost get a negative one.
+    pub(super) contact: Option<i64>,
+    pub(super) x: Option<i32>,
+    pub(super) y: Option<i32>,
+    pub(super) pressure: Option<i32>,
+    /// Whether events were lost, so that there may be a contact of unknown number.
+    lost: bool,
+}
+
+/// What a report leaves to be done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Report {
+    /// The report is not at its end.
+    Open,
+    /// The slots are as the screen has them.
+    Whole,
+    /// Events were lost: all contacts are to leave, and [`Slots::resume`] is to be called.
+    Lost,
+}
+
+/// The slots of a screen of type B, from its events (`Documentation/input/multi-touch-protocol.rst` of the kernel).
+///
+/// ```
+/// use unripple_touch::{Event, Slots};
+///
+/// let mut slots = Slots::new();
+/// // A contact in slot 0, at (300, 200), and the end of the report.
+/// for (kind, code, value) in [(3, 0x39, 45), (3, 0x35, 300), (3, 0x36, 200), (0, 0, 0)] {
+///     slots.push(Event { kind, code, value });
+/// }
+/// assert_eq!(slots.contacts().collect::<Vec<_>>(), [(0, 45, (300, 200), None)]);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Slots {
+    slots: Vec<Slot>,
+    current: usize,
+    dropping: bool,
+    unnamed: i64,
+}
+
+impl Slots {
+    /// Nothing touches.
+    pub fn new() -> Self {
+        Self { slots: vec![Slot::default(); MOST], current: 0, dropping: false, unnamed: 0 }
+    }
+
+    /// Takes the next event; contacts are worth looking at when a report is whole.
+    pub fn push(&mut self, event: Event) -> Report {
+        match (event.kind, event.code) {
+            (EV_SYN, SYN_DROPPED) => self.dropping = true,
+            (EV_SYN, SYN_REPORT) if self.dropping => return Report::Lost,
+            (EV_SYN, SYN_REPORT) => return Report::Whole,
+            (EV_ABS, code) if !self.dropping => self.absolute(code, event.value),
+            _ => {}
+        }
+        Report::Open
+    }
+
+    /// Goes on after a loss, the screen's events being of this slot from now on. Contacts come back as they move.
+    pub fn resume(&mut self, slot: usize) {
+        let lost = Slot { lost: true, ..Slot::default() };
+        self.slots.fill(lost);
+        (self.current, self.dropping) = (slot, false);
+    }
+
+    /// Slot, number, place and pressure of every contact whose place is known, as the screen counts them.
+    pub fn contacts(&self) -> impl Iterator<Item = (usize, i64, (i32, i32), Option<i32>)> + '_ {
+        let known = |(i, slot): (usize, &Slot)| Some((i, slot.contact?, (slot.x?, slot.y?), slot.pressure));
+        self.slots.iter().enumerate().filter_map(known)
+    }
+
+    fn absolute(&mut self, code: u16, value: i32) {
+        if code == SLOT {
+            // Slots beyond the most are left aside.
+            self.current = usize::try_from(value).unwrap_or(usize::MAX);
+            return;
+        }
+        let Some(slot) = self.slots.get_mut(self.current) else {
+            return;
+        };
+        match code {
+            TRACKING_ID if value < 0 => *slot = Slot { pressure: None, contact: None, lost: false, ..*slot },
+            TRACKING_ID => {
+                // A place that does not change is not told again, so that of the contact before holds.
+                (slot.contact, slot.lost) = (Some(i64::from(value)), false);
+            }
+            X => slot.x = Some(value),
+            Y => slot.y = Some(value),
+            PRESSURE => slot.pressure = Some(value),
+            _ => {}
+        }
+        if slot.lost && slot.x.is_some() && slot.y.is_some() {
+            self.unnamed -= 1;
+            (slot.contact, slot.lost) = (Some(self.unnamed), false);
+        }
+    }
+}
+
+impl Default for Slots {
+    fn default() -> Self {
+        Self::new()
+    }
+}

@@ -1,0 +1,132 @@
+use crate::{Counts, Heard, Motion, Source};
+use unripple_core::{Outline, Phase, Point, Touch};
+
+/// Fingers at once over all sources; more are counted and dropped.
+const MOST: usize = 128;
+/// How far a place is ever predicted, in m.
+const REACH: f64 = 0.02;
+
+#[derive(Clone, Debug)]
+struct Followed {
+    source: usize,
+    theirs: u64,
+    ours: u64,
+    motion: Motion,
+}
+
+/// Several sources as one: gives fingers numbers that are unique over all of them, and follows how each moves.
+///
+/// ```
+/// use unripple_core::{Outline, Shape};
+/// use unripple_touch::{Heard, Sources, Synthetic, SyntheticOptions};
+///
+/// let sheet = Outline::new(Shape::Rectangle { width: 0.15, height: 0.10 });
+/// let mut sources = Sources::new(&sheet);
+/// sources.push(Box::new(Synthetic::new(&sheet, SyntheticOptions::default())?));
+/// let mut heard = Heard::default();
+/// for step in 0..500 {
+///     sources.poll(0.002 * f64::from(step), &mut heard);
+/// }
+/// let touch = heard.touches[0];
+/// assert!(sheet.contains(touch.at));
+/// // Where the finger will be when waves that start now have arrived, 10 ms from now.
+/// for (finger, _) in sources.fingers() {
+///     assert!(sources.predict(finger, 0.998, 0.010).is_some());
+/// }
+/// # Ok::<(), unripple_touch::TouchError>(())
+/// ```
+pub struct Sources {
+    surface: Outline,
+    sources: Vec<Box<dyn Source>>,
+    fingers: Vec<Followed>,
+    given: u64,
+    now: f64,
+    told: f64,
+    crowded: u64,
+    fresh: Heard,
+}
+
+impl Sources {
+    /// No source yet, for a surface.
+    pub fn new(surface: &Outline) -> Self {
+        let (sources, fingers, fresh) = (Vec::new(), Vec::with_capacity(MOST), Heard::default());
+        let (now, told) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
+        Self { surface: surface.clone(), sources, fingers, given: 0, now, told, crowded: 0, fresh }
+    }
+
+    /// One more source.
+    pub fn push(&mut self, source: Box<dyn Source>) {
+        self.sources.push(source);
+    }
+
+    /// What there is, by name, with what each took in.
+    pub fn each(&self) -> impl Iterator<Item = (&str, Counts)> {
+        self.sources.iter().map(|source| (source.name(), source.counts()))
+    }
+
+    /// What all of them took in, and what was refused here for want of room.
+    pub fn counts(&self) -> Counts {
+        let all = self.sources.iter().map(|source| source.counts());
+        let here = Counts { crowded: self.crowded, ..Counts::default() };
+        all.fold(here, |sum, counts| sum + counts)
+    }
+
+    /// Asks every source what happened up to `now`, in s of the caller's clock, and appends it.
+    pub fn poll(&mut self, now: f64, heard: &mut Heard) {
+        self.now = self.now.max(now);
+        let mut fresh = std::mem::take(&mut self.fresh);
+        let before = heard.touches.len();
+        for i in 0..self.sources.len() {
+            self.sources[i].poll(self.now, &mut fresh);
+            for touch in &fresh.touches {
+                self.follow(i, *touch, heard);
+            }
+            heard.wishes.append(&mut fresh.wishes);
+            fresh.clear();
+        }
+        self.fresh = fresh;
+        // Stable, so that what one source tells stays in order.
+        heard.touches[before..].sort_by(|a, b| a.time.total_cmp(&b.time));
+        // A source that lags behind tells of what was before the others' last.
+        for touch in &mut heard.touches[before..] {
+            self.told = self.told.max(touch.time);
+            touch.time = self.told;
+        }
+    }
+
+    fn follow(&mut self, source: usize, touch: Touch, heard: &mut Heard) {
+        let found = self.fingers.iter().position(|f| f.source == source && f.theirs == touch.finger);
+        let ours = match (touch.phase, found) {
+            (Phase::Down, None) if self.fingers.len() < MOST => {
+                self.given += 1;
+                let motion = Motion::new(touch.time, touch.at);
+                self.fingers.push(Followed { source, theirs: touch.finger, ours: self.given, motion });
+                self.given
+            }
+            (Phase::Down, None) => {
+                self.crowded += 1;
+                return;
+            }
+            (Phase::Up, Some(i)) => self.fingers.remove(i).ours,
+            (_, Some(i)) => {
+                self.fingers[i].motion.push(touch.time, touch.at);
+                self.fingers[i].ours
+            }
+            // Its coming was dropped, so the rest of it is too.
+            (_, None) => return,
+        };
+        heard.touches.push(Touch { finger: ours, ..touch });
+    }
+
+    /// The fingers there are, and how each moves.
+    pub fn fingers(&self) -> impl Iterator<Item = (u64, &Motion)> {
+        self.fingers.iter().map(|finger| (finger.ours, &finger.motion))
+    }
+
+    /// Where a finger will be `ahead` s after `now`: at most 20 mm from where it was last, and on the surface. Nothing
+    /// for a finger that is not there.
+    pub fn predict(&self, finger: u64, now: f64, ahead: f64) -> Option<Point> {
+        let found = self.fingers.iter().find(|f| f.ours == finger)?;
+        Some(found.motion.predict(now, ahead, REACH, &self.surface))
+    }
+}
