@@ -1,0 +1,207 @@
+use crate::{Prepared, PreparedFilters};
+use std::sync::Arc;
+
+/// A name that the sender gives to what it starts; starting a repeating voice under the name of another replaces it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Voice(pub u64);
+
+/// When a command acts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum At {
+    /// At the first sample of the next block.
+    #[default]
+    Now,
+    /// At this sample of the player's clock.
+    Sample(u64),
+}
+
+/// What is asked of a player.
+#[derive(Clone, Debug)]
+pub enum Command {
+    /// Starts a drive.
+    Start {
+        /// Its name.
+        voice: Voice,
+        /// What is played.
+        drive: Arc<Prepared>,
+        /// When its first sample sounds.
+        at: At,
+        /// Factor; the limiter may lower it.
+        gain: f32,
+        /// Samples from each start to the next, each rounded to a sample, of a comb; at least one block. `None` plays a drive
+        /// once, and a loop for ever.
+        period: Option<f64>,
+    },
+    /// Gives a comb or loop another drive: each start at or after `at` plays that, while the last copies of the old ring out.
+    /// Passes of a loop overlap by its fade, so this is a crossfade of that length.
+    Swap {
+        /// Which.
+        voice: Voice,
+        /// What is played from then on. The period stays.
+        drive: Arc<Prepared>,
+        /// From when.
+        at: At,
+    },
+    /// Gives the copies of a comb or loop that start at or after `at` another gain.
+    Gain {
+        /// Which.
+        voice: Voice,
+        /// Factor.
+        gain: f32,
+        /// From when.
+        at: At,
+    },
+    /// Ends a voice or waveform.
+    Stop {
+        /// Which.
+        voice: Voice,
+        /// From when.
+        at: At,
+        /// Samples over which what sounds fades out, at least one block; `None` lets begun copies of a drive ring out.
+        fade: Option<u32>,
+    },
+    /// Gives an input its responses to all outputs. What entered before keeps the old responses to its end, what enters during the
+    /// fade goes through both in turning shares.
+    SetFilters {
+        /// Which input.
+        input: usize,
+        /// The responses.
+        filters: Arc<PreparedFilters>,
+        /// From the block that holds this sample.
+        at: At,
+        /// Samples of the fade, rounded up to whole blocks, at least one.
+        fade: u32,
+    },
+    /// Plays a prepared waveform into an input.
+    Wave {
+        /// Its name, for [`Command::Stop`].
+        voice: Voice,
+        /// Which input.
+        input: usize,
+        /// The waveform, at the full rate.
+        samples: Arc<[f32]>,
+        /// When its first sample enters.
+        at: At,
+        /// Factor.
+        gain: f32,
+        /// For ever, or once.
+        looped: bool,
+    },
+}
+
+impl Command {
+    /// When it acts.
+    pub fn at(&self) -> At {
+        match self {
+            Self::Start { at, .. }
+            | Self::Swap { at, .. }
+            | Self::Gain { at, .. }
+            | Self::Stop { at, .. }
+            | Self::SetFilters { at, .. }
+            | Self::Wave { at, .. } => *at,
+        }
+    }
+
+    /// Whom it is about.
+    pub fn voice(&self) -> Option<Voice> {
+        match self {
+            Self::Start { voice, .. }
+            | Self::Swap { voice, .. }
+            | Self::Gain { voice, .. }
+            | Self::Stop { voice, .. }
+            | Self::Wave { voice, .. } => Some(*voice),
+            Self::SetFilters { .. } => None,
+        }
+    }
+}
+
+/// What a player says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Report {
+    /// A copy of a drive, or a waveform, starts.
+    Started {
+        /// Whose.
+        voice: Voice,
+        /// At which sample of the clock.
+        sample: u64,
+        /// With which gain, after limiting.
+        gain: f32,
+    },
+    /// The last copy, or the waveform, is over.
+    Ended {
+        /// Whose.
+        voice: Voice,
+        /// First sample of silence.
+        sample: u64,
+    },
+    /// A copy was scaled down, as a whole.
+    Limited {
+        /// Whose.
+        voice: Voice,
+        /// The gain that was asked for is multiplied by this.
+        scale: f32,
+        /// By which limit.
+        which: Which,
+        /// Of which actuator.
+        output: usize,
+    },
+    /// All waveforms together begin to be scaled down.
+    WavesLimited {
+        /// In the block that begins here.
+        sample: u64,
+        /// Down to this, at its end.
+        gain: f32,
+        /// By which limit.
+        which: Which,
+        /// Of which actuator.
+        output: usize,
+    },
+    /// The asked sample had passed, or its block was full of work: it acts now.
+    Late {
+        /// Whose; none for filters.
+        voice: Option<Voice>,
+        /// By how many samples.
+        by: u64,
+    },
+    /// Nothing was done.
+    Refused {
+        /// Whose; none for filters.
+        voice: Option<Voice>,
+        /// Why.
+        why: Why,
+    },
+}
+
+/// Which limit of an actuator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Which {
+    /// The largest sample.
+    Peak,
+    /// The running rms over a short time.
+    Rms,
+    /// The running rms over a long time.
+    Thermal,
+}
+
+/// Why a command was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Why {
+    /// As many voices as there may be.
+    Voices,
+    /// As many copies or waveforms sound as may.
+    Copies,
+    /// As many commands wait for their sample as may.
+    Pending,
+    /// No such voice repeats.
+    Unknown,
+    /// A drive of another number of outputs, or filters of another plan.
+    Outputs,
+    /// A drive longer than the longest, or an empty waveform.
+    Samples,
+    /// A gain that is not finite.
+    Gain,
+    /// A period of less than a block, or not a number.
+    Period,
+    /// No such input, or no waveforms at all.
+    Input,
+}

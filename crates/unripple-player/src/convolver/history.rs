@@ -1,0 +1,135 @@
+use super::filters::LANES;
+use crate::PreparedFilters;
+use crate::shelf::{Garbage, Shelf};
+use realfft::num_complex::Complex;
+use std::sync::Arc;
+
+/// Floats of a group of lanes of an input's spectrum: the real parts; the imaginary, lane 0 without; the real, with the highest
+/// frequency in lane 0.
+pub(crate) const SPECTRUM: usize = 3 * LANES;
+
+/// What entered one input in the last blocks, as spectra, and through which filters each block goes.
+pub(crate) struct History {
+    /// Block of the ring x share (old, new) x group of lanes x [`SPECTRUM`].
+    spectra: Vec<f32>,
+    /// The filters of each block's two shares.
+    through: Vec<[Option<usize>; 2]>,
+    groups: usize,
+    head: usize,
+    shelf: Shelf<PreparedFilters>,
+    present: Option<usize>,
+    turning: Option<Turning>,
+    waits: Option<(Arc<PreparedFilters>, u32)>,
+}
+
+/// A change of filters under way.
+struct Turning {
+    to: usize,
+    done: u32,
+    blocks: u32,
+}
+
+/// Sharing of a block among the filters of now and those that come: linear from one weight to the other.
+pub(crate) struct Shares {
+    pub(crate) new: [f32; 2],
+    pub(crate) turning: bool,
+}
+
+impl History {
+    pub(crate) fn new(partitions: usize, groups: usize) -> Self {
+        Self {
+            spectra: vec![0.0; partitions * 2 * groups * SPECTRUM],
+            through: vec![[None; 2]; partitions],
+            groups,
+            head: 0,
+            shelf: Shelf::new(Self::places(partitions)),
+            present: None,
+            turning: None,
+            waits: None,
+        }
+    }
+
+    /// Most filters held at once.
+    pub(crate) fn places(partitions: usize) -> usize {
+        partitions + 4
+    }
+
+    /// Turns to other filters over some blocks, after a turn that is under way. What waited for that is given back.
+    pub(crate) fn turn(
+        &mut self,
+        filters: Arc<PreparedFilters>,
+        blocks: u32,
+    ) -> Option<Arc<PreparedFilters>> {
+        self.waits.replace((filters, blocks.max(1))).map(|(filters, _)| filters)
+    }
+
+    /// Begins the next block: the oldest leaves. Says how its samples are shared.
+    pub(crate) fn advance(&mut self, mut leave: impl FnMut(Garbage)) -> Shares {
+        self.head = (self.head + 1) % self.through.len();
+        for place in std::mem::take(&mut self.through[self.head]).into_iter().flatten() {
+            self.shelf.release(place).into_iter().for_each(|filters| leave(Garbage::Filters(filters)));
+        }
+        if self.turning.is_none()
+            && let Some((filters, blocks)) = self.waits.take()
+        {
+            match self.shelf.put(filters) {
+                Ok(to) => self.turning = Some(Turning { to, done: 0, blocks }),
+                Err(filters) => leave(Garbage::Filters(filters)),
+            }
+        }
+        let present = self.present;
+        let Some(turning) = &mut self.turning else {
+            self.through[self.head] = [present, None];
+            present.into_iter().for_each(|place| self.shelf.hold(place));
+            return Shares { new: [0.0; 2], turning: false };
+        };
+        let weight = |done: u32| done as f32 / turning.blocks as f32;
+        let new = [weight(turning.done), weight(turning.done + 1)];
+        turning.done += 1;
+        let (to, over) = (turning.to, turning.done >= turning.blocks);
+        self.through[self.head] = [present, Some(to)];
+        present.into_iter().chain([to]).for_each(|place| self.shelf.hold(place));
+        if over {
+            self.turning = None;
+            if let Some(filters) = present.and_then(|place| self.shelf.release(place)) {
+                leave(Garbage::Filters(filters));
+            }
+            self.present = Some(to);
+        }
+        Shares { new, turning: true }
+    }
+
+    /// Puts the spectrum of a share of the present block.
+    pub(crate) fn put(&mut self, share: usize, spectrum: &[Complex<f32>]) {
+        let length = self.groups * SPECTRUM;
+        let at = (self.head * 2 + share) * length;
+        let low = spectrum.len() - 1;
+        for (group, to) in self.spectra[at..at + length].chunks_exact_mut(SPECTRUM).enumerate() {
+            let bins = &spectrum[group * LANES..low.min((group + 1) * LANES)];
+            for (lane, bin) in bins.iter().enumerate() {
+                to[lane] = bin.re;
+                to[LANES + lane] = bin.im;
+                to[2 * LANES + lane] = bin.re;
+            }
+        }
+        if let Some(first) = self.spectra.get_mut(at..at + SPECTRUM) {
+            first[LANES] = 0.0;
+            first[2 * LANES] = spectrum[low].re;
+        }
+    }
+
+    /// Every share of every block that goes through filters, with those: how many blocks ago, the spectrum of a group of
+    /// lanes, the filters.
+    #[inline(always)]
+    pub(crate) fn shares(&self, group: usize) -> impl Iterator<Item = (usize, &[f32], &PreparedFilters)> {
+        let blocks = self.through.len();
+        (0..blocks).flat_map(move |age| {
+            let slot = (self.head + blocks - age) % blocks;
+            (0..2).filter_map(move |share| {
+                let filters = self.shelf.get(self.through[slot][share]?)?;
+                let at = ((slot * 2 + share) * self.groups + group) * SPECTRUM;
+                Some((age, &self.spectra[at..at + SPECTRUM], filters))
+            })
+        })
+    }
+}

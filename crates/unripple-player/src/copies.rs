@@ -1,0 +1,81 @@
+use crate::shelf::Shelf;
+use crate::{Prepared, Voice, kernels};
+
+/// A drive that sounds.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sounding {
+    pub(crate) voice: Voice,
+    /// Its place on the shelf.
+    pub(crate) drive: usize,
+    pub(crate) start: u64,
+    pub(crate) samples: u64,
+    /// After limiting.
+    pub(crate) gain: f32,
+    pub(crate) fade: Option<Fade>,
+}
+
+/// A straight line from `level` just before sample `from` to nothing at sample `from + length`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fade {
+    pub(crate) from: u64,
+    pub(crate) length: u32,
+    pub(crate) level: f32,
+}
+
+impl Fade {
+    /// The weight of a sample, from 0 to 1.
+    #[inline(always)]
+    pub(crate) fn weight(&self, sample: u64) -> f32 {
+        if sample < self.from {
+            return self.level;
+        }
+        let left = self.end().saturating_sub(sample) as f32;
+        self.level * (left / (self.length as f32 + 1.0))
+    }
+
+    pub(crate) fn end(&self) -> u64 {
+        self.from + u64::from(self.length)
+    }
+
+    /// The fade that begins at `from` where this one may be under way: whichever ends first.
+    pub(crate) fn after(held: Option<Self>, from: u64, length: u32) -> Self {
+        let level = held.map_or(1.0, |held| held.weight(from.saturating_sub(1)));
+        let fade = Self { from, length, level };
+        match held {
+            Some(held) if held.end() <= fade.end() => held,
+            _ => fade,
+        }
+    }
+}
+
+impl Sounding {
+    /// First sample of silence.
+    pub(crate) fn end(&self) -> u64 {
+        let whole = self.start + self.samples;
+        self.fade.map_or(whole, |fade| whole.min(fade.end()))
+    }
+
+    /// Adds the block that begins at `clock` to planar `out`.
+    #[inline(always)]
+    pub(crate) fn mix(&self, shelf: &Shelf<Prepared>, clock: u64, block: usize, out: &mut [f32]) {
+        let (from, to) = (self.start.max(clock), self.end().min(clock + block as u64));
+        let Some(drive) = shelf.get(self.drive) else { return };
+        if from >= to {
+            return;
+        }
+        let (into, at) = ((from - clock) as usize, (from - self.start) as usize);
+        let length = (to - from) as usize;
+        for (output, out) in out.chunks_exact_mut(block).enumerate() {
+            let Some(samples) = drive.channel(output).get(at..at + length) else { continue };
+            let out = &mut out[into..into + length];
+            match self.fade {
+                None => kernels::add(out, samples, self.gain),
+                Some(fade) => {
+                    for (i, (out, x)) in out.iter_mut().zip(samples).enumerate() {
+                        *out += self.gain * x * fade.weight(from + i as u64);
+                    }
+                }
+            }
+        }
+    }
+}

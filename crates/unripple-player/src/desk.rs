@@ -1,0 +1,90 @@
+use crate::shelf::Garbage;
+use crate::{Command, Count, FilterPlan, Meters, PlayerError, Prepared, PreparedFilters, Report};
+use rtrb::{Consumer, Producer};
+use std::sync::Arc;
+
+/// The end of a [`Player`](crate::Player) that lives off the audio thread: sends commands, hears reports, and frees what is no
+/// longer played.
+pub struct Desk {
+    pub(crate) commands: Producer<Command>,
+    pub(crate) reports: Consumer<Report>,
+    pub(crate) garbage: Consumer<Garbage>,
+    pub(crate) feeds: Vec<Producer<f32>>,
+    pub(crate) plan: Option<FilterPlan>,
+    pub(crate) meters: Arc<Meters>,
+    pub(crate) outputs: usize,
+    pub(crate) wave_delay: usize,
+}
+
+impl std::fmt::Debug for Desk {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Desk").field("outputs", &self.outputs).field("meters", &self.meters).finish()
+    }
+}
+
+impl Desk {
+    /// Sends a command. One that is sent before a block begins is known to that block.
+    ///
+    /// # Errors
+    /// The command itself if as many are under way as may.
+    pub fn send(&mut self, command: Command) -> Result<(), Box<Command>> {
+        self.collect();
+        self.commands.push(command).map_err(|rtrb::PushError::Full(command)| {
+            self.meters.add(Count::CommandsLost);
+            Box::new(command)
+        })
+    }
+
+    /// The next report, if there is one.
+    pub fn report(&mut self) -> Option<Report> {
+        self.collect();
+        self.reports.pop().ok()
+    }
+
+    /// Frees what is no longer played. Sending and hearing do, too.
+    pub fn collect(&mut self) {
+        while self.garbage.pop().is_ok() {}
+    }
+
+    /// Puts samples, at the full rate, into an input's ring; says how many there was room for. A ring that runs empty
+    /// is silent.
+    pub fn feed(&mut self, input: usize, samples: &[f32]) -> usize {
+        let Some(ring) = self.feeds.get_mut(input) else { return 0 };
+        samples.iter().take_while(|&&x| ring.push(x).is_ok()).count()
+    }
+
+    /// Makes an input's responses ready, on this thread: one of up to as many taps as the player was made for, per output.
+    ///
+    /// # Errors
+    /// [`PlayerError::Size`] for another number of responses, longer ones, or a player without waveforms;
+    /// [`PlayerError::Sample`] at the first that cannot be played.
+    pub fn filters(&self, responses: &[Vec<f32>]) -> Result<Arc<PreparedFilters>, PlayerError> {
+        let none = PlayerError::Size { what: "inputs for waveforms", expected: 1, found: 0 };
+        Ok(Arc::new(self.plan.as_ref().ok_or(none)?.prepare(responses)?))
+    }
+
+    /// How responses are made ready, for use on other threads; none without waveforms.
+    pub fn plan(&self) -> Option<&FilterPlan> {
+        self.plan.as_ref()
+    }
+
+    /// Samples from an input to the outputs, besides the responses' own.
+    pub fn wave_delay(&self) -> usize {
+        self.wave_delay
+    }
+
+    /// Whether a drive has as many outputs as the player.
+    pub fn fits(&self, drive: &Prepared) -> bool {
+        drive.outputs() == self.outputs
+    }
+
+    /// First sample of the next block.
+    pub fn clock(&self) -> u64 {
+        self.meters.clock()
+    }
+
+    /// What is counted; may be shared with any thread.
+    pub fn meters(&self) -> &Arc<Meters> {
+        &self.meters
+    }
+}

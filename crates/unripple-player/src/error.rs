@@ -1,0 +1,70 @@
+/// What cannot be prepared or set up.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PlayerError {
+    /// A value is out of its range.
+    #[error("{what}: expected {expected}, found {found}")]
+    Range {
+        /// What the value is.
+        what: &'static str,
+        /// The legal values.
+        expected: String,
+        /// The value.
+        found: f64,
+    },
+    /// Sizes do not agree.
+    #[error("{what}: expected {expected}, found {found}")]
+    Size {
+        /// What is counted.
+        what: &'static str,
+        /// How many there should be.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// A sample that is not finite, or beyond all that is ever played.
+    #[error(
+        "{what}, sample {sample} of channel {channel}: expected a finite number within ±1e12, found {found}"
+    )]
+    Sample {
+        /// What the sample is of.
+        what: &'static str,
+        /// The channel, from 0.
+        channel: usize,
+        /// The sample, from 0.
+        sample: usize,
+        /// The value.
+        found: f32,
+    },
+}
+
+/// Largest magnitude of a sample that is taken: products of two still are far within float32.
+pub(crate) const HUGE: f32 = 1e12;
+
+/// A typed error unless a value is finite and legal.
+pub(crate) fn check(what: &'static str, found: f64, legal: bool, expected: &str) -> Result<(), PlayerError> {
+    if legal && found.is_finite() {
+        return Ok(());
+    }
+    Err(PlayerError::Range { what, expected: expected.to_owned(), found })
+}
+
+/// A typed error unless a count is within its bounds.
+pub(crate) fn count(what: &'static str, found: usize, least: usize, most: usize) -> Result<(), PlayerError> {
+    check(what, found as f64, (least..=most).contains(&found), &format!("{least} to {most}"))
+}
+
+/// A typed error unless two counts agree.
+pub(crate) fn same(what: &'static str, found: usize, expected: usize) -> Result<(), PlayerError> {
+    if found == expected { Ok(()) } else { Err(PlayerError::Size { what, expected, found }) }
+}
+
+/// A typed error unless every sample of planar channels can be played.
+pub(crate) fn playable(what: &'static str, data: &[f32], samples: usize) -> Result<(), PlayerError> {
+    match data.iter().position(|x| !x.is_finite() || x.abs() > HUGE) {
+        None => Ok(()),
+        Some(at) => {
+            let samples = samples.max(1);
+            Err(PlayerError::Sample { what, channel: at / samples, sample: at % samples, found: data[at] })
+        }
+    }
+}

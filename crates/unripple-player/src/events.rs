@@ -1,0 +1,320 @@
+use crate::copies::{Fade, Sounding};
+use crate::kernels::Wide;
+use crate::ledger::Ledger;
+use crate::outlet::Outlet;
+use crate::shelf::{Garbage, Shelf};
+use crate::{Count, Options, Prepared, Report, Voice, Why};
+use pulp::Arch;
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+/// Blocks of the ledger that are made anew per block, where something stopped early.
+const REFILLS: u64 = 4;
+
+/// Drives: those that repeat, those that sound, and the ledger of what is committed.
+pub(crate) struct Events {
+    shelf: Shelf<Prepared>,
+    repeating: Vec<Repeating>,
+    sounding: Vec<Sounding>,
+    put_off: VecDeque<PutOff>,
+    pub(crate) ledger: Ledger,
+    /// Blocks of the ledger that hold more than what still sounds.
+    stale: Option<(u64, u64)>,
+    /// Samples that may still be judged in this block.
+    left: usize,
+    options: Options,
+    arch: Arch,
+}
+
+struct Repeating {
+    voice: Voice,
+    drive: usize,
+    gain: f32,
+    base: u64,
+    period: f64,
+    begun: u64,
+}
+
+impl Repeating {
+    fn next(&self) -> u64 {
+        self.base.saturating_add((self.begun as f64 * self.period).round() as u64)
+    }
+}
+
+struct PutOff {
+    voice: Voice,
+    drive: usize,
+    gain: f32,
+    since: u64,
+}
+
+impl Events {
+    pub(crate) fn new(options: &Options) -> Self {
+        Self {
+            shelf: Shelf::new(Self::places(options)),
+            repeating: Vec::with_capacity(options.voices),
+            sounding: Vec::with_capacity(options.copies),
+            put_off: VecDeque::with_capacity(options.copies),
+            ledger: Ledger::new(options),
+            stale: None,
+            left: options.work,
+            options: options.clone(),
+            arch: Arch::new(),
+        }
+    }
+
+    /// Most drives held at once.
+    pub(crate) fn places(options: &Options) -> usize {
+        options.voices + 2 * options.copies + 2
+    }
+
+    /// Begins what the block before had no time for.
+    pub(crate) fn resume(&mut self, clock: u64, outlet: &mut Outlet) {
+        self.left = self.options.work;
+        for _ in 0..self.put_off.len() {
+            let Some(PutOff { voice, drive, gain, since }) = self.put_off.pop_front() else { return };
+            let samples = self.cost(drive);
+            if samples > self.left && self.left < self.options.work {
+                self.put_off.push_front(PutOff { voice, drive, gain, since });
+                return;
+            }
+            outlet.report(Report::Late { voice: Some(voice), by: clock - since });
+            self.begin(voice, drive, clock, gain, outlet);
+        }
+    }
+
+    pub(crate) fn start(
+        &mut self,
+        (voice, drive): (Voice, Arc<Prepared>),
+        sample: u64,
+        (gain, period): (f32, Option<f64>),
+        outlet: &mut Outlet,
+    ) {
+        let period = period.or(drive.every().map(|every| every as f64));
+        let refused = match period {
+            _ if !gain.is_finite() => Some(Why::Gain),
+            Some(period) if !(period >= self.options.block as f64 && period.is_finite()) => Some(Why::Period),
+            _ => self.unfit(&drive),
+        };
+        if let Some(why) = refused {
+            return self.refuse(voice, drive, why, outlet);
+        }
+        if period.is_some() {
+            self.forget(voice, outlet);
+            if self.repeating.len() >= self.options.voices {
+                return self.refuse(voice, drive, Why::Voices, outlet);
+            }
+        }
+        let drive = match self.shelf.put(drive) {
+            Ok(place) => place,
+            Err(drive) => return self.refuse(voice, drive, Why::Copies, outlet),
+        };
+        match period {
+            Some(period) => {
+                self.repeating.push(Repeating { voice, drive, gain, base: sample, period, begun: 0 })
+            }
+            None => self.ask(voice, drive, sample, gain, outlet),
+        }
+    }
+
+    pub(crate) fn swap(&mut self, voice: Voice, drive: Arc<Prepared>, outlet: &mut Outlet) {
+        if let Some(why) = self.unfit(&drive) {
+            return self.refuse(voice, drive, why, outlet);
+        }
+        let Some(at) = self.repeating.iter().position(|held| held.voice == voice) else {
+            return self.refuse(voice, drive, Why::Unknown, outlet);
+        };
+        let every = drive.every().filter(|&every| every >= self.options.block);
+        let place = match self.shelf.put(drive) {
+            Ok(place) => place,
+            Err(drive) => return self.refuse(voice, drive, Why::Copies, outlet),
+        };
+        let held = &mut self.repeating[at];
+        let old = std::mem::replace(&mut held.drive, place);
+        if let Some(every) = every {
+            (held.base, held.begun, held.period) = (held.next(), 0, every as f64);
+        }
+        self.release(old, outlet);
+    }
+
+    pub(crate) fn gain(&mut self, voice: Voice, gain: f32, outlet: &mut Outlet) {
+        match self.repeating.iter_mut().find(|held| held.voice == voice) {
+            _ if !gain.is_finite() => outlet.refuse(Some(voice), Why::Gain),
+            Some(held) => held.gain = gain,
+            None => outlet.refuse(Some(voice), Why::Unknown),
+        }
+    }
+
+    /// Ends a voice; what fades already does so from the start of the block.
+    pub(crate) fn stop(&mut self, voice: Voice, sample: u64, fade: Option<u32>, outlet: &mut Outlet) {
+        let repeated = self.forget(voice, outlet);
+        for _ in 0..self.put_off.len() {
+            match self.put_off.pop_front() {
+                Some(waits) if waits.voice == voice => self.release(waits.drive, outlet),
+                Some(waits) => self.put_off.push_back(waits),
+                None => {}
+            }
+        }
+        if repeated && !self.is_on(voice) {
+            outlet.report(Report::Ended { voice, sample });
+        }
+        let Some(fade) = fade.map(|fade| fade.max(self.options.block as u32)) else { return };
+        let block = self.options.block as u64;
+        for held in self.sounding.iter_mut().filter(|held| held.voice == voice) {
+            let old = held.end();
+            let from = if held.fade.is_some() { sample - sample % block } else { sample };
+            held.fade = Some(Fade::after(held.fade, from, fade));
+            if held.end() < old {
+                let (from, to) = (held.end() / block, (old - 1) / block);
+                let (low, high) = self.stale.unwrap_or((from, to));
+                self.stale = Some((low.min(from), high.max(to)));
+            }
+        }
+    }
+
+    /// First sample of the repetition that comes next, and whose it is.
+    pub(crate) fn next(&self) -> Option<(u64, usize)> {
+        self.repeating.iter().enumerate().map(|(at, held)| (held.next(), at)).min()
+    }
+
+    /// Begins the next copy of a repetition.
+    pub(crate) fn repeat(&mut self, at: usize, outlet: &mut Outlet) {
+        let held = &mut self.repeating[at];
+        let sample = held.next();
+        held.begun += 1;
+        let (voice, drive, gain) = (held.voice, held.drive, held.gain);
+        self.shelf.hold(drive);
+        self.ask(voice, drive, sample, gain, outlet);
+    }
+
+    /// Adds the block that begins at `clock` to planar `out`, which is silent.
+    pub(crate) fn mix(&mut self, clock: u64, out: &mut [f32]) {
+        self.refill(clock);
+        let (shelf, sounding, block) = (&self.shelf, &self.sounding, self.options.block);
+        self.arch.dispatch(Wide(
+            #[inline(always)]
+            || sounding.iter().for_each(|held| held.mix(shelf, clock, block, out)),
+        ));
+    }
+
+    /// Ends the block that begins at `clock`.
+    pub(crate) fn settle(&mut self, clock: u64, emitted: &[f32], outlet: &mut Outlet) {
+        let ledger = &mut self.ledger;
+        self.arch.dispatch(Wide(
+            #[inline(always)]
+            || ledger.settle(emitted),
+        ));
+        let end = clock + self.options.block as u64;
+        let mut at = 0;
+        while at < self.sounding.len() {
+            if self.sounding[at].end() > end {
+                at += 1;
+                continue;
+            }
+            let held = self.sounding.remove(at);
+            self.release(held.drive, outlet);
+            if !self.is_on(held.voice) {
+                outlet.report(Report::Ended { voice: held.voice, sample: held.end() });
+            }
+        }
+    }
+
+    fn is_on(&self, voice: Voice) -> bool {
+        self.sounding.iter().any(|held| held.voice == voice)
+            || self.repeating.iter().any(|held| held.voice == voice)
+            || self.put_off.iter().any(|held| held.voice == voice)
+    }
+
+    fn unfit(&self, drive: &Prepared) -> Option<Why> {
+        if drive.outputs() != self.options.outputs {
+            return Some(Why::Outputs);
+        }
+        (drive.samples() > self.options.longest).then_some(Why::Samples)
+    }
+
+    fn cost(&self, drive: usize) -> usize {
+        self.shelf.get(drive).map_or(0, |drive| drive.outputs() * drive.samples())
+    }
+
+    /// Begins a copy whose use of its drive is counted already, now or, for want of time, in the next block.
+    fn ask(&mut self, voice: Voice, drive: usize, sample: u64, gain: f32, outlet: &mut Outlet) {
+        if self.sounding.len() + self.put_off.len() >= self.options.copies {
+            self.release(drive, outlet);
+            return outlet.refuse(Some(voice), Why::Copies);
+        }
+        let full = self.cost(drive) > self.left && self.left < self.options.work;
+        if full || !self.put_off.is_empty() {
+            outlet.meters.add(Count::PutOff);
+            self.put_off.push_back(PutOff { voice, drive, gain, since: sample });
+        } else {
+            self.begin(voice, drive, sample, gain, outlet);
+        }
+    }
+
+    fn begin(&mut self, voice: Voice, place: usize, sample: u64, asked: f32, outlet: &mut Outlet) {
+        let Some(drive) = self.shelf.get(place) else { return };
+        let (ledger, samples) = (&mut self.ledger, drive.samples());
+        self.left = self.left.saturating_sub(drive.outputs() * samples);
+        let verdict = self.arch.dispatch(Wide(
+            #[inline(always)]
+            || {
+                let verdict = ledger.judge(drive, sample, asked);
+                ledger.enter(drive, sample, verdict.gain);
+                verdict
+            },
+        ));
+        let gain = verdict.gain;
+        outlet.started(voice, sample, [asked, gain], verdict.by);
+        self.sounding.push(Sounding {
+            voice,
+            drive: place,
+            start: sample,
+            samples: samples as u64,
+            gain,
+            fade: None,
+        });
+    }
+
+    /// Makes a few blocks of the ledger anew, of what still sounds.
+    fn refill(&mut self, clock: u64) {
+        let Some((from, to)) = self.stale else { return };
+        let from = from.max(clock / self.options.block as u64 + 1);
+        let (shelf, sounding, ledger) = (&self.shelf, &self.sounding, &mut self.ledger);
+        self.arch.dispatch(Wide(
+            #[inline(always)]
+            || {
+                for block in from..(from + REFILLS).min(to + 1) {
+                    ledger.clear(block);
+                    for held in sounding {
+                        if let Some(drive) = shelf.get(held.drive) {
+                            ledger.refill(block, drive, held.start, held.end(), held.gain);
+                        }
+                    }
+                    ledger.weigh_block(block);
+                }
+            },
+        ));
+        self.stale = (from + REFILLS <= to).then_some((from + REFILLS, to));
+    }
+
+    /// Lets a voice repeat no more; whether it did.
+    fn forget(&mut self, voice: Voice, outlet: &mut Outlet) -> bool {
+        let found = self.repeating.iter().position(|held| held.voice == voice);
+        if let Some(at) = found {
+            let held = self.repeating.remove(at);
+            self.release(held.drive, outlet);
+        }
+        found.is_some()
+    }
+
+    fn release(&mut self, drive: usize, outlet: &mut Outlet) {
+        if let Some(drive) = self.shelf.release(drive) {
+            outlet.discard(Garbage::Drive(drive));
+        }
+    }
+
+    fn refuse(&mut self, voice: Voice, drive: Arc<Prepared>, why: Why, outlet: &mut Outlet) {
+        outlet.discard(Garbage::Drive(drive));
+        outlet.refuse(Some(voice), why);
+    }
+}

@@ -1,0 +1,77 @@
+use crate::shelf::Garbage;
+use crate::{Count, Meters, Report, Voice, Which, Why};
+use rtrb::Producer;
+use std::sync::Arc;
+
+/// All that leaves the audio thread besides samples.
+pub(crate) struct Outlet {
+    reports: Producer<Report>,
+    garbage: Producer<Garbage>,
+    /// What found no room in the ring yet. Never more than twice what the player can hold at once.
+    trash: Vec<Garbage>,
+    most: usize,
+    pub(crate) meters: Arc<Meters>,
+}
+
+impl Outlet {
+    /// An outlet for a player that holds at most so many shared data at once.
+    pub(crate) fn new(
+        reports: Producer<Report>,
+        garbage: Producer<Garbage>,
+        held: usize,
+        meters: Arc<Meters>,
+    ) -> Self {
+        Self { reports, garbage, trash: Vec::with_capacity(2 * held + 2), most: held, meters }
+    }
+
+    /// Whether a command may come in: then all it could leave behind still finds room.
+    pub(crate) fn is_open(&mut self) -> bool {
+        while let Some(garbage) = self.trash.pop() {
+            if let Err(rtrb::PushError::Full(garbage)) = self.garbage.push(garbage) {
+                self.trash.push(garbage);
+                break;
+            }
+        }
+        self.trash.len() <= self.most
+    }
+
+    pub(crate) fn discard(&mut self, garbage: Garbage) {
+        if let Err(rtrb::PushError::Full(garbage)) = self.garbage.push(garbage) {
+            self.trash.push(garbage);
+        }
+    }
+
+    pub(crate) fn report(&mut self, report: Report) {
+        match report {
+            Report::Started { .. } => self.meters.add(Count::Started),
+            Report::Limited { .. } => self.meters.add(Count::Limited),
+            Report::Late { .. } => self.meters.add(Count::Late),
+            Report::Refused { .. } => self.meters.add(Count::Refused),
+            Report::Ended { .. } | Report::WavesLimited { .. } => {}
+        }
+        if self.reports.push(report).is_err() {
+            self.meters.add(Count::ReportsLost);
+        }
+    }
+
+    pub(crate) fn refuse(&mut self, voice: Option<Voice>, why: Why) {
+        self.report(Report::Refused { voice, why });
+    }
+
+    /// Says what a copy got of what it asked for; a last bit or two is not worth a word.
+    pub(crate) fn started(
+        &mut self,
+        voice: Voice,
+        sample: u64,
+        [asked, gain]: [f32; 2],
+        by: Option<(Which, usize)>,
+    ) {
+        self.report(Report::Started { voice, sample, gain });
+        if let Some((which, output)) = by {
+            let scale = gain / asked;
+            if scale < 1.0 - 1e-5 {
+                self.report(Report::Limited { voice, scale, which, output });
+            }
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! Shared data on the audio thread: counted by its uses there, and sent away to be freed when there are none.
+
+use crate::{Prepared, PreparedFilters};
+use std::sync::Arc;
+
+/// What is sent back to the desk to be freed there.
+#[derive(Debug)]
+#[expect(dead_code, reason = "held to be dropped")]
+pub(crate) enum Garbage {
+    Drive(Arc<Prepared>),
+    Filters(Arc<PreparedFilters>),
+    Samples(Arc<[f32]>),
+}
+
+/// Places for shared data; an index stays with its data until the last use ends.
+pub(crate) struct Shelf<T: ?Sized> {
+    places: Vec<Option<(Arc<T>, u32)>>,
+    free: Vec<usize>,
+}
+
+impl<T: ?Sized> Shelf<T> {
+    pub(crate) fn new(places: usize) -> Self {
+        Self { places: (0..places).map(|_| None).collect(), free: (0..places).rev().collect() }
+    }
+
+    /// Takes data in with one use; gives it back if there is no place.
+    pub(crate) fn put(&mut self, data: Arc<T>) -> Result<usize, Arc<T>> {
+        match self.free.pop() {
+            Some(place) => {
+                self.places[place] = Some((data, 1));
+                Ok(place)
+            }
+            None => Err(data),
+        }
+    }
+
+    pub(crate) fn get(&self, place: usize) -> Option<&T> {
+        self.places.get(place)?.as_ref().map(|(data, _)| &**data)
+    }
+
+    /// One use more.
+    pub(crate) fn hold(&mut self, place: usize) {
+        if let Some(Some((_, uses))) = self.places.get_mut(place) {
+            *uses += 1;
+        }
+    }
+
+    /// One use less; after the last, the data itself.
+    pub(crate) fn release(&mut self, place: usize) -> Option<Arc<T>> {
+        let held = self.places.get_mut(place)?;
+        let (_, uses) = held.as_mut()?;
+        *uses -= 1;
+        if *uses > 0 {
+            return None;
+        }
+        self.free.push(place);
+        held.take().map(|(data, _)| data)
+    }
+}
