@@ -8,6 +8,7 @@ mod check;
 mod compare;
 mod design;
 mod devices;
+mod doctor;
 mod error;
 mod export;
 mod field;
@@ -20,6 +21,7 @@ mod judge;
 mod level;
 mod modes;
 mod output;
+mod play;
 mod played;
 mod report;
 mod reproduce;
@@ -52,7 +54,9 @@ fn run(arguments: &Arguments) -> Result<(), CliError> {
         Command::Focus(options) => focus::run(options, json),
         Command::Compare(options) => compare::run(options, json),
         Command::Field(options) => field::run(options, json),
+        Command::Play(options) => play::run(options, json),
         Command::Devices(options) => devices::run(options, json),
+        Command::Doctor(options) => doctor::run(options, json),
         Command::Reproduce(options) => reproduce::run(options, json),
     }
 }

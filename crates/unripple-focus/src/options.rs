@@ -59,7 +59,7 @@ impl Method {
     }
 
     /// Whether responses are played back as they are, rather than a state sought.
-    pub(crate) fn reverses(self) -> bool {
+    pub fn reverses(self) -> bool {
         matches!(self, Self::TimeReversal | Self::OneBit)
     }
 }

@@ -43,6 +43,13 @@ pub struct DeviceOptions {
     pub snr_db: Option<f64>,
 }
 
+impl DeviceOptions {
+    /// Whether it has a clock of its own that nobody can stop.
+    pub fn is_real(&self) -> bool {
+        self.device != DeviceName::Virtual && !self.freewheel
+    }
+}
+
 /// Options of `calibrate`.
 #[derive(Debug, Args)]
 pub struct CalibrateOptions {

@@ -3,11 +3,13 @@
 mod calibrate;
 mod export;
 mod names;
+mod play;
 
 pub use calibrate::{CalibrateOptions, DeviceOptions};
 use clap::{Args, Parser, Subcommand};
 pub use export::{ExportOptions, FormatName};
 pub use names::{BetweenName, DeviceName, LossName, MethodName, WayName};
+pub use play::{DoctorOptions, PlayOptions, TouchOptions};
 use std::path::PathBuf;
 
 /// Waves that meet under a fingertip: design, simulate and focus a reverberant touch surface.
@@ -43,10 +45,14 @@ pub enum Command {
     Calibrate(CalibrateOptions),
     /// A library of responses as WAV files or as one SOFA file.
     Export(ExportOptions),
+    /// A surface that answers fingers, live: touches in, waves out.
+    Play(PlayOptions),
     /// All faults of a surface file.
     Check(CheckOptions),
     /// What drives can be played through: virtual surface, files, sound server, cards.
     Devices(DevicesOptions),
+    /// Each stage between a touch and what is felt, checked in turn: why nothing may be felt.
+    Doctor(DoctorOptions),
     /// The paper's table and figures beside ours, as one page.
     Reproduce(ReproduceOptions),
 }

@@ -1,6 +1,6 @@
 //! `unripple calibrate`: responses measured through a device, point by point, into a library.
 
-mod devices;
+pub mod devices;
 mod points;
 mod report;
 mod rigs;

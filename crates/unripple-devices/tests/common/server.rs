@@ -1,6 +1,8 @@
 //! A JACK server with its dummy driver, for tests.
+#![allow(dead_code)] // Each test file uses its own part of this.
 
 use std::process::{Child, Command, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 use unripple_core::Device;
 use unripple_devices::{Bridge, DevicesError};
@@ -14,15 +16,21 @@ pub struct Server {
 impl Server {
     /// `None` where there is no `jackd`.
     pub fn start(period: usize) -> Option<Self> {
-        let name = format!("unripple-test-{}", std::process::id());
+        static STARTED: AtomicU32 = AtomicU32::new(0);
+        let number = STARTED.fetch_add(1, Ordering::Relaxed);
+        Self::named(&format!("unripple-test-{}-{number}", std::process::id()), period)
+    }
+
+    /// The same under a name: a server that comes back.
+    pub fn named(name: &str, period: usize) -> Option<Self> {
         let child = Command::new("jackd")
-            .args(["--no-realtime", "--no-mlock", "--name", &name])
+            .args(["--no-realtime", "--no-mlock", "--name", name])
             .args(["-d", "dummy", "-r", "48000", "-p", &period.to_string(), "-C", "2", "-P", "2"])
             .stdout(Stdio::null())
             .stderr(Stdio::null())
             .spawn()
             .ok()?;
-        Some(Self { child, name })
+        Some(Self { child, name: name.to_owned() })
     }
 
     /// Asks the server to end, and waits until it has.

@@ -1,0 +1,55 @@
+//! How strongly a surface is played.
+
+use crate::error::CliError;
+use std::fmt;
+use unripple::core::{Point, Surface};
+use unripple::dsp::{Threshold, Weighting};
+use unripple_live::{Full, Maker};
+
+/// Share of the sheet's thickness that a full pulse moves it by, unless told otherwise: well within linear theory.
+const SHARE: f64 = 0.5;
+
+/// What a gain of 1 stands for.
+#[derive(Clone, Copy, Debug)]
+pub struct Level {
+    /// What a full pulse or waveform is felt like, and where that was found; the surface's own limit where `None`.
+    pub full: Option<Full>,
+    /// Displacement at a focus, in m, of a full pulse and at the surface's own limit.
+    moved: [f64; 2],
+    limit: f64,
+}
+
+impl Level {
+    /// As much as the surface's own limit allows, or less: what is felt of a pulse that moves the sheet by half its thickness.
+    pub fn of(surface: &Surface, maker: &Maker, limited: bool) -> Result<Self, CliError> {
+        let limit = surface.emission.limit;
+        let (width, height) = surface.outline.extent();
+        let place = surface.outline.nearest(Point::new(0.41 * width, 0.6 * height));
+        let made = maker.focus(&[place])?;
+        let trace = maker.trace(&made)?;
+        let most = trace.iter().fold(0.0, |m: f64, u| m.max(u.abs()));
+        let share = SHARE * surface.sheet.thickness / most;
+        if limited || !share.is_finite() || share >= 1.0 {
+            return Ok(Self { full: None, moved: [most, most], limit });
+        }
+        let felt = Weighting::padded(&Threshold::default(), made.drive.rate(), trace.len(), made.instant)
+            .weigh(&trace);
+        let felt_db = 20.0 * (share * felt.iter().fold(0.0, |m: f64, x| m.max(x.abs()))).log10();
+        Ok(Self { full: Some(Full { place, felt_db }), moved: [share * most, most], limit })
+    }
+}
+
+impl fmt::Display for Level {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [used, own] = self.moved.map(|u| u * 1e6);
+        match self.full {
+            Some(full) => write!(
+                f,
+                "full level {:.0} dB above the threshold of touch, a pulse of {used:.1} µm; the surface's limit of {} would move it \
+                 by {own:.0} µm (--full-limit)",
+                full.felt_db, self.limit
+            ),
+            None => write!(f, "full level the surface's limit of {}: a pulse of {used:.1} µm", self.limit),
+        }
+    }
+}

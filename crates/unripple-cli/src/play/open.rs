@@ -1,0 +1,147 @@
+//! The device that a surface is played through.
+
+use crate::args::{DeviceName, PlayOptions};
+use crate::error::CliError;
+use crate::judge;
+use std::f64::consts::TAU;
+use unripple::core::{Device, ModalResponses, Surface};
+use unripple::physics::{Medium, StepperOptions};
+use unripple_calibrate::{Tracker, Tracking, Warp};
+use unripple_devices::{DevicesError, Jack, JackOptions, Links, Unknowns, Virtual, VirtualOptions};
+use unripple_live::{Feeler, Recovering};
+
+/// Fingers that a virtual surface bears at once, those that are being lifted included.
+const FINGERS: usize = 24;
+
+/// How often a lost sound server is looked for again.
+const TRIES: u32 = 1000;
+
+/// Blocks that drive is ahead of a sound server: the fewest that it takes.
+const LEAD: usize = 2;
+
+/// Period of the drift that may be asked for, in s, and how far apart its knots are.
+const MINUTE: f64 = 60.0;
+const KNOT: f64 = 0.1;
+
+/// Longest drift that is laid out beforehand, in s.
+const LONGEST: f64 = 3600.0;
+
+/// A device, and what goes with it.
+pub struct Opened {
+    pub device: Box<dyn Device>,
+    /// Of a virtual surface: what fingers feel.
+    pub feeler: Option<Feeler>,
+    /// Samples by which what is heard comes after what was sent.
+    pub latency: usize,
+}
+
+/// Opens what was asked for; `live` where somebody out there touches.
+pub fn open(options: &PlayOptions, surface: &Surface, live: bool) -> Result<Opened, CliError> {
+    match options.device.device {
+        DeviceName::Virtual => virtual_surface(options, surface, live),
+        DeviceName::Jack => jack(options, surface),
+        DeviceName::Card => card(options, surface),
+        DeviceName::Tape => Err(CliError::Input(
+            "--device tape: expected a device that plays while touches come, found files (--keep-drive writes one)".into(),
+        )),
+    }
+}
+
+fn virtual_surface(options: &PlayOptions, surface: &Surface, live: bool) -> Result<Opened, CliError> {
+    let stepper = StepperOptions { max_fingers: FINGERS, ..StepperOptions::default() };
+    let mut plain = VirtualOptions {
+        block: options.block,
+        stepper,
+        accuracy: judge::accuracy(surface),
+        real_time: live || options.real_time,
+        ..VirtualOptions::default()
+    };
+    plain.mishaps.tension = options.drift_percent.map_or_else(Vec::new, drift);
+    let device = match options.device.unknowns {
+        None => Virtual::new(surface, &plain),
+        Some(seed) => {
+            let usual = Unknowns { seed, ..Unknowns::default() };
+            let unknowns = Unknowns { snr_db: options.device.snr_db.unwrap_or(usual.snr_db), ..usual };
+            unknowns.truth(surface).and_then(|truth| Virtual::of_truth(&truth, &plain))
+        }
+    };
+    let device = device.map_err(CliError::input)?;
+    let feeler = Feeler::new(device.handle(), surface, 10)?;
+    Ok(Opened { device: Box::new(device), feeler: Some(feeler), latency: 0 })
+}
+
+/// Tension over nominal against time, up and down by so many per cent.
+fn drift(percent: f64) -> Vec<(f64, f64)> {
+    let knots = (LONGEST / KNOT) as usize;
+    let at = |i: usize| i as f64 * KNOT;
+    (0..=knots).map(|i| (at(i), 1.0 + percent / 100.0 * (TAU * at(i) / MINUTE).sin())).collect()
+}
+
+fn jack(options: &PlayOptions, surface: &Surface) -> Result<Opened, CliError> {
+    let outputs = names(surface);
+    let known = JackOptions {
+        server: options.device.jack_server.clone(),
+        inputs: heard(options, surface),
+        outputs,
+        links: options.device.jack_client.clone().map_or(Links::System, Links::Client),
+        full_scale: surface.emission.limit,
+        freewheel: options.device.freewheel,
+        lead: LEAD,
+        ..JackOptions::default()
+    };
+    recovering(move || Ok(Box::new(Jack::open(&known)?)))
+}
+
+#[cfg(feature = "cards")]
+fn card(options: &PlayOptions, surface: &Surface) -> Result<Opened, CliError> {
+    use unripple_devices::cards::{Card, CardOptions};
+    let known = CardOptions {
+        playback: options.device.card.clone(),
+        capture: options.device.capture_card.clone(),
+        inputs: heard(options, surface),
+        outputs: names(surface),
+        rate: surface.emission.rate,
+        block: options.device.card_block,
+        full_scale: surface.emission.limit,
+        strict: false,
+        ..CardOptions::default()
+    };
+    recovering(move || Ok(Box::new(Card::open(&known)?)))
+}
+
+#[cfg(not(feature = "cards"))]
+fn card(_: &PlayOptions, _: &Surface) -> Result<Opened, CliError> {
+    let text = "--device card: expected a build with sound cards, found one without; ";
+    Err(CliError::Input(format!("{text}{}", crate::devices::HOW_TO_GET_CARDS)))
+}
+
+fn names(surface: &Surface) -> Vec<String> {
+    surface.actuators.iter().map(|actuator| actuator.name.clone()).collect()
+}
+
+/// The sensors that are listened to.
+fn heard(options: &PlayOptions, surface: &Surface) -> Vec<String> {
+    if options.follow_tension { names(surface) } else { Vec::new() }
+}
+
+/// A device that is opened again when it is lost. What may be said at once is said at once.
+fn recovering(
+    mut open: impl FnMut() -> Result<Box<dyn Device>, DevicesError> + Send + 'static,
+) -> Result<Opened, CliError> {
+    let first = open().map_err(CliError::work)?;
+    let latency = (LEAD + 1) * first.layout().block;
+    let mut first = Some(first);
+    let again = move || match first.take() {
+        Some(device) => Ok(device),
+        None => open().map_err(|error| error.to_string()),
+    };
+    let device = Recovering::open(Box::new(again), TRIES).map_err(CliError::work)?;
+    Ok(Opened { device: Box::new(device), feeler: None, latency })
+}
+
+/// What follows the tension of a surface whose modes are known.
+pub fn tracker(surface: &Surface, modal: &ModalResponses) -> Result<Tracker, CliError> {
+    let warp = Warp::new(&Medium::of(&surface.sheet));
+    let shares: Vec<f64> = modal.poles.iter().map(|pole| warp.bending_share(pole.omega)).collect();
+    Ok(Tracker::new(modal, &shares, &Tracking::default())?)
+}

@@ -1,0 +1,237 @@
+//! What was played and felt.
+
+use super::level::Level;
+use serde::Serialize;
+use std::fmt::Write;
+use unripple::core::{State, Surface};
+use unripple_calibrate::Drift;
+use unripple_live::{Engine, Feeling, Percentiles, Pulse, Stage, Window};
+use unripple_player::Count;
+
+/// A sitting, SI units.
+#[derive(Debug, Default, Serialize)]
+pub struct Report {
+    surface: String,
+    window_s: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    full_level_db: Option<f64>,
+    seconds: f64,
+    touches: u64,
+    refused_touches: u64,
+    cues: u64,
+    failed_cues: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    last_failure: Option<String>,
+    drives_made: u64,
+    started: u64,
+    limited: u64,
+    least_limit: Option<f32>,
+    waves_limited: u64,
+    beyond_limit: u64,
+    stale: u64,
+    late: u64,
+    refused: u64,
+    lost_commands: u64,
+    lost_blocks: u64,
+    heavy_blocks: u64,
+    block_s: f64,
+    first_sample_s: Four,
+    focus_s: Four,
+    making_s: Four,
+    computing_s: Four,
+    block_work_s: Four,
+    felt: Felt,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tension: Option<Tension>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    priority: Option<String>,
+}
+
+/// The 50th, 99th, 99.9th percentile and the worst; `null` where nothing was.
+#[derive(Debug, Default, Serialize)]
+struct Four {
+    p50: Option<f64>,
+    p99: Option<f64>,
+    p999: Option<f64>,
+    worst: Option<f64>,
+}
+
+impl Four {
+    fn of(times: &Percentiles) -> Self {
+        match times.four() {
+            Some([p50, p99, p999, worst]) => {
+                Self { p50: Some(p50), p99: Some(p99), p999: Some(p999), worst: Some(worst) }
+            }
+            None => Self::default(),
+        }
+    }
+
+    fn text(&self, name: &str) -> String {
+        let ms = |value: Option<f64>| value.map_or("-".into(), |s| format!("{:.3}", 1e3 * s));
+        let Self { p50, p99, p999, worst } = self;
+        format!("  {name:<34}{:>9}{:>9}{:>9}{:>9}\n", ms(*p50), ms(*p99), ms(*p999), ms(*worst))
+    }
+}
+
+/// What fingers felt, over all looks in which one was down.
+#[derive(Debug, Default, Serialize)]
+struct Felt {
+    looks: usize,
+    level_db_median: Option<f64>,
+    level_db_most: Option<f64>,
+    contrast_median: Option<f64>,
+    #[serde(skip)]
+    levels: Vec<f64>,
+    #[serde(skip)]
+    contrasts: Vec<f64>,
+}
+
+/// Tension as it was followed.
+#[derive(Debug, Serialize)]
+struct Tension {
+    ratio: f64,
+    explained: bool,
+}
+
+impl Report {
+    pub fn new(surface: &Surface, window: &Window, level: &Level) -> Self {
+        Self {
+            surface: surface.name.clone(),
+            window_s: window.seconds,
+            full_level_db: level.full.map(|full| full.felt_db),
+            ..Self::default()
+        }
+    }
+
+    /// Looks at the fingers; a line of what they feel.
+    pub fn look(&mut self, stage: &mut Stage, pulse: Option<&Pulse>) -> String {
+        let mut line = format!("{:7.1} s", stage.time());
+        let feelings = stage.feelings();
+        for feeling in &feelings {
+            self.felt.add(feeling);
+            line += &told(feeling);
+        }
+        if let Some(drift) = stage.drift() {
+            let explained = !drift.asks_for_calibration();
+            self.tension = Some(Tension { ratio: drift.tension(), explained });
+            let _ = match drift {
+                Drift::Followed { tension, .. } => write!(line, "  tension {tension:.5}"),
+                Drift::Unexplained { .. } => write!(line, "  tension unknown: calibrate again"),
+            };
+        }
+        if let Some(pulse) = pulse {
+            self.lost_blocks = pulse.lost;
+            self.priority = Some(pulse.priority.clone());
+            if pulse.state != State::Running {
+                let _ = write!(line, "  device {}", pulse.state);
+            }
+            let load = stage.conductor().desk().meters().load();
+            if load > 0.7 {
+                let _ = write!(line, "  load {:.0} %: close to too much", 100.0 * load);
+            }
+        }
+        match feelings.is_empty() && pulse.is_none_or(|pulse| pulse.state == State::Running) {
+            true => String::new(),
+            false => line,
+        }
+    }
+
+    /// The whole sitting.
+    pub fn finish(mut self, engine: &mut Engine) -> Self {
+        let rate = engine.heart().device().layout().rate;
+        self.block_s = engine.heart().device().layout().block as f64 / rate;
+        self.block_work_s = Four::of(engine.heart().work());
+        self.heavy_blocks = engine.heart().heavy();
+        self.lost_blocks = engine.heart().device().status().lost;
+        let stage = engine.stage();
+        let counts = stage.sources().counts();
+        self.touches = counts.touches;
+        self.refused_touches = counts.errors();
+        self.seconds = stage.time();
+        self.computing_s = Four::of(stage.computing());
+        let conductor = stage.conductor();
+        let tally = conductor.tally();
+        self.drives_made = conductor.drives().making().count();
+        self.making_s = Four::of(conductor.drives().making());
+        self.first_sample_s = Four::of(&tally.first_sample);
+        self.focus_s = Four::of(&tally.focus);
+        (self.cues, self.failed_cues, self.last_failure) = (tally.cues, tally.failed, tally.failure.clone());
+        (self.started, self.limited, self.least_limit) = (tally.started, tally.limited, tally.least);
+        (self.waves_limited, self.beyond_limit) = (tally.waves_limited, tally.beyond);
+        self.stale = tally.stale;
+        (self.late, self.refused) = (tally.late, tally.refused);
+        self.lost_commands = tally.lost + conductor.desk().meters().count(Count::ReportsLost);
+        self.felt.settle();
+        self
+    }
+
+    /// For people.
+    pub fn text(&self) -> String {
+        let mut text = format!(
+            "{}: {:.1} s played, {} touches, {} cues, {} drives made\n",
+            self.surface, self.seconds, self.touches, self.cues, self.drives_made
+        );
+        let db = |value: Option<f64>| value.map_or("-".into(), |db| format!("{db:.1}"));
+        let _ = writeln!(
+            text,
+            "felt: {} dB above threshold (most {}), contrast {}",
+            db(self.felt.level_db_median),
+            db(self.felt.level_db_most),
+            db(self.felt.contrast_median)
+        );
+        let _ = writeln!(text, "\n  {:<34}{:>9}{:>9}{:>9}{:>9}", "in ms", "p50", "p99", "p99.9", "worst");
+        text += &self.first_sample_s.text("touch to first sample");
+        text += &self.focus_s.text("touch to focus");
+        text += &self.making_s.text("making a drive for a new place");
+        text += &self.computing_s.text("all that touches of one moment ask");
+        text += &self.block_work_s.text(&format!("a block of {:.3} ms, processor", 1e3 * self.block_s));
+        let _ =
+            writeln!(text, "\nlimited: {} events, {} times all waveforms", self.limited, self.waves_limited);
+        for (count, what) in [
+            (self.beyond_limit, "levels beyond the limit, played as strongly as it allows"),
+            (self.failed_cues, "cues that could not be played"),
+            (self.stale, "pulses dropped because they came too late"),
+            (self.late, "commands late"),
+            (self.refused, "commands refused by the player"),
+            (self.lost_commands, "commands or reports lost"),
+            (self.lost_blocks, "blocks lost"),
+            (self.heavy_blocks, "blocks that took more than 70 % of their time"),
+            (self.refused_touches, "packets, places or fingers refused"),
+        ] {
+            if count > 0 {
+                let _ = writeln!(text, "{count} {what}");
+            }
+        }
+        if let Some(failure) = &self.last_failure {
+            let _ = writeln!(text, "the last that failed: {failure}");
+        }
+        if let Some(priority) = &self.priority {
+            let _ = writeln!(text, "audio thread: {priority}");
+        }
+        text
+    }
+}
+
+fn told(feeling: &Feeling) -> String {
+    let level = feeling.level_db.map_or("  silent".into(), |db| format!("{db:5.1} dB"));
+    let contrast = feeling.contrast.map_or("    -".into(), |contrast| format!("{contrast:5.1}"));
+    let (x, y) = (feeling.at.x * 1e3, feeling.at.y * 1e3);
+    format!("  finger {} at {x:.0},{y:.0}: {level}, contrast {contrast}", feeling.finger)
+}
+
+impl Felt {
+    fn add(&mut self, feeling: &Feeling) {
+        self.levels.extend(feeling.level_db);
+        self.contrasts.extend(feeling.contrast);
+    }
+
+    fn settle(&mut self) {
+        self.levels.sort_unstable_by(f64::total_cmp);
+        self.contrasts.sort_unstable_by(f64::total_cmp);
+        let middle = |values: &[f64]| values.get(values.len() / 2).copied();
+        self.looks = self.levels.len();
+        self.level_db_median = middle(&self.levels);
+        self.level_db_most = self.levels.last().copied();
+        self.contrast_median = middle(&self.contrasts);
+    }
+}

@@ -1,0 +1,90 @@
+//! A film played in real time through a JACK server with its dummy driver, beside a client that does nothing: `cargo run --release -p
+//! unripple-live --example under_runs -- [SECONDS]`. Needs `jackd`.
+
+#[path = "../tests/common/mod.rs"]
+mod common;
+#[path = "../../unripple-devices/tests/common/server.rs"]
+mod server;
+
+use common::*;
+use server::Server;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use unripple_core::Device;
+use unripple_devices::{Jack, JackOptions, Links};
+use unripple_effects::{Curve, Kind, Level, Texture};
+use unripple_live::real_time;
+use unripple_touch::{Synthetic, SyntheticOptions};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let seconds: f64 = std::env::args().nth(1).map_or(Ok(20.0), |s| s.parse())?;
+    let Some(server) = Server::start(BLOCK) else {
+        println!("SKIPPED: there is no jackd here (Debian: apt install jackd2)");
+        return Ok(());
+    };
+    // The server is there once a bridge is.
+    let nothing = || Box::new(device()) as Box<dyn Device>;
+    drop(server.bridge("probe", nothing)?);
+    let outputs: Vec<String> = FILM.actuators.iter().map(|actuator| actuator.name.clone()).collect();
+    let open = |client: &str| {
+        let (server, outputs) = (Some(server.name.clone()), outputs.clone());
+        Jack::open(&JackOptions {
+            client: client.into(),
+            server,
+            outputs,
+            links: Links::None,
+            lead: 2,
+            ..JackOptions::default()
+        })
+    };
+    let mut empty = open("empty")?;
+    let playing = open("playing")?;
+    let fingers = SyntheticOptions { fingers: 10, ..SyntheticOptions::default() };
+    let fingers = Synthetic::new(&FILM.outline, fingers)?;
+    let grains = Texture { pitch: 2e-3, grain: 0.3, seed: 1, speed_gain: Curve::constant(1.0) };
+    let set = one(Kind::Texture(grains), Level::Share(0.2));
+    let mut engine = with_device(&set, sources(vec![Box::new(fingers)]), Box::new(playing));
+
+    let stop = AtomicBool::new(false);
+    let idle = std::thread::scope(|scope| {
+        let idle = scope.spawn(|| {
+            let granted = real_time();
+            let silence = vec![0.0; 8 * BLOCK];
+            let mut passed = Ok(());
+            while !stop.load(Relaxed) && passed.is_ok() {
+                passed = empty.exchange(&silence, &mut []);
+            }
+            (empty.status(), granted)
+        });
+        let mut priority = String::new();
+        let played = engine.run(Some(seconds), |_, pulse| {
+            priority = pulse.priority.clone();
+            true
+        });
+        stop.store(true, Relaxed);
+        println!("audio thread: {priority}");
+        played.map(|()| idle.join())
+    })?;
+    let (idle, _) = idle.map_err(|_| "the empty client panicked")?;
+    let played = engine.heart().device().status();
+    println!(
+        "blocks of {BLOCK} samples, {:.3} ms, {seconds} s of the server's clock",
+        1e3 * BLOCK as f64 / RATE
+    );
+    println!("{:<12}{:>10}{:>10}", "client", "blocks", "lost");
+    println!("{:<12}{:>10}{:>10}", "playing", played.blocks, played.lost);
+    println!("{:<12}{:>10}{:>10}", "empty", idle.blocks, idle.lost);
+    let ms = engine.heart().work().four().unwrap_or_default().map(|s| format!("{:.4}", 1e3 * s));
+    println!("processor time of a block, ms: p50 {}, p99 {}, p99.9 {}, worst {}", ms[0], ms[1], ms[2], ms[3]);
+    let stage = engine.stage();
+    let tally = stage.conductor().tally();
+    for (what, times) in [
+        ("touch to first sample", &tally.first_sample),
+        ("a drive for a new place", stage.conductor().drives().making()),
+        ("all touches of a moment", stage.computing()),
+    ] {
+        let ms = times.four().unwrap_or_default().map(|s| format!("{:.3}", 1e3 * s));
+        println!("{what}, ms: p50 {}, p99 {}, p99.9 {}, worst {}", ms[0], ms[1], ms[2], ms[3]);
+    }
+    println!("{} drives made, {} pulses too late", stage.conductor().drives().making().count(), tally.stale);
+    Ok(())
+}

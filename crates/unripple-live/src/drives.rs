@@ -1,0 +1,259 @@
+use crate::{LiveError, Made, Maker, Percentiles};
+use std::collections::HashMap;
+use std::sync::Arc;
+use std::time::Instant;
+use unripple_core::Point;
+use unripple_dsp::{Convolver, Threshold, Weighting, convolve};
+use unripple_effects::{Level, Wave};
+use unripple_player::Prepared;
+
+/// Places that are remembered; the one used longest ago goes first.
+const REMEMBERED: usize = 256;
+
+/// Length of the loudest part of a waveform that its level is taken from, in s.
+const LOUDEST: f64 = 0.25;
+
+/// Drives by the places they focus on, made once and remembered.
+#[derive(Debug)]
+pub struct Drives {
+    maker: Maker,
+    hurried: bool,
+    /// The limit that drives are made for, in the drive's unit.
+    limit: f64,
+    full: Option<Full>,
+    /// Factors of a share of 1, where that is a level as felt: of pulses, and of waveforms by where their samples lie.
+    pulse: Option<f64>,
+    waves: Vec<(Wave, f64)>,
+    plan: Option<Convolver>,
+    known: HashMap<Place, Known>,
+    asked: u64,
+    making: Percentiles,
+}
+
+/// What a share of 1 stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Full {
+    /// Where it is measured; elsewhere the same drive is used.
+    pub place: Point,
+    /// How strongly it is felt there without the load of a finger, in dB above the threshold of touch.
+    pub felt_db: f64,
+}
+
+/// Waveforms whose factors are remembered.
+const WAVES: usize = 64;
+
+/// Points to the last bit.
+type Place = Vec<(u64, u64)>;
+
+#[derive(Debug)]
+struct Known {
+    at: At,
+    /// When it was last asked for.
+    asked: u64,
+}
+
+/// What is known of a place.
+#[derive(Clone, Debug)]
+pub struct At {
+    /// The drive at the limit, in float64 and as it is played.
+    pub made: Made,
+    /// The same for the player.
+    pub prepared: Arc<Prepared>,
+    /// Displacement there, once it was asked for.
+    trace: Option<Arc<Vec<f64>>>,
+}
+
+impl Drives {
+    /// None yet, by a maker whose drives reach a limit. A share of 1 is what `full` says, or else as much as the limit allows.
+    pub fn new(maker: Maker, limit: f64, full: Option<Full>) -> Self {
+        Self {
+            maker,
+            hurried: false,
+            limit,
+            full,
+            pulse: None,
+            waves: Vec::new(),
+            plan: None,
+            known: HashMap::new(),
+            asked: 0,
+            making: Percentiles::default(),
+        }
+    }
+
+    /// Lets drives be made with priority, by this maker and those to come.
+    pub fn hurry(&mut self) {
+        self.maker.hurry();
+        self.hurried = true;
+    }
+
+    /// Forgets all that was made and goes on with another maker: the surface has changed.
+    pub fn replace(&mut self, maker: Maker) {
+        if self.hurried {
+            maker.hurry();
+        }
+        self.maker = maker;
+        self.known.clear();
+        self.pulse = None;
+        self.waves.clear();
+    }
+
+    /// How long it took to make each drive that was made so far, in s.
+    pub fn making(&self) -> &Percentiles {
+        &self.making
+    }
+
+    /// The drive that focuses at these points.
+    ///
+    /// # Errors
+    /// Those of [`Maker::focus`].
+    pub fn at(&mut self, points: &[Point]) -> Result<At, LiveError> {
+        self.asked += 1;
+        let place: Place = points.iter().map(|p| (p.x.to_bits(), p.y.to_bits())).collect();
+        if let Some(known) = self.known.get_mut(&place) {
+            known.asked = self.asked;
+            return Ok(known.at.clone());
+        }
+        let began = Instant::now();
+        let made = self.maker.focus(points)?;
+        let prepared = Arc::new(Prepared::from_drive(&made.drive)?);
+        self.making.add(began.elapsed().as_secs_f64());
+        if self.known.len() >= REMEMBERED {
+            let oldest =
+                self.known.iter().min_by_key(|(_, known)| known.asked).map(|(place, _)| place.clone());
+            oldest.map(|place| self.known.remove(&place));
+        }
+        let at = At { made, prepared, trace: None };
+        self.known.insert(place, Known { at: at.clone(), asked: self.asked });
+        Ok(at)
+    }
+
+    /// The factor on the drive of these points that gives a pulse a level, at most 1, and whether the level asked for is beyond
+    /// the limit.
+    ///
+    /// # Errors
+    /// Those of [`Drives::at`] and [`Maker::trace`].
+    pub fn pulse_gain(&mut self, points: &[Point], level: Level) -> Result<(f64, bool), LiveError> {
+        match level {
+            Level::Share(share) => {
+                let gain = share.max(0.0) * self.full_pulse()?;
+                Ok((gain.min(1.0), gain > 1.0))
+            }
+            Level::Felt(db) => self.felt_pulse(points, db),
+        }
+    }
+
+    /// The same for a waveform. Without a full level as felt, a share of 1 is a waveform whose full scale, as a steady sine of
+    /// whatever frequency, would just reach the drive's limit at some actuator. A level as felt is that of the waveform's loudest
+    /// quarter of a second.
+    ///
+    /// # Errors
+    /// As [`Drives::pulse_gain`].
+    pub fn wave_gain(&mut self, place: Point, wave: &Wave, level: Level) -> Result<(f64, bool), LiveError> {
+        let made = self.at(&[place])?.made;
+        let most = self.limit / steadiest(&made, &mut self.plan);
+        match level {
+            Level::Share(share) => {
+                let gain = share.max(0.0) * self.full_wave(wave)?.unwrap_or(most);
+                Ok((gain.min(most), gain > most))
+            }
+            Level::Felt(db) => self.felt_wave(place, wave, db),
+        }
+    }
+
+    /// The largest factor with which all copies of a comb, so many samples apart, are within the limit together, so that none
+    /// has to be weaker than the others.
+    pub fn even(&self, drive: &Prepared, period: f64) -> f32 {
+        let most = (0..drive.outputs()).map(|output| drive.comb_peak(output, period)).fold(0.0, f32::max);
+        if most > 0.0 { self.limit as f32 / most } else { 1.0 }
+    }
+
+    /// The factor on the drive of a pulse whose share is 1.
+    fn full_pulse(&mut self) -> Result<f64, LiveError> {
+        let Some(full) = self.full else { return Ok(1.0) };
+        if let Some(gain) = self.pulse {
+            return Ok(gain);
+        }
+        let (gain, _) = self.felt_pulse(&[full.place], full.felt_db)?;
+        self.pulse = Some(gain);
+        Ok(gain)
+    }
+
+    /// The factor on the drive of a waveform whose share is 1, if that is a level as felt.
+    fn full_wave(&mut self, wave: &Wave) -> Result<Option<f64>, LiveError> {
+        let Some(full) = self.full else { return Ok(None) };
+        let same = |known: &&(Wave, f64)| Arc::ptr_eq(&known.0.samples, &wave.samples);
+        if let Some((_, gain)) = self.waves.iter().find(same) {
+            return Ok(Some(*gain));
+        }
+        let (gain, _) = self.felt_wave(full.place, wave, full.felt_db)?;
+        if self.waves.len() >= WAVES {
+            self.waves.remove(0);
+        }
+        self.waves.push((wave.clone(), gain));
+        Ok(Some(gain))
+    }
+
+    fn felt_pulse(&mut self, points: &[Point], db: f64) -> Result<(f64, bool), LiveError> {
+        let (trace, at) = self.trace(points)?;
+        Ok(reaching(db, felt(&trace, at.made.drive.rate(), 2 * at.made.instant + 1)))
+    }
+
+    fn felt_wave(&mut self, place: Point, wave: &Wave, db: f64) -> Result<(f64, bool), LiveError> {
+        let (trace, at) = self.trace(&[place])?;
+        let rate = at.made.drive.rate();
+        let part = loudest(&wave.samples, (LOUDEST * rate) as usize);
+        let moved = convolve(&part, &trace);
+        let most = self.limit / steadiest(&at.made, &mut self.plan);
+        let (gain, beyond) = reaching(db - 20.0 * most.log10(), felt(&moved, rate, moved.len()));
+        Ok((gain * most, beyond))
+    }
+
+    fn trace(&mut self, points: &[Point]) -> Result<(Arc<Vec<f64>>, At), LiveError> {
+        let at = self.at(points)?;
+        if let Some(trace) = &at.trace {
+            return Ok((trace.clone(), at));
+        }
+        let trace = Arc::new(self.maker.trace(&at.made)?);
+        let place: Place = points.iter().map(|p| (p.x.to_bits(), p.y.to_bits())).collect();
+        if let Some(known) = self.known.get_mut(&place) {
+            known.at.trace = Some(trace.clone());
+        }
+        Ok((trace, at))
+    }
+}
+
+/// Largest displacement within the first `span` samples, weighed by the threshold of touch.
+fn felt(displacement: &[f64], rate: f64, span: usize) -> f64 {
+    let weighting =
+        Weighting::padded(&Threshold::default(), rate, displacement.len(), displacement.len() / 3);
+    weighting.weigh(displacement).iter().take(span).fold(0.0, |m: f64, x| m.max(x.abs()))
+}
+
+/// The factor, at most 1, that brings what is felt to a level, and whether more would be needed.
+fn reaching(db: f64, felt: f64) -> (f64, bool) {
+    if felt <= 0.0 {
+        return (1.0, true);
+    }
+    let gain = 10f64.powf(db / 20.0) / felt;
+    (gain.min(1.0), gain > 1.0 + 1e-9)
+}
+
+/// Largest amplitude that a steady sine of amplitude 1 has in any channel of a drive taken as a response, whatever its
+/// frequency.
+fn steadiest(made: &Made, plan: &mut Option<Convolver>) -> f64 {
+    let size = 2 * made.drive.samples();
+    if plan.as_ref().is_none_or(|plan| plan.size() < size) {
+        *plan = Some(Convolver::new(size));
+    }
+    let Some(plan) = plan else { return f64::MIN_POSITIVE };
+    let most = made.drive.channels().iter().flat_map(|channel| plan.spectrum(channel.iter().copied()));
+    most.map(|line| line.norm()).fold(f64::MIN_POSITIVE, f64::max)
+}
+
+/// The part of a waveform around its largest sample.
+fn loudest(samples: &[f32], length: usize) -> Vec<f64> {
+    let magnitude = |i: &usize| samples[*i].abs();
+    let top = (0..samples.len()).max_by(|a, b| magnitude(a).total_cmp(&magnitude(b))).unwrap_or(0);
+    let first = top.saturating_sub(length / 2).min(samples.len().saturating_sub(length));
+    samples[first..samples.len().min(first + length)].iter().map(|x| f64::from(*x)).collect()
+}

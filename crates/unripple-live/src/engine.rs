@@ -1,0 +1,117 @@
+use crate::{
+    Conductor, Drives, Feeler, Follower, Heartbeat, Listener, LiveError, LiveOptions, Maker, Percentiles,
+    Stage, Timing,
+};
+use unripple_core::{Device, Surface};
+use unripple_effects::{EffectSet, Effects};
+use unripple_player::player;
+use unripple_touch::{Heard, Sources};
+
+/// A surface being played: touches in, waves out.
+///
+/// [`Engine::step`] does one block on the calling thread: whatever the device's clock, the same touches give the same drive.
+/// [`Engine::run`](crate::Engine::run) puts the player and the device on a thread of their own.
+pub struct Engine {
+    pub(crate) stage: Stage,
+    pub(crate) heart: Heartbeat,
+}
+
+impl Engine {
+    /// A surface, played by drives of a maker through a device, as touches from some sources ask for.
+    ///
+    /// # Errors
+    /// [`LiveError::Unlike`] for a device of another rate or with other outputs than the surface has actuators;
+    /// [`LiveError::Player`] for options that cannot be; [`LiveError::Effects`].
+    pub fn new(
+        surface: &Surface,
+        maker: Maker,
+        set: &EffectSet,
+        sources: Sources,
+        device: Box<dyn Device>,
+        options: &LiveOptions,
+    ) -> Result<Self, LiveError> {
+        let layout = device.layout().clone();
+        fits(surface, &layout)?;
+        let rate = surface.emission.rate;
+        let effects = Effects::new(set, surface.outline.clone(), rate)?;
+        let drives = Drives::new(maker, options.focus.limit, options.full);
+        let made_for = options.player(surface, layout.block)?;
+        let (player, desk) = player(&made_for)?;
+        let meters = desk.meters().clone();
+        let window = options.focus.window;
+        let time = Timing { rate, window, block: layout.block };
+        let conductor = Conductor::new(effects, drives, desk, time, options.waves, layout.outputs.len());
+        let stage = Stage {
+            conductor,
+            sources,
+            feeler: None,
+            follower: None,
+            drift: None,
+            listener: None,
+            rate,
+            block: layout.block,
+            window,
+            predict: options.predict,
+            heard: Heard::default(),
+            computing: Percentiles::default(),
+            clock: 0,
+        };
+        Ok(Self { stage, heart: Heartbeat::new(player, device, meters) })
+    }
+
+    /// With fingers put on a virtual surface, which tells what they feel.
+    pub fn with_feeler(mut self, feeler: Feeler) -> Self {
+        self.stage.feeler = Some(feeler);
+        self
+    }
+
+    /// With tension followed while playing.
+    pub fn with_follower(mut self, follower: Follower) -> Self {
+        self.stage.follower = Some(follower);
+        self
+    }
+
+    /// With somebody who is told of all that is heard, as it is heard.
+    pub fn with_listener(mut self, listener: Listener) -> Self {
+        self.stage.listener = Some(listener);
+        self
+    }
+
+    /// One block: touches, cues, drives, the player, the device, in this order on this thread.
+    ///
+    /// # Errors
+    /// Those of the device; [`LiveError::Gone`] if no drive can be made any more.
+    pub fn step(&mut self) -> Result<(), LiveError> {
+        let stage = &mut self.stage;
+        stage.listen()?;
+        stage.conduct(stage.clock, stage.clock + stage.block as u64)?;
+        self.heart.beat()?;
+        stage.clock += stage.block as u64;
+        stage.follow(self.heart.drive(), self.heart.heard())
+    }
+
+    /// Everything but the audio thread.
+    pub fn stage(&mut self) -> &mut Stage {
+        &mut self.stage
+    }
+
+    /// The audio thread's work.
+    pub fn heart(&self) -> &Heartbeat {
+        &self.heart
+    }
+}
+
+fn fits(surface: &Surface, layout: &unripple_core::Layout) -> Result<(), LiveError> {
+    let device = layout.device.clone();
+    let rate = surface.emission.rate;
+    if layout.rate != rate {
+        let (expected, found) = (format!("{rate} samples per second"), layout.rate.to_string());
+        return Err(LiveError::Unlike { device, expected, found });
+    }
+    let names: Vec<&str> = surface.actuators.iter().map(|actuator| actuator.name.as_str()).collect();
+    if layout.outputs != names {
+        let (expected, found) = (format!("outputs {}", names.join(", ")), layout.outputs.join(", "));
+        return Err(LiveError::Unlike { device, expected, found });
+    }
+    Ok(())
+}

@@ -1,0 +1,56 @@
+use unripple_core::DeviceError;
+use unripple_devices::DevicesError;
+use unripple_field::FieldError;
+use unripple_focus::FocusError;
+
+/// What keeps a surface from being played.
+#[derive(Debug, thiserror::Error)]
+pub enum LiveError {
+    /// A value that cannot be.
+    #[error("{what}: expected {expected}, found {found}")]
+    Range {
+        /// What it is.
+        what: &'static str,
+        /// What would do.
+        expected: String,
+        /// What there is.
+        found: String,
+    },
+    /// The device has other channels or another rate than the surface.
+    #[error("device `{device}`: expected {expected}, found {found}")]
+    Unlike {
+        /// The device.
+        device: String,
+        /// What the surface has.
+        expected: String,
+        /// What the device has.
+        found: String,
+    },
+    /// The thread that makes drives is gone.
+    #[error("the thread that makes drives is gone: {why}")]
+    Gone {
+        /// Why, as far as is known.
+        why: String,
+    },
+    /// No drive can be made.
+    #[error(transparent)]
+    Focus(#[from] FocusError),
+    /// What a drive does cannot be told.
+    #[error(transparent)]
+    Field(#[from] FieldError),
+    /// A device cannot be had.
+    #[error(transparent)]
+    Devices(#[from] DevicesError),
+    /// A device failed.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
+    /// What was measured does not fit.
+    #[error(transparent)]
+    Calibrate(#[from] unripple_calibrate::CalibrateError),
+    /// Effects that cannot be.
+    #[error(transparent)]
+    Effects(#[from] unripple_effects::EffectsError),
+    /// The player refuses its options.
+    #[error(transparent)]
+    Player(#[from] unripple_player::PlayerError),
+}

@@ -1,0 +1,156 @@
+use crate::LiveError;
+use unripple_core::{Contact, Finger, Outline, Phase, Point, Surface, Touch};
+use unripple_devices::Handle;
+use unripple_dsp::{Threshold, Weighting};
+use unripple_physics::Medium;
+
+/// Every so many samples of the surface one is looked at.
+const STRIDE: usize = 4;
+
+/// Places beside the fingers that are looked at, along each side of the outline's bounding box.
+const ACROSS: usize = 6;
+
+/// Radius of the focal disc over the shortest wavelength, beyond which a place counts as outside.
+const DISC: f64 = 4.0 / 3.0;
+
+/// What one finger feels of a virtual surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Feeling {
+    /// Which.
+    pub finger: u64,
+    /// Where it is.
+    pub at: Point,
+    /// Largest displacement since the last look, weighed by the threshold of touch, in dB above it; `None` in silence.
+    pub level_db: Option<f64>,
+    /// Largest velocity since the last look over the rms of that of places outside all fingers' focal discs at the same
+    /// instant; `None` where nothing is felt.
+    pub contrast: Option<f64>,
+}
+
+/// Puts fingers on a virtual surface and tells what they feel.
+///
+/// Each finger is a slot that is watched where the finger is; a grid of other places is watched for contrast. What is felt
+/// is what the sheet really does under the load of all fingers.
+#[derive(Debug)]
+pub struct Feeler {
+    handle: Handle,
+    finger: Finger,
+    outline: Outline,
+    /// Who is in each slot, whether they press on the surface yet, and where they are.
+    slots: Vec<Option<u64>>,
+    pressing: Vec<bool>,
+    places: Vec<Point>,
+    rate: f64,
+    disc: f64,
+    moved: bool,
+}
+
+impl Feeler {
+    /// Watches a virtual surface for at most `most` fingers.
+    ///
+    /// # Errors
+    /// [`LiveError::Devices`] if the surface cannot be watched.
+    pub fn new(handle: Handle, surface: &Surface, most: usize) -> Result<Self, LiveError> {
+        let outline = surface.outline.clone();
+        let (width, height) = outline.extent();
+        let middle = outline.nearest(Point::new(width / 2.0, height / 2.0));
+        let cell = |n: usize, side: f64| (n as f64 + 0.5) * side / ACROSS as f64;
+        let grid =
+            (0..ACROSS * ACROSS).map(|n| Point::new(cell(n % ACROSS, width), cell(n / ACROSS, height)));
+        let mut places = vec![middle; most];
+        places.extend(grid.filter(|place| outline.contains(*place)));
+        handle.watch(&places, STRIDE)?;
+        Ok(Self {
+            handle,
+            finger: surface.finger,
+            outline,
+            slots: vec![None; most],
+            pressing: vec![false; most],
+            places,
+            rate: surface.emission.rate / STRIDE as f64,
+            disc: DISC * Medium::of(&surface.sheet).lambda_min(surface.emission.band[1]),
+            moved: false,
+        })
+    }
+
+    /// A finger came, moved or went. One for which there is no slot is not felt; one for which the surface has no room while others
+    /// are still being lifted presses as soon as it has.
+    ///
+    /// # Errors
+    /// [`LiveError::Devices`] for a finger that the surface does not know.
+    pub fn touch(&mut self, touch: &Touch) -> Result<(), LiveError> {
+        let at = self.outline.nearest(touch.at);
+        let slot = self.slots.iter().position(|slot| *slot == Some(touch.finger));
+        match (touch.phase, slot) {
+            (Phase::Up, Some(slot)) => {
+                self.slots[slot] = None;
+                if std::mem::take(&mut self.pressing[slot]) {
+                    self.handle.lift(touch.finger)?;
+                }
+            }
+            (Phase::Down | Phase::Move, Some(slot)) => {
+                self.places[slot] = at;
+                self.moved = true;
+                if self.pressing[slot] {
+                    self.handle.move_finger(touch.finger, at)?;
+                }
+            }
+            (Phase::Down, None) => {
+                let Some(slot) = self.slots.iter().position(Option::is_none) else { return Ok(()) };
+                self.slots[slot] = Some(touch.finger);
+                self.places[slot] = at;
+                self.moved = true;
+            }
+            (Phase::Move | Phase::Up, None) => {}
+        }
+        Ok(())
+    }
+
+    /// Follows the fingers: to be called once a block.
+    ///
+    /// # Errors
+    /// [`LiveError::Devices`] if the surface cannot be watched there.
+    pub fn follow(&mut self) -> Result<(), LiveError> {
+        if std::mem::take(&mut self.moved) {
+            self.handle.move_watched(&self.places)?;
+        }
+        let slots = self.slots.iter().zip(&self.places).zip(&mut self.pressing);
+        for ((id, at), pressing) in slots.filter(|(_, pressing)| !**pressing) {
+            let contact = Contact { at: *at, finger: self.finger };
+            *pressing = id.is_some_and(|id| self.handle.touch(id, &contact).is_ok());
+        }
+        Ok(())
+    }
+
+    /// What every finger felt since the last look.
+    pub fn look(&mut self) -> Vec<Feeling> {
+        let traces = self.handle.watched();
+        let samples = traces.iter().map(Vec::len).min().unwrap_or(0);
+        let down: Vec<usize> = (0..self.slots.len()).filter(|slot| self.slots[*slot].is_some()).collect();
+        if samples < 3 {
+            return Vec::new();
+        }
+        let outside: Vec<usize> = (self.slots.len()..self.places.len())
+            .filter(|place| {
+                down.iter().all(|slot| self.places[*slot].distance(self.places[*place]) > self.disc)
+            })
+            .collect();
+        let weighting = Weighting::padded(&Threshold::default(), self.rate, samples, samples / 4);
+        let velocity = |place: usize, i: usize| f64::from(traces[place][i + 1] - traces[place][i - 1]);
+        let feel = |slot: usize| {
+            let trace: Vec<f64> = traces[slot][..samples].iter().map(|u| f64::from(*u)).collect();
+            let felt = weighting.weigh(&trace).iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+            let speed = |i: &usize| velocity(slot, *i).abs();
+            let peak = (1..samples - 1).max_by(|a, b| speed(a).total_cmp(&speed(b))).unwrap_or(1);
+            let square = outside.iter().map(|place| velocity(*place, peak).powi(2)).sum::<f64>();
+            let rms = (square / outside.len().max(1) as f64).sqrt();
+            Feeling {
+                finger: self.slots[slot].unwrap_or_default(),
+                at: self.places[slot],
+                level_db: (felt > 0.0).then(|| 20.0 * felt.log10()),
+                contrast: (felt > 1.0 && rms > 0.0).then(|| speed(&peak) / rms),
+            }
+        };
+        down.into_iter().map(feel).collect()
+    }
+}

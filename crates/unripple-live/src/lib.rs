@@ -1,0 +1,45 @@
+//! Touch, effects and drift joined to player, focus and devices: a surface that is played live.
+//!
+//! # In reading order
+//!
+//! A [`Window`] is the delay that a focus costs. A [`Maker`] makes drives on a thread of its own, [`Drives`] remembers them by
+//! place, a [`Conductor`] turns touches into commands for the player, and a [`Heartbeat`] plays one block through a device. An
+//! [`Engine`] is all of these at work; a [`Feeler`] tells what fingers feel of a virtual surface, a [`Follower`] follows its tension,
+//! and a [`Recovering`] device comes back by itself.
+
+mod conductor;
+mod drives;
+mod engine;
+mod error;
+mod feeler;
+mod follower;
+mod heartbeat;
+mod log;
+mod maker;
+mod options;
+mod percentiles;
+mod priority;
+mod recovering;
+mod sounding;
+mod stage;
+mod tally;
+mod threaded;
+mod window;
+
+pub use conductor::{Conductor, Timing};
+pub use drives::{At, Drives, Full};
+pub use engine::Engine;
+pub use error::LiveError;
+pub use feeler::{Feeler, Feeling};
+pub use follower::Follower;
+pub use heartbeat::Heartbeat;
+pub use log::Began;
+pub use maker::{Made, Maker};
+pub use options::LiveOptions;
+pub use percentiles::Percentiles;
+pub use priority::real_time;
+pub use recovering::{Opener, Recovering};
+pub use stage::{Listener, Stage};
+pub use tally::Tally;
+pub use threaded::Pulse;
+pub use window::Window;

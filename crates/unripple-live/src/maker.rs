@@ -1,0 +1,207 @@
+use crate::{LiveError, priority};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use unripple_calibrate::{Between, BetweenOptions};
+use unripple_core::{Drive, Point, Responses, SampledResponses};
+use unripple_field::Field;
+use unripple_focus::{Focuser, Options, Target};
+use unripple_physics::Medium;
+
+/// A drive at the limit that focuses at some points once, its last sample the focal instant.
+#[derive(Clone, Debug)]
+pub struct Made {
+    /// The drive; gains below 1 make it less.
+    pub drive: Arc<Drive>,
+    /// The sample of the focal instant.
+    pub instant: usize,
+    /// Where it really focuses: the points asked for, or the nearest ones that are stored.
+    pub points: Vec<Point>,
+}
+
+/// Makes drives for one state of the surface, on a thread of its own that knows the responses and what was planned for them.
+///
+/// ```
+/// use std::sync::Arc;
+/// use unripple_core::Point;
+/// use unripple_focus::Options;
+/// use unripple_live::Maker;
+/// use unripple_physics::{ResponseOptions, design::papers_surface, responses};
+///
+/// let mut film = papers_surface();
+/// film.emission.band[1] = 500.0;
+/// let known = Arc::new(responses(&film, &ResponseOptions::default())?);
+/// let maker = Maker::new(known, &Options::default())?;
+/// let made = maker.focus(&[Point::from_mm(62.0, 90.0)])?;
+/// assert_eq!(made.drive.peak(), 1.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Maker {
+    asks: Sender<Ask>,
+}
+
+/// What is asked of a maker's thread, and where the answer goes.
+struct Ask {
+    work: Work,
+    reply: Sender<Result<Answer, LiveError>>,
+}
+
+enum Work {
+    /// Asks for priority; nothing is answered but that it was done.
+    Hurry,
+    Focus(Vec<Point>),
+    Trace(Made),
+}
+
+enum Answer {
+    Hurried,
+    Made(Made),
+    Trace(Vec<f64>),
+}
+
+impl Maker {
+    /// Plans for responses and a method, and waits until that is done.
+    ///
+    /// # Errors
+    /// [`LiveError::Focus`] for responses or options that do not allow a plan.
+    pub fn new(responses: Arc<Responses>, options: &Options) -> Result<Self, LiveError> {
+        let options = options.clone();
+        Self::spawn(move |ready| {
+            let focuser = match Focuser::new(&responses, &options) {
+                Ok(focuser) => focuser,
+                Err(error) => return ready.fail(error.into()),
+            };
+            ready.serve(|work| match work {
+                Work::Hurry => Ok(hurried()),
+                Work::Focus(points) => focus(&focuser, points).map(Answer::Made),
+                Work::Trace(made) => trace(&responses, &made).map(Answer::Trace),
+            });
+        })
+    }
+
+    /// The same for a library's points on a sheet of some medium, at places anywhere between them: responses there are the most
+    /// likely field of waves. Methods that look at the whole surface see the places focused on alone, so only those that play
+    /// responses backwards are worth having.
+    ///
+    /// # Errors
+    /// [`LiveError::Calibrate`] for a library without points, and those of [`Maker::new`].
+    pub fn between(
+        stored: Arc<SampledResponses>,
+        medium: Medium,
+        options: &Options,
+    ) -> Result<Self, LiveError> {
+        let options = options.clone();
+        Self::spawn(move |ready| {
+            let plan = Between::plan(&stored, |omega| medium.wavenumber(omega), &BetweenOptions::default());
+            let between = match plan {
+                Ok(between) => between,
+                Err(error) => return ready.fail(error.into()),
+            };
+            let at = |points: &[Point]| between.onto(points).map(Responses::Sampled);
+            ready.serve(|work| match work {
+                Work::Hurry => Ok(hurried()),
+                Work::Focus(points) => {
+                    let responses = at(&points)?;
+                    focus(&Focuser::new(&responses, &options)?, points).map(Answer::Made)
+                }
+                Work::Trace(made) => trace(&at(&made.points)?, &made).map(Answer::Trace),
+            });
+        })
+    }
+
+    /// A thread that plans first, and then serves.
+    fn spawn(work: impl FnOnce(Ready) + Send + 'static) -> Result<Self, LiveError> {
+        let (asks, asked) = channel();
+        let (planned, ready) = channel();
+        let thread = std::thread::Builder::new().name("focus".into());
+        let spawned = thread.spawn(move || work(Ready { planned, asked }));
+        spawned.map_err(|error| LiveError::Gone { why: error.to_string() })?;
+        ready.recv().map_err(|_| gone())??;
+        Ok(Self { asks })
+    }
+
+    fn ask(&self, work: Work) -> Result<Answer, LiveError> {
+        let (reply, answer) = channel();
+        self.asks.send(Ask { work, reply }).map_err(|_| gone())?;
+        answer.recv().map_err(|_| gone())?
+    }
+
+    /// Asks for real-time priority for the thread, below that of the audio thread: for play on a busy machine.
+    pub fn hurry(&self) {
+        // Without it drives are made all the same.
+        let _ = self.ask(Work::Hurry);
+    }
+
+    /// The drive that focuses at these points, all at once.
+    ///
+    /// # Errors
+    /// Those of [`Focuser::focus`].
+    pub fn focus(&self, points: &[Point]) -> Result<Made, LiveError> {
+        match self.ask(Work::Focus(points.to_vec()))? {
+            Answer::Made(made) => Ok(made),
+            Answer::Trace(_) | Answer::Hurried => Err(gone()),
+        }
+    }
+
+    /// Displacement (m) that a drive makes where it focuses, its own samples first, for three times as long as it lasts, or
+    /// as long as the responses are known.
+    ///
+    /// # Errors
+    /// Those of [`Field::traces`].
+    pub fn trace(&self, made: &Made) -> Result<Vec<f64>, LiveError> {
+        match self.ask(Work::Trace(made.clone()))? {
+            Answer::Trace(trace) => Ok(trace),
+            Answer::Made(_) | Answer::Hurried => Err(gone()),
+        }
+    }
+}
+
+/// A maker's thread, before it has told whether it is ready.
+struct Ready {
+    planned: Sender<Result<(), LiveError>>,
+    asked: Receiver<Ask>,
+}
+
+impl Ready {
+    fn fail(self, error: LiveError) {
+        // Whoever waited may have gone.
+        let _ = self.planned.send(Err(error));
+    }
+
+    fn serve(self, work: impl Fn(Work) -> Result<Answer, LiveError>) {
+        // One drive is too little work to be shared: waiting for threads of less priority takes longer than doing it.
+        let _alone = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
+        if self.planned.send(Ok(())).is_ok() {
+            for ask in self.asked {
+                // Whoever asked may have gone meanwhile.
+                let _ = ask.reply.send(work(ask.work));
+            }
+        }
+    }
+}
+
+fn hurried() -> Answer {
+    // What the system refuses, the summary of the audio thread says.
+    let _ = priority::beside();
+    Answer::Hurried
+}
+
+fn gone() -> LiveError {
+    LiveError::Gone { why: "it ended early".into() }
+}
+
+fn focus(focuser: &Focuser, points: Vec<Point>) -> Result<Made, LiveError> {
+    let focused = focuser.focus(&[Target::of(points)])?;
+    let instant = focused.timing.first().map_or(0, |timing| timing.instant);
+    let points = focused.points.into_iter().next().unwrap_or_default();
+    Ok(Made { drive: Arc::new(focused.drive), instant, points })
+}
+
+fn trace(responses: &Responses, made: &Made) -> Result<Vec<f64>, LiveError> {
+    let Some(first) = made.points.first() else { return Ok(Vec::new()) };
+    let drive = made.drive.as_ref().clone().as_emitted();
+    let field = Field::new(responses, &drive, 1.0)?;
+    let taken = (3 * made.instant).min(field.known().saturating_sub(1));
+    let traces = field.traces(&[*first], taken as f64 / drive.rate())?;
+    Ok(traces.into_iter().next().map_or_else(Vec::new, |trace| trace.displacement))
+}

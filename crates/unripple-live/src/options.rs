@@ -1,0 +1,61 @@
+use crate::{Full, LiveError};
+use unripple_core::{Emission, Surface};
+use unripple_focus::{Method, Options as FocusOptions};
+use unripple_player::{Limit, Options as PlayerOptions, Running, WaveOptions};
+
+/// How a surface is played.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LiveOptions {
+    /// How drives are made; their window is the delay of every focus.
+    pub focus: FocusOptions,
+    /// What a share of 1 stands for; as much as the drive's limit allows where `None`.
+    pub full: Option<Full>,
+    /// Fingers at once.
+    pub fingers: usize,
+    /// Waveforms at once.
+    pub waves: usize,
+    /// Time over which the rms limit of an actuator holds, in s.
+    pub rms_seconds: f64,
+    /// Whether what a moving finger sets off is aimed where the finger will be at the focal instant.
+    pub predict: bool,
+}
+
+impl LiveOptions {
+    /// Time reversal in a window (s), within a surface's limits, for ten fingers.
+    pub fn new(surface: &Surface, window: f64) -> Self {
+        let Emission { limit, .. } = surface.emission;
+        let focus = FocusOptions { method: Method::TimeReversal, window, limit, ..FocusOptions::default() };
+        Self { focus, full: None, fingers: 10, waves: 10, rms_seconds: 1.0, predict: true }
+    }
+
+    /// The player's part, for blocks of a device.
+    ///
+    /// # Errors
+    /// [`LiveError::Range`] for a window that is none.
+    pub(crate) fn player(&self, surface: &Surface, block: usize) -> Result<PlayerOptions, LiveError> {
+        let emission = &surface.emission;
+        let window = self.focus.window;
+        if !(window > 0.0 && window <= 10.0) {
+            let expected = "above 0, at most 10".into();
+            return Err(LiveError::Range { what: "window in s", expected, found: window.to_string() });
+        }
+        let taps = (window * emission.rate).round() as usize + 1;
+        let running = |level: f64| Running { level, seconds: self.rms_seconds };
+        let limit = Limit { peak: emission.limit, rms: emission.rms_limit.map(running), thermal: None };
+        let waves = WaveOptions {
+            inputs: self.waves.max(1),
+            taps,
+            band_top_hz: emission.band[1],
+            ..WaveOptions::default()
+        };
+        Ok(PlayerOptions {
+            outputs: surface.actuators.len(),
+            block,
+            rate: emission.rate,
+            limits: vec![limit],
+            longest: taps,
+            waves: (self.waves > 0).then_some(waves),
+            ..PlayerOptions::default()
+        })
+    }
+}

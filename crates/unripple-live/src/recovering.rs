@@ -1,0 +1,277 @@
+use std::time::{Duration, Instant};
+use unripple_core::{Device, DeviceError, Layout, State, Status};
+
+/// Opens a device, as often as it is asked to.
+pub type Opener = Box<dyn FnMut() -> Result<Box<dyn Device>, String> + Send>;
+
+/// Waits between two tries: from the first, doubled until the longest.
+const FIRST_WAIT: Duration = Duration::from_millis(250);
+const LONGEST_WAIT: Duration = Duration::from_secs(4);
+
+/// A device that is opened again when it is lost: what is played meanwhile is silence, and time goes on.
+///
+/// Once lost, it is tried again after a quarter of a second, then after twice that, up to four seconds, for as many tries as was
+/// said; then it stays lost. While it is away each block takes as long as it lasts, so that whoever plays needs to know nothing.
+/// A device that comes back with other channels, another rate or another block is not the same and is refused.
+///
+/// ```
+/// use unripple_core::*;
+/// use unripple_live::Recovering;
+///
+/// # #[derive(Clone)]
+/// # struct Loop(Layout);
+/// # impl Device for Loop {
+/// #     fn layout(&self) -> &Layout { &self.0 }
+/// #     fn status(&self) -> Status { Status::default() }
+/// #     fn exchange(&mut self, drive: &[f32], heard: &mut [f32]) -> Result<(), DeviceError> {
+/// #         heard.copy_from_slice(drive);
+/// #         Ok(())
+/// #     }
+/// # }
+/// # let one = || vec!["a1".to_owned()];
+/// # let wire = Loop(Layout { device: "wire".into(), rate: 48e3, block: 64, outputs: one(), inputs: one(), full_scale: 1.0 });
+/// let mut device = Recovering::open(Box::new(move || Ok(Box::new(wire.clone()))), 10)?;
+/// device.exchange(&[0.5; 64], &mut [0.0; 64])?;
+/// assert_eq!(device.status().state, State::Running);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Recovering {
+    open: Opener,
+    device: Option<Box<dyn Device>>,
+    layout: Layout,
+    /// Tries in a row, those made, and when the next is due.
+    tries: u32,
+    tried: u32,
+    due: Instant,
+    away: Away,
+    status: Status,
+    /// Of devices that are gone.
+    before: Status,
+    /// Times that a device came back.
+    returns: u64,
+}
+
+/// What a device is while it is away.
+struct Away {
+    why: String,
+    since: Instant,
+    blocks: u64,
+}
+
+impl Recovering {
+    /// Opens the device for the first time.
+    ///
+    /// # Errors
+    /// Why it cannot be opened, in the opener's words.
+    pub fn open(mut open: Opener, tries: u32) -> Result<Self, DeviceError> {
+        let device = open().map_err(|why| DeviceError::Lost { device: "the device".into(), why })?;
+        let layout = device.layout().clone();
+        let now = Instant::now();
+        let away = Away { why: String::new(), since: now, blocks: 0 };
+        let (status, before) = (Status::default(), Status::default());
+        Ok(Self {
+            open,
+            device: Some(device),
+            layout,
+            tries,
+            tried: 0,
+            due: now,
+            away,
+            status,
+            before,
+            returns: 0,
+        })
+    }
+
+    /// Times that the device came back.
+    pub fn returns(&self) -> u64 {
+        self.returns
+    }
+
+    /// Lets go of a device that failed.
+    fn lose(&mut self, why: String) {
+        if let Some(device) = self.device.take() {
+            let last = device.status();
+            self.before.blocks += last.blocks;
+            self.before.lost += last.lost;
+        }
+        let now = Instant::now();
+        self.tried = 0;
+        self.due = now + FIRST_WAIT;
+        self.away = Away { why, since: now, blocks: 0 };
+    }
+
+    /// Tries to have it back, when it is time.
+    fn retry(&mut self) {
+        if self.tried >= self.tries || Instant::now() < self.due {
+            return;
+        }
+        self.tried += 1;
+        match (self.open)() {
+            Ok(device) if *device.layout() == self.layout => {
+                self.device = Some(device);
+                self.returns += 1;
+            }
+            Ok(device) => {
+                let found = device.layout();
+                self.away.why = format!(
+                    "it came back otherwise: expected {} outputs and {} inputs, {} Hz, blocks of {}, found {}, {}, {} Hz, {}",
+                    self.layout.outputs.len(),
+                    self.layout.inputs.len(),
+                    self.layout.rate,
+                    self.layout.block,
+                    found.outputs.len(),
+                    found.inputs.len(),
+                    found.rate,
+                    found.block
+                );
+            }
+            Err(why) => self.away.why = why,
+        }
+        let wait = FIRST_WAIT * 2u32.saturating_pow(self.tried.min(16));
+        self.due = Instant::now() + wait.min(LONGEST_WAIT);
+    }
+
+    /// Waits until a block would be over.
+    fn pause(&mut self) {
+        self.away.blocks += 1;
+        let over = self.away.blocks as f64 * self.layout.block as f64 / self.layout.rate;
+        let left = Duration::from_secs_f64(over).saturating_sub(self.away.since.elapsed());
+        if !left.is_zero() {
+            std::thread::sleep(left);
+        }
+    }
+}
+
+impl Device for Recovering {
+    fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    fn status(&self) -> Status {
+        let mut status = self.before.clone();
+        match &self.device {
+            Some(device) => {
+                let own = device.status();
+                status.state = own.state;
+                status.blocks += own.blocks;
+                status.lost += own.lost;
+            }
+            None => {
+                let why = format!("{} ({} tries of {})", self.away.why, self.tried, self.tries);
+                status.state = match self.tried < self.tries {
+                    true => State::Stalled(why),
+                    false => State::Lost(why),
+                };
+            }
+        }
+        status.lost += self.status.lost;
+        status
+    }
+
+    /// As [`Device::exchange`]; but while the device is away what is heard is silence, and the block is counted as lost.
+    ///
+    /// # Errors
+    /// [`DeviceError::Size`]; [`DeviceError::Lost`] once all tries were in vain.
+    fn exchange(&mut self, drive: &[f32], heard: &mut [f32]) -> Result<(), DeviceError> {
+        self.layout.fits(drive.len(), heard.len())?;
+        if let Some(device) = &mut self.device {
+            match device.exchange(drive, heard) {
+                Ok(()) => return Ok(()),
+                Err(error @ DeviceError::Size { .. }) => return Err(error),
+                Err(error) => self.lose(error.to_string()),
+            }
+        } else {
+            self.retry();
+        }
+        heard.fill(0.0);
+        self.status.lost += 1;
+        if self.device.is_none() && self.tried >= self.tries {
+            return Err(DeviceError::Lost { device: self.layout.device.clone(), why: self.away.why.clone() });
+        }
+        self.pause();
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicU32, Ordering};
+
+    /// A device that fails after some blocks.
+    struct Mortal(Layout, u32);
+
+    impl Device for Mortal {
+        fn layout(&self) -> &Layout {
+            &self.0
+        }
+        fn status(&self) -> Status {
+            Status::default()
+        }
+        fn exchange(&mut self, drive: &[f32], heard: &mut [f32]) -> Result<(), DeviceError> {
+            self.1 = self
+                .1
+                .checked_sub(1)
+                .ok_or(DeviceError::Lost { device: "mortal".into(), why: "it was killed".into() })?;
+            heard.copy_from_slice(drive);
+            Ok(())
+        }
+    }
+
+    fn layout(block: usize) -> Layout {
+        let one = || vec!["a1".to_owned()];
+        Layout { device: "mortal".into(), rate: 48e3, block, outputs: one(), inputs: one(), full_scale: 1.0 }
+    }
+
+    /// Opens by what a number says: 0 a short life, 1 not at all, 2 another block.
+    fn opener(what: &'static [u32]) -> (Opener, Arc<AtomicU32>) {
+        let asked = Arc::new(AtomicU32::new(0));
+        let own = asked.clone();
+        let open = move || match what.get(own.fetch_add(1, Ordering::Relaxed) as usize) {
+            Some(0) => Ok(Box::new(Mortal(layout(480), 3)) as Box<dyn Device>),
+            Some(2) => Ok(Box::new(Mortal(layout(64), 3)) as Box<dyn Device>),
+            _ => Err("nobody is there".to_owned()),
+        };
+        (Box::new(open), asked)
+    }
+
+    #[test]
+    fn a_device_comes_back_by_itself() {
+        let (open, asked) = opener(&[0, 1, 0]);
+        let mut device = Recovering::open(open, 5).unwrap();
+        let mut heard = [0.0; 480];
+        let mut sounding = Vec::new();
+        let start = Instant::now();
+        while device.returns() == 0 && start.elapsed() < Duration::from_secs(20) {
+            device.exchange(&[0.5; 480], &mut heard).unwrap();
+            sounding.push(heard[0] != 0.0);
+        }
+        device.exchange(&[0.5; 480], &mut heard).unwrap();
+        assert_eq!((device.returns(), asked.load(Ordering::Relaxed)), (1, 3));
+        assert_eq!(heard[0], 0.5);
+        assert!(sounding[..3].iter().all(|s| *s) && sounding[3..].iter().all(|s| !s));
+        assert_eq!(device.status().state, State::Running);
+        assert_eq!(device.status().lost as usize, sounding.len() - 3);
+        // 0.25 s and 0.5 s of waiting in blocks of 10 ms.
+        assert!(sounding.len() > 60, "{}", sounding.len());
+    }
+
+    #[test]
+    fn tries_end_and_another_device_is_refused() {
+        let (open, _) = opener(&[0, 2, 1]);
+        let mut device = Recovering::open(open, 2).unwrap();
+        let mut heard = [0.0; 480];
+        let start = Instant::now();
+        let error = loop {
+            match device.exchange(&[0.5; 480], &mut heard) {
+                Ok(()) if start.elapsed() < Duration::from_secs(20) => {}
+                other => break other,
+            }
+        };
+        let error = error.unwrap_err().to_string();
+        assert!(error.contains("nobody is there"), "{error}");
+        assert!(matches!(device.status().state, State::Lost(_)));
+    }
+}

@@ -1,0 +1,62 @@
+use crate::Percentiles;
+use unripple_player::Report;
+
+/// What was played, what was not, and how late.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tally {
+    /// Cues played.
+    pub cues: u64,
+    /// Cues dropped because too many waited.
+    pub dropped: u64,
+    /// Pulses dropped because they came too late to be felt where they belong.
+    pub stale: u64,
+    /// Waveforms not played because all inputs were taken.
+    pub crowded: u64,
+    /// Levels asked for that the limit does not allow: played as strongly as it does.
+    pub beyond: u64,
+    /// Cues that failed, places beyond the rim for example, and the last failure.
+    pub failed: u64,
+    /// What the last failure was.
+    pub failure: Option<String>,
+    /// Commands that found no room on their way to the player.
+    pub lost: u64,
+    /// Drives and waveforms that started.
+    pub started: u64,
+    /// Events scaled down by a limit, and the least factor.
+    pub limited: u64,
+    /// The least factor that a limit left of an event.
+    pub least: Option<f32>,
+    /// Blocks from which on all waveforms were scaled down.
+    pub waves_limited: u64,
+    /// Commands that came too late for their sample.
+    pub late: u64,
+    /// Commands that the player refused.
+    pub refused: u64,
+    /// From a touch to the first sample that answers it, on the engine's own clock, in s.
+    pub first_sample: Percentiles,
+    /// From a touch to the focus, in s.
+    pub focus: Percentiles,
+}
+
+impl Tally {
+    /// One that failed.
+    pub(crate) fn fail(&mut self, error: &dyn std::error::Error) {
+        self.failed += 1;
+        self.failure = Some(error.to_string());
+    }
+
+    /// What the player says.
+    pub(crate) fn hear(&mut self, report: &Report) {
+        match report {
+            Report::Started { .. } => self.started += 1,
+            Report::Limited { scale, .. } => {
+                self.limited += 1;
+                self.least = Some(self.least.map_or(*scale, |least| least.min(*scale)));
+            }
+            Report::WavesLimited { .. } => self.waves_limited += 1,
+            Report::Late { .. } => self.late += 1,
+            Report::Refused { .. } => self.refused += 1,
+            Report::Ended { .. } => {}
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! A film that is played through a real JACK server with its dummy driver: freewheeling, nothing is lost; killed and started again,
+//! it is found again.
+//!
+//! Needs `jackd` and libjack (Debian: jackd2). Without them the tests say so and pass.
+
+mod common;
+#[path = "../../unripple-devices/tests/common/server.rs"]
+mod server;
+
+use common::*;
+use server::Server;
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::Relaxed};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+use unripple_core::{Device, DeviceError, Layout, State, Status};
+use unripple_devices::{Jack, JackOptions, Links};
+use unripple_effects::{Curve, Kind, Level, Texture};
+use unripple_live::Recovering;
+use unripple_touch::{Source, Synthetic, SyntheticOptions};
+
+const PERIOD: usize = 256;
+
+/// One server at a time: libjack keeps some of its state per program.
+static ALONE: Mutex<()> = Mutex::new(());
+
+/// What stands at the other side: keeps the largest sample of late, and all of them if asked.
+#[derive(Clone, Default)]
+struct Ear {
+    peak: Arc<AtomicU32>,
+    blocks: Arc<AtomicU64>,
+}
+
+struct Listening(Ear, Layout);
+
+impl Device for Listening {
+    fn layout(&self) -> &Layout {
+        &self.1
+    }
+
+    fn status(&self) -> Status {
+        Status::default()
+    }
+
+    fn exchange(&mut self, drive: &[f32], heard: &mut [f32]) -> Result<(), DeviceError> {
+        let peak = drive.iter().fold(0.0f32, |m, x| m.max(x.abs()));
+        self.0.peak.fetch_max(peak.to_bits(), Relaxed);
+        self.0.blocks.fetch_add(1, Relaxed);
+        heard.fill(0.0);
+        Ok(())
+    }
+}
+
+fn names() -> Vec<String> {
+    FILM.actuators.iter().map(|actuator| actuator.name.clone()).collect()
+}
+
+fn listening(ear: &Ear) -> Box<dyn Device> {
+    let layout = Layout {
+        device: "ear".into(),
+        rate: RATE,
+        block: PERIOD,
+        outputs: names(),
+        inputs: names(),
+        full_scale: 1.0,
+    };
+    Box::new(Listening(ear.clone(), layout))
+}
+
+fn options(server: &str, freewheel: bool) -> JackOptions {
+    JackOptions {
+        server: Some(server.to_owned()),
+        outputs: names(),
+        inputs: names(),
+        links: Links::Client("ear".into()),
+        lead: 2,
+        freewheel,
+        // A server without a clock waits for the slowest of a busy machine.
+        patience: if freewheel { 30.0 } else { 3.0 },
+        ..JackOptions::default()
+    }
+}
+
+fn fingers(count: usize) -> Vec<Box<dyn Source>> {
+    let options = SyntheticOptions { fingers: count, ..SyntheticOptions::default() };
+    vec![Box::new(Synthetic::new(&FILM.outline, options).unwrap())]
+}
+
+fn grains() -> Kind {
+    Kind::Texture(Texture { pitch: 2e-3, grain: 0.3, seed: 1, speed_gain: Curve::constant(1.0) })
+}
+
+#[test]
+fn freewheeling_nothing_is_lost() {
+    let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let Some(server) = Server::start(PERIOD) else {
+        println!("SKIPPED: there is no jackd here (Debian: apt install jackd2)");
+        return;
+    };
+    let ear = Ear::default();
+    let bridge = server.bridge("ear", || listening(&ear)).unwrap();
+    let device = Jack::open(&options(&server.name, true)).unwrap();
+    let mut engine = with_device(&one(grains(), Level::Share(0.2)), sources(fingers(10)), Box::new(device));
+    let began = ear.blocks.load(Relaxed);
+    for _ in 0..1500 {
+        engine.step().unwrap();
+    }
+    let status = engine.heart().device().status();
+    println!("{} blocks, {} lost, {} heard", status.blocks, status.lost, ear.blocks.load(Relaxed) - began);
+    assert_eq!((status.state, status.lost), (State::Running, 0));
+    assert!(f32::from_bits(ear.peak.load(Relaxed)) > 0.01);
+    let worst = engine.stage().conductor().tally().first_sample.worst().unwrap();
+    assert!(worst <= PERIOD as f64 / RATE + 1e-9, "{worst}");
+    drop(engine);
+    drop(bridge);
+}
+
+#[test]
+fn a_server_that_was_killed_is_found_again() {
+    let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let Some(server) = Server::start(PERIOD) else {
+        println!("SKIPPED: there is no jackd here (Debian: apt install jackd2)");
+        return;
+    };
+    let name = server.name.clone();
+    let ear = Ear::default();
+    let bridge = server.bridge("ear", || listening(&ear)).unwrap();
+    let known = options(&name, false);
+    let open = move || {
+        let opened = Jack::open(&known).map(|device| Box::new(device) as Box<dyn Device>);
+        opened.map_err(|error| error.to_string())
+    };
+    let device = Recovering::open(Box::new(open), 1000).unwrap();
+    let mut engine = with_device(&one(grains(), Level::Share(0.2)), sources(fingers(10)), Box::new(device));
+
+    let (mut server, mut bridge) = (Some(server), Some(bridge));
+    let (mut before, mut away) = (0.0, false);
+    let start = Instant::now();
+    engine
+        .run(None, |stage, pulse| {
+            let peak = f32::from_bits(ear.peak.load(Relaxed));
+            if server.is_some() && before == 0.0 && peak > 0.0 && stage.time() > 1.0 {
+                // Killed while it plays.
+                before = peak;
+                server = None;
+                bridge = None;
+            } else if server.is_none() && pulse.state != State::Running {
+                away = true;
+                server = Server::named(&name, PERIOD);
+                bridge = Some(server.as_ref().unwrap().bridge("ear", || listening(&ear)).unwrap());
+                ear.peak.store(0, Relaxed);
+            } else if away && peak > 0.0 {
+                return false;
+            }
+            start.elapsed() < Duration::from_secs(60)
+        })
+        .unwrap();
+    let after = f32::from_bits(ear.peak.load(Relaxed));
+    println!("peak {before} before, {after} after, back within {:.1?}", start.elapsed());
+    assert!(away && before > 0.01 && after > 0.01);
+    assert_eq!(engine.heart().device().status().state, State::Running);
+}
