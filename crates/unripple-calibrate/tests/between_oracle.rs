@@ -6,7 +6,6 @@ use between_bench::*;
 use unripple_calibrate::{Between, Interpolation};
 use unripple_core::{Point, Responses, SampledResponses};
 use unripple_focus::Method;
-use unripple_physics::design::papers_surface;
 use unripple_physics::sample;
 
 /// 100 ms, the decay time and a half, and half as long.
@@ -44,12 +43,17 @@ impl Case {
 }
 
 #[test]
-fn half_a_wavelength_is_enough() {
-    let case = Case::of(Truth::papers(), 2.0, LONG, USUAL);
+fn half_a_wavelength_is_enough_on_a_surface_that_is_not_as_told() {
+    let case = Case::of(Truth::unknown(), 2.0, LONG, USUAL);
     let between = case.plan(Interpolation::Kernel, USUAL);
     let shares = [Method::TimeReversal, Method::Concentrate].map(|method| case.share(&between, method));
     println!("pitch λ/2: share of time reversal's and of concentration's contrast {shares:.3?}");
     assert!(shares[0] >= 0.98 && shares[1] >= 0.85);
+}
+
+#[test]
+fn errors_are_as_predicted() {
+    let case = Case::of(Truth::papers(), 2.0, LONG, USUAL);
     let real = sample(&case.truth.modal, &case.places, case.measured.samples());
     for way in Interpolation::ALL {
         let between = case.plan(way, USUAL);
@@ -63,15 +67,11 @@ fn half_a_wavelength_is_enough() {
 }
 
 #[test]
-fn two_thirds_of_a_wavelength_serve_time_reversal_at_another_tension_than_told() {
-    let mut surface = papers_surface();
-    surface.sheet.tension *= 1.02;
-    let case = Case::of(Truth::of(&surface), 1.5, SHORT, USUAL);
+fn two_thirds_of_a_wavelength_serve_time_reversal_on_a_surface_that_is_not_as_told() {
+    let case = Case::of(Truth::unknown(), 1.5, SHORT, USUAL);
     let [kernel, linear] = [Interpolation::Kernel, Interpolation::Linear]
         .map(|way| case.share(&case.plan(way, USUAL), Method::TimeReversal));
-    println!(
-        "pitch λ/1.5, tension 2 % off: share of time reversal's contrast {kernel:.3}, linear {linear:.3}"
-    );
+    println!("pitch λ/1.5: share of time reversal's contrast {kernel:.3}, linear {linear:.3}");
     assert!(kernel >= 0.90 && kernel > linear);
 }
 

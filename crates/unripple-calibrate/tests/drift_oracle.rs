@@ -2,7 +2,7 @@
 
 mod drift_bench;
 
-use drift_bench::{Against, Bench};
+use drift_bench::{Against, Bench, Sent};
 use unripple_calibrate::{Drift, Tracker, Tracking};
 use unripple_focus::Method;
 
@@ -11,8 +11,8 @@ fn tension_is_followed_and_the_focus_held() {
     let bench = Bench::new(30.0);
     let method = Method::TimeReversal;
     let still = bench.silent_run(method).0;
-    // The first focus finds a tension 2.5 % from nominal that drifts at nearly its fastest; the second holds.
-    let rows = bench.run(method, Against::Dispersion, 5.0, 2.0);
+    // The first focus finds a tension 2.5 % from that at calibration that drifts at nearly its fastest; the second holds.
+    let rows = bench.run(Sent::Focus(method), Against::Dispersion, 5.0, 2.0);
     for row in &rows {
         println!("{:.1} s: off by {:.1e} ± {:.1e}", row.time, row.known - row.tension, row.error);
     }
@@ -21,8 +21,24 @@ fn tension_is_followed_and_the_focus_held() {
         assert!(row.explained && off < 1e-4, "{off:e} at {} s", row.time);
         assert!(row.peak > 0.97 * still.peak && row.contrast > 0.97 * still.contrast, "{row:?} {still:?}");
     }
-    let nothing = bench.run(method, Against::Nothing, 5.0, 0.6);
+    let nothing = bench.run(Sent::Focus(method), Against::Nothing, 5.0, 0.6);
     assert!(nothing.iter().all(|row| row.contrast < 0.5 * still.contrast));
+}
+
+#[test]
+fn pings_that_nobody_feels_keep_the_tension() {
+    let bench = Bench::new(30.0);
+    let ping = bench.ping();
+    println!("peak {:.3}, felt {:.1} dB at {}", ping.peak, ping.felt_db, ping.felt_at);
+    assert!(ping.felt_db < -2.9);
+    let rows = bench.run(Sent::Ping, Against::Dispersion, 0.0, 3.0);
+    for row in &rows {
+        println!("{:.1} s: off by {:.1e} ± {:.1e}", row.time, row.known - row.tension, row.error);
+    }
+    let offs: Vec<f64> = rows.iter().skip(5).map(|row| (row.known - row.tension).powi(2)).collect();
+    let rms = (offs.iter().sum::<f64>() / offs.len() as f64).sqrt();
+    println!("rms {rms:.1e}");
+    assert!(rms < 1e-4 && rows.iter().all(|row| row.explained));
 }
 
 #[test]

@@ -14,6 +14,7 @@ mod export;
 mod field;
 mod figures;
 mod fingers;
+mod fit;
 mod focus;
 mod grid;
 mod input;
@@ -47,6 +48,7 @@ fn run(arguments: &Arguments) -> Result<(), CliError> {
     match &arguments.command {
         Command::Calibrate(options) => calibrate::run(options, json),
         Command::Export(options) => export::run(options, json),
+        Command::Fit(options) => fit::run(options, json),
         Command::Check(options) => check::run(options, json),
         Command::Design(options) => design::run(options, json),
         Command::Modes(options) => modes::run(options, json),

@@ -56,7 +56,7 @@ pub enum Act {
     Shape {
         /// Where.
         points: Arc<[Point]>,
-        /// How strong at each point, together within the drive's limit.
+        /// How strong, all points together.
         gain: Level,
     },
     /// The voice's place from now on.

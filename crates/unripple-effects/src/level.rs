@@ -1,7 +1,7 @@
 /// How strong something is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Level {
-    /// Share of the most that the drive's limit allows at that place, 0 to 1.
+    /// Share of the full level, 0 to 1: of what whoever plays takes for full.
     Share(f64),
     /// Above the threshold of the fingertip, in dB.
     Felt(f64),

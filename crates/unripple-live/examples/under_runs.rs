@@ -9,10 +9,10 @@ mod server;
 use common::*;
 use server::Server;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
-use unripple_core::Device;
+use unripple_core::{Device, Status};
 use unripple_devices::{Jack, JackOptions, Links};
 use unripple_effects::{Curve, Kind, Level, Texture};
-use unripple_live::real_time;
+use unripple_live::{Engine, Stage, real_time};
 use unripple_touch::{Synthetic, SyntheticOptions};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -44,27 +44,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let set = one(Kind::Texture(grains), Level::Share(0.2));
     let mut engine = with_device(&set, sources(vec![Box::new(fingers)]), Box::new(playing));
 
-    let stop = AtomicBool::new(false);
-    let idle = std::thread::scope(|scope| {
-        let idle = scope.spawn(|| {
-            let granted = real_time();
-            let silence = vec![0.0; 8 * BLOCK];
-            let mut passed = Ok(());
-            while !stop.load(Relaxed) && passed.is_ok() {
-                passed = empty.exchange(&silence, &mut []);
-            }
-            (empty.status(), granted)
-        });
-        let mut priority = String::new();
-        let played = engine.run(Some(seconds), |_, pulse| {
-            priority = pulse.priority.clone();
-            true
-        });
-        stop.store(true, Relaxed);
-        println!("audio thread: {priority}");
-        played.map(|()| idle.join())
-    })?;
-    let (idle, _) = idle.map_err(|_| "the empty client panicked")?;
+    let (idle, priority) = beside(&mut engine, &mut empty, seconds)?;
+    println!("audio thread: {priority}");
     let played = engine.heart().device().status();
     println!(
         "blocks of {BLOCK} samples, {:.3} ms, {seconds} s of the server's clock",
@@ -75,7 +56,40 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("{:<12}{:>10}{:>10}", "empty", idle.blocks, idle.lost);
     let ms = engine.heart().work().four().unwrap_or_default().map(|s| format!("{:.4}", 1e3 * s));
     println!("processor time of a block, ms: p50 {}, p99 {}, p99.9 {}, worst {}", ms[0], ms[1], ms[2], ms[3]);
-    let stage = engine.stage();
+    latencies(engine.stage());
+    Ok(())
+}
+
+/// Plays while another client exchanges silence; how that fared, and what came of the wish for priority.
+fn beside(
+    engine: &mut Engine,
+    empty: &mut Jack,
+    seconds: f64,
+) -> Result<(Status, String), Box<dyn std::error::Error>> {
+    let stop = AtomicBool::new(false);
+    let idle = std::thread::scope(|scope| {
+        let idle = scope.spawn(|| {
+            // Alike in all but what it plays.
+            let _ = real_time();
+            let silence = vec![0.0; 8 * BLOCK];
+            let mut passed = Ok(());
+            while !stop.load(Relaxed) && passed.is_ok() {
+                passed = empty.exchange(&silence, &mut []);
+            }
+            empty.status()
+        });
+        let mut priority = String::new();
+        let played = engine.run(Some(seconds), |_, pulse| {
+            priority = pulse.priority.clone();
+            true
+        });
+        stop.store(true, Relaxed);
+        played.map(|()| idle.join().map(|idle| (idle, priority)))
+    })?;
+    Ok(idle.map_err(|_| "the empty client panicked")?)
+}
+
+fn latencies(stage: &Stage) {
     let tally = stage.conductor().tally();
     for (what, times) in [
         ("touch to first sample", &tally.first_sample),
@@ -86,5 +100,4 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("{what}, ms: p50 {}, p99 {}, p99.9 {}, worst {}", ms[0], ms[1], ms[2], ms[3]);
     }
     println!("{} drives made, {} pulses too late", stage.conductor().drives().making().count(), tally.stale);
-    Ok(())
 }

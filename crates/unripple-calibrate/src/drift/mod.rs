@@ -1,9 +1,13 @@
 //! Tension followed while the surface is in use.
 
+mod hold;
+mod ping;
 mod run;
 mod tracker;
 mod warp;
 
+pub use hold::{Held, Hold};
+pub use ping::{Ping, PingOptions};
 pub use tracker::Tracker;
 pub use warp::Warp;
 

@@ -15,8 +15,37 @@ pub(super) struct Sheet {
     /// Weights of the sensors, modes x channels.
     pub sense: Mat<f64>,
     pub rate: f64,
-    /// Samples between two that are looked at, while nothing drives.
+    /// Samples between two instants that are looked at, while nothing drives.
     pub stride: usize,
+}
+
+/// When sensors are looked at: at every sample while something drives, then at every few, at means over those around.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Instants {
+    pub at: Vec<usize>,
+    /// How many of them are single samples.
+    pub single: usize,
+    /// Samples before and after each of the others that belong to its mean.
+    pub reach: usize,
+}
+
+impl Instants {
+    /// Samples in a mean.
+    fn count(&self) -> f64 {
+        (2 * self.reach + 1) as f64
+    }
+
+    /// What is looked at of signals, instants x channels: samples, and means times the root of their number, so that white noise
+    /// stays what it is.
+    pub fn look(&self, signals: &[Vec<f64>]) -> Mat<f64> {
+        Mat::from_fn(self.at.len(), signals.len(), |n, c| match n < self.single {
+            true => signals[c][self.at[n]],
+            false => {
+                let around = &signals[c][self.at[n] - self.reach..=self.at[n] + self.reach];
+                around.iter().sum::<f64>() / self.count().sqrt()
+            }
+        })
+    }
 }
 
 /// Displacement and velocity of every mode.
@@ -34,30 +63,49 @@ pub(super) struct Course {
 }
 
 impl Sheet {
-    /// The samples that are looked at: all while something drives, then every `stride`-th.
-    pub fn instants(&self, drive: &[Vec<f64>], samples: usize) -> Vec<usize> {
+    /// The instants that are looked at.
+    pub fn instants(&self, drive: &[Vec<f64>], samples: usize) -> Instants {
         let driven =
             drive.iter().filter_map(|d| d.iter().rposition(|x| *x != 0.0)).max().map_or(0, |n| n + 1);
-        (0..samples).filter(|n| *n < driven || (n - driven) % self.stride == 0).collect()
+        let (single, reach) = (driven.min(samples), (self.stride - 1) / 2);
+        let rest = (driven + reach..samples.saturating_sub(reach)).step_by(self.stride);
+        Instants { at: (0..single).chain(rest).collect(), single, reach }
     }
 
-    /// What the sensors hear at those instants, instants x channels, and the motion at the end.
+    /// Weights of the sensors on displacement and on velocity in what is looked at of a free sheet, under a tension: a mean over
+    /// samples is the mean of as many steps of each oscillation from its middle, damping and all.
+    fn meant(&self, instants: &Instants, ratio: f64) -> [Mat<f64>; 2] {
+        let reach = instants.reach as isize;
+        let mean = |(pole, share): (&Pole, &f64)| {
+            let pole = tuned(pole, *share, ratio);
+            let steps = (-reach..=reach).map(|k| pole.step(k as f64 / self.rate)[1]);
+            let sum = steps.fold([0.0; 2], |[u, v], [c, d]| [u + c, v + d]);
+            sum.map(|x| x / instants.count().sqrt())
+        };
+        let means: Vec<[f64; 2]> = self.poles.iter().zip(&self.shares).map(mean).collect();
+        [0, 1].map(|part| {
+            Mat::from_fn(self.sense.nrows(), self.sense.ncols(), |m, c| means[m][part] * self.sense[(m, c)])
+        })
+    }
+
+    /// What the sensors hear at some instants, as [`Instants::look`] has it, and the motion at the end.
     pub fn run(
         &self,
         start: &Motion,
         drive: &[Vec<f64>],
         samples: usize,
-        instants: &[usize],
+        instants: &Instants,
         course: Course,
     ) -> (Mat<f64>, Motion) {
         let channels = self.input.ncols();
         let mut motion = start.clone();
-        let mut heard = Mat::zeros(instants.len(), channels);
+        let mut heard = Mat::zeros(instants.at.len(), channels);
+        let [moved, struck] = self.meant(instants, course.middle);
         let mut steps = (usize::MAX, usize::MAX, Vec::new());
         let even = ((EVEN * self.rate) as usize).max(1);
         let mut now = 0;
-        for n in 0..=instants.len() {
-            let next = instants.get(n).copied().unwrap_or(samples);
+        for n in 0..=instants.at.len() {
+            let next = instants.at.get(n).copied().unwrap_or(samples);
             if next > now {
                 if (steps.0, steps.1) != (next - now, now / even) {
                     let time = ((now / even) as f64 + 0.5) * even as f64 - 0.5 * samples as f64;
@@ -67,7 +115,7 @@ impl Sheet {
                 advance(&mut motion, &steps.2);
                 now = next;
             }
-            if n == instants.len() {
+            if n == instants.at.len() {
                 break;
             }
             for (c, channel) in drive.iter().enumerate() {
@@ -80,8 +128,14 @@ impl Sheet {
                     }
                 }
             }
+            let read = |weights: &Mat<f64>, c: usize, state: &[f64]| -> f64 {
+                weights.col(c).iter().zip(state).map(|(w, x)| w * x).sum()
+            };
             for c in 0..channels {
-                heard[(n, c)] = self.sense.col(c).iter().zip(&motion.velocity).map(|(w, v)| w * v).sum();
+                heard[(n, c)] = match n < instants.single {
+                    true => read(&self.sense, c, &motion.velocity),
+                    false => read(&moved, c, &motion.moved) + read(&struck, c, &motion.velocity),
+                };
             }
         }
         (heard, motion)

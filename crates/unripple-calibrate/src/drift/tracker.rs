@@ -1,4 +1,4 @@
-use super::run::{Course, Motion, Sheet};
+use super::run::{Course, Instants, Motion, Sheet};
 use super::warp::warped;
 use super::{Drift, Tracking};
 use crate::CalibrateError;
@@ -62,8 +62,10 @@ pub struct Tracker {
     sheet: Sheet,
     options: Tracking,
     motion: Motion,
-    /// Ratio of the tension at the end of the last observation, and its rate (1/s).
+    /// Ratio of the tension, by the model, at the end of the last observation, and its rate (1/s).
     state: [f64; 2],
+    /// The ratio that counts as 1.
+    zero: f64,
     /// Their covariance.
     spread: [[f64; 2]; 2],
 }
@@ -72,7 +74,7 @@ pub struct Tracker {
 struct Heard<'a> {
     drive: &'a [Vec<f64>],
     samples: usize,
-    instants: &'a [usize],
+    instants: &'a Instants,
     /// Instants x channels.
     signals: &'a Mat<f64>,
 }
@@ -137,18 +139,43 @@ impl Tracker {
             sheet,
             options: options.clone(),
             state: [1.0, 0.0],
+            zero: 1.0,
             spread: [[options.range.powi(2), 0.0], [0.0, options.speed.powi(2)]],
         })
     }
 
-    /// Tension over nominal, so many seconds after the end of the last observation.
+    /// The same, what it says of a surface that has just been calibrated (see [`Tracker::tension`]) counting as 1 from now on.
+    ///
+    /// A model that is fitted puts the modes that a focus moves a little off, which looks like some 1e-4 of tension, as much under
+    /// any tension. A few foci observed right after calibrating tell how much.
+    ///
+    /// # Errors
+    /// [`CalibrateError::Range`] for a ratio that is not positive.
+    pub fn with_zero(mut self, ratio: f64) -> Result<Self, CalibrateError> {
+        require(
+            "tension of the calibrated surface",
+            ratio > 0.0 && ratio.is_finite(),
+            "a positive number",
+            ratio,
+        )?;
+        self.zero *= ratio;
+        self.state[0] = self.zero;
+        Ok(self)
+    }
+
+    /// Tension over that at calibration, so many seconds after the end of the last observation.
     pub fn tension(&self, ahead: f64) -> f64 {
+        self.ratio(ahead) / self.zero
+    }
+
+    /// The same by the model.
+    fn ratio(&self, ahead: f64) -> f64 {
         self.state[0] + self.state[1] * ahead
     }
 
     /// The responses as they are so many seconds after the end of the last observation.
     pub fn responses(&self, ahead: f64) -> ModalResponses {
-        warped(&self.reference, &self.sheet.shares, self.tension(ahead))
+        warped(&self.reference, &self.sheet.shares, self.ratio(ahead))
     }
 
     /// Takes in what was sent since the last observation and what the sensors heard meanwhile, one signal per channel, of the same
@@ -160,7 +187,7 @@ impl Tracker {
         let samples = self.check(drive, heard)?;
         let time = samples as f64 / self.sheet.rate;
         let instants = self.sheet.instants(drive, samples);
-        let signals = Mat::from_fn(instants.len(), heard.len(), |n, c| heard[c][instants[n]]);
+        let signals = instants.look(heard);
         self.pass(0.5 * time);
         let heard = Heard { drive, samples, instants: &instants, signals: &signals };
         let mut found = self.estimate(&heard, self.state[0]);
@@ -175,12 +202,12 @@ impl Tracker {
         } else {
             // What sounds is unknown: the next observation starts from what the drive alone would have made.
             let course = Course { middle: self.state[0], rate: self.state[1] };
-            self.motion = self.sheet.run(&self.motion, drive, samples, &[], course).1;
+            self.motion = self.sheet.run(&self.motion, drive, samples, &instants, course).1;
         }
         self.pass(0.5 * time);
-        let (tension, error) = (self.state[0], self.spread[0][0].sqrt());
+        let (tension, error) = (self.tension(0.0), self.spread[0][0].sqrt() / self.zero);
         Ok(match explained {
-            true => Drift::Followed { tension, error, rate: self.state[1], excess: found.excess },
+            true => Drift::Followed { tension, error, rate: self.state[1] / self.zero, excess: found.excess },
             false => Drift::Unexplained { tension, excess: found.excess, limit: self.options.limit },
         })
     }

@@ -2,7 +2,7 @@ use super::layout::{KNOTS, Unknown, Values};
 use super::loaded::LoadedModes;
 use super::residual::Case;
 use super::solve::Found;
-use crate::CalibrateError;
+use crate::{CalibrateError, Tracker, Tracking};
 use faer::Mat;
 use unripple_core::{Conditions, ModalResponses, Point, Port, Responses, Surface};
 use unripple_physics::Medium;
@@ -74,6 +74,8 @@ pub struct Fitted {
     pub actuators: Vec<FittedLoad>,
     /// Masses found elsewhere on the sheet.
     pub strays: Vec<FittedLoad>,
+    /// Seconds by which responses between actuators came late.
+    pub late: Estimate,
     /// Root of the mean square of the residual, over noise: 1 for a perfect model.
     pub excess: f64,
     /// Residual over what was measured.
@@ -137,6 +139,7 @@ impl Fitted {
             decay: (0..KNOTS.len()).map(|k| knot(k, estimate(Unknown::Knot(k)))).collect(),
             actuators: loads[..actuators].to_vec(),
             strays: loads[actuators..].to_vec(),
+            late: estimate(Unknown::Late),
             excess: found.excess,
             residual: found.share,
             verdict: verdict(found, &far),
@@ -184,15 +187,34 @@ impl Fitted {
         &self.bending_shares
     }
 
+    /// Share of what was measured that neither model nor noise explains.
+    pub fn unexplained(&self) -> f64 {
+        unexplained(self.residual, self.excess)
+    }
+
+    /// What follows tension, over that at calibration, by this model. What the model leaves unexplained counts as its error, if it is
+    /// more than the options say.
+    ///
+    /// # Errors
+    /// Those of [`Tracker::with_sensors`].
+    pub fn tracker(&self, options: &Tracking) -> Result<Tracker, CalibrateError> {
+        let options = Tracking { model: options.model.max(self.unexplained()), ..options.clone() };
+        Tracker::with_sensors(&self.responses, &self.bending_shares, &self.sensors, &options)
+    }
+
     /// Where a stray mass was found.
     pub fn stray_places(&self) -> Vec<Point> {
         self.strays.iter().map(|s| Point::new(s.at[0].value, s.at[1].value)).collect()
     }
 }
 
+/// What noise leaves of the residual's square is its share over the square of the excess.
+fn unexplained(share: f64, excess: f64) -> f64 {
+    share * (1.0 - excess.powi(-2)).max(0.0).sqrt()
+}
+
 fn verdict(found: &Found, far: &[String]) -> Verdict {
-    // What noise leaves of the residual's square is its share over the square of the excess.
-    let unexplained = found.share * (1.0 - found.excess.powi(-2)).max(0.0).sqrt();
+    let unexplained = unexplained(found.share, found.excess);
     if unexplained > DOUBTED {
         let why = format!(
             "residual of {:.1} % of what was measured, {:.1} times the noise: the surface has something that the model has not",

@@ -5,7 +5,7 @@ pub(super) const KNOTS: [f64; 5] = [0.0625, 0.125, 0.25, 0.5, 1.0];
 
 /// How far values are thought to be from nominal ones, one standard deviation: logarithm of tension, of bending stiffness, share
 /// of anisotropy, share of each term of the profile at one half wave, logarithm of decay rates, metres, logarithm of gains, kg,
-/// N·s/m.
+/// N·s/m, seconds by which responses came late.
 const TENSION: f64 = 0.1;
 const BENDING: f64 = 0.1;
 const SKEW: f64 = 0.02;
@@ -16,6 +16,7 @@ const GAIN: f64 = 0.02;
 const MASS: f64 = 10e-6;
 const RESISTANCE: f64 = 2e-3;
 const STRAY: f64 = 10e-3;
+const LATE: f64 = 2e-5;
 
 /// What the unknowns are, and where each stands in their vector.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +41,7 @@ pub(super) enum Unknown {
     Resistance(usize),
     Drive(usize),
     Sense(usize),
+    Late,
 }
 
 /// The unknowns as numbers in SI, gains and decay rates as logarithms.
@@ -58,6 +60,8 @@ pub(super) struct Values {
     pub resistances: Vec<f64>,
     pub drive: Vec<f64>,
     pub sense: Vec<f64>,
+    /// Seconds by which responses between actuators came late.
+    pub late: f64,
 }
 
 impl Layout {
@@ -78,6 +82,7 @@ impl Layout {
         all.extend(loaded.map(Resistance));
         all.extend((0..self.actuators).map(Drive));
         all.extend((0..self.actuators).map(Sense));
+        all.push(Late);
         all
     }
 
@@ -99,6 +104,7 @@ impl Layout {
             Unknown::Mass(_) => MASS,
             Unknown::Resistance(_) => RESISTANCE,
             Unknown::Drive(_) | Unknown::Sense(_) => GAIN,
+            Unknown::Late => LATE,
         }
     }
 }
@@ -118,6 +124,7 @@ impl Values {
             Unknown::Resistance(p) => &mut self.resistances[p],
             Unknown::Drive(a) => &mut self.drive[a],
             Unknown::Sense(a) => &mut self.sense[a],
+            Unknown::Late => &mut self.late,
         }
     }
 }

@@ -3,7 +3,7 @@ use super::layout::Values;
 use super::sheet::{decay_rate, eigen};
 use super::system::System;
 use crate::CalibrateError;
-use faer::{Mat, Side};
+use faer::{ColRef, Mat, Side};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use unripple_core::{Point, Pole, Shapes};
@@ -89,8 +89,8 @@ impl LoadedModes {
         let mixing = &system.sheet.turn * vectors.subrows(0, modes);
         let bent = &system.sheet.bending * &mixing;
         let loads = felt.transpose() * &vectors;
-        let mut poles = Vec::new();
-        let mut bending_shares = Vec::new();
+        let near_energy = system.rest.square * system.rest.bending_share;
+        let (mut poles, mut bending_shares) = (Vec::new(), Vec::new());
         for (m, square) in found[low..high].iter().enumerate() {
             let own: f64 = (0..modes)
                 .map(|i| system.sheet.sigmas[i] * vectors[(i, m)].powi(2))
@@ -98,11 +98,17 @@ impl LoadedModes {
                 .sum();
             let omega = square.max(0.0).sqrt();
             poles.push(Pole::new(omega, own.max(0.01 * decay_rate(&values.knots, omega, system.top))));
-            let energy: f64 = mixing.col(m).iter().zip(bent.col(m).iter()).map(|(x, b)| x * b).sum();
-            bending_shares.push((energy / square.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0));
+            let near: f64 = (modes..all).map(|p| vectors[(p, m)].powi(2)).sum();
+            bending_shares.push(bending_share(mixing.col(m), bent.col(m), near * near_energy, *square));
         }
         let weights = loads.subrows(0, system.layout.actuators).to_owned();
         let shapes = Arc::new(Combined { base: basis.modes.clone(), mixing });
         Ok(Self { poles, bending_shares, weights, shapes })
     }
+}
+
+/// Bending's share of a mode's elastic energy, from what its shape and the bending of it make, and what is close to loads.
+fn bending_share(shape: ColRef<'_, f64>, bent: ColRef<'_, f64>, near: f64, square: f64) -> f64 {
+    let energy = near + shape.iter().zip(bent.iter()).map(|(x, b)| x * b).sum::<f64>();
+    (energy / square.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0)
 }

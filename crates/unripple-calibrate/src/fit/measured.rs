@@ -1,6 +1,10 @@
 use crate::CalibrateError;
 use crate::error::require;
 use unripple_core::{Point, Surface};
+use unripple_dsp::Band;
+
+/// Least noise of responses over themselves: what models of a band's edges and a device's latency are good for.
+const FLOOR: f64 = 3e-3;
 
 /// What was measured on a surface: responses between its actuators, taps heard by them, or both.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +25,9 @@ pub struct Pairs {
     pub responses: Vec<Vec<f64>>,
     /// Root mean square of the noise on each sample, taken as white up to half the rate, in the responses' unit.
     pub noise: f64,
+    /// The band that they were limited to without phase before what precedes time 0 was cut off, as
+    /// [`Session`](crate::measure::Session) measures them; `None` if they are whole.
+    pub limited: Option<Band>,
 }
 
 /// A tap at a known place, heard by every actuator. The force's shape and strength are unknown.
@@ -37,7 +44,59 @@ pub struct Tap {
 impl Measured {
     /// Responses from actuator to actuator alone.
     pub fn pairs(rate: f64, responses: Vec<Vec<f64>>, noise: f64) -> Self {
-        Self { rate, pairs: Some(Pairs { responses, noise }), taps: Vec::new() }
+        Self { rate, pairs: Some(Pairs { responses, noise, limited: None }), taps: Vec::new() }
+    }
+
+    /// Responses from actuator to actuator, in the order of [`Pairs::responses`], whose noise is what reciprocity leaves: `h_ij` and
+    /// `h_ji` differ by gains and noise alone. The median over all pairs, 50 dB below the responses at least, as white noise that has
+    /// the same density within `band` (Hz), where the signals are.
+    ///
+    /// # Errors
+    /// [`CalibrateError::Count`] without two responses that are each other's reverse, [`CalibrateError::Range`] for an empty band.
+    ///
+    /// ```
+    /// use unripple_calibrate::Measured;
+    ///
+    /// let mut random = unripple_core::Random::seeded(1);
+    /// let mut heard = || (0..4800).map(|i| (f64::from(i) * 0.2).sin() + 0.01 * random.normal()).collect();
+    /// let all = vec![heard(), heard(), heard(), heard()];
+    /// let measured = Measured::reciprocal(48e3, all, [0.0, 24e3])?;
+    /// let found = measured.pairs.expect("they are there").noise;
+    /// assert!((found / 0.01 - 1.0).abs() < 0.05);
+    /// # Ok::<(), unripple_calibrate::CalibrateError>(())
+    /// ```
+    pub fn reciprocal(rate: f64, responses: Vec<Vec<f64>>, band: [f64; 2]) -> Result<Self, CalibrateError> {
+        let width = band[1].min(rate / 2.0) - band[0].max(0.0);
+        require("top of the measured band in Hz", width > 0.0, "above its bottom", band[1])?;
+        let count = responses.len().isqrt();
+        let reverse = |n: usize| responses.get(n % count.max(1) * count + n / count.max(1));
+        let off = |(n, there): (usize, &Vec<f64>)| {
+            let back =
+                reverse(n).filter(|back| n / count < n % count && !there.is_empty() && !back.is_empty())?;
+            let sum =
+                |f: &dyn Fn(f64, f64) -> f64| there.iter().zip(back).map(|(x, y)| f(*x, *y)).sum::<f64>();
+            let (own, other, both) = (sum(&|x, _| x * x), sum(&|_, y| y * y), sum(&|x, y| x * y));
+            let gain = both / own.max(f64::MIN_POSITIVE);
+            let left = (other - gain * both).max(FLOOR * FLOOR * other) / (1.0 + gain * gain);
+            let samples = there.len().min(back.len()) as f64;
+            Some((left / samples * rate / (2.0 * width)).sqrt())
+        };
+        let mut all: Vec<f64> = responses.iter().enumerate().filter_map(off).collect();
+        all.sort_unstable_by(f64::total_cmp);
+        let noise = all.get(all.len() / 2).copied().ok_or(CalibrateError::Count {
+            what: "actuators that hear each other both ways",
+            expected: "at least 2".into(),
+            found: 0,
+        })?;
+        Ok(Self::pairs(rate, responses, noise.max(f64::MIN_POSITIVE)))
+    }
+
+    /// The same, the responses between actuators limited to a band; see [`Pairs::limited`].
+    pub fn limited_to(mut self, band: Band) -> Self {
+        if let Some(pairs) = &mut self.pairs {
+            pairs.limited = Some(band);
+        }
+        self
     }
 
     /// Taps alone.

@@ -5,6 +5,7 @@ mod blend;
 mod fitted;
 mod forward;
 mod layout;
+mod limited;
 mod loaded;
 mod measured;
 mod quadrature;

@@ -95,14 +95,17 @@ impl Case<'_> {
             nuisance.remove(&mut column);
             column
         };
-        let model = |n: usize| gain * answers[n].admittance[(heard, driven)];
+        let frequencies = &self.spectra.frequencies;
+        let turned: Vec<c64> = frequencies.iter().map(|s| gain * (-s * values.late).exp()).collect();
+        let model = |n: usize| turned[n] * answers[n].admittance[(heard, driven)];
         let measured = column(&|n| self.spectra.pairs[pair][n]);
         let modelled = column(&model);
         let slope = |(u, unknown): (usize, &Unknown)| match unknown {
             Unknown::Drive(a) if *a == driven => modelled.clone(),
             Unknown::Sense(a) if *a == heard => modelled.clone(),
             Unknown::Drive(_) | Unknown::Sense(_) => vec![0.0; modelled.len()],
-            _ => column(&|n| gain * answers[n].derivatives[u][(heard, driven)]),
+            Unknown::Late => column(&|n| -frequencies[n] * model(n)),
+            _ => column(&|n| turned[n] * answers[n].derivatives[u][(heard, driven)]),
         };
         Block {
             columns: unknowns.iter().enumerate().map(slope).collect(),
@@ -141,7 +144,7 @@ impl Case<'_> {
                     Unknown::Sense(b) => {
                         (0..actuators).map(|a| if a == *b { model[a] } else { c64::new(0.0, 0.0) }).collect()
                     }
-                    Unknown::Drive(_) => vec![c64::new(0.0, 0.0); actuators],
+                    Unknown::Drive(_) | Unknown::Late => vec![c64::new(0.0, 0.0); actuators],
                     _ => (0..actuators).map(|a| answer.derivatives[u][(a, at)] * gains[a]).collect(),
                 };
                 let share = along(&slope);

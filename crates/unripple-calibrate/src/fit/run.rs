@@ -1,6 +1,7 @@
 use super::basis::Basis;
 use super::fitted::Fitted;
 use super::layout::{KNOTS, Layout, Values};
+use super::limited::Limited;
 use super::measured::Measured;
 use super::residual::Case;
 use super::solve::Found;
@@ -42,6 +43,9 @@ const FIRST: f64 = 3.5;
 /// Factor from one band's top to the next.
 const WIDER: f64 = 1.6;
 
+/// Times that the whole band is fitted before the last, where the model has to say what a limited band took away.
+const AGAIN: usize = 1;
+
 /// Lowest residual over noise at which stray masses are looked for, and the share of it that one has to leave at most.
 const SUSPECT: f64 = 1.5;
 const WORTH: f64 = 0.85;
@@ -81,6 +85,8 @@ const WORTH: f64 = 0.85;
 pub fn fit(nominal: &Surface, measured: &Measured, options: &FitOptions) -> Result<Fitted, CalibrateError> {
     measured.check(nominal)?;
     let band = options.band.unwrap_or([nominal.emission.band[0], 0.97 * nominal.emission.band[1]]);
+    let limited = measured.pairs.as_ref().and_then(|pairs| pairs.limited);
+    let band = limited.map_or(band, |l| [band[0].max(l.low[1]), band[1].min(l.high[0])]);
     let top = nominal.emission.band[1].max(band[1]);
     require(
         "reach of the modes",
@@ -101,6 +107,9 @@ pub fn fit(nominal: &Surface, measured: &Measured, options: &FitOptions) -> Resu
     while high < band[1] {
         fit.widen([band[0], high], COARSE, options.reach * high)?;
         high = if high * WIDER * 1.2 > band[1] { band[1] } else { high * WIDER };
+    }
+    for _ in 0..if limited.is_some() { AGAIN } else { 0 } {
+        fit.widen(band, FINE, options.reach * top)?;
     }
     let (found, spectra, count) = fit.widen(band, FINE, options.reach * top)?;
     Fitted::new(&fit.case(&fit.layout, &spectra, count), &found, &fit.expected, nominal)
@@ -126,7 +135,8 @@ impl Fit<'_> {
         alpha: f64,
         modes_hz: f64,
     ) -> Result<(Found, Spectra, usize), CalibrateError> {
-        let spectra = Spectra::of(self.measured, band, alpha, self.options.window);
+        let spectra =
+            Spectra::of(self.measured, self.limited()?.as_ref(), band, (alpha, self.options.window));
         if spectra.frequencies.is_empty() {
             return Err(CalibrateError::Count {
                 what: "frequencies of the fitted band",
@@ -158,6 +168,16 @@ impl Fit<'_> {
 }
 
 impl Fit<'_> {
+    /// What the values found so far make of responses that are limited to a band.
+    fn limited(&self) -> Result<Option<Limited>, CalibrateError> {
+        let Some(band) = self.measured.pairs.as_ref().and_then(|pairs| pairs.limited) else {
+            return Ok(None);
+        };
+        let modes = (self.basis.squares.len(), self.top);
+        let signals = (band, self.measured.rate, self.measured.samples());
+        Limited::new(self.basis, &self.layout, &self.values, modes, signals).map(Some)
+    }
+
     fn case<'b>(&'b self, layout: &'b Layout, spectra: &'b Spectra, count: usize) -> Case<'b> {
         Case { basis: self.basis, layout, spectra, count, top: self.top }
     }
@@ -197,5 +217,6 @@ fn nominal_values(surface: &Surface, layout: &Layout, top: f64) -> Values {
         resistances: vec![0.0; loaded],
         drive: vec![0.0; actuators],
         sense: vec![0.0; actuators],
+        late: 0.0,
     }
 }

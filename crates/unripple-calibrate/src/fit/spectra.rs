@@ -1,3 +1,4 @@
+use super::limited::Limited;
 use super::measured::Measured;
 use faer::c64;
 use realfft::RealFftPlanner;
@@ -31,8 +32,14 @@ pub(super) struct Spectra {
 }
 
 impl Spectra {
-    /// Transforms between two frequencies (Hz) under a window of at least `alpha` (1/s), of at most `window` seconds.
-    pub fn of(measured: &Measured, [low, high]: [f64; 2], alpha: f64, window: f64) -> Self {
+    /// Transforms between two frequencies (Hz) under a window of at least `alpha` (1/s), of at most `window` seconds. To responses
+    /// between actuators that were limited to a band, what a model says that this took from them is added.
+    pub fn of(
+        measured: &Measured,
+        limited: Option<&Limited>,
+        [low, high]: [f64; 2],
+        (alpha, window): (f64, f64),
+    ) -> Self {
         let rate = measured.rate;
         let samples = measured.samples().min((window * rate).ceil() as usize).max(2);
         let alpha = alpha.max(ENDED * rate / samples as f64);
@@ -53,13 +60,23 @@ impl Spectra {
         };
         let spread = (weights.iter().map(|w| w * w).sum::<f64>() / 2.0).sqrt();
         let ratio = alpha / spacing;
+        let frequencies: Vec<c64> = bins.iter().map(|k| c64::new(alpha, TAU * *k as f64 * spacing)).collect();
+        let pair = |(n, signal): (usize, &Vec<f64>)| {
+            let mut spectrum = transform(signal);
+            if let Some(Limited { whole, cut, late }) = limited {
+                let lines = transform(&whole[n]).into_iter().zip(transform(&cut[n])).zip(&frequencies);
+                let taken = lines.map(|((whole, cut), s)| whole * (-s * *late).exp() - cut);
+                spectrum.iter_mut().zip(taken).for_each(|(y, taken)| *y += taken);
+            }
+            spectrum
+        };
         Self {
-            frequencies: bins.iter().map(|k| c64::new(alpha, TAU * *k as f64 * spacing)).collect(),
-            pairs: measured.pairs.iter().flat_map(|p| &p.responses).map(transform).collect(),
+            pairs: measured.pairs.iter().flat_map(|p| &p.responses).enumerate().map(pair).collect(),
             pair_noise: measured.pairs.as_ref().map_or(1.0, |p| p.noise) * spread,
             taps: measured.taps.iter().map(|tap| tap.heard.iter().map(transform).collect()).collect(),
             places: measured.taps.iter().map(|tap| tap.at).collect(),
             tap_noise: measured.taps.iter().map(|tap| tap.noise * spread).collect(),
+            frequencies,
             overlap: (ratio / ratio.tanh()).max(1.0),
         }
     }

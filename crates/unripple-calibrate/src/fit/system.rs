@@ -12,11 +12,13 @@ const STEP: f64 = 1e-6;
 /// A point contact is no smaller than this, in metres: what a membrane without stiffness needs to have a compliance at all.
 const FINEST: f64 = 1e-4;
 
-/// What a load feels of all modes that are left out, as one more mode: its weight squared (1/kg) and its frequency squared.
+/// What a load feels of all modes that are left out, as one more mode: its weight squared (1/kg), its frequency squared, and bending's
+/// share of its elastic energy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rest {
     pub weight: f64,
     pub square: f64,
+    pub bending_share: f64,
 }
 
 /// A sheet with places on it and what hangs there.
@@ -88,7 +90,7 @@ impl System {
 impl Rest {
     /// What an endless sheet answers with wavenumbers above `k` (rad/m) to a force at a point: compliance
     /// C₀ = 1/4π ∫ du/(u(R + Du)) and inertia C₁ = ρ/4π ∫ du/(u(R + Du))², u from k² on. One mode of weight² C₀²/C₁ and
-    /// frequency² C₀/C₁ has both.
+    /// frequency² C₀/C₁ has both. Of the energy that C₀ stands for, 1/4π ∫ D du/(R + Du)² is bending's.
     fn above(medium: &Medium, k: f64) -> Self {
         let (tension, bending) = (medium.tension, medium.bending_stiffness);
         let (start, end) = (k * k, (1.0 / FINEST).powi(2).max(100.0 * k * k));
@@ -101,7 +103,12 @@ impl Rest {
         let quarter = 1.0 / (4.0 * std::f64::consts::PI);
         let compliance = quarter * sum(&|t| 1.0 / stiffness(t));
         let inertia = quarter * medium.areal_density / start * sum(&|t| (t / stiffness(t)).powi(2));
-        Self { weight: compliance * compliance / inertia, square: compliance / inertia }
+        let bent = quarter * sum(&|t| bending * start / stiffness(t).powi(2));
+        Self {
+            weight: compliance * compliance / inertia,
+            square: compliance / inertia,
+            bending_share: bent / compliance,
+        }
     }
 }
 
@@ -118,5 +125,7 @@ mod tests {
         let closed = (1.0 + 200.0 / (7.15e-4 * k * k)).ln() / (4.0 * std::f64::consts::PI * 200.0);
         // The closed form goes on beyond the finest size.
         assert!((rest.weight / rest.square / closed - 1.0).abs() < 0.01, "{rest:?} {closed}");
+        let bent = 1.0 / (200.0 + 7.15e-4 * k * k) / (4.0 * std::f64::consts::PI);
+        assert!((rest.bending_share / (bent / closed) - 1.0).abs() < 0.01, "{rest:?} {bent}");
     }
 }

@@ -82,14 +82,20 @@ impl MeasureOptions {
         )?;
         require("repeats", self.repeats >= 1, "1 or more", self.repeats as f64)?;
         require("end of the sweep over the band's top", self.over >= 1.0, "1 or more", self.over)?;
+        let [from, to] = self.swept(surface);
         Ok(Sweep {
             rate: emission.rate,
-            from: self.from,
-            to: (self.over * emission.band[1]).min(0.45 * emission.rate),
+            from,
+            to,
             seconds: self.sweep,
             amplitude: self.level * emission.limit,
             ..Sweep::default()
         })
+    }
+
+    /// The lowest and the highest frequency swept on a surface, in Hz.
+    pub fn swept(&self, surface: &Surface) -> [f64; 2] {
+        [self.from, (self.over * surface.emission.band[1]).min(0.45 * surface.emission.rate)]
     }
 
     /// Why a channel is bad, if it is: its first response that is worse than asked. `each` is what its responses are counted by.

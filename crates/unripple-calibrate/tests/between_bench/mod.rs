@@ -2,8 +2,10 @@
 
 #![allow(dead_code)]
 
+use std::sync::LazyLock;
 use unripple_calibrate::{Between, BetweenOptions, Interpolation};
 use unripple_core::{Drive, ModalResponses, Outline, Point, Random, Responses, SampledResponses, Surface};
+use unripple_devices::Unknowns;
 use unripple_field::Field;
 use unripple_focus::{Focuser, Method, Options, Target};
 use unripple_physics::design::papers_surface;
@@ -22,6 +24,7 @@ pub struct Errors {
 
 pub const USUAL: Errors = Errors { noise: 3.16e-3, gain: 5e-3, position: 0.0 };
 
+#[derive(Clone)]
 pub struct Truth {
     pub modal: ModalResponses,
     pub whole: Responses,
@@ -36,6 +39,25 @@ impl Truth {
 
     pub fn papers() -> Self {
         Self::of(&papers_surface())
+    }
+
+    /// The paper's surface as it is not told: actuators off by 1 mm, drives by 0.5 %, tension varying by 1 %, another law of
+    /// damping, two stray masses of 20 mg.
+    pub fn unknown() -> Self {
+        static TRUTH: LazyLock<Truth> = LazyLock::new(|| {
+            let truth = Unknowns::default().truth(&papers_surface()).unwrap();
+            let options = ResponseOptions { accuracy: 1e-4, ..ResponseOptions::default() };
+            let Ok(Responses::Modal(mut modal)) = responses(&truth.surface, &options) else { unreachable!() };
+            for (a, gain) in truth.drive_gains.iter().enumerate() {
+                modal.input.row_mut(a).iter_mut().for_each(|w| *w *= gain);
+            }
+            // Responses are said to be those of the actuators as told.
+            for (port, actuator) in modal.ports.iter_mut().zip(&papers_surface().actuators) {
+                port.at = actuator.at;
+            }
+            Truth { whole: Responses::Modal(modal.clone()), modal }
+        });
+        TRUTH.clone()
     }
 
     pub fn lambda(&self) -> f64 {

@@ -1,11 +1,16 @@
-//! A focus repeated at 5 Hz on a virtual surface whose tension drifts.
+//! A focus repeated at 5 Hz on a virtual surface whose tension drifts: the model itself, or a true surface known by a fit alone.
 
 #![allow(dead_code)]
 
+#[path = "../fit_truth/mod.rs"]
+pub mod fit_truth;
+
+use faer::Mat;
+use fit_truth::{Faults, Truth};
 use std::f64::consts::TAU;
 use std::sync::Arc;
-use unripple_calibrate::{Drift, Tracker, Tracking};
-use unripple_core::{ModalResponses, Point, Responses, Surface};
+use unripple_calibrate::{Drift, FitOptions, Fitted, Hold, Ping, PingOptions, Tracker, Tracking, fit};
+use unripple_core::{ModalResponses, Point, Responses, Shapes, Surface};
 use unripple_focus::{Focuser, Method, Options, Target};
 use unripple_physics::design::papers_surface;
 use unripple_physics::stepper::{Misbehaving, Mishaps};
@@ -14,6 +19,10 @@ use unripple_physics::{Modes, ResponseOptions, StepperOptions, VirtualSurface, r
 pub const WINDOW: f64 = 0.030;
 pub const PERIOD: f64 = 0.2;
 const BLOCK: usize = 240;
+const RATE: f64 = 48e3;
+
+/// Share of the limit that the undrifted drive leaves free.
+pub const HEADROOM: f64 = 0.05;
 
 /// What is done about the drift.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,11 +34,18 @@ pub enum Against {
     Nothing,
 }
 
+/// What is sent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Sent {
+    Focus(Method),
+    Ping,
+}
+
 /// One focus.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
     pub time: f64,
-    /// Tension over nominal at the focal instant.
+    /// Tension over that at calibration, at the focal instant.
     pub tension: f64,
     /// As the tracker had it, before it heard of this focus.
     pub known: f64,
@@ -37,89 +53,177 @@ pub struct Row {
     pub peak: f64,
     pub contrast: f64,
     pub explained: bool,
+    pub excess: f64,
 }
 
-/// The paper's surface as it really is and as it is known.
+/// A surface as it really is and as it is known.
 pub struct Bench {
     pub surface: Surface,
     pub modes: Arc<Modes>,
     pub reference: ModalResponses,
     pub shares: Vec<f64>,
+    sensors: Mat<f64>,
+    /// The model's error, as the fit has it.
+    pub model: f64,
+    drive_gains: Vec<f64>,
+    sense_gains: Vec<f64>,
     at: Point,
-    outside: Vec<Point>,
+    /// True shapes at the target and outside its disc, points x modes.
+    shapes: [Mat<f64>; 2],
     pub noise: f64,
+    /// By how much the tension moves either way, as a share, and how often a minute.
+    pub swing: [f64; 2],
 }
 
 impl Bench {
-    /// With so many dB of signal to noise within the band.
+    /// The paper's surface, known as it is, with so many dB of signal to noise within the band.
     pub fn new(snr: f64) -> Self {
         let surface = papers_surface();
         let modes = Arc::new(Modes::solve(&surface, surface.emission.band[1], 1e-6).unwrap());
         let Ok(Responses::Modal(reference)) = responses(&surface, &ResponseOptions::default()) else {
             unreachable!()
         };
-        let shares = modes.bending_shares().to_vec();
+        let places: Vec<Point> = reference.ports.iter().map(|port| port.at).collect();
+        let known = Known {
+            sensors: reference.shapes.at_all(&places),
+            shares: modes.bending_shares().to_vec(),
+            model: 0.0,
+            reference,
+        };
+        Self::of(surface, modes, [vec![1.0; 8], vec![1.0; 8]], known, snr)
+    }
+
+    /// A surface that is not as told, known by what its actuators hear of each other alone: a fit.
+    pub fn truth(top: f64, snr: f64) -> (Self, Fitted) {
+        let mut truth = Truth::new(&Faults::default(), top);
+        let measured = truth.pairs(0.25);
+        let fitted = fit(&truth.nominal, &measured, &FitOptions::default()).unwrap();
+        let known = Known {
+            reference: fitted.modal().clone(),
+            shares: fitted.bending_shares().to_vec(),
+            sensors: fitted.sensors().clone(),
+            model: fitted.unexplained(),
+        };
+        let gains = [truth.drive.clone(), truth.sense.clone()];
+        (Self::of(truth.surface, truth.modes, gains, known, snr), fitted)
+    }
+
+    fn of(surface: Surface, modes: Arc<Modes>, gains: [Vec<f64>; 2], known: Known, snr: f64) -> Self {
         let at = Point::from_mm(62.0, 90.0);
+        let Known { reference, shares, sensors, model } = known;
         let radius = 4.0 / 3.0 * reference.conditions.lambda_min;
         let grid =
-            (0..50 * 50).map(|n| Point::from_mm(3.0 * (n % 50) as f64 + 1.5, 3.0 * (n / 50) as f64 + 1.5));
-        let outside = grid.filter(|p| p.distance(at) > radius).collect();
-        let mut bench = Self { surface, modes, reference, shares, at, outside, noise: 0.0 };
+            (0..30 * 30).map(|n| Point::from_mm(5.0 * (n % 30) as f64 + 2.5, 5.0 * (n / 30) as f64 + 2.5));
+        let outside: Vec<Point> = grid.filter(|p| p.distance(at) > radius).collect();
+        let shapes = [modes.at_all(&[at]), modes.at_all(&outside)];
+        let [drive_gains, sense_gains] = gains;
+        let mut bench = Self {
+            surface,
+            modes,
+            reference,
+            shares,
+            sensors,
+            model,
+            drive_gains,
+            sense_gains,
+            at,
+            shapes,
+            noise: 0.0,
+            swing: [0.05, 1.0],
+        };
         let heard = bench.silent_run(Method::TimeReversal).1;
         let rms = (heard.iter().map(|x| x * x).sum::<f64>() / heard.len() as f64).sqrt();
-        bench.noise = rms * 10f64.powf(-snr / 20.0) * (0.5 * 48e3 / 3e3f64).sqrt();
+        let top = bench.reference.conditions.band[1];
+        bench.noise = rms * 10f64.powf(-snr / 20.0) * (0.5 * RATE / top).sqrt();
         bench
     }
 
     /// The undrifted focus, the last of a few, and what the sensors hear over a period.
     pub fn silent_run(&self, method: Method) -> (Row, Vec<f64>) {
         let mut plant = self.plant(Vec::new(), 0.0);
-        let drive = self.drive(&self.reference, method);
+        let drive = self.drive(&self.reference, method, &mut Hold::new(1.0, HEADROOM).unwrap());
         let mut last = None;
         for _ in 0..4 {
             last = Some(self.period(&mut plant, &drive));
         }
         let ((peak, contrast), heard) = last.unwrap();
-        let row = Row { time: 0.0, tension: 1.0, known: 1.0, error: 0.0, peak, contrast, explained: true };
+        let (known, tension) = (1.0, 1.0);
+        let row = Row { time: 0.0, tension, known, error: 0.0, peak, contrast, explained: true, excess: 0.0 };
         (row, heard.concat())
     }
 
-    /// Foci for so many seconds from a start, under a tension ±5 % over a minute.
-    pub fn run(&self, method: Method, against: Against, from: f64, seconds: f64) -> Vec<Row> {
-        let tension = |t: f64| 1.0 + 0.05 * (TAU * t / 60.0).sin();
+    pub fn ping(&self) -> Ping {
+        Ping::design(&self.reference, &PingOptions::default()).unwrap()
+    }
+
+    /// Periods for so many seconds from a start, under a tension ±5 % over a minute.
+    pub fn run(&self, sent: Sent, against: Against, from: f64, seconds: f64) -> Vec<Row> {
+        let [swing, pace] = self.swing;
+        let tension = |t: f64| 1.0 + swing * (pace * TAU * t / 60.0).sin();
         let table =
             (0..=(seconds * 20.0) as usize + 2).map(|i| i as f64 / 20.0).map(|t| (t, tension(from + t)));
         let mut plant = self.plant(table.collect(), self.noise);
+        let mut tracker = match (against, sent) {
+            (Against::Dispersion | Against::Stretch, Sent::Focus(method)) => self.zeroed(against, method),
+            _ => self.tracker(against),
+        };
+        let mut hold = Hold::new(1.0, HEADROOM).unwrap();
+        // The level is that of the calibrated surface.
+        if let Sent::Focus(method) = sent {
+            self.drive(&self.reference, method, &mut hold);
+        }
+        let ping = self.ping();
+        let mut rows = Vec::new();
+        for n in 0..(seconds / PERIOD).round() as usize {
+            let time = n as f64 * PERIOD;
+            let expected = tracker.tension(WINDOW);
+            let drive = match sent {
+                Sent::Ping => ping.drive.clone(),
+                Sent::Focus(method) => {
+                    let known = match against {
+                        Against::Nothing => self.reference.clone(),
+                        Against::Knowledge => self.under(tension(from + time + 0.6 * WINDOW)),
+                        _ => tracker.responses(0.6 * WINDOW),
+                    };
+                    self.drive(&known, method, &mut hold)
+                }
+            };
+            let ((peak, contrast), heard) = self.period(&mut plant, &drive);
+            let (explained, error, excess) = match against {
+                Against::Nothing | Against::Knowledge => (true, 0.0, 0.0),
+                _ => match tracker.observe(&drive, &heard).unwrap() {
+                    Drift::Followed { error, excess, .. } => (true, error, excess),
+                    Drift::Unexplained { excess, .. } => (false, f64::NAN, excess),
+                },
+            };
+            let tension = tension(from + time + WINDOW);
+            rows.push(Row { time, tension, known: expected, error, peak, contrast, explained, excess });
+        }
+        rows
+    }
+
+    fn tracker(&self, against: Against) -> Tracker {
         let even = self.shares.iter().sum::<f64>() / self.shares.len() as f64;
         let shares = match against {
             Against::Stretch => vec![even; self.shares.len()],
             _ => self.shares.clone(),
         };
         let limit = if against == Against::Dispersion { 3.0 } else { 1e9 };
-        let options = Tracking { noise: self.noise, limit, ..Tracking::default() };
-        let mut tracker = Tracker::new(&self.reference, &shares, &options).unwrap();
-        let mut rows = Vec::new();
-        for n in 0..(seconds / PERIOD) as usize {
-            let time = n as f64 * PERIOD;
-            let known = match against {
-                Against::Nothing => self.reference.clone(),
-                Against::Knowledge => self.under(tension(from + time + 0.6 * WINDOW)),
-                _ => tracker.responses(0.6 * WINDOW),
-            };
-            let expected = tracker.tension(WINDOW);
-            let drive = self.drive(&known, method);
-            let ((peak, contrast), heard) = self.period(&mut plant, &drive);
-            let (explained, error) = match against {
-                Against::Nothing | Against::Knowledge => (true, 0.0),
-                _ => match tracker.observe(&drive, &heard).unwrap() {
-                    Drift::Followed { error, .. } => (true, error),
-                    Drift::Unexplained { .. } => (false, f64::NAN),
-                },
-            };
-            let tension = tension(from + time + WINDOW);
-            rows.push(Row { time, tension, known: expected, error, peak, contrast, explained });
+        let options = Tracking { noise: self.noise, model: self.model, limit, ..Tracking::default() };
+        Tracker::with_sensors(&self.reference, &shares, &self.sensors, &options).unwrap()
+    }
+
+    /// A tracker that has heard three foci on the surface as it was calibrated.
+    fn zeroed(&self, against: Against, method: Method) -> Tracker {
+        let fresh = self.tracker(against);
+        let mut tracker = fresh.clone();
+        let mut plant = self.plant(Vec::new(), self.noise);
+        let drive = self.drive(&self.reference, method, &mut Hold::new(1.0, HEADROOM).unwrap());
+        for _ in 0..3 {
+            let heard = self.period(&mut plant, &drive).1;
+            tracker.observe(&drive, &heard).unwrap();
         }
-        rows
+        fresh.with_zero(tracker.tension(0.0)).unwrap()
     }
 
     fn under(&self, ratio: f64) -> ModalResponses {
@@ -136,37 +240,55 @@ impl Bench {
         Misbehaving::new(surface, Mishaps { tension, noise, ..Mishaps::default() }, BLOCK).unwrap()
     }
 
-    fn drive(&self, known: &ModalResponses, method: Method) -> Vec<Vec<f64>> {
+    fn drive(&self, known: &ModalResponses, method: Method, hold: &mut Hold) -> Vec<Vec<f64>> {
         let options = Options { method, window: WINDOW, ..Options::default() };
-        let known = Responses::Modal(known.clone());
-        let drive = Focuser::new(&known, &options).unwrap().focus(&[Target::at(self.at)]).unwrap().drive;
-        drive.channels().to_vec()
+        let responses = Responses::Modal(known.clone());
+        let drive = Focuser::new(&responses, &options).unwrap().focus(&[Target::at(self.at)]).unwrap().drive;
+        let mut channels = drive.channels().to_vec();
+        hold.scale(known, self.at, (WINDOW * RATE) as usize, &mut channels).unwrap();
+        channels
     }
 
     /// Peak and contrast at the focal instant, and what the sensors heard over the period.
     fn period(&self, plant: &mut Misbehaving, drive: &[Vec<f64>]) -> ((f64, f64), Vec<Vec<f64>>) {
-        let samples = (PERIOD * 48e3) as usize;
-        let focal = (WINDOW * 48e3) as usize + 1;
+        let samples = (PERIOD * RATE) as usize;
+        let focal = (WINDOW * RATE) as usize + 1;
         let mut heard = vec![Vec::new(); 8];
         let (mut now, mut focus) = (0, (0.0, 0.0));
         while now < samples {
             let end = if now < focal { focal } else { samples };
             let frames = BLOCK.min(end - now);
-            let block: Vec<f64> = drive
-                .iter()
-                .flat_map(|d| (now..now + frames).map(|i| d.get(i).copied().unwrap_or(0.0)))
-                .collect();
+            let sent = |(d, gain): (&Vec<f64>, &f64)| {
+                (now..now + frames).map(|i| gain * d.get(i).copied().unwrap_or(0.0)).collect::<Vec<_>>()
+            };
+            let block: Vec<f64> = drive.iter().zip(&self.drive_gains).flat_map(sent).collect();
             let mut sensors = vec![0.0; 8 * frames];
             plant.process(frames, &block, &mut sensors, &mut []).unwrap();
-            heard.iter_mut().zip(sensors.chunks(frames)).for_each(|(h, s)| h.extend_from_slice(s));
+            for ((heard, gain), sensor) in heard.iter_mut().zip(&self.sense_gains).zip(sensors.chunks(frames))
+            {
+                heard.extend(sensor.iter().map(|v| gain * v));
+            }
             now += frames;
             if now == focal {
-                let peak = plant.surface().snapshot(&[self.at]).velocity[0];
-                let outside = plant.surface().snapshot(&self.outside).velocity;
+                let velocity = plant.surface().state().1;
+                let read = |shapes: &Mat<f64>| -> Vec<f64> {
+                    (0..shapes.nrows())
+                        .map(|p| velocity.iter().enumerate().map(|(m, v)| shapes[(p, m)] * v).sum())
+                        .collect()
+                };
+                let [peak, outside] = [&self.shapes[0], &self.shapes[1]].map(read);
                 let rms = (outside.iter().map(|v| v * v).sum::<f64>() / outside.len() as f64).sqrt();
-                focus = (peak, peak.abs() / rms);
+                focus = (peak[0], peak[0].abs() / rms);
             }
         }
         (focus, heard)
     }
+}
+
+/// What is known of a surface.
+struct Known {
+    reference: ModalResponses,
+    shares: Vec<f64>,
+    sensors: Mat<f64>,
+    model: f64,
 }

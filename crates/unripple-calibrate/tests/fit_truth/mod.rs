@@ -6,13 +6,13 @@ use faer::Mat;
 use std::sync::Arc;
 use unripple_calibrate::{Measured, Tap};
 use unripple_core::{
-    Decay, Drive, ModalResponses, Point, Profile, Random, Responses, Scatterer, ScattererKind, Shapes,
-    Surface,
+    Conditions, Decay, Drive, ModalResponses, Point, Port, Profile, Random, Responses, Scatterer,
+    ScattererKind, Shapes, Surface,
 };
 use unripple_field::Field;
 use unripple_focus::{Focuser, Method, Options, Target};
 use unripple_physics::design::papers_surface;
-use unripple_physics::{ResponseOptions, responses, sample};
+use unripple_physics::{Medium, Modes, sample};
 
 pub const WINDOW: f64 = 0.030;
 
@@ -72,6 +72,8 @@ impl Shapes for First {
 pub struct Truth {
     pub nominal: Surface,
     pub surface: Surface,
+    /// Its modes to 1.4 times the band's top.
+    pub modes: Arc<Modes>,
     /// The modes of the band.
     pub plant: Responses,
     /// With modes above it.
@@ -107,12 +109,11 @@ impl Truth {
             actuator.at.x += faults.place * angle.cos();
             actuator.at.y += faults.place * angle.sin();
         }
-        let above = ResponseOptions { max_hz: Some(1.4 * top), accuracy: 1e-5, ..Default::default() };
-        let plant = responses(&surface, &above).unwrap();
+        let modes = Arc::new(Modes::solve(&surface, 1.4 * top, 1e-5).unwrap());
         let mut gains = || (0..8).map(|_| 1.0 + faults.gain * random.normal()).collect::<Vec<f64>>();
         let (drive, sense) = (gains(), gains());
         // The drive's gains are the plant's own.
-        let Responses::Modal(mut modal) = plant else { unreachable!() };
+        let mut modal = modal(&surface, &modes);
         for (a, gain) in drive.iter().enumerate() {
             modal.input.row_mut(a).iter_mut().for_each(|w| *w *= gain);
         }
@@ -124,6 +125,7 @@ impl Truth {
         Self {
             nominal,
             surface,
+            modes,
             plant: Responses::Modal(modal),
             whole,
             drive,
@@ -202,6 +204,23 @@ impl Truth {
         [Method::TimeReversal, Method::Inverse].map(|method| {
             self.contrast(fitted, method, targets) / self.contrast(&self.plant, method, targets)
         })
+    }
+}
+
+/// Responses by all of some modes.
+fn modal(surface: &Surface, modes: &Arc<Modes>) -> ModalResponses {
+    let places: Vec<Point> = surface.actuators.iter().map(|a| a.at).collect();
+    ModalResponses {
+        ports: (surface.actuators.iter()).map(|a| Port { name: a.name.clone(), at: a.at }).collect(),
+        poles: modes.poles().to_vec(),
+        input: modes.at_all(&places),
+        shapes: modes.clone(),
+        conditions: Conditions {
+            rate: surface.emission.rate,
+            band: surface.emission.band,
+            lambda_min: Medium::of(&surface.sheet).lambda_min(surface.emission.band[1]),
+            outline: surface.outline.clone(),
+        },
     }
 }
 

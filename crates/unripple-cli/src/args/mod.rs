@@ -2,12 +2,14 @@
 
 mod calibrate;
 mod export;
+mod fit;
 mod names;
 mod play;
 
 pub use calibrate::{CalibrateOptions, DeviceOptions};
 use clap::{Args, Parser, Subcommand};
 pub use export::{ExportOptions, FormatName};
+pub use fit::FitOptions;
 pub use names::{BetweenName, DeviceName, LossName, MethodName, WayName};
 pub use play::{DoctorOptions, PlayOptions, TouchOptions};
 use std::path::PathBuf;
@@ -47,6 +49,8 @@ pub enum Command {
     Export(ExportOptions),
     /// A surface that answers fingers, live: touches in, waves out.
     Play(PlayOptions),
+    /// The model fitted to what actuators hear of each other, and its responses anywhere.
+    Fit(FitOptions),
     /// All faults of a surface file.
     Check(CheckOptions),
     /// What drives can be played through: virtual surface, files, sound server, cards.

@@ -112,6 +112,7 @@ fn plan(
         ("by".to_owned(), by),
         ("probed points".to_owned(), places.probed.to_string()),
         ("sweep s".to_owned(), settings.sweep.to_string()),
+        ("swept Hz".to_owned(), settings.swept(surface).map(|hz| hz.to_string()).join(" ")),
         ("repeats".to_owned(), settings.repeats.to_string()),
         ("level".to_owned(), settings.level.to_string()),
     ]);

@@ -1,0 +1,94 @@
+//! Responses of a fitted model, as a library.
+
+use crate::error::CliError;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::time::{SystemTime, UNIX_EPOCH};
+use unripple::core::{Decay, Point, SampledResponses, Surface};
+use unripple_calibrate::{Fitted, Verdict};
+use unripple_store::{Library, LibraryPlan, PointState, Quality, Take};
+
+/// Points blended and stored at once.
+const BATCH: usize = 64;
+
+/// Writes responses at some points, blended with those probed, as long as the measured ones.
+pub fn fill(
+    folder: &Path,
+    source: &Library,
+    surface: &Surface,
+    fitted: &Fitted,
+    probed: &SampledResponses,
+    points: &[Point],
+) -> Result<(), CliError> {
+    let plan = plan(source, surface, fitted, probed, points);
+    let mut library = Library::create(folder, &plan)?;
+    let quality = vec![Quality::UNKNOWN; plan.ports.len()];
+    for batch in library.in_state(PointState::Missing).chunks(BATCH) {
+        let places: Vec<Point> = batch.iter().map(|point| points[*point]).collect();
+        let blended = fitted.blend(probed, &places)?;
+        let values: Vec<Vec<f32>> = (0..batch.len())
+            .map(|p| (0..plan.ports.len()).flat_map(|port| blended.response(port, p)).copied().collect())
+            .collect();
+        let takes: Vec<Take<'_>> = (batch.iter().zip(&values))
+            .map(|(point, samples)| Take {
+                point: *point,
+                samples,
+                quality: &quality,
+                state: PointState::Measured,
+            })
+            .collect();
+        library.put_all(&takes)?;
+    }
+    Ok(())
+}
+
+fn plan(
+    source: &Library,
+    surface: &Surface,
+    fitted: &Fitted,
+    probed: &SampledResponses,
+    points: &[Point],
+) -> LibraryPlan {
+    let verdict = match &fitted.verdict {
+        Verdict::Good => "good".to_owned(),
+        Verdict::Doubtful { why, .. } => format!("doubtful: {why}"),
+    };
+    let now = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    let about = [
+        ("device", "fitted model".to_owned()),
+        ("fitted to", source.path().display().to_string()),
+        ("measured points blended in", probed.points.len().to_string()),
+        ("verdict", verdict),
+        ("modes", fitted.modal().poles.len().to_string()),
+        ("software", format!("unripple {}", env!("CARGO_PKG_VERSION"))),
+        ("created", format!("{now} s after 1970-01-01 00:00 UTC")),
+    ];
+    let own = about.into_iter().map(|(key, text)| (key.to_owned(), text));
+    let theirs = source.plan().provenance.iter().map(|(key, text)| (format!("measured {key}"), text.clone()));
+    let provenance: BTreeMap<String, String> = theirs.chain(own).collect();
+    let modal = fitted.modal();
+    LibraryPlan {
+        drive_units: source.plan().drive_units.clone(),
+        surface: Some(as_fitted(surface, fitted)),
+        provenance,
+        ..LibraryPlan::new(modal.ports.clone(), points.to_vec(), modal.conditions.clone(), probed.samples())
+    }
+}
+
+/// The surface with what the fit found of its sheet and its actuators' places.
+fn as_fitted(nominal: &Surface, fitted: &Fitted) -> Surface {
+    let mut surface = nominal.clone();
+    let stiffness = unripple::physics::Medium::of(&nominal.sheet).bending_stiffness;
+    surface.sheet.tension = fitted.tension.value;
+    if stiffness > 0.0 {
+        surface.sheet.young *= fitted.bending_stiffness.value / stiffness;
+    }
+    surface.sheet.decay = Decay::Table(fitted.decay.iter().map(|(hz, time)| (*hz, time.value)).collect());
+    for (actuator, found) in surface.actuators.iter_mut().zip(&fitted.actuators) {
+        let at = Point::new(found.at[0].value, found.at[1].value);
+        if surface.outline.contains(at) {
+            actuator.at = at;
+        }
+    }
+    surface
+}

@@ -1,0 +1,86 @@
+//! `unripple fit`: the model fitted to what a library's actuators heard of each other.
+
+mod fill;
+mod heard;
+mod report;
+
+use crate::args::FitOptions;
+use crate::error::CliError;
+use crate::targets::{place, positive};
+use crate::{grid, output};
+use report::Report;
+use std::time::Instant;
+use unripple::core::{Point, Surface};
+use unripple_store::Library;
+
+/// Most half waves of a profile, and most strays: beyond, a fit takes hours.
+const MOST: usize = 8;
+
+/// Modes are known up to here, in Hz, but no less than 1.4 and no more than 2.8 times the band's top: what a mass feels of those above is
+/// that of an endless sheet, which is good for waves much shorter than the way to the edge.
+const KNOWN: f64 = 4200.0;
+
+pub fn run(options: &FitOptions, as_json: bool) -> Result<(), CliError> {
+    if !Library::is_at(&options.library) {
+        return Err(CliError::Input(format!(
+            "{}: expected a library that `calibrate` made, found none there",
+            options.library
+        )));
+    }
+    let library = Library::open(&options.library)?;
+    let Some(surface) = library.plan().surface.clone() else {
+        return Err(CliError::Input(format!(
+            "{}: expected a library that describes its surface, found one without",
+            options.library
+        )));
+    };
+    for (option, value) in [("--strays", options.strays), ("--profile", options.profile)] {
+        if value > MOST {
+            return Err(CliError::Input(format!("{option}: expected at most {MOST}, found {value}")));
+        }
+    }
+    let wanted = wanted(options, &surface)?;
+    let heard = heard::Heard::of(&library, &surface)?;
+    eprintln!("fitting {} responses; minutes in a band of some kHz", heard.count());
+    let start = Instant::now();
+    let plan = unripple_calibrate::FitOptions {
+        band: Some(heard.band),
+        profile: options.profile,
+        strays: options.strays,
+        reach: (KNOWN / heard.band[1]).clamp(1.4, 2.8),
+        ..unripple_calibrate::FitOptions::default()
+    };
+    let fitted = unripple_calibrate::fit(&surface, &heard.measured, &plan)?;
+    let seconds = start.elapsed().as_secs_f64();
+    let mut report = Report::of(&options.library, &surface, &fitted, seconds);
+    if let Some(folder) = &options.output {
+        fill::fill(folder, &library, &surface, &fitted, &heard.probed, &wanted)?;
+        report.written =
+            Some(report::Written { library: folder.display().to_string(), points: wanted.len() });
+    }
+    output::answer(as_json, &report, &report.text())
+}
+
+/// Where responses of the fitted model are wanted.
+fn wanted(options: &FitOptions, surface: &Surface) -> Result<Vec<Point>, CliError> {
+    let mut points = Vec::new();
+    if let Some(pitch) = options.grid_mm {
+        points = grid::points(&surface.outline, positive(pitch, "--grid-mm", "mm")? / 1e3)?;
+    }
+    for text in &options.at {
+        let at = place(text, "--at")?;
+        if !surface.outline.contains(at) {
+            return Err(CliError::Input(format!(
+                "--at {text}: expected a point on the surface, found one beyond its edge"
+            )));
+        }
+        points.push(at);
+    }
+    if options.output.is_some() && points.is_empty() {
+        return Err(CliError::Input(
+            "-o: expected --grid-mm P or --at X,Y as well, the points of the new library, found neither"
+                .into(),
+        ));
+    }
+    Ok(points)
+}

@@ -1,0 +1,127 @@
+//! A surface known by what its actuators hear of each other alone: calibrated without a probe, fitted, focused upon.
+
+mod common;
+
+use common::{Scratch, json, number, refused};
+use unripple::core::{ModalResponses, Point, Responses, Surface};
+use unripple::field::Field;
+use unripple::focus::{Focuser, Method, Options, Target};
+use unripple::physics::{ResponseOptions, responses};
+use unripple_devices::Unknowns;
+use unripple_store::{Library, load_surface};
+
+const WINDOW: f64 = 0.030;
+
+/// The paper's film in a third of its band, where a fit takes seconds.
+const FILM: &str = r#"
+format = 1
+name = "A film"
+
+[outline]
+rectangle_mm = [150, 150]
+edge = "clamped"
+
+[sheet]
+material = "BoPET"
+young_gpa = 4
+density_kg_m3 = 1400
+poisson_ratio = 0.3
+thickness_mm = 0.125
+tension_n_per_m = 200
+decay_time_ms = 70
+
+[drive]
+band_hz = [0, 1000]
+sample_rate_hz = 48000
+limit = 1.0
+"#;
+
+const PLACES: [(f64, f64); 8] = [
+    (12.0, 31.0),
+    (9.0, 84.0),
+    (40.0, 140.0),
+    (95.0, 137.0),
+    (141.0, 106.0),
+    (138.0, 44.0),
+    (103.0, 11.0),
+    (50.0, 9.0),
+];
+
+fn film() -> String {
+    let actuator = |(i, (x, y)): (usize, &(f64, f64))| {
+        format!("\n[[actuator]]\nname = \"a{}\"\nat_mm = [{x}, {y}]\nkind = \"force\"\n", i + 1)
+    };
+    FILM.to_owned() + &PLACES.iter().enumerate().map(actuator).collect::<String>()
+}
+
+/// The true responses behind a surface and a seed, its drives' gains included.
+fn truth(surface: &Surface, seed: u64) -> ModalResponses {
+    let truth = Unknowns { seed, ..Unknowns::default() }.truth(surface).unwrap();
+    let options = ResponseOptions { accuracy: 1e-4, ..ResponseOptions::default() };
+    let Ok(Responses::Modal(mut modal)) = responses(&truth.surface, &options) else { unreachable!() };
+    for (a, gain) in truth.drive_gains.iter().enumerate() {
+        modal.input.row_mut(a).iter_mut().for_each(|w| *w *= gain);
+    }
+    modal
+}
+
+/// Peak over rms outside, on the true surface, of a drive made from some responses.
+fn contrast(plant: &Responses, known: &Responses, method: Method, at: Point) -> f64 {
+    let options = Options { method, window: WINDOW, ..Options::default() };
+    let drive = Focuser::new(known, &options).unwrap().focus(&[Target::at(at)]).unwrap().drive.as_emitted();
+    let field = Field::new(plant, &drive, 8.0).unwrap();
+    let shot = &field.snapshots(&[WINDOW]).unwrap()[0];
+    let peak = field.traces(&[at], WINDOW).unwrap()[0].velocity.last().copied().unwrap();
+    let radius = 4.0 / 3.0 * plant.conditions().lambda_min;
+    let outside = field.points().iter().zip(&shot.velocity).filter(|(p, _)| p.distance(at) > radius);
+    let squares: Vec<f64> = outside.map(|(_, v)| f64::from(*v).powi(2)).collect();
+    peak.abs() / (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+}
+
+#[test]
+fn actuators_alone_make_a_library_of_points_anywhere() {
+    let scratch = Scratch::new("fit");
+    let file = scratch.file("film.toml", film());
+    let (heard, fitted) = (scratch.join("heard"), scratch.join("fitted"));
+    let measured = json(&["calibrate", &file, "--unknowns", "7", "-o", &heard]);
+    assert_eq!((number(&measured, "/probed"), number(&measured, "/measured")), (0.0, 8.0));
+
+    let report = json(&["fit", &heard, "--grid-mm", "12", "--at", "62,90", "--at", "100,60", "-o", &fitted]);
+    println!("{report:#}");
+    assert_eq!(report["verdict"], "good");
+    assert!(number(&report, "/written/points") > 100.0);
+    let surface = load_surface(&file).unwrap();
+    let told = Unknowns { seed: 7, ..Unknowns::default() }.truth(&surface).unwrap();
+    for (n, actuator) in told.surface.actuators.iter().enumerate() {
+        let c = |axis| number(&report, &format!("/actuators/{n}/at_m/{axis}/value"));
+        assert!(Point::new(c(0), c(1)).distance(actuator.at) < 0.5e-3, "{}", actuator.name);
+    }
+
+    let plant = Responses::Modal(truth(&surface, 7));
+    let library = Library::open(&fitted).unwrap();
+    assert_eq!(library.plan().provenance["device"], "fitted model");
+    let known = Responses::Sampled(library.responses().unwrap());
+    for at in [Point::from_mm(62.0, 90.0), Point::from_mm(100.0, 60.0)] {
+        for (method, least) in [(Method::TimeReversal, 0.95), (Method::Inverse, 0.85)] {
+            let share = contrast(&plant, &known, method, at) / contrast(&plant, &plant, method, at);
+            println!("{at}, {method:?}: {share:.3} of the contrast by true responses");
+            assert!(share > least, "{at}, {method:?}: {share}");
+        }
+    }
+    let focus = ["focus", &fitted, "--at", "62,90", "--window-ms", "30", "--on", &file, "-o"];
+    let focus = json(&[&focus[..], &[&scratch.join("touch")]].concat());
+    assert!(number(&focus, "/targets/0/contrast") > 1.0);
+}
+
+#[test]
+fn what_cannot_be_fitted_is_refused() {
+    let scratch = Scratch::new("fit-refused");
+    let file = scratch.file("film.toml", film());
+    assert!(refused(&["fit", &scratch.join("nothing")], 2).contains("expected a library"));
+    let modelled = scratch.join("modelled");
+    json(&["respond", &file, "--grid-mm", "50", "--length-ms", "10", "-o", &modelled]);
+    assert!(refused(&["fit", &modelled], 2).contains("hear of each other"));
+    assert!(refused(&["fit", &modelled, "--strays", "99"], 2).contains("--strays"));
+    assert!(refused(&["fit", &modelled, "-o", &scratch.join("out")], 2).contains("--grid-mm"));
+    assert!(refused(&["fit", &modelled, "--at", "1,1"], 2).contains("--output"));
+}
