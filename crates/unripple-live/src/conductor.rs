@@ -1,10 +1,11 @@
 use crate::log::{Began, Log};
 use crate::sounding::{Inputs, Sounding};
-use crate::{Drives, LiveError, Maker, Tally};
+use crate::{Drives, LiveError, Maker, Tally, Timing};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use unripple_core::{Point, Touch};
 use unripple_effects::{Act, Cue, Effects, Level, Wave};
-use unripple_player::{At, Command, Desk, Report, Voice};
+use unripple_player::{At, Command, Desk, Prepared, Report, Voice};
 use unripple_touch::{Heard, Wish};
 
 /// Cues that may wait for their time; more are counted and dropped.
@@ -12,6 +13,9 @@ const MOST_WAITING: usize = 1 << 16;
 
 /// Voices whose touches are remembered until they start.
 const MOST_ASKED: usize = 1 << 12;
+
+/// The player's name of pings.
+const PING: u64 = u64::MAX;
 
 /// Set in the player's names of waveforms, which are none of the effects' voices.
 const WAVES: u64 = 1 << 63;
@@ -50,17 +54,6 @@ pub struct Conductor {
     tally: Tally,
     /// What each voice plays, and what of it has begun, while somebody wants to know.
     log: Option<Log>,
-}
-
-/// How time passes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Timing {
-    /// Samples per second.
-    pub rate: f64,
-    /// From the beginning of a drive to its focus, in s.
-    pub window: f64,
-    /// Samples of a block.
-    pub block: usize,
 }
 
 impl std::fmt::Debug for Conductor {
@@ -102,6 +95,11 @@ impl Conductor {
     /// Lets drives be made with real-time priority, where the system grants it.
     pub fn hurry(&mut self) {
         self.drives.hurry();
+    }
+
+    /// Plays a drive that asks the sheet for its tension, at once.
+    pub(crate) fn ping(&mut self, drive: Arc<Prepared>) {
+        self.send(Command::Start { voice: Voice(PING), drive, at: At::Now, gain: 1.0, period: None });
     }
 
     /// Keeps, from now on, which drives begin, for [`Conductor::began`].

@@ -1,10 +1,13 @@
+use crate::pinging::Pinging;
 use crate::{
     Conductor, Drives, Feeler, Follower, Heartbeat, Listener, LiveError, LiveOptions, Maker, Percentiles,
     Stage, Timing,
 };
+use std::sync::Arc;
+use unripple_calibrate::Ping;
 use unripple_core::{Device, Surface};
 use unripple_effects::{EffectSet, Effects};
-use unripple_player::player;
+use unripple_player::{Prepared, player};
 use unripple_touch::{Heard, Sources};
 
 /// A surface being played: touches in, waves out.
@@ -47,6 +50,7 @@ impl Engine {
             feeler: None,
             follower: None,
             drift: None,
+            pinging: None,
             listener: None,
             rate,
             block: layout.block,
@@ -65,10 +69,16 @@ impl Engine {
         self
     }
 
-    /// With tension followed while playing.
-    pub fn with_follower(mut self, follower: Follower) -> Self {
+    /// With tension followed while playing; the ping is sent once in each of its periods while no finger is there.
+    ///
+    /// # Errors
+    /// [`LiveError::Player`] for a ping that cannot be played.
+    pub fn with_follower(mut self, follower: Follower, ping: &Ping) -> Result<Self, LiveError> {
+        let samples = ping.drive.iter().flatten().map(|x| *x as f32).collect();
+        let prepared = Prepared::new(ping.drive.len(), samples)?;
+        self.stage.pinging = Some(Pinging::new(Arc::new(prepared), follower.period() as u64));
         self.stage.follower = Some(follower);
-        self
+        Ok(self)
     }
 
     /// With somebody who is told of all that is heard, as it is heard.

@@ -36,9 +36,10 @@ pub struct Feeler {
     handle: Handle,
     finger: Finger,
     outline: Outline,
-    /// Who is in each slot, whether they press on the surface yet, and where they are.
+    /// Who is in each slot, whether they press on the surface yet, whether they have left since the last look, and where they are.
     slots: Vec<Option<u64>>,
     pressing: Vec<bool>,
+    left: Vec<bool>,
     places: Vec<Point>,
     rate: f64,
     disc: f64,
@@ -66,6 +67,7 @@ impl Feeler {
             outline,
             slots: vec![None; most],
             pressing: vec![false; most],
+            left: vec![false; most],
             places,
             rate: surface.emission.rate / STRIDE as f64,
             disc: DISC * Medium::of(&surface.sheet).lambda_min(surface.emission.band[1]),
@@ -80,10 +82,11 @@ impl Feeler {
     /// [`LiveError::Devices`] for a finger that the surface does not know.
     pub fn touch(&mut self, touch: &Touch) -> Result<(), LiveError> {
         let at = self.outline.nearest(touch.at);
-        let slot = self.slots.iter().position(|slot| *slot == Some(touch.finger));
+        let mut here = self.slots.iter().zip(&self.left);
+        let slot = here.position(|(slot, left)| *slot == Some(touch.finger) && !left);
         match (touch.phase, slot) {
             (Phase::Up, Some(slot)) => {
-                self.slots[slot] = None;
+                self.left[slot] = true;
                 if std::mem::take(&mut self.pressing[slot]) {
                     self.handle.lift(touch.finger)?;
                 }
@@ -96,8 +99,12 @@ impl Feeler {
                 }
             }
             (Phase::Down, None) => {
-                let Some(slot) = self.slots.iter().position(Option::is_none) else { return Ok(()) };
+                let free = self.slots.iter().position(Option::is_none);
+                let Some(slot) = free.or_else(|| self.left.iter().position(|left| *left)) else {
+                    return Ok(());
+                };
                 self.slots[slot] = Some(touch.finger);
+                self.left[slot] = false;
                 self.places[slot] = at;
                 self.moved = true;
             }
@@ -114,7 +121,8 @@ impl Feeler {
         if std::mem::take(&mut self.moved) {
             self.handle.move_watched(&self.places)?;
         }
-        let slots = self.slots.iter().zip(&self.places).zip(&mut self.pressing);
+        let here = self.slots.iter().zip(&self.left).map(|(slot, left)| slot.filter(|_| !left));
+        let slots = here.zip(&self.places).zip(&mut self.pressing);
         for ((id, at), pressing) in slots.filter(|(_, pressing)| !**pressing) {
             let contact = Contact { at: *at, finger: self.finger };
             *pressing = id.is_some_and(|id| self.handle.touch(id, &contact).is_ok());
@@ -122,8 +130,18 @@ impl Feeler {
         Ok(())
     }
 
-    /// What every finger felt since the last look.
+    /// What every finger felt since the last look, those that have left meanwhile included.
     pub fn look(&mut self) -> Vec<Feeling> {
+        let feelings = self.feelings();
+        for (slot, left) in self.slots.iter_mut().zip(&mut self.left) {
+            if std::mem::take(left) {
+                *slot = None;
+            }
+        }
+        feelings
+    }
+
+    fn feelings(&self) -> Vec<Feeling> {
         let traces = self.handle.watched();
         let samples = traces.iter().map(Vec::len).min().unwrap_or(0);
         let down: Vec<usize> = (0..self.slots.len()).filter(|slot| self.slots[*slot].is_some()).collect();

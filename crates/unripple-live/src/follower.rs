@@ -7,7 +7,13 @@ use unripple_focus::Options;
 /// Change of tension from which on drives are made anew.
 const WORTH: f64 = 1e-4;
 
-/// Follows tension while the surface is played, from what is sent anyway and what the actuators hear of it.
+/// Periods after a finger has left in which the sheet still rings as it did under the finger.
+const SETTLING: u32 = 1;
+
+/// Follows tension while the surface is played, from what is sent and what the actuators hear of it.
+///
+/// The model knows the sheet without fingers. So stretches in which a finger was on it are passed over, and a ping that
+/// nobody feels tells of the tension as soon as all have left.
 #[derive(Debug)]
 pub struct Follower {
     tracker: Tracker,
@@ -22,6 +28,9 @@ pub struct Follower {
     made_for: f64,
     last: Option<Drift>,
     observations: u64,
+    /// Whether a finger was there in the period under way, and periods until the sheet has settled.
+    touched: bool,
+    settling: u32,
 }
 
 impl Follower {
@@ -44,6 +53,8 @@ impl Follower {
             made_for: 1.0,
             last: None,
             observations: 0,
+            touched: false,
+            settling: 0,
         }
     }
 
@@ -52,13 +63,20 @@ impl Follower {
         self.last.as_ref()
     }
 
+    /// Samples of one observation.
+    pub fn period(&self) -> usize {
+        self.period
+    }
+
     /// Observations so far.
     pub fn observations(&self) -> u64 {
         self.observations
     }
 
-    /// Takes in a block: planes of drive and of the sensors, in the actuators' and sensors' units.
-    pub fn take(&mut self, drive: &[f32], heard: &[f32], block: usize) {
+    /// Takes in a block: planes of drive and of the sensors, in the actuators' and sensors' units; and whether a finger was on the
+    /// sheet.
+    pub fn take(&mut self, drive: &[f32], heard: &[f32], block: usize, touched: bool) {
+        self.touched |= touched;
         for (lines, planes) in [(&mut self.drive, drive), (&mut self.heard, heard)] {
             for (line, plane) in lines.iter_mut().zip(planes.chunks_exact(block)) {
                 line.extend(plane.iter().map(|x| f64::from(*x)));
@@ -78,6 +96,14 @@ impl Follower {
             lines.iter_mut().map(|line| line.drain(..self.period.min(line.len())).collect()).collect()
         };
         let (drive, heard) = (part(&mut self.drive), part(&mut self.heard));
+        if std::mem::take(&mut self.touched) {
+            self.settling = SETTLING + 1;
+        }
+        if self.settling > 0 {
+            self.settling -= 1;
+            self.tracker.skip(&drive, self.period)?;
+            return Ok(None);
+        }
         let drift = self.tracker.observe(&drive, &heard)?;
         self.last = Some(drift);
         self.observations += 1;

@@ -3,6 +3,9 @@ use unripple_core::{Emission, Surface};
 use unripple_focus::{Method, Options as FocusOptions};
 use unripple_player::{Limit, Options as PlayerOptions, Running, WaveOptions};
 
+/// Longest ping that may be sent between effects, in s.
+const LONGEST_PING: f64 = 0.15;
+
 /// How a surface is played.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveOptions {
@@ -53,9 +56,20 @@ impl LiveOptions {
             block,
             rate: emission.rate,
             limits: vec![limit],
-            longest: taps,
+            longest: taps.max((LONGEST_PING * emission.rate) as usize),
             waves: (self.waves > 0).then_some(waves),
             ..PlayerOptions::default()
         })
     }
+}
+
+/// How time passes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Timing {
+    /// Samples per second.
+    pub rate: f64,
+    /// From the beginning of a drive to its focus, in s.
+    pub window: f64,
+    /// Samples of a block.
+    pub block: usize,
 }

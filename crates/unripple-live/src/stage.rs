@@ -1,3 +1,4 @@
+use crate::pinging::Pinging;
 use crate::{Conductor, Feeler, Feeling, Follower, LiveError, Percentiles};
 use std::time::Instant;
 use unripple_calibrate::Drift;
@@ -15,6 +16,7 @@ pub struct Stage {
     pub(crate) follower: Option<Follower>,
     /// What following said last.
     pub(crate) drift: Option<Drift>,
+    pub(crate) pinging: Option<Pinging>,
     pub(crate) listener: Option<Listener>,
     pub(crate) rate: f64,
     pub(crate) block: usize,
@@ -51,6 +53,9 @@ impl Stage {
     pub(crate) fn conduct(&mut self, now: u64, until: u64) -> Result<(), LiveError> {
         let began = Instant::now();
         self.conductor.step(&self.heard, now, until)?;
+        if let Some(pinging) = &mut self.pinging {
+            pinging.step(now, self.sources.fingers().next().is_some(), &mut self.conductor);
+        }
         if !self.heard.touches.is_empty() {
             self.computing.add(began.elapsed().as_secs_f64());
         }
@@ -100,7 +105,8 @@ impl Stage {
     /// Follows tension by a block, and goes over to drives for the surface as it is.
     pub(crate) fn follow(&mut self, drive: &[f32], heard: &[f32]) -> Result<(), LiveError> {
         let Some(follower) = &mut self.follower else { return Ok(()) };
-        follower.take(drive, heard, self.block);
+        let touched = self.sources.fingers().next().is_some();
+        follower.take(drive, heard, self.block, touched);
         let maker = follower.observe()?;
         self.drift = follower.last().copied();
         match maker {

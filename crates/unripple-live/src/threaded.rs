@@ -49,7 +49,7 @@ impl Engine {
         let blocks = follower.is_some().then_some(blocks);
         let (failed, failures) = mpsc::channel();
         let (found, finds) = mpsc::channel();
-        let block = stage.block;
+        let (block, touched) = (stage.block, AtomicBool::new(false));
         stage.conductor.hurry();
         let result = std::thread::scope(|scope| {
             let audio = std::thread::Builder::new().name("audio".into());
@@ -57,11 +57,11 @@ impl Engine {
             spawned.map_err(|error| LiveError::Gone { why: error.to_string() })?;
             if let Some(follower) = &mut follower {
                 let drift = std::thread::Builder::new().name("drift".into());
-                let heard = Overheard { blocks: overheard, planes, block };
+                let heard = Overheard { blocks: overheard, planes, block, touched: &touched };
                 let spawned = drift.spawn_scoped(scope, || follow(follower, heard, &stop, &found));
                 spawned.map_err(|error| LiveError::Gone { why: error.to_string() })?;
             }
-            let result = stage.attend(seconds, &failures, &finds, |stage| {
+            let result = stage.attend(seconds, &failures, &finds, &touched, |stage| {
                 let pulse = pulse.lock().map(|pulse| pulse.clone()).unwrap_or_default();
                 tell(stage, &pulse)
             });
@@ -75,18 +75,20 @@ impl Engine {
 }
 
 /// Blocks on their way from the audio thread to whoever follows tension.
-struct Overheard {
+struct Overheard<'a> {
     blocks: rtrb::Consumer<f32>,
     /// Samples of drive and of what was heard.
     planes: (usize, usize),
     block: usize,
+    /// Whether a finger is on the sheet.
+    touched: &'a AtomicBool,
 }
 
 /// What following found: how tension fares, and a maker for the surface as it is, if that has changed.
 type Found = Result<(Drift, Option<Maker>), LiveError>;
 
 /// The thread that follows tension: what it computes is too long for the one that hears touches.
-fn follow(follower: &mut Follower, mut heard: Overheard, stop: &AtomicBool, found: &mpsc::Sender<Found>) {
+fn follow(follower: &mut Follower, mut heard: Overheard<'_>, stop: &AtomicBool, found: &mpsc::Sender<Found>) {
     let (drive, inputs) = heard.planes;
     let mut block = Vec::with_capacity(drive + inputs);
     while !stop.load(Ordering::Relaxed) {
@@ -94,7 +96,7 @@ fn follow(follower: &mut Follower, mut heard: Overheard, stop: &AtomicBool, foun
             block.clear();
             block.extend(chunk);
             let (drive, heard_now) = block.split_at(drive);
-            follower.take(drive, heard_now, heard.block);
+            follower.take(drive, heard_now, heard.block, heard.touched.load(Ordering::Relaxed));
         }
         let before = follower.observations();
         let maker = follower.observe();
@@ -118,6 +120,7 @@ impl Stage {
         seconds: Option<f64>,
         failures: &mpsc::Receiver<DeviceError>,
         finds: &mpsc::Receiver<Found>,
+        touched: &AtomicBool,
         mut tell: impl FnMut(&mut Self) -> bool,
     ) -> Result<(), LiveError> {
         let end = seconds.map(|seconds| self.clock + (seconds * self.rate) as u64);
@@ -133,6 +136,7 @@ impl Stage {
                 return Ok(());
             }
             self.listen()?;
+            touched.store(self.sources.fingers().next().is_some(), Ordering::Relaxed);
             self.conduct(self.clock, self.clock + AHEAD * self.block as u64)?;
             while let Ok(found) = finds.try_recv() {
                 let (drift, maker) = found?;

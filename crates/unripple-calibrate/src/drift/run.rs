@@ -30,6 +30,11 @@ pub(super) struct Instants {
 }
 
 impl Instants {
+    /// Nothing is looked at.
+    pub fn none() -> Self {
+        Self { at: Vec::new(), single: 0, reach: 0 }
+    }
+
     /// Samples in a mean.
     fn count(&self) -> f64 {
         (2 * self.reach + 1) as f64

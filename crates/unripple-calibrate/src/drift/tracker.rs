@@ -212,6 +212,22 @@ impl Tracker {
         })
     }
 
+    /// Lets a stretch of time pass of which nothing is to be learnt, a finger having been on the sheet, and notes what was sent.
+    ///
+    /// # Errors
+    /// [`CalibrateError::Count`] for another number of channels.
+    pub fn skip(&mut self, drive: &[Vec<f64>], samples: usize) -> Result<(), CalibrateError> {
+        let channels = self.sheet.input.ncols();
+        if drive.len() != channels {
+            let (expected, found) = (channels.to_string(), drive.len());
+            return Err(CalibrateError::Count { what: "channels of the drive", expected, found });
+        }
+        self.pass(samples as f64 / self.sheet.rate);
+        let course = Course { middle: self.state[0], rate: self.state[1] };
+        self.motion = self.sheet.run(&self.motion, drive, samples, &Instants::none(), course).1;
+        Ok(())
+    }
+
     fn check(&self, drive: &[Vec<f64>], heard: &[Vec<f64>]) -> Result<usize, CalibrateError> {
         let channels = self.sheet.input.ncols();
         for (what, found) in [("channels of the drive", drive.len()), ("channels heard", heard.len())] {

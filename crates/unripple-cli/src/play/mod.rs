@@ -16,11 +16,15 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use touches::Touches;
 use unripple::core::{Drive, Responses, Surface};
 use unripple::physics::Medium;
+use unripple_calibrate::{Ping, PingOptions};
 use unripple_live::{Engine, Follower, LiveError, LiveOptions, Maker, Pulse, Stage, Window};
 use unripple_store::{load_effects, write_wav};
 
 /// Most of a drive that is kept, in s.
 const KEPT: f64 = 60.0;
+
+/// Time over which tension is observed, in s: a ping, and until it is over.
+const FOLLOWED: f64 = 0.4;
 
 /// How often fingers are told of, in s of played time.
 const TELL: f64 = 0.2;
@@ -59,7 +63,8 @@ pub fn run(options: &PlayOptions, as_json: bool) -> Result<(), CliError> {
         engine = engine.with_listener(listener);
     }
     if options.follow_tension {
-        engine = engine.with_follower(follower(&surface, &responses, &settings, latency)?);
+        let (follower, ping) = follower(&surface, &responses, &settings, latency)?;
+        engine = engine.with_follower(follower, &ping)?;
     }
     for line in [window.to_string(), level.to_string()].iter().chain(&touches.told) {
         eprintln!("{line}");
@@ -114,14 +119,16 @@ fn follower(
     responses: &Responses,
     settings: &LiveOptions,
     latency: usize,
-) -> Result<Follower, CliError> {
+) -> Result<(Follower, Ping), CliError> {
     let Responses::Modal(modal) = responses else {
         let text = "--follow-tension: expected a surface, whose modes it needs, found a library (fit a model to it first)";
         return Err(CliError::Input(text.into()));
     };
     let tracker = open::tracker(surface, modal)?;
     let channels = surface.actuators.len();
-    Ok(Follower::new(tracker, &settings.focus, channels, surface.emission.rate, TELL, latency))
+    let options = PingOptions { limit: surface.emission.limit, ..PingOptions::default() };
+    let ping = Ping::design(modal, &options)?;
+    Ok((Follower::new(tracker, &settings.focus, channels, surface.emission.rate, FOLLOWED, latency), ping))
 }
 
 /// One sitting.

@@ -19,6 +19,9 @@ const TRIES: u32 = 1000;
 /// Blocks that drive is ahead of a sound server: the fewest that it takes.
 const LEAD: usize = 2;
 
+/// What the model may miss of what is heard: the sheet still rings a little as it did under a finger.
+const MODEL: f64 = 0.02;
+
 /// Period of the drift that may be asked for, in s, and how far apart its knots are.
 const MINUTE: f64 = 60.0;
 const KNOT: f64 = 0.1;
@@ -143,5 +146,5 @@ fn recovering(
 pub fn tracker(surface: &Surface, modal: &ModalResponses) -> Result<Tracker, CliError> {
     let warp = Warp::new(&Medium::of(&surface.sheet));
     let shares: Vec<f64> = modal.poles.iter().map(|pole| warp.bending_share(pole.omega)).collect();
-    Ok(Tracker::new(modal, &shares, &Tracking::default())?)
+    Ok(Tracker::new(modal, &shares, &Tracking { model: MODEL, ..Tracking::default() })?)
 }

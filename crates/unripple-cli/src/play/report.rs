@@ -73,7 +73,7 @@ impl Four {
     }
 }
 
-/// What fingers felt, over all looks in which one was down.
+/// What fingers felt, over all looks in which one felt anything.
 #[derive(Debug, Default, Serialize)]
 struct Felt {
     looks: usize,
@@ -221,7 +221,7 @@ fn told(feeling: &Feeling) -> String {
 
 impl Felt {
     fn add(&mut self, feeling: &Feeling) {
-        self.levels.extend(feeling.level_db);
+        self.levels.extend(feeling.level_db.filter(|db| *db > 0.0));
         self.contrasts.extend(feeling.contrast);
     }
 

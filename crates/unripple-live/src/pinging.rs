@@ -1,0 +1,26 @@
+use crate::Conductor;
+use std::sync::Arc;
+use unripple_player::Prepared;
+
+/// Sends a ping at the beginning of each period of observation in which no finger is there, so that it is over at its end.
+#[derive(Debug)]
+pub(crate) struct Pinging {
+    ping: Arc<Prepared>,
+    /// Samples of a period, and which one was last begun.
+    period: u64,
+    begun: Option<u64>,
+}
+
+impl Pinging {
+    pub fn new(ping: Arc<Prepared>, period: u64) -> Self {
+        Self { ping, period: period.max(1), begun: None }
+    }
+
+    /// Sends one if it is time and nobody touches.
+    pub fn step(&mut self, now: u64, touched: bool, conductor: &mut Conductor) {
+        let period = now / self.period;
+        if self.begun.replace(period) != Some(period) && !touched {
+            conductor.ping(self.ping.clone());
+        }
+    }
+}
