@@ -101,7 +101,9 @@ fn freewheeling_nothing_is_lost() {
     let device = Jack::open(&options(&server.name, true)).unwrap();
     let mut engine = with_device(&one(grains(), Level::Share(0.2)), sources(fingers(10)), Box::new(device));
     let began = ear.blocks.load(Relaxed);
-    for _ in 0..1500 {
+    // Eight seconds of played time; `UNRIPPLE_MINUTES` says how many minutes instead.
+    let seconds = std::env::var("UNRIPPLE_MINUTES").map_or(8.0, |m| 60.0 * m.parse::<f64>().unwrap());
+    while engine.stage().time() < seconds {
         engine.step().unwrap();
     }
     let status = engine.heart().device().status();
