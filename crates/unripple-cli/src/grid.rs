@@ -1,6 +1,7 @@
-//! The points of a library: a square grid over a surface.
+//! The points of a library: a square grid over a surface, and places typed.
 
 use crate::error::CliError;
+use crate::targets::{place, positive};
 use unripple::core::{Outline, Point};
 
 /// Most points of a grid.
@@ -32,6 +33,24 @@ pub fn points(outline: &Outline, pitch: f64) -> Result<Vec<Point>, CliError> {
         .filter(well_inside)
         .collect();
     if found.is_empty() { Err(refuse("none inside the rim".into())) } else { Ok(found) }
+}
+
+/// A grid of some pitch (mm), if one was asked for, then places typed as `X,Y`: those of `--grid-mm` and `--at`.
+pub fn places(outline: &Outline, grid_mm: Option<f64>, at: &[String]) -> Result<Vec<Point>, CliError> {
+    let mut found = match grid_mm {
+        Some(pitch) => points(outline, positive(pitch, "--grid-mm", "mm")? / 1e3)?,
+        None => Vec::new(),
+    };
+    for text in at {
+        let at = place(text, "--at")?;
+        if !outline.contains(at) {
+            return Err(CliError::Input(format!(
+                "--at {text}: expected a point on the surface, found one beyond its edge"
+            )));
+        }
+        found.push(at);
+    }
+    Ok(found)
 }
 
 #[cfg(test)]

@@ -21,6 +21,7 @@ mod input;
 mod judge;
 mod level;
 mod modes;
+mod open;
 mod output;
 mod play;
 mod played;

@@ -8,50 +8,15 @@ use unripple::field::Field;
 use unripple::focus::{Focuser, Method, Options, Target};
 use unripple::physics::{ResponseOptions, responses};
 use unripple_devices::Unknowns;
-use unripple_store::{Library, load_surface};
+use unripple_store::{Library, load_surface, to_toml};
 
 const WINDOW: f64 = 0.030;
 
 /// The paper's film in a third of its band, where a fit takes seconds.
-const FILM: &str = r#"
-format = 1
-name = "A film"
-
-[outline]
-rectangle_mm = [150, 150]
-edge = "clamped"
-
-[sheet]
-material = "BoPET"
-young_gpa = 4
-density_kg_m3 = 1400
-poisson_ratio = 0.3
-thickness_mm = 0.125
-tension_n_per_m = 200
-decay_time_ms = 70
-
-[drive]
-band_hz = [0, 1000]
-sample_rate_hz = 48000
-limit = 1.0
-"#;
-
-const PLACES: [(f64, f64); 8] = [
-    (12.0, 31.0),
-    (9.0, 84.0),
-    (40.0, 140.0),
-    (95.0, 137.0),
-    (141.0, 106.0),
-    (138.0, 44.0),
-    (103.0, 11.0),
-    (50.0, 9.0),
-];
-
 fn film() -> String {
-    let actuator = |(i, (x, y)): (usize, &(f64, f64))| {
-        format!("\n[[actuator]]\nname = \"a{}\"\nat_mm = [{x}, {y}]\nkind = \"force\"\n", i + 1)
-    };
-    FILM.to_owned() + &PLACES.iter().enumerate().map(actuator).collect::<String>()
+    let mut film = load_surface("hudin-2012").unwrap();
+    film.emission.band[1] = 1000.0;
+    to_toml(&film)
 }
 
 /// The true responses behind a surface and a seed, its drives' gains included.

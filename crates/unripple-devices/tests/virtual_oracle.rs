@@ -203,4 +203,9 @@ fn what_is_watched_is_the_displacement_of_the_responses() {
     assert_eq!(handle.watched()[1].len(), device.layout().block.div_ceil(2));
     assert!(heard[8].iter().any(|v| *v != 0.0));
     assert!(handle.move_watched(&[here]).is_err());
+    // What cannot be moved leaves all as it was.
+    let nowhere = Point::new(f64::NAN, 0.0);
+    assert!(handle.move_watched(&[here, nowhere]).is_err() && handle.move_probe(nowhere).is_err());
+    play(&mut device, 64, silence);
+    assert!(handle.watched().iter().all(|trace| trace.iter().any(|u| *u != 0.0)));
 }

@@ -72,7 +72,9 @@ impl Kernel {
     }
 }
 
-fn sinc(t: f64) -> f64 {
+/// sin(πt)/(πt), and 1 at 0 (Shannon, *Communication in the presence of noise*, 1949, theorem 1): what interpolates samples
+/// one apart.
+pub fn sinc(t: f64) -> f64 {
     if t.abs() < 1e-9 { 1.0 } else { (PI * t).sin() / (PI * t) }
 }
 
@@ -81,8 +83,9 @@ fn kaiser(u: f64, beta: f64) -> f64 {
     if u.abs() > 1.0 { 0.0 } else { bessel_i0(beta * (1.0 - u * u).sqrt()) / bessel_i0(beta) }
 }
 
-/// The modified Bessel function I_0, by its power series.
-fn bessel_i0(x: f64) -> f64 {
+/// The modified Bessel function I_0, by its power series (Abramowitz and Stegun, *Handbook of Mathematical Functions*, 9.6.12): the profile
+/// of the Kaiser window.
+pub fn bessel_i0(x: f64) -> f64 {
     let quarter = x * x / 4.0;
     let (mut term, mut sum, mut k) = (1.0, 1.0, 1.0);
     while term > sum * 1e-17 {

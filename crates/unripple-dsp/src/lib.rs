@@ -14,6 +14,7 @@ mod weighting;
 pub use convolve::{Convolver, convolve};
 pub use error::DspError;
 pub use integral::integral;
+pub use kernel::{bessel_i0, sinc};
 pub use measure::{
     Average, Band, CrossSpectra, Decay, Deconvolver, Delay, Gate, Harmonic, Harmonics, Inversion, Mls,
     Outliers, Pair, Quality, Reciprocity, Schedule, Split, Stimulus, Sweep, Workspace, clipped, onset, shift,

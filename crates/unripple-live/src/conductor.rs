@@ -149,11 +149,8 @@ impl Conductor {
         self.inputs.free(now, &mut self.desk);
         while let Some(entry) = self.waiting.first_entry().filter(|entry| entry.key().0 < until) {
             let ((sample, _), cue) = entry.remove_entry();
-            match self.play(&cue, sample, now) {
-                Err(error @ LiveError::Gone { .. }) => return Err(error),
-                Err(error) => self.tally.fail(&error),
-                Ok(()) => self.tally.cues += 1,
-            }
+            let played = self.play(&cue, sample, now);
+            self.tally.cues += u64::from(self.tally.went(played)?);
         }
         Ok(())
     }
@@ -166,21 +163,23 @@ impl Conductor {
         self.drives.replace(maker);
         let all: Vec<(u64, Sounding)> = self.sounding.iter().map(|(voice, s)| (*voice, s.clone())).collect();
         for (voice, sounding) in all {
-            match self.redirect(voice, &sounding, At::Sample(now)) {
-                Err(error @ LiveError::Gone { .. }) => return Err(error),
-                Err(error) => self.tally.fail(&error),
-                Ok(()) => {}
-            }
+            let redirected = self.redirect(voice, &sounding, At::Sample(now));
+            self.tally.went(redirected)?;
         }
         Ok(())
+    }
+
+    /// The sample nearest to a time in s.
+    fn sample(&self, time: f64) -> u64 {
+        (time * self.rate).round().max(0.0) as u64
     }
 
     /// Puts cues where they wait for the beginning of their drives.
     fn queue(&mut self, cues: &mut Vec<Cue>, now: u64, touch: Option<&Touch>) {
         for cue in cues.drain(..) {
-            let focus = (cue.at * self.rate).round().max(0.0) as u64;
+            let focus = self.sample(cue.at);
             let sample = focus.saturating_sub(self.lead).max(now);
-            let late = now.saturating_sub((cue.at * self.rate).max(0.0) as u64) as f64 / self.rate;
+            let late = now.saturating_sub(focus) as f64 / self.rate;
             if late > STALE && matches!(cue.act, Act::Pulse { .. } | Act::Shape { .. }) {
                 // Nobody feels now what was asked for then; making it would only make the next later.
                 self.tally.stale += 1;
@@ -193,7 +192,8 @@ impl Conductor {
                 continue;
             }
             if let Some(touch) = touch {
-                self.asked.entry(cue.voice).or_insert((touch.time * self.rate).round().max(0.0) as u64);
+                let asked = self.sample(touch.time);
+                self.asked.entry(cue.voice).or_insert(asked);
                 if self.asked.len() > MOST_ASKED {
                     self.asked.pop_first();
                 }

@@ -45,6 +45,10 @@ const WAVES: usize = 64;
 /// Points to the last bit.
 type Place = Vec<(u64, u64)>;
 
+fn key(points: &[Point]) -> Place {
+    points.iter().map(|p| (p.x.to_bits(), p.y.to_bits())).collect()
+}
+
 #[derive(Debug)]
 struct Known {
     at: At,
@@ -108,7 +112,7 @@ impl Drives {
     /// Those of [`Maker::focus`].
     pub fn at(&mut self, points: &[Point]) -> Result<At, LiveError> {
         self.asked += 1;
-        let place: Place = points.iter().map(|p| (p.x.to_bits(), p.y.to_bits())).collect();
+        let place = key(points);
         if let Some(known) = self.known.get_mut(&place) {
             known.asked = self.asked;
             return Ok(known.at.clone());
@@ -149,10 +153,10 @@ impl Drives {
     /// # Errors
     /// As [`Drives::pulse_gain`].
     pub fn wave_gain(&mut self, place: Point, wave: &Wave, level: Level) -> Result<(f64, bool), LiveError> {
-        let made = self.at(&[place])?.made;
-        let most = self.limit / steadiest(&made, &mut self.plan);
         match level {
             Level::Share(share) => {
+                let made = self.at(&[place])?.made;
+                let most = self.limit / steadiest(&made, &mut self.plan);
                 let gain = share.max(0.0) * self.full_wave(wave)?.unwrap_or(most);
                 Ok((gain.min(most), gain > most))
             }
@@ -195,7 +199,7 @@ impl Drives {
 
     fn felt_pulse(&mut self, points: &[Point], db: f64) -> Result<(f64, bool), LiveError> {
         let (trace, at) = self.trace(points)?;
-        Ok(reaching(db, felt(&trace, at.made.drive.rate(), 2 * at.made.instant + 1)))
+        Ok(reaching(db, pulse_felt(&at.made, &trace)))
     }
 
     fn felt_wave(&mut self, place: Point, wave: &Wave, db: f64) -> Result<(f64, bool), LiveError> {
@@ -214,12 +218,17 @@ impl Drives {
             return Ok((trace.clone(), at));
         }
         let trace = Arc::new(self.maker.trace(&at.made)?);
-        let place: Place = points.iter().map(|p| (p.x.to_bits(), p.y.to_bits())).collect();
-        if let Some(known) = self.known.get_mut(&place) {
+        if let Some(known) = self.known.get_mut(&key(points)) {
             known.at.trace = Some(trace.clone());
         }
         Ok((trace, at))
     }
+}
+
+/// How strongly a pulse is felt where it focuses, as a multiple of the threshold of touch: its largest weighed displacement
+/// (a [`Maker::trace`]) from its beginning until as long after the focal instant.
+pub fn pulse_felt(made: &Made, trace: &[f64]) -> f64 {
+    felt(trace, made.drive.rate(), 2 * made.instant + 1)
 }
 
 /// Largest displacement within the first `span` samples, weighed by the threshold of touch.

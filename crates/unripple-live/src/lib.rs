@@ -28,7 +28,7 @@ mod threaded;
 mod window;
 
 pub use conductor::Conductor;
-pub use drives::{At, Drives, Full};
+pub use drives::{At, Drives, Full, pulse_felt};
 pub use engine::Engine;
 pub use error::LiveError;
 pub use feeler::{Feeler, Feeling};

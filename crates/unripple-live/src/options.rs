@@ -13,8 +13,6 @@ pub struct LiveOptions {
     pub focus: FocusOptions,
     /// What a share of 1 stands for; as much as the drive's limit allows where `None`.
     pub full: Option<Full>,
-    /// Fingers at once.
-    pub fingers: usize,
     /// Waveforms at once.
     pub waves: usize,
     /// Time over which the rms limit of an actuator holds, in s.
@@ -24,11 +22,11 @@ pub struct LiveOptions {
 }
 
 impl LiveOptions {
-    /// Time reversal in a window (s), within a surface's limits, for ten fingers.
+    /// Time reversal in a window (s), within a surface's limits, for ten waveforms at once.
     pub fn new(surface: &Surface, window: f64) -> Self {
         let Emission { limit, .. } = surface.emission;
         let focus = FocusOptions { method: Method::TimeReversal, window, limit, ..FocusOptions::default() };
-        Self { focus, full: None, fingers: 10, waves: 10, rms_seconds: 1.0, predict: true }
+        Self { focus, full: None, waves: 10, rms_seconds: 1.0, predict: true }
     }
 
     /// The player's part, for blocks of a device.

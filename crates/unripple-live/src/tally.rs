@@ -1,4 +1,4 @@
-use crate::Percentiles;
+use crate::{LiveError, Percentiles};
 use unripple_player::Report;
 
 /// What was played, what was not, and how late.
@@ -43,6 +43,16 @@ impl Tally {
     pub(crate) fn fail(&mut self, error: &dyn std::error::Error) {
         self.failed += 1;
         self.failure = Some(error.to_string());
+    }
+
+    /// Whether something went well; what failed is counted, unless no drive can be made any more.
+    pub(crate) fn went(&mut self, result: Result<(), LiveError>) -> Result<bool, LiveError> {
+        match result {
+            Err(error @ LiveError::Gone { .. }) => return Err(error),
+            Err(error) => self.fail(&error),
+            Ok(()) => return Ok(true),
+        }
+        Ok(false)
     }
 
     /// What the player says.

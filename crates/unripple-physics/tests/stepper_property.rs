@@ -270,6 +270,26 @@ proptest! {
     }
 
     #[test]
+    fn probes_that_move_hear_what_those_set_there_hear(
+        (rate, plant) in sheet(),
+        channels in proptest::collection::vec(channel(MILD), 1..4),
+        places in proptest::collection::vec(place(), 5),
+        seed in any::<u64>(),
+    ) {
+        let probes = |at: [usize; 3]| at.map(|n| (places[n], Reading::Displacement));
+        let mut moved = VirtualSurface::new(&plant, &channels, rate, &StepperOptions::default()).unwrap();
+        moved.set_probes(&probes([0, 1, 2])).unwrap();
+        run(&mut moved, &noise(seed, channels.len() * 30));
+        let mut set = moved.clone();
+        set.set_probes(&probes([3, 1, 4])).unwrap();
+        moved.move_probes(&[(2, places[4]), (0, places[3])]).unwrap();
+        prop_assert!(moved.move_probes(&[(1, places[0]), (3, places[0])]).is_err());
+        prop_assert!(moved.move_probes(&[(1, places[0]), (2, mm(f64::NAN, 1.0))]).is_err());
+        let drive = noise(seed ^ 1, channels.len() * 30);
+        prop_assert_eq!(run(&mut moved, &drive), run(&mut set, &drive));
+    }
+
+    #[test]
     fn drives_superpose(
         (rate, plant) in sheet(),
         channels in proptest::collection::vec(channel(MILD), 1..4),

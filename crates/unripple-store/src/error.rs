@@ -1,4 +1,4 @@
-use crate::SurfaceFaults;
+use crate::FileFaults;
 use miette::Diagnostic;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -32,10 +32,10 @@ pub enum StoreError {
         /// The nearest of them.
         nearest: Option<String>,
     },
-    /// A surface file has faults.
+    /// A file of a surface or of effects has faults.
     #[error(transparent)]
     #[diagnostic(transparent)]
-    Surface(#[from] SurfaceFaults),
+    Surface(#[from] FileFaults),
     /// What a file holds is not what was expected of it.
     #[error("{file}: expected {expected}, found {found}")]
     Content {

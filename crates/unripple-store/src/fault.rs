@@ -6,7 +6,7 @@ use std::ops::Range;
 /// Most faults reported of one file; the rest are counted.
 pub(crate) const MOST_FAULTS: usize = 100;
 
-/// One thing wrong with a surface file: where, what was found, what was expected, and the nearest thing that is legal.
+/// One thing wrong with a TOML file: where, what was found, what was expected, and the nearest thing that is legal.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Fault {
     /// Path of the key, as in `actuator[3].at_mm`, counted from 0; empty for the whole file.
@@ -51,7 +51,7 @@ impl Diagnostic for Fault {
     }
 }
 
-/// All faults of one surface file, in the file's order.
+/// All faults of one TOML file, of a surface or of effects, in the file's order.
 ///
 /// As text it is one line; as `{:#}` one line per fault, each with file, line and column. As a [`miette::Diagnostic`]
 /// it shows the lines of the file with a caret under each fault.
@@ -65,7 +65,7 @@ impl Diagnostic for Fault {
 /// assert!(format!("{faults:#}").contains("film.toml:2:1: nmae: expected "));
 /// ```
 #[derive(Clone, Debug)]
-pub struct SurfaceFaults(Box<Report>);
+pub struct FileFaults(Box<Report>);
 
 #[derive(Clone, Debug)]
 struct Report {
@@ -75,7 +75,7 @@ struct Report {
     omitted: usize,
 }
 
-impl SurfaceFaults {
+impl FileFaults {
     pub(crate) fn new(file: &str, text: &str, mut faults: Vec<Fault>) -> Self {
         faults.sort_by_key(|fault| fault.span.start);
         let omitted = faults.len().saturating_sub(MOST_FAULTS);
@@ -92,7 +92,7 @@ impl SurfaceFaults {
         &self.0.faults
     }
 
-    /// How many more there are than [`SurfaceFaults::faults`] holds.
+    /// How many more there are than [`FileFaults::faults`] holds.
     pub fn omitted(&self) -> usize {
         self.0.omitted
     }
@@ -103,7 +103,7 @@ impl SurfaceFaults {
     }
 }
 
-impl fmt::Display for SurfaceFaults {
+impl fmt::Display for FileFaults {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let count = self.0.faults.len() + self.0.omitted;
         let plural = if count == 1 { "" } else { "s" };
@@ -121,9 +121,9 @@ impl fmt::Display for SurfaceFaults {
     }
 }
 
-impl std::error::Error for SurfaceFaults {}
+impl std::error::Error for FileFaults {}
 
-impl Diagnostic for SurfaceFaults {
+impl Diagnostic for FileFaults {
     fn source_code(&self) -> Option<&dyn SourceCode> {
         Some(&self.0.source)
     }
@@ -138,10 +138,10 @@ impl Diagnostic for SurfaceFaults {
     }
 }
 
-impl Serialize for SurfaceFaults {
+impl Serialize for FileFaults {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         use serde::ser::SerializeStruct;
-        let mut map = serializer.serialize_struct("SurfaceFaults", 3)?;
+        let mut map = serializer.serialize_struct("FileFaults", 3)?;
         map.serialize_field("file", &self.0.file)?;
         map.serialize_field("faults", &self.0.faults)?;
         map.serialize_field("omitted", &self.0.omitted)?;

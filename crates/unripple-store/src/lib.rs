@@ -21,11 +21,13 @@
 mod builtin;
 mod decimal;
 mod degrees;
+mod document;
 mod effects;
 mod error;
 mod fault;
 mod file;
 mod library;
+mod lines;
 mod load;
 mod names;
 mod output;
@@ -40,7 +42,7 @@ pub use effects::{
     load_effects, parse_effects,
 };
 pub use error::StoreError;
-pub use fault::{Fault, SurfaceFaults};
+pub use fault::{Fault, FileFaults};
 pub use file::{LARGEST_TEXT, write_file};
 pub use library::{Damage, Library, LibraryPlan, MAY_DIFFER, PointState, Quality, Take};
 pub use load::load_surface;

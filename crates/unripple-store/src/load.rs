@@ -1,7 +1,8 @@
+use crate::document::{too_large, whole};
 use crate::file::{LARGEST_TEXT, read_start, read_text};
 use crate::names::nearest;
-use crate::surface::{parse_surface_with, too_large, whole};
-use crate::{BUILTINS, StoreError, SurfaceFaults};
+use crate::surface::parse_surface_with;
+use crate::{BUILTINS, FileFaults, StoreError};
 use std::io::ErrorKind;
 use std::path::Path;
 use unripple_core::Surface;
@@ -45,7 +46,7 @@ pub fn load_surface(name_or_path: &str) -> Result<Surface, StoreError> {
     })?)
 }
 
-fn decode<'b>(file: &str, bytes: &'b [u8]) -> Result<&'b str, SurfaceFaults> {
+fn decode<'b>(file: &str, bytes: &'b [u8]) -> Result<&'b str, FileFaults> {
     if bytes.len() > LARGEST_TEXT {
         return Err(too_large(file));
     }

@@ -23,19 +23,15 @@ mod write;
 
 pub use write::to_toml;
 
-use crate::StoreError;
-use crate::fault::{Fault, SurfaceFaults};
-use crate::file::LARGEST_TEXT;
+use crate::document;
+use crate::{FileFaults, StoreError};
 use actuator::Base;
 use hole::Cut;
 use outline::{Fetch, Rim};
 use place::Ground;
 use reader::{Faults, Section};
-use toml::de::DeTable;
 use unripple_core::{Finger, Hole, Outline, Point, Sheet, Surface};
 
-/// The format this version reads and writes.
-const FORMAT: i64 = 1;
 const KEYS: [&str; 9] =
     ["format", "name", "outline", "hole", "sheet", "scatterer", "drive", "finger", "actuator"];
 
@@ -63,9 +59,9 @@ const KEYS: [&str; 9] =
 /// let surface = unripple_store::parse_surface(text, "film.toml")?;
 /// assert_eq!(surface.name, "film");
 /// assert_eq!(surface.sheet.thickness, 0.125e-3);
-/// # Ok::<(), unripple_store::SurfaceFaults>(())
+/// # Ok::<(), unripple_store::FileFaults>(())
 /// ```
-pub fn parse_surface(text: &str, file: &str) -> Result<Surface, SurfaceFaults> {
+pub fn parse_surface(text: &str, file: &str) -> Result<Surface, FileFaults> {
     parse_surface_with(text, file, &|name| {
         Err(StoreError::content(name, "a surface file on disk, which `svg` is relative to", "text alone"))
     })
@@ -79,60 +75,11 @@ pub fn parse_surface_with(
     text: &str,
     file: &str,
     fetch: &dyn Fn(&str) -> Result<String, StoreError>,
-) -> Result<Surface, SurfaceFaults> {
-    if text.len() > LARGEST_TEXT {
-        return Err(too_large(file));
-    }
-    let mut faults = Faults::new(text);
-    let surface = match DeTable::parse(text) {
-        Ok(document) => read(&Section::root(document.get_ref()), file, fetch, &mut faults),
-        Err(error) => {
-            let span = error.span().unwrap_or(0..0);
-            faults.add("", span, format!("an error of TOML: {}", error.message()), "a TOML file", None);
-            None
-        }
-    };
-    let list = faults.into_list();
-    match surface {
-        Some(surface) if list.is_empty() => Ok(surface),
-        _ => Err(SurfaceFaults::new(file, text, list)),
-    }
+) -> Result<Surface, FileFaults> {
+    document::parse(text, file, &KEYS, |root, name, faults| read(root, name, fetch, faults))
 }
 
-/// The fault of a file past the size limit.
-pub(crate) fn too_large(file: &str) -> SurfaceFaults {
-    whole(file, "", 0, "more than that", &format!("a file of at most {LARGEST_TEXT} bytes"))
-}
-
-/// One fault of a whole file, at a byte of its text.
-pub(crate) fn whole(file: &str, text: &str, at: usize, found: &str, expected: &str) -> SurfaceFaults {
-    let fault = Fault {
-        key: String::new(),
-        line: 0,
-        column: 0,
-        found: found.into(),
-        expected: expected.into(),
-        nearest: None,
-        span: at..at,
-    };
-    SurfaceFaults::new(file, text, vec![fault])
-}
-
-fn read(root: &Section, file: &str, fetch: &Fetch, faults: &mut Faults) -> Option<Surface> {
-    let format = root.get("format");
-    if let Some(entry) = format.as_ref().filter(|entry| !entry.is(FORMAT)) {
-        // Another format has other keys, which would only be noise here.
-        entry.refuse(format!("{FORMAT}, the format this version reads"), Some(FORMAT.to_string()), faults);
-        return None;
-    }
-    if format.is_none() {
-        faults.add("format", 0..0, "no such key", "format = 1 at the top", Some(FORMAT.to_string()));
-    }
-    root.check_keys(&KEYS, |_| None, faults);
-    let name = match root.get("name") {
-        Some(entry) => entry.line("a name", faults),
-        None => Some(stem(file)),
-    };
+fn read(root: &Section, name: Option<String>, fetch: &Fetch, faults: &mut Faults) -> Option<Surface> {
     let table = |key: &str, faults: &mut Faults| {
         root.require(key, &format!("a table [{key}]"), faults).and_then(|entry| entry.section(faults))
     };
@@ -190,12 +137,4 @@ fn held(rim: &Rim, holes: &[Hole], sheet: Option<&Sheet>, faults: &mut Faults) {
 fn thickness_at(sheet: &Sheet, ground: &Ground, at: Point) -> f64 {
     let factor = sheet.uneven.thickness.as_ref().map_or(1.0, |profile| profile.at(at, ground.extent()));
     sheet.thickness * factor
-}
-
-/// What to call a surface whose file does not say.
-pub(crate) fn stem(file: &str) -> String {
-    let stem = std::path::Path::new(file).file_stem().map(|s| s.to_string_lossy().into_owned());
-    stem.map(|s| s.chars().filter(|c| !c.is_control()).take(50).collect::<String>().trim().to_owned())
-        .filter(|s| !s.is_empty())
-        .unwrap_or_else(|| "surface".into())
 }

@@ -1,45 +1,16 @@
 //! The guide to the surface file says what the reader does.
 
+mod guide_common;
+
+use guide_common::{blocks, rows};
 use std::collections::BTreeSet;
 use unripple_store::parse_surface;
 
 const GUIDE: &str = include_str!("../../../docs/surface-file.md");
 
-/// Text of the fenced blocks that begin with this line.
-fn blocks(fence: &str) -> Vec<String> {
-    let mut blocks: Vec<String> = Vec::new();
-    let mut inside = false;
-    for line in GUIDE.lines() {
-        if line.starts_with("```") {
-            inside = !inside && line == fence;
-            if inside {
-                blocks.push(String::new());
-            }
-        } else if let (true, Some(block)) = (inside, blocks.last_mut()) {
-            block.push_str(line);
-            block.push('\n');
-        }
-    }
-    blocks
-}
-
-/// Cells of every table row below each `## [table]` heading, with the table's name.
-fn rows() -> Vec<(&'static str, Vec<&'static str>)> {
-    let mut table = "";
-    let mut rows = Vec::new();
-    for line in GUIDE.lines() {
-        if let Some(heading) = line.strip_prefix("## ") {
-            table = heading.trim_matches(['[', ']']);
-        } else if line.starts_with("| `") {
-            rows.push((table, line.trim_matches('|').split('|').map(str::trim).collect()));
-        }
-    }
-    rows
-}
-
 #[test]
 fn examples_load() {
-    let examples = blocks("```toml");
+    let examples = blocks(GUIDE, "```toml");
     assert_eq!(examples.len(), 3);
     for example in examples {
         if let Err(faults) = parse_surface(&example, "guide.toml") {
@@ -50,7 +21,7 @@ fn examples_load() {
 
 #[test]
 fn faults_read_as_printed() {
-    let [bad, printed] = [blocks("```toml faults").remove(0), blocks("```text").remove(0)];
+    let [bad, printed] = [blocks(GUIDE, "```toml faults").remove(0), blocks(GUIDE, "```text").remove(0)];
     let faults = parse_surface(&bad, "film.toml").unwrap_err();
     assert_eq!(format!("{faults:#}\n"), printed);
 }
@@ -64,7 +35,7 @@ fn spoilt(example: &str, header: usize, key: &str) -> String {
 /// What the reader expects of a number of some table, tried in every table of that name of every example.
 fn expected(table: &str, key: &str) -> Vec<String> {
     let mut texts = Vec::new();
-    for example in blocks("```toml") {
+    for example in blocks(GUIDE, "```toml") {
         if table == "Springs" {
             texts.push(
                 example
@@ -87,7 +58,7 @@ fn expected(table: &str, key: &str) -> Vec<String> {
 #[test]
 fn ranges_are_those_of_the_reader() {
     let mut checked = 0;
-    for (table, cells) in rows().into_iter().filter(|(_, cells)| cells.len() == 5) {
+    for (table, cells) in rows(GUIDE).into_iter().filter(|(_, cells)| cells.len() == 5) {
         let key = cells[0].trim_matches('`');
         if !cells[3].starts_with(|c: char| c.is_ascii_digit() || c == '-') {
             continue;
@@ -107,7 +78,7 @@ fn ranges_are_those_of_the_reader() {
 /// Unknown keys are answered with the list of known ones: the guide has exactly those.
 #[test]
 fn keys_are_those_of_the_reader() {
-    let whole = blocks("```toml").remove(1);
+    let whole = blocks(GUIDE, "```toml").remove(1);
     for (table, single) in [
         ("outline", true),
         ("hole", false),
@@ -129,7 +100,7 @@ fn keys_are_those_of_the_reader() {
         let faults = parse_surface(&text, "guide.toml").unwrap_err();
         let fault = faults.faults().iter().find(|f| f.key.ends_with(".zzz")).unwrap();
         let known: BTreeSet<&str> = fault.expected.trim_start_matches("one of ").split(", ").collect();
-        let rows = rows();
+        let rows = rows(GUIDE);
         let written: BTreeSet<&str> =
             rows.iter().filter(|(t, _)| *t == table).map(|(_, cells)| cells[0].trim_matches('`')).collect();
         assert_eq!(known, written, "{table}");

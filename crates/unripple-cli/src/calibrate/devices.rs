@@ -3,10 +3,10 @@
 use super::rigs::{HandRig, VirtualRig};
 use crate::args::{DeviceName, DeviceOptions};
 use crate::error::CliError;
-use crate::judge;
+use crate::{judge, open};
 use unripple::core::{PROBE, Surface};
 use unripple_calibrate::measure::Rig;
-use unripple_devices::{DevicesError, Jack, JackOptions, Links, Unknowns, Virtual, VirtualOptions};
+use unripple_devices::{DevicesError, Jack, Unknowns, VirtualOptions};
 
 /// An open device with whoever moves its probe.
 pub struct Opened {
@@ -38,56 +38,37 @@ pub fn open(options: &DeviceOptions, surface: &Surface) -> Result<Opened, CliErr
 
 fn virtual_surface(options: &DeviceOptions, surface: &Surface) -> Result<Opened, CliError> {
     let plain = VirtualOptions { accuracy: judge::accuracy(surface), ..VirtualOptions::default() };
-    let Some(seed) = options.unknowns else {
-        let device = Virtual::new(surface, &plain).map_err(failed)?;
-        return Ok(Opened { rig: Box::new(VirtualRig::new(device, 0)), truth: None });
-    };
-    let unknowns = Unknowns { seed, ..Unknowns::default() };
-    let unknowns = Unknowns { snr_db: options.snr_db.unwrap_or(unknowns.snr_db), ..unknowns };
-    let truth = unknowns.truth(surface).map_err(failed)?;
-    let device = Virtual::of_truth(&truth, &plain).map_err(failed)?;
-    let said = format!(
+    let (device, unknowns) = open::virtual_surface(options, surface, &plain).map_err(failed)?;
+    let seed = unknowns.as_ref().map_or(0, |unknowns| unknowns.seed);
+    Ok(Opened { rig: Box::new(VirtualRig::new(device, seed)), truth: unknowns.as_ref().map(said) })
+}
+
+/// Unknowns in words.
+fn said(unknowns: &Unknowns) -> String {
+    format!(
         "signal to noise {} dB, gains off by {} %, actuators by {} mm, tension by {} %, {} stray masses, other damping",
         unknowns.snr_db,
         unknowns.gain * 100.0,
         unknowns.misplacement * 1e3,
         unknowns.tension * 100.0,
         unknowns.masses.len(),
-    );
-    Ok(Opened { rig: Box::new(VirtualRig::new(device, seed)), truth: Some(said) })
+    )
+}
+
+/// All sensors, then the probe.
+fn inputs(surface: &Surface) -> Vec<String> {
+    open::names(surface).into_iter().chain([PROBE.to_owned()]).collect()
 }
 
 fn jack(options: &DeviceOptions, surface: &Surface) -> Result<Opened, CliError> {
-    let names: Vec<String> = surface.actuators.iter().map(|actuator| actuator.name.clone()).collect();
-    let known = JackOptions {
-        server: options.jack_server.clone(),
-        inputs: names.iter().cloned().chain([PROBE.to_owned()]).collect(),
-        outputs: names,
-        links: options.jack_client.clone().map_or(Links::System, Links::Client),
-        full_scale: surface.emission.limit,
-        freewheel: options.freewheel,
-        ..JackOptions::default()
-    };
-    let device = Jack::open(&known).map_err(failed)?;
+    let device = Jack::open(&open::jack(options, surface, inputs(surface))).map_err(failed)?;
     Ok(Opened { rig: Box::new(HandRig::new(device)), truth: None })
 }
 
-/// A sound card, whose first channels are the actuators, and their sensors with the probe after them.
 #[cfg(feature = "cards")]
 fn card(options: &DeviceOptions, surface: &Surface) -> Result<Opened, CliError> {
-    use unripple_devices::cards::{Card, CardOptions};
-    let names: Vec<String> = surface.actuators.iter().map(|actuator| actuator.name.clone()).collect();
-    let known = CardOptions {
-        playback: options.card.clone(),
-        capture: options.capture_card.clone(),
-        inputs: names.iter().cloned().chain([PROBE.to_owned()]).collect(),
-        outputs: names,
-        rate: surface.emission.rate,
-        block: options.card_block,
-        full_scale: surface.emission.limit,
-        ..CardOptions::default()
-    };
-    let device = Card::open(&known).map_err(failed)?;
+    let known = open::card(options, surface, inputs(surface));
+    let device = unripple_devices::cards::Card::open(&known).map_err(failed)?;
     Ok(Opened { rig: Box::new(HandRig::new(device)), truth: None })
 }
 

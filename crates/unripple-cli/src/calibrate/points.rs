@@ -3,7 +3,6 @@
 use crate::args::CalibrateOptions;
 use crate::error::CliError;
 use crate::grid;
-use crate::targets::{place, positive};
 use unripple::core::{Point, Surface};
 
 /// A grid, points typed, and last the actuators themselves, whose own sensors hear them.
@@ -16,19 +15,7 @@ pub struct Places {
 
 /// The places that were asked for.
 pub fn places(options: &CalibrateOptions, surface: &Surface, sensing: bool) -> Result<Places, CliError> {
-    let mut points = Vec::new();
-    if let Some(pitch) = options.grid_mm {
-        points = grid::points(&surface.outline, positive(pitch, "--grid-mm", "mm")? / 1e3)?;
-    }
-    for text in &options.at {
-        let at = place(text, "--at")?;
-        if !surface.outline.contains(at) {
-            return Err(CliError::Input(format!(
-                "--at {text}: expected a point on the surface, found one beyond its edge"
-            )));
-        }
-        points.push(at);
-    }
+    let mut points = grid::places(&surface.outline, options.grid_mm, &options.at)?;
     let probed = points.len();
     if probed == 0 && !sensing {
         return Err(CliError::Input(

@@ -6,7 +6,6 @@ mod report;
 
 use crate::args::FitOptions;
 use crate::error::CliError;
-use crate::targets::{place, positive};
 use crate::{grid, output};
 use report::Report;
 use std::time::Instant;
@@ -63,19 +62,7 @@ pub fn run(options: &FitOptions, as_json: bool) -> Result<(), CliError> {
 
 /// Where responses of the fitted model are wanted.
 fn wanted(options: &FitOptions, surface: &Surface) -> Result<Vec<Point>, CliError> {
-    let mut points = Vec::new();
-    if let Some(pitch) = options.grid_mm {
-        points = grid::points(&surface.outline, positive(pitch, "--grid-mm", "mm")? / 1e3)?;
-    }
-    for text in &options.at {
-        let at = place(text, "--at")?;
-        if !surface.outline.contains(at) {
-            return Err(CliError::Input(format!(
-                "--at {text}: expected a point on the surface, found one beyond its edge"
-            )));
-        }
-        points.push(at);
-    }
+    let points = grid::places(&surface.outline, options.grid_mm, &options.at)?;
     if options.output.is_some() && points.is_empty() {
         return Err(CliError::Input(
             "-o: expected --grid-mm P or --at X,Y as well, the points of the new library, found neither"

@@ -3,8 +3,7 @@
 use crate::error::CliError;
 use std::fmt;
 use unripple::core::{Point, Surface};
-use unripple::dsp::{Threshold, Weighting};
-use unripple_live::{Full, Maker};
+use unripple_live::{Full, Maker, pulse_felt};
 
 /// Share of the sheet's thickness that a full pulse moves it by, unless told otherwise: well within linear theory.
 const SHARE: f64 = 0.5;
@@ -32,9 +31,7 @@ impl Level {
         if limited || !share.is_finite() || share >= 1.0 {
             return Ok(Self { full: None, moved: [most, most], limit });
         }
-        let felt = Weighting::padded(&Threshold::default(), made.drive.rate(), trace.len(), made.instant)
-            .weigh(&trace);
-        let felt_db = 20.0 * (share * felt.iter().fold(0.0, |m: f64, x| m.max(x.abs()))).log10();
+        let felt_db = 20.0 * (share * pulse_felt(&made, &trace)).log10();
         Ok(Self { full: Some(Full { place, felt_db }), moved: [share * most, most], limit })
     }
 }

@@ -2,16 +2,19 @@
 
 use crate::args::{DeviceName, PlayOptions};
 use crate::error::CliError;
-use crate::judge;
+use crate::{judge, open};
 use std::f64::consts::TAU;
 use unripple::core::{Device, ModalResponses, Surface};
 use unripple::physics::{Medium, StepperOptions};
 use unripple_calibrate::{Tracker, Tracking, Warp};
-use unripple_devices::{DevicesError, Jack, JackOptions, Links, Unknowns, Virtual, VirtualOptions};
+use unripple_devices::{DevicesError, Jack, JackOptions, VirtualOptions};
 use unripple_live::{Feeler, Recovering};
 
 /// Fingers that a virtual surface bears at once, those that are being lifted included.
 const FINGERS: usize = 24;
+
+/// Fingers of which it is told what they feel.
+const FELT: usize = 10;
 
 /// How often a lost sound server is looked for again.
 const TRIES: u32 = 1000;
@@ -60,16 +63,8 @@ fn virtual_surface(options: &PlayOptions, surface: &Surface, live: bool) -> Resu
         ..VirtualOptions::default()
     };
     plain.mishaps.tension = options.drift_percent.map_or_else(Vec::new, drift);
-    let device = match options.device.unknowns {
-        None => Virtual::new(surface, &plain),
-        Some(seed) => {
-            let usual = Unknowns { seed, ..Unknowns::default() };
-            let unknowns = Unknowns { snr_db: options.device.snr_db.unwrap_or(usual.snr_db), ..usual };
-            unknowns.truth(surface).and_then(|truth| Virtual::of_truth(&truth, &plain))
-        }
-    };
-    let device = device.map_err(CliError::input)?;
-    let feeler = Feeler::new(device.handle(), surface, 10)?;
+    let (device, _) = open::virtual_surface(&options.device, surface, &plain).map_err(CliError::input)?;
+    let feeler = Feeler::new(device.handle(), surface, FELT)?;
     Ok(Opened { device: Box::new(device), feeler: Some(feeler), latency: 0 })
 }
 
@@ -81,34 +76,16 @@ fn drift(percent: f64) -> Vec<(f64, f64)> {
 }
 
 fn jack(options: &PlayOptions, surface: &Surface) -> Result<Opened, CliError> {
-    let outputs = names(surface);
-    let known = JackOptions {
-        server: options.device.jack_server.clone(),
-        inputs: heard(options, surface),
-        outputs,
-        links: options.device.jack_client.clone().map_or(Links::System, Links::Client),
-        full_scale: surface.emission.limit,
-        freewheel: options.device.freewheel,
-        lead: LEAD,
-        ..JackOptions::default()
-    };
+    let usual = open::jack(&options.device, surface, heard(options, surface));
+    let known = JackOptions { lead: LEAD, ..usual };
     recovering(move || Ok(Box::new(Jack::open(&known)?)))
 }
 
 #[cfg(feature = "cards")]
 fn card(options: &PlayOptions, surface: &Surface) -> Result<Opened, CliError> {
     use unripple_devices::cards::{Card, CardOptions};
-    let known = CardOptions {
-        playback: options.device.card.clone(),
-        capture: options.device.capture_card.clone(),
-        inputs: heard(options, surface),
-        outputs: names(surface),
-        rate: surface.emission.rate,
-        block: options.device.card_block,
-        full_scale: surface.emission.limit,
-        strict: false,
-        ..CardOptions::default()
-    };
+    let usual = open::card(&options.device, surface, heard(options, surface));
+    let known = CardOptions { strict: false, ..usual };
     recovering(move || Ok(Box::new(Card::open(&known)?)))
 }
 
@@ -118,13 +95,9 @@ fn card(_: &PlayOptions, _: &Surface) -> Result<Opened, CliError> {
     Err(CliError::Input(format!("{text}{}", crate::devices::HOW_TO_GET_CARDS)))
 }
 
-fn names(surface: &Surface) -> Vec<String> {
-    surface.actuators.iter().map(|actuator| actuator.name.clone()).collect()
-}
-
 /// The sensors that are listened to.
 fn heard(options: &PlayOptions, surface: &Surface) -> Vec<String> {
-    if options.follow_tension { names(surface) } else { Vec::new() }
+    if options.follow_tension { open::names(surface) } else { Vec::new() }
 }
 
 /// A device that is opened again when it is lost. What may be said at once is said at once.

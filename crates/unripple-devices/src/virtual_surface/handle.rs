@@ -1,5 +1,4 @@
 use super::lock;
-use super::watch::Watch;
 use super::workings::Workings;
 use crate::error::check;
 use crate::{DevicesError, Tap};
@@ -35,9 +34,7 @@ impl Handle {
     /// # Errors
     /// [`DevicesError::Physics`] for a place that is not finite.
     pub fn move_probe(&self, at: Point) -> Result<(), DevicesError> {
-        let mut workings = lock(&self.workings);
-        let watch = std::mem::take(&mut workings.watch).with_probe(at);
-        workings.listen(at, watch)
+        lock(&self.workings).move_probe(at)
     }
 
     /// Watches displacement (m) at some places instead of any before, every `stride`-th sample from the next block on;
@@ -46,23 +43,20 @@ impl Handle {
     /// # Errors
     /// [`DevicesError::Physics`] for a place that is not finite.
     pub fn watch(&self, places: &[Point], stride: usize) -> Result<(), DevicesError> {
-        let mut workings = lock(&self.workings);
-        let probe = workings.watch.probe();
-        let first = workings.first_probe;
-        workings.listen(probe.unwrap_or(first), Watch::new(places, stride, probe))
+        lock(&self.workings).watch(places, stride)
     }
 
-    /// Moves the watched places, as many as there are: their traces go on. What moves within a block is not heard.
+    /// Moves the watched places, as many as there are: their traces go on, and those that stay cost nothing. What moves
+    /// within a block is not heard.
     ///
     /// # Errors
-    /// [`DevicesError::Range`] for another number of places, [`DevicesError::Physics`] for one that is not finite.
+    /// [`DevicesError::Range`] for another number of places, [`DevicesError::Physics`] for one that is not finite; nothing has moved
+    /// then.
     pub fn move_watched(&self, places: &[Point]) -> Result<(), DevicesError> {
         let mut workings = lock(&self.workings);
         let (most, found) = (workings.watch.places(), places.len());
         check("places that are watched", found as f64, found == most, &format!("{most}, as before"))?;
-        let probe = workings.watch.probe().unwrap_or(workings.first_probe);
-        let watch = std::mem::take(&mut workings.watch).moved(places);
-        workings.listen(probe, watch)
+        workings.move_watched(places)
     }
 
     /// What was watched since this was last called, a trace for each place; the newest 65536 samples at most.

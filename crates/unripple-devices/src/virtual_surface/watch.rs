@@ -5,6 +5,10 @@ use unripple_physics::stepper::Reading;
 /// Samples of each place that are kept until they are taken: the newest.
 const KEPT: usize = 1 << 16;
 
+/// Number among the surface's readings of the probe, and of the first place.
+pub(super) const PROBE: usize = 0;
+const FIRST: usize = 1;
+
 /// Displacement at some places, kept for whoever looks.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Watch {
@@ -25,14 +29,20 @@ impl Watch {
         Self { places: places.to_vec(), stride: stride.max(1), wait: 0, traces, probe }
     }
 
-    /// The same with the probe elsewhere.
-    pub fn with_probe(self, at: Point) -> Self {
-        Self { probe: Some(at), ..self }
+    /// Notes that the probe is elsewhere.
+    pub fn set_probe(&mut self, at: Point) {
+        self.probe = Some(at);
     }
 
-    /// The same at other places, as many.
-    pub fn moved(self, places: &[Point]) -> Self {
-        Self { places: places.to_vec(), ..self }
+    /// Those of the surface's readings that would have to move for the places to be these, as many as there are.
+    pub fn moves(&self, places: &[Point]) -> Vec<(usize, Point)> {
+        let both = self.places.iter().zip(places).enumerate();
+        both.filter(|(_, (old, new))| old != new).map(|(i, (_, new))| (FIRST + i, *new)).collect()
+    }
+
+    /// Notes that the places are these.
+    pub fn set_places(&mut self, places: &[Point]) {
+        self.places = places.to_vec();
     }
 
     /// Number of places.

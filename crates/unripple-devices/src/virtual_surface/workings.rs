@@ -1,4 +1,4 @@
-use super::watch::Watch;
+use super::watch::{self, Watch};
 use crate::DevicesError;
 use crate::interface::Converter;
 use unripple_core::{Layout, Point};
@@ -10,7 +10,7 @@ pub(super) struct Workings {
     pub(super) surface: Misbehaving,
     pub(super) watch: Watch,
     /// Where the probe is at first.
-    pub(super) first_probe: Point,
+    first_probe: Point,
     converter: Converter,
     /// Surface and converter as they were at first.
     first: (Misbehaving, Converter),
@@ -85,12 +85,28 @@ impl Workings {
         self.probes.resize(self.block, 0.0);
     }
 
-    /// Puts the probe at a place, or leaves it, and watches the sheet elsewhere.
-    pub(super) fn listen(&mut self, probe: Point, watch: Watch) -> Result<(), DevicesError> {
-        let probes = watch.probes(probe);
+    /// Puts the probe at a place.
+    pub(super) fn move_probe(&mut self, at: Point) -> Result<(), DevicesError> {
+        self.surface.surface_mut().move_probes(&[(watch::PROBE, at)])?;
+        self.watch.set_probe(at);
+        Ok(())
+    }
+
+    /// Watches the sheet at some places instead of any before, every `stride`-th sample.
+    pub(super) fn watch(&mut self, places: &[Point], stride: usize) -> Result<(), DevicesError> {
+        let probe = self.watch.probe();
+        let watch = Watch::new(places, stride, probe);
+        let probes = watch.probes(probe.unwrap_or(self.first_probe));
         self.surface.surface_mut().set_probes(&probes)?;
         self.probes.resize(probes.len() * self.block, 0.0);
         self.watch = watch;
+        Ok(())
+    }
+
+    /// Watches at other places, as many. Those that stay cost nothing.
+    pub(super) fn move_watched(&mut self, places: &[Point]) -> Result<(), DevicesError> {
+        self.surface.surface_mut().move_probes(&self.watch.moves(places))?;
+        self.watch.set_places(places);
         Ok(())
     }
 

@@ -102,6 +102,11 @@ impl Probes {
         Self { weights, displaced, sums: vec![[0.0; LANES]; rows.len()], heard: vec![0.0; rows.len()] }
     }
 
+    /// Gives a place other weights.
+    pub(super) fn place(&mut self, probe: usize, weights: &[f64]) {
+        self.weights.fill(probe, weights);
+    }
+
     /// Adds what is heard of the groups of modes from the `first` on, afresh from group 0.
     #[inline(always)]
     fn hear<S: Simd>(&mut self, simd: S, first: usize, u: &[Lanes], v: &[Lanes]) {

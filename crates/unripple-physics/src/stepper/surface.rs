@@ -137,6 +137,22 @@ impl VirtualSurface {
         Ok(())
     }
 
+    /// Listens elsewhere with some probes, by their number, from now on; the others stay where they are, and cost nothing. Allocates.
+    ///
+    /// # Errors
+    /// [`PhysicsError::Range`] for a probe that there is not or a point that is not finite; nothing has moved then.
+    pub fn move_probes(&mut self, moved: &[(usize, Point)]) -> Result<(), PhysicsError> {
+        let count = self.probes();
+        let row = |(probe, at): &(usize, Point)| {
+            let expected = format!("less than {count}, the number of probes");
+            check("probe to be moved", *probe as f64, *probe < count, &expected)?;
+            Ok((*probe, self.plant.footing(*at, 0.0)?))
+        };
+        let rows = moved.iter().map(row).collect::<Result<Vec<_>, PhysicsError>>()?;
+        rows.iter().for_each(|(probe, footing)| self.engine.probes.place(*probe, &footing.weights));
+        Ok(())
+    }
+
     /// Moves a channel on which nothing hangs to another footing, from the next sample on: a tap comes anywhere as drive of
     /// such a channel. Allocates nothing unless it fails.
     ///

@@ -1,4 +1,5 @@
 use std::f64::consts::PI;
+use unripple_dsp::{bessel_i0, sinc};
 
 /// Attenuation that the low-pass filters are made for, in dB; their ripple is as small.
 const ATTENUATION: f64 = 100.0;
@@ -127,22 +128,6 @@ fn dot(a: &[f32], b: &[f32]) -> f32 {
         }
     }
     lanes.iter().sum::<f32>() + a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum::<f32>()
-}
-
-fn sinc(t: f64) -> f64 {
-    if t.abs() < 1e-9 { 1.0 } else { (PI * t).sin() / (PI * t) }
-}
-
-/// The modified Bessel function I_0, by its power series.
-fn bessel_i0(x: f64) -> f64 {
-    let quarter = x * x / 4.0;
-    let (mut term, mut sum, mut k) = (1.0, 1.0, 1.0);
-    while term > sum * 1e-17 {
-        term *= quarter / (k * k);
-        sum += term;
-        k += 1.0;
-    }
-    sum
 }
 
 #[cfg(test)]

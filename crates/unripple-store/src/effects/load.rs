@@ -1,7 +1,7 @@
 use super::{builtin_effects, import_haptic, near, parse_effects};
 use crate::StoreError;
+use crate::document::stem;
 use crate::file::read_text;
-use crate::surface::stem;
 use std::io::ErrorKind;
 use std::path::Path;
 use unripple_effects::{Effect, EffectSet, Kind, Region};

@@ -15,18 +15,13 @@ pub use import::import_haptic;
 pub use load::load_effects;
 pub use write::effects_to_toml;
 
-use crate::SurfaceFaults;
-use crate::fault::Fault;
-use crate::file::LARGEST_TEXT;
+use crate::document;
+use crate::fault::{Fault, FileFaults};
 use crate::names::nearest;
 use crate::surface::reader::{Entry, Faults, Section};
-use crate::surface::{stem, too_large};
 use std::collections::HashMap;
-use toml::de::DeTable;
 use unripple_effects::{Effect, EffectSet, Kind, Region, limits};
 
-/// The format this version reads and writes.
-const FORMAT: i64 = 1;
 const KEYS: [&str; 4] = ["format", "name", "about", "effect"];
 /// Keys of every effect.
 const COMMON: [&str; 5] = ["kind", "name", "region", "gain", "felt_db"];
@@ -51,29 +46,14 @@ pub const EFFECTS_SCHEMA: &str = include_str!("../../schema/effects-1.json");
 /// assert_eq!((set.name.as_str(), set.effects.len()), ("grooves", 1));
 /// let faults = unripple_store::parse_effects(&text.replace("every", "evry"), "grooves.toml").unwrap_err();
 /// assert_eq!(faults.faults()[1].nearest.as_deref(), Some("every_mm"));
-/// # Ok::<(), unripple_store::SurfaceFaults>(())
+/// # Ok::<(), unripple_store::FileFaults>(())
 /// ```
-pub fn parse_effects(text: &str, file: &str) -> Result<EffectSet, SurfaceFaults> {
-    if text.len() > LARGEST_TEXT {
-        return Err(too_large(file));
-    }
-    let mut faults = Faults::new(text);
-    let set = match DeTable::parse(text) {
-        Ok(document) => read(&Section::root(document.get_ref()), file, &mut faults),
-        Err(error) => {
-            let span = error.span().unwrap_or(0..0);
-            faults.add("", span, format!("an error of TOML: {}", error.message()), "a TOML file", None);
-            None
-        }
-    };
-    let list = faults.into_list();
-    match set {
-        Some(set) if list.is_empty() => match set.check() {
-            Ok(()) => Ok(set),
-            // What only the whole set can tell, as the length of its waveforms together.
-            Err(error) => Err(SurfaceFaults::new(file, text, vec![of_set(&error.to_string())])),
-        },
-        _ => Err(SurfaceFaults::new(file, text, list)),
+pub fn parse_effects(text: &str, file: &str) -> Result<EffectSet, FileFaults> {
+    let set = document::parse(text, file, &KEYS, read)?;
+    match set.check() {
+        Ok(()) => Ok(set),
+        // What only the whole set can tell, as the length of its waveforms together.
+        Err(error) => Err(FileFaults::new(file, text, vec![of_set(&error.to_string())])),
     }
 }
 
@@ -89,21 +69,7 @@ fn of_set(found: &str) -> Fault {
     }
 }
 
-fn read(root: &Section, file: &str, faults: &mut Faults) -> Option<EffectSet> {
-    let format = root.get("format");
-    if let Some(entry) = format.as_ref().filter(|entry| !entry.is(FORMAT)) {
-        // Another format has other keys, which would only be noise here.
-        entry.refuse(format!("{FORMAT}, the format this version reads"), Some(FORMAT.to_string()), faults);
-        return None;
-    }
-    if format.is_none() {
-        faults.add("format", 0..0, "no such key", "format = 1 at the top", Some(FORMAT.to_string()));
-    }
-    root.check_keys(&KEYS, |_| None, faults);
-    let name = match root.get("name") {
-        Some(entry) => entry.line("a name", faults),
-        None => Some(stem(file)),
-    };
+fn read(root: &Section, name: Option<String>, faults: &mut Faults) -> Option<EffectSet> {
     let about = match root.get("about") {
         Some(entry) => entry.line("what it is like", faults),
         None => Some(String::new()),

@@ -2,8 +2,8 @@ use super::kind::{ANCHORS, PLAYS};
 use super::range;
 use super::score::STARTS;
 use crate::decimal::text;
+use crate::lines::{Lines, list, named, point, quoted};
 use crate::surface::range::Limits;
-use std::fmt::Write;
 use unripple_core::Point;
 use unripple_effects::{
     Curve, Effect, EffectSet, Envelope, Event, Hum, Kind, Level, Region, Score, Sound, Texture, Tone, Trace,
@@ -17,7 +17,7 @@ use unripple_effects::{
 /// let set = unripple_store::builtin_effect("sandpaper").unwrap();
 /// let text = unripple_store::effects_to_toml(&set);
 /// assert_eq!(unripple_store::parse_effects(&text, "copy.toml")?, set);
-/// # Ok::<(), unripple_store::SurfaceFaults>(())
+/// # Ok::<(), unripple_store::FileFaults>(())
 /// ```
 pub fn effects_to_toml(set: &EffectSet) -> String {
     let mut out = Lines::default();
@@ -27,45 +27,13 @@ pub fn effects_to_toml(set: &EffectSet) -> String {
         out.line("about", &quoted(&set.about));
     }
     set.effects.iter().for_each(|one| effect(one, &mut out));
-    out.0
+    out.into_text()
 }
 
-/// A file in the making.
-#[derive(Default)]
-struct Lines(String);
-
 impl Lines {
-    fn table(&mut self, header: &str) {
-        self.0.push('\n');
-        self.0.push_str(header);
-        self.0.push('\n');
-    }
-
-    fn line(&mut self, key: &str, value: &str) {
-        // Writing to a string does not fail.
-        let _ = writeln!(self.0, "{key} = {value}");
-    }
-
     fn number(&mut self, key: &str, value: f64, limits: &Limits) {
         self.line(key, &limits.text(value));
     }
-}
-
-fn quoted(text: &str) -> String {
-    toml::Value::from(text).to_string()
-}
-
-fn named<T: PartialEq>(choices: &[(&str, T)], value: &T) -> String {
-    let name = choices.iter().find(|(_, choice)| choice == value).map_or("", |(name, _)| name);
-    quoted(name)
-}
-
-fn list(items: impl Iterator<Item = String>) -> String {
-    format!("[{}]", items.collect::<Vec<_>>().join(", "))
-}
-
-fn point(p: &Point) -> String {
-    list([p.x, p.y].into_iter().map(|v| range::PLACE.text(v)))
 }
 
 fn points(list_of: &[Point]) -> String {

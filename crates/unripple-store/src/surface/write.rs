@@ -4,10 +4,10 @@ use super::actuator::COIL_DRIVES;
 use super::range::of;
 use super::sheet::AIRS;
 use crate::decimal::text;
-use std::fmt::Write;
+use crate::lines::{Lines, list, named, point, quoted};
 use unripple_core::{
-    Actuator, ActuatorKind, Decay, Emission, Finger, Point, Profile, Scatterer, ScattererKind, Sheet,
-    Surface, Uneven,
+    Actuator, ActuatorKind, Decay, Emission, Finger, Profile, Scatterer, ScattererKind, Sheet, Surface,
+    Uneven,
 };
 
 /// A surface as a file in format 1. [`crate::parse_surface`] makes the same surface of it, bit for bit, provided the
@@ -30,41 +30,7 @@ pub fn to_toml(surface: &Surface) -> String {
     emission(&surface.emission, &mut out);
     finger(&surface.finger, &mut out);
     surface.actuators.iter().for_each(|a| actuator(a, &mut out));
-    out.0
-}
-
-/// A file in the making.
-#[derive(Default)]
-struct Lines(String);
-
-impl Lines {
-    fn table(&mut self, header: &str) {
-        self.0.push('\n');
-        self.0.push_str(header);
-        self.0.push('\n');
-    }
-
-    fn line(&mut self, key: &str, value: &str) {
-        // Writing to a string does not fail.
-        let _ = writeln!(self.0, "{key} = {value}");
-    }
-}
-
-fn quoted(text: &str) -> String {
-    toml::Value::from(text).to_string()
-}
-
-fn named<T: PartialEq>(choices: &[(&str, T)], value: &T) -> String {
-    let name = choices.iter().find(|(_, choice)| choice == value).map_or("", |(name, _)| name);
-    quoted(name)
-}
-
-fn point(p: &Point) -> String {
-    format!("[{}, {}]", text(p.x, 3), text(p.y, 3))
-}
-
-fn list(items: impl Iterator<Item = String>) -> String {
-    format!("[{}]", items.collect::<Vec<_>>().join(", "))
+    out.into_text()
 }
 
 fn emission(emission: &Emission, out: &mut Lines) {

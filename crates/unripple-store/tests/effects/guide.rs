@@ -1,5 +1,6 @@
 //! The guide to effects says what the reader does.
 
+use crate::guide_common::{blocks, rows};
 use crate::schema::{json, refused};
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -7,41 +8,9 @@ use unripple_store::{EFFECTS_SCHEMA, builtin_effects, parse_effects};
 
 const GUIDE: &str = include_str!("../../../../docs/effects.md");
 
-/// Text of the fenced blocks that begin with this line.
-fn blocks(fence: &str) -> Vec<String> {
-    let mut blocks: Vec<String> = Vec::new();
-    let mut inside = false;
-    for line in GUIDE.lines() {
-        if line.starts_with("```") {
-            inside = !inside && line == fence;
-            if inside {
-                blocks.push(String::new());
-            }
-        } else if let (true, Some(block)) = (inside, blocks.last_mut()) {
-            block.push_str(line);
-            block.push('\n');
-        }
-    }
-    blocks
-}
-
-/// The section and the cells of every table row.
-fn rows() -> Vec<(&'static str, Vec<&'static str>)> {
-    let mut section = "";
-    let mut rows = Vec::new();
-    for line in GUIDE.lines() {
-        if let Some(heading) = line.strip_prefix("## ") {
-            section = heading.trim_matches(['[', ']']);
-        } else if line.starts_with("| `") {
-            rows.push((section, line.trim_matches('|').split('|').map(str::trim).collect()));
-        }
-    }
-    rows
-}
-
 #[test]
 fn examples_load() {
-    let examples = blocks("```toml");
+    let examples = blocks(GUIDE, "```toml");
     assert_eq!((examples.len(), examples[0].lines().count()), (2, 5));
     for example in examples {
         if let Err(faults) = parse_effects(&example, "guide.toml") {
@@ -53,7 +22,8 @@ fn examples_load() {
 
 #[test]
 fn faults_read_as_printed() {
-    let [bad, printed] = [blocks("```toml faults").remove(0), blocks("```text faults").remove(0)];
+    let [bad, printed] =
+        [blocks(GUIDE, "```toml faults").remove(0), blocks(GUIDE, "```text faults").remove(0)];
     let faults = parse_effects(&bad, "knobs.toml").unwrap_err();
     assert_eq!(format!("{faults:#}\n"), printed);
 }
@@ -68,7 +38,7 @@ fn keys_are_those_of_the_schema() {
         let of = |(name, cells): &(&str, Vec<&str>)| {
             (*name == section).then(|| cells[0].trim_matches('`').to_owned())
         };
-        rows().iter().filter_map(of).collect()
+        rows(GUIDE).iter().filter_map(of).collect()
     };
     let common = written("effect");
     for kind in ["button", "texture", "edge", "notch", "pulse-train", "shape", "hum", "score"] {
@@ -84,7 +54,7 @@ fn keys_are_those_of_the_schema() {
 #[test]
 fn ranges_are_those_of_the_reader() {
     let mut checked = 0;
-    for (section, cells) in rows().into_iter().filter(|(_, cells)| cells.len() == 4) {
+    for (section, cells) in rows(GUIDE).into_iter().filter(|(_, cells)| cells.len() == 4) {
         let (key, legal) = (cells[0].trim_matches('`'), cells[2]);
         if !legal.starts_with(|c: char| c.is_ascii_digit() || c == '-')
             || legal.contains("corners")
@@ -112,7 +82,7 @@ fn ranges_are_those_of_the_reader() {
 
 #[test]
 fn ready_ones_are_listed() {
-    let listed: Vec<(String, &str)> = rows()
+    let listed: Vec<(String, &str)> = rows(GUIDE)
         .into_iter()
         .filter(|(section, _)| *section == "Use a ready one")
         .map(|(_, cells)| (cells[0].trim_matches('`').to_owned(), cells[1]))

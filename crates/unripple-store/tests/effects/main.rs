@@ -3,6 +3,8 @@
 mod faults;
 mod files;
 mod guide;
+#[path = "../guide_common/mod.rs"]
+mod guide_common;
 mod imports;
 mod property;
 mod schema;

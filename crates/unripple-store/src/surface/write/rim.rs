@@ -1,7 +1,7 @@
 use super::super::edge::EDGES;
 use super::super::range::of;
-use super::{Lines, list, named, point};
 use crate::decimal::text;
+use crate::lines::{Lines, list, named, point};
 use unripple_core::{Edge, Edges, Hole, Outline, Point, Shape, Side};
 
 pub(super) fn outline(outline: &Outline, out: &mut Lines) {

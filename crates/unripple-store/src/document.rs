@@ -1,0 +1,96 @@
+//! What all TOML files begin with, and what may be wrong with a whole file.
+
+use crate::fault::{Fault, FileFaults};
+use crate::file::LARGEST_TEXT;
+use crate::surface::reader::{Faults, Section};
+use toml::de::DeTable;
+
+/// The format that this version reads and writes.
+const FORMAT: i64 = 1;
+
+/// What `read` makes of a text with these keys at its top, and of the name that it has by its `name` or else by its file's.
+pub(crate) fn parse<T>(
+    text: &str,
+    file: &str,
+    keys: &[&str],
+    read: impl FnOnce(&Section, Option<String>, &mut Faults) -> Option<T>,
+) -> Result<T, FileFaults> {
+    if text.len() > LARGEST_TEXT {
+        return Err(too_large(file));
+    }
+    let mut faults = Faults::new(text);
+    let made = match DeTable::parse(text) {
+        Ok(document) => {
+            let root = Section::root(document.get_ref());
+            match is_ours(&root, &mut faults) {
+                true => {
+                    root.check_keys(keys, |_| None, &mut faults);
+                    let name = name(&root, file, &mut faults);
+                    read(&root, name, &mut faults)
+                }
+                // Another format has other keys, which would only be noise here.
+                false => None,
+            }
+        }
+        Err(error) => {
+            let span = error.span().unwrap_or(0..0);
+            faults.add("", span, format!("an error of TOML: {}", error.message()), "a TOML file", None);
+            None
+        }
+    };
+    let list = faults.into_list();
+    match made {
+        Some(made) if list.is_empty() => Ok(made),
+        _ => Err(FileFaults::new(file, text, list)),
+    }
+}
+
+/// Whether a file is of this format, or does not say.
+fn is_ours(root: &Section, faults: &mut Faults) -> bool {
+    let nearest = Some(FORMAT.to_string());
+    match root.get("format") {
+        Some(entry) if entry.is(FORMAT) => true,
+        Some(entry) => {
+            entry.refuse(format!("{FORMAT}, the format this version reads"), nearest, faults);
+            false
+        }
+        None => {
+            faults.add("format", 0..0, "no such key", "format = 1 at the top", nearest);
+            true
+        }
+    }
+}
+
+fn name(root: &Section, file: &str, faults: &mut Faults) -> Option<String> {
+    match root.get("name") {
+        Some(entry) => entry.line("a name", faults),
+        None => Some(stem(file)),
+    }
+}
+
+/// The fault of a file past the size limit.
+pub(crate) fn too_large(file: &str) -> FileFaults {
+    whole(file, "", 0, "more than that", &format!("a file of at most {LARGEST_TEXT} bytes"))
+}
+
+/// One fault of a whole file, at a byte of its text.
+pub(crate) fn whole(file: &str, text: &str, at: usize, found: &str, expected: &str) -> FileFaults {
+    let fault = Fault {
+        key: String::new(),
+        line: 0,
+        column: 0,
+        found: found.into(),
+        expected: expected.into(),
+        nearest: None,
+        span: at..at,
+    };
+    FileFaults::new(file, text, vec![fault])
+}
+
+/// What to call what a file describes when it does not say.
+pub(crate) fn stem(file: &str) -> String {
+    let stem = std::path::Path::new(file).file_stem().map(|s| s.to_string_lossy().into_owned());
+    stem.map(|s| s.chars().filter(|c| !c.is_control()).take(50).collect::<String>().trim().to_owned())
+        .filter(|s| !s.is_empty())
+        .unwrap_or_else(|| "surface".into())
+}
