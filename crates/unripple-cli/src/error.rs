@@ -2,6 +2,7 @@
 
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 use std::process::ExitCode;
+use unripple::act::{ActError, LevelKind};
 
 /// Why a command did not do its work.
 #[derive(Debug)]
@@ -12,6 +13,22 @@ pub enum CliError {
     Faults(Box<dyn Diagnostic + Send + Sync>),
     /// The work could not be done: exit status 1.
     Work(String),
+}
+
+impl From<ActError> for CliError {
+    fn from(error: ActError) -> Self {
+        match error {
+            ActError::Level { what, expected, found } => {
+                let option = match what {
+                    LevelKind::Peak => "--peak-um",
+                    LevelKind::Felt => "--felt-db",
+                };
+                Self::Input(format!("{option}: expected {expected}, found {found}"))
+            }
+            error if error.is_failed_work() => Self::work(error),
+            error => Self::input(error),
+        }
+    }
 }
 
 impl CliError {

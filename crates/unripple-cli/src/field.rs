@@ -6,9 +6,9 @@ use crate::figures::{self, Scene};
 use crate::fingers;
 use crate::focus::finish;
 use crate::judge::{self, CELLS, Judged};
-use crate::report::Report;
 use crate::targets::{numbers, place, seconds};
 use crate::{input, output};
+use unripple::act::{self, Report};
 use unripple::core::{Drive, Point, Surface};
 use unripple::field::{Aim, Field};
 use unripple_store::{OutputDir, read_wav};
@@ -43,8 +43,7 @@ pub fn run(options: &FieldOptions, as_json: bool) -> Result<(), CliError> {
     }
     if !contacts.is_empty() {
         let without = judge::model(&surface, options.judge_hz, &[])?;
-        let without = Field::new(&without, &drive, 1.0).map_err(CliError::input)?;
-        report.fingers = fingers::felt(&contacts, &surface, &field, &without, until)?;
+        report.fingers = act::felt(&contacts, &surface, [&responses, &without], &drive, until)?;
     }
     if let Some(out) = out {
         let shown = Shown { options, surface: &surface, drive: &drive, aims: &aims, judged: &judged };

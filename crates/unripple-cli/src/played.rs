@@ -5,12 +5,11 @@ use crate::error::CliError;
 use crate::figures::{self, Scene};
 use crate::focus::finish;
 use crate::judge::{self, Judged};
-use crate::report::{self, Report};
 use crate::targets::seconds;
 use crate::{input, output, waveforms};
-use serde::Serialize;
+use unripple::act::{Followed, Report, Stroked, unit};
 use unripple::core::{ActuatorKind, Drive, Point, Responses, Surface};
-use unripple::field::{Aim, Field, SilenceFigures, Wanted, WaveformFigures};
+use unripple::field::{Aim, Field, SilenceFigures, Wanted};
 use unripple::focus::{PlayOptions, PulseOptions, Stroke, play, strike};
 use unripple_store::{OutputDir, write_wav};
 
@@ -29,37 +28,6 @@ const AT_ONCE: usize = 256;
 
 /// Places measured for each pulse of a stroke.
 const BETWEEN: usize = 2;
-
-/// What was asked of one target, and what came of it.
-#[derive(Debug, Serialize)]
-pub struct Followed {
-    /// What it does.
-    #[serde(flatten)]
-    pub figures: WaveformFigures,
-    /// When its waveform starts, in seconds from the drive's first sample.
-    pub start_s: f64,
-    /// Largest magnitude asked for, in metres, after the limit and within the band.
-    pub asked_peak_m: f64,
-    /// Share of the waveform's energy outside the band, which was not asked for.
-    pub lost: f64,
-}
-
-/// What came of a stroke.
-#[derive(Debug, Serialize)]
-pub struct Stroked {
-    /// Pulses that make it.
-    pub pulses: usize,
-    /// How long it takes, in seconds.
-    pub duration_s: f64,
-    /// When it starts, in seconds from the drive's first sample.
-    pub start_s: f64,
-    /// Velocity asked of every pulse, after the limit, in m/s.
-    pub asked_m_s: f64,
-    /// Least and greatest velocity along the path, each place at the pulse nearest to its own instant, over what was asked, in dB.
-    pub level_range_db: [f64; 2],
-    /// The same for the largest velocity of a place within half a pulse interval of its instant.
-    pub peak_range_db: [f64; 2],
-}
 
 /// A drive, what is known of it, and how it was judged.
 struct Work {
@@ -232,7 +200,7 @@ fn write(
     let points: Vec<Vec<Point>> =
         measured.targets.iter().map(|t| vec![Point::new(t.at_m[0], t.at_m[1])]).collect();
     let scene = Scene::new(surface, &points, measured.focal_radius_m);
-    let unit = report::unit(&surface.actuators.first().map_or(ActuatorKind::Force, |a| a.kind));
+    let unit = unit(&surface.actuators.first().map_or(ActuatorKind::Force, |a| a.kind));
     let mut figures = vec![
         ("traces", figures::traces(&measured.targets, &judged.traces, drive.rate())),
         ("drive", figures::channels(drive, unit)),
@@ -244,25 +212,4 @@ fn write(
     out.write("report.json", output::json(report)?.as_bytes())?;
     out.write("report.md", report.markdown().as_bytes())?;
     Ok(())
-}
-
-/// What each target and point of silence does, a line each.
-pub fn lines(waveforms: &[Followed], silent: &[SilenceFigures], stroke: Option<&Stroked>) -> Vec<String> {
-    let mm = |at: &[f64; 2]| format!("({:.2}, {:.2}) mm", at[0] * 1e3, at[1] * 1e3);
-    let follow = |f: &Followed| {
-        let w = &f.figures;
-        let others = w.crosstalk_db.map_or(String::new(), |db| format!(", others {db:.1} dB"));
-        let (at, asked) = (mm(&w.at_m), f.asked_peak_m * 1e6);
-        format!("waveform {at}: {asked:.3} µm asked, gain {:.4}, error {:.1} dB{others}", w.gain, w.error_db)
-    };
-    let still = |s: &SilenceFigures| format!("silence {}: {:.1} dB", mm(&s.at_m), s.level_db);
-    let along = |s: &Stroked| {
-        let [low, high] = s.level_range_db;
-        let (ms, v) = (s.duration_s * 1e3, s.asked_m_s * 1e3);
-        format!(
-            "stroke: {} pulses in {ms:.1} ms, {v:.3} mm/s asked, level along the path {low:.2} to {high:.2} dB",
-            s.pulses
-        )
-    };
-    waveforms.iter().map(follow).chain(silent.iter().map(still)).chain(stroke.map(along)).collect()
 }

@@ -3,10 +3,11 @@
 use crate::args::RespondOptions;
 use crate::error::CliError;
 use crate::targets::{positive, seconds};
-use crate::{grid, input, judge, output, report};
+use crate::{grid, input, judge, output};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 use std::time::{SystemTime, UNIX_EPOCH};
+use unripple::act::unit;
 use unripple::core::{ModalResponses, Responses, Surface, window_samples};
 use unripple::physics::design::recommended_window;
 use unripple::physics::sample;
@@ -73,7 +74,7 @@ fn plan(
         ("created", format!("{now} s after 1970-01-01 00:00 UTC")),
     ];
     Ok(LibraryPlan {
-        drive_units: surface.actuators.iter().map(|a| report::unit(&a.kind).to_owned()).collect(),
+        drive_units: surface.actuators.iter().map(|a| unit(&a.kind).to_owned()).collect(),
         surface: Some(surface.clone()),
         provenance: about.into_iter().map(|(key, text)| (key.to_owned(), text)).collect(),
         ..LibraryPlan::new(modal.ports.clone(), points, conditions, samples)

@@ -23,5 +23,5 @@ pub use dispersion::{AIR_CELERITY, AIR_DENSITY, Medium};
 pub use error::PhysicsError;
 pub use loads::{Circuit, Footprint, Load};
 pub use modes::Modes;
-pub use responses::{ResponseOptions, responses, sample};
+pub use responses::{ResponseOptions, response_modes, responses, responses_on, sample};
 pub use stepper::{Channel, Plant, StepperOptions, VirtualSurface};

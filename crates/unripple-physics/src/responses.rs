@@ -66,53 +66,108 @@ impl Default for ResponseOptions {
 /// # Ok::<(), unripple_physics::PhysicsError>(())
 /// ```
 pub fn responses(surface: &Surface, options: &ResponseOptions) -> Result<Responses, PhysicsError> {
-    let emission = &surface.emission;
-    let [low, high] = emission.band;
-    check("sample rate in Hz", emission.rate, emission.rate > 0.0, "a positive number")?;
-    check("bottom of the band in Hz", low, low >= 0.0 && low < high, "0 or more, below the top")?;
-    check(
-        "top of the band in Hz",
-        high,
-        high > low && high < emission.rate / 2.0,
-        "less than half the sample rate",
-    )?;
-    let transducers = transducers(surface)?;
-    let fingers = fingers(surface, &options.contacts)?;
-    let max_hz = options.max_hz.unwrap_or(high);
-    check("top frequency of the modes in Hz", max_hz, max_hz >= high, "at least the top of the band")?;
-    let reach = options.reach;
-    check("reach of the modes that loads feel", reach, reach >= DYNAMIC, "at least 1.1")?;
-    let bare = !transducers.iter().filter_map(|t| t.load.as_ref()).chain(&fingers).any(Load::acts);
-    let modes = Modes::solve(surface, if bare { max_hz } else { reach * max_hz }, options.accuracy)?;
-    let (poles, input, shapes) = if bare {
-        unloaded(modes, &transducers, low)
-    } else {
-        let poles = modes.poles().to_vec();
-        let (sheet, medium) = (&surface.sheet, Medium::of(&surface.sheet));
-        let loaded = Loaded::new(Arc::new(modes), &poles, &transducers, &fingers)?.with_rest(
-            medium,
-            medium.wavenumber(TAU * reach * max_hz),
-            sheet.thickness,
-            |omega, k| decay_rate(&sheet.decay, omega, medium.bending_share(k)),
+    let asked = Asked::of(surface, options)?;
+    let modes = asked.modes(surface)?;
+    asked.responses(surface, Arc::new(modes))
+}
+
+/// The modes that [`responses`] stands on: those of the bare surface up to the top, or past it where loads feel them.
+///
+/// # Errors
+/// Those of [`responses`].
+pub fn response_modes(surface: &Surface, options: &ResponseOptions) -> Result<Modes, PhysicsError> {
+    Asked::of(surface, options)?.modes(surface)
+}
+
+/// As [`responses`], from modes that [`response_modes`] found for the same surface and options.
+///
+/// # Errors
+/// Those of [`responses`].
+pub fn responses_on(
+    surface: &Surface,
+    modes: Arc<Modes>,
+    options: &ResponseOptions,
+) -> Result<Responses, PhysicsError> {
+    Asked::of(surface, options)?.responses(surface, modes)
+}
+
+/// What responses were asked for, checked.
+struct Asked {
+    transducers: Vec<Transducer>,
+    fingers: Vec<Load>,
+    max_hz: f64,
+    reach: f64,
+    accuracy: f64,
+}
+
+impl Asked {
+    fn of(surface: &Surface, options: &ResponseOptions) -> Result<Self, PhysicsError> {
+        let emission = &surface.emission;
+        let [low, high] = emission.band;
+        check("sample rate in Hz", emission.rate, emission.rate > 0.0, "a positive number")?;
+        check("bottom of the band in Hz", low, low >= 0.0 && low < high, "0 or more, below the top")?;
+        check(
+            "top of the band in Hz",
+            high,
+            high > low && high < emission.rate / 2.0,
+            "less than half the sample rate",
         )?;
-        let found = loaded.oscillations(DYNAMIC * max_hz, [low, max_hz])?;
-        (found.poles, found.input, found.shapes)
-    };
-    let ports = surface.actuators.iter().map(|a| Port { name: a.name.clone(), at: a.at }).collect();
-    let conditions = Conditions {
-        rate: emission.rate,
-        band: emission.band,
-        lambda_min: Medium::of(&surface.sheet).lambda_min(high),
-        outline: surface.outline.clone(),
-    };
-    Ok(Responses::Modal(ModalResponses { ports, poles, input, shapes, conditions }))
+        let transducers = transducers(surface)?;
+        let fingers = fingers(surface, &options.contacts)?;
+        let max_hz = options.max_hz.unwrap_or(high);
+        check("top frequency of the modes in Hz", max_hz, max_hz >= high, "at least the top of the band")?;
+        let reach = options.reach;
+        check("reach of the modes that loads feel", reach, reach >= DYNAMIC, "at least 1.1")?;
+        Ok(Self { transducers, fingers, max_hz, reach, accuracy: options.accuracy })
+    }
+
+    /// Whether nothing hangs on the surface.
+    fn bare(&self) -> bool {
+        !self.transducers.iter().filter_map(|t| t.load.as_ref()).chain(&self.fingers).any(Load::acts)
+    }
+
+    fn modes(&self, surface: &Surface) -> Result<Modes, PhysicsError> {
+        let top = if self.bare() { self.max_hz } else { self.reach * self.max_hz };
+        Modes::solve(surface, top, self.accuracy)
+    }
+
+    fn responses(&self, surface: &Surface, modes: Arc<Modes>) -> Result<Responses, PhysicsError> {
+        let emission = &surface.emission;
+        let [low, high] = emission.band;
+        let (poles, input, shapes) = if self.bare() {
+            unloaded(modes, &self.transducers, low)
+        } else {
+            let poles = modes.poles().to_vec();
+            let (sheet, medium) = (&surface.sheet, Medium::of(&surface.sheet));
+            let loaded = Loaded::new(modes, &poles, &self.transducers, &self.fingers)?.with_rest(
+                medium,
+                medium.wavenumber(TAU * self.reach * self.max_hz),
+                sheet.thickness,
+                |omega, k| decay_rate(&sheet.decay, omega, medium.bending_share(k)),
+            )?;
+            let found = loaded.oscillations(DYNAMIC * self.max_hz, [low, self.max_hz])?;
+            (found.poles, found.input, found.shapes)
+        };
+        let ports = surface.actuators.iter().map(|a| Port { name: a.name.clone(), at: a.at }).collect();
+        let conditions = Conditions {
+            rate: emission.rate,
+            band: emission.band,
+            lambda_min: Medium::of(&surface.sheet).lambda_min(high),
+            outline: surface.outline.clone(),
+        };
+        Ok(Responses::Modal(ModalResponses { ports, poles, input, shapes, conditions }))
+    }
 }
 
 /// The modes from `low` Hz on, as they are.
-fn unloaded(modes: Modes, transducers: &[Transducer], low: f64) -> (Vec<Pole>, Mat<f64>, Arc<dyn Shapes>) {
+fn unloaded(
+    modes: Arc<Modes>,
+    transducers: &[Transducer],
+    low: f64,
+) -> (Vec<Pole>, Mat<f64>, Arc<dyn Shapes>) {
     let below = modes.poles().partition_point(|pole| pole.omega / TAU < low);
     let poles = modes.poles()[below..].to_vec();
-    let shapes: Arc<dyn Shapes> = if below == 0 { Arc::new(modes) } else { Arc::new(Above { modes, below }) };
+    let shapes: Arc<dyn Shapes> = if below == 0 { modes } else { Arc::new(Above { modes, below }) };
     let footprints: Vec<Footprint> = transducers.iter().map(|t| t.footprint.clone()).collect();
     let mut input = Footprint::all_weights(&footprints, shapes.as_ref());
     for (row, transducer) in transducers.iter().enumerate() {
@@ -176,7 +231,7 @@ fn weights(input: MatRef<f64>, readout: MatRef<f64>) -> Mat<f32> {
 /// The modes from `below` on.
 #[derive(Debug)]
 struct Above {
-    modes: Modes,
+    modes: Arc<Modes>,
     below: usize,
 }
 

@@ -30,6 +30,9 @@ pub use unripple_field as field;
 pub use unripple_focus as focus;
 pub use unripple_physics as physics;
 
+pub mod act;
+pub mod contrast_map;
+pub mod drafting;
 pub mod study;
 mod touch;
 

@@ -84,19 +84,21 @@ impl Cavity {
         let first = medium.wavenumber(TAU * low_hz.max(0.0));
         let last = medium.wavenumber(TAU * top_hz);
         let width = (last - first) / BINS as f64;
+        let outline = &surface.outline;
+        let (area, perimeter, rim) = (outline.area(), outline.perimeter(), signed_perimeter(outline));
         let bins = (0..BINS)
             .map(|i| {
                 let k = first + (i as f64 + 0.5) * width;
                 let omega = medium.omega(k);
-                let per_wavenumber = modes_per_wavenumber(&surface.outline, k).max(0.0);
+                let per_wavenumber = weyl(area, rim, k).max(0.0);
                 let group = medium.group_celerity(k);
                 Bin {
                     hz: omega / TAU,
                     modes: per_wavenumber * width,
-                    local: surface.outline.area() * k * width / TAU,
+                    local: area * k * width / TAU,
                     density: per_wavenumber * TAU / group,
                     sigma: decay_rate(&surface.sheet.decay, omega, medium.bending_share(k)),
-                    trip: TAU * surface.outline.area() / (surface.outline.perimeter() * group),
+                    trip: TAU * area / (perimeter * group),
                 }
             })
             .collect();
@@ -246,7 +248,12 @@ pub(super) fn signed_perimeter(outline: &Outline) -> f64 {
 
 /// Modes per unit wavenumber, dM/dk = (2Sk - P)/4π, P the fixed rim minus the free.
 pub(super) fn modes_per_wavenumber(outline: &Outline, k: f64) -> f64 {
-    (2.0 * outline.area() * k - signed_perimeter(outline)) / (4.0 * PI)
+    weyl(outline.area(), signed_perimeter(outline), k)
+}
+
+/// The same of an area S and a rim P.
+fn weyl(area: f64, rim: f64, k: f64) -> f64 {
+    (2.0 * area * k - rim) / (4.0 * PI)
 }
 
 /// Modes below wavenumber `k` by Weyl's law, M = Sk²/4π - Pk/4π, P the fixed rim minus the free.

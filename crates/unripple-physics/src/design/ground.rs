@@ -31,11 +31,11 @@ pub(super) struct Ground<'a> {
 }
 
 impl<'a> Ground<'a> {
-    pub fn of(surface: &'a Surface) -> Result<Self, PhysicsError> {
+    /// With the modes that [`count`] or [`counted`] gives, or why there are none.
+    pub fn of(surface: &'a Surface, counted: Counted) -> Result<Self, PhysicsError> {
         check(surface)?;
         let top = surface.emission.band[1];
         let medium = Medium::of(&surface.sheet);
-        let counted = count(surface);
         let by_law = Cavity::of(surface, top);
         let first = counted.as_ref().ok().and_then(|(_, first)| *first);
         let first_mode_hz = first.unwrap_or_else(|| medium.omega(first_wavenumber(surface)) / TAU);
@@ -115,13 +115,22 @@ fn check(surface: &Surface) -> Result<(), PhysicsError> {
     Ok(())
 }
 
-/// Number of modes in the band and the first of all, in Hz, or why there is none.
-fn count(surface: &Surface) -> Result<(usize, Option<f64>), String> {
+/// Number of modes in the band and the first of all, in Hz, or why they are not known.
+pub(super) type Counted = Result<(usize, Option<f64>), String>;
+
+/// Solves for the modes and counts them.
+pub(super) fn count(surface: &Surface) -> Counted {
+    check(surface).map_err(|e| e.to_string())?;
+    let modes = Modes::solve(surface, surface.emission.band[1], ACCURACY).map_err(|e| e.to_string())?;
+    Ok(counted(surface, &modes))
+}
+
+/// Number of modes in the band and the first of all, in Hz.
+pub(super) fn counted(surface: &Surface, modes: &Modes) -> (usize, Option<f64>) {
     let [low, top] = surface.emission.band;
-    let modes = Modes::solve(surface, top, ACCURACY).map_err(|e| e.to_string())?;
     let frequencies = modes.frequencies_hz();
     let inside = frequencies.iter().filter(|hz| (low..=top).contains(*hz)).count();
-    Ok((inside, frequencies.iter().copied().find(|hz| *hz > 0.0)))
+    (inside, frequencies.iter().copied().find(|hz| *hz > 0.0))
 }
 
 /// The wavenumber below which Weyl's law counts one mode.

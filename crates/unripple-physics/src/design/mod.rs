@@ -25,7 +25,7 @@ pub use touch::{Touch, table1};
 pub use tradeoffs::{ACTUATORS, ByBand, ByNoise, ByRate, ByWindow, WINDOWS};
 pub use waves::Wave;
 
-use crate::PhysicsError;
+use crate::{Modes, PhysicsError};
 use unripple_core::Surface;
 
 /// The tradeoffs of a surface.
@@ -42,9 +42,28 @@ use unripple_core::Surface;
 /// # Ok::<(), unripple_physics::PhysicsError>(())
 /// ```
 pub fn design(surface: &Surface) -> Result<Design, PhysicsError> {
-    let ground = ground::Ground::of(surface)?;
-    let mut design = Design::on(&ground);
-    design.notes = notes::notes(surface, &design);
+    on(&ground::Ground::of(surface, ground::count(surface))?)
+}
+
+/// The same from modes that are known already: all of the band, at least.
+///
+/// # Errors
+/// Those of [`design()`].
+pub fn design_on(surface: &Surface, modes: &Modes) -> Result<Design, PhysicsError> {
+    on(&ground::Ground::of(surface, Ok(ground::counted(surface, modes)))?)
+}
+
+/// The same at once, modes uncounted: by Weyl's law, and in [`Design::mode_count_exact_reason`] the reason given.
+///
+/// # Errors
+/// Those of [`design()`].
+pub fn design_by_law(surface: &Surface, reason: impl Into<String>) -> Result<Design, PhysicsError> {
+    on(&ground::Ground::of(surface, Err(reason.into()))?)
+}
+
+fn on(ground: &ground::Ground<'_>) -> Result<Design, PhysicsError> {
+    let mut design = Design::on(ground);
+    design.notes = notes::notes(ground.surface, &design);
     Ok(design)
 }
 

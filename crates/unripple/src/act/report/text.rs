@@ -1,101 +1,10 @@
-//! Reports of a focus or a field: as JSON and as Markdown.
-
-use crate::fingers::Felt;
-use crate::judge::{Judged, Note};
-use crate::played::{self, Followed, Stroked};
-use serde::Serialize;
+use super::{Report, played};
+use crate::Touch;
+use crate::act::Felt;
+use crate::field::{TargetFigures, Threshold};
 use std::fmt::Write;
-use unripple::Touch;
-use unripple::core::{Actuator, ActuatorKind, Drive, Surface};
-use unripple::field::{DriveFigures, SilenceFigures, TakenOn, TargetFigures, Threshold};
-use unripple::physics::design::Linearity;
-
-/// Everything said about one drive on one surface. Lengths in metres, times in seconds, drive in its own unit.
-#[derive(Debug, Serialize)]
-pub struct Report {
-    program: &'static str,
-    version: &'static str,
-    command: &'static str,
-    surface: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub judged_on: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub method: Option<&'static str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub window_s: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub period_s: Option<f64>,
-    sample_rate_hz: f64,
-    actuators: Vec<Channel>,
-    targets: Vec<TargetFigures>,
-    /// Waveforms at targets, where they were asked for.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub waveforms: Vec<Followed>,
-    /// Points that were to be silent meanwhile.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub silent: Vec<SilenceFigures>,
-    /// A focus that was to move.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stroke: Option<Stroked>,
-    /// Fingers that rest on the surface.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub fingers: Vec<Felt>,
-    /// How far from small the deflections are.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    linearity: Option<Linearity>,
-    drive: DriveFigures,
-    lambda_min_m: f64,
-    focal_radius_m: f64,
-    taken_on: TakenOn,
-    outside_points: usize,
-    /// The highest level felt outside the focal discs, in dB above the threshold of touch.
-    felt_outside_db: Option<f64>,
-    pub notes: Vec<Note>,
-    pub files: Vec<String>,
-}
-
-/// One channel of drive.wav.
-#[derive(Debug, Serialize)]
-struct Channel {
-    name: String,
-    at_m: [f64; 2],
-    unit: &'static str,
-}
 
 impl Report {
-    /// A report of `command`.
-    pub fn new(command: &'static str, surface: &Surface, drive: &Drive, judged: &Judged) -> Self {
-        let measured = &judged.measured;
-        let channel =
-            |a: &Actuator| Channel { name: a.name.clone(), at_m: [a.at.x, a.at.y], unit: unit(&a.kind) };
-        Self {
-            program: "unripple",
-            version: env!("CARGO_PKG_VERSION"),
-            command,
-            surface: surface.name.clone(),
-            judged_on: None,
-            method: None,
-            window_s: None,
-            period_s: None,
-            sample_rate_hz: drive.rate(),
-            actuators: surface.actuators.iter().map(channel).collect(),
-            targets: measured.targets.clone(),
-            waveforms: Vec::new(),
-            silent: Vec::new(),
-            stroke: None,
-            fingers: Vec::new(),
-            linearity: judged.linearity,
-            drive: measured.drive.clone(),
-            lambda_min_m: measured.lambda_min_m,
-            focal_radius_m: measured.focal_radius_m,
-            taken_on: measured.taken_on,
-            outside_points: measured.outside_points,
-            felt_outside_db: measured.felt_outside_db,
-            notes: judged.notes.clone(),
-            files: Vec::new(),
-        }
-    }
-
     /// For a terminal: one block of figures per target, then drive and notes.
     pub fn text(&self) -> String {
         let mut text = format!("{}{}\n", self.surface, self.how());
@@ -241,16 +150,6 @@ fn finger_line(finger: &Felt) -> String {
         finger.velocity_attenuation,
         finger.displacement_attenuation
     )
-}
-
-/// Unit of what an actuator is sent.
-pub fn unit(kind: &ActuatorKind) -> &'static str {
-    use unripple::core::CoilDrive;
-    match kind {
-        ActuatorKind::Force => "N",
-        ActuatorKind::MovingMagnet { driven_by: CoilDrive::Current, .. } => "A",
-        ActuatorKind::MovingMagnet { driven_by: CoilDrive::Voltage, .. } | ActuatorKind::Piezo { .. } => "V",
-    }
 }
 
 /// Name, velocity, displacement and what is felt of every figure, headings first.

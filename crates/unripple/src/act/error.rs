@@ -1,0 +1,69 @@
+use crate::field::FieldError;
+use crate::focus::FocusError;
+use crate::physics::PhysicsError;
+
+/// Why an act of focusing could not be carried out or judged.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ActError {
+    /// The responses of the surface could not be computed.
+    #[error(transparent)]
+    Physics(#[from] PhysicsError),
+    /// No drive could be made.
+    #[error(transparent)]
+    Focus(#[from] FocusError),
+    /// What a drive does could not be computed or measured.
+    #[error(transparent)]
+    Field(#[from] FieldError),
+    /// The level asked for makes no sense, or the drive limit does not give it.
+    #[error("{what}: expected {expected}, found {found}")]
+    Level {
+        /// What was asked for.
+        what: LevelKind,
+        /// The legal values.
+        expected: String,
+        /// The value, or what stands in its way.
+        found: String,
+    },
+    /// A number is out of its range.
+    #[error("{what}: expected {expected}, found {found}")]
+    Range {
+        /// What the number is, with its unit.
+        what: &'static str,
+        /// The legal values.
+        expected: &'static str,
+        /// The value.
+        found: f64,
+    },
+    /// The responses are not of the form that is needed.
+    #[error("responses: expected modes, which {what} needs, found samples")]
+    NeedsModes {
+        /// What needs them.
+        what: &'static str,
+    },
+}
+
+impl ActError {
+    /// Whether the work failed although the input makes sense.
+    pub fn is_failed_work(&self) -> bool {
+        matches!(self, Self::Physics(PhysicsError::NotConverged { .. }))
+    }
+}
+
+/// Ways to say how loud a drive is to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LevelKind {
+    /// By the peak displacement of the first target.
+    Peak,
+    /// By what is felt at the first target.
+    Felt,
+}
+
+impl std::fmt::Display for LevelKind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Peak => "peak displacement",
+            Self::Felt => "level as felt",
+        })
+    }
+}

@@ -1,0 +1,58 @@
+use crate::field::{SilenceFigures, WaveformFigures};
+use serde::Serialize;
+
+/// What was asked of one target, and what came of it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Followed {
+    /// What it does.
+    #[serde(flatten)]
+    pub figures: WaveformFigures,
+    /// When its waveform starts, in seconds from the drive's first sample.
+    pub start_s: f64,
+    /// Largest magnitude asked for, in metres, after the limit and within the band.
+    pub asked_peak_m: f64,
+    /// Share of the waveform's energy outside the band, which was not asked for.
+    pub lost: f64,
+}
+
+/// What came of a stroke.
+#[derive(Clone, Debug, Serialize)]
+pub struct Stroked {
+    /// Pulses that make it.
+    pub pulses: usize,
+    /// How long it takes, in seconds.
+    pub duration_s: f64,
+    /// When it starts, in seconds from the drive's first sample.
+    pub start_s: f64,
+    /// Velocity asked of every pulse, after the limit, in m/s.
+    pub asked_m_s: f64,
+    /// Least and greatest velocity along the path, each place at the pulse nearest to its own instant, over what was asked, in dB.
+    pub level_range_db: [f64; 2],
+    /// The same for the largest velocity of a place within half a pulse interval of its instant.
+    pub peak_range_db: [f64; 2],
+}
+
+/// What each target and point of silence does, a line each.
+pub(super) fn lines(
+    waveforms: &[Followed],
+    silent: &[SilenceFigures],
+    stroke: Option<&Stroked>,
+) -> Vec<String> {
+    let mm = |at: &[f64; 2]| format!("({:.2}, {:.2}) mm", at[0] * 1e3, at[1] * 1e3);
+    let follow = |f: &Followed| {
+        let w = &f.figures;
+        let others = w.crosstalk_db.map_or(String::new(), |db| format!(", others {db:.1} dB"));
+        let (at, asked) = (mm(&w.at_m), f.asked_peak_m * 1e6);
+        format!("waveform {at}: {asked:.3} µm asked, gain {:.4}, error {:.1} dB{others}", w.gain, w.error_db)
+    };
+    let still = |s: &SilenceFigures| format!("silence {}: {:.1} dB", mm(&s.at_m), s.level_db);
+    let along = |s: &Stroked| {
+        let [low, high] = s.level_range_db;
+        let (ms, v) = (s.duration_s * 1e3, s.asked_m_s * 1e3);
+        format!(
+            "stroke: {} pulses in {ms:.1} ms, {v:.3} mm/s asked, level along the path {low:.2} to {high:.2} dB",
+            s.pulses
+        )
+    };
+    waveforms.iter().map(follow).chain(silent.iter().map(still)).chain(stroke.map(along)).collect()
+}

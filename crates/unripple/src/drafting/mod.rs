@@ -1,0 +1,136 @@
+//! What follows an edit of a surface, the quickest first: closed-form figures, a focus at one place, a map of contrast.
+
+mod figures;
+mod spot;
+
+pub use figures::{Figure, figures};
+pub use spot::Spot;
+
+use crate::act::{Act, ActError, Acted, Level, accuracy, recommended_window};
+use crate::contrast_map::{ContrastMap, MapOptions, contrast_map};
+use crate::core::{Point, Responses, Surface};
+use crate::focus::{Options, Target};
+use crate::physics::design::{Design, design_by_law, design_on};
+use crate::physics::{Modes, PhysicsError, ResponseOptions, response_modes, responses_on};
+use std::sync::{Arc, OnceLock};
+
+/// A surface as it is drafted: its modes are solved for once, and all that is said of it stands on them.
+///
+/// Its stages, each to be shown as it comes: [`Draft::by_law`], [`Draft::of`] with [`Draft::figures`], [`Draft::spot`],
+/// [`Draft::map`], and if all figures are wanted [`Draft::focus`].
+///
+/// ```
+/// use unripple::core::Point;
+/// use unripple::drafting::Draft;
+///
+/// let surface = unripple::physics::design::papers_surface();
+/// let by_law = Draft::by_law(&surface)?; // at once
+/// let draft = Draft::of(&surface)?; // modes solved
+/// let predicted = |draft: &[unripple::drafting::Figure]| draft[0].value;
+/// assert!((predicted(&by_law) / predicted(&draft.figures()) - 1.0).abs() < 0.02);
+/// let spot = draft.spot(Point::from_mm(62.0, 90.0), None)?;
+/// assert!((spot.contrast.unwrap_or(0.0) - 26.385).abs() < 0.001);
+/// let map = draft.map(None, 24)?;
+/// assert!(map.contrast.iter().flatten().count() == 24 * 24);
+/// # Ok::<(), unripple::act::ActError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Draft {
+    surface: Surface,
+    design: Design,
+    modes: Result<Arc<Modes>, PhysicsError>,
+    responses: OnceLock<Result<Arc<Responses>, ActError>>,
+}
+
+impl Draft {
+    /// Figures of a surface whose modes are not solved for: by Weyl's law, within milliseconds.
+    ///
+    /// # Errors
+    /// Those of [`design_by_law`].
+    pub fn by_law(surface: &Surface) -> Result<Vec<Figure>, ActError> {
+        Ok(figures(&design_by_law(surface, "not counted yet")?))
+    }
+
+    /// Solves for the modes of a surface. A surface whose modes cannot be computed has figures by Weyl's law and no responses.
+    ///
+    /// # Errors
+    /// Those of [`design()`](crate::physics::design()).
+    pub fn of(surface: &Surface) -> Result<Self, ActError> {
+        let modes = response_modes(surface, &options(surface)).map(Arc::new);
+        let design = match &modes {
+            Ok(modes) => design_on(surface, modes)?,
+            Err(error) => design_by_law(surface, error.to_string())?,
+        };
+        Ok(Self { surface: surface.clone(), design, modes, responses: OnceLock::new() })
+    }
+
+    /// The surface.
+    pub fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// Everything that `unripple design` says of it.
+    pub fn design(&self) -> &Design {
+        &self.design
+    }
+
+    /// The figures to be shown.
+    pub fn figures(&self) -> Vec<Figure> {
+        figures(&self.design)
+    }
+
+    /// The responses, those of `unripple focus`. The first call takes long where coils load the surface; later ones nothing.
+    ///
+    /// # Errors
+    /// [`ActError::Physics`] if there are none.
+    pub fn responses(&self) -> Result<&Arc<Responses>, ActError> {
+        let found = self.responses.get_or_init(|| {
+            let modes = self.modes.clone()?;
+            Ok(Arc::new(responses_on(&self.surface, modes, &options(&self.surface))?))
+        });
+        found.as_ref().map_err(Clone::clone)
+    }
+
+    /// Time reversal at one place, judged at its focal instant only: the contrast of `unripple focus` there, in a window of so many
+    /// seconds or the one that it takes by itself.
+    ///
+    /// # Errors
+    /// Those of [`Draft::responses`], [`focus`](crate::focus::focus()) and [`Field::snapshots`](crate::field::Field::snapshots).
+    pub fn spot(&self, at: Point, window: Option<f64>) -> Result<Spot, ActError> {
+        spot::spot(self.responses()?, at, &self.options(window)?)
+    }
+
+    /// The same with all figures: what `unripple focus` does.
+    ///
+    /// # Errors
+    /// Those of [`Draft::responses`] and [`Act::run`].
+    pub fn focus(&self, at: Point, window: Option<f64>) -> Result<Acted, ActError> {
+        let (targets, options) = (&[Target::at(at)], &self.options(window)?);
+        let (surface, responses) = (&self.surface, self.responses()?);
+        Act { surface, responses, targets, options, level: Level::Limit }.run()
+    }
+
+    fn options(&self, window: Option<f64>) -> Result<Options, ActError> {
+        let emission = &self.surface.emission;
+        let (limit, rms_limit, window) = (emission.limit, emission.rms_limit, self.window(window)?);
+        Ok(Options { window, limit, rms_limit, ..Options::default() })
+    }
+
+    fn window(&self, asked: Option<f64>) -> Result<f64, ActError> {
+        let own = |found: &Arc<Responses>| recommended_window(&self.surface, found);
+        asked.map_or_else(|| self.responses().map(own), Ok)
+    }
+
+    /// The contrast of time reversal all over the surface, `across` cells along its longer side.
+    ///
+    /// # Errors
+    /// Those of [`Draft::responses`] and [`contrast_map`].
+    pub fn map(&self, window: Option<f64>, across: usize) -> Result<ContrastMap, ActError> {
+        let options = MapOptions { window: self.window(window)?, across, ..MapOptions::default() };
+        contrast_map(self.responses()?, &options)
+    }
+}
+
+fn options(surface: &Surface) -> ResponseOptions {
+    ResponseOptions { accuracy: accuracy(surface), ..ResponseOptions::default() }
+}
