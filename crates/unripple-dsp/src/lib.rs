@@ -21,7 +21,7 @@ pub use measure::{
     snr_db,
 };
 pub use realfft::num_complex::Complex;
-pub use spectrum::share_above;
+pub use spectrum::{band_energies, share_above};
 pub use synth::ModalSynth;
 pub use threshold::Threshold;
 pub use weighting::Weighting;

@@ -33,6 +33,39 @@ pub fn share_above(channels: &[Vec<f64>], rate: f64, hz: f64) -> f64 {
     if total > 0.0 { above / total } else { 0.0 }
 }
 
+/// Energy of a signal in so many bands of equal width from 0 to `top` Hz: what lies above is left out.
+///
+/// One whole Fourier transform without a window, scaled so that the energies of all lines add up to the sum of the squares (Parseval).
+/// A line belongs to the band that holds its frequency; bands narrower than a line are empty.
+///
+/// ```
+/// let tone: Vec<f64> = (0..480).map(|i| (f64::from(i) / 48e3 * 1050.0 * 6.283185307179586).sin()).collect();
+/// let bands = unripple_dsp::band_energies(&tone, 48e3, 3000.0, 10);
+/// let all: f64 = tone.iter().map(|x| x * x).sum();
+/// assert!(bands[3] > 0.8 * all && bands.iter().sum::<f64>() <= all * (1.0 + 1e-12));
+/// ```
+pub fn band_energies(signal: &[f64], rate: f64, top: f64, bands: usize) -> Vec<f64> {
+    let mut energies = vec![0.0; bands];
+    if signal.is_empty() || bands == 0 {
+        return energies;
+    }
+    let length = signal.len();
+    let plan = RealFftPlanner::<f64>::new().plan_fft_forward(length);
+    let (mut signal, mut spectrum) = (signal.to_vec(), plan.make_output_vec());
+    if plan.process(&mut signal, &mut spectrum).is_err() {
+        return energies; // Sizes come from the plan itself.
+    }
+    for (line, value) in spectrum.iter().enumerate() {
+        let alone = line == 0 || 2 * line == length;
+        let energy = value.norm_sqr() * if alone { 1.0 } else { 2.0 } / length as f64;
+        let band = line as f64 * rate / length as f64 / top * bands as f64;
+        if let Some(sum) = energies.get_mut(band as usize) {
+            *sum += energy;
+        }
+    }
+    energies
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -47,6 +80,15 @@ mod tests {
             let share = share_above(&[impulse], 100.0, 20.0);
             assert!((share - lines as f64 / length as f64).abs() < 1e-12, "{length}: {share}");
         }
+    }
+
+    #[test]
+    fn bands_hold_all_the_energy_below_the_top() {
+        let signal: Vec<f64> = (0..97).map(|i| ((i * i) as f64).sin()).collect();
+        let below = 1.0 - share_above(std::slice::from_ref(&signal), 100.0, 20.0);
+        let all: f64 = signal.iter().map(|x| x * x).sum();
+        let bands = band_energies(&signal, 100.0, 20.0, 7);
+        assert!((bands.iter().sum::<f64>() / all - below).abs() < 1e-12);
     }
 
     #[test]

@@ -290,6 +290,48 @@ proptest! {
     }
 
     #[test]
+    fn what_is_remembered_is_what_was_and_changes_nothing(
+        (rate, plant) in sheet(),
+        channels in proptest::collection::vec(channel(MILD), 1..4),
+        contact in contact(MILD),
+        blocks in proptest::collection::vec(1usize..40, 8),
+        stride in 1usize..9,
+        seed in any::<u64>(),
+    ) {
+        let place = mm(3.0, 4.0);
+        let mut surface = VirtualSurface::new(&plant, &channels, rate, &StepperOptions::default()).unwrap();
+        surface.set_probes(&[(place, Reading::Displacement), (place, Reading::Velocity)]).unwrap();
+        surface.touch(1, &contact).unwrap();
+        let mut plain = surface.clone();
+        surface.remember(stride, 12).unwrap();
+        let frames: usize = blocks.iter().sum();
+        let (mut first, mut heard) = (0, [Vec::new(), Vec::new()]);
+        for count in blocks {
+            let drive = noise(seed + first as u64, channels.len() * count);
+            let (sensors, probes) = run(&mut surface, &drive);
+            let (expected, expected_probes) = run(&mut plain, &drive);
+            prop_assert_eq!((sensors, &probes), (expected, &expected_probes));
+            prop_assert_eq!(surface.finger_motion(1), plain.finger_motion(1));
+            heard.iter_mut().zip(probes.chunks(count)).for_each(|(all, plane)| all.extend_from_slice(plane));
+            first += count;
+        }
+        let history = surface.history().unwrap();
+        prop_assert_eq!(history.len(), (frames / stride).min(12));
+        prop_assert_eq!(history.newest() as usize, frames / stride * stride);
+        prop_assert!(history.state(history.len()).is_none());
+        let weights = plant.readout(&[place]);
+        for back in 0..history.len() {
+            let (displacement, velocity) = history.state(back).unwrap();
+            let sample = history.newest() as usize - back * stride - 1;
+            for (state, heard) in [displacement, velocity].into_iter().zip(&heard) {
+                let terms = || state.iter().enumerate().map(|(m, x)| weights[(0, m)] * f64::from(*x));
+                let scale: f64 = terms().map(f64::abs).sum();
+                prop_assert!((terms().sum::<f64>() - heard[sample]).abs() <= 1e-6 * scale + 1e-30);
+            }
+        }
+    }
+
+    #[test]
     fn drives_superpose(
         (rate, plant) in sheet(),
         channels in proptest::collection::vec(channel(MILD), 1..4),

@@ -50,4 +50,4 @@ pub use output::{Committed, MARKER, OutputDir};
 pub use sofa::SofaAbout;
 pub use surface::{parse_surface, parse_surface_with, to_toml};
 pub use svg::{Curve, Drawing, FillRule, Polyline, SvgShape, read_curves};
-pub use wav::{Wav, decode_wav, read_wav, write_wav};
+pub use wav::{Wav, decode_wav, encode_wav, read_wav, write_wav};

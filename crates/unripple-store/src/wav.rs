@@ -2,7 +2,7 @@ use crate::StoreError;
 use crate::file::write_beside;
 use hound::{SampleFormat, WavReader, WavSpec, WavWriter};
 use std::fs::File;
-use std::io::{BufReader, BufWriter, ErrorKind, Read};
+use std::io::{BufReader, BufWriter, Cursor, ErrorKind, Read, Seek, Write};
 use std::path::Path;
 use unripple_core::Drive;
 
@@ -53,15 +53,30 @@ pub fn write_wav(path: impl AsRef<Path>, drive: &Drive) -> Result<(), StoreError
     let path = path.as_ref();
     let spec = spec(path, drive)?;
     write_beside(path, |file| {
-        let failed = |error| StoreError::write(path)(into_io(error));
-        let mut writer = WavWriter::new(BufWriter::new(file), spec).map_err(failed)?;
-        for sample in 0..drive.samples() {
-            for channel in drive.channels() {
-                writer.write_sample(channel[sample] as f32).map_err(failed)?;
-            }
-        }
-        writer.finalize().map_err(failed)
+        encode(BufWriter::new(file), spec, drive).map_err(|e| StoreError::write(path)(into_io(e)))
     })
+}
+
+/// The bytes of the file that [`write_wav`] writes.
+///
+/// # Errors
+/// [`StoreError::Content`], as [`write_wav`].
+pub fn encode_wav(drive: &Drive) -> Result<Vec<u8>, StoreError> {
+    let name = Path::new("drive.wav");
+    let spec = spec(name, drive)?;
+    let mut bytes = Cursor::new(Vec::new());
+    encode(&mut bytes, spec, drive).map_err(|error| StoreError::write(name)(into_io(error)))?;
+    Ok(bytes.into_inner())
+}
+
+fn encode(to: impl Write + Seek, spec: WavSpec, drive: &Drive) -> Result<(), hound::Error> {
+    let mut writer = WavWriter::new(to, spec)?;
+    for sample in 0..drive.samples() {
+        for channel in drive.channels() {
+            writer.write_sample(channel[sample] as f32)?;
+        }
+    }
+    writer.finalize()
 }
 
 fn spec(path: &Path, drive: &Drive) -> Result<WavSpec, StoreError> {

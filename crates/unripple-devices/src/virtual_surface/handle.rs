@@ -4,7 +4,7 @@ use crate::error::check;
 use crate::{DevicesError, Tap};
 use std::sync::{Arc, Mutex};
 use unripple_core::{Contact, Point};
-use unripple_physics::stepper::FingerMotion;
+use unripple_physics::stepper::{FingerMotion, History, Plant};
 
 /// Reaches a virtual surface while its device is in other hands: moves the probe, taps, and puts fingers on it. What it
 /// does takes effect with the next block.
@@ -62,6 +62,25 @@ impl Handle {
     /// What was watched since this was last called, a trace for each place; the newest 65536 samples at most.
     pub fn watched(&self) -> Vec<Vec<f32>> {
         lock(&self.workings).watch.take()
+    }
+
+    /// Remembers from now on the state of all modes after every `stride`-th sample, the newest so many; [`Handle::history`] reads it.
+    /// To begin anew forgets it.
+    ///
+    /// # Errors
+    /// [`DevicesError::Physics`], as [`remember`](unripple_physics::VirtualSurface::remember).
+    pub fn remember(&self, stride: usize, states: usize) -> Result<(), DevicesError> {
+        Ok(lock(&self.workings).surface.surface_mut().remember(stride, states)?)
+    }
+
+    /// Shows what is remembered; the surface waits meanwhile.
+    pub fn history<R>(&self, look: impl FnOnce(&History) -> R) -> Option<R> {
+        lock(&self.workings).surface.surface().history().map(look)
+    }
+
+    /// The sheet, to read its modes anywhere.
+    pub fn plant(&self) -> Plant {
+        lock(&self.workings).surface.surface().plant().clone()
     }
 
     /// Taps at a place, some time (s) after the next block begins; that a tap lasts counts from there on. Its force acts as that

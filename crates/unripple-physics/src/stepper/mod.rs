@@ -29,6 +29,7 @@ mod bank;
 mod couplings;
 mod engine;
 mod field;
+mod history;
 mod lanes;
 mod mishaps;
 mod plant;
@@ -37,6 +38,7 @@ mod small;
 mod surface;
 mod touch;
 
+pub use history::History;
 pub use mishaps::{Misbehaving, Mishaps};
 pub use plant::{Channel, Footing, Plant};
 pub use surface::{FingerMotion, Reading, Snapshot, StepperOptions, VirtualSurface};

@@ -1,5 +1,6 @@
 use crate::modes::check;
 use crate::{Entry, Footprint, Load, Modes, PhysicsError, Transducer, transducers};
+use faer::Mat;
 use std::sync::Arc;
 use unripple_core::{ModalResponses, Onset, Outline, Point, Pole, Shapes, Surface};
 
@@ -103,6 +104,11 @@ impl Plant {
         check("radius of a contact in m", radius, radius >= 0.0, "0 or more")?;
         let at = if self.outline.contains(at) { at } else { self.outline.nearest(at) };
         Ok(Footing { weights: self.weights(&Footprint::disc(at, radius, &self.outline))? })
+    }
+
+    /// What points read of every mode, in 1/√kg: points x modes.
+    pub fn readout(&self, points: &[Point]) -> Mat<f64> {
+        self.shapes.at_all(points)
     }
 
     /// Number of modes.

@@ -23,6 +23,7 @@ pub(super) struct Planes<'a> {
 pub(super) struct Drive<'a> {
     pub(super) values: &'a [f64],
     pub(super) stride: usize,
+    pub(super) first: usize,
 }
 
 /// How planes of sensors and probes lie.
@@ -44,7 +45,6 @@ impl WithSimd for Block<'_, '_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Block { engine, mut planes } = self;
-        engine.bank.reset_work();
         if engine.stale {
             engine.field.look(simd, &engine.tiles, &mut engine.felt);
             engine.sense(simd);
@@ -135,7 +135,7 @@ impl Engine {
     fn drive(&mut self, drive: &Drive, frame: usize) {
         self.impulse.fill([0.0; OCT]);
         for (lead, channel) in self.leads.iter().zip(drive.values.chunks_exact(drive.stride)) {
-            let value = channel[frame] * lead.drive;
+            let value = channel[drive.first + frame] * lead.drive;
             let value = if value.is_finite() { value } else { 0.0 };
             if lead.current {
                 self.bank.induce(lead.port, value);

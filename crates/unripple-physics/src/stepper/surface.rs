@@ -1,5 +1,6 @@
 use super::engine::Engine;
 use super::field::Probes;
+use super::history::History;
 use super::plant::{Channel, Footing, Plant};
 use super::run::{Block, Drive, Out, Planes};
 use crate::modes::check;
@@ -67,6 +68,7 @@ pub struct VirtualSurface {
     rate: f64,
     tension: f64,
     last: usize,
+    history: Option<History>,
 }
 
 impl VirtualSurface {
@@ -88,7 +90,7 @@ impl VirtualSurface {
         check("steps per sample", steps, (1.0..=1e6).contains(&steps), "between 1 and 1000000")?;
         check("fingers at once", fingers, fingers <= 64.0, "at most 64")?;
         let engine = Engine::new(plant, channels, rate, options)?;
-        Ok(Self { engine, plant: plant.clone(), rate, tension: 1.0, last: 0 })
+        Ok(Self { engine, plant: plant.clone(), rate, tension: 1.0, last: 0, history: None })
     }
 
     /// A surface with its own actuators, at its own rate, with all of these modes.
@@ -197,14 +199,38 @@ impl VirtualSurface {
         size("sensors", sensors.len(), channels * frames, true)?;
         size("probes", probes.len(), listeners * frames, true)?;
         if frames > 0 {
-            let (drive, out) = (Drive { values: drive, stride: frames }, Out { stride: frames, first: 0 });
-            self.run(Planes { frames, drive, out, sensors, probes });
+            self.engine.bank.reset_work();
+            self.last = frames;
+        }
+        let (mut first, whole) = (0, frames);
+        while first < whole {
+            let frames = self.history.as_ref().map_or(whole, |history| history.wait()).min(whole - first);
+            let (drive, out) = (Drive { values: drive, stride: whole, first }, Out { stride: whole, first });
+            self.run(Planes { frames, drive, out, sensors: &mut *sensors, probes: &mut *probes });
+            first += frames;
+            if let Some(history) = &mut self.history {
+                let (field, modes) = (&self.engine.field, self.plant.modes());
+                history.take(frames, &field.displacement()[..modes], &field.velocity()[..modes]);
+            }
         }
         Ok(())
     }
 
+    /// Remembers from now on the state after every `stride`-th sample, the newest so many of them. Allocates.
+    ///
+    /// # Errors
+    /// [`PhysicsError::Range`] for a stride or number of states of 0, or more states than 2^20.
+    pub fn remember(&mut self, stride: usize, states: usize) -> Result<(), PhysicsError> {
+        self.history = Some(History::new(self.plant.modes(), stride, states, self.engine.samples)?);
+        Ok(())
+    }
+
+    /// What is remembered.
+    pub fn history(&self) -> Option<&History> {
+        self.history.as_ref()
+    }
+
     pub(super) fn run(&mut self, planes: Planes) {
-        self.last = planes.frames;
         let arch = self.engine.arch;
         arch.dispatch(Block { engine: &mut self.engine, planes });
     }
