@@ -17,7 +17,8 @@ const FLOORS: &[(&str, u8)] = &[
     ("unripple-calibrate", 3),
     ("unripple", 4),
     ("unripple-live", 4),
-    ("unripple-cli", 5),
+    ("unripple-viewer", 5),
+    ("unripple-cli", 6),
 ];
 
 fn floor(name: &str) -> Option<u8> {

@@ -31,6 +31,15 @@ impl From<ActError> for CliError {
     }
 }
 
+impl std::fmt::Display for CliError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Input(text) | Self::Work(text) => f.write_str(text),
+            Self::Faults(faults) => write!(f, "{faults:#}"),
+        }
+    }
+}
+
 impl CliError {
     /// Bad input, in words.
     pub fn input(error: impl std::fmt::Display) -> Self {

@@ -27,6 +27,7 @@ mod played;
 mod reproduce;
 mod respond;
 mod targets;
+mod view;
 mod waveforms;
 
 use args::{Arguments, Command};
@@ -56,6 +57,7 @@ fn run(arguments: &Arguments) -> Result<(), CliError> {
         Command::Compare(options) => compare::run(options, json),
         Command::Field(options) => field::run(options, json),
         Command::Play(options) => play::run(options, json),
+        Command::View(options) => view::run(options, json),
         Command::Devices(options) => devices::run(options, json),
         Command::Doctor(options) => doctor::run(options, json),
         Command::Reproduce(options) => reproduce::run(options, json),

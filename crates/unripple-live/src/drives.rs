@@ -227,7 +227,7 @@ impl Drives {
 
 /// How strongly a pulse is felt where it focuses, as a multiple of the threshold of touch: its largest weighed displacement
 /// (a [`Maker::trace`]) from its beginning until as long after the focal instant.
-pub fn pulse_felt(made: &Made, trace: &[f64]) -> f64 {
+pub(crate) fn pulse_felt(made: &Made, trace: &[f64]) -> f64 {
     felt(trace, made.drive.rate(), 2 * made.instant + 1)
 }
 

@@ -34,7 +34,8 @@ pub struct Feeling {
 #[derive(Debug)]
 pub struct Feeler {
     handle: Handle,
-    finger: Finger,
+    /// What each finger weighs on the surface with; nothing where they only look.
+    finger: Option<Finger>,
     outline: Outline,
     /// Who is in each slot, whether they press on the surface yet, whether they have left since the last look, and where they are.
     slots: Vec<Option<u64>>,
@@ -63,7 +64,7 @@ impl Feeler {
         handle.watch(&places, STRIDE)?;
         Ok(Self {
             handle,
-            finger: surface.finger,
+            finger: Some(surface.finger),
             outline,
             slots: vec![None; most],
             pressing: vec![false; most],
@@ -73,6 +74,11 @@ impl Feeler {
             disc: DISC * Medium::of(&surface.sheet).lambda_min(surface.emission.band[1]),
             moved: false,
         })
+    }
+
+    /// The same with fingers that weigh nothing: what is told is what the free surface does where they are.
+    pub fn weightless(self) -> Self {
+        Self { finger: None, ..self }
     }
 
     /// A finger came, moved or went. One for which there is no slot is not felt; one for which the surface has no room while others
@@ -121,10 +127,11 @@ impl Feeler {
         if std::mem::take(&mut self.moved) {
             self.handle.move_watched(&self.places)?;
         }
+        let Some(finger) = self.finger else { return Ok(()) };
         let here = self.slots.iter().zip(&self.left).map(|(slot, left)| slot.filter(|_| !left));
         let slots = here.zip(&self.places).zip(&mut self.pressing);
         for ((id, at), pressing) in slots.filter(|(_, pressing)| !**pressing) {
-            let contact = Contact { at: *at, finger: self.finger };
+            let contact = Contact { at: *at, finger };
             *pressing = id.is_some_and(|id| self.handle.touch(id, &contact).is_ok());
         }
         Ok(())

@@ -3,7 +3,7 @@ use clap::Args;
 use std::path::PathBuf;
 
 /// The device, and what is virtual about it.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct DeviceOptions {
     /// What plays and listens.
     #[arg(long, value_enum, default_value_t)]

@@ -5,6 +5,7 @@ mod export;
 mod fit;
 mod names;
 mod play;
+mod view;
 
 pub use calibrate::{CalibrateOptions, DeviceOptions};
 use clap::{Args, Parser, Subcommand};
@@ -13,6 +14,7 @@ pub use fit::FitOptions;
 pub use names::{BetweenName, DeviceName, LossName, MethodName, WayName};
 pub use play::{DoctorOptions, PlayOptions, TouchOptions};
 use std::path::PathBuf;
+pub use view::ViewOptions;
 
 /// Waves that meet under a fingertip: design, simulate and focus a reverberant touch surface.
 ///
@@ -49,6 +51,8 @@ pub enum Command {
     Export(ExportOptions),
     /// A surface that answers fingers, live: touches in, waves out.
     Play(PlayOptions),
+    /// The surface in a browser: touched, read, designed, compared.
+    View(ViewOptions),
     /// The model fitted to what actuators hear of each other, and its responses anywhere.
     Fit(FitOptions),
     /// All faults of a surface file.

@@ -14,6 +14,18 @@ pub enum DeviceName {
     Tape,
 }
 
+impl DeviceName {
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Virtual => "virtual",
+            Self::Jack => "jack",
+            Self::Card => "card",
+            Self::Tape => "tape",
+        }
+    }
+}
+
 /// How a place is measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum WayName {

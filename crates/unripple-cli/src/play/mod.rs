@@ -1,6 +1,5 @@
 //! `unripple play`: a surface that answers fingers, live.
 
-mod level;
 mod open;
 mod report;
 mod touches;
@@ -10,6 +9,7 @@ use crate::error::CliError;
 use crate::targets::{positive, seconds};
 use crate::{input, judge, output};
 use open::Opened;
+pub use open::{late, opener};
 use report::Report;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,7 +17,7 @@ use touches::Touches;
 use unripple::core::{Drive, Responses, Surface};
 use unripple::physics::Medium;
 use unripple_calibrate::{Ping, PingOptions};
-use unripple_live::{Engine, Follower, LiveError, LiveOptions, Maker, Pulse, Stage, Window};
+use unripple_live::{Engine, Follower, Level, LiveError, LiveOptions, Maker, Pulse, Stage, Window};
 use unripple_store::{load_effects, write_wav};
 
 /// Most of a drive that is kept, in s.
@@ -50,7 +50,7 @@ pub fn run(options: &PlayOptions, as_json: bool) -> Result<(), CliError> {
     let mut settings = LiveOptions::new(&surface, window.seconds);
     settings.focus.method = options.method.method();
     let maker = maker(&surface, &responses, &settings)?;
-    let level = level::Level::of(&surface, &maker, options.full_limit)?;
+    let level = Level::of(&surface, &maker, options.full_limit)?;
     settings.full = level.full;
     let (touches, sources) = Touches::open(&options.touch, &surface)?;
     let Opened { device, feeler, latency } = open::open(options, &surface, touches.live)?;
@@ -106,7 +106,7 @@ fn seconds_to_play(options: &PlayOptions, lasts: Option<f64>) -> Result<Option<f
 }
 
 /// Becomes true when somebody wants to stop.
-fn interrupted() -> Result<Arc<AtomicBool>, CliError> {
+pub fn interrupted() -> Result<Arc<AtomicBool>, CliError> {
     let stop = Arc::new(AtomicBool::new(false));
     let own = stop.clone();
     ctrlc::set_handler(move || own.store(true, Ordering::Relaxed)).map_err(CliError::work)?;
@@ -114,7 +114,7 @@ fn interrupted() -> Result<Arc<AtomicBool>, CliError> {
 }
 
 /// What follows the tension of a surface that is known by its modes.
-fn follower(
+pub fn follower(
     surface: &Surface,
     responses: &Responses,
     settings: &LiveOptions,

@@ -1,14 +1,16 @@
 //! The device that a surface is played through.
 
-use crate::args::{DeviceName, PlayOptions};
+use crate::args::{DeviceName, DeviceOptions, PlayOptions};
 use crate::error::CliError;
 use crate::{judge, open};
 use std::f64::consts::TAU;
+use std::sync::Arc;
 use unripple::core::{Device, ModalResponses, Surface};
 use unripple::physics::{Medium, StepperOptions};
 use unripple_calibrate::{Tracker, Tracking, Warp};
 use unripple_devices::{DevicesError, Jack, JackOptions, VirtualOptions};
 use unripple_live::{Feeler, Recovering};
+use unripple_viewer::Opener;
 
 /// Fingers that a virtual surface bears at once, those that are being lifted included.
 const FINGERS: usize = 24;
@@ -45,8 +47,8 @@ pub struct Opened {
 pub fn open(options: &PlayOptions, surface: &Surface, live: bool) -> Result<Opened, CliError> {
     match options.device.device {
         DeviceName::Virtual => virtual_surface(options, surface, live),
-        DeviceName::Jack => jack(options, surface),
-        DeviceName::Card => card(options, surface),
+        DeviceName::Jack => jack(&options.device, surface, heard(options, surface)),
+        DeviceName::Card => card(&options.device, surface, heard(options, surface)),
         DeviceName::Tape => Err(CliError::Input(
             "--device tape: expected a device that plays while touches come, found files (--keep-drive writes one)".into(),
         )),
@@ -75,22 +77,52 @@ fn drift(percent: f64) -> Vec<(f64, f64)> {
     (0..=knots).map(|i| (at(i), 1.0 + percent / 100.0 * (TAU * at(i) / MINUTE).sin())).collect()
 }
 
-fn jack(options: &PlayOptions, surface: &Surface) -> Result<Opened, CliError> {
-    let usual = open::jack(&options.device, surface, heard(options, surface));
+/// Opens the device that options name, all actuators heard or none: a virtual surface only if it is not the one that it is said to be, and
+/// then by the clock on the wall.
+pub fn opener(options: &DeviceOptions, hears: bool) -> Opener {
+    let options = options.clone();
+    Arc::new(move |surface| {
+        let heard = || if hears { open::names(surface) } else { Vec::new() };
+        let opened = match options.device {
+            DeviceName::Virtual => truth(&options, surface),
+            DeviceName::Jack => jack(&options, surface, heard()).map(|opened| opened.device),
+            DeviceName::Card => card(&options, surface, heard()).map(|opened| opened.device),
+            DeviceName::Tape => {
+                Err(CliError::Input("expected a device that plays while touches come, found files".into()))
+            }
+        };
+        opened.map_err(|error| error.to_string())
+    })
+}
+
+/// Samples by which what such a device hears comes after what was sent, for blocks of some length.
+pub fn late(options: &DeviceOptions, block: usize) -> usize {
+    if options.device == DeviceName::Virtual { 0 } else { (LEAD + 1) * block }
+}
+
+fn truth(options: &DeviceOptions, surface: &Surface) -> Result<Box<dyn Device>, CliError> {
+    let plain =
+        VirtualOptions { accuracy: judge::accuracy(surface), real_time: true, ..VirtualOptions::default() };
+    let (device, _) = open::virtual_surface(options, surface, &plain).map_err(CliError::input)?;
+    Ok(Box::new(device))
+}
+
+fn jack(options: &DeviceOptions, surface: &Surface, heard: Vec<String>) -> Result<Opened, CliError> {
+    let usual = open::jack(options, surface, heard);
     let known = JackOptions { lead: LEAD, ..usual };
     recovering(move || Ok(Box::new(Jack::open(&known)?)))
 }
 
 #[cfg(feature = "cards")]
-fn card(options: &PlayOptions, surface: &Surface) -> Result<Opened, CliError> {
+fn card(options: &DeviceOptions, surface: &Surface, heard: Vec<String>) -> Result<Opened, CliError> {
     use unripple_devices::cards::{Card, CardOptions};
-    let usual = open::card(&options.device, surface, heard(options, surface));
+    let usual = open::card(options, surface, heard);
     let known = CardOptions { strict: false, ..usual };
     recovering(move || Ok(Box::new(Card::open(&known)?)))
 }
 
 #[cfg(not(feature = "cards"))]
-fn card(_: &PlayOptions, _: &Surface) -> Result<Opened, CliError> {
+fn card(_: &DeviceOptions, _: &Surface, _: Vec<String>) -> Result<Opened, CliError> {
     let text = "--device card: expected a build with sound cards, found one without; ";
     Err(CliError::Input(format!("{text}{}", crate::devices::HOW_TO_GET_CARDS)))
 }

@@ -1,11 +1,10 @@
 //! What was played and felt.
 
-use super::level::Level;
 use serde::Serialize;
 use std::fmt::Write;
 use unripple::core::{State, Surface};
 use unripple_calibrate::Drift;
-use unripple_live::{Engine, Feeling, Percentiles, Pulse, Stage, Window};
+use unripple_live::{Engine, Feeling, Level, Percentiles, Pulse, Stage, Window};
 use unripple_player::Count;
 
 /// A sitting, SI units.

@@ -1,14 +1,15 @@
-//! How strongly a surface is played.
-
-use crate::error::CliError;
+use crate::drives::pulse_felt;
+use crate::{Full, LiveError, Maker};
 use std::fmt;
-use unripple::core::{Point, Surface};
-use unripple_live::{Full, Maker, pulse_felt};
+use unripple_core::{Point, Surface};
 
 /// Share of the sheet's thickness that a full pulse moves it by, unless told otherwise: well within linear theory.
 const SHARE: f64 = 0.5;
 
-/// What a gain of 1 stands for.
+/// How strongly a surface is played: what a gain of 1 stands for.
+///
+/// A drive at the limit may move a sheet by many times its thickness, which no sheet follows linearly. So a full pulse is one that moves it
+/// by half its thickness, unless the limit is asked for or gives less.
 #[derive(Clone, Copy, Debug)]
 pub struct Level {
     /// What a full pulse or waveform is felt like, and where that was found; the surface's own limit where `None`.
@@ -19,8 +20,12 @@ pub struct Level {
 }
 
 impl Level {
-    /// As much as the surface's own limit allows, or less: what is felt of a pulse that moves the sheet by half its thickness.
-    pub fn of(surface: &Surface, maker: &Maker, limited: bool) -> Result<Self, CliError> {
+    /// What is felt of a pulse that moves the sheet by half its thickness; as much as the surface's own limit allows where that is less, or
+    /// if `limited` asks for it.
+    ///
+    /// # Errors
+    /// Those of [`Maker::focus`].
+    pub fn of(surface: &Surface, maker: &Maker, limited: bool) -> Result<Self, LiveError> {
         let limit = surface.emission.limit;
         let (width, height) = surface.outline.extent();
         let place = surface.outline.nearest(Point::new(0.41 * width, 0.6 * height));

@@ -1,0 +1,74 @@
+// How the surface answers a touch: effect, method, window, rate; and what is shown of it.
+
+import { el, setOptions, setText } from './dom.js';
+import { fixed } from './units.js';
+
+const FREE = ['Places are touched without being held down: the free surface, as ', 'focus', ' computes it.'];
+const HELD = 'Each finger loads the film (its mass, damping, stiffness): it holds the place down, and waves meet around it.';
+
+/** A field with a label; the unit stands in the label. */
+function field(text, unit, control) {
+  return el('label', { class: 'field' }, el('span', {}, `${text} `, unit ? el('i', { text: unit }) : null), control);
+}
+
+/** The level as told, without the option of the command line that it may end in. */
+export function levelText(level) {
+  return (level ?? '').replace(/\s*\(--full-limit\)\s*$/, '');
+}
+
+/** Whether fingers weigh on the surface, and what that means; hidden where the server knows no such setting. */
+function weightPart(app, send) {
+  const box = el('input', { type: 'checkbox', 'aria-describedby': 'weight-note', on: { change: () => send({ load: box.checked }) } });
+  const note = el('p', { class: 'quiet', id: 'weight-note' });
+  const part = el('div', { hidden: true }, el('label', { class: 'check' }, box, 'Fingers weigh on the surface'), note);
+  app.state.subscribe('settings', ({ load }) => {
+    part.hidden = typeof load !== 'boolean';
+    box.checked = load === true;
+    if (note.dataset.load === String(load)) return;
+    note.dataset.load = String(load);
+    note.replaceChildren(...(load ? [HELD] : [FREE[0], el('code', { class: 'mono' }, FREE[1]), FREE[2]]));
+  });
+  // What was refused is put back to what holds.
+  app.state.subscribe('fault', () => {
+    box.checked = app.state.last('settings')?.load === true;
+  });
+  return part;
+}
+
+/** The settings of the live surface. */
+export function mount(root, app) {
+  const send = (change) => app.link.send({ do: 'settings', ...change });
+  const effect = el('select', { on: { change: () => send({ effect: effect.value }) } });
+  const method = el('select', { on: { change: () => send({ method: method.value }) } });
+  const number = (name, props) => {
+    const input = el('input', { type: 'number', inputmode: 'decimal', step: 'any', ...props });
+    input.addEventListener('change', () => {
+      const value = input.value.trim() === '' ? null : Number(input.value);
+      if (!input.checkValidity() || (value === null && name !== 'window_ms')) input.reportValidity();
+      else send({ [name]: value });
+    });
+    return input;
+  };
+  const window = number('window_ms', { min: '0.1', max: '1000' });
+  const rate = number('rate_hz', { min: '0.1', max: '500', required: true });
+  const level = el('p', { class: 'quiet' });
+  const weight = weightPart(app, send);
+  root.append(
+    el('h2', { text: 'Answer to a touch' }),
+    el('div', { class: 'grid2' },
+      field('Effect', '', effect), field('Method', '', method),
+      field('Window', 'ms', window), field('Rate', 'Hz', rate)),
+    level, weight,
+  );
+  const quantity = document.getElementById('quantity');
+  quantity.addEventListener('change', () => send({ quantity: quantity.value }));
+  app.state.subscribe('settings', (settings) => {
+    setOptions(effect, (settings.effects ?? []).map((e) => [e.name, e.title ?? e.name]), settings.effect);
+    setOptions(method, (settings.methods ?? []).map((m) => [m.name, m.name]), settings.method);
+    if (document.activeElement !== quantity) quantity.value = settings.quantity;
+    window.placeholder = `${fixed(settings.window_auto_ms)} (automatic)`;
+    if (document.activeElement !== window) window.value = settings.window_ms == null ? '' : String(Number(settings.window_ms.toPrecision(5)));
+    if (document.activeElement !== rate) rate.value = settings.rate_hz ?? '';
+    setText(level, levelText(settings.level));
+  });
+}

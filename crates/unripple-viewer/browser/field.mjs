@@ -1,0 +1,72 @@
+// What the page shows of the field, as numbers; and the moment that it shows.
+
+import { last, told, until } from './page.mjs';
+
+/** Where the field shown has its largest magnitude, in all or within `reach` mm of `around`; and its rms, SI. */
+export function largest(page, around = null, reach = Infinity) {
+  return page.evaluate(([from, most]) => {
+    const { values, at_mm, time_s } = window.unripple.map.field();
+    const near = ([x, y]) => from === null || Math.hypot(x - from[0], y - from[1]) <= most;
+    let cell = -1;
+    let square = 0;
+    values.forEach((value, i) => {
+      square += value * value;
+      if ((cell < 0 || Math.abs(value) > Math.abs(values[cell])) && near(at_mm(i))) cell = i;
+    });
+    return { peak: Math.abs(values[cell]), at_mm: at_mm(cell), rms: Math.sqrt(square / values.length), time_s };
+  }, [around, reach]);
+}
+
+/** How far two places are apart. */
+export const apart = ([x, y], [u, v]) => Math.hypot(x - u, y - v);
+
+/** Remembers the first picture in which so many fingers rest; the function returned waits for its time, in s. */
+export async function whenTouched(page, fingers = 1) {
+  await page.evaluate((count) => {
+    window.touched = null;
+    const stop = window.unripple.state.subscribe('frame', ({ head }) => {
+      if (head.fingers.length < count || window.touched !== null) return;
+      window.touched = head.time_s;
+      stop?.();
+    });
+  }, fingers);
+  return () => until('a picture of the fingers', () => page.evaluate(() => window.touched), (time) => time !== null);
+}
+
+/** Lets time pass at about a fiftieth of its pace, by the button that is nearest. */
+export async function slow(page) {
+  const speeds = await page.locator('#stops button').evaluateAll((stops) => stops.map((stop) => Number(stop.dataset.speed)));
+  const away = speeds.map((speed) => Math.abs(Math.log(speed * 50)));
+  const nearest = away.indexOf(Math.min(...away));
+  await page.locator('#stops button').nth(nearest).click();
+  await told(page, 'settings', ({ speed }) => Math.abs(speed / speeds[nearest] - 1) < 1e-6);
+}
+
+/** Shows a moment, in s, by the slider; what is remembered of it is at most a millisecond away. */
+export async function scrub(page, time) {
+  const shown = () => page.evaluate(() => window.unripple.map.frame().head.time_s);
+  await page.evaluate((value) => {
+    const slider = document.getElementById('scrub');
+    slider.value = String(value);
+    slider.dispatchEvent(new Event('input', { bubbles: true }));
+  }, time);
+  await until(`the moment ${time}`, shown, (found) => Math.abs(found - time) < 3e-4);
+}
+
+/** Waits until the surface has got to a time, in s. */
+export function passed(page, time) {
+  return until(`${time} s on the surface`, () => last(page, 'status'), (status) => status.head_s > time);
+}
+
+/** Shows the instant between two, in s, in which the field moves most at some places; returns it. */
+export async function strongest(page, places, from, to, step = 4e-4) {
+  let best = [0, from];
+  for (let time = from; time <= to; time += step) {
+    await scrub(page, time);
+    const found = await Promise.all(places.map((at) => largest(page, at, 1)));
+    const moved = found.reduce((sum, { peak }) => sum + peak, 0);
+    if (moved > best[0]) best = [moved, found[0].time_s];
+  }
+  await scrub(page, best[1]);
+  return best[1];
+}

@@ -1,0 +1,110 @@
+// Fingers make waves run together where they are.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { apart, largest, passed, scrub, slow, strongest, whenTouched } from './field.mjs';
+import { last, open, pixel, press, shoot, told, unharmed } from './page.mjs';
+import { serve } from './program.mjs';
+import { Socket } from './socket.mjs';
+
+const PLACE = [62, 90];
+const FIVE = [[30, 110], [62, 90], [75, 40], [110, 60], [118, 118]];
+
+/** A touch waits for a block of the surface to begin, its drive for the next: at most so long, in s. */
+const BLOCKS = 3e-3;
+
+/** Stops the surface when the first pulse of a touch is over, and shows how it looked when that came to its focus. */
+async function toFocus(page, touched, places) {
+  const due = touched + (await last(page, 'settings')).window_auto_ms / 1e3;
+  await passed(page, due + BLOCKS);
+  await page.locator('#map-0').press('k');
+  await told(page, 'settings', ({ paused }) => paused);
+  await scrub(page, due - 2 * BLOCKS);
+  const before = await largest(page, PLACE, 3);
+  const focus = await strongest(page, places, due - BLOCKS, due + BLOCKS);
+  return { before, focus };
+}
+
+/** Lets time pass again, for whoever comes next. */
+async function goOn(page) {
+  await page.locator('#map-0').press('n');
+  await told(page, 'settings', ({ paused }) => !paused);
+}
+
+/** Whether fingers weigh on the sheet, as any page can say. */
+async function weigh(page, port, load) {
+  const socket = await Socket.open(port);
+  socket.send({ do: 'settings', load });
+  await told(page, 'settings', (settings) => settings.load === load);
+  socket.end();
+}
+
+test('fingers', async (t) => {
+  const { url, port } = await serve(t, 'hudin-2012');
+  let light = 0;
+
+  await t.test('one makes the field largest where it presses, a window later', async (t) => {
+    const page = await open(t, url);
+    await slow(page);
+    const touch = await whenTouched(page);
+    const lift = await press(page, PLACE);
+    const touched = await touch();
+    const { before, focus } = await toFocus(page, touched, [PLACE]);
+    const found = await largest(page);
+    await shoot(page, 'focus');
+    t.diagnostic(`largest at ${found.at_mm.map((mm) => mm.toFixed(1))} mm, ${((focus - touched) * 1e3).toFixed(1)} ms after the touch`);
+    assert.ok(apart(found.at_mm, PLACE) <= 3, `the field is largest at ${found.at_mm} mm`);
+    assert.ok(found.peak > 2 * before.peak, `${found.peak} m at the focus, ${before.peak} m before it`);
+    light = (await largest(page, PLACE, 1)).peak;
+    await lift();
+    unharmed(page);
+    await goOn(page);
+  });
+
+  await t.test('one that weighs on the sheet stills it', async (t) => {
+    const page = await open(t, url);
+    await weigh(page, port, true);
+    await slow(page);
+    const touch = await whenTouched(page);
+    const lift = await press(page, PLACE);
+    await toFocus(page, await touch(), [PLACE]);
+    const { peak } = await largest(page, PLACE, 1);
+    await shoot(page, 'focus-weighed');
+    t.diagnostic(`${(peak * 1e6).toFixed(1)} µm under a finger that weighs, ${(light * 1e6).toFixed(1)} µm under one that does not`);
+    assert.ok(peak < 0.7 * light, `${peak} m under a finger that weighs, ${light} m under one that does not`);
+    await lift();
+    await weigh(page, port, false);
+    unharmed(page);
+    await goOn(page);
+  });
+
+  await t.test('five at once have five focuses', async (t) => {
+    const page = await open(t, url, { hasTouch: true });
+    await slow(page);
+    const touchPoints = await Promise.all(FIVE.map(async (mm, id) => {
+      const [x, y] = await pixel(page, mm);
+      return { x, y, id };
+    }));
+    const cdp = await page.context().newCDPSession(page);
+    const touch = await whenTouched(page, FIVE.length);
+    await cdp.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints });
+    const touched = await touch();
+    const { fingers } = await told(page, 'status', (status) => status.fingers.length === FIVE.length);
+    for (const mm of FIVE) assert.ok(fingers.some(({ at_mm }) => apart(at_mm, mm) < 0.5), `${mm} is none of ${JSON.stringify(fingers)}`);
+    await toFocus(page, touched, FIVE);
+    await shoot(page, 'five-focuses');
+    const due = touched + (await last(page, 'settings')).window_auto_ms / 1e3;
+    for (const mm of FIVE) {
+      // Touches of one moment may be taken in two blocks; each has an instant of its own then.
+      await strongest(page, [mm], due - BLOCKS, due + BLOCKS);
+      const found = await largest(page, mm, 9);
+      // Five meet at once and disturb one another: within the focal spot, whose half width is 5.1 mm.
+      assert.ok(apart(found.at_mm, mm) <= 5.1, `about ${mm} the field is largest at ${found.at_mm} mm`);
+      assert.ok(found.peak > 3 * found.rms, `${found.peak} m at ${mm} mm, ${found.rms} m everywhere`);
+    }
+    await goOn(page);
+    await cdp.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+    await told(page, 'status', (status) => status.fingers.length === 0);
+    unharmed(page);
+  });
+});

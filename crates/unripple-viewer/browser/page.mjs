@@ -1,0 +1,106 @@
+// Pages in headless Chromium, watched for faults that nobody would see.
+
+import assert from 'node:assert/strict';
+import { existsSync } from 'node:fs';
+import { mkdir } from 'node:fs/promises';
+import { createRequire } from 'node:module';
+import { delimiter, join } from 'node:path';
+import { after } from 'node:test';
+import { setTimeout } from 'node:timers/promises';
+import { packages, screenshots } from './program.mjs';
+
+const { chromium } = createRequire(packages)('playwright-core');
+
+const ARGS = [
+  '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+  '--disable-component-update', '--disable-sync', '--enable-unsafe-swiftshader',
+];
+const NAMES = ['chromium', 'chromium-browser', 'google-chrome'];
+
+/** Longest that anything of the page is waited for, in ms: a busy machine is slow, not wrong. */
+export const PATIENCE = 20000;
+
+let browser = null;
+after(async () => (await browser)?.close());
+
+/** The browser of all tests. */
+export function launch() {
+  const found = (process.env.PATH ?? '').split(delimiter).flatMap((place) => NAMES.map((name) => join(place, name))).find(existsSync);
+  browser ??= chromium.launch({ executablePath: process.env.CHROMIUM ?? found, headless: true, args: ARGS });
+  return browser;
+}
+
+/** Opens a viewer's page and waits for its first picture. `page.faults` collects errors and failed requests. */
+export async function open(t, url, options = {}) {
+  const context = await (await launch()).newContext({ viewport: { width: 1280, height: 860 }, ...options });
+  t.after(() => context.close());
+  const page = await context.newPage();
+  page.setDefaultTimeout(PATIENCE);
+  page.faults = [];
+  page.on('console', (line) => line.type() === 'error' && page.faults.push(`console: ${line.text()}`));
+  page.on('pageerror', (error) => page.faults.push(`thrown: ${error.message}`));
+  page.on('requestfailed', (request) => page.faults.push(`failed: ${request.url()}`));
+  page.on('response', (response) => response.status() >= 400 && page.faults.push(`${response.status()}: ${response.url()}`));
+  await page.goto(url);
+  await drawn(page, 0).catch((error) => {
+    throw new Error(`${error.message}; the page had ${JSON.stringify(page.faults)}`);
+  });
+  return page;
+}
+
+/** Asks again and again until the answer holds, and returns it; a page's policy forbids to wait within it. */
+export async function until(what, ask, holds = Boolean) {
+  const began = Date.now();
+  for (;;) {
+    const found = await ask();
+    if (holds(found)) return found;
+    if (Date.now() - began > PATIENCE) throw new Error(`waited in vain for ${what}; found last: ${JSON.stringify(found)?.slice(0, 400)}`);
+    await setTimeout(40);
+  }
+}
+
+/** The last message of a kind. */
+export function last(page, kind) {
+  return page.evaluate((name) => window.unripple?.state.last(name) ?? null, kind);
+}
+
+/** Waits until the last message of a kind is as `holds` says; returns it. */
+export function told(page, kind, holds = Boolean) {
+  return until(`a message: ${kind}`, () => last(page, kind), (message) => message !== null && holds(message));
+}
+
+/** Waits until the page has drawn so many more pictures. */
+export async function drawn(page, more = 1) {
+  const number = () => page.evaluate(() => (window.unripple?.map.field() ? window.unripple.map.frame().head.frame : -1));
+  const first = await until('a picture', number, (frame) => frame >= 0);
+  await until('newer pictures', number, (frame) => frame >= first + more || (frame >= 0 && frame < first));
+}
+
+/** Where a place in mm lies in the window, in CSS pixels. */
+export async function pixel(page, mm, pane = 0) {
+  return page.evaluate(([at, number]) => {
+    const map = window.unripple.map.maps[number];
+    const box = map.canvas.getBoundingClientRect();
+    const [x, y] = map.view().toPx(at);
+    return [box.left + x, box.top + y];
+  }, [mm, pane]);
+}
+
+/** Presses a place with the mouse; what is returned lifts it. */
+export async function press(page, mm) {
+  const [x, y] = await pixel(page, mm);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  return () => page.mouse.up();
+}
+
+/** A picture of the page for whoever wants to look. */
+export async function shoot(page, name) {
+  await mkdir(screenshots, { recursive: true });
+  await page.screenshot({ path: join(screenshots, `${name}.png`) });
+}
+
+/** Nothing went wrong unseen, but for what is expected. */
+export function unharmed(page, expected = /^$/) {
+  assert.deepEqual(page.faults.filter((fault) => !expected.test(fault)), []);
+}

@@ -1,0 +1,14 @@
+// All tests in one process, so that they share one browser.
+
+import './compare.test.mjs';
+import './figures.test.mjs';
+import './file.test.mjs';
+import './focus.test.mjs';
+import './guard.test.mjs';
+import './keyboard.test.mjs';
+import './malformed.test.mjs';
+import './narrow.test.mjs';
+import './opens.test.mjs';
+import './return.test.mjs';
+import './stories.test.mjs';
+import './viewers.test.mjs';

@@ -1,0 +1,112 @@
+use super::Bench;
+use serde_json::{Map, Value, json};
+use std::sync::Arc;
+use std::time::Instant;
+use unripple::act::ActError;
+use unripple::contrast_map::ContrastMap;
+use unripple::core::{Point, Surface};
+use unripple::drafting::{Draft, Figure, Spot};
+
+/// Cells of the map along the longer side.
+const ACROSS: usize = 24;
+
+/// Where a focus is judged on a surface that nobody has touched, as shares of its sides: (62, 90) mm on the paper's.
+const PLACE: [f64; 2] = [62.0 / 150.0, 0.6];
+
+impl Bench {
+    /// Computes and tells what a surface can do, the quickest first; what another edit overtakes is left.
+    pub(super) fn design(&mut self, edit: u64, surface: Surface) {
+        let mut told = Stage::new(edit);
+        if let Ok(figures) = Draft::by_law(&surface) {
+            told.add("figures", json!(figures.iter().map(figure).collect::<Vec<_>>()));
+            self.show(&told);
+        }
+        let place = self.place.filter(|place| surface.outline.contains(*place));
+        let place = place.unwrap_or_else(|| usual(&surface));
+        let found = self.stages(&mut told, &surface, place);
+        if let Err(error) = found {
+            told.add("fault", json!(error.to_string()));
+        }
+        told.add("done", json!(true));
+        self.show(&told);
+    }
+
+    fn stages(&mut self, told: &mut Stage, surface: &Surface, place: Point) -> Result<(), ActError> {
+        let draft = Arc::new(Draft::of(surface)?);
+        told.add("figures", json!(draft.figures().iter().map(figure).collect::<Vec<_>>()));
+        self.show(told);
+        self.draft = Some(draft.clone());
+        if self.is_overtaken() {
+            return Ok(());
+        }
+        told.add("act", spot(&draft.spot(place, None)?));
+        self.show(told);
+        if self.is_overtaken() {
+            return Ok(());
+        }
+        told.add("map", map(&draft.map(None, ACROSS)?));
+        Ok(())
+    }
+
+    fn show(&self, told: &Stage) {
+        self.board.tell("design", &told.message());
+    }
+}
+
+/// What has been found so far.
+struct Stage {
+    began: Instant,
+    found: Map<String, Value>,
+}
+
+impl Stage {
+    fn new(edit: u64) -> Self {
+        let mut found = Map::new();
+        found.insert("is".into(), json!("design"));
+        found.insert("edit".into(), json!(edit));
+        found.insert("done".into(), json!(false));
+        Self { began: Instant::now(), found }
+    }
+
+    fn add(&mut self, key: &str, value: Value) {
+        self.found.insert(key.into(), value);
+        self.found.insert("seconds".into(), json!(self.began.elapsed().as_secs_f64()));
+    }
+
+    fn message(&self) -> &Map<String, Value> {
+        &self.found
+    }
+}
+
+fn figure(figure: &Figure) -> Value {
+    json!(figure)
+}
+
+fn usual(surface: &Surface) -> Point {
+    let (width, height) = surface.outline.extent();
+    let place = Point::new(PLACE[0] * width, PLACE[1] * height);
+    if surface.outline.contains(place) { place } else { surface.outline.nearest(place) }
+}
+
+fn spot(spot: &Spot) -> Value {
+    json!({
+        "at_mm": [spot.at.x * 1e3, spot.at.y * 1e3],
+        "window_ms": spot.window * 1e3,
+        "contrast": spot.contrast,
+        "peak_velocity_m_s": spot.peak_velocity,
+    })
+}
+
+fn map(map: &ContrastMap) -> Value {
+    let contrast: Vec<Option<f64>> =
+        map.contrast.iter().map(|c| c.map(|c| (c * 1e3).round() / 1e3)).collect();
+    let grid = &map.grid;
+    let pitch = [grid.width * 1e3, grid.height * 1e3];
+    json!({
+        "columns": grid.columns,
+        "rows": grid.rows,
+        "origin_mm": pitch.map(|mm| mm / 2.0),
+        "pitch_mm": pitch,
+        "contrast": contrast,
+    })
+}

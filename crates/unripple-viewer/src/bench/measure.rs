@@ -1,0 +1,111 @@
+use super::{Bench, method, options, places, text};
+use crate::spectrum::spectrum;
+use crate::studio::Measured;
+use crate::wire::Measure;
+use serde_json::{Value, json};
+use std::time::Instant;
+use unripple::act::{Act, Acted, Level};
+use unripple::core::{Drive, Surface};
+use unripple::field::Trace;
+use unripple::focus::{Method, Target};
+use unripple_store::encode_wav;
+
+/// Points of a drive or trace that are drawn.
+const DRAWN: usize = 480;
+
+impl Bench {
+    /// Measures one act, and tells all figures of it.
+    pub(super) fn measure(&mut self, measure: &Measure) -> Result<(), String> {
+        let began = Instant::now();
+        let places = places(&measure.at);
+        let (surface, responses) = self.known(&places)?;
+        let method = measure.method.as_deref().map_or(Ok(Method::default()), method)?;
+        let window = measure.window_ms.filter(|ms| *ms > 0.0).map(|ms| ms * 1e-3);
+        let options = options(&surface, &responses, method, window);
+        let targets: Vec<Target> = places.into_iter().map(Target::at).collect();
+        let level = measure.peak_um.filter(|um| *um > 0.0).map_or(Level::Limit, |um| Level::Peak(um * 1e-6));
+        let act =
+            Act { surface: &surface, responses: &responses, targets: &targets, options: &options, level };
+        let acted = act.run().map_err(text)?;
+        let report = acted.report(&surface, &options);
+        let value = serde_json::to_value(&report).map_err(|error| error.to_string())?;
+        let message = json!({
+            "is": "measured",
+            "id": measure.id,
+            "command": command(&self.source, measure, method),
+            "report": value,
+            "traces": traces(&acted),
+            "spectrum": spectrum(&acted, surface.emission.band[1]),
+            "drive": drive(&acted.drive, &surface),
+            "seconds": began.elapsed().as_secs_f64(),
+        });
+        let json = serde_json::to_string_pretty(&value).map_err(|error| error.to_string())?;
+        let wav = encode_wav(&acted.drive).map_err(|error| error.to_string())?;
+        let files = Measured { drive: wav, json, markdown: report.markdown() };
+        *self.measured.lock().unwrap_or_else(|poisoned| poisoned.into_inner()) = Some(files);
+        self.board.tell("measured", &message);
+        Ok(())
+    }
+}
+
+/// What to type for the same act.
+fn command(source: &str, measure: &Measure, method: Method) -> String {
+    let mut command = format!("unripple focus {source}");
+    for [x, y] in &measure.at {
+        command += &format!(" --at {x},{y}");
+    }
+    if method != Method::default() {
+        command += &format!(" --method {method}");
+    }
+    if let Some(ms) = measure.window_ms.filter(|ms| *ms > 0.0) {
+        command += &format!(" --window-ms {ms}");
+    }
+    if let Some(um) = measure.peak_um.filter(|um| *um > 0.0) {
+        command += &format!(" --peak-um {um}");
+    }
+    command + " -o out"
+}
+
+fn traces(acted: &Acted) -> Vec<Value> {
+    let rate = acted.drive.rate();
+    let trace = |(number, trace): (usize, &Trace)| {
+        let scaled =
+            |values: &[f64], factor: f64| values.iter().map(|x| round(x * factor)).collect::<Vec<f64>>();
+        json!({
+            "name": format!("target {number}"),
+            "rate": rate,
+            "start_s": 0.0,
+            "displacement_um": scaled(&trace.displacement, 1e6),
+            "velocity_m_s": scaled(&trace.velocity, 1.0),
+        })
+    };
+    (1..).zip(&acted.judged.traces).map(trace).collect()
+}
+
+fn drive(drive: &Drive, surface: &Surface) -> Value {
+    let channels = drive.channels();
+    let peak = |channel: &Vec<f64>| channel.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let square =
+        |channel: &Vec<f64>| channel.iter().map(|x| x * x).sum::<f64>() / channel.len().max(1) as f64;
+    json!({
+        "rate": drive.rate(),
+        "seconds": drive.duration(),
+        "peak": channels.iter().map(peak).collect::<Vec<_>>(),
+        "rms": channels.iter().map(|channel| square(channel).sqrt()).collect::<Vec<_>>(),
+        "limit": vec![surface.emission.limit; channels.len()],
+        "rms_limit": surface.emission.rms_limit,
+        "preview": channels.iter().map(|channel| preview(channel)).collect::<Vec<_>>(),
+    })
+}
+
+/// A channel in few points: of each stretch the value farthest from 0.
+fn preview(channel: &[f64]) -> Vec<f64> {
+    let stretch = channel.len().div_ceil(DRAWN).max(1);
+    let farthest = |part: &[f64]| part.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()));
+    channel.chunks(stretch).filter_map(farthest).map(round).collect()
+}
+
+/// Seven digits are more than a picture can tell.
+fn round(value: f64) -> f64 {
+    format!("{value:.6e}").parse().unwrap_or(value)
+}

@@ -1,0 +1,106 @@
+use axum::body::Bytes;
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard};
+use tokio::sync::watch;
+
+/// Something that is to be shown to all pages.
+#[derive(Clone, Debug)]
+pub enum Notice {
+    /// JSON.
+    Text(Arc<str>),
+    /// A picture of the field.
+    Frame(Bytes, u64),
+}
+
+/// What all pages are to be shown: of each kind of thing the newest. A page takes what it has not seen when it has time, so that a slow
+/// one misses some and keeps nobody waiting.
+#[derive(Debug)]
+pub struct Board {
+    posted: Mutex<BTreeMap<String, (u64, Notice)>>,
+    version: watch::Sender<u64>,
+    viewers: AtomicUsize,
+    frames: AtomicUsize,
+}
+
+impl Board {
+    /// An empty one.
+    pub fn new() -> Self {
+        let (version, _) = watch::channel(0);
+        Self {
+            posted: Mutex::new(BTreeMap::new()),
+            version,
+            viewers: AtomicUsize::new(0),
+            frames: AtomicUsize::new(0),
+        }
+    }
+
+    /// Puts a notice in place of the last of its kind. Never waits for a page.
+    pub fn post(&self, kind: &str, notice: Notice) {
+        if matches!(notice, Notice::Frame(..)) {
+            self.frames.fetch_add(1, Ordering::Relaxed);
+        }
+        let mut posted = self.lock();
+        let version = *self.version.borrow() + 1;
+        posted.insert(kind.to_owned(), (version, notice));
+        drop(posted);
+        self.version.send_replace(version);
+    }
+
+    /// Puts up JSON.
+    pub fn tell(&self, kind: &str, message: &impl serde::Serialize) {
+        // What is told is made of numbers and names: always JSON.
+        if let Ok(text) = serde_json::to_string(message) {
+            self.post(kind, Notice::Text(text.into()));
+        }
+    }
+
+    /// Takes a notice away.
+    pub fn withdraw(&self, kind: &str) {
+        self.lock().remove(kind);
+    }
+
+    /// All that was put up after a version, oldest first, and the version of each.
+    pub fn since(&self, version: u64) -> Vec<(u64, Notice)> {
+        let posted = self.lock();
+        let mut fresh: Vec<(u64, Notice)> =
+            posted.values().filter(|(at, _)| *at > version).cloned().collect();
+        fresh.sort_by_key(|(at, _)| *at);
+        fresh
+    }
+
+    /// The newest of a kind.
+    pub fn newest(&self, kind: &str) -> Option<Notice> {
+        self.lock().get(kind).map(|(_, notice)| notice.clone())
+    }
+
+    /// Tells when something is put up.
+    pub fn watch(&self) -> watch::Receiver<u64> {
+        self.version.subscribe()
+    }
+
+    /// A page came.
+    pub fn enter(&self) {
+        self.viewers.fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// A page left.
+    pub fn leave(&self) {
+        self.viewers.fetch_sub(1, Ordering::Relaxed);
+    }
+
+    /// Pages there are.
+    pub fn viewers(&self) -> usize {
+        self.viewers.load(Ordering::Relaxed)
+    }
+
+    /// Frames put up so far.
+    pub fn frames(&self) -> usize {
+        self.frames.load(Ordering::Relaxed)
+    }
+
+    /// What another thread left behind when it panicked can still be read.
+    fn lock(&self) -> MutexGuard<'_, BTreeMap<String, (u64, Notice)>> {
+        self.posted.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+    }
+}

@@ -1,0 +1,77 @@
+use super::places;
+use crate::wire::Edit;
+use unripple::core::{Decay, Edge, Edges, Material, Outline, Point, Shape, Surface};
+
+/// A surface with changes. What they make of it is checked by whoever asks: names that do not exist go through as they are.
+pub fn apply(surface: &Surface, edit: &Edit) -> Surface {
+    let mut surface = surface.clone();
+    sheet(&mut surface, edit);
+    if let Some(shape) = shape(edit) {
+        reshape(&mut surface, shape);
+    }
+    if let Some(edge) = edit.edge.as_deref().and_then(edge) {
+        surface.outline.edges = Edges::All(edge);
+    }
+    if let Some(count) = edit.actuators {
+        places::fill(&mut surface, count);
+    }
+    if let (Some(index), Some([x, y])) = (edit.actuator, edit.at_mm)
+        && let Some(actuator) = surface.actuators.get_mut(index)
+    {
+        actuator.at = Point::from_mm(x, y);
+    }
+    surface
+}
+
+fn sheet(surface: &mut Surface, edit: &Edit) {
+    let sheet = &mut surface.sheet;
+    if let Some(name) = &edit.material {
+        sheet.material.clone_from(name);
+        if let Some(material) = Material::named(name) {
+            sheet.young = material.young;
+            sheet.density = material.density;
+            sheet.poisson = material.poisson;
+            sheet.strength = Some(material.strength);
+        }
+    }
+    sheet.thickness = edit.thickness_mm.map_or(sheet.thickness, |mm| mm * 1e-3);
+    sheet.tension = edit.tension_n_per_m.unwrap_or(sheet.tension);
+    if let Some(ms) = edit.decay_time_ms {
+        sheet.decay = Decay::Time(ms * 1e-3);
+    }
+    surface.emission.band[1] = edit.band_top_hz.unwrap_or(surface.emission.band[1]);
+}
+
+fn shape(edit: &Edit) -> Option<Shape> {
+    let m = |mm: f64| mm * 1e-3;
+    let rectangle = edit.rectangle_mm.map(|[w, h]| Shape::Rectangle { width: m(w), height: m(h) });
+    let circle = edit.circle_mm.map(|radius| Shape::Circle { radius: m(radius) });
+    let stadium = edit.stadium_mm.map(|[s, r]| Shape::Stadium { straight: m(s), radius: m(r) });
+    rectangle.or(circle).or(stadium)
+}
+
+/// An edge by name.
+pub fn edge(name: &str) -> Option<Edge> {
+    match name {
+        "clamped" => Some(Edge::Clamped),
+        "supported" => Some(Edge::Supported),
+        "free" => Some(Edge::Free),
+        _ => None,
+    }
+}
+
+/// Gives the sheet another outline; actuators go along in proportion, and onto the sheet where they would not be.
+fn reshape(surface: &mut Surface, shape: Shape) {
+    let (width, height) = surface.outline.extent();
+    let edges = match &surface.outline.edges {
+        Edges::All(edge) => *edge,
+        Edges::PerSide(list) => list.first().copied().unwrap_or(Edge::Clamped),
+    };
+    let holes = std::mem::take(&mut surface.outline.holes);
+    surface.outline = Outline { holes, ..Outline::new(shape).with_edges(Edges::All(edges)) };
+    let (wide, high) = surface.outline.extent();
+    for actuator in &mut surface.actuators {
+        let at = Point::new(actuator.at.x * wide / width, actuator.at.y * high / height);
+        actuator.at = places::onto(&surface.outline, at);
+    }
+}

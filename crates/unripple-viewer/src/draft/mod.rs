@@ -1,0 +1,171 @@
+//! The surface that is being designed: edits, and the way back.
+
+mod apply;
+mod places;
+
+pub use apply::apply;
+
+use crate::ViewError;
+use crate::wire::Edit;
+use apply::edge;
+use unripple::core::{MATERIALS, Material, Surface};
+use unripple_store::{parse_surface, to_toml};
+
+/// Surfaces that can be gone back to.
+const MOST: usize = 200;
+
+/// A surface, and those it was before.
+///
+/// ```
+/// use unripple_viewer::{Draft, Edit};
+///
+/// let mut draft = Draft::new(unripple::physics::design::papers_surface());
+/// draft.edit(&Edit { actuator: Some(0), at_mm: Some([30.0, 40.0]), ..Edit::default() })?;
+/// assert!((draft.surface().actuators[0].at.x - 0.03).abs() < 1e-12);
+/// assert!(draft.undo());
+/// # Ok::<(), unripple_viewer::ViewError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Draft {
+    surface: Surface,
+    /// Before the edit that is under way, if it is not settled.
+    base: Option<Surface>,
+    past: Vec<Surface>,
+    future: Vec<Surface>,
+}
+
+impl Draft {
+    /// Begins with a surface.
+    pub fn new(surface: Surface) -> Self {
+        Self { surface, base: None, past: Vec::new(), future: Vec::new() }
+    }
+
+    /// As it is now.
+    pub fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// Whether there is a way back, and one forth.
+    pub fn ways(&self) -> (bool, bool) {
+        (!self.past.is_empty(), !self.future.is_empty())
+    }
+
+    /// Changes it; edits that are not settled are one with the next.
+    ///
+    /// # Errors
+    /// [`ViewError::Range`] for names and actuators that there are not, [`ViewError::Store`] with all faults of the surface that it would
+    /// be; it stays as it was.
+    pub fn edit(&mut self, edit: &Edit) -> Result<(), ViewError> {
+        known(edit, self.surface.actuators.len())?;
+        let edited = checked(&apply(&self.surface, edit))?;
+        let before = std::mem::replace(&mut self.surface, edited);
+        let base = self.base.take().unwrap_or(before);
+        if edit.settled == Some(false) {
+            self.base = Some(base);
+        } else if base != self.surface {
+            self.keep(base);
+        }
+        Ok(())
+    }
+
+    /// Goes over to another surface, with a way back.
+    pub fn replace(&mut self, surface: Surface) {
+        let before = std::mem::replace(&mut self.surface, surface);
+        let base = self.base.take().unwrap_or(before);
+        self.keep(base);
+    }
+
+    /// Back; whether there was a way.
+    pub fn undo(&mut self) -> bool {
+        if let Some(base) = self.base.take() {
+            self.keep(base);
+        }
+        let Some(before) = self.past.pop() else { return false };
+        self.future.push(std::mem::replace(&mut self.surface, before));
+        true
+    }
+
+    /// Forth; whether there was a way.
+    pub fn redo(&mut self) -> bool {
+        let Some(next) = self.future.pop() else { return false };
+        self.past.push(std::mem::replace(&mut self.surface, next));
+        true
+    }
+
+    fn keep(&mut self, before: Surface) {
+        self.future.clear();
+        self.past.push(before);
+        if self.past.len() > MOST {
+            self.past.remove(0);
+        }
+    }
+}
+
+/// Refuses what no surface can become.
+fn known(edit: &Edit, actuators: usize) -> Result<(), ViewError> {
+    let refuse =
+        |what, expected: String, found: &str| Err(ViewError::Range { what, expected, found: found.into() });
+    if let Some(name) = edit.material.as_deref().filter(|name| Material::named(name).is_none()) {
+        let names = MATERIALS.iter().map(|material| material.name).collect::<Vec<_>>();
+        return refuse("material", names.join(", "), name);
+    }
+    if let Some(name) = edit.edge.as_deref().filter(|name| edge(name).is_none()) {
+        return refuse("edge", "clamped, supported or free".into(), name);
+    }
+    let actuators = edit.actuators.unwrap_or(actuators);
+    match edit.actuator {
+        Some(index) if index >= actuators => {
+            refuse("actuator", format!("less than {actuators}, their number"), &index.to_string())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The surface as its file says it: what cannot be in a file is refused here, and what is saved is what is shown.
+fn checked(surface: &Surface) -> Result<Surface, ViewError> {
+    parse_surface(&to_toml(surface), &surface.name).map_err(|faults| ViewError::Store(faults.into()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use unripple::physics::design::papers_surface;
+
+    fn tension(value: f64, settled: bool) -> Edit {
+        Edit { tension_n_per_m: Some(value), settled: Some(settled), ..Edit::default() }
+    }
+
+    #[test]
+    fn a_drag_is_one_step_back() {
+        let mut draft = Draft::new(papers_surface());
+        for value in [210.0, 220.0, 230.0] {
+            draft.edit(&tension(value, false)).unwrap();
+        }
+        draft.edit(&tension(240.0, true)).unwrap();
+        draft.edit(&tension(100.0, true)).unwrap();
+        assert!(draft.undo() && draft.surface().sheet.tension == 240.0);
+        assert!(draft.undo() && draft.surface().sheet.tension == 200.0);
+        assert!(!draft.undo());
+        assert!(draft.redo() && draft.surface().sheet.tension == 240.0);
+        draft.edit(&tension(50.0, true)).unwrap();
+        assert!(!draft.redo());
+    }
+
+    #[test]
+    fn what_cannot_be_is_refused_and_nothing_changes() {
+        let mut draft = Draft::new(papers_surface());
+        let away = Edit { actuator: Some(0), at_mm: Some([900.0, 10.0]), ..Edit::default() };
+        let why = draft.edit(&away).unwrap_err().to_string();
+        assert!(why.starts_with("actuator[0].at_mm: expected"), "{why}");
+        for edit in [
+            Edit { material: Some("unobtainium".into()), ..Edit::default() },
+            Edit { edge: Some("magic".into()), ..Edit::default() },
+            Edit { actuator: Some(8), at_mm: Some([9.0, 9.0]), ..Edit::default() },
+            Edit { thickness_mm: Some(0.0), ..Edit::default() },
+        ] {
+            assert!(draft.edit(&edit).unwrap_err().to_string().contains("expected"));
+        }
+        assert_eq!(draft.surface(), &papers_surface());
+        assert_eq!(draft.ways(), (false, false));
+    }
+}

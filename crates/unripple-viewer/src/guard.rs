@@ -1,0 +1,159 @@
+use axum::http::{HeaderMap, Uri, header};
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, UdpSocket};
+
+/// Who may speak with the server.
+///
+/// A page of another site can make a browser send requests here, and a name that resolves to this machine can pass for this machine's own.
+/// So the name that was asked for must be this server's, and a page that opens a link must come from it. Where the network may listen,
+/// the address holds a token besides.
+#[derive(Clone, Debug)]
+pub struct Guard {
+    address: SocketAddr,
+    token: Option<String>,
+}
+
+/// What a request must bring besides the right host.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Needs {
+    /// Nothing more.
+    Nothing,
+    /// The token, where there is one.
+    Token,
+    /// The token, and the page's own origin.
+    Origin,
+}
+
+/// Why somebody is turned away.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Turned {
+    /// The name that was asked for is not this server's.
+    Host,
+    /// The page comes from elsewhere.
+    Origin,
+    /// The token is missing or wrong.
+    Token,
+}
+
+impl Guard {
+    /// For a server that listens at an address, with a token where others than this machine may come.
+    pub fn new(address: SocketAddr, token: Option<String>) -> Self {
+        Self { address, token }
+    }
+
+    /// The address to open on this machine, the token in it.
+    pub fn url(&self) -> String {
+        let local = if self.address.is_ipv4() {
+            IpAddr::V4(Ipv4Addr::LOCALHOST)
+        } else {
+            IpAddr::V6(Ipv6Addr::LOCALHOST)
+        };
+        let ip = if self.address.ip().is_unspecified() { local } else { self.address.ip() };
+        self.at(ip)
+    }
+
+    /// The address to open on another machine, if any can come.
+    pub fn elsewhere(&self) -> Option<String> {
+        match self.address.ip() {
+            ip if ip.is_loopback() => None,
+            ip if ip.is_unspecified() => outward().map(|ip| self.at(ip)),
+            ip => Some(self.at(ip)),
+        }
+    }
+
+    fn at(&self, ip: IpAddr) -> String {
+        let token = self.token.as_ref().map_or(String::new(), |token| format!("?token={token}"));
+        format!("http://{}/{token}", SocketAddr::new(ip, self.address.port()))
+    }
+
+    /// Lets a request through, or says why not.
+    pub fn check(&self, uri: &Uri, headers: &HeaderMap, needs: Needs) -> Result<(), Turned> {
+        let text = |name| headers.get(name).and_then(|value| value.to_str().ok());
+        let host = text(header::HOST).filter(|host| self.is_ours(host)).ok_or(Turned::Host)?;
+        let same = |origin: &str| origin.strip_prefix("http://").is_some_and(|from| from == host);
+        match text(header::ORIGIN) {
+            Some(origin) if !same(origin) => return Err(Turned::Origin),
+            None if needs == Needs::Origin => return Err(Turned::Origin),
+            _ => {}
+        }
+        let asked = uri.query().unwrap_or_default().split('&').find_map(|pair| pair.strip_prefix("token="));
+        match &self.token {
+            Some(token) if needs != Needs::Nothing && !asked.is_some_and(|asked| alike(asked, token)) => {
+                Err(Turned::Token)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether a host is this server: an address of numbers with its port, which no foreign name can pretend to be, or `localhost`.
+    fn is_ours(&self, host: &str) -> bool {
+        let port = self.address.port();
+        let local = host == format!("localhost:{port}");
+        let numbers = host.parse::<SocketAddr>().is_ok_and(|address| {
+            let ours = address.ip() == self.address.ip() || self.address.ip().is_unspecified();
+            let port = address.port() == port;
+            port && (ours || address.ip().is_loopback())
+        });
+        local || numbers
+    }
+}
+
+/// This machine's address towards the rest of the world, if there is one. Nothing is sent: the system is asked which way it would be.
+fn outward() -> Option<IpAddr> {
+    let socket = UdpSocket::bind((Ipv4Addr::UNSPECIFIED, 0)).ok()?;
+    socket.connect((Ipv4Addr::new(192, 0, 2, 1), 9)).ok()?;
+    socket.local_addr().ok().map(|address| address.ip()).filter(|ip| !ip.is_unspecified())
+}
+
+/// Whether two texts are the same, in a time that does not tell where they differ.
+fn alike(one: &str, other: &str) -> bool {
+    let differ = one.bytes().zip(other.bytes()).fold(0, |differ, (a, b)| differ | (a ^ b));
+    one.len() == other.len() && differ == 0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn asked(guard: &Guard, uri: &str, host: &str, origin: Option<&str>, needs: Needs) -> Result<(), Turned> {
+        let mut headers = HeaderMap::new();
+        headers.insert(header::HOST, host.parse().unwrap());
+        if let Some(origin) = origin {
+            headers.insert(header::ORIGIN, origin.parse().unwrap());
+        }
+        guard.check(&uri.parse().unwrap(), &headers, needs)
+    }
+
+    #[test]
+    fn only_own_pages_come_in() {
+        let guard = Guard::new("127.0.0.1:8417".parse().unwrap(), None);
+        let own = Some("http://127.0.0.1:8417");
+        assert_eq!(asked(&guard, "/link", "127.0.0.1:8417", own, Needs::Origin), Ok(()));
+        assert_eq!(
+            asked(&guard, "/link", "localhost:8417", Some("http://localhost:8417"), Needs::Origin),
+            Ok(())
+        );
+        assert_eq!(asked(&guard, "/", "127.0.0.1:8417", None, Needs::Token), Ok(()));
+        assert_eq!(asked(&guard, "/link", "127.0.0.1:8417", None, Needs::Origin), Err(Turned::Origin));
+        for origin in ["http://evil.example", "null", "http://127.0.0.1:8418", "https://127.0.0.1:8417"] {
+            assert_eq!(asked(&guard, "/", "127.0.0.1:8417", Some(origin), Needs::Token), Err(Turned::Origin));
+        }
+        for host in ["evil.example:8417", "127.0.0.1:80", "10.0.0.1:8417", "127.0.0.1"] {
+            assert_eq!(asked(&guard, "/", host, None, Needs::Token), Err(Turned::Host), "{host}");
+        }
+    }
+
+    #[test]
+    fn the_network_needs_the_token() {
+        let guard = Guard::new("0.0.0.0:8417".parse().unwrap(), Some("abc123".into()));
+        let host = "192.168.1.7:8417";
+        assert_eq!(asked(&guard, "/?x=1&token=abc123", host, None, Needs::Token), Ok(()));
+        for uri in ["/", "/?token=", "/?token=abc12", "/?token=abc1234", "/?token=abc124"] {
+            assert_eq!(asked(&guard, uri, host, None, Needs::Token), Err(Turned::Token), "{uri}");
+        }
+        assert_eq!(asked(&guard, "/assets/app.js", host, None, Needs::Nothing), Ok(()));
+        assert_eq!(
+            asked(&guard, "/?token=abc123", "name.example:8417", None, Needs::Token),
+            Err(Turned::Host)
+        );
+    }
+}

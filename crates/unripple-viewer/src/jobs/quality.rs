@@ -1,0 +1,52 @@
+use serde_json::{Value, json};
+use std::path::PathBuf;
+use unripple::core::Point;
+use unripple_store::{Library, PointState};
+
+/// How far a library has got that another program is filling, and how good it is.
+pub struct Progress {
+    folder: PathBuf,
+    /// Signal over noise of points that were looked at, in dB: what is measured stays.
+    known: Vec<Option<f64>>,
+}
+
+impl Progress {
+    /// Of a library that may not be there yet.
+    pub fn of(folder: PathBuf) -> Self {
+        Self { folder, known: Vec::new() }
+    }
+
+    /// The share that is done, and what each point is like.
+    pub fn look(&mut self) -> (Option<f64>, Value) {
+        let Ok(library) = Library::open(&self.folder) else { return (None, Value::Null) };
+        let points = library.points();
+        self.known.resize(points.len(), None);
+        let mut done = 0;
+        let mut told = Vec::with_capacity(points.len());
+        for (index, at) in points.iter().enumerate() {
+            let state = library.state(index).unwrap_or_default();
+            done += usize::from(state != PointState::Missing);
+            if state == PointState::Measured && self.known[index].is_none() {
+                self.known[index] = worst(&library, index);
+            }
+            told.push(self.point(*at, state, self.known[index]));
+        }
+        (Some(done as f64 / points.len().max(1) as f64), json!({ "points": told }))
+    }
+
+    fn point(&self, at: Point, state: PointState, db: Option<f64>) -> Value {
+        let state = match state {
+            PointState::Missing => "todo",
+            PointState::Measured => "done",
+            PointState::Bad => "bad",
+        };
+        json!({ "at_mm": [at.x * 1e3, at.y * 1e3], "db": db, "state": state })
+    }
+}
+
+/// The worst of a point's responses, in dB over the noise.
+fn worst(library: &Library, point: usize) -> Option<f64> {
+    let qualities = library.quality(point).ok()?;
+    let levels = qualities.iter().map(|quality| quality.signal_to_noise_db).filter(|db| db.is_finite());
+    levels.reduce(f64::min)
+}

@@ -1,0 +1,152 @@
+use super::quality::Progress;
+use crate::board::Board;
+use serde_json::{Value, json};
+use std::collections::VecDeque;
+use std::io::{BufRead, BufReader, Read};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard};
+use std::time::Duration;
+
+/// Lines that are shown, how long each may be, and most bytes of a result.
+const LINES: usize = 12;
+const LONGEST: usize = 400;
+const RESULT: u64 = 8 << 20;
+
+/// How often a job is looked at.
+const LOOKED: Duration = Duration::from_millis(400);
+
+/// A program at work beside this one.
+pub struct Running {
+    /// Its number.
+    pub id: u64,
+    kind: String,
+    command: String,
+    stopped: AtomicBool,
+    over: AtomicBool,
+    lines: Mutex<VecDeque<String>>,
+}
+
+impl Running {
+    /// Starts this program with other arguments; what it writes on standard error is shown, and the JSON on standard output at its end.
+    ///
+    /// # Errors
+    /// Why it cannot be started.
+    pub fn start(
+        id: u64,
+        program: &Path,
+        arguments: Vec<String>,
+        library: Option<PathBuf>,
+        surface: PathBuf,
+        board: Arc<Board>,
+    ) -> Result<Arc<Self>, String> {
+        let mut command = Command::new(program);
+        command.args(&arguments).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let child = command.spawn().map_err(|error| format!("starting {}: {error}", program.display()))?;
+        let kind = arguments.first().cloned().unwrap_or_default();
+        let shown: Vec<&str> =
+            arguments.iter().map(String::as_str).filter(|word| *word != "--json").collect();
+        let running = Arc::new(Self {
+            id,
+            kind,
+            command: format!("unripple {}", shown.join(" ")),
+            stopped: AtomicBool::new(false),
+            over: AtomicBool::new(false),
+            lines: Mutex::new(VecDeque::new()),
+        });
+        let own = running.clone();
+        let watch = move || own.watch(child, library, surface, &board);
+        std::thread::Builder::new().name("job".into()).spawn(watch).map_err(|error| error.to_string())?;
+        Ok(running)
+    }
+
+    /// Has it ended.
+    pub fn stop(&self) {
+        self.stopped.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether it has ended.
+    pub fn is_over(&self) -> bool {
+        self.over.load(Ordering::Relaxed)
+    }
+
+    fn watch(self: Arc<Self>, mut child: Child, library: Option<PathBuf>, surface: PathBuf, board: &Board) {
+        let said = self.clone();
+        let errors = child.stderr.take().map(|errors| std::thread::spawn(move || said.listen(errors)));
+        let output = child.stdout.take().map(|output| {
+            std::thread::spawn(move || {
+                let mut text = String::new();
+                // What is no text is no JSON.
+                let _ = output.take(RESULT).read_to_string(&mut text);
+                text
+            })
+        });
+        let mut progress = library.map(Progress::of);
+        let ended = loop {
+            if self.stopped.load(Ordering::Relaxed) {
+                // One that has ended already cannot be ended.
+                let _ = child.kill();
+            }
+            match child.try_wait() {
+                Ok(None) => {}
+                Ok(Some(status)) => break status.success(),
+                Err(_) => break false,
+            }
+            self.tell(board, "running", Value::Null, progress.as_mut());
+            std::thread::sleep(LOOKED);
+        };
+        let text = output.and_then(|output| output.join().ok()).unwrap_or_default();
+        if let Some(errors) = errors {
+            // A reader that panicked has read enough.
+            let _ = errors.join();
+        }
+        // A file that is gone already need not be removed.
+        let _ = std::fs::remove_file(surface);
+        let result: Value = serde_json::from_str(&text).unwrap_or_default();
+        // The doctor finds faults and says so with its exit status: what it found is an answer all the same.
+        let state = match (self.stopped.load(Ordering::Relaxed), ended || !result.is_null()) {
+            (true, _) => "stopped",
+            (false, true) => "done",
+            (false, false) => "failed",
+        };
+        self.over.store(true, Ordering::Relaxed);
+        self.tell(board, state, result, progress.as_mut());
+    }
+
+    fn listen(&self, errors: impl Read) {
+        for line in BufReader::new(errors).split(b'\n').map_while(Result::ok) {
+            let line = String::from_utf8_lossy(&line).chars().take(LONGEST).collect();
+            let mut lines = self.lock();
+            if lines.len() == LINES {
+                lines.pop_front();
+            }
+            lines.push_back(line);
+        }
+    }
+
+    fn tell(&self, board: &Board, state: &str, result: Value, progress: Option<&mut Progress>) {
+        let quality = progress.map(Progress::look);
+        let (share, quality) = match quality {
+            Some((share, quality)) => (share, quality),
+            None => (None, Value::Null),
+        };
+        let message = json!({
+            "is": "job",
+            "id": self.id,
+            "kind": self.kind,
+            "command": self.command,
+            "state": state,
+            "progress": share,
+            "lines": &*self.lock(),
+            "result": result,
+            "quality": quality,
+        });
+        board.tell(&format!("job {}", self.kind), &message);
+    }
+
+    /// What another thread left behind when it panicked can still be read.
+    fn lock(&self) -> MutexGuard<'_, VecDeque<String>> {
+        self.lines.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+    }
+}

@@ -1,0 +1,200 @@
+use super::lens::Lens;
+use super::pad::{Pad, Pressed};
+use super::tape::Tape;
+use super::works::{Away, Works};
+use crate::ViewError;
+use std::sync::Arc;
+use std::sync::mpsc::Sender;
+use unripple::core::{Device, Responses, SampledResponses, Surface};
+use unripple::focus::Method;
+use unripple::physics::stepper::{Plant, StepperOptions};
+use unripple::physics::{Medium, Modes, ResponseOptions, responses};
+use unripple_calibrate::Ping;
+use unripple_devices::{Handle, Virtual, VirtualOptions};
+use unripple_effects::EffectSet;
+use unripple_live::{Engine, Feeler, Follower, Level, LiveOptions, Maker, Window};
+use unripple_store::{builtin_effect, builtin_effects, parse_effects};
+use unripple_touch::Sources;
+
+/// Cells along the longer side of the picture.
+pub const CELLS: usize = 128;
+
+/// Fingers that are felt at once, and those that the sheet bears, the ones being lifted included.
+const FINGERS: usize = 10;
+const BORNE: usize = 24;
+
+/// Samples per block of a surface that is stepped here.
+const BLOCK: usize = 64;
+
+/// How long is remembered, in s, and most bytes that this may take.
+const REMEMBERED: f64 = 1.0;
+const MOST_BYTES: usize = 256 << 20;
+
+/// States that are remembered per period of the highest frequency.
+const STATES: f64 = 4.0;
+
+/// The effect of a page that asks for none: pulses at the finger while it rests.
+pub const PULSES: &str = "pulses";
+
+/// Opens a device for a surface.
+pub type Opener = Arc<dyn Fn(&Surface) -> Result<Box<dyn Device>, String> + Send + Sync>;
+
+/// Makes what follows the tension of a surface that is played with some options, in blocks of some length.
+pub type Follow =
+    Arc<dyn Fn(&Surface, &LiveOptions, usize) -> Result<(Follower, Ping), String> + Send + Sync>;
+
+/// What a surface is played with.
+#[derive(Clone)]
+pub struct Spec {
+    /// The surface.
+    pub surface: Surface,
+    /// Its responses, where they were measured.
+    pub stored: Option<Arc<SampledResponses>>,
+    /// How drives are made.
+    pub method: Method,
+    /// What a touch sets off: [`PULSES`] or a built-in effect.
+    pub effect: String,
+    /// The window in s; the one that suits live play where `None`.
+    pub window: Option<f64>,
+    /// Pulses per second, of [`PULSES`].
+    pub rate: f64,
+    /// Whether fingers weigh on the surface that is computed.
+    pub load: bool,
+    /// A real device; the surface is stepped here where `None`.
+    pub device: Option<Opener>,
+    /// What follows its tension, if it is to be followed.
+    pub follow: Option<Follow>,
+}
+
+/// A surface ready to be touched and looked at.
+pub struct Instrument {
+    /// What it was made from.
+    pub spec: Spec,
+    /// What plays, and the surface that moves.
+    pub works: Works,
+    /// The surface, as it is computed here.
+    pub handle: Handle,
+    /// Its modes, to be read anywhere.
+    pub plant: Plant,
+    /// The picture.
+    pub lens: Lens,
+    /// Who is told of pages' fingers.
+    pub pad: Sender<Pressed>,
+    /// What was driven lately.
+    pub tape: Tape,
+    /// The window, in s, and what it gives.
+    pub window: Window,
+    /// The window that suits live play.
+    pub suggested: Window,
+    /// What a gain of 1 stands for.
+    pub level: Level,
+}
+
+impl Instrument {
+    /// Makes all of it; takes some tenths of a second, and seconds for a sheet that needs a mesh.
+    ///
+    /// # Errors
+    /// Those of each part.
+    pub fn build(spec: Spec) -> Result<Self, ViewError> {
+        let surface = &spec.surface;
+        let accuracy = unripple::act::accuracy(surface);
+        let suggested = Window::prompt(surface);
+        let window = spec.window.map_or(suggested, |seconds| Window::of(surface, seconds));
+        let mut options = LiveOptions::new(surface, window.seconds);
+        options.focus.method = spec.method;
+        let maker = maker(&spec, accuracy, &options)?;
+        let level = Level::of(surface, &maker, false)?;
+        options.full = level.full;
+
+        let stepper = StepperOptions { max_fingers: BORNE, ..StepperOptions::default() };
+        let made = VirtualOptions { block: BLOCK, stepper, accuracy, ..VirtualOptions::default() };
+        let device = spec.device.as_ref().map(|open| open(surface)).transpose();
+        let device = device.map_err(|why| ViewError::Device { why })?;
+        let block = device.as_ref().map_or(BLOCK, |device| device.layout().block);
+        let modes = Arc::new(Modes::solve(surface, surface.emission.band[1], accuracy)?);
+        let shadow = Virtual::with_modes(surface, modes, &VirtualOptions { block, ..made })?;
+        let handle = shadow.handle();
+        let plant = handle.plant();
+        remember(&handle, surface, plant.modes())?;
+
+        let (pad, source) = Pad::new(&surface.outline);
+        let mut sources = Sources::new(&surface.outline);
+        sources.push(Box::new(source));
+        let set = effect(&spec)?;
+        let feeler = Feeler::new(handle.clone(), surface, FINGERS)?;
+        let feeler = if spec.load { feeler } else { feeler.weightless() };
+        let works = match device {
+            None => {
+                let engine = Engine::new(surface, maker, &set, sources, Box::new(shadow), &options)?;
+                Works::Here(Box::new(engine.with_feeler(feeler)))
+            }
+            Some(device) => {
+                let (device, drive) = Away::listen(device);
+                let mut engine = Engine::new(surface, maker, &set, sources, device, &options)?;
+                if let Some(follow) = &spec.follow {
+                    let (follower, ping) =
+                        follow(surface, &options, block).map_err(|why| ViewError::Device { why })?;
+                    engine = engine.with_follower(follower, &ping)?;
+                }
+                Works::Away(Box::new(Away::start(engine.with_feeler(feeler), shadow, drive)?))
+            }
+        };
+        let lens = Lens::new(&plant, &surface.outline, CELLS);
+        let tape = Tape::new(surface.actuators.len(), (REMEMBERED * surface.emission.rate) as usize);
+        Ok(Self { works, handle, plant, lens, pad, tape, window, suggested, level, spec })
+    }
+
+    /// Samples per second.
+    pub fn rate(&self) -> f64 {
+        self.spec.surface.emission.rate
+    }
+}
+
+/// What makes drives: of a library, at places between its points.
+fn maker(spec: &Spec, accuracy: f64, options: &LiveOptions) -> Result<Maker, ViewError> {
+    let surface = &spec.surface;
+    match &spec.stored {
+        Some(stored) if spec.method.reverses() => {
+            let medium = Medium::of(&surface.sheet).with_air(surface.sheet.air);
+            Ok(Maker::between(stored.clone(), medium, &options.focus)?)
+        }
+        Some(stored) => {
+            Ok(Maker::new(Arc::new(Responses::Sampled(stored.as_ref().clone())), &options.focus)?)
+        }
+        None => {
+            let options_of = ResponseOptions { accuracy, ..ResponseOptions::default() };
+            Ok(Maker::new(Arc::new(responses(surface, &options_of)?), &options.focus)?)
+        }
+    }
+}
+
+fn remember(handle: &Handle, surface: &Surface, modes: usize) -> Result<(), ViewError> {
+    let rate = surface.emission.rate;
+    let stride = (rate / (STATES * surface.emission.band[1])).floor().max(1.0) as usize;
+    let room = MOST_BYTES / (8 * modes.max(1));
+    let states = ((REMEMBERED * rate) as usize / stride).min(room).max(1);
+    Ok(handle.remember(stride, states)?)
+}
+
+/// What a touch sets off.
+fn effect(spec: &Spec) -> Result<EffectSet, ViewError> {
+    if spec.effect == PULSES {
+        let text = format!("format = 1\n[[effect]]\nkind = \"pulse-train\"\nrate_hz = {}\n", spec.rate);
+        return parse_effects(&text, PULSES).map_err(|faults| ViewError::Store(faults.into()));
+    }
+    builtin_effect(&spec.effect).ok_or_else(|| no_such_effect(&spec.effect))
+}
+
+/// Refuses names of effects that there are not.
+///
+/// # Errors
+/// [`ViewError::Range`].
+pub fn check_effect(name: &str) -> Result<(), ViewError> {
+    if name == PULSES || builtin_effect(name).is_some() { Ok(()) } else { Err(no_such_effect(name)) }
+}
+
+fn no_such_effect(name: &str) -> ViewError {
+    let names = builtin_effects().iter().map(|effect| effect.name);
+    let expected = std::iter::once(PULSES).chain(names).collect::<Vec<_>>().join(", ");
+    ViewError::Range { what: "effect", expected, found: name.into() }
+}

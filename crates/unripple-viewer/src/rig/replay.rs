@@ -1,0 +1,162 @@
+use super::lens::{Lens, product, weights};
+use super::transport::Transport;
+use crate::ViewError;
+use crate::wire::{Frame, Head, Strip};
+use std::sync::Arc;
+use unripple::core::{Drive, Point, Surface};
+use unripple::physics::Modes;
+use unripple::physics::stepper::{History, Plant, StepperOptions, VirtualSurface};
+
+/// Cells along the longer side of each picture: two of these are no more than one of the live surface's.
+const CELLS: usize = 88;
+
+/// How slowly it is played at first, in s of the surface in a second of the page.
+const SPEED: f64 = 0.005;
+
+/// How much of the past a trace shows, in s.
+const SPAN: f64 = 0.02;
+
+/// States that are remembered per period of the highest frequency.
+const STATES: f64 = 4.0;
+
+/// How long after the focus it goes on, in s.
+const AFTER: f64 = 6e-3;
+
+/// One act as it was simulated: a drive on a surface that nobody touches.
+pub struct Pane {
+    history: History,
+    /// Drive of each actuator over its limit.
+    drive: Vec<Vec<f32>>,
+}
+
+/// Acts side by side, played over and over, in step.
+pub struct Replay {
+    panes: Vec<Pane>,
+    lens: Lens,
+    rate: f64,
+    /// The focal instant, in s.
+    focus: f64,
+    targets: Vec<(Point, Vec<f32>)>,
+}
+
+impl Replay {
+    /// Plays drives on a surface from rest until shortly after they focus at some places.
+    ///
+    /// # Errors
+    /// [`ViewError::Physics`] for drives that are not the surface's.
+    pub fn record(
+        surface: &Surface,
+        modes: Arc<Modes>,
+        drives: &[Drive],
+        focus: f64,
+        places: &[Point],
+    ) -> Result<Self, ViewError> {
+        let panes = drives.iter().map(|drive| Pane::record(surface, modes.clone(), drive, focus));
+        let panes = panes.collect::<Result<Vec<Pane>, ViewError>>()?;
+        let plant = Plant::of(surface, modes)?;
+        let lens = Lens::new(&plant, &surface.outline, CELLS);
+        let targets = places.iter().map(|at| (*at, weights(&plant, &[*at]))).collect();
+        Ok(Self { panes, lens, rate: surface.emission.rate, focus, targets })
+    }
+
+    /// The first moment that can be shown, in s.
+    pub fn from(&self) -> f64 {
+        let oldest = |pane: &Pane| {
+            pane.history.newest() as usize - pane.history.stride() * pane.history.len().saturating_sub(1)
+        };
+        self.panes.first().map_or(0.0, |pane| oldest(pane) as f64 / self.rate)
+    }
+
+    /// The last.
+    pub fn to(&self) -> f64 {
+        self.panes.first().map_or(0.0, |pane| pane.history.newest() as f64 / self.rate)
+    }
+
+    /// The focal instant, in s.
+    pub fn focus(&self) -> f64 {
+        self.focus
+    }
+
+    /// From one moment to the next, in s.
+    pub fn state(&self) -> f64 {
+        self.panes.first().map_or(1.0, |pane| pane.history.stride() as f64) / self.rate
+    }
+
+    /// How slowly it is played at first.
+    pub fn speed(&self) -> f64 {
+        SPEED
+    }
+
+    /// It begins with the drive.
+    pub fn start(&self) -> Transport {
+        Transport { now: self.from(), ..Transport::default() }
+    }
+
+    /// After the end comes the beginning.
+    pub fn wrapped(&self, now: f64) -> f64 {
+        if now > self.to() { self.from() } else { now }
+    }
+
+    /// The pictures at a moment, one for each act.
+    pub fn frames(&self, shown: f64, velocity: bool) -> Vec<Frame> {
+        let frame = |(index, pane): (usize, &Pane)| {
+            let history = &pane.history;
+            let back = (history.newest() as f64 - shown * self.rate).max(0.0) / history.stride() as f64;
+            let at = (back.round() as usize).min(history.len().saturating_sub(1));
+            let of = |(u, v)| if velocity { v } else { u };
+            let state = history.state(at).map(of)?;
+            let span = ((SPAN * self.rate) as usize / history.stride()).min(history.len() - at);
+            let trace = |weights: &[f32]| {
+                let states = (at..at + span).rev().filter_map(|back| history.state(back));
+                states.map(|state| product(weights, of(state))).collect::<Vec<f32>>()
+            };
+            let sample = (history.newest() as usize).saturating_sub(at * history.stride());
+            let driven = |channel: &Vec<f32>| channel.get(sample.saturating_sub(1)).copied().unwrap_or(0.0);
+            let head = Head {
+                pane: index,
+                panes: self.panes.len(),
+                columns: self.lens.cells.columns,
+                rows: self.lens.cells.rows,
+                time_s: sample as f64 / self.rate,
+                quantity: if velocity { "velocity" } else { "displacement" },
+                drive: pane.drive.iter().map(driven).collect(),
+                targets: self.targets.iter().map(|(at, _)| mm(*at)).collect(),
+                samples: span,
+                span_s: (span * history.stride()) as f64 / self.rate,
+                traces: (1..).zip(&self.targets).map(strip).collect(),
+                ..Head::default()
+            };
+            let traces = self.targets.iter().map(|(_, weights)| trace(weights)).collect();
+            Some(Frame { head, cells: self.lens.look(state), traces })
+        };
+        self.panes.iter().enumerate().filter_map(frame).collect()
+    }
+}
+
+fn mm(at: Point) -> [f64; 2] {
+    [at.x * 1e3, at.y * 1e3]
+}
+
+fn strip((number, (at, _)): (usize, &(Point, Vec<f32>))) -> Strip {
+    Strip { name: format!("target {number}"), at_mm: mm(*at), scale: 1.0 }
+}
+
+impl Pane {
+    fn record(surface: &Surface, modes: Arc<Modes>, drive: &Drive, focus: f64) -> Result<Self, ViewError> {
+        let mut stepped = VirtualSurface::of(surface, modes, &StepperOptions::default())?;
+        let (rate, channels) = (surface.emission.rate, drive.channels());
+        let frames = ((focus + AFTER) * rate).ceil() as usize;
+        let stride = (rate / (STATES * surface.emission.band[1])).floor().max(1.0) as usize;
+        stepped.remember(stride, (frames / stride).max(1))?;
+        let padded = |channel: &Vec<f64>| {
+            let silence = std::iter::repeat(0.0);
+            channel.iter().copied().chain(silence).take(frames).collect::<Vec<f64>>()
+        };
+        let planes: Vec<f64> = channels.iter().flat_map(padded).collect();
+        stepped.process(frames, &planes, &mut [], &mut [])?;
+        let history = stepped.history().cloned().ok_or(ViewError::Gone { why: "no history".into() })?;
+        let share = |x: &f64| (x / surface.emission.limit) as f32;
+        let drive = channels.iter().map(|channel| channel.iter().map(share).collect()).collect();
+        Ok(Self { history, drive })
+    }
+}

@@ -1,0 +1,93 @@
+//! What the rig says of itself.
+
+use super::Rig;
+use crate::wire::Resting;
+use serde::Serialize;
+use serde_json::{Value, json};
+use std::time::Instant;
+use unripple_calibrate::Drift;
+use unripple_live::Feeling;
+
+/// Time over which the drive is looked at, in s.
+const LOOKED: f64 = 0.2;
+
+/// A finger, and what it feels.
+#[derive(Serialize)]
+struct Feels {
+    #[serde(flatten)]
+    resting: Resting,
+    level_db: Option<f64>,
+    contrast: Option<f64>,
+}
+
+impl Rig {
+    /// Tells how the surface fares.
+    pub(super) fn tell(&mut self) {
+        let fingers = std::mem::take(&mut self.known.fingers);
+        self.known = self.instrument.works.look();
+        self.known.fingers = fingers;
+        self.take_pace();
+        let (tail, _) = self.remembered();
+        let head = self.replay.as_ref().map_or(self.transport.now, |replay| replay.to());
+        let (peak, rms) = self.instrument.tape.newest((LOOKED * self.instrument.rate()) as usize);
+        let tally = &self.known.tally;
+        let wrong = self.wrong.as_ref().or(self.known.wrong.as_ref());
+        let feels: Vec<Feels> = self.fingers().into_iter().map(|resting| self.feels(resting)).collect();
+        let status = json!({
+            "is": "status",
+            "clock_s": self.head(),
+            "head_s": head,
+            "shown_s": self.transport.shown(),
+            "tail_s": tail,
+            "speed_real": self.pace.2,
+            "live": self.transport.back.is_none(),
+            "viewers": self.board.viewers(),
+            "frames": self.board.frames(),
+            "fingers": feels,
+            "drive_peak": peak,
+            "rms": rms,
+            "tally": { "started": tally.started, "limited": tally.limited, "lost": self.known.lost, "failed": tally.failed,
+                "failure": tally.failure },
+            "state": wrong.map_or("running", String::as_str),
+            "drift": self.known.drift.as_ref().map(drift),
+        });
+        self.board.tell("status", &status);
+        self.told = Instant::now();
+    }
+
+    fn feels(&self, resting: Resting) -> Feels {
+        let here = |feeling: &&Feeling| feeling.finger == resting.id;
+        let feeling = self.known.feelings.iter().find(here);
+        let (level_db, contrast) = feeling.map_or((None, None), |f| (f.level_db, f.contrast));
+        Feels { resting, level_db, contrast }
+    }
+
+    /// How fast the surface runs beside the clock on the wall.
+    fn take_pace(&mut self) {
+        let (then, clock, _) = self.pace;
+        let seconds = then.elapsed().as_secs_f64();
+        if seconds >= 1.0 {
+            let now = self.transport.now;
+            self.pace = (Instant::now(), now, (now - clock) / seconds);
+        }
+    }
+
+    /// Tells how time passes and what is followed.
+    pub(super) fn tell_transport(&mut self) {
+        let probe =
+            |probe: &super::Probe| json!({ "id": probe.id, "at_mm": [probe.at.x * 1e3, probe.at.y * 1e3] });
+        let transport = json!({
+            "is": "transport",
+            "speed": self.transport.speed,
+            "paused": self.transport.paused,
+            "quantity": if self.velocity { "velocity" } else { "displacement" },
+            "probes": self.probes.iter().map(probe).collect::<Vec<_>>(),
+        });
+        self.board.tell("transport", &transport);
+        self.changed = true;
+    }
+}
+
+fn drift(drift: &Drift) -> Value {
+    json!({ "tension": drift.tension(), "explained": !drift.asks_for_calibration() })
+}

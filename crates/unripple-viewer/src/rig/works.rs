@@ -1,0 +1,179 @@
+use crate::ViewError;
+use rtrb::{Consumer, Producer, RingBuffer};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard};
+use std::thread::JoinHandle;
+use unripple::core::{Device, DeviceError, Layout, Point, State, Status};
+use unripple_calibrate::Drift;
+use unripple_devices::Virtual;
+use unripple_live::{Engine, Feeling, LiveError, Stage, Tally};
+
+/// Blocks of drive that may wait between the audio thread and the picture.
+const WAITING: usize = 512;
+
+/// What plays a surface, and the surface that moves.
+pub enum Works {
+    /// Both here, at whatever pace is asked for.
+    Here(Box<Engine>),
+    /// A real device at its own pace; what it does is computed from the drive it gets.
+    Away(Box<Away>),
+}
+
+/// What is known of the play at the moment.
+#[derive(Clone, Debug, Default)]
+pub struct Known {
+    /// Fingers, by number.
+    pub fingers: Vec<(u64, Point)>,
+    /// What they felt since the last look.
+    pub feelings: Vec<Feeling>,
+    /// What was played and what was not.
+    pub tally: Tally,
+    /// How tension fares, where it is followed.
+    pub drift: Option<Drift>,
+    /// What is wrong; nothing while all runs.
+    pub wrong: Option<String>,
+    /// Blocks that a device lost.
+    pub lost: u64,
+}
+
+impl Known {
+    fn look(&mut self, stage: &mut Stage) {
+        self.fingers = stage.fingers();
+        self.feelings = stage.feelings();
+        self.tally = stage.conductor().tally().clone();
+        self.drift = stage.drift().copied();
+    }
+}
+
+/// A real device, played on threads of its own, and the surface that is computed along with it.
+pub struct Away {
+    shadow: Virtual,
+    drive: Consumer<f32>,
+    known: Arc<Mutex<Known>>,
+    stop: Arc<AtomicBool>,
+    thread: Option<JoinHandle<()>>,
+    /// Blocks of the shadow, and what it hears.
+    block: Vec<f32>,
+    heard: Vec<f32>,
+}
+
+impl Away {
+    /// A device whose drive is overheard.
+    pub fn listen(device: Box<dyn Device>) -> (Box<dyn Device>, Consumer<f32>) {
+        let layout = device.layout();
+        let (drive, overheard) = RingBuffer::new(WAITING * layout.block * layout.outputs.len().max(1));
+        (Box::new(Overheard { device, drive }), overheard)
+    }
+
+    /// Begins to play.
+    ///
+    /// # Errors
+    /// [`ViewError::Gone`] if no thread can be had.
+    pub fn start(mut engine: Engine, shadow: Virtual, drive: Consumer<f32>) -> Result<Self, ViewError> {
+        let (known, stop) = (Arc::new(Mutex::new(Known::default())), Arc::new(AtomicBool::new(false)));
+        let (told, ended) = (known.clone(), stop.clone());
+        let play = move || {
+            let result = engine.run(None, |stage, pulse| {
+                let mut known = lock(&told);
+                known.look(stage);
+                known.lost = pulse.lost;
+                known.wrong = match &pulse.state {
+                    State::Running => None,
+                    state => Some(format!("{state:?}")),
+                };
+                !ended.load(Ordering::Relaxed)
+            });
+            if let Err(error) = result {
+                lock(&told).wrong = Some(error.to_string());
+            }
+        };
+        let thread = std::thread::Builder::new().name("play".into()).spawn(play);
+        let thread = thread.map_err(|error| ViewError::Gone { why: error.to_string() })?;
+        let layout = shadow.layout();
+        let block = vec![0.0; layout.block * layout.outputs.len()];
+        let heard = vec![0.0; layout.block * layout.inputs.len()];
+        Ok(Self { shadow, drive, known, stop, thread: Some(thread), block, heard })
+    }
+
+    /// Lets the shadow go on by a block of what was driven; `None` if there is none yet.
+    pub fn step(&mut self) -> Result<Option<&[f32]>, DeviceError> {
+        let Ok(chunk) = self.drive.read_chunk(self.block.len()) else { return Ok(None) };
+        self.block.iter_mut().zip(chunk).for_each(|(to, x)| *to = x);
+        self.shadow.exchange(&self.block, &mut self.heard)?;
+        Ok(Some(&self.block))
+    }
+}
+
+impl Drop for Away {
+    fn drop(&mut self) {
+        self.stop.store(true, Ordering::Relaxed);
+        if let Some(thread) = self.thread.take() {
+            // It has told already what went wrong.
+            let _ = thread.join();
+        }
+    }
+}
+
+impl Works {
+    /// What is known now.
+    pub fn look(&mut self) -> Known {
+        match self {
+            Self::Here(engine) => {
+                let mut known = Known::default();
+                known.look(engine.stage());
+                known
+            }
+            Self::Away(away) => {
+                let mut known = lock(&away.known);
+                let now = known.clone();
+                known.feelings.clear();
+                now
+            }
+        }
+    }
+
+    /// Fingers, by number.
+    pub fn fingers(&mut self) -> Vec<(u64, Point)> {
+        match self {
+            Self::Here(engine) => engine.stage().fingers(),
+            Self::Away(away) => lock(&away.known).fingers.clone(),
+        }
+    }
+}
+
+/// A block of a surface that is stepped here.
+///
+/// # Errors
+/// Those of [`Engine::step`].
+pub fn step(engine: &mut Engine) -> Result<&[f32], LiveError> {
+    engine.step()?;
+    Ok(engine.heart().drive())
+}
+
+/// A device that tells what it is driven with; what finds no room is lost to the picture alone.
+struct Overheard {
+    device: Box<dyn Device>,
+    drive: Producer<f32>,
+}
+
+impl Device for Overheard {
+    fn layout(&self) -> &Layout {
+        self.device.layout()
+    }
+
+    fn status(&self) -> Status {
+        self.device.status()
+    }
+
+    fn exchange(&mut self, drive: &[f32], heard: &mut [f32]) -> Result<(), DeviceError> {
+        if let Ok(chunk) = self.drive.write_chunk_uninit(drive.len()) {
+            chunk.fill_from_iter(drive.iter().copied());
+        }
+        self.device.exchange(drive, heard)
+    }
+}
+
+/// What another thread left behind when it panicked can still be read.
+fn lock(known: &Mutex<Known>) -> MutexGuard<'_, Known> {
+    known.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+}

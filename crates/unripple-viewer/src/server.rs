@@ -1,0 +1,148 @@
+//! What can be asked over HTTP.
+
+use crate::assets;
+use crate::guard::{Guard, Needs, Turned};
+use crate::link;
+use crate::studio::Studio;
+use axum::Router;
+use axum::body::Bytes;
+use axum::extract::ws::WebSocketUpgrade;
+use axum::extract::{DefaultBodyLimit, Path, Request, State};
+use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::middleware::{Next, from_fn_with_state};
+use axum::response::{IntoResponse, Response};
+use axum::routing::get;
+use std::sync::Arc;
+
+/// Bytes of the largest surface file that is taken.
+const LARGEST: usize = 256 << 10;
+
+/// Pages at once.
+const MOST_PAGES: usize = 64;
+
+/// What a page may load: its own files alone.
+const POLICY: &str = "default-src 'self'; img-src 'self' blob: data:; object-src 'none'; base-uri 'none'; form-action 'none'; \
+    frame-ancestors 'none'";
+
+/// What every request needs.
+#[derive(Clone)]
+pub struct Desk {
+    /// What pages share.
+    pub studio: Arc<Studio>,
+    /// Who may come in.
+    pub guard: Guard,
+}
+
+/// Everything that can be asked for.
+pub fn router(desk: Desk) -> Router {
+    Router::new()
+        .route("/", get(|headers: HeaderMap| async move { file("index.html", &headers) }))
+        .route(
+            "/assets/{name}",
+            get(|Path(name): Path<String>, headers: HeaderMap| async move { file(&name, &headers) }),
+        )
+        .route("/link", get(open))
+        .route("/surface.toml", get(surface))
+        .route("/surface", axum::routing::post(load))
+        .route("/{name}", get(measured))
+        .layer(DefaultBodyLimit::max(LARGEST))
+        .layer(from_fn_with_state(desk.clone(), guard))
+        .with_state(desk)
+}
+
+/// Turns away whoever may not come in, and says what answers may be used for.
+async fn guard(State(desk): State<Desk>, request: Request, next: Next) -> Response {
+    let path = request.uri().path();
+    // The page's own files are no secret, and its modules cannot name a token to one another.
+    let needs = if path.starts_with("/assets/") {
+        Needs::Nothing
+    } else if path == "/link" {
+        Needs::Origin
+    } else {
+        Needs::Token
+    };
+    if let Err(turned) = desk.guard.check(request.uri(), request.headers(), needs) {
+        desk.studio.log(&format!(
+            "refused: {} {}: {turned:?}",
+            request.method(),
+            request.uri().path().escape_debug()
+        ));
+        return (StatusCode::FORBIDDEN, why(turned)).into_response();
+    }
+    let mut response = next.run(request).await;
+    let headers = response.headers_mut();
+    for (name, value) in [
+        (header::CONTENT_SECURITY_POLICY, POLICY),
+        (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
+        (header::REFERRER_POLICY, "no-referrer"),
+        (header::CACHE_CONTROL, "no-cache"),
+    ] {
+        headers.insert(name, HeaderValue::from_static(value));
+    }
+    response
+}
+
+fn why(turned: Turned) -> &'static str {
+    match turned {
+        Turned::Host => "this name is not the viewer's: open the address that it printed\n",
+        Turned::Origin => "a page from elsewhere may not use the viewer\n",
+        Turned::Token => {
+            "the address lacks the viewer's token, or it has another by now: open the address that it printed\n"
+        }
+    }
+}
+
+fn file(name: &str, headers: &HeaderMap) -> Response {
+    let Some((bytes, kind, print)) = assets::file(name) else {
+        return (StatusCode::NOT_FOUND, "no such file\n").into_response();
+    };
+    if headers.get(header::IF_NONE_MATCH).is_some_and(|known| known.as_bytes() == print.as_bytes()) {
+        return StatusCode::NOT_MODIFIED.into_response();
+    }
+    ([(header::CONTENT_TYPE, kind.to_owned()), (header::ETAG, print)], bytes).into_response()
+}
+
+async fn open(State(desk): State<Desk>, upgrade: WebSocketUpgrade) -> Response {
+    if desk.studio.board.viewers() >= MOST_PAGES {
+        return (StatusCode::SERVICE_UNAVAILABLE, "too many pages are open\n").into_response();
+    }
+    let upgrade = upgrade.max_message_size(link::TAKEN).max_frame_size(link::TAKEN);
+    upgrade.on_upgrade(move |socket| link::serve(socket, desk.studio))
+}
+
+async fn surface(State(desk): State<Desk>) -> Response {
+    download(desk.studio.toml().into_bytes(), "application/toml", "surface.toml")
+}
+
+async fn load(State(desk): State<Desk>, body: Bytes) -> Response {
+    let refused = |why: String| {
+        desk.studio.log(&format!("refused: an uploaded surface: {}", why.lines().next().unwrap_or_default()));
+        let text = serde_json::json!({ "text": why }).to_string();
+        (StatusCode::BAD_REQUEST, [(header::CONTENT_TYPE, "application/json")], text).into_response()
+    };
+    let Ok(text) = String::from_utf8(body.to_vec()) else {
+        return refused("expected a text, found bytes that are none".into());
+    };
+    match desk.studio.load(text).await {
+        Ok(()) => ([(header::CONTENT_TYPE, "application/json")], "{}").into_response(),
+        Err(why) => refused(why),
+    }
+}
+
+/// Files of the last act that was measured.
+async fn measured(State(desk): State<Desk>, Path(name): Path<String>) -> Response {
+    let Some(measured) = desk.studio.measured() else {
+        return (StatusCode::NOT_FOUND, "nothing has been measured yet\n").into_response();
+    };
+    match name.as_str() {
+        "drive.wav" => download(measured.drive, "audio/wav", "drive.wav"),
+        "report.json" => download(measured.json.into_bytes(), "application/json", "report.json"),
+        "report.md" => download(measured.markdown.into_bytes(), "text/markdown; charset=utf-8", "report.md"),
+        _ => (StatusCode::NOT_FOUND, "no such file\n").into_response(),
+    }
+}
+
+fn download(bytes: Vec<u8>, kind: &'static str, name: &str) -> Response {
+    let named = format!("attachment; filename=\"{name}\"");
+    ([(header::CONTENT_TYPE, kind.to_owned()), (header::CONTENT_DISPOSITION, named)], bytes).into_response()
+}

@@ -1,0 +1,36 @@
+use serde_json::{Value, json};
+use unripple::act::Acted;
+use unripple::dsp::band_energies;
+
+/// Bands that are drawn, up to so many times the top of the surface's band.
+const BANDS: usize = 120;
+const BEYOND: f64 = 1.5;
+
+/// Levels below this, in dB, are not told apart.
+const FLOOR: f64 = -120.0;
+
+/// What frequencies an act is made of: levels in bands of equal width, each channel's and target's over its strongest, in dB.
+pub fn spectrum(acted: &Acted, top_hz: f64) -> Value {
+    let rate = acted.drive.rate();
+    let top = (BEYOND * top_hz).min(rate / 2.0);
+    let centre = |band: usize| (band as f64 + 0.5) * top / BANDS as f64;
+    // Silence after a short signal makes its lines narrower than the bands.
+    let least = (2.0 * rate * BANDS as f64 / top).ceil() as usize;
+    let bands = |signal: &[f64]| {
+        let silence = std::iter::repeat_n(0.0, least.saturating_sub(signal.len()));
+        let padded: Vec<f64> = signal.iter().copied().chain(silence).collect();
+        levels(&band_energies(&padded, rate, top, BANDS))
+    };
+    json!({
+        "hz": (0..BANDS).map(centre).collect::<Vec<f64>>(),
+        "drive_db": acted.drive.channels().iter().map(|channel| bands(channel)).collect::<Vec<_>>(),
+        "target_db": acted.judged.traces.iter().map(|trace| bands(&trace.velocity)).collect::<Vec<_>>(),
+    })
+}
+
+fn levels(energies: &[f64]) -> Vec<f64> {
+    let most = energies.iter().fold(0.0, |m: f64, x| m.max(*x));
+    let level = |energy: &f64| (10.0 * (energy / most).log10()).max(FLOOR);
+    let tenth = |db: f64| (10.0 * db).round() / 10.0;
+    energies.iter().map(|energy| if most > 0.0 { tenth(level(energy)) } else { FLOOR }).collect()
+}

@@ -1,0 +1,124 @@
+use crate::ViewError;
+use crate::bench::Responder;
+use crate::guard::Guard;
+use crate::rig::{Follow, Opener, PULSES, Spec};
+use crate::server::{Desk, router};
+use crate::studio::Studio;
+use std::future::Future;
+use std::net::SocketAddr;
+use std::path::PathBuf;
+use std::sync::Arc;
+use tokio::net::TcpListener;
+use tokio::runtime::Runtime;
+use unripple::core::{SampledResponses, Surface};
+use unripple::focus::Method;
+
+/// Pulses a second under a resting finger, at first.
+const RATE: f64 = 10.0;
+
+/// Threads that serve pages.
+const THREADS: usize = 1;
+
+/// What is to be shown, and to whom.
+pub struct View {
+    /// The surface.
+    pub surface: Surface,
+    /// Its responses, where they were measured.
+    pub stored: Option<Arc<SampledResponses>>,
+    /// The same at any places, as the command line has them.
+    pub respond: Option<Responder>,
+    /// What the surface is called on the command line.
+    pub source: String,
+    /// How drives are made at first.
+    pub method: Method,
+    /// A real device; the surface is simulated where `None`.
+    pub device: Option<Opener>,
+    /// What follows its tension, if it is to be followed.
+    pub follow: Option<Follow>,
+    /// Its name.
+    pub device_name: String,
+    /// Where to listen; port 0 takes any that is free.
+    pub address: SocketAddr,
+    /// What pages must know; `None` where only this machine can come.
+    pub token: Option<String>,
+    /// This program, for what it does beside: calibrations, the doctor.
+    pub program: PathBuf,
+    /// Where libraries go.
+    pub folder: PathBuf,
+    /// Whether to be silent about what is refused.
+    pub quiet: bool,
+}
+
+/// A viewer that listens.
+pub struct Viewer {
+    listener: TcpListener,
+    desk: Desk,
+    runtime: Runtime,
+}
+
+impl View {
+    /// Makes the surface ready and listens.
+    ///
+    /// # Errors
+    /// [`ViewError::Address`] if nobody can listen there; those of the surface.
+    pub fn open(self) -> Result<Viewer, ViewError> {
+        let refused = |why: &dyn std::fmt::Display| ViewError::Address {
+            address: self.address.to_string(),
+            why: why.to_string(),
+        };
+        let runtime =
+            tokio::runtime::Builder::new_multi_thread().worker_threads(THREADS).enable_all().build();
+        let runtime = runtime.map_err(|error| ViewError::Gone { why: error.to_string() })?;
+        let listener = runtime.block_on(TcpListener::bind(self.address)).map_err(|error| refused(&error))?;
+        let address = listener.local_addr().map_err(|error| refused(&error))?;
+        let guard = Guard::new(address, self.token.clone());
+        let studio = Studio::open(&self, guard.elsewhere())?;
+        Ok(Viewer { listener, desk: Desk { studio, guard }, runtime })
+    }
+
+    /// What is played at first.
+    pub(crate) fn spec(&self) -> Spec {
+        Spec {
+            surface: self.surface.clone(),
+            stored: self.stored.clone(),
+            method: self.method,
+            effect: PULSES.into(),
+            window: None,
+            rate: RATE,
+            load: false,
+            device: self.device.clone(),
+            follow: self.follow.clone(),
+        }
+    }
+}
+
+impl Viewer {
+    /// The address to open in a browser of this machine, the token in it.
+    pub fn url(&self) -> String {
+        self.desk.guard.url()
+    }
+
+    /// The address to open on another machine of the network, where such are listened to.
+    pub fn elsewhere(&self) -> Option<String> {
+        self.desk.guard.elsewhere()
+    }
+
+    /// Serves pages until `stop` is done.
+    ///
+    /// # Errors
+    /// [`ViewError::Gone`] if the network fails.
+    pub fn serve(self, stop: impl Future<Output = ()> + Send + 'static) -> Result<(), ViewError> {
+        let Self { listener, desk, runtime } = self;
+        let studio = desk.studio.clone();
+        let result = runtime.block_on(async move {
+            // Links last as long as pages do: what is open when it ends is cut.
+            tokio::select! {
+                served = axum::serve(listener, router(desk)) => served,
+                () = stop => Ok(()),
+            }
+        });
+        studio.close();
+        runtime.shutdown_background();
+        result.map_err(|error| ViewError::Gone { why: error.to_string() })
+    }
+}

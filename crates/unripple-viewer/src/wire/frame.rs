@@ -1,0 +1,107 @@
+use serde::Serialize;
+
+/// Largest count of a cell or sample.
+const FULL: f32 = 32_000.0;
+
+/// The field at an instant, as it goes over the wire: a JSON head, then the cells and the traces as 16-bit counts.
+///
+/// u32 (little-endian) with the length of the head, the head padded with spaces to a multiple of four bytes, the cells row by row from
+/// the bottom, then the samples of each trace.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// What goes before.
+    pub head: Head,
+    /// Value of every cell, in m or m/s.
+    pub cells: Vec<f32>,
+    /// What moves at some places, in the same unit.
+    pub traces: Vec<Vec<f32>>,
+}
+
+/// What is said of a frame.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Head {
+    /// Its number.
+    pub frame: u64,
+    /// Which of the surfaces side by side.
+    pub pane: usize,
+    /// How many there are.
+    pub panes: usize,
+    /// Cells across.
+    pub columns: usize,
+    /// Cells upward.
+    pub rows: usize,
+    /// Value of one count.
+    pub scale: f32,
+    /// The instant, in s of the surface's clock.
+    pub time_s: f64,
+    /// `displacement` or `velocity`.
+    pub quantity: &'static str,
+    /// Whether this is the instant of the strongest focus since the frame before, rather than the one asked for.
+    pub strobed: bool,
+    /// Largest magnitude of all cells.
+    pub peak: f32,
+    /// Drive of every actuator at that instant, as a share of its limit.
+    pub drive: Vec<f32>,
+    /// Fingers on the surface.
+    pub fingers: Vec<Resting>,
+    /// Where waves are to meet, in mm.
+    pub targets: Vec<[f64; 2]>,
+    /// Samples of each trace.
+    pub samples: usize,
+    /// How long they last, in s, up to the instant.
+    pub span_s: f64,
+    /// What the traces are.
+    pub traces: Vec<Strip>,
+}
+
+/// One finger.
+#[derive(Clone, Debug, Serialize)]
+pub struct Resting {
+    /// Which.
+    pub id: u64,
+    /// Where, in mm.
+    pub at_mm: [f64; 2],
+    /// What the surface pushes it with, in N.
+    pub force_n: f64,
+}
+
+/// What a trace is of.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Strip {
+    /// Its name.
+    pub name: String,
+    /// Where, in mm.
+    pub at_mm: [f64; 2],
+    /// Value of one count.
+    pub scale: f32,
+}
+
+impl Frame {
+    /// The bytes that go over the wire.
+    pub fn encode(mut self) -> Vec<u8> {
+        let (scale, peak) = scale(&self.cells);
+        (self.head.scale, self.head.peak) = (scale, peak);
+        let scales: Vec<f32> = self.traces.iter().map(|trace| self::scale(trace).0).collect();
+        self.head.traces.iter_mut().zip(&scales).for_each(|(strip, scale)| strip.scale = *scale);
+        // A head of numbers and names is always JSON.
+        let mut head = serde_json::to_vec(&self.head).unwrap_or_default();
+        head.resize(head.len().next_multiple_of(4), b' ');
+        let samples = self.cells.len() + self.traces.iter().map(Vec::len).sum::<usize>();
+        let mut bytes = Vec::with_capacity(4 + head.len() + 2 * samples);
+        bytes.extend((head.len() as u32).to_le_bytes());
+        bytes.append(&mut head);
+        count(&self.cells, scale, &mut bytes);
+        self.traces.iter().zip(scales).for_each(|(trace, scale)| count(trace, scale, &mut bytes));
+        bytes
+    }
+}
+
+/// Value of one count, and the largest magnitude.
+fn scale(values: &[f32]) -> (f32, f32) {
+    let peak = values.iter().fold(0.0, |m: f32, x| m.max(x.abs()));
+    (if peak > 0.0 { peak / FULL } else { 1.0 }, peak)
+}
+
+fn count(values: &[f32], scale: f32, bytes: &mut Vec<u8>) {
+    bytes.extend(values.iter().flat_map(|x| ((x / scale).round() as i16).to_le_bytes()));
+}

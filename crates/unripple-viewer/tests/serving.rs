@@ -1,0 +1,226 @@
+//! What strangers can do to a viewer: nothing.
+
+use std::io::{Read, Write};
+use std::net::{SocketAddr, TcpStream};
+use std::sync::mpsc::{Sender, channel};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+use tungstenite::client::IntoClientRequest;
+use tungstenite::{Message, WebSocket};
+use unripple::core::Random;
+use unripple::focus::Method;
+use unripple::physics::design::papers_surface;
+use unripple_viewer::{View, ViewError, pause};
+
+/// A viewer of a small surface on a thread of its own.
+struct Served {
+    address: SocketAddr,
+    done: Sender<()>,
+    thread: Option<JoinHandle<Result<(), ViewError>>>,
+}
+
+impl Served {
+    fn new(token: Option<&str>) -> Self {
+        let mut surface = papers_surface();
+        surface.emission.band[1] = 700.0;
+        let view = View {
+            surface,
+            stored: None,
+            respond: None,
+            source: "small".into(),
+            method: Method::TimeReversal,
+            device: None,
+            follow: None,
+            device_name: "virtual".into(),
+            address: ([127, 0, 0, 1], 0).into(),
+            token: token.map(str::to_owned),
+            program: "unripple".into(),
+            folder: std::env::temp_dir(),
+            quiet: true,
+        };
+        let (told, url) = channel();
+        let (done, over) = channel();
+        let thread = std::thread::spawn(move || {
+            let viewer = view.open()?;
+            told.send(viewer.url()).unwrap();
+            viewer.serve(async move {
+                while over.try_recv() == Err(std::sync::mpsc::TryRecvError::Empty) {
+                    pause(Duration::from_millis(20)).await;
+                }
+            })
+        });
+        let url: String = url.recv().unwrap();
+        let address = url.trim_start_matches("http://").split('/').next().unwrap().parse().unwrap();
+        Self { address, done, thread: Some(thread) }
+    }
+
+    /// What is answered to a request, word for word.
+    fn ask(&self, request: &str) -> String {
+        let mut stream = TcpStream::connect(self.address).unwrap();
+        stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
+        stream.write_all(request.as_bytes()).unwrap();
+        let mut answer = Vec::new();
+        let _ = stream.read_to_end(&mut answer);
+        String::from_utf8_lossy(&answer).into_owned()
+    }
+
+    fn get(&self, path: &str, more: &str) -> String {
+        self.ask(&format!("GET {path} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n{more}\r\n", self.address))
+    }
+
+    fn post(&self, body: &str) -> String {
+        let head = format!("POST /surface HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n", self.address);
+        self.ask(&format!("{head}Content-Length: {}\r\n\r\n{body}", body.len()))
+    }
+
+    fn join(&self, origin: &str) -> Result<WebSocket<TcpStream>, u16> {
+        let mut request = format!("ws://{}/link", self.address).into_client_request().unwrap();
+        request.headers_mut().insert("Origin", origin.parse().unwrap());
+        let stream = TcpStream::connect(self.address).unwrap();
+        stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
+        match tungstenite::client(request, stream) {
+            Ok((socket, _)) => Ok(socket),
+            Err(tungstenite::HandshakeError::Failure(tungstenite::Error::Http(answer))) => {
+                Err(answer.status().as_u16())
+            }
+            Err(error) => panic!("{error}"),
+        }
+    }
+
+    fn page(&self) -> WebSocket<TcpStream> {
+        self.join(&format!("http://{}", self.address)).unwrap()
+    }
+}
+
+impl Drop for Served {
+    fn drop(&mut self) {
+        let _ = self.done.send(());
+        if let Some(thread) = self.thread.take() {
+            thread.join().unwrap().unwrap();
+        }
+    }
+}
+
+fn status(answer: &str) -> u16 {
+    answer.split(' ').nth(1).and_then(|code| code.parse().ok()).unwrap_or(0)
+}
+
+/// Reads until a JSON message of a kind comes; what it says.
+fn until(socket: &mut WebSocket<TcpStream>, kind: &str) -> serde_json::Value {
+    let began = Instant::now();
+    while began.elapsed() < Duration::from_secs(60) {
+        if let Message::Text(text) = socket.read().unwrap() {
+            let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+            if value["is"] == kind {
+                return value;
+            }
+        }
+    }
+    panic!("no {kind} came");
+}
+
+#[test]
+fn strangers_are_turned_away() {
+    let served = Served::new(None);
+    assert_eq!(status(&served.get("/", "")), 200);
+    let policy = "content-security-policy: default-src 'self'";
+    assert!(served.get("/", "").to_lowercase().contains(policy));
+    assert_eq!(status(&served.get("/", "Origin: http://evil.example\r\n")), 403);
+    assert_eq!(status(&served.ask("GET / HTTP/1.1\r\nHost: evil.example\r\nConnection: close\r\n\r\n")), 403);
+    assert_eq!(served.join("http://evil.example").unwrap_err(), 403);
+    for path in [
+        "/assets/../Cargo.toml",
+        "/assets/..%2f..%2fCargo.toml",
+        "/assets/%2e%2e/Cargo.toml",
+        "/assets//etc/passwd",
+        "/../../etc/passwd",
+        "/assets/index.html%00.js",
+    ] {
+        let answer = served.get(path, "");
+        assert!(matches!(status(&answer), 400 | 404), "{path}: {answer}");
+        assert!(!answer.contains("[package]") && !answer.contains("root:"), "{path}: {answer}");
+    }
+    let guarded = Served::new(Some("abcdef123456"));
+    assert_eq!(status(&guarded.get("/", "")), 403);
+    assert_eq!(status(&guarded.get("/?token=abcdef123456", "")), 200);
+}
+
+#[test]
+fn uploads_that_are_no_surface_change_nothing() {
+    let served = Served::new(None);
+    let before = served.get("/surface.toml", "");
+    let text = before.split("\r\n\r\n").nth(1).unwrap().to_owned();
+    assert_eq!(status(&served.post(&"x = 1\n".repeat(60_000))), 413);
+    for bad in [
+        "".to_owned(),
+        "\u{0}\u{1}".to_owned(),
+        text.replace("thickness_mm", "thikness_mm"),
+        text.replace("rectangle_mm = [150, 150]", "svg = \"../../../../etc/passwd\""),
+    ] {
+        let answer = served.post(&bad);
+        assert_eq!(status(&answer), 400, "{answer}");
+        assert!(answer.contains("expected") && !answer.contains("root:"), "{answer}");
+    }
+    assert_eq!(served.get("/surface.toml", "").split("\r\n\r\n").nth(1), Some(text.as_str()));
+    let other = text.replace("tension_n_per_m = 200", "tension_n_per_m = 150");
+    assert_eq!(status(&served.post(&other)), 200);
+    assert!(served.get("/surface.toml", "").contains("tension_n_per_m = 150"));
+}
+
+#[test]
+fn messages_that_mean_nothing_are_refused_and_harm_nobody() {
+    let served = Served::new(None);
+    let (mut good, mut bad) = (served.page(), served.page());
+    until(&mut good, "surface");
+    let mut random = Random::seeded(5);
+    let letters = r#"{}[]":,do touch edit at_mm 1e999 -null\u0000 finger"#;
+    for i in 0..40 {
+        let text = match i {
+            0 => r#"{"do":"touch","finger":0,"phase":"down","at_mm":[1e999,0]}"#.to_owned(),
+            1 => r#"{"do":"edit","actuators":1000000000}"#.to_owned(),
+            2 => r#"{"do":"job","start":"calibrate","name":"../../x"}"#.to_owned(),
+            3 => r#"{"do":"job","start":"rm -rf /"}"#.to_owned(),
+            4 => r#"{"do":"open","name":"../../../etc/passwd"}"#.to_owned(),
+            5 => "[".repeat(20_000),
+            6 => r#"{"do":"edit","thickness_mm":0}"#.to_owned(),
+            _ => {
+                let letter = |_| letters.chars().nth((random.uniform() * letters.len() as f64) as usize);
+                (0..30).filter_map(letter).collect()
+            }
+        };
+        bad.send(Message::text(text)).unwrap();
+        let fault = until(&mut bad, "fault");
+        assert!(!fault["text"].as_str().unwrap().is_empty());
+    }
+    // Bytes, and one message too many of no use: the link is cut, and only that one.
+    let mut cut = false;
+    for _ in 0..60 {
+        cut |= bad.send(Message::binary(vec![0; 100])).is_err();
+    }
+    cut |= (0..10_000).any(|_| bad.read().is_err());
+    assert!(cut);
+    good.send(Message::text(r#"{"do":"touch","finger":0,"phase":"down","at_mm":[62,90]}"#)).unwrap();
+    let began = Instant::now();
+    while until(&mut good, "status")["fingers"].as_array().unwrap().len() != 1 {
+        assert!(began.elapsed() < Duration::from_secs(20));
+    }
+    let mut long = served.page();
+    let sent = long.send(Message::text("x".repeat(1 << 20)));
+    assert!(sent.is_err() || (0..10_000).any(|_| long.read().is_err()));
+}
+
+#[test]
+fn fingers_of_a_page_that_goes_are_lifted() {
+    let served = Served::new(None);
+    let (mut stays, mut goes) = (served.page(), served.page());
+    goes.send(Message::text(r#"{"do":"touch","finger":7,"phase":"down","at_mm":[40,50]}"#)).unwrap();
+    let mut wait = |count: usize| {
+        let began = Instant::now();
+        while until(&mut stays, "status")["fingers"].as_array().unwrap().len() != count {
+            assert!(began.elapsed() < Duration::from_secs(20));
+        }
+    };
+    wait(1);
+    drop(goes);
+    wait(0);
+}
