@@ -13,7 +13,8 @@ function field(text, unit, control) {
 
 /** The level as told, without the option of the command line that it may end in. */
 export function levelText(level) {
-  return (level ?? '').replace(/\s*\(--full-limit\)\s*$/, '');
+  const text = (level ?? '').replace(/\s*\(--full-limit\)\s*$/, '');
+  return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
 /** Whether fingers weigh on the surface, and what that means; hidden where the server knows no such setting. */
@@ -55,8 +56,9 @@ export function mount(root, app) {
   const weight = weightPart(app, send);
   root.append(
     el('h2', { text: 'Answer to a touch' }),
+    field('Effect', '', effect),
     el('div', { class: 'grid2' },
-      field('Effect', '', effect), field('Method', '', method),
+      field('Method', '', method),
       field('Window', 'ms', window), field('Rate', 'Hz', rate)),
     level, weight,
   );

@@ -3,6 +3,7 @@
 const KEPT_S = 2.5;
 const APART_MS = 80;
 const LONGEST_MS = 15_000;
+const YOUNG_S = 0.6;
 
 /** Follows frames to know the last focal instant, and moves the shown time around it. */
 export class StoryMoment {
@@ -64,7 +65,8 @@ export class StoryMoment {
     while (live() && ran * 1000 < wait_ms && performance.now() - from < LONGEST_MS) await sleep(50);
     stop();
     if (!live()) return false;
-    const fresh = this.peaks.filter(({ seen }) => seen > from + 150);
+    // The surface goes on until it hears that it is to stop, and forgets what is too old.
+    const fresh = this.peaks.filter(({ seen, time }) => seen > from + 150 && time > this.clock - YOUNG_S);
     const best = fresh.reduce((most, each) => (each.peak > (most?.peak ?? 0) ? each : most), null);
     this.found = best?.time ?? null;
     return this.found !== null;

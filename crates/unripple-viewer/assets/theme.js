@@ -1,6 +1,6 @@
 // Dark or light: as the system says, until a person says otherwise.
 
-const SHORT = { system: 'Auto', dark: 'Dark', light: 'Light' };
+const SHORT = { system: 'Theme: auto', dark: 'Theme: dark', light: 'Theme: light' };
 const NEXT = { system: 'dark', dark: 'light', light: 'system' };
 
 /** Sets the theme and its button. */
@@ -12,7 +12,7 @@ export function startTheme(state) {
     const name = wish === 'system' ? (system.matches ? 'light' : 'dark') : wish;
     document.documentElement.dataset.theme = name;
     button.textContent = SHORT[wish] ?? wish;
-    button.setAttribute('aria-label', `Theme: ${SHORT[wish] ?? wish}`);
+    button.removeAttribute('aria-label');
     button.title = 'Theme: as the system, dark or light';
     if (state.last('theme')?.name !== name) state.publish('theme', { name });
   };

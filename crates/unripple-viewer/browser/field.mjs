@@ -2,6 +2,10 @@
 
 import { last, told, until } from './page.mjs';
 
+/** The paper's surface goes to 3 kHz: so long lasts a swing, in s, and so far apart are remembered moments. */
+const SWING = 1 / 2000;
+const KEPT = 1 / 12000;
+
 /** Where the field shown has its largest magnitude, in all or within `reach` mm of `around`; and its rms, SI. */
 export function largest(page, around = null, reach = Infinity) {
   return page.evaluate(([from, most]) => {
@@ -42,15 +46,17 @@ export async function slow(page) {
   await told(page, 'settings', ({ speed }) => Math.abs(speed / speeds[nearest] - 1) < 1e-6);
 }
 
-/** Shows a moment, in s, by the slider; what is remembered of it is at most a millisecond away. */
+/** Shows a moment, in s, by the slider: that which is remembered nearest to it. */
 export async function scrub(page, time) {
   const shown = () => page.evaluate(() => window.unripple.map.frame().head.time_s);
   await page.evaluate((value) => {
     const slider = document.getElementById('scrub');
     slider.value = String(value);
     slider.dispatchEvent(new Event('input', { bubbles: true }));
+    // The page sends what a slider says once per animation frame.
+    return new Promise((sent) => { requestAnimationFrame(() => sent()); });
   }, time);
-  await until(`the moment ${time}`, shown, (found) => Math.abs(found - time) < 3e-4);
+  await until(`the moment ${time}`, shown, (found) => Math.abs(found - time) <= 0.6 * KEPT);
 }
 
 /** Waits until the surface has got to a time, in s. */
@@ -58,15 +64,23 @@ export function passed(page, time) {
   return until(`${time} s on the surface`, () => last(page, 'status'), (status) => status.head_s > time);
 }
 
-/** Shows the instant between two, in s, in which the field moves most at some places; returns it. */
-export async function strongest(page, places, from, to, step = 4e-4) {
-  let best = [0, from];
-  for (let time = from; time <= to; time += step) {
-    await scrub(page, time);
-    const found = await Promise.all(places.map((at) => largest(page, at, 1)));
-    const moved = found.reduce((sum, { peak }) => sum + peak, 0);
-    if (moved > best[0]) best = [moved, found[0].time_s];
+/** For each place the instant between two, in s, in which the field moves most there. */
+export async function strongest(page, places, from, to) {
+  const search = async (sought, first, last, step) => {
+    const best = sought.map(() => [0, first]);
+    for (let time = first; time <= last; time += step) {
+      await scrub(page, time);
+      const found = await Promise.all(sought.map((at) => largest(page, at, 1)));
+      found.forEach(({ peak, time_s: shown }, i) => {
+        if (peak > best[i][0]) best[i] = [peak, shown];
+      });
+    }
+    return best.map(([, time]) => time);
+  };
+  const near = await search(places, from, to, SWING / 2);
+  const best = [];
+  for (const [i, time] of near.entries()) {
+    best.push(...await search([places[i]], time - SWING / 2, time + SWING / 2, KEPT));
   }
-  await scrub(page, best[1]);
-  return best[1];
+  return best;
 }

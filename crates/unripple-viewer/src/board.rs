@@ -41,9 +41,9 @@ impl Board {
             self.frames.fetch_add(1, Ordering::Relaxed);
         }
         let mut posted = self.lock();
+        // Under the same lock, so that no two notices share a version.
         let version = *self.version.borrow() + 1;
         posted.insert(kind.to_owned(), (version, notice));
-        drop(posted);
         self.version.send_replace(version);
     }
 
@@ -102,5 +102,34 @@ impl Board {
     /// What another thread left behind when it panicked can still be read.
     fn lock(&self) -> MutexGuard<'_, BTreeMap<String, (u64, Notice)>> {
         self.posted.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whoever_looks_misses_no_kind_however_many_post() {
+        let board = Board::new();
+        std::thread::scope(|scope| {
+            for kind in ["a", "b", "c", "d"] {
+                let board = &board;
+                scope.spawn(move || (0..500).for_each(|i| board.tell(kind, &(kind, i))));
+            }
+            let (mut seen, mut last) = (0, BTreeMap::new());
+            while last.values().filter(|i| **i == 499).count() < 4 {
+                for (version, notice) in board.since(seen) {
+                    let Notice::Text(text) = notice else { continue };
+                    let (kind, i): (String, u32) = serde_json::from_str(&text).unwrap();
+                    assert!(version > seen);
+                    assert!(last.insert(kind, i).is_none_or(|before| before < i));
+                    seen = version;
+                }
+            }
+        });
+        assert_eq!(*board.watch().borrow(), 2000);
+        board.withdraw("a");
+        assert_eq!(board.since(0).len(), 3);
     }
 }

@@ -104,6 +104,8 @@ impl Workshop {
                 let loaded = loaded.map(|surface| {
                     let name = surface.name.clone();
                     self.replace(surface, name);
+                    // Whoever is answered finds it in its place.
+                    self.tell();
                 });
                 // The page may have gone meanwhile.
                 let _ = answer.send(loaded);

@@ -84,8 +84,7 @@ fn figure(figure: &Figure) -> Value {
 
 fn usual(surface: &Surface) -> Point {
     let (width, height) = surface.outline.extent();
-    let place = Point::new(PLACE[0] * width, PLACE[1] * height);
-    if surface.outline.contains(place) { place } else { surface.outline.nearest(place) }
+    surface.outline.nearest(Point::new(PLACE[0] * width, PLACE[1] * height))
 }
 
 fn spot(spot: &Spot) -> Value {

@@ -18,6 +18,9 @@ use unripple::core::{Point, Responses, Surface};
 use unripple::drafting::Draft;
 use unripple::focus::{Method, Options};
 
+/// Tasks that may wait.
+const MOST_WAITING: usize = 16;
+
 /// What a surface is called on the command line that is none of those it knows: as its file is saved.
 const SAVED: &str = "surface.toml";
 
@@ -109,6 +112,14 @@ impl Bench {
             index += 1;
             !matches!(task, Task::Design { .. }) || Some(index - 1) == newest
         });
+        while self.waiting.len() > MOST_WAITING {
+            match self.waiting.pop_back() {
+                Some(Task::Measure(_, caller) | Task::Compare { caller, .. }) => {
+                    caller.refuse("measuring: expected one after the other, found too many at once");
+                }
+                Some(Task::Design { .. }) | None => {}
+            }
+        }
         self.waiting.pop_front()
     }
 

@@ -7,12 +7,19 @@ use crate::board::Board;
 use crate::link::Caller;
 use crate::wire::Job;
 use running::Running;
-use std::path::PathBuf;
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard};
+use std::time::{Duration, Instant};
 
 /// Jobs at once.
 const MOST: usize = 2;
+
+/// How long jobs are waited for at the end, and how often they are looked at then.
+const ENDING: Duration = Duration::from_secs(3);
+const LOOKED: Duration = Duration::from_millis(50);
 
 /// Distance of points of a calibration that says none, in mm.
 const GRID_MM: f64 = 15.0;
@@ -50,16 +57,18 @@ impl Jobs {
             return Err(format!("jobs: expected at most {MOST} at once, found one more"));
         }
         let id = self.given.fetch_add(1, Ordering::Relaxed) + 1;
-        let surface = self.put(id, &toml)?;
+        let name = format!("unripple-view-{}-{id}.toml", std::process::id());
+        let surface = std::env::temp_dir().join(name);
+        let path = surface.display().to_string();
         let mut arguments = vec![kind.to_owned()];
         let mut library = None;
         match kind {
             "devices" => {}
-            "doctor" => arguments.push(surface.display().to_string()),
+            "doctor" => arguments.push(path),
             "calibrate" => {
                 let place = self.folder.join(plain(job.name.as_deref().unwrap_or("library"))?);
                 let grid = job.grid_mm.unwrap_or(GRID_MM);
-                arguments.extend([surface.display().to_string(), "--grid-mm".into(), grid.to_string()]);
+                arguments.extend([path, "--grid-mm".into(), grid.to_string()]);
                 if let Some(seed) = job.unknowns {
                     arguments.extend(["--unknowns".into(), seed.to_string()]);
                 }
@@ -69,28 +78,34 @@ impl Jobs {
             other => return Err(format!("job: expected calibrate, doctor or devices, found {other}")),
         }
         arguments.push("--json".into());
+        put(&surface, &toml)?;
         let started = Running::start(id, &self.program, arguments, library, surface, self.board.clone())?;
         running.push(started);
         Ok(())
     }
 
-    /// The surface as a file, for a program beside this one.
-    fn put(&self, id: u64, toml: &str) -> Result<PathBuf, String> {
-        let name = format!("unripple-view-{}-{id}.toml", std::process::id());
-        let path = std::env::temp_dir().join(name);
-        std::fs::write(&path, toml).map_err(|error| format!("writing the surface for a job: {error}"))?;
-        Ok(path)
-    }
-
-    /// Ends all of them.
+    /// Ends all of them, and waits until they have.
     pub fn close(&self) {
-        self.lock().iter().for_each(|running| running.stop());
+        let running = self.lock().clone();
+        running.iter().for_each(|running| running.stop());
+        let began = Instant::now();
+        while running.iter().any(|running| !running.is_over()) && began.elapsed() < ENDING {
+            std::thread::sleep(LOOKED);
+        }
     }
 
     /// What another thread left behind when it panicked is still a list.
     fn lock(&self) -> MutexGuard<'_, Vec<Arc<Running>>> {
         self.running.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
     }
+}
+
+/// The surface as a file, for a program beside this one.
+fn put(path: &Path, toml: &str) -> Result<(), String> {
+    let failed = |error: std::io::Error| format!("writing {} for a job: {error}", path.display());
+    // A file that is there already is somebody else's.
+    let mut file = File::options().write(true).create_new(true).open(path).map_err(failed)?;
+    file.write_all(toml.as_bytes()).map_err(failed)
 }
 
 /// A name that is one folder and nowhere else.

@@ -14,6 +14,9 @@ const LINES: usize = 12;
 const LONGEST: usize = 400;
 const RESULT: u64 = 8 << 20;
 
+/// What the surface's file is called when people save it.
+const SAVED: &str = "surface.toml";
+
 /// How often a job is looked at.
 const LOOKED: Duration = Duration::from_millis(400);
 
@@ -45,8 +48,9 @@ impl Running {
         command.args(&arguments).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let child = command.spawn().map_err(|error| format!("starting {}: {error}", program.display()))?;
         let kind = arguments.first().cloned().unwrap_or_default();
-        let shown: Vec<&str> =
-            arguments.iter().map(String::as_str).filter(|word| *word != "--json").collect();
+        let own = surface.display().to_string();
+        let named = |word: &String| if *word == own { SAVED.to_owned() } else { word.clone() };
+        let shown: Vec<String> = arguments.iter().filter(|word| *word != "--json").map(named).collect();
         let running = Arc::new(Self {
             id,
             kind,

@@ -73,6 +73,8 @@ pub struct Rig {
     known: Known,
     /// Fingers of pages that are down: what is played next has them too.
     pressed: BTreeMap<u64, Point>,
+    /// Those that the instrument knows of.
+    told_of: BTreeMap<u64, Point>,
     /// Places focused on last, and what they read of the modes.
     targets: BTreeMap<u64, (Point, Vec<f32>)>,
     frame: u64,
@@ -98,6 +100,7 @@ impl Rig {
             replay: None,
             known: Known::default(),
             pressed: BTreeMap::new(),
+            told_of: BTreeMap::new(),
             targets: BTreeMap::new(),
             frame: 0,
             before: 0.0,
@@ -145,7 +148,7 @@ impl Rig {
                     wire::Phase::Up => drop(self.pressed.remove(&finger)),
                     wire::Phase::Down | wire::Phase::Move => drop(self.pressed.insert(finger, at)),
                 }
-                self.press(finger, phase, at);
+                self.press();
             }
             Order::Transport(asked) => {
                 let (oldest, state) = self.remembered();
@@ -177,9 +180,21 @@ impl Rig {
         }
     }
 
-    /// Tells the instrument of a finger; one that is at its end needs to know no more.
-    fn press(&self, finger: u64, phase: wire::Phase, at: Point) {
-        let _ = self.instrument.pad.send((finger, phase, at));
+    /// Tells the instrument what fingers have done since it was told last; while time stands still it hears nothing.
+    fn press(&mut self) {
+        if self.transport.paused && matches!(self.instrument.works, Works::Here(_)) {
+            return;
+        }
+        let before = std::mem::replace(&mut self.told_of, self.pressed.clone());
+        let left = before.iter().filter(|(finger, _)| !self.pressed.contains_key(finger));
+        let left = left.map(|(finger, at)| (*finger, wire::Phase::Up, *at));
+        let here = self.pressed.iter().filter(|(finger, at)| before.get(finger) != Some(at));
+        let here = here.map(|(finger, at)| match before.contains_key(finger) {
+            true => (*finger, wire::Phase::Move, *at),
+            false => (*finger, wire::Phase::Down, *at),
+        });
+        // An instrument at its end needs to know no more.
+        left.chain(here).for_each(|pressed| self.instrument.pad.send(pressed).unwrap_or(()));
     }
 
     /// Goes over to another instrument, at the same pace and under the same fingers.
@@ -192,7 +207,8 @@ impl Rig {
         self.before = 0.0;
         self.wrong = None;
         self.targets.clear();
-        self.pressed.iter().for_each(|(finger, at)| self.press(*finger, wire::Phase::Down, *at));
+        self.told_of.clear();
+        self.press();
         let plant = &self.instrument.plant;
         for probe in &mut self.probes {
             probe.at = self.instrument.spec.surface.outline.nearest(probe.at);
@@ -207,8 +223,7 @@ impl Rig {
         }
         let Some([x, y]) = asked.add else { return };
         let outline = &self.instrument.spec.surface.outline;
-        let place = Point::from_mm(x, y);
-        let at = if outline.contains(place) { place } else { outline.nearest(place) };
+        let at = outline.nearest(Point::from_mm(x, y));
         if self.probes.len() == MOST_PROBES {
             self.probes.remove(0);
         }
@@ -219,6 +234,7 @@ impl Rig {
 
     /// Lets time pass.
     fn pass(&mut self, seconds: f64) {
+        self.press();
         let (oldest, _) = self.remembered();
         if let Some(replay) = &self.replay {
             self.transport.pass(seconds, oldest);
@@ -233,7 +249,18 @@ impl Rig {
             self.transport.pass(seconds, oldest);
             self.catch_up();
         }
-        self.known.fingers = self.instrument.works.fingers();
+        self.known.fingers = match (&self.instrument.works, self.transport.paused) {
+            // The surface hears of fingers when it goes on; who looks sees them at once.
+            (Works::Here(_), true) => self.resting(),
+            _ => self.instrument.works.fingers(),
+        };
+    }
+
+    /// Fingers of pages that are on the sheet.
+    fn resting(&self) -> Vec<(u64, Point)> {
+        let outline = &self.instrument.spec.surface.outline;
+        let here = self.pressed.iter().filter(|(_, at)| outline.contains(**at));
+        here.map(|(finger, at)| (*finger, *at)).collect()
     }
 
     /// Steps the surface to where it should be; what cannot be done in time is let go, so that it runs slower.

@@ -43,7 +43,7 @@ impl Pad {
             Core::Up => drop(self.down.remove(&finger)),
             Core::Move => {}
         }
-        let at = if self.outline.contains(at) { at } else { self.outline.nearest(at) };
+        let at = self.outline.nearest(at);
         self.counts.touches += 1;
         heard.touches.push(Touch { finger, phase, at, time: now, force: None });
     }
