@@ -58,10 +58,9 @@ fn main() -> Result<(), Fault> {
             format!(r#"{{"do":"touch","finger":{i},"phase":"down","at_mm":[{},{}]}}"#, place[0], place[1]);
         finger.send(Message::text(text))?;
     }
-    println!(
-        "{:<34}{:>14}{:>16}{:>16}{:>14}",
-        "", "frames/s least", "frames/s median", "kB/s for a page", "of one core"
-    );
+    let [least, median, bytes, core, pace] =
+        ["frames/s least", "frames/s median", "kB/s for a page", "of one core", "of real time"];
+    println!("{:<34}{least:>14}{median:>16}{bytes:>16}{core:>14}{pace:>14}", "");
     for (name, pages, mutes) in
         [("one page", 1, 0), ("ten pages", 10, 0), ("nine pages and one that is mute", 9, 1)]
     {

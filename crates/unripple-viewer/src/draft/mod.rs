@@ -11,6 +11,9 @@ use apply::edge;
 use unripple::core::{MATERIALS, Material, Surface};
 use unripple_store::{parse_surface, to_toml};
 
+/// Shortest length of an outline that is drawn at all, in mm: what a file may say beyond that, it is asked.
+const LEAST_MM: f64 = 0.1;
+
 /// Surfaces that can be gone back to.
 const MOST: usize = 200;
 
@@ -111,6 +114,16 @@ fn known(edit: &Edit, actuators: usize) -> Result<(), ViewError> {
     }
     if let Some(name) = edit.edge.as_deref().filter(|name| edge(name).is_none()) {
         return refuse("edge", "clamped, supported or free".into(), name);
+    }
+    let sides = edit.rectangle_mm.iter().flatten().chain(&edit.circle_mm);
+    let radius = edit.stadium_mm.iter().map(|[_, radius]| radius);
+    if let Some(length) = sides.chain(radius).find(|mm| !(**mm >= LEAST_MM && mm.is_finite())) {
+        return refuse("length in mm", format!("at least {LEAST_MM}"), &length.to_string());
+    }
+    if let Some([straight, _]) =
+        edit.stadium_mm.filter(|[straight, _]| !(*straight >= 0.0 && straight.is_finite()))
+    {
+        return refuse("straight length in mm", "0 or more".into(), &straight.to_string());
     }
     let actuators = edit.actuators.unwrap_or(actuators);
     match edit.actuator {
