@@ -1,7 +1,8 @@
+use crate::lock::lock;
 use axum::body::Bytes;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard};
+use std::sync::{Arc, Mutex};
 use tokio::sync::watch;
 
 /// Something that is to be shown to all pages.
@@ -40,7 +41,7 @@ impl Board {
         if matches!(notice, Notice::Frame(..)) {
             self.frames.fetch_add(1, Ordering::Relaxed);
         }
-        let mut posted = self.lock();
+        let mut posted = lock(&self.posted);
         // Under the same lock, so that no two notices share a version.
         let version = *self.version.borrow() + 1;
         posted.insert(kind.to_owned(), (version, notice));
@@ -57,12 +58,12 @@ impl Board {
 
     /// Takes a notice away.
     pub fn withdraw(&self, kind: &str) {
-        self.lock().remove(kind);
+        lock(&self.posted).remove(kind);
     }
 
     /// All that was put up after a version, oldest first, and the version of each.
     pub fn since(&self, version: u64) -> Vec<(u64, Notice)> {
-        let posted = self.lock();
+        let posted = lock(&self.posted);
         let mut fresh: Vec<(u64, Notice)> =
             posted.values().filter(|(at, _)| *at > version).cloned().collect();
         fresh.sort_by_key(|(at, _)| *at);
@@ -71,7 +72,7 @@ impl Board {
 
     /// The newest of a kind.
     pub fn newest(&self, kind: &str) -> Option<Notice> {
-        self.lock().get(kind).map(|(_, notice)| notice.clone())
+        lock(&self.posted).get(kind).map(|(_, notice)| notice.clone())
     }
 
     /// Tells when something is put up.
@@ -97,11 +98,6 @@ impl Board {
     /// Frames put up so far.
     pub fn frames(&self) -> usize {
         self.frames.load(Ordering::Relaxed)
-    }
-
-    /// What another thread left behind when it panicked can still be read.
-    fn lock(&self) -> MutexGuard<'_, BTreeMap<String, (u64, Notice)>> {
-        self.posted.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 }
 

@@ -17,6 +17,7 @@ mod error;
 mod guard;
 mod jobs;
 mod link;
+mod lock;
 mod rig;
 mod server;
 mod spectrum;

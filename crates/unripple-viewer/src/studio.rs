@@ -4,6 +4,7 @@ use crate::bench::{Bench, Task};
 use crate::board::{Board, Notice};
 use crate::jobs::Jobs;
 use crate::link::Caller;
+use crate::lock::lock;
 use crate::rig::{Instrument, Order, Rig};
 use crate::told::Settled;
 use crate::wire::{Command, Phase};
@@ -130,7 +131,7 @@ impl Studio {
 
     /// The last act that was measured.
     pub fn measured(&self) -> Option<Measured> {
-        self.measured.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).clone()
+        lock(&self.measured).clone()
     }
 
     /// A line on standard error.

@@ -158,16 +158,16 @@ impl Workshop {
     fn rebuild(&mut self) {
         match Instrument::build(self.spec.clone()) {
             Ok(instrument) => {
-                self.board.tell("settings", &settings(&self.told, &instrument));
+                let told = settings(&self.told, &instrument);
                 self.board.withdraw("notice");
                 self.played = self.spec.clone();
                 // Without a rig the program is at its end.
-                let _ = self.out.rig.send(Order::Play(Box::new(instrument)));
+                let _ = self.out.rig.send(Order::Play(Box::new(instrument), told));
             }
             Err(error) => {
                 // What cannot be played is not what the next change starts from; the surface stays as it was drawn.
-                let surface = std::mem::replace(&mut self.spec, self.played.clone()).surface;
-                self.spec.surface = surface;
+                let Spec { surface, stored, .. } = std::mem::replace(&mut self.spec, self.played.clone());
+                (self.spec.surface, self.spec.stored) = (surface, stored);
                 let text = error.to_string();
                 self.board.tell("notice", &serde_json::json!({ "is": "notice", "text": text }));
             }

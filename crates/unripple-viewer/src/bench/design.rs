@@ -5,7 +5,7 @@ use std::time::Instant;
 use unripple::act::ActError;
 use unripple::contrast_map::ContrastMap;
 use unripple::core::{Point, Surface};
-use unripple::drafting::{Draft, Figure, Spot};
+use unripple::drafting::{Draft, Spot};
 
 /// Cells of the map along the longer side.
 const ACROSS: usize = 24;
@@ -18,7 +18,7 @@ impl Bench {
     pub(super) fn design(&mut self, edit: u64, surface: Surface) {
         let mut told = Stage::new(edit);
         if let Ok(figures) = Draft::by_law(&surface) {
-            told.add("figures", json!(figures.iter().map(figure).collect::<Vec<_>>()));
+            told.add("figures", json!(figures));
             self.show(&told);
         }
         let place = self.place.filter(|place| surface.outline.contains(*place));
@@ -33,7 +33,7 @@ impl Bench {
 
     fn stages(&mut self, told: &mut Stage, surface: &Surface, place: Point) -> Result<(), ActError> {
         let draft = Arc::new(Draft::of(surface)?);
-        told.add("figures", json!(draft.figures().iter().map(figure).collect::<Vec<_>>()));
+        told.add("figures", json!(draft.figures()));
         self.show(told);
         self.draft = Some(draft.clone());
         if self.is_overtaken() {
@@ -49,7 +49,7 @@ impl Bench {
     }
 
     fn show(&self, told: &Stage) {
-        self.board.tell("design", &told.message());
+        self.board.tell("design", &told.found);
     }
 }
 
@@ -72,14 +72,6 @@ impl Stage {
         self.found.insert(key.into(), value);
         self.found.insert("seconds".into(), json!(self.began.elapsed().as_secs_f64()));
     }
-
-    fn message(&self) -> &Map<String, Value> {
-        &self.found
-    }
-}
-
-fn figure(figure: &Figure) -> Value {
-    json!(figure)
 }
 
 fn usual(surface: &Surface) -> Point {

@@ -1,4 +1,5 @@
-use super::{Bench, method, options, places, text};
+use super::{Bench, given, method, options, places, text};
+use crate::lock::lock;
 use crate::spectrum::spectrum;
 use crate::studio::Measured;
 use crate::wire::Measure;
@@ -20,10 +21,10 @@ impl Bench {
         let places = places(&measure.at);
         let (surface, responses) = self.known(&places)?;
         let method = measure.method.as_deref().map_or(Ok(Method::default()), method)?;
-        let window = measure.window_ms.filter(|ms| *ms > 0.0).map(|ms| ms * 1e-3);
+        let window = given(measure.window_ms).map(|ms| ms * 1e-3);
         let options = options(&surface, &responses, method, window);
         let targets: Vec<Target> = places.into_iter().map(Target::at).collect();
-        let level = measure.peak_um.filter(|um| *um > 0.0).map_or(Level::Limit, |um| Level::Peak(um * 1e-6));
+        let level = given(measure.peak_um).map_or(Level::Limit, |um| Level::Peak(um * 1e-6));
         let act =
             Act { surface: &surface, responses: &responses, targets: &targets, options: &options, level };
         let acted = act.run().map_err(text)?;
@@ -42,7 +43,7 @@ impl Bench {
         let json = serde_json::to_string_pretty(&value).map_err(|error| error.to_string())?;
         let wav = encode_wav(&acted.drive).map_err(|error| error.to_string())?;
         let files = Measured { drive: wav, json, markdown: report.markdown() };
-        *self.measured.lock().unwrap_or_else(|poisoned| poisoned.into_inner()) = Some(files);
+        *lock(&self.measured) = Some(files);
         self.board.tell("measured", &message);
         Ok(())
     }
@@ -57,10 +58,10 @@ fn command(source: &str, measure: &Measure, method: Method) -> String {
     if method != Method::default() {
         command += &format!(" --method {method}");
     }
-    if let Some(ms) = measure.window_ms.filter(|ms| *ms > 0.0) {
+    if let Some(ms) = given(measure.window_ms) {
         command += &format!(" --window-ms {ms}");
     }
-    if let Some(um) = measure.peak_um.filter(|um| *um > 0.0) {
+    if let Some(um) = given(measure.peak_um) {
         command += &format!(" --peak-um {um}");
     }
     command + " -o out"

@@ -138,7 +138,7 @@ impl Bench {
                 self.measure(&measure).unwrap_or_else(|why| caller.refuse(&why))
             }
             Task::Compare { at, methods, window_ms, caller } => {
-                let window = window_ms.filter(|ms| *ms > 0.0).map(|ms| ms * 1e-3);
+                let window = given(window_ms).map(|ms| ms * 1e-3);
                 self.compare(&at, &methods, window).unwrap_or_else(|why| caller.refuse(&why));
             }
         }
@@ -169,6 +169,11 @@ fn options(surface: &Surface, responses: &Responses, method: Method, window: Opt
     let window = window.unwrap_or_else(|| act::recommended_window(surface, responses));
     let (limit, rms_limit) = (surface.emission.limit, surface.emission.rms_limit);
     Options { method, window, limit, rms_limit, ..Options::default() }
+}
+
+/// A number of a message that says something: 0 stands for none.
+fn given(value: Option<f64>) -> Option<f64> {
+    value.filter(|value| *value > 0.0)
 }
 
 /// Places of a message.

@@ -5,13 +5,14 @@ mod running;
 
 use crate::board::Board;
 use crate::link::Caller;
+use crate::lock::lock;
 use crate::wire::Job;
 use running::Running;
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 /// Jobs at once.
@@ -42,7 +43,7 @@ impl Jobs {
     /// Starts or ends a job on a surface, given as the text of its file.
     pub fn obey(&self, job: &Job, toml: String, caller: &Caller) {
         if let Some(id) = job.stop {
-            self.lock().iter().filter(|running| running.id == id).for_each(|running| running.stop());
+            lock(&self.running).iter().filter(|running| running.id == id).for_each(|running| running.stop());
         }
         let Some(kind) = &job.start else { return };
         if let Err(why) = self.start(kind, job, toml) {
@@ -51,7 +52,7 @@ impl Jobs {
     }
 
     fn start(&self, kind: &str, job: &Job, toml: String) -> Result<(), String> {
-        let mut running = self.lock();
+        let mut running = lock(&self.running);
         running.retain(|running| !running.is_over());
         if running.len() >= MOST {
             return Err(format!("jobs: expected at most {MOST} at once, found one more"));
@@ -86,17 +87,12 @@ impl Jobs {
 
     /// Ends all of them, and waits until they have.
     pub fn close(&self) {
-        let running = self.lock().clone();
+        let running = lock(&self.running).clone();
         running.iter().for_each(|running| running.stop());
         let began = Instant::now();
         while running.iter().any(|running| !running.is_over()) && began.elapsed() < ENDING {
             std::thread::sleep(LOOKED);
         }
-    }
-
-    /// What another thread left behind when it panicked is still a list.
-    fn lock(&self) -> MutexGuard<'_, Vec<Arc<Running>>> {
-        self.running.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 }
 

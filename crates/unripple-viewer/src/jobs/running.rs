@@ -1,12 +1,13 @@
 use super::quality::Progress;
 use crate::board::Board;
+use crate::lock::lock;
 use serde_json::{Value, json};
 use std::collections::VecDeque;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 /// Lines that are shown, how long each may be, and most bytes of a result.
@@ -121,7 +122,7 @@ impl Running {
     fn listen(&self, errors: impl Read) {
         for line in BufReader::new(errors).split(b'\n').map_while(Result::ok) {
             let line = String::from_utf8_lossy(&line).chars().take(LONGEST).collect();
-            let mut lines = self.lock();
+            let mut lines = lock(&self.lines);
             if lines.len() == LINES {
                 lines.pop_front();
             }
@@ -142,15 +143,10 @@ impl Running {
             "command": self.command,
             "state": state,
             "progress": share,
-            "lines": &*self.lock(),
+            "lines": &*lock(&self.lines),
             "result": result,
             "quality": quality,
         });
         board.tell(&format!("job {}", self.kind), &message);
-    }
-
-    /// What another thread left behind when it panicked can still be read.
-    fn lock(&self) -> MutexGuard<'_, VecDeque<String>> {
-        self.lines.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 }

@@ -1,5 +1,6 @@
 use super::lens::Lens;
 use super::pad::{Pad, Pressed};
+use super::past::stride;
 use super::tape::Tape;
 use super::works::{Away, Works};
 use crate::ViewError;
@@ -29,9 +30,6 @@ const BLOCK: usize = 64;
 /// How long is remembered, in s, and most bytes that this may take.
 const REMEMBERED: f64 = 1.0;
 const MOST_BYTES: usize = 256 << 20;
-
-/// States that are remembered per period of the highest frequency.
-const STATES: f64 = 4.0;
 
 /// The effect of a page that asks for none: pulses at the finger while it rests.
 pub const PULSES: &str = "pulses";
@@ -170,7 +168,7 @@ fn maker(spec: &Spec, accuracy: f64, options: &LiveOptions) -> Result<Maker, Vie
 
 fn remember(handle: &Handle, surface: &Surface, modes: usize) -> Result<(), ViewError> {
     let rate = surface.emission.rate;
-    let stride = (rate / (STATES * surface.emission.band[1])).floor().max(1.0) as usize;
+    let stride = stride(surface);
     let room = MOST_BYTES / (8 * modes.max(1));
     let states = ((REMEMBERED * rate) as usize / stride).min(room).max(1);
     Ok(handle.remember(stride, states)?)

@@ -2,10 +2,10 @@
 
 use super::Rig;
 use super::lens::{product, weights};
+use super::past::Past;
 use crate::board::Notice;
 use crate::wire::{Frame, Head, Resting, Strip};
 use unripple::core::Point;
-use unripple::physics::stepper::History;
 
 /// How much of the past a trace shows, in s.
 const SPAN: f64 = 0.04;
@@ -74,24 +74,18 @@ impl Rig {
         let rate = instrument.rate();
         let followed = self.followed();
         let strobes = self.transport.strobes();
+        let velocity = self.velocity;
         let (cells, time, traces, samples, stride) = instrument.handle.history(|history| {
-            let back = |time: f64| {
-                let samples = (history.newest() as f64 - time * rate).max(0.0);
-                ((samples / history.stride() as f64).round() as usize).min(history.len().saturating_sub(1))
-            };
-            let mut at = back(shown);
+            let past = Past { history, rate, velocity };
+            let mut at = past.back(shown);
             if strobes && !followed.is_empty() {
-                at = strongest(history, at, back(self.before), &followed, self.velocity);
+                at = strongest(&past, at, past.back(self.before), &followed);
             }
-            let state = self.of(history.state(at)?);
-            let span = ((SPAN * rate / history.stride() as f64) as usize).min(history.len() - at);
-            let trace = |place: &Followed| {
-                let states = (at..at + span).rev().filter_map(|back| history.state(back));
-                states.map(|state| product(place.weights, self.of(state))).collect::<Vec<f32>>()
-            };
-            let traces: Vec<Vec<f32>> = followed.iter().map(trace).collect();
+            let span = past.span(at, SPAN);
+            let traces: Vec<Vec<f32>> =
+                followed.iter().map(|place| past.trace(place.weights, at, span)).collect();
             let time = (history.newest() as f64 - (at * history.stride()) as f64) / rate;
-            Some((instrument.lens.look(state), time, traces, span, history.stride()))
+            Some((instrument.lens.look(past.state(at)?), time, traces, span, history.stride()))
         })??;
         let head = Head {
             panes: 1,
@@ -109,11 +103,6 @@ impl Rig {
             ..Head::default()
         };
         Some(Frame { head, cells, traces })
-    }
-
-    /// What is looked at of a state: displacement or velocity.
-    fn of<'a>(&self, (displacement, velocity): (&'a [f32], &'a [f32])) -> &'a [f32] {
-        if self.velocity { velocity } else { displacement }
     }
 
     /// Places whose motion is shown: under fingers, then probes.
@@ -156,19 +145,12 @@ impl Followed<'_> {
     }
 }
 
-/// The state from `newest` back to `oldest` in which the followed places move most, against one another's usual.
-fn strongest(
-    history: &History,
-    newest: usize,
-    oldest: usize,
-    followed: &[Followed],
-    velocity: bool,
-) -> usize {
+/// The state from `newest` back to `oldest` in which the followed places move most.
+fn strongest(past: &Past, newest: usize, oldest: usize, followed: &[Followed]) -> usize {
     let strength = |back: &usize| {
-        let Some((u, v)) = history.state(*back) else { return 0.0 };
-        let state = if velocity { v } else { u };
+        let Some(state) = past.state(*back) else { return 0.0 };
         followed.iter().map(|place| product(place.weights, state).abs()).fold(0.0, f32::max)
     };
-    let most = oldest.min(history.len().saturating_sub(1)).max(newest);
+    let most = oldest.min(past.history.len().saturating_sub(1)).max(newest);
     (newest..=most).max_by(|a, b| strength(a).total_cmp(&strength(b))).unwrap_or(newest)
 }

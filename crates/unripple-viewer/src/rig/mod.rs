@@ -4,6 +4,7 @@ mod instrument;
 mod lens;
 mod look;
 mod pad;
+mod past;
 mod replay;
 mod tape;
 mod told;
@@ -17,6 +18,7 @@ pub use transport::Transport;
 
 use crate::board::Board;
 use crate::wire;
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
@@ -44,8 +46,8 @@ pub enum Order {
     Velocity(bool),
     /// A place whose motion is followed.
     Probe(wire::Probe),
-    /// Another surface, or the same played otherwise.
-    Play(Box<Instrument>),
+    /// Another surface, or the same played otherwise; and what pages are told once it is.
+    Play(Box<Instrument>, Value),
     /// Two recorded acts side by side; or back to the live surface.
     Replay(Option<Box<Replay>>),
     /// A page came: it must be shown something.
@@ -166,7 +168,10 @@ impl Rig {
                 self.probe(&asked);
                 self.tell_transport();
             }
-            Order::Play(instrument) => self.play(*instrument),
+            Order::Play(instrument, told) => {
+                self.play(*instrument);
+                self.board.tell("settings", &told);
+            }
             Order::Replay(replay) => {
                 let Transport { speed, .. } = self.transport;
                 self.transport = match &replay {

@@ -1,4 +1,5 @@
-use super::lens::{Lens, product, weights};
+use super::lens::{Lens, weights};
+use super::past::{Past, stride};
 use super::transport::Transport;
 use crate::ViewError;
 use crate::wire::{Frame, Head, Strip};
@@ -15,9 +16,6 @@ const SPEED: f64 = 0.005;
 
 /// How much of the past a trace shows, in s.
 const SPAN: f64 = 0.02;
-
-/// States that are remembered per period of the highest frequency.
-const STATES: f64 = 4.0;
 
 /// How long after the focus it goes on, in s.
 const AFTER: f64 = 6e-3;
@@ -101,15 +99,9 @@ impl Replay {
     pub fn frames(&self, shown: f64, velocity: bool) -> Vec<Frame> {
         let frame = |(index, pane): (usize, &Pane)| {
             let history = &pane.history;
-            let back = (history.newest() as f64 - shown * self.rate).max(0.0) / history.stride() as f64;
-            let at = (back.round() as usize).min(history.len().saturating_sub(1));
-            let of = |(u, v)| if velocity { v } else { u };
-            let state = history.state(at).map(of)?;
-            let span = ((SPAN * self.rate) as usize / history.stride()).min(history.len() - at);
-            let trace = |weights: &[f32]| {
-                let states = (at..at + span).rev().filter_map(|back| history.state(back));
-                states.map(|state| product(weights, of(state))).collect::<Vec<f32>>()
-            };
+            let past = Past { history, rate: self.rate, velocity };
+            let at = past.back(shown);
+            let (state, span) = (past.state(at)?, past.span(at, SPAN));
             let sample = (history.newest() as usize).saturating_sub(at * history.stride());
             let driven = |channel: &Vec<f32>| channel.get(sample.saturating_sub(1)).copied().unwrap_or(0.0);
             let head = Head {
@@ -126,7 +118,7 @@ impl Replay {
                 traces: (1..).zip(&self.targets).map(strip).collect(),
                 ..Head::default()
             };
-            let traces = self.targets.iter().map(|(_, weights)| trace(weights)).collect();
+            let traces = self.targets.iter().map(|(_, weights)| past.trace(weights, at, span)).collect();
             Some(Frame { head, cells: self.lens.look(state), traces })
         };
         self.panes.iter().enumerate().filter_map(frame).collect()
@@ -146,7 +138,7 @@ impl Pane {
         let mut stepped = VirtualSurface::of(surface, modes, &StepperOptions::default())?;
         let (rate, channels) = (surface.emission.rate, drive.channels());
         let frames = ((focus + AFTER) * rate).ceil() as usize;
-        let stride = (rate / (STATES * surface.emission.band[1])).floor().max(1.0) as usize;
+        let stride = stride(surface);
         stepped.remember(stride, (frames / stride).max(1))?;
         let padded = |channel: &Vec<f64>| {
             let silence = std::iter::repeat(0.0);

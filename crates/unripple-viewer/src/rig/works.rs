@@ -1,7 +1,8 @@
 use crate::ViewError;
+use crate::lock::lock;
 use rtrb::{Consumer, Producer, RingBuffer};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard};
+use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use unripple::core::{Device, DeviceError, Layout, Point, State, Status};
 use unripple_calibrate::Drift;
@@ -171,9 +172,4 @@ impl Device for Overheard {
         }
         self.device.exchange(drive, heard)
     }
-}
-
-/// What another thread left behind when it panicked can still be read.
-fn lock(known: &Mutex<Known>) -> MutexGuard<'_, Known> {
-    known.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
 }
