@@ -1,14 +1,19 @@
 //! What passes between a program and the two threads of a card, one that plays and one that records.
 
+use super::bell::Bell;
+use super::counts::Counts;
+use super::streams::Side;
 use rtrb::{Consumer, Producer, RingBuffer};
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex};
 
 /// What happens to a card, told by its threads.
 #[derive(Debug, Default)]
 pub(super) struct Events {
-    /// Whether it has begun to play: frames are counted from there.
-    pub(super) started: AtomicBool,
+    /// How far its sides have come. Frames are counted from when it begins to play.
+    pub(super) counts: Counts,
+    /// Wakes the program whenever a side has moved on, or is gone.
+    pub(super) bell: Bell,
     /// Times that the card itself ran out of samples.
     pub(super) xruns: AtomicU64,
     /// Why it is gone, once it is.
@@ -24,6 +29,7 @@ impl Events {
     /// Says that it is gone; the first reason stays.
     pub(super) fn lose(&self, why: String) {
         self.gone.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).get_or_insert(why);
+        self.bell.ring();
     }
 }
 
@@ -77,7 +83,7 @@ impl Player {
 
     /// Plays so many frames: `put` takes a frame's number, an output and its sample.
     pub(super) fn play(&mut self, frames: usize, mut put: impl FnMut(usize, usize, f32)) {
-        self.events.started.store(true, Ordering::Release);
+        self.at = self.events.counts.next(Side::Playback, self.at, frames);
         let outputs = self.outputs.max(1);
         let ready = (self.drive.slots() / outputs).min(self.when.slots()).min(frames);
         let chunks = (self.drive.read_chunk(ready * outputs), self.when.write_chunk_uninit(ready));
@@ -89,6 +95,8 @@ impl Player {
         }
         (played..frames).for_each(|frame| (0..outputs).for_each(|output| put(frame, output, 0.0)));
         self.at = self.at.wrapping_add(frames as u32);
+        self.events.counts.passed(Side::Playback, self.at);
+        self.events.bell.ring();
     }
 }
 
@@ -101,9 +109,10 @@ impl Recorder {
 
     /// Hears so many frames: `get` gives the sample of a frame and an input. Before anything is played none counts.
     pub(super) fn hear(&mut self, frames: usize, get: impl Fn(usize, usize) -> f32) {
-        if !self.events.started.load(Ordering::Acquire) {
+        if self.events.counts.chunks(Side::Playback) == 0 {
             return;
         }
+        self.at = self.events.counts.next(Side::Capture, self.at, frames);
         let (inputs, width) = (self.inputs, self.inputs + 1);
         let room = (self.heard.slots() / width).min(frames);
         if let Ok(chunk) = self.heard.write_chunk_uninit(room * width) {
@@ -114,5 +123,7 @@ impl Recorder {
             }));
         }
         self.at = self.at.wrapping_add(frames as u32);
+        self.events.counts.passed(Side::Capture, self.at);
+        self.events.bell.ring();
     }
 }

@@ -1,6 +1,6 @@
 use super::crossing::{Events, crossing};
 use super::ferry::{Ferry, Manners};
-use super::streams::{self, Side};
+use super::streams::{self, Running, Side};
 use crate::DevicesError;
 use crate::error::{check, same};
 use cpal::traits::StreamTrait;
@@ -9,7 +9,11 @@ use std::time::Duration;
 use unripple_core::{Device, DeviceError, Layout, Status};
 
 /// Frames that the rings hold at least, should the card take many at once.
-const ROOM: usize = 16_384;
+const ROOM: usize = 65_536;
+
+/// Periods of the card that drive is ahead of it at least. Two are in the card, and as many pass until what was recorded
+/// with them is heard; with fewer a card of larger periods than blocks would be late each time.
+const PERIODS: usize = 4;
 
 /// How to open a sound card.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,10 +33,12 @@ pub struct CardOptions {
     /// Drive, in the actuators' unit, of a sample of 1.
     pub full_scale: f64,
     /// Blocks that drive is ahead of the card: so many blocks a program may be late, and so many more all latencies are.
+    /// With a card of larger periods than blocks it is four of its periods, if that is more.
     pub lead: usize,
-    /// How long to wait for a block before the card counts as stalled, in s.
+    /// How long neither side may give a sign before the card counts as stalled, in s.
     pub patience: f64,
-    /// Whether a card that itself ran out of samples is lost. Its latency is another then, which matters when measuring.
+    /// Whether a card is lost that itself ran out of samples, or whose two sides do not count together. Its latency is another
+    /// then, which matters when measuring. Otherwise playing goes on, and the side that is behind goes on where the other is.
     pub strict: bool,
 }
 
@@ -57,7 +63,8 @@ impl Default for CardOptions {
 ///
 /// The card's threads neither wait nor allocate: where drive is late silence is played, and what nobody takes is dropped.
 /// What was missed, a pause between exchanges included, is in [`Status::lost`] as soon as the first block after it is heard, and
-/// latency is the same after it as before. So let some blocks of silence pass before a measurement, and hold `lost` after
+/// latency is the same after it as before. Both sides have to run on one clock: where they count apart by more than their
+/// buffers explain, a strict card is lost, and says so. So let some blocks of silence pass before a measurement, and hold `lost` after
 /// them against `lost` at its end.
 ///
 /// ```no_run
@@ -73,8 +80,6 @@ impl Default for CardOptions {
 /// ```
 pub struct Card {
     ferry: Ferry,
-    /// Playing and recording while they are there.
-    _streams: Vec<cpal::Stream>,
 }
 
 impl std::fmt::Debug for Card {
@@ -82,6 +87,12 @@ impl std::fmt::Debug for Card {
         let (layout, status) = (self.ferry.layout(), self.ferry.status());
         f.debug_struct("Card").field("layout", layout).field("status", &status).finish_non_exhaustive()
     }
+}
+
+/// Blocks that drive is ahead: as many as asked for, or as a card of some period needs, as far as the rings hold them.
+pub(super) fn blocks_ahead(asked: usize, block: usize, period: usize, room: usize) -> usize {
+    let needed = (PERIODS * period).div_ceil(block);
+    needed.min((room / block).saturating_sub(2)).max(asked)
 }
 
 impl Card {
@@ -121,6 +132,8 @@ impl Card {
         for stream in &opened {
             stream.play().map_err(|error| streams::refused(&name, &error))?;
         }
+        let running = Running { streams: opened, events: events.clone() };
+        let lead = blocks_ahead(options.lead, options.block, running.period(), room) as u64;
         let layout = Layout {
             device: name,
             rate,
@@ -130,8 +143,8 @@ impl Card {
             full_scale: scale,
         };
         let patience = Duration::from_secs_f64(options.patience);
-        let manners = Manners { lead: options.lead as u64, patience, strict: options.strict };
-        Ok(Self { ferry: Ferry::new(layout, shore, events, manners), _streams: opened })
+        let manners = Manners { lead, patience, strict: options.strict };
+        Ok(Self { ferry: Ferry::new(layout, (shore, events), Box::new(running), manners) })
     }
 }
 

@@ -1,19 +1,25 @@
 //! A card as the program sees it, whatever plays and records behind it.
 
 use super::crossing::{Events, Shore};
+use super::streams::{Side, Streams};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use unripple_core::{Device, DeviceError, Layout, State, Status};
+
+/// Blocks in a row whose sound came too late for playing to wait, after which recording counts anew: a callback that was late
+/// once is none of them.
+const LATE: u32 = 8;
 
 /// How a card is waited for.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Manners {
     /// Blocks that drive is ahead.
     pub(super) lead: u64,
-    /// How long to wait for a block.
+    /// How long a side may be waited for without a sign of it.
     pub(super) patience: Duration,
-    /// Whether a card that ran out of samples is lost, since its latency is no longer what it was.
+    /// Whether a card that ran out of samples, or whose sides do not count together, is lost, since its latency is no longer
+    /// what it was. Otherwise playing goes on, and does not wait for sound that comes too late.
     pub(super) strict: bool,
 }
 
@@ -25,7 +31,11 @@ pub(super) struct Ferry {
     layout: Layout,
     shore: Shore,
     events: Arc<Events>,
+    streams: Box<dyn Streams>,
     manners: Manners,
+    /// Chunks of each side when last looked at, and for how long none came since.
+    seen: [u32; 2],
+    quiet: [Duration; 2],
     driven: u64,
     /// Blocks whose answer was not there in time.
     owed: u64,
@@ -33,6 +43,9 @@ pub(super) struct Ferry {
     frames: Vec<f32>,
     next: Option<u32>,
     missed: u64,
+    /// Whether some of them were not waited for, and of how many blocks in a row that was so.
+    hurried: bool,
+    late: u32,
     last: Option<u32>,
     xruns: u64,
     sent: Vec<f32>,
@@ -40,7 +53,12 @@ pub(super) struct Ferry {
 }
 
 impl Ferry {
-    pub(super) fn new(layout: Layout, shore: Shore, events: Arc<Events>, manners: Manners) -> Self {
+    pub(super) fn new(
+        layout: Layout,
+        (shore, events): (Shore, Arc<Events>),
+        streams: Box<dyn Streams>,
+        manners: Manners,
+    ) -> Self {
         let (block, outputs, inputs) = (layout.block, layout.outputs.len(), layout.inputs.len());
         Self {
             frames: Vec::with_capacity(block * inputs),
@@ -48,11 +66,16 @@ impl Ferry {
             layout,
             shore,
             events,
+            streams,
             manners,
+            seen: [0; 2],
+            quiet: [Duration::ZERO; 2],
             driven: 0,
             owed: 0,
             next: None,
             missed: 0,
+            hurried: false,
+            late: 0,
             last: None,
             xruns: 0,
             status: Status::default(),
@@ -84,26 +107,54 @@ impl Ferry {
         }
     }
 
-    /// Waits a little, unless the card is gone or was waited for long enough.
-    fn nap(&mut self, since: Instant) -> Result<(), DeviceError> {
-        if let Some(why) = self.events.why_gone() {
-            return Err(self.lose(why));
+    /// An error if the card is gone, or is to count as gone.
+    fn alive(&mut self) -> Result<(), DeviceError> {
+        let strict = self.manners.strict;
+        if let Some(why) = strict.then(|| self.events.counts.apart()).flatten() {
+            self.events.lose(why);
         }
-        if since.elapsed() > self.manners.patience {
-            let time = self.manners.patience.as_secs_f64();
-            return Err(self.stall(format!("no samples for {time} s")));
+        self.events.why_gone().map_or(Ok(()), |why| Err(self.lose(why)))
+    }
+
+    /// Waits until a side may have moved on, unless the card is gone or one was waited for long enough.
+    fn wait(&mut self) -> Result<(), DeviceError> {
+        self.alive()?;
+        let sides = if self.layout.inputs.is_empty() { 1 } else { 2 };
+        let patience = self.manners.patience;
+        for side in &[Side::Playback, Side::Capture][..sides] {
+            let (n, chunks) = (*side as usize, self.events.counts.chunks(*side));
+            if chunks != self.seen[n] {
+                (self.seen[n], self.quiet[n]) = (chunks, Duration::ZERO);
+            }
+            if self.quiet[n] >= patience {
+                self.quiet = [Duration::ZERO; 2];
+                let (did, time) = (side.did(), patience.as_secs_f64());
+                let why = match chunks {
+                    0 => format!("it has {did} nothing yet, waited for {time} s"),
+                    _ => format!("it has {did} nothing for {time} s"),
+                };
+                return Err(self.stall(why));
+            }
         }
-        std::thread::sleep(Duration::from_micros(100));
+        let left = self.quiet[..sides].iter().map(|quiet| patience - *quiet).min().unwrap_or(patience);
+        let waited = self.streams.wait(left);
+        self.quiet.iter_mut().for_each(|quiet| *quiet += waited);
         Ok(())
+    }
+
+    /// Whether waiting any longer would leave the side that plays without drive, where playing goes before hearing.
+    fn starves(&self) -> bool {
+        let waiting = self.shore.drive.buffer().capacity() - self.shore.drive.slots();
+        let next = self.events.counts.largest(Side::Playback) * self.layout.outputs.len();
+        !self.manners.strict && waiting < next
     }
 
     /// Waits for one block and takes it. If that takes too long, what there is of it is kept for the next time.
     fn pop(&mut self, heard: &mut [f32]) -> Result<(), DeviceError> {
         let (block, inputs) = (self.layout.block, self.layout.inputs.len());
-        let since = Instant::now();
         while self.frames.len() < block * inputs.max(1) {
             let Some(played) = self.next.or_else(|| self.shore.when.pop().ok()) else {
-                self.nap(since)?;
+                self.wait()?;
                 continue;
             };
             if self.next.is_none() {
@@ -112,7 +163,13 @@ impl Ferry {
                 (self.next, self.last) = (Some(played), Some(played));
             }
             while !self.frame(played) {
-                self.nap(since)?;
+                if self.starves() {
+                    self.frames.extend(std::iter::repeat_n(0.0, inputs));
+                    self.missed += 1;
+                    self.hurried = true;
+                    break;
+                }
+                self.wait()?;
             }
             self.next = None;
         }
@@ -123,6 +180,11 @@ impl Ferry {
         self.frames.clear();
         self.status.lost += self.missed.div_ceil(block as u64);
         self.missed = 0;
+        self.late = if std::mem::take(&mut self.hurried) { self.late + 1 } else { 0 };
+        if self.late == LATE {
+            self.events.counts.catch_up();
+            self.late = 0;
+        }
         Ok(())
     }
 
@@ -178,9 +240,7 @@ impl Device for Ferry {
                        larger blocks if that happens often";
             self.events.lose(why.into());
         }
-        if let Some(why) = self.events.why_gone() {
-            return Err(self.lose(why));
-        }
+        self.alive()?;
         // Answers that came too late once are thrown away, so that latency stays what it is.
         while self.owed > 0 {
             self.pop(heard)?;

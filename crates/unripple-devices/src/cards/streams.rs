@@ -2,10 +2,44 @@
 
 use super::crossing::{Events, Player, Recorder};
 use crate::DevicesError;
-use cpal::traits::{DeviceTrait, HostTrait};
+use cpal::traits::{DeviceTrait, HostTrait, StreamTrait};
 use cpal::{BufferSize, Error, ErrorKind, FromSample, Sample, SampleFormat, SizedSample, StreamConfig};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
+
+/// What plays and records behind a card's two sides: streams of the sound system, or what stands in for them.
+pub(super) trait Streams: Send {
+    /// Returns as soon as a side may have moved on, or after so long; how long that took.
+    fn wait(&mut self, at_most: Duration) -> Duration;
+}
+
+/// Streams of the sound system, whose threads call the sides.
+pub(super) struct Running {
+    /// Playing and recording while they are there.
+    pub(super) streams: Vec<cpal::Stream>,
+    pub(super) events: Arc<Events>,
+}
+
+impl Running {
+    /// The most frames that a side is given at once, as far as the system tells.
+    pub(super) fn period(&self) -> usize {
+        let told = self.streams.iter().filter_map(|stream| stream.buffer_size().ok());
+        told.max().map_or(0, |frames| frames as usize)
+    }
+}
+
+impl Streams for Running {
+    fn wait(&mut self, at_most: Duration) -> Duration {
+        let since = Instant::now();
+        if !self.events.bell.wakes(std::thread::current().id()) {
+            self.events.bell.listen();
+            return Duration::ZERO;
+        }
+        std::thread::park_timeout(at_most);
+        since.elapsed()
+    }
+}
 
 /// Formats of samples that are understood, the best first.
 const FORMATS: [SampleFormat; 3] = [SampleFormat::F32, SampleFormat::I32, SampleFormat::I16];
@@ -18,6 +52,22 @@ pub(super) enum Side {
 }
 
 impl Side {
+    /// The other way.
+    pub(super) fn other(self) -> Self {
+        match self {
+            Self::Playback => Self::Capture,
+            Self::Capture => Self::Playback,
+        }
+    }
+
+    /// What it did.
+    pub(super) fn did(self) -> &'static str {
+        match self {
+            Self::Playback => "played",
+            Self::Capture => "recorded",
+        }
+    }
+
     fn channels(self) -> &'static str {
         match self {
             Self::Playback => "output channels",
@@ -116,6 +166,7 @@ fn told(events: &Events, error: &Error) {
     match error.kind() {
         ErrorKind::Xrun => {
             events.xruns.fetch_add(1, Ordering::Relaxed);
+            events.bell.ring();
         }
         ErrorKind::RealtimeDenied | ErrorKind::DeviceChanged => {}
         _ => events.lose(error.to_string()),

@@ -2,6 +2,7 @@
 
 use super::crossing::{Events, Player, Recorder, crossing};
 use super::ferry::{Ferry, Manners};
+use super::streams::Streams;
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -12,6 +13,15 @@ const BLOCK: usize = 64;
 const LEAD: usize = 2;
 /// Samples by which the loop comes late.
 const LATE: usize = 77;
+
+/// Nothing moves on while somebody waits.
+struct Still;
+
+impl Streams for Still {
+    fn wait(&mut self, at_most: Duration) -> Duration {
+        at_most
+    }
+}
 
 /// A card whose outputs lead to its inputs, late by [`LATE`].
 struct Loop {
@@ -36,7 +46,7 @@ impl Loop {
             full_scale: 1.0,
         };
         let manners = Manners { lead: LEAD as u64, patience: Duration::from_millis(5), strict };
-        let ferry = Ferry::new(layout, shore, events.clone(), manners);
+        let ferry = Ferry::new(layout, (shore, events.clone()), Box::new(Still), manners);
         let wire = VecDeque::from(vec![[0.0; 2]; LATE]);
         (Self { player, recorder, wire, events, seed: 1 }, ferry)
     }

@@ -1,0 +1,105 @@
+//! How far the two sides of a card have counted their frames, and whether they count together.
+
+use super::streams::Side;
+use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU32, Ordering};
+
+/// How far a side may be behind the other on one clock, in largest chunks of both: a card holds two of each, and whoever
+/// carries them between card and program may be late by one more.
+const SLACK: u32 = 3;
+
+/// Chunks with which a side begins. A card's sides start one after the other, and the first chunks that are played only
+/// fill what the card holds: being behind in these says where a side begins, not that it runs on another clock.
+const FIRST: u32 = 8;
+
+/// One side's.
+#[derive(Debug, Default)]
+struct Count {
+    /// Frames, around 2^32.
+    at: AtomicU32,
+    /// Chunks, around 2^32.
+    chunks: AtomicU32,
+    /// The largest of them, in frames.
+    largest: AtomicU32,
+}
+
+/// Frames of both sides.
+///
+/// What is heard is matched to what was played by its number, so both have to count the same time. A side that was not called
+/// for a while, or whose clock is slower, is behind; it then counts on from where the other one is, so that nobody waits for
+/// frames that never come.
+#[derive(Debug, Default)]
+pub(super) struct Counts {
+    sides: [Count; 2],
+    /// Frames by which a side was behind when that was noticed first: playing positive, recording negative; 0 if never.
+    apart: AtomicI64,
+    /// Recording is to count on from where playing is, however little it is behind.
+    catch_up: AtomicBool,
+}
+
+impl Counts {
+    fn side(&self, side: Side) -> &Count {
+        &self.sides[side as usize]
+    }
+
+    /// The number of the first frame of a side's next chunk, `at` being where that side has come to.
+    pub(super) fn next(&self, side: Side, at: u32, frames: usize) -> u32 {
+        let (own, other) = (self.side(side), self.side(side.other()));
+        let frames = frames as u32;
+        let largest = own.largest.fetch_max(frames, Ordering::Relaxed).max(frames);
+        let chunks = own.chunks.load(Ordering::Relaxed);
+        if other.chunks.load(Ordering::Acquire) == 0 {
+            return at;
+        }
+        // Drive is counted before it is played, sound after it was recorded.
+        let now = if side == Side::Playback { at } else { at.wrapping_add(frames) };
+        let behind = other.at.load(Ordering::Acquire).wrapping_sub(now) as i32;
+        let most = SLACK.saturating_mul(largest.saturating_add(other.largest.load(Ordering::Relaxed)));
+        let asked = side == Side::Capture && self.catch_up.swap(false, Ordering::Relaxed);
+        if behind <= 0 || (behind as u32 <= most && !asked) {
+            return at;
+        }
+        if chunks >= FIRST && !asked {
+            let signed = if side == Side::Playback { i64::from(behind) } else { -i64::from(behind) };
+            let _ = self.apart.compare_exchange(0, signed, Ordering::Relaxed, Ordering::Relaxed);
+        }
+        at.wrapping_add(behind as u32)
+    }
+
+    /// A side has come to a frame.
+    pub(super) fn passed(&self, side: Side, at: u32) {
+        let own = self.side(side);
+        own.at.store(at, Ordering::Release);
+        // Never 0 again, which says that it has not begun.
+        let more = |chunks: u32| Some(chunks.checked_add(1).unwrap_or(FIRST));
+        let _ = own.chunks.fetch_update(Ordering::Release, Ordering::Relaxed, more);
+    }
+
+    /// Recording is too far behind for the program, though not too far for one clock.
+    pub(super) fn catch_up(&self) {
+        self.catch_up.store(true, Ordering::Relaxed);
+    }
+
+    /// Chunks of a side so far, around 2^32.
+    pub(super) fn chunks(&self, side: Side) -> u32 {
+        self.side(side).chunks.load(Ordering::Acquire)
+    }
+
+    /// A side's largest chunk so far, in frames.
+    pub(super) fn largest(&self, side: Side) -> usize {
+        self.side(side).largest.load(Ordering::Relaxed) as usize
+    }
+
+    /// What to say if the sides did not count together.
+    pub(super) fn apart(&self) -> Option<String> {
+        let [late, ahead] = match self.apart.load(Ordering::Relaxed) {
+            0 => return None,
+            1.. => ["plays", "records"],
+            _ => ["records", "plays"],
+        };
+        let frames = self.apart.load(Ordering::Relaxed).unsigned_abs();
+        Some(format!(
+            "the side that {late} fell {frames} frames behind the one that {ahead}: they run on two clocks, or one of them \
+             stopped for a while; choose one card for both (`unripple devices` lists them), and larger blocks if it is one"
+        ))
+    }
+}
