@@ -1,30 +1,26 @@
 use crate::log::{Began, Log};
-use crate::sounding::{Inputs, Sounding};
+use crate::pace::Pace;
+use crate::sounding::{Inputs, Kept, Sounding};
 use crate::{Drives, LiveError, Maker, Tally, Timing};
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use std::time::Instant;
 use unripple_core::{Point, Touch};
-use unripple_effects::{Act, Cue, Effects, Level, Wave};
-use unripple_player::{At, Command, Desk, Prepared, Report, Voice};
+use unripple_effects::{Act, Cue, Effects, Level};
+use unripple_player::{At, Command, Count, Desk, Prepared, Report, Voice};
 use unripple_touch::{Heard, Wish};
 
 /// Cues that may wait for their time; more are counted and dropped.
 const MOST_WAITING: usize = 1 << 16;
 
-/// Voices whose touches are remembered until they start.
+/// Starts whose touches are remembered until they are reported.
 const MOST_ASKED: usize = 1 << 12;
 
 /// The player's name of pings.
 const PING: u64 = u64::MAX;
 
-/// Set in the player's names of waveforms, which are none of the effects' voices.
-const WAVES: u64 = 1 << 63;
-
 /// A pulse that is begun so late, in s, is not begun at all.
 const STALE: f64 = 0.1;
-
-/// Time over which a moved waveform goes from one place to the next, in s.
-const GLIDE: f64 = 0.01;
 
 /// Turns what touches set off into commands for a player: cues wait here for their time, drives are made or remembered, and what
 /// sounds follows the finger.
@@ -32,28 +28,56 @@ const GLIDE: f64 = 0.01;
 /// A focus comes a window after its drive begins. So what is known ahead, as in a score, begins a window early; what a touch sets off
 /// begins at once.
 ///
-/// Deterministic: the same touches at the same samples give the same commands.
+/// Deterministic: the same touches at the same samples give the same commands, as long as the player's clock moves.
+///
+/// # Nothing sounds that nobody wants
+///
+/// What is over by itself, a pulse or a waveform played once, is sent and may be lost. What goes on is held: the player ends it once the
+/// [`Hold`](unripple_player::Hold) is stopped or dropped, and here a hold lives in the entry of its voice and nowhere else. So what
+/// is forgotten here ends there, and a stop needs no room, neither on the way nor in the player.
+///
+/// - The way is full: the command comes back. Pulses are lost and counted; of what goes on the entry stays and is told again with the
+///   next block, by when it may have moved or be gone.
+/// - The player refuses, or something is over: the hold says so, the entry goes, and the input of a waveform is free. A change that was
+///   refused is told again. Reports only measure; if some were lost, all that goes on is told again.
+/// - The player stands still: after a tenth of a second what was sent to it and would be over by itself is taken back, and nothing more is
+///   sent before it goes on. Fingers are followed meanwhile, and what they then still hold is told.
+/// - This side is gone: the player fades out by itself. [`Conductor::end`] asks it to.
 pub struct Conductor {
     effects: Effects,
-    drives: Drives,
-    desk: Desk,
-    rate: f64,
+    pub(crate) drives: Drives,
+    pub(crate) desk: Desk,
+    pub(crate) rate: f64,
     /// Samples from the beginning of a drive to its focus.
     lead: u64,
-    waiting: BTreeMap<(u64, u64), Cue>,
+    waiting: BTreeMap<(u64, u64), Waiting>,
     order: u64,
-    sounding: BTreeMap<u64, Sounding>,
-    inputs: Inputs,
-    /// Waveforms begun so far.
-    waves: u64,
+    pub(crate) sounding: BTreeMap<u64, Kept>,
+    pub(crate) inputs: Inputs,
+    /// Names given to the player so far.
+    names: u64,
     /// Factor on all levels.
-    trim: f64,
-    /// When the touch came that a voice answers, in samples.
+    pub(crate) trim: f64,
+    /// When the touch came that a start answers, in samples, by its name.
     asked: BTreeMap<u64, u64>,
     cues: Vec<Cue>,
-    tally: Tally,
+    pub(crate) tally: Tally,
+    pace: Pace,
+    /// Whether the player stands still.
+    pub(crate) stands: bool,
+    /// The block in which the player was last told what it may not know.
+    told: Option<u64>,
+    /// Reports lost so far.
+    missed: u64,
     /// What each voice plays, and what of it has begun, while somebody wants to know.
     log: Option<Log>,
+    ended: bool,
+}
+
+/// A cue that waits for its time, and when the touch came that it answers first, in samples.
+struct Waiting {
+    cue: Cue,
+    asked: Option<u64>,
 }
 
 impl std::fmt::Debug for Conductor {
@@ -63,16 +87,9 @@ impl std::fmt::Debug for Conductor {
 }
 
 impl Conductor {
-    /// Effects played through a desk, whose player has so many inputs for waveforms and so many outputs.
-    pub fn new(
-        effects: Effects,
-        drives: Drives,
-        desk: Desk,
-        time: Timing,
-        inputs: usize,
-        outputs: usize,
-    ) -> Self {
-        let Timing { rate, window, block } = time;
+    /// Effects played through a desk, whose player has so many inputs for waveforms.
+    pub fn new(effects: Effects, drives: Drives, desk: Desk, time: Timing, inputs: usize) -> Self {
+        let Timing { rate, window, .. } = time;
         Self {
             effects,
             drives,
@@ -82,13 +99,18 @@ impl Conductor {
             waiting: BTreeMap::new(),
             order: 0,
             sounding: BTreeMap::new(),
-            inputs: Inputs::new(inputs, outputs, block),
-            waves: 0,
+            inputs: Inputs::new(inputs),
+            names: 0,
             trim: 1.0,
             asked: BTreeMap::new(),
             cues: Vec::new(),
             tally: Tally::default(),
+            pace: Pace::new(rate),
+            stands: false,
+            told: None,
+            missed: 0,
             log: None,
+            ended: false,
         }
     }
 
@@ -99,7 +121,21 @@ impl Conductor {
 
     /// Plays a drive that asks the sheet for its tension, at once.
     pub(crate) fn ping(&mut self, drive: Arc<Prepared>) {
-        self.send(Command::Start { voice: Voice(PING), drive, at: At::Now, gain: 1.0, period: None });
+        if !self.ended && !self.stands {
+            self.send(Command::Start { voice: Voice(PING), drive, at: At::Now, gain: 1.0, period: None });
+        }
+    }
+
+    /// Ends it all: what sounds fades out over so many seconds, what waits is dropped, and what is heard from now on sets nothing off.
+    pub fn end(&mut self, fade: f64) {
+        self.ended = true;
+        self.waiting.clear();
+        self.desk.end((fade * self.rate).round() as u32);
+    }
+
+    /// Whether all has faded out after [`Conductor::end`]; never said by a player that is not asked for blocks any more.
+    pub fn is_over(&self) -> bool {
+        self.desk.is_over()
     }
 
     /// Keeps, from now on, which drives begin, for [`Conductor::began`].
@@ -135,6 +171,17 @@ impl Conductor {
     /// [`LiveError::Gone`] if no drive can be made any more; what fails for one cue is counted.
     pub fn step(&mut self, heard: &Heard, now: u64, until: u64) -> Result<(), LiveError> {
         self.listen();
+        if self.ended {
+            return Ok(());
+        }
+        let stood = std::mem::replace(&mut self.stands, self.pace.stands(now, Instant::now()));
+        if self.stands && !stood {
+            self.desk.withdraw();
+        }
+        self.forget_over();
+        if self.told.replace(now) != Some(now) {
+            self.tell_again(now)?;
+        }
         let mut cues = std::mem::take(&mut self.cues);
         for touch in &heard.touches {
             self.effects.touch(touch, &mut cues);
@@ -146,10 +193,9 @@ impl Conductor {
         self.effects.tick((until + self.lead) as f64 / self.rate, &mut cues);
         self.queue(&mut cues, now, None);
         self.cues = cues;
-        self.inputs.free(now, &mut self.desk);
         while let Some(entry) = self.waiting.first_entry().filter(|entry| entry.key().0 < until) {
-            let ((sample, _), cue) = entry.remove_entry();
-            let played = self.play(&cue, sample, now);
+            let ((sample, _), Waiting { cue, asked }) = entry.remove_entry();
+            let played = self.play(&cue, asked, sample, now);
             self.tally.cues += u64::from(self.tally.went(played)?);
         }
         Ok(())
@@ -161,12 +207,8 @@ impl Conductor {
     /// [`LiveError::Gone`] if no drive can be made any more.
     pub fn renew(&mut self, maker: Maker, now: u64) -> Result<(), LiveError> {
         self.drives.replace(maker);
-        let all: Vec<(u64, Sounding)> = self.sounding.iter().map(|(voice, s)| (*voice, s.clone())).collect();
-        for (voice, sounding) in all {
-            let redirected = self.redirect(voice, &sounding, At::Sample(now));
-            self.tally.went(redirected)?;
-        }
-        Ok(())
+        self.sounding.values_mut().for_each(|kept| kept.told = false);
+        self.tell_again(now)
     }
 
     /// The sample nearest to a time in s.
@@ -176,6 +218,7 @@ impl Conductor {
 
     /// Puts cues where they wait for the beginning of their drives.
     fn queue(&mut self, cues: &mut Vec<Cue>, now: u64, touch: Option<&Touch>) {
+        let mut voice = None;
         for cue in cues.drain(..) {
             let focus = self.sample(cue.at);
             let sample = focus.saturating_sub(self.lead).max(now);
@@ -186,20 +229,16 @@ impl Conductor {
                 continue;
             }
             if let Act::Stop { .. } = cue.act {
-                self.waiting.retain(|(at, _), other| other.voice != cue.voice || *at < sample);
+                self.waiting.retain(|(at, _), other| other.cue.voice != cue.voice || *at < sample);
             } else if self.waiting.len() >= MOST_WAITING {
                 self.tally.dropped += 1;
                 continue;
             }
-            if let Some(touch) = touch {
-                let asked = self.sample(touch.time);
-                self.asked.entry(cue.voice).or_insert(asked);
-                if self.asked.len() > MOST_ASKED {
-                    self.asked.pop_first();
-                }
-            }
+            // Of what a touch sets off under a voice the first answers it.
+            let first = voice.replace(cue.voice) != Some(cue.voice);
+            let asked = touch.filter(|_| first).map(|touch| self.sample(touch.time));
             self.order += 1;
-            self.waiting.insert((sample, self.order), cue);
+            self.waiting.insert((sample, self.order), Waiting { cue, asked });
         }
     }
 
@@ -215,177 +254,110 @@ impl Conductor {
         }
     }
 
-    fn play(&mut self, cue: &Cue, sample: u64, now: u64) -> Result<(), LiveError> {
+    fn play(&mut self, cue: &Cue, asked: Option<u64>, sample: u64, now: u64) -> Result<(), LiveError> {
         let at = if sample <= now { At::Now } else { At::Sample(sample) };
         match &cue.act {
-            Act::Pulse { place, gain } => self.start(cue.voice, &[*place], *gain, None, at),
-            Act::Shape { points, gain } => self.start(cue.voice, points, *gain, None, at),
+            Act::Pulse { place, gain } => self.pulse(&[*place], *gain, asked, at),
+            Act::Shape { points, gain } => self.pulse(points, *gain, asked, at),
             Act::Comb { place, rate, gain } => {
                 let period = (self.rate / rate).round();
-                self.start(cue.voice, &[*place], *gain, Some(period), at)?;
-                let comb = Sounding::Comb { place: *place, level: *gain, period };
-                self.replace(cue.voice, comb, at);
-                Ok(())
+                self.keep(cue.voice, Sounding::Comb { place: *place, level: *gain, period }, asked, at)
             }
             Act::Wave { place, wave, gain, looped, fade } => {
-                self.wave(cue.voice, *place, wave, *gain, (*looped, *fade), at)
+                let (place, level, wave) = (*place, *gain, wave.clone());
+                let wave = Sounding::Wave { place, level, wave, looped: *looped, fade: *fade };
+                self.keep(cue.voice, wave, asked, at)
             }
             Act::Move { place } => self.change(cue.voice, |sounding| sounding.moved(*place), at),
             Act::Gain { gain } => self.change(cue.voice, |sounding| sounding.at_level(*gain), at),
-            Act::Stop { fade } => self.stop(cue.voice, *fade, at, sample),
-        }
-    }
-
-    fn start(
-        &mut self,
-        voice: u64,
-        points: &[Point],
-        level: Level,
-        period: Option<f64>,
-        at: At,
-    ) -> Result<(), LiveError> {
-        let gain = self.pulse_gain(points, level)?;
-        let drive = self.drives.at(points)?.prepared;
-        let gain = period.map_or(gain, |period| gain.min(self.drives.even(&drive, period)));
-        self.send(Command::Start { voice: Voice(voice), drive, at, gain, period });
-        Ok(())
-    }
-
-    fn wave(
-        &mut self,
-        voice: u64,
-        place: Point,
-        wave: &Wave,
-        level: Level,
-        (looped, fade): (bool, f64),
-        at: At,
-    ) -> Result<(), LiveError> {
-        let Some(input) = self.inputs.take(voice) else {
-            self.tally.crowded += 1;
-            return Ok(());
-        };
-        self.waves += 1;
-        let id = WAVES | self.waves;
-        let sounding = Sounding::Wave { input, id, place, wave: wave.clone(), level };
-        self.replace(voice, sounding.clone(), at);
-        self.filter(&sounding, fade, at)?;
-        if let Some(asked) = self.asked.remove(&voice) {
-            self.asked.insert(id, asked);
-        }
-        let samples = wave.samples.clone();
-        self.send(Command::Wave { voice: Voice(id), input, samples, at, gain: 1.0, looped });
-        Ok(())
-    }
-
-    /// Gives what a voice sounds another place or level.
-    fn change(&mut self, voice: u64, other: impl Fn(Sounding) -> Sounding, at: At) -> Result<(), LiveError> {
-        let Some(sounding) = self.sounding.get(&voice).cloned() else { return Ok(()) };
-        let sounding = other(sounding);
-        self.redirect(voice, &sounding, at)?;
-        self.sounding.insert(voice, sounding);
-        Ok(())
-    }
-
-    fn redirect(&mut self, voice: u64, sounding: &Sounding, at: At) -> Result<(), LiveError> {
-        match sounding {
-            Sounding::Comb { place, level, period } => {
-                let gain = self.pulse_gain(&[*place], *level)?;
-                let drive = self.drives.at(&[*place])?.prepared;
-                let gain = gain.min(self.drives.even(&drive, *period));
-                self.send(Command::Swap { voice: Voice(voice), drive, at });
-                self.send(Command::Gain { voice: Voice(voice), gain, at });
+            Act::Stop { fade } => {
+                let samples = (fade * self.rate).round() as u32;
+                self.let_go(cue.voice, (samples > 0).then_some(samples), at);
                 Ok(())
             }
-            Sounding::Wave { .. } => self.filter(sounding, GLIDE, at),
         }
     }
 
-    /// Points the input of a waveform at its place.
-    fn filter(&mut self, sounding: &Sounding, fade: f64, at: At) -> Result<(), LiveError> {
-        let Sounding::Wave { input, place, wave, level, .. } = sounding else { return Ok(()) };
-        let (gain, beyond) = self.drives.wave_gain(*place, wave, level.scaled(self.trim))?;
-        self.tally.beyond += u64::from(beyond);
-        let made = self.drives.at(&[*place])?.made;
-        let scaled = |channel: &Vec<f64>| channel.iter().map(|x| (x * gain) as f32).collect();
-        let responses: Vec<Vec<f32>> = made.drive.channels().iter().map(scaled).collect();
-        let filters = self.desk.filters(&responses)?;
-        let fade = (fade * self.rate).round() as u32;
-        self.send(Command::SetFilters { input: *input, filters, at, fade });
+    fn pulse(&mut self, points: &[Point], level: Level, asked: Option<u64>, at: At) -> Result<(), LiveError> {
+        if !self.can_begin() {
+            return Ok(());
+        }
+        let gain = self.pulse_gain(points, level)?;
+        let drive = self.drives.at(points)?.prepared;
+        let voice = Voice(self.name(asked));
+        self.send(Command::Start { voice, drive, at, gain, period: None });
         Ok(())
     }
 
-    fn pulse_gain(&mut self, points: &[Point], level: Level) -> Result<f32, LiveError> {
+    pub(crate) fn pulse_gain(&mut self, points: &[Point], level: Level) -> Result<f32, LiveError> {
         let (gain, beyond) = self.drives.pulse_gain(points, level.scaled(self.trim))?;
         self.tally.beyond += u64::from(beyond);
         Ok(gain as f32)
     }
 
-    /// Notes what a voice sounds from now on, instead of what it sounded.
-    fn replace(&mut self, voice: u64, sounding: Sounding, at: At) {
-        let old = self.sounding.insert(voice, sounding);
-        if let Some(Sounding::Wave { input, id, .. }) = old {
-            let silent = match at {
-                At::Now => self.desk.clock(),
-                At::Sample(sample) => sample,
-            };
-            self.send(Command::Stop { voice: Voice(id), at, fade: Some(0) });
-            self.inputs.give(input, silent, &mut self.desk);
-        }
+    /// Whether what is over by itself may begin now; what may not is counted.
+    pub(crate) fn can_begin(&mut self) -> bool {
+        let full = self.desk.room() == 0;
+        self.tally.stale += u64::from(self.stands);
+        self.tally.lost += u64::from(full && !self.stands);
+        !self.stands && !full
     }
 
-    fn stop(&mut self, voice: u64, fade: f64, at: At, sample: u64) -> Result<(), LiveError> {
-        self.asked.remove(&voice);
-        let samples = (fade * self.rate).round() as u32;
-        match self.sounding.remove(&voice) {
-            None => {}
-            Some(Sounding::Comb { .. }) => {
-                let fade = (samples > 0).then_some(samples);
-                self.send(Command::Stop { voice: Voice(voice), at, fade });
-            }
-            Some(Sounding::Wave { input, id, .. }) => {
-                self.send(Command::Stop { voice: Voice(id), at, fade: Some(samples) });
-                self.inputs.give(input, sample + u64::from(samples), &mut self.desk);
+    /// A name that the player has not heard yet, for what answers a touch that came at a sample.
+    pub(crate) fn name(&mut self, asked: Option<u64>) -> u64 {
+        self.names += 1;
+        if let Some(asked) = asked {
+            self.asked.insert(self.names, asked);
+            if self.asked.len() > MOST_ASKED {
+                self.asked.pop_first();
             }
         }
-        Ok(())
+        self.names
     }
 
-    /// A waveform that was played once is over.
-    fn end(&mut self, ended: u64, silent: u64) {
-        let over = self.sounding.iter().find_map(|(voice, sounding)| match sounding {
-            Sounding::Wave { input, id, .. } if *id == ended => Some((*voice, *input)),
-            _ => None,
-        });
-        if let Some((voice, input)) = over {
-            self.sounding.remove(&voice);
-            self.inputs.give(input, silent, &mut self.desk);
-        }
+    /// Sends a command; whether there was room.
+    pub(crate) fn send(&mut self, command: Command) -> bool {
+        self.note(&command);
+        let sent = self.desk.send(command).is_ok();
+        self.tally.lost += u64::from(!sent);
+        sent
     }
 
-    fn send(&mut self, command: Command) {
+    pub(crate) fn note(&mut self, command: &Command) {
         if let Some(log) = &mut self.log {
-            log.send(&command);
+            log.send(command, self.desk.clock());
         }
-        self.tally.lost += u64::from(self.desk.send(command).is_err());
     }
 
     /// Hears what the player says.
     fn listen(&mut self) {
         while let Some(report) = self.desk.report() {
-            if let Report::Ended { voice, sample } = report {
-                self.end(voice.0, sample);
-            }
             if let Some(log) = &mut self.log {
                 log.hear(&report);
             }
-            if let Report::Started { voice, sample, .. } = report
-                && let Some(asked) = self.asked.remove(&voice.0)
-            {
-                let late = sample.saturating_sub(asked);
-                self.tally.first_sample.add(late as f64 / self.rate);
-                self.tally.focus.add((late + self.lead) as f64 / self.rate);
-            }
             self.tally.hear(&report);
+            match report {
+                Report::Started { voice, sample, .. } => {
+                    let Some(asked) = self.asked.remove(&voice.0) else { continue };
+                    let late = sample.saturating_sub(asked);
+                    self.tally.first_sample.add(late as f64 / self.rate);
+                    self.tally.focus.add((late + self.lead) as f64 / self.rate);
+                }
+                Report::Refused { voice, .. } => {
+                    voice.map(|voice| self.asked.remove(&voice.0));
+                    // Filters have no name: those of any waveform may be meant.
+                    let meant =
+                        |kept: &&mut Kept| voice.map_or(kept.input.is_some(), |voice| voice.0 == kept.name);
+                    self.sounding.values_mut().filter(meant).for_each(|kept| kept.told = false);
+                }
+                _ => {}
+            }
+        }
+        let missed = self.desk.meters().count(Count::ReportsLost);
+        if std::mem::replace(&mut self.missed, missed) != missed {
+            self.asked.clear();
+            self.log.iter_mut().for_each(Log::miss);
+            self.sounding.values_mut().for_each(|kept| kept.told = false);
         }
     }
 }

@@ -43,7 +43,7 @@ impl Engine {
         let meters = desk.meters().clone();
         let window = options.focus.window;
         let time = Timing { rate, window, block: layout.block };
-        let conductor = Conductor::new(effects, drives, desk, time, options.waves, layout.outputs.len());
+        let conductor = Conductor::new(effects, drives, desk, time, options.waves);
         let stage = Stage {
             conductor,
             sources,

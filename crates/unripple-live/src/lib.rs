@@ -18,6 +18,7 @@ mod level;
 mod log;
 mod maker;
 mod options;
+mod pace;
 mod percentiles;
 mod pinging;
 mod priority;
@@ -26,6 +27,7 @@ mod sounding;
 mod stage;
 mod tally;
 mod threaded;
+mod voices;
 mod window;
 
 pub use conductor::Conductor;

@@ -1,6 +1,9 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
-use unripple_player::{Command, Prepared, Report};
+use unripple_player::{At, Command, Prepared, Report};
+
+/// Drives that are kept until somebody asks, and names that are remembered; the oldest go first.
+const MOST: usize = 1 << 14;
 
 /// A drive that began to sound.
 #[derive(Clone, Debug)]
@@ -13,48 +16,85 @@ pub struct Began {
     pub sample: u64,
 }
 
-/// What each voice plays, and what of it has begun.
+/// What is played under each of the player's names, and what of it has begun.
 #[derive(Debug, Default)]
 pub(crate) struct Log {
     playing: BTreeMap<u64, Playing>,
-    began: Vec<Began>,
+    began: VecDeque<Began>,
 }
 
-/// The drives of a voice: those to be played once, the first to begin first, and the one that is repeated.
-#[derive(Debug, Default)]
+/// Drives of a name, and from when on each is begun.
+#[derive(Debug)]
 struct Playing {
-    once: VecDeque<Arc<Prepared>>,
-    repeated: Option<Arc<Prepared>>,
+    drives: VecDeque<(u64, Arc<Prepared>)>,
+    repeats: bool,
 }
 
 impl Log {
-    /// A command that is sent.
-    pub fn send(&mut self, command: &Command) {
+    /// A command that was sent when the player's next block began at `now`.
+    pub fn send(&mut self, command: &Command, now: u64) {
+        let from = match command.at() {
+            At::Now => now,
+            At::Sample(sample) => sample,
+        };
         match command {
-            Command::Start { voice, drive, period: None, .. } => {
-                self.playing.entry(voice.0).or_default().once.push_back(drive.clone());
+            Command::Start { voice, drive, period, .. } => {
+                let drives = VecDeque::from([(from, drive.clone())]);
+                self.playing.insert(voice.0, Playing { drives, repeats: period.is_some() });
             }
-            Command::Start { voice, drive, .. } | Command::Swap { voice, drive, .. } => {
-                self.playing.entry(voice.0).or_default().repeated = Some(drive.clone());
+            Command::Swap { voice, drive, .. } => {
+                if let Some(playing) = self.playing.get_mut(&voice.0) {
+                    playing.drives.push_back((from, drive.clone()));
+                }
             }
             _ => {}
+        }
+        if self.playing.len() > MOST {
+            self.playing.pop_first();
         }
     }
 
     /// A report that came.
     pub fn hear(&mut self, report: &Report) {
-        let (Report::Started { voice, .. } | Report::Refused { voice: Some(voice), .. }) = report else {
-            return;
-        };
-        let Some(playing) = self.playing.get_mut(&voice.0) else { return };
-        let drive = playing.once.pop_front().or_else(|| playing.repeated.clone());
-        if let (Report::Started { sample, gain, .. }, Some(drive)) = (report, drive) {
-            self.began.push(Began { drive, gain: *gain, sample: *sample });
+        match report {
+            Report::Started { voice, sample, gain } => self.start(voice.0, *sample, *gain),
+            Report::Ended { voice, .. } => self.forget(voice.0),
+            Report::Refused { voice: Some(voice), .. } => {
+                if self.playing.get(&voice.0).is_some_and(|playing| !playing.repeats) {
+                    self.forget(voice.0);
+                }
+            }
+            _ => {}
         }
+    }
+
+    fn start(&mut self, name: u64, sample: u64, gain: f32) {
+        let Some(playing) = self.playing.get_mut(&name) else { return };
+        while playing.drives.get(1).is_some_and(|(from, _)| *from <= sample) {
+            playing.drives.pop_front();
+        }
+        let drive = playing.drives.front().map(|(_, drive)| drive.clone());
+        if !playing.repeats {
+            self.forget(name);
+        }
+        self.began.extend(drive.map(|drive| Began { drive, gain, sample }));
+        if self.began.len() > MOST {
+            self.began.pop_front();
+        }
+    }
+
+    /// Nothing more is told of a name.
+    pub fn forget(&mut self, name: u64) {
+        self.playing.remove(&name);
+    }
+
+    /// Reports were lost: of what is played once nobody knows any more whether it began.
+    pub fn miss(&mut self) {
+        self.playing.retain(|_, playing| playing.repeats);
     }
 
     /// What has begun since this was last asked.
     pub fn take(&mut self) -> Vec<Began> {
-        std::mem::take(&mut self.began)
+        std::mem::take(&mut self.began).into()
     }
 }

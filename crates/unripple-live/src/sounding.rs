@@ -1,14 +1,14 @@
 use unripple_core::Point;
 use unripple_effects::{Level, Wave};
-use unripple_player::{At, Command, Desk};
+use unripple_player::Hold;
 
-/// What goes on sounding under a voice until it is stopped.
+/// What goes on sounding under a voice until it is stopped or over.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Sounding {
     /// A repeated focus, and the samples from each to the next.
     Comb { place: Point, level: Level, period: f64 },
-    /// A waveform through an input, under a name of its own for the player.
-    Wave { input: usize, id: u64, place: Point, wave: Wave, level: Level },
+    /// A waveform, for ever or once, and the time over which it rises, in s.
+    Wave { place: Point, level: Level, wave: Wave, looped: bool, fade: f64 },
 }
 
 impl Sounding {
@@ -25,65 +25,74 @@ impl Sounding {
         *level = to;
         self
     }
+
+    /// Whether it is worth beginning late: what goes on is.
+    pub fn goes_on(&self) -> bool {
+        matches!(self, Self::Comb { .. } | Self::Wave { looped: true, .. })
+    }
 }
 
-/// The player's inputs for waveforms, and who has them.
-///
-/// An input that was used still points at a place; before the next voice has it, it is pointed nowhere, so that what rises from
-/// silence does rise from silence.
-#[derive(Clone, Debug)]
+/// What is wanted under a voice, and what of it the player knows.
+#[derive(Debug)]
+pub(crate) struct Kept {
+    pub sounding: Sounding,
+    /// The player's name of it, given once.
+    pub name: u64,
+    /// What keeps it going in the player; nothing if that has not been told yet.
+    pub hold: Option<Hold>,
+    /// The player's input that a waveform has.
+    pub input: Option<usize>,
+    /// Whether the player was told where and how strong.
+    pub told: bool,
+}
+
+/// The player's inputs for waveforms. One is free again once the player says that what came through it is over: then nothing
+/// enters it, and it leads nowhere.
+#[derive(Debug)]
 pub(crate) struct Inputs {
-    slots: Vec<Slot>,
-    outputs: usize,
-    block: usize,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Slot {
-    Free,
-    Taken(u64),
-    /// Silent from a sample on; whether it is pointed nowhere by then.
-    Fading {
-        until: u64,
-        cleared: bool,
-    },
+    free: Vec<bool>,
+    /// Inputs of waveforms that were stopped and may still be heard.
+    leaving: Vec<(usize, Hold)>,
 }
 
 impl Inputs {
-    pub fn new(count: usize, outputs: usize, block: usize) -> Self {
-        Self { slots: vec![Slot::Free; count], outputs, block }
+    pub fn new(count: usize) -> Self {
+        Self { free: vec![true; count], leaving: Vec::new() }
     }
 
-    /// An input for a voice, if one is free.
-    pub fn take(&mut self, voice: u64) -> Option<usize> {
-        let input = self.slots.iter().position(|slot| *slot == Slot::Free)?;
-        self.slots[input] = Slot::Taken(voice);
+    /// An input, if one is free.
+    pub fn take(&mut self) -> Option<usize> {
+        let input = self.free.iter().position(|free| *free)?;
+        self.free[input] = false;
         Some(input)
     }
 
-    /// Gives an input back that is silent from a sample on.
-    pub fn give(&mut self, input: usize, silent: u64, desk: &mut Desk) {
-        if let Some(slot) = self.slots.get_mut(input) {
-            *slot = Slot::Fading { until: silent, cleared: false };
-        }
-        self.free(0, desk);
+    /// Whether one is free.
+    pub fn any(&self) -> bool {
+        self.free.contains(&true)
     }
 
-    /// Frees what has become silent by now.
-    pub fn free(&mut self, now: u64, desk: &mut Desk) {
-        let block = self.block as u64;
-        for (input, slot) in self.slots.iter_mut().enumerate() {
-            *slot = match *slot {
-                Slot::Fading { until, cleared: false } if now >= until + block => {
-                    let silence = vec![vec![0.0f32]; self.outputs];
-                    let Ok(filters) = desk.filters(&silence) else { continue };
-                    let fade = block as u32;
-                    let sent = desk.send(Command::SetFilters { input, filters, at: At::Now, fade });
-                    Slot::Fading { until: now + 2 * block, cleared: sent.is_ok() }
-                }
-                Slot::Fading { until, cleared: true } if now >= until => Slot::Free,
-                other => other,
-            };
+    /// Gives an input back that nothing comes through any more.
+    pub fn give(&mut self, input: usize) {
+        if let Some(free) = self.free.get_mut(input) {
+            *free = true;
         }
+    }
+
+    /// Gives an input back once what was stopped is over.
+    pub fn leave(&mut self, input: usize, hold: Hold) {
+        self.leaving.push((input, hold));
+    }
+
+    /// Frees what is over.
+    pub fn settle(&mut self) {
+        let free = &mut self.free;
+        self.leaving.retain(|(input, hold)| {
+            let over = hold.over().is_some();
+            if over && let Some(free) = free.get_mut(*input) {
+                *free = true;
+            }
+            !over
+        });
     }
 }

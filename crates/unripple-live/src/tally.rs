@@ -1,5 +1,5 @@
 use crate::{LiveError, Percentiles};
-use unripple_player::Report;
+use unripple_player::{Report, Why};
 
 /// What was played, what was not, and how late.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -65,6 +65,7 @@ impl Tally {
             }
             Report::WavesLimited { .. } => self.waves_limited += 1,
             Report::Late { .. } => self.late += 1,
+            Report::Refused { why: Why::Stale, .. } => self.stale += 1,
             Report::Refused { .. } => self.refused += 1,
             Report::Ended { .. } => {}
         }

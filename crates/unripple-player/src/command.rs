@@ -1,7 +1,7 @@
 use crate::{Prepared, PreparedFilters};
 use std::sync::Arc;
 
-/// A name that the sender gives to what it starts; starting a repeating voice under the name of another replaces it.
+/// A name that the sender gives to what it starts, for changes and reports; starting a repeating voice under the name of another replaces it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Voice(pub u64);
 
@@ -15,7 +15,8 @@ pub enum At {
     Sample(u64),
 }
 
-/// What is asked of a player.
+/// What is asked of a player. What goes on until somebody ends it is sent with [`Desk::hold`](crate::Desk::hold) and ends with its
+/// [`Hold`](crate::Hold).
 #[derive(Clone, Debug)]
 pub enum Command {
     /// Starts a drive.
@@ -51,15 +52,6 @@ pub enum Command {
         /// From when.
         at: At,
     },
-    /// Ends a voice or waveform.
-    Stop {
-        /// Which.
-        voice: Voice,
-        /// From when.
-        at: At,
-        /// Samples over which what sounds fades out, at least one block; `None` lets begun copies of a drive ring out.
-        fade: Option<u32>,
-    },
     /// Gives an input its responses to all outputs. What entered before keeps the old responses to its end, what enters during the
     /// fade goes through both in turning shares.
     SetFilters {
@@ -74,10 +66,13 @@ pub enum Command {
     },
     /// Plays a prepared waveform into an input.
     Wave {
-        /// Its name, for [`Command::Stop`].
+        /// Its name.
         voice: Voice,
         /// Which input.
         input: usize,
+        /// Responses that the input gets for this waveform, and samples of the fade from those it has: both come or neither. When
+        /// the waveform is over, the input has none. `None` leaves the input as it is.
+        filters: Option<(Arc<PreparedFilters>, u32)>,
         /// The waveform, at the full rate.
         samples: Arc<[f32]>,
         /// When its first sample enters.
@@ -96,10 +91,23 @@ impl Command {
             Self::Start { at, .. }
             | Self::Swap { at, .. }
             | Self::Gain { at, .. }
-            | Self::Stop { at, .. }
             | Self::SetFilters { at, .. }
             | Self::Wave { at, .. } => *at,
         }
+    }
+
+    /// Whether it begins something that goes on until it is ended.
+    pub(crate) fn goes_on(&self) -> bool {
+        match self {
+            Self::Start { drive, period, .. } => period.is_some() || drive.every().is_some(),
+            Self::Wave { looped, .. } => *looped,
+            _ => false,
+        }
+    }
+
+    /// Whether it begins something that is over by itself.
+    pub(crate) fn is_passing(&self) -> bool {
+        matches!(self, Self::Start { .. } | Self::Wave { .. }) && !self.goes_on()
     }
 
     /// Whom it is about.
@@ -108,7 +116,6 @@ impl Command {
             Self::Start { voice, .. }
             | Self::Swap { voice, .. }
             | Self::Gain { voice, .. }
-            | Self::Stop { voice, .. }
             | Self::Wave { voice, .. } => Some(*voice),
             Self::SetFilters { .. } => None,
         }
@@ -204,4 +211,6 @@ pub enum Why {
     Period,
     /// No such input, or no waveforms at all.
     Input,
+    /// Too late to be wanted: taken back with [`Desk::withdraw`](crate::Desk::withdraw), or put off for longer than it lasts.
+    Stale,
 }

@@ -1,10 +1,11 @@
+use crate::events::Whose;
 use crate::shelf::Shelf;
-use crate::{Prepared, Voice, kernels};
+use crate::{Prepared, kernels};
 
 /// A drive that sounds.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sounding {
-    pub(crate) voice: Voice,
+    pub(crate) whose: Whose,
     /// Its place on the shelf.
     pub(crate) drive: usize,
     pub(crate) start: u64,

@@ -1,4 +1,6 @@
+use crate::hold::{Held, Hold};
 use crate::shelf::Garbage;
+use crate::standing::Standing;
 use crate::{Command, Count, FilterPlan, Meters, PlayerError, Prepared, PreparedFilters, Report};
 use rtrb::{Consumer, Producer};
 use std::sync::Arc;
@@ -6,14 +8,24 @@ use std::sync::Arc;
 /// The end of a [`Player`](crate::Player) that lives off the audio thread: sends commands, hears reports, and frees what is no
 /// longer played.
 pub struct Desk {
-    pub(crate) commands: Producer<Command>,
+    pub(crate) commands: Producer<Sent>,
+    /// Commands sent so far.
+    pub(crate) sent: u64,
     pub(crate) reports: Consumer<Report>,
     pub(crate) garbage: Consumer<Garbage>,
     pub(crate) feeds: Vec<Producer<f32>>,
     pub(crate) plan: Option<FilterPlan>,
     pub(crate) meters: Arc<Meters>,
+    pub(crate) standing: Arc<Standing>,
     pub(crate) outputs: usize,
     pub(crate) wave_delay: usize,
+}
+
+/// A command on its way, with its number.
+pub(crate) struct Sent {
+    pub(crate) id: u64,
+    pub(crate) command: Command,
+    pub(crate) held: Option<Arc<Held>>,
 }
 
 impl std::fmt::Debug for Desk {
@@ -26,13 +38,56 @@ impl Desk {
     /// Sends a command. One that is sent before a block begins is known to that block.
     ///
     /// # Errors
-    /// The command itself if as many are under way as may.
+    /// The command itself if as many are under way as may, or if it begins what goes on until it is ended: that is for [`Desk::hold`].
     pub fn send(&mut self, command: Command) -> Result<(), Box<Command>> {
+        if command.goes_on() {
+            return Err(Box::new(command));
+        }
+        self.push(command, None)
+    }
+
+    /// Sends what begins something, which sounds as long as the hold is kept or until it is over by itself.
+    ///
+    /// # Errors
+    /// The command itself if as many are under way as may.
+    pub fn hold(&mut self, command: Command) -> Result<Hold, Box<Command>> {
+        let held = Arc::new(Held::new());
+        self.push(command, Some(held.clone())).map(|()| Hold(held))
+    }
+
+    fn push(&mut self, command: Command, held: Option<Arc<Held>>) -> Result<(), Box<Command>> {
         self.collect();
-        self.commands.push(command).map_err(|rtrb::PushError::Full(command)| {
-            self.meters.add(Count::CommandsLost);
-            Box::new(command)
-        })
+        let sent = Sent { id: self.sent + 1, command, held };
+        match self.commands.push(sent) {
+            Ok(()) => self.sent += 1,
+            Err(rtrb::PushError::Full(sent)) => {
+                self.meters.add(Count::CommandsLost);
+                return Err(Box::new(sent.command));
+            }
+        }
+        Ok(())
+    }
+
+    /// How many commands find room now. The player takes all of them with each block.
+    pub fn room(&self) -> usize {
+        self.commands.slots()
+    }
+
+    /// Takes back what was sent so far, has not begun, and would be over by itself: for a player that stood still, so that nothing begins
+    /// when nobody wants it any more.
+    pub fn withdraw(&mut self) {
+        self.standing.withdraw(self.sent);
+    }
+
+    /// Lets the player fade out all that sounds over so many samples, at least a block, and be silent from then on: what waits is
+    /// not begun, what is sent later is not taken. A player whose desk is dropped does the same by itself.
+    pub fn end(&mut self, fade: u32) {
+        self.standing.end(fade);
+    }
+
+    /// Whether the player has faded out after [`Desk::end`]. A player that is not asked for blocks never says so.
+    pub fn is_over(&self) -> bool {
+        self.standing.is_over()
     }
 
     /// The next report, if there is one.

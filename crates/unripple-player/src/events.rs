@@ -16,6 +16,8 @@ pub(crate) struct Events {
     shelf: Shelf<Prepared>,
     repeating: Vec<Repeating>,
     sounding: Vec<Sounding>,
+    /// How many of them sounded before this block.
+    older: usize,
     put_off: VecDeque<PutOff>,
     pub(crate) ledger: Ledger,
     /// Blocks of the ledger that hold more than what still sounds.
@@ -26,8 +28,15 @@ pub(crate) struct Events {
     arch: Arch,
 }
 
+/// A name, and the number of the command that it goes back to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Whose {
+    pub(crate) voice: Voice,
+    pub(crate) id: u64,
+}
+
 struct Repeating {
-    voice: Voice,
+    whose: Whose,
     drive: usize,
     gain: f32,
     base: u64,
@@ -42,7 +51,7 @@ impl Repeating {
 }
 
 struct PutOff {
-    voice: Voice,
+    whose: Whose,
     drive: usize,
     gain: f32,
     since: u64,
@@ -54,6 +63,7 @@ impl Events {
             shelf: Shelf::new(Self::places(options)),
             repeating: Vec::with_capacity(options.voices),
             sounding: Vec::with_capacity(options.copies),
+            older: 0,
             put_off: VecDeque::with_capacity(options.copies),
             ledger: Ledger::new(options),
             stale: None,
@@ -72,24 +82,32 @@ impl Events {
     pub(crate) fn resume(&mut self, clock: u64, outlet: &mut Outlet) {
         self.left = self.options.work;
         for _ in 0..self.put_off.len() {
-            let Some(PutOff { voice, drive, gain, since }) = self.put_off.pop_front() else { return };
+            let Some(PutOff { whose, drive, gain, since }) = self.put_off.pop_front() else { return };
             let samples = self.cost(drive);
             if samples > self.left && self.left < self.options.work {
-                self.put_off.push_front(PutOff { voice, drive, gain, since });
+                self.put_off.push_front(PutOff { whose, drive, gain, since });
                 return;
             }
-            outlet.report(Report::Late { voice: Some(voice), by: clock - since });
-            self.begin(voice, drive, clock, gain, outlet);
+            if clock - since > self.samples(drive) {
+                // What would end more than twice its length after it was asked for.
+                self.release(drive, outlet);
+                outlet.refuse(Some(whose.voice), Why::Stale);
+                continue;
+            }
+            outlet.report(Report::Late { voice: Some(whose.voice), by: clock - since });
+            self.begin(whose, drive, clock, gain, outlet);
         }
     }
 
+    /// Starts a drive; whether anything came of it.
     pub(crate) fn start(
         &mut self,
-        (voice, drive): (Voice, Arc<Prepared>),
+        (whose, drive): (Whose, Arc<Prepared>),
         sample: u64,
         (gain, period): (f32, Option<f64>),
         outlet: &mut Outlet,
-    ) {
+    ) -> bool {
+        let voice = whose.voice;
         let period = period.or(drive.every().map(|every| every as f64));
         let refused = match period {
             _ if !gain.is_finite() => Some(Why::Gain),
@@ -100,7 +118,9 @@ impl Events {
             return self.refuse(voice, drive, why, outlet);
         }
         if period.is_some() {
-            self.forget(voice, outlet);
+            if let Some(at) = self.repeating.iter().position(|held| held.whose.voice == voice) {
+                self.end(at, outlet);
+            }
             if self.repeating.len() >= self.options.voices {
                 return self.refuse(voice, drive, Why::Voices, outlet);
             }
@@ -111,23 +131,29 @@ impl Events {
         };
         match period {
             Some(period) => {
-                self.repeating.push(Repeating { voice, drive, gain, base: sample, period, begun: 0 })
+                self.repeating.push(Repeating { whose, drive, gain, base: sample, period, begun: 0 });
+                true
             }
-            None => self.ask(voice, drive, sample, gain, outlet),
+            None => self.ask(whose, drive, sample, gain, outlet),
         }
     }
 
     pub(crate) fn swap(&mut self, voice: Voice, drive: Arc<Prepared>, outlet: &mut Outlet) {
         if let Some(why) = self.unfit(&drive) {
-            return self.refuse(voice, drive, why, outlet);
+            self.refuse(voice, drive, why, outlet);
+            return;
         }
-        let Some(at) = self.repeating.iter().position(|held| held.voice == voice) else {
-            return self.refuse(voice, drive, Why::Unknown, outlet);
+        let Some(at) = self.repeating.iter().position(|held| held.whose.voice == voice) else {
+            self.refuse(voice, drive, Why::Unknown, outlet);
+            return;
         };
         let every = drive.every().filter(|&every| every >= self.options.block);
         let place = match self.shelf.put(drive) {
             Ok(place) => place,
-            Err(drive) => return self.refuse(voice, drive, Why::Copies, outlet),
+            Err(drive) => {
+                self.refuse(voice, drive, Why::Copies, outlet);
+                return;
+            }
         };
         let held = &mut self.repeating[at];
         let old = std::mem::replace(&mut held.drive, place);
@@ -138,29 +164,31 @@ impl Events {
     }
 
     pub(crate) fn gain(&mut self, voice: Voice, gain: f32, outlet: &mut Outlet) {
-        match self.repeating.iter_mut().find(|held| held.voice == voice) {
+        match self.repeating.iter_mut().find(|held| held.whose.voice == voice) {
             _ if !gain.is_finite() => outlet.refuse(Some(voice), Why::Gain),
             Some(held) => held.gain = gain,
             None => outlet.refuse(Some(voice), Why::Unknown),
         }
     }
 
-    /// Ends a voice; what fades already does so from the start of the block.
-    pub(crate) fn stop(&mut self, voice: Voice, sample: u64, fade: Option<u32>, outlet: &mut Outlet) {
-        let repeated = self.forget(voice, outlet);
+    /// Ends what a command began; what fades already does so from the start of the block.
+    pub(crate) fn stop(&mut self, id: u64, sample: u64, fade: Option<u32>, outlet: &mut Outlet) {
+        if let Some(at) = self.repeating.iter().position(|held| held.whose.id == id) {
+            let voice = self.end(at, outlet);
+            if !self.is_on(voice) {
+                outlet.report(Report::Ended { voice, sample });
+            }
+        }
         for _ in 0..self.put_off.len() {
             match self.put_off.pop_front() {
-                Some(waits) if waits.voice == voice => self.release(waits.drive, outlet),
+                Some(waits) if waits.whose.id == id => self.release(waits.drive, outlet),
                 Some(waits) => self.put_off.push_back(waits),
                 None => {}
             }
         }
-        if repeated && !self.is_on(voice) {
-            outlet.report(Report::Ended { voice, sample });
-        }
         let Some(fade) = fade.map(|fade| fade.max(self.options.block as u32)) else { return };
         let block = self.options.block as u64;
-        for held in self.sounding.iter_mut().filter(|held| held.voice == voice) {
+        for held in self.sounding.iter_mut().filter(|held| held.whose.id == id) {
             let old = held.end();
             let from = if held.fade.is_some() { sample - sample % block } else { sample };
             held.fade = Some(Fade::after(held.fade, from, fade));
@@ -182,18 +210,26 @@ impl Events {
         let held = &mut self.repeating[at];
         let sample = held.next();
         held.begun += 1;
-        let (voice, drive, gain) = (held.voice, held.drive, held.gain);
+        let (whose, drive, gain) = (held.whose, held.drive, held.gain);
         self.shelf.hold(drive);
-        self.ask(voice, drive, sample, gain, outlet);
+        self.ask(whose, drive, sample, gain, outlet);
     }
 
-    /// Adds the block that begins at `clock` to planar `out`, which is silent.
-    pub(crate) fn mix(&mut self, clock: u64, out: &mut [f32]) {
+    /// Adds the block that begins at `clock` to planar `out`, which is silent. What sounded before comes first, then what `kept` adds, then
+    /// what begins in this block: the order in which the ledger was told of them.
+    pub(crate) fn mix(&mut self, clock: u64, out: &mut [f32], kept: impl FnOnce(&mut [f32])) {
         self.refill(clock);
-        let (shelf, sounding, block) = (&self.shelf, &self.sounding, self.options.block);
+        let (older, newer) = self.sounding.split_at(self.older);
+        self.mix_some(older, clock, out);
+        kept(out);
+        self.mix_some(newer, clock, out);
+    }
+
+    fn mix_some(&self, some: &[Sounding], clock: u64, out: &mut [f32]) {
+        let (shelf, block) = (&self.shelf, self.options.block);
         self.arch.dispatch(Wide(
             #[inline(always)]
-            || sounding.iter().for_each(|held| held.mix(shelf, clock, block, out)),
+            || some.iter().for_each(|held| held.mix(shelf, clock, block, out)),
         ));
     }
 
@@ -213,16 +249,31 @@ impl Events {
             }
             let held = self.sounding.remove(at);
             self.release(held.drive, outlet);
-            if !self.is_on(held.voice) {
-                outlet.report(Report::Ended { voice: held.voice, sample: held.end() });
+            if !self.is_on(held.whose.voice) {
+                outlet.report(Report::Ended { voice: held.whose.voice, sample: held.end() });
             }
         }
+        self.older = self.sounding.len();
+    }
+
+    /// Whether nothing sounds, repeats or waits.
+    pub(crate) fn is_idle(&self) -> bool {
+        self.sounding.is_empty() && self.repeating.is_empty() && self.put_off.is_empty()
+    }
+
+    /// Whether anything of what a command began sounds, repeats or waits.
+    pub(crate) fn holds(&self, id: u64) -> bool {
+        self.any(|whose| whose.id == id)
     }
 
     fn is_on(&self, voice: Voice) -> bool {
-        self.sounding.iter().any(|held| held.voice == voice)
-            || self.repeating.iter().any(|held| held.voice == voice)
-            || self.put_off.iter().any(|held| held.voice == voice)
+        self.any(|whose| whose.voice == voice)
+    }
+
+    fn any(&self, is: impl Fn(Whose) -> bool) -> bool {
+        self.sounding.iter().any(|held| is(held.whose))
+            || self.repeating.iter().any(|held| is(held.whose))
+            || self.put_off.iter().any(|held| is(held.whose))
     }
 
     fn unfit(&self, drive: &Prepared) -> Option<Why> {
@@ -233,25 +284,31 @@ impl Events {
     }
 
     fn cost(&self, drive: usize) -> usize {
-        self.shelf.get(drive).map_or(0, |drive| drive.outputs() * drive.samples())
+        self.options.outputs * self.samples(drive) as usize
     }
 
-    /// Begins a copy whose use of its drive is counted already, now or, for want of time, in the next block.
-    fn ask(&mut self, voice: Voice, drive: usize, sample: u64, gain: f32, outlet: &mut Outlet) {
+    fn samples(&self, drive: usize) -> u64 {
+        self.shelf.get(drive).map_or(0, |drive| drive.samples() as u64)
+    }
+
+    /// Begins a copy whose use of its drive is counted already, now or, for want of time, in the next block; whether it could.
+    fn ask(&mut self, whose: Whose, drive: usize, sample: u64, gain: f32, outlet: &mut Outlet) -> bool {
         if self.sounding.len() + self.put_off.len() >= self.options.copies {
             self.release(drive, outlet);
-            return outlet.refuse(Some(voice), Why::Copies);
+            outlet.refuse(Some(whose.voice), Why::Copies);
+            return false;
         }
         let full = self.cost(drive) > self.left && self.left < self.options.work;
         if full || !self.put_off.is_empty() {
             outlet.meters.add(Count::PutOff);
-            self.put_off.push_back(PutOff { voice, drive, gain, since: sample });
+            self.put_off.push_back(PutOff { whose, drive, gain, since: sample });
         } else {
-            self.begin(voice, drive, sample, gain, outlet);
+            self.begin(whose, drive, sample, gain, outlet);
         }
+        true
     }
 
-    fn begin(&mut self, voice: Voice, place: usize, sample: u64, asked: f32, outlet: &mut Outlet) {
+    fn begin(&mut self, whose: Whose, place: usize, sample: u64, asked: f32, outlet: &mut Outlet) {
         let Some(drive) = self.shelf.get(place) else { return };
         let (ledger, samples) = (&mut self.ledger, drive.samples());
         self.left = self.left.saturating_sub(drive.outputs() * samples);
@@ -264,9 +321,9 @@ impl Events {
             },
         ));
         let gain = verdict.gain;
-        outlet.started(voice, sample, [asked, gain], verdict.by);
+        outlet.started(whose.voice, sample, [asked, gain], verdict.by);
         self.sounding.push(Sounding {
-            voice,
+            whose,
             drive: place,
             start: sample,
             samples: samples as u64,
@@ -297,14 +354,11 @@ impl Events {
         self.stale = (from + REFILLS <= to).then_some((from + REFILLS, to));
     }
 
-    /// Lets a voice repeat no more; whether it did.
-    fn forget(&mut self, voice: Voice, outlet: &mut Outlet) -> bool {
-        let found = self.repeating.iter().position(|held| held.voice == voice);
-        if let Some(at) = found {
-            let held = self.repeating.remove(at);
-            self.release(held.drive, outlet);
-        }
-        found.is_some()
+    /// Lets one repeat no more; its name.
+    fn end(&mut self, at: usize, outlet: &mut Outlet) -> Voice {
+        let held = self.repeating.remove(at);
+        self.release(held.drive, outlet);
+        held.whose.voice
     }
 
     fn release(&mut self, drive: usize, outlet: &mut Outlet) {
@@ -313,8 +367,9 @@ impl Events {
         }
     }
 
-    fn refuse(&mut self, voice: Voice, drive: Arc<Prepared>, why: Why, outlet: &mut Outlet) {
+    fn refuse(&mut self, voice: Voice, drive: Arc<Prepared>, why: Why, outlet: &mut Outlet) -> bool {
         outlet.discard(Garbage::Drive(drive));
         outlet.refuse(Some(voice), why);
+        false
     }
 }

@@ -1,9 +1,10 @@
-use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::Relaxed};
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering::Relaxed};
 
 /// What a player counts, to be read from anywhere at any time.
 #[derive(Debug)]
 pub struct Meters {
     clock: AtomicU64,
+    silent: AtomicBool,
     load: AtomicU32,
     wave_gain: AtomicU32,
     peaks: Vec<AtomicU32>,
@@ -40,6 +41,7 @@ impl Meters {
     pub(crate) fn new(outputs: usize) -> Self {
         Self {
             clock: AtomicU64::new(0),
+            silent: AtomicBool::new(true),
             load: AtomicU32::new(0),
             wave_gain: AtomicU32::new(1f32.to_bits()),
             peaks: (0..outputs).map(|_| AtomicU32::new(0)).collect(),
@@ -51,6 +53,12 @@ impl Meters {
     /// First sample of the next block.
     pub fn clock(&self) -> u64 {
         self.clock.load(Relaxed)
+    }
+
+    /// Whether the last block was silent and nothing that the player knows of is to come: no drive sounds, repeats or waits, and waveforms have
+    /// rung out.
+    pub fn is_silent(&self) -> bool {
+        self.silent.load(Relaxed)
     }
 
     /// Share of the period that the last block took, as told by whoever runs the thread.
@@ -89,6 +97,10 @@ impl Meters {
 
     pub(crate) fn set_clock(&self, clock: u64) {
         self.clock.store(clock, Relaxed);
+    }
+
+    pub(crate) fn set_silent(&self, silent: bool) {
+        self.silent.store(silent, Relaxed);
     }
 
     pub(crate) fn set_wave_gain(&self, gain: f32) {

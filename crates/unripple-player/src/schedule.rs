@@ -1,4 +1,4 @@
-use crate::Command;
+use crate::desk::Sent;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -6,18 +6,16 @@ use std::collections::BinaryHeap;
 pub(crate) struct Schedule {
     heap: BinaryHeap<Reverse<Waiting>>,
     most: usize,
-    order: u64,
 }
 
 struct Waiting {
     sample: u64,
-    order: u64,
-    command: Command,
+    sent: Sent,
 }
 
 impl Waiting {
     fn key(&self) -> (u64, u64) {
-        (self.sample, self.order)
+        (self.sample, self.sent.id)
     }
 }
 
@@ -43,17 +41,20 @@ impl Ord for Waiting {
 
 impl Schedule {
     pub(crate) fn new(most: usize) -> Self {
-        Self { heap: BinaryHeap::with_capacity(most), most, order: 0 }
+        Self { heap: BinaryHeap::with_capacity(most), most }
     }
 
     /// Lets a command wait; gives it back if as many wait as may.
-    pub(crate) fn push(&mut self, sample: u64, command: Command) -> Result<(), Command> {
+    pub(crate) fn push(&mut self, sample: u64, sent: Sent) -> Result<(), Sent> {
         if self.heap.len() >= self.most {
-            return Err(command);
+            return Err(sent);
         }
-        self.order += 1;
-        self.heap.push(Reverse(Waiting { sample, order: self.order, command }));
+        self.heap.push(Reverse(Waiting { sample, sent }));
         Ok(())
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.heap.is_empty()
     }
 
     /// The sample of the next.
@@ -62,7 +63,7 @@ impl Schedule {
     }
 
     /// Takes the next.
-    pub(crate) fn pop(&mut self) -> Option<(u64, Command)> {
-        self.heap.pop().map(|Reverse(waiting)| (waiting.sample, waiting.command))
+    pub(crate) fn pop(&mut self) -> Option<(u64, Sent)> {
+        self.heap.pop().map(|Reverse(waiting)| (waiting.sample, waiting.sent))
     }
 }

@@ -1,5 +1,6 @@
 //! Shared data on the audio thread: counted by its uses there, and sent away to be freed when there are none.
 
+use crate::hold::Held;
 use crate::{Prepared, PreparedFilters};
 use std::sync::Arc;
 
@@ -10,6 +11,7 @@ pub(crate) enum Garbage {
     Drive(Arc<Prepared>),
     Filters(Arc<PreparedFilters>),
     Samples(Arc<[f32]>),
+    Held(Arc<Held>),
 }
 
 /// Places for shared data; an index stays with its data until the last use ends.

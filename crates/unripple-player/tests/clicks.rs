@@ -27,10 +27,13 @@ proptest! {
             for &(what, voice, _, offset, _, fade) in acts.iter().filter(|act| act.2 == block) {
                 let (at, drive) = (At::Sample(block * 64 + offset), drives[voice as usize].clone());
                 let voice = Voice(voice);
+                if what == 3 {
+                    rig.stop(voice, at, Some(fade));
+                    continue;
+                }
                 rig.send(match what {
                     0 | 1 => Command::Start { voice, drive, at, gain: 0.9, period: None },
                     2 => Command::Start { voice, drive, at, gain: 1.0, period: Some(64.0 + f64::from(fade)) },
-                    3 => Command::Stop { voice, at, fade: Some(fade) },
                     _ => Command::Gain { voice, at, gain: 0.1 + fade as f32 / 400.0 },
                 });
             }

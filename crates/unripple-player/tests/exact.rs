@@ -58,10 +58,15 @@ proptest! {
             let plan = rig.desk.plan().unwrap().clone();
             let mut heard = Vec::new();
             for block in 0..40u64 {
-                for (i, &ahead) in ahead.iter().enumerate() {
-                    let due = 9 + i as u64;
-                    if block + ahead == due {
-                        rig.send(command(&plan, seed, i as u64, due * 64));
+                let sent = |i: usize| 9 + i as u64 - ahead[i];
+                for i in 0..ahead.len() {
+                    let due = (9 + i as u64) * 64;
+                    // What has not been sent cannot be stopped.
+                    if i % 8 == 4 && block == sent(i).max(sent(i - 4)) {
+                        let at = At::Sample(due + (seed ^ i as u64) % 64);
+                        rig.stop(Voice(i as u64 - 4), at, Some(80));
+                    } else if i % 8 != 4 && block == sent(i) {
+                        rig.send(command(&plan, seed, i as u64, due));
                     }
                 }
                 heard.extend(rig.block());
@@ -79,7 +84,6 @@ fn command(plan: &FilterPlan, seed: u64, i: u64, block: u64) -> Command {
     match i % 8 {
         0 => Command::Start { voice: Voice(i), drive, at, gain: 1.0, period: Some(70.5) },
         2 => Command::Swap { voice: Voice(i - 2), drive, at },
-        4 => Command::Stop { voice: Voice(i - 4), at, fade: Some(80) },
         5 => Command::Gain { voice: Voice(i - 5), gain: 0.7, at },
         6 => {
             let filters = Arc::new(plan.prepare(&[noise(seed + i, 100), noise(i, 50)]).unwrap());
@@ -87,7 +91,8 @@ fn command(plan: &FilterPlan, seed: u64, i: u64, block: u64) -> Command {
         }
         7 => {
             let samples = noise(seed + i, 700).into();
-            Command::Wave { voice: Voice(i), input: 1, samples, at, gain: 0.1, looped: true }
+            let (voice, filters) = (Voice(i), None);
+            Command::Wave { voice, input: 1, filters, samples, at, gain: 0.1, looped: true }
         }
         _ => Command::Start { voice: Voice(i), drive, at, gain: 0.8, period: None },
     }
@@ -126,7 +131,7 @@ fn a_comb_repeats_at_rounded_multiples_of_its_period() {
     let drive = Arc::new(Prepared::new(1, vec![1.0]).unwrap());
     let (voice, period) = (Voice(1), Some(70.3));
     rig.send(Command::Start { voice, drive, at: At::Sample(5), gain: 1.0, period });
-    rig.send(Command::Stop { voice, at: At::Sample(900), fade: None });
+    rig.stop(voice, At::Sample(900), None);
     let heard = rig.play(20);
     let found: Vec<usize> = (0..heard[0].len()).filter(|&i| heard[0][i] != 0.0).collect();
     let wanted: Vec<usize> = (0..13).map(|k| 5 + (f64::from(k) * 70.3).round() as usize).collect();
@@ -221,13 +226,16 @@ fn a_million_starts_are_counted_and_played_as_far_as_there_is_room() {
     let mut rig = Rig::new(Options { copies: 16, commands: 256, ..options(2) });
     let drives = [rough(1, 2, 4800, 1.0), rough(2, 2, 1, 1.0), rough(3, 2, 64, 1.0)];
     let far = [u64::MAX, u64::MAX - 1, 1 << 62, 0, 500_000];
-    let mut lost = 0;
+    let (mut lost, mut holds) = (0, Vec::new());
     for i in 0..1_000_000u64 {
         let drive = drives[i as usize % 3].clone();
         let at = if i % 5 == 0 { At::Sample(far[i as usize / 5 % 5]) } else { At::Now };
         let period = (i % 7 == 0).then_some(64.0 + (i % 1000) as f64);
         let start = Command::Start { voice: Voice(i % 9), drive, at, gain: 1.0, period };
-        lost += u64::from(rig.desk.send(start).is_err());
+        lost += u64::from(match period {
+            Some(_) => rig.desk.hold(start).map(|hold| holds.push(hold)).is_err(),
+            None => rig.desk.send(start).is_err(),
+        });
         if i % 300 == 299 {
             assert!(rig.block().iter().all(|x| x.is_finite()));
             rig.reports.clear();

@@ -5,7 +5,9 @@ mod common;
 use common::{Rig, noise, rough, smooth};
 use proptest::prelude::*;
 use std::sync::Arc;
-use unripple_player::{At, Command, Limit, Options, Prepared, Report, Running, Voice, WaveOptions};
+use unripple_player::{
+    At, Command, Limit, Options, Prepared, PreparedFilters, Report, Running, Voice, WaveOptions,
+};
 
 const OUTPUTS: usize = 2;
 
@@ -58,13 +60,16 @@ fn options(waves: bool) -> Options {
     }
 }
 
-fn command(act: &Act, rig: &Rig) -> Option<Command> {
-    let voice = Voice(act.voice);
-    let at = match act.seed % 3 {
+fn when(act: &Act) -> At {
+    match act.seed % 3 {
         0 => At::Now,
         1 => At::Sample((act.block * 64 + act.offset).saturating_sub(64)),
         _ => At::Sample(act.block * 64 + act.offset),
-    };
+    }
+}
+
+fn command(act: &Act, rig: &Rig) -> Option<Command> {
+    let (voice, at) = (Voice(act.voice), when(act));
     let drive = || match act.seed % 4 {
         0 => rough(act.seed, OUTPUTS, act.samples, 1.5),
         1 => Arc::new(
@@ -82,18 +87,23 @@ fn command(act: &Act, rig: &Rig) -> Option<Command> {
         4 => Command::Start { voice, drive: drive(), at, gain: act.gain, period: Some(act.period) },
         5 => Command::Swap { voice, drive: drive(), at },
         6 => Command::Gain { voice, gain: act.gain, at },
-        7 | 8 => Command::Stop { voice, at, fade: (!act.seed.is_multiple_of(5)).then_some(act.fade) },
         9 => {
-            let response = |o: u64| noise(act.seed + o, 200).iter().map(|x| 0.2 * x).collect::<Vec<f32>>();
-            let filters = rig.desk.filters(&[response(0), response(1)]).ok()?;
+            let filters = filters(act, rig)?;
             Command::SetFilters { input: (act.voice % 3) as usize, filters, at, fade: act.fade }
         }
         _ => {
             let samples: Arc<[f32]> = smooth(act.seed, 1, act.samples, 3.0).channel(0).into();
             let input = (act.voice % 2) as usize;
-            Command::Wave { voice, input, samples, at, gain: act.gain, looped: act.seed.is_multiple_of(2) }
+            let looped = act.seed.is_multiple_of(2);
+            let filters = filters(act, rig).filter(|_| act.seed.is_multiple_of(3)).map(|own| (own, act.fade));
+            Command::Wave { voice, input, filters, samples, at, gain: act.gain, looped }
         }
     })
+}
+
+fn filters(act: &Act, rig: &Rig) -> Option<Arc<PreparedFilters>> {
+    let response = |o: u64| noise(act.seed + o, 200).iter().map(|x| 0.2 * x).collect::<Vec<f32>>();
+    rig.desk.filters(&[response(0), response(1)]).ok()
 }
 
 /// Plays a session; all that was emitted.
@@ -102,8 +112,11 @@ fn play(acts: &[Act], options: Options) -> (Vec<Vec<f32>>, Vec<Report>) {
     let mut heard = vec![Vec::new(); OUTPUTS];
     for block in 0..160 {
         for act in acts.iter().filter(|act| act.block == block) {
-            if let Some(command) = command(act, &rig) {
-                let _ = rig.desk.send(command);
+            if let 7 | 8 = act.what {
+                let fade = (!act.seed.is_multiple_of(5)).then_some(act.fade);
+                rig.stop(Voice(act.voice), when(act), fade);
+            } else if let Some(command) = command(act, &rig) {
+                rig.offer(command);
             }
         }
         let part = rig.play(1);
@@ -190,7 +203,7 @@ fn what_stops_gives_back_what_it_held() {
     let mut rig = Rig::new(Options { limits, longest: 10_000, ..options(false) });
     let long = Arc::new(Prepared::new(OUTPUTS, vec![1.0; OUTPUTS * 10_000]).unwrap());
     rig.start(1, &long, 0);
-    rig.send(Command::Stop { voice: Voice(1), at: At::Sample(640), fade: Some(64) });
+    rig.stop(Voice(1), At::Sample(640), Some(64));
     rig.play(60);
     rig.start(2, &long, 60 * 64);
     rig.play(60);
@@ -221,8 +234,8 @@ fn waveforms_fill_what_drives_leave_and_come_back() {
     let filters = rig.desk.filters(&[vec![1.0], vec![0.5]]).unwrap();
     rig.send(Command::SetFilters { input: 0, filters, at: At::Now, fade: 64 });
     let hum: Arc<[f32]> = (0..4800).map(|i| 0.9 * (i as f32 * std::f32::consts::TAU / 96.0).sin()).collect();
-    let (voice, at) = (Voice(9), At::Now);
-    rig.send(Command::Wave { voice, input: 0, samples: hum, at, gain: 1.0, looped: true });
+    let (voice, at, filters) = (Voice(9), At::Now, None);
+    rig.send(Command::Wave { voice, input: 0, filters, samples: hum, at, gain: 1.0, looped: true });
     let before = rig.play(50);
     let mut last = before[0][before[0].len() - 1];
     let peak = |heard: &[f32]| heard.iter().fold(0.0, |m, x| f32::max(m, x.abs()));
@@ -242,4 +255,39 @@ fn waveforms_fill_what_drives_leave_and_come_back() {
     }
     rig.play(120);
     assert_eq!(rig.desk.meters().wave_gain(), 1.0);
+}
+
+/// Many copies, each of which is rounded the most when it is added, begin beside a waveform that is as loud as may be.
+#[test]
+fn copies_beside_a_waveform_keep_the_peak_to_the_last_bit() {
+    for copies in [256, 2000] {
+        let (block, peak) = (1024, 1.02);
+        let limits = vec![Limit { peak, ..Limit::default() }];
+        let waves = WaveOptions { inputs: 1, taps: 8, sounds: 1, ..WaveOptions::default() };
+        let mut rig = Rig::new(Options {
+            outputs: 1,
+            block,
+            limits,
+            copies,
+            commands: 4096,
+            waves: Some(waves),
+            ..Options::default()
+        });
+        let filters = rig.desk.filters(&[vec![1.0]]).unwrap();
+        rig.send(Command::SetFilters { input: 0, filters, at: At::Now, fade: 64 });
+        let samples: Arc<[f32]> = vec![1.01; 100_000].into();
+        let (voice, at) = (Voice(0), At::Now);
+        let filters = None;
+        rig.send(Command::Wave { voice, input: 0, filters, samples, at, gain: 1.0, looped: true });
+        rig.play(20);
+        // Sums above 1 are multiples of 2^-23: all that comes is a little less than half of that more than a multiple.
+        for voice in 1..=copies as u64 {
+            let steps = (300 * 256 / copies) as f32 + 0.49;
+            let drive = Arc::new(Prepared::new(1, vec![steps * f32::EPSILON; 900]).unwrap());
+            rig.send(Command::Start { voice: Voice(voice), drive, at, gain: 1.0, period: None });
+        }
+        let heard = rig.play(3);
+        let most = heard[0].iter().fold(0.0, |m, x| f32::max(m, x.abs()));
+        assert!(f64::from(most) <= peak, "{copies} copies: {most} of {peak}");
+    }
 }

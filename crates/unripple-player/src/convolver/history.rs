@@ -63,6 +63,19 @@ impl History {
         self.waits.replace((filters, blocks.max(1))).map(|(filters, _)| filters)
     }
 
+    pub(crate) fn is_turning(&self) -> bool {
+        self.turning.is_some() || self.waits.is_some()
+    }
+
+    /// Goes on without filters.
+    pub(crate) fn clear(&mut self, mut leave: impl FnMut(Garbage)) {
+        let turning = self.turning.take().map(|turning| turning.to);
+        for place in self.present.take().into_iter().chain(turning) {
+            self.shelf.release(place).into_iter().for_each(|filters| leave(Garbage::Filters(filters)));
+        }
+        self.waits.take().into_iter().for_each(|(filters, _)| leave(Garbage::Filters(filters)));
+    }
+
     /// Begins the next block: the oldest leaves. Says how its samples are shared.
     pub(crate) fn advance(&mut self, mut leave: impl FnMut(Garbage)) -> Shares {
         self.head = (self.head + 1) % self.through.len();

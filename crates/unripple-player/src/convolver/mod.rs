@@ -132,6 +132,29 @@ impl Convolver {
         3 * self.plan.filter.half
     }
 
+    /// Samples for which the filter down still gives out what has entered it.
+    pub(crate) fn lag(&self) -> usize {
+        2 * self.plan.filter.half + 1
+    }
+
+    /// Takes an input's filters away, from the next block on. What entered before keeps those that it entered through.
+    pub(crate) fn clear(&mut self, input: usize, leave: impl FnMut(Garbage)) {
+        if let Some(input) = self.inputs.get_mut(input) {
+            input.history.clear(leave);
+        }
+    }
+
+    /// Blocks after which nothing is left of what entered, here and in what leaves.
+    pub(crate) fn memory(&self) -> usize {
+        // Besides the partitions: the block at hand, what the last overlaps into, and the filters down and up.
+        self.plan.partitions + 2 + (4 * self.plan.filter.half + 2).div_ceil(self.block)
+    }
+
+    /// Whether an input is being turned to other filters, or will be.
+    pub(crate) fn is_turning(&self) -> bool {
+        self.inputs.iter().any(|input| input.history.is_turning())
+    }
+
     /// Most filters held at once.
     pub(crate) fn places(&self) -> usize {
         self.inputs.len() * (History::places(self.plan.partitions) + 1)

@@ -3,6 +3,10 @@
 //! The gain runs along a straight line over each block. It is chosen so that this block stays within limits and that, should
 //! drives take all that is left from then on, the gain could fall to nothing over the next block, whose samples are
 //! known, and stay within: so drives need to leave no more than that fall. It rises again slowly.
+//!
+//! The fall is put into the ledger before the drives that begin in a block, and is mixed in just there: sums are then taken in the
+//! order in which the ledger took them, and what it allows is kept to the last bit, however many drives there are. What rises beside
+//! the fall comes last, with a guard for the rounding of one sum.
 
 use crate::ledger::Ledger;
 use crate::outlet::Outlet;
@@ -12,9 +16,9 @@ use crate::{Count, Options, Report, Which, kernels};
 /// Seconds that the gain takes to rise from nothing to 1.
 const RISE: f64 = 0.1;
 
-/// Shares of the peak that are kept off the waveforms, so that rounding of sums cannot pass the limit: in the block at hand, in
-/// what drives leave, and in the next block. Each holds those before it.
-const GUARDS: [f32; 3] = [1e-6, 4e-6, 1e-5];
+/// Shares of the peak that are kept off the waveforms, so that the rounding of a sum cannot pass the limit: in the block at hand and,
+/// where a gain is rounded besides, in the next.
+const GUARDS: [f32; 2] = [1e-6, 1e-5];
 
 pub(crate) struct Level {
     block: usize,
@@ -52,17 +56,25 @@ impl Level {
     pub(crate) fn reserve(&mut self, now: &[f32], ledger: &mut Ledger) {
         let (block, gain) = (self.block, self.gain);
         let channels = self.reserved.chunks_exact_mut(block).zip(now.chunks_exact(block));
-        for (output, (reserved, now)) in channels.enumerate() {
-            let guard = ledger.peak(output) * GUARDS[1];
+        for (reserved, now) in channels {
             for ((to, x), along) in reserved.iter_mut().zip(now).zip(&self.along) {
-                let most = gain * (1.0 - along) * x.abs();
-                *to = if most > 0.0 { most * (1.0 + 1e-5) + guard } else { 0.0 };
+                *to = gain * (1.0 - along) * x.abs();
             }
         }
         ledger.reserve(&self.reserved);
     }
 
-    /// Chooses the gain at the end of this block, and adds the waveforms to it. Says what kept the gain below 1 and from rising.
+    /// Adds what was reserved, to the last bit.
+    #[inline(always)]
+    pub(crate) fn fall(&self, now: &[f32], out: &mut [f32]) {
+        for (out, now) in out.chunks_exact_mut(self.block).zip(now.chunks_exact(self.block)) {
+            for ((out, x), along) in out.iter_mut().zip(now).zip(&self.along) {
+                *out += self.gain * (1.0 - along) * x;
+            }
+        }
+    }
+
+    /// Chooses the gain at the end of this block, and adds what rises with it. Says what kept the gain below 1 and from rising.
     #[inline(always)]
     pub(crate) fn mix(
         &mut self,
@@ -96,11 +108,18 @@ impl Level {
         let gain = kernels::above(most);
         for (out, now) in out.chunks_exact_mut(block).zip(now.chunks_exact(block)) {
             for ((out, x), along) in out.iter_mut().zip(now).zip(&self.along) {
-                *out += (self.gain * (1.0 - along) + gain * along) * x;
+                *out += gain * along * x;
             }
         }
         self.gain = gain;
         by
+    }
+
+    /// Does what mixing silence does.
+    pub(crate) fn rest(&mut self, outlet: &mut Outlet) {
+        self.gain = kernels::smaller(self.gain + self.rise, 1.0);
+        self.was_limited = self.gain < 1.0;
+        outlet.meters.set_wave_gain(self.gain);
     }
 
     /// Reports that waveforms begin to be limited.
@@ -120,12 +139,11 @@ impl Level {
     fn room(&self, [now, next, out]: [&[f32]; 3], ledger: &Ledger, output: usize) -> f32 {
         let limit = ledger.peak(output);
         let (positive, negative) = ledger.bounds(output, 1);
-        let (free, later) = (limit * (1.0 - GUARDS[0]), limit * (1.0 - GUARDS[2]));
+        let (free, later) = (limit * (1.0 - GUARDS[0]), limit * (1.0 - GUARDS[1]));
         let mut least = f32::INFINITY;
         for i in 0..self.block {
             let (along, back) = (self.along[i], 1.0 - self.along[i]);
-            let rest = free - out[i].abs() - self.gain * back * now[i].abs();
-            let here = rest / (along * now[i].abs());
+            let here = (free - out[i].abs()) / (along * now[i].abs());
             let held = later - kernels::larger(positive[i], negative[i]);
             let there = held / (back * next[i].abs() * (1.0 + 3e-5));
             // Nothing to play leaves room for anything; the quotient may be 0 / 0.
@@ -140,7 +158,7 @@ impl Level {
     fn energies(&mut self, [now, next, out]: [&[f32]; 3], ledger: &Ledger, output: usize) -> WaveEnergies {
         for i in 0..self.block {
             let (along, back) = (self.along[i], 1.0 - self.along[i]);
-            self.held[i] = out[i].abs() + self.gain * back * now[i].abs();
+            self.held[i] = out[i].abs();
             self.rising[i] = along * now[i];
             self.falling[i] = back * next[i];
         }

@@ -4,11 +4,12 @@ mod level;
 
 use crate::copies::Fade;
 use crate::error::HUGE;
+use crate::events::Whose;
 use crate::kernels::Wide;
 use crate::ledger::Ledger;
 use crate::outlet::Outlet;
 use crate::shelf::{Garbage, Shelf};
-use crate::{Convolver, Options, PlayerError, PreparedFilters, Report, Voice, WaveOptions, Why};
+use crate::{Convolver, Options, PlayerError, PreparedFilters, Report, WaveOptions, Why};
 use level::Level;
 use pulp::Arch;
 use rtrb::Consumer;
@@ -27,13 +28,17 @@ pub(crate) struct Waves {
     now: Vec<f32>,
     next: Vec<f32>,
     level: Level,
+    /// Blocks since something entered.
+    quiet: usize,
     arch: Arch,
 }
 
 /// A prepared waveform that enters an input.
 struct Sound {
-    voice: Voice,
+    whose: Whose,
     input: usize,
+    /// Whether the input's filters are this waveform's.
+    own: bool,
     samples: usize,
     start: u64,
     gain: f32,
@@ -58,6 +63,7 @@ impl Waves {
             now: vec![0.0; outputs * block],
             next: vec![0.0; outputs * block],
             level: Level::new(options),
+            quiet: usize::MAX,
             arch: Arch::new(),
             options: waves,
             block,
@@ -73,9 +79,17 @@ impl Waves {
         self.convolver.places() + self.options.sounds
     }
 
+    /// Whether nothing enters and all that did has rung out, of this block and the next.
+    pub(crate) fn is_idle(&self) -> bool {
+        self.sounds.is_empty() && self.quiet > self.convolver.memory() + 1
+    }
+
     /// Begins a block: keeps in the ledger what the waveforms need of it even if they are to fall as fast as they may.
     pub(crate) fn advance(&mut self, ledger: &mut Ledger) {
         std::mem::swap(&mut self.now, &mut self.next);
+        if self.is_idle() {
+            return;
+        }
         let (level, now) = (&mut self.level, &self.now);
         self.arch.dispatch(Wide(
             #[inline(always)]
@@ -95,7 +109,7 @@ impl Waves {
             outlet.discard(Garbage::Filters(filters));
             return outlet.refuse(None, Why::Input);
         }
-        if filters.shape != self.convolver.plan().shape() {
+        if !self.fits(&filters) {
             outlet.discard(Garbage::Filters(filters));
             return outlet.refuse(None, Why::Outputs);
         }
@@ -105,41 +119,53 @@ impl Waves {
         }
     }
 
-    /// Starts a waveform.
+    /// Starts a waveform, through filters of its own if it has some; whether anything came of it.
     pub(crate) fn start(
         &mut self,
-        (voice, input): (Voice, usize),
-        samples: Arc<[f32]>,
+        (whose, input): (Whose, usize),
+        (samples, filters): (Arc<[f32]>, Option<(Arc<PreparedFilters>, u32)>),
         start: u64,
         (gain, looped): (f32, bool),
         outlet: &mut Outlet,
-    ) {
+    ) -> bool {
         let refused = match () {
             () if input >= self.options.inputs => Some(Why::Input),
             () if samples.is_empty() => Some(Why::Samples),
             () if !gain.is_finite() => Some(Why::Gain),
+            () if filters.as_ref().is_some_and(|(filters, _)| !self.fits(filters)) => Some(Why::Outputs),
             () => None,
         };
-        if let Some(why) = refused {
-            outlet.discard(Garbage::Samples(samples));
-            return outlet.refuse(Some(voice), why);
-        }
-        match self.shelf.put(samples) {
+        let placed = match refused {
+            Some(why) => Err((why, samples)),
+            None => self.shelf.put(samples).map_err(|samples| (Why::Copies, samples)),
+        };
+        match placed {
             Ok(samples) => {
-                self.sounds.push(Sound { voice, input, samples, start, gain, looped, fade: None });
-                outlet.report(Report::Started { voice, sample: start, gain });
+                let (own, fade) = (filters.is_some(), None);
+                if let Some((filters, fade)) = filters {
+                    self.turn(input, filters, fade, outlet);
+                }
+                self.sounds.push(Sound { whose, input, own, samples, start, gain, looped, fade });
+                outlet.report(Report::Started { voice: whose.voice, sample: start, gain });
+                true
             }
-            Err(samples) => {
+            Err((why, samples)) => {
                 outlet.discard(Garbage::Samples(samples));
-                outlet.refuse(Some(voice), Why::Copies);
+                filters.into_iter().for_each(|(filters, _)| outlet.discard(Garbage::Filters(filters)));
+                outlet.refuse(Some(whose.voice), why);
+                false
             }
         }
     }
 
-    /// Fades waveforms out.
-    pub(crate) fn stop(&mut self, voice: Voice, sample: u64, fade: Option<u32>) {
+    fn fits(&self, filters: &PreparedFilters) -> bool {
+        filters.shape == self.convolver.plan().shape()
+    }
+
+    /// Fades out what a command began.
+    pub(crate) fn stop(&mut self, id: u64, sample: u64, fade: Option<u32>) {
         let length = fade.unwrap_or(0).max(self.block as u32);
-        for sound in self.sounds.iter_mut().filter(|sound| sound.voice == voice) {
+        for sound in self.sounds.iter_mut().filter(|sound| sound.whose.id == id) {
             let from = if sound.fade.is_some() { sample - sample % self.block as u64 } else { sample };
             sound.fade = Some(Fade::after(sound.fade, from, length));
         }
@@ -150,11 +176,26 @@ impl Waves {
         for (feed, entering) in self.feeds.iter_mut().zip(self.entering.chunks_exact_mut(self.block)) {
             entering.iter_mut().for_each(|to| *to = feed.pop().map_or(0.0, playable));
         }
+        (0..self.sounds.len()).for_each(|at| self.enter(at, clock));
+        let silent = self.entering.iter().all(|x| *x == 0.0);
+        self.quiet = if silent { self.quiet.saturating_add(1) } else { 0 };
+        if self.is_idle() && !self.convolver.is_turning() {
+            // Silence through whatever filters is silence.
+            return self.next.fill(0.0);
+        }
+        let leave = |garbage| outlet.discard(garbage);
+        self.convolver.process_leaving(&self.entering, &mut self.next, leave);
+        self.settle(clock, outlet);
+    }
+
+    /// Ends waveforms of which nothing is still to enter the convolver. Filters that came with one go with it: what comes next through the
+    /// input begins from silence.
+    fn settle(&mut self, clock: u64, outlet: &mut Outlet) {
+        let entered = clock + self.block as u64;
         let mut at = 0;
         while at < self.sounds.len() {
-            self.enter(at, clock);
-            let (voice, end) = (self.sounds[at].voice, self.end(at));
-            if end > clock + self.block as u64 {
+            let end = self.end(at);
+            if end.saturating_add(self.convolver.lag() as u64) > entered {
                 at += 1;
                 continue;
             }
@@ -162,14 +203,35 @@ impl Waves {
             if let Some(samples) = self.shelf.release(over.samples) {
                 outlet.discard(Garbage::Samples(samples));
             }
-            outlet.report(Report::Ended { voice, sample: end });
+            if over.own && !self.sounds.iter().any(|sound| sound.own && sound.input == over.input) {
+                self.convolver.clear(over.input, |garbage| outlet.discard(garbage));
+            }
+            outlet.report(Report::Ended { voice: over.whose.voice, sample: end });
         }
-        let leave = |garbage| outlet.discard(garbage);
-        self.convolver.process_leaving(&self.entering, &mut self.next, leave);
     }
 
-    /// Adds the waveforms to the drives of the block, as loud as leaves all within limits.
+    /// Whether anything of what a command began still enters.
+    pub(crate) fn holds(&self, id: u64) -> bool {
+        self.sounds.iter().any(|sound| sound.whose.id == id)
+    }
+
+    /// Adds to the drives that sounded before what was kept for the waveforms, ahead of the drives that begin in this block.
+    pub(crate) fn fall(&self, out: &mut [f32]) {
+        if self.is_idle() {
+            return;
+        }
+        let (level, now) = (&self.level, &self.now);
+        self.arch.dispatch(Wide(
+            #[inline(always)]
+            || level.fall(now, out),
+        ));
+    }
+
+    /// Adds the rest of the waveforms to the drives of the block, as loud as leaves all within limits.
     pub(crate) fn mix(&mut self, clock: u64, ledger: &Ledger, out: &mut [f32], outlet: &mut Outlet) {
+        if self.is_idle() {
+            return self.level.rest(outlet);
+        }
         let (level, now, next) = (&mut self.level, &self.now, &self.next);
         let limited = self.arch.dispatch(Wide(
             #[inline(always)]

@@ -3,7 +3,7 @@
 #![allow(dead_code)]
 
 use std::sync::Arc;
-use unripple_player::{At, Command, Desk, Options, Player, Prepared, Report, Voice, player};
+use unripple_player::{At, Command, Desk, Hold, Options, Player, Prepared, Report, Voice, player};
 
 /// A player whose desk is at hand.
 pub struct Rig {
@@ -12,16 +12,33 @@ pub struct Rig {
     pub desk: Desk,
     /// All that was reported.
     pub reports: Vec<Report>,
+    /// All that was begun.
+    pub holds: Vec<(Voice, Hold)>,
 }
 
 impl Rig {
     pub fn new(options: Options) -> Self {
         let (player, desk) = player(&options).unwrap();
-        Self { options, player, desk, reports: Vec::new() }
+        Self { options, player, desk, reports: Vec::new(), holds: Vec::new() }
     }
 
     pub fn send(&mut self, command: Command) {
-        self.desk.send(command).unwrap();
+        assert!(self.offer(command));
+    }
+
+    /// Sends a command; whether there was room.
+    pub fn offer(&mut self, command: Command) -> bool {
+        let begins = matches!(command, Command::Start { .. } | Command::Wave { .. });
+        match command.voice().filter(|_| begins) {
+            Some(voice) => self.desk.hold(command).map(|hold| self.holds.push((voice, hold))).is_ok(),
+            None => self.desk.send(command).is_ok(),
+        }
+    }
+
+    /// Ends all that was begun under a name.
+    pub fn stop(&mut self, voice: Voice, at: At, fade: Option<u32>) {
+        let held = self.holds.iter().filter(|(held, hold)| *held == voice && !hold.is_stopped());
+        held.for_each(|(_, hold)| hold.stop(at, fade));
     }
 
     pub fn start(&mut self, voice: u64, drive: &Arc<Prepared>, sample: u64) {

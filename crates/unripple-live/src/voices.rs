@@ -1,0 +1,179 @@
+//! What goes on sounding under the effects' voices: what is wanted, and how the player comes to know of it.
+
+use crate::sounding::{Kept, Sounding};
+use crate::{Conductor, LiveError};
+use std::sync::Arc;
+use unripple_core::Point;
+use unripple_effects::Level;
+use unripple_player::{At, Command, Hold, Prepared, PreparedFilters, Voice};
+
+/// Time over which a moved waveform goes from one place to the next, in s.
+const GLIDE: f64 = 0.01;
+
+/// Commands that change of place or level may take.
+const CHANGE: usize = 2;
+
+impl Conductor {
+    /// Lets a voice sound something from now on, instead of what it sounded.
+    pub(crate) fn keep(
+        &mut self,
+        voice: u64,
+        sounding: Sounding,
+        asked: Option<u64>,
+        at: At,
+    ) -> Result<(), LiveError> {
+        if matches!(sounding, Sounding::Wave { .. }) && !self.inputs.any() {
+            self.tally.crowded += 1;
+            return Ok(());
+        }
+        let late = !sounding.goes_on() && !self.can_begin();
+        if late {
+            return Ok(());
+        }
+        let name = self.name(asked);
+        let mut kept = Kept { sounding, name, hold: None, input: None, told: false };
+        self.tell(&mut kept, at)?;
+        self.let_go(voice, None, at);
+        if kept.hold.is_some() || kept.sounding.goes_on() {
+            self.sounding.insert(voice, kept);
+        }
+        Ok(())
+    }
+
+    /// Ends what a voice sounds: the player ends what nobody holds.
+    pub(crate) fn let_go(&mut self, voice: u64, fade: Option<u32>, at: At) {
+        let Some(Kept { hold: Some(hold), input, .. }) = self.sounding.remove(&voice) else { return };
+        hold.stop(at, fade);
+        if let Some(input) = input {
+            self.inputs.leave(input, hold);
+        }
+    }
+
+    /// Gives what a voice sounds another place or level.
+    pub(crate) fn change(
+        &mut self,
+        voice: u64,
+        other: impl Fn(Sounding) -> Sounding,
+        at: At,
+    ) -> Result<(), LiveError> {
+        let Some(mut kept) = self.sounding.remove(&voice) else { return Ok(()) };
+        let before = kept.sounding.clone();
+        kept.sounding = other(before.clone());
+        let told = self.tell(&mut kept, at);
+        if told.is_err() {
+            // There it cannot be; so it stays.
+            kept.sounding = before;
+        }
+        self.sounding.insert(voice, kept);
+        told
+    }
+
+    /// Tells the player again what it may not know.
+    pub(crate) fn tell_again(&mut self, now: u64) -> Result<(), LiveError> {
+        let untold = self.sounding.iter().filter(|(_, kept)| !kept.told).map(|(voice, _)| *voice);
+        for voice in untold.collect::<Vec<u64>>() {
+            let told = self.change(voice, |sounding| sounding, At::Sample(now));
+            if !self.tally.went(told)?
+                && let Some(kept) = self.sounding.get_mut(&voice)
+            {
+                // It would fail each time.
+                kept.told = true;
+            }
+        }
+        Ok(())
+    }
+
+    /// Forgets what the player says is over: played to its end, or refused.
+    pub(crate) fn forget_over(&mut self) {
+        let inputs = &mut self.inputs;
+        self.sounding.retain(|_, kept| {
+            let over = kept.hold.as_ref().is_some_and(|hold| hold.over().is_some());
+            if let Some(input) = kept.input.filter(|_| over) {
+                inputs.give(input);
+            }
+            !over
+        });
+        self.inputs.settle();
+    }
+
+    /// Begins something in the player, or changes it there; what finds no room is told again later.
+    fn tell(&mut self, kept: &mut Kept, at: At) -> Result<(), LiveError> {
+        kept.told = false;
+        if self.stands || self.desk.room() < CHANGE {
+            return Ok(());
+        }
+        kept.told = match kept.hold {
+            None => self.begin(kept, at)?,
+            Some(_) => self.redirect(kept, at)?,
+        };
+        Ok(())
+    }
+
+    fn begin(&mut self, kept: &mut Kept, at: At) -> Result<bool, LiveError> {
+        let voice = Voice(kept.name);
+        let command = match &kept.sounding {
+            Sounding::Comb { place, level, period } => {
+                let (drive, gain) = self.comb(*place, *level, *period)?;
+                Command::Start { voice, drive, at, gain, period: Some(*period) }
+            }
+            Sounding::Wave { wave, looped, fade, .. } => {
+                let (samples, looped) = (wave.samples.clone(), *looped);
+                let rises = (fade * self.rate).round() as u32;
+                let Some(filters) = self.filters(&kept.sounding)?.map(|filters| (filters, rises)) else {
+                    return Ok(true);
+                };
+                // All may be taken by now if this is not the first time.
+                let Some(input) = self.inputs.take() else { return Ok(false) };
+                kept.input = Some(input);
+                Command::Wave { voice, input, filters: Some(filters), samples, at, gain: 1.0, looped }
+            }
+        };
+        kept.hold = self.hold(command);
+        if kept.hold.is_none()
+            && let Some(input) = kept.input.take()
+        {
+            self.inputs.give(input);
+        }
+        Ok(kept.hold.is_some())
+    }
+
+    fn redirect(&mut self, kept: &Kept, at: At) -> Result<bool, LiveError> {
+        let voice = Voice(kept.name);
+        if let Sounding::Comb { place, level, period } = &kept.sounding {
+            let (drive, gain) = self.comb(*place, *level, *period)?;
+            let swapped = self.send(Command::Swap { voice, drive, at });
+            return Ok(self.send(Command::Gain { voice, gain, at }) && swapped);
+        }
+        let Some(input) = kept.input else { return Ok(true) };
+        let fade = (GLIDE * self.rate).round() as u32;
+        let filters = self.filters(&kept.sounding)?;
+        Ok(filters.is_none_or(|filters| self.send(Command::SetFilters { input, filters, at, fade })))
+    }
+
+    /// Drive and gain of a comb.
+    fn comb(&mut self, place: Point, level: Level, period: f64) -> Result<(Arc<Prepared>, f32), LiveError> {
+        let gain = self.pulse_gain(&[place], level)?;
+        let drive = self.drives.at(&[place])?.prepared;
+        let gain = gain.min(self.drives.even(&drive, period));
+        Ok((drive, gain))
+    }
+
+    /// What a waveform goes through to meet at its place; a comb goes through none.
+    fn filters(&mut self, sounding: &Sounding) -> Result<Option<Arc<PreparedFilters>>, LiveError> {
+        let Sounding::Wave { place, level, wave, .. } = sounding else { return Ok(None) };
+        let (gain, beyond) = self.drives.wave_gain(*place, wave, level.scaled(self.trim))?;
+        self.tally.beyond += u64::from(beyond);
+        let made = self.drives.at(&[*place])?.made;
+        let scaled = |channel: &Vec<f64>| channel.iter().map(|x| (x * gain) as f32).collect();
+        let responses: Vec<Vec<f32>> = made.drive.channels().iter().map(scaled).collect();
+        Ok(Some(self.desk.filters(&responses)?))
+    }
+
+    /// Sends what goes on as long as it is held.
+    fn hold(&mut self, command: Command) -> Option<Hold> {
+        self.note(&command);
+        let held = self.desk.hold(command);
+        self.tally.lost += u64::from(held.is_err());
+        held.ok()
+    }
+}

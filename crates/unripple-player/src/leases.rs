@@ -1,0 +1,69 @@
+//! All that sounds only as long as it is held, on the audio thread.
+
+use crate::hold::Held;
+use crate::outlet::Outlet;
+use crate::shelf::Garbage;
+use std::sync::Arc;
+
+/// What is held, by the number of the command that began it.
+pub(crate) struct Leases {
+    all: Vec<Lease>,
+    most: usize,
+}
+
+struct Lease {
+    id: u64,
+    held: Arc<Held>,
+    /// Whether it was let go, and that was done.
+    ended: bool,
+}
+
+/// Something that is let go.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct LetGo {
+    pub(crate) id: u64,
+    pub(crate) sample: u64,
+    pub(crate) fade: Option<u32>,
+}
+
+impl Leases {
+    /// For so many at once.
+    pub(crate) fn new(most: usize) -> Self {
+        Self { all: Vec::with_capacity(most), most }
+    }
+
+    pub(crate) fn is_full(&self) -> bool {
+        self.all.len() >= self.most
+    }
+
+    pub(crate) fn put(&mut self, id: u64, held: Arc<Held>) {
+        self.all.push(Lease { id, held, ended: false });
+    }
+
+    /// The first that is let go before a sample.
+    pub(crate) fn next(&self, end: u64) -> Option<LetGo> {
+        let going = self.all.iter().filter(|lease| !lease.ended);
+        let (sample, lease) =
+            going.map(|lease| (lease.held.until(), lease)).min_by_key(|(until, _)| *until)?;
+        (sample < end).then(|| LetGo { id: lease.id, sample, fade: lease.held.fade() })
+    }
+
+    /// Notes that one was let go.
+    pub(crate) fn let_go(&mut self, id: u64) {
+        self.all.iter_mut().filter(|lease| lease.id == id).for_each(|lease| lease.ended = true);
+    }
+
+    /// Tells of those that are over by a sample.
+    pub(crate) fn settle(&mut self, sample: u64, is_on: impl Fn(u64) -> bool, outlet: &mut Outlet) {
+        let mut at = 0;
+        while at < self.all.len() {
+            if is_on(self.all[at].id) {
+                at += 1;
+                continue;
+            }
+            let over = self.all.swap_remove(at);
+            over.held.set_over(sample);
+            outlet.discard(Garbage::Held(over.held));
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! What the desk wants of the player at any time: state rather than messages, so that it cannot be lost.
+
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering::Acquire, Ordering::Release};
+
+/// What is wanted of a player as a whole.
+#[derive(Debug, Default)]
+pub(crate) struct Standing {
+    /// What is over by itself is not begun any more if its number is this or less.
+    withdrawn: AtomicU64,
+    /// Samples over which all is to fade out for good; 0 as long as the player is to go on.
+    fade: AtomicU32,
+    /// Said by the player: it has faded out.
+    over: AtomicBool,
+}
+
+impl Standing {
+    /// Takes back what was sent with numbers up to this.
+    pub(crate) fn withdraw(&self, number: u64) {
+        self.withdrawn.store(number, Release);
+    }
+
+    pub(crate) fn withdrawn(&self) -> u64 {
+        self.withdrawn.load(Acquire)
+    }
+
+    /// Asks the player to end.
+    pub(crate) fn end(&self, fade: u32) {
+        self.fade.store(fade.max(1), Release);
+    }
+
+    /// The fade that was asked for, if the player is to end.
+    pub(crate) fn ending(&self) -> Option<u32> {
+        Some(self.fade.load(Acquire)).filter(|fade| *fade > 0)
+    }
+
+    pub(crate) fn set_over(&self) {
+        self.over.store(true, Release);
+    }
+
+    pub(crate) fn is_over(&self) -> bool {
+        self.over.load(Acquire)
+    }
+}
