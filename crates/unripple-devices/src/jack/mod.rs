@@ -5,9 +5,11 @@ mod crossing;
 mod device;
 mod events;
 mod library;
+mod links;
 
 pub use bridge::Bridge;
-pub use device::{Jack, JackOptions, Links};
+pub use device::{Jack, JackOptions};
+pub use links::Links;
 
 use events::Side;
 use library::Client;
