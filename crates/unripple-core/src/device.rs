@@ -1,4 +1,6 @@
+use crate::Work;
 use std::fmt;
+use std::time::Duration;
 
 /// Where drives meet the world: blocks of drive go out, blocks of what is heard come back. Virtual surfaces, sound
 /// servers and files all are devices; so calibration and play know one kind of thing.
@@ -20,7 +22,35 @@ pub trait Device: Send {
     /// [`DeviceError::Size`] for slices of another length; [`DeviceError::Lost`] once the device is gone;
     /// [`DeviceError::Stalled`] when no block passed within the device's patience.
     fn exchange(&mut self, drive: &[f32], heard: &mut [f32]) -> Result<(), DeviceError>;
+
+    /// Hands over what the device is to call in each of its cycles from now on, instead of being asked to
+    /// [exchange](Device::exchange) blocks; [`Device::dismiss`] has it back.
+    ///
+    /// # Errors
+    /// The work itself, for a device that calls nobody: most have no clock of their own.
+    fn employ(&mut self, work: Box<dyn Work>) -> Result<(), Box<dyn Work>> {
+        Err(work)
+    }
+
+    /// Calls no longer, and gives back what was called: after the cycle under way, if there is one.
+    fn dismiss(&mut self) -> Option<Box<dyn Work>> {
+        None
+    }
+
+    /// Looks after a device that calls: how long until it wants to be looked after again.
+    ///
+    /// # Errors
+    /// [`DeviceError::Lost`] once the device is gone for good.
+    fn tend(&mut self) -> Result<Duration, DeviceError> {
+        match self.status().state {
+            State::Lost(why) => Err(DeviceError::Lost { device: self.layout().device.clone(), why }),
+            _ => Ok(TEND),
+        }
+    }
 }
+
+/// How often a device that calls is looked after.
+pub const TEND: Duration = Duration::from_millis(100);
 
 /// Name of the input that hears a probe on the surface.
 pub const PROBE: &str = "probe";
@@ -51,6 +81,28 @@ pub struct Status {
     pub blocks: u64,
     /// Blocks that came late or were lost so far.
     pub lost: u64,
+    /// What the server behind it says, where there is one.
+    pub server: Option<Server>,
+}
+
+/// What a sound server says of itself and of how it fares.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Server {
+    /// Samples of a cycle as it is now; a server may change it at any time.
+    pub period: usize,
+    /// Real-time priority (1 to 99) of the thread on which it calls its clients; `None` where that has none. Whoever works for
+    /// a client stays below it.
+    pub priority: Option<u8>,
+    /// Samples from our ports to the air, as the server knows it: the largest over all ports.
+    pub playback: u64,
+    /// Samples from the air to our ports, likewise.
+    pub capture: u64,
+    /// Samples that drive given by [`Device::exchange`] waits until it leaves at a port.
+    pub waiting: u64,
+    /// Cycles that it says came late, whoever's fault that was.
+    pub late: u64,
+    /// Samples that it left out between cycles: silence, and a jump in what sounds.
+    pub skipped: u64,
 }
 
 /// Whether blocks pass, and if not, why.

@@ -25,6 +25,7 @@
 //! assert_eq!(sheet.area(), 0.015);
 //! ```
 
+mod cycle;
 mod device;
 mod drive;
 mod error;
@@ -40,7 +41,8 @@ mod surface;
 mod touch;
 mod uneven;
 
-pub use device::{Device, DeviceError, Layout, PROBE, State, Status};
+pub use cycle::{Cycle, Work};
+pub use device::{Device, DeviceError, Layout, PROBE, Server, State, Status, TEND};
 pub use drive::Drive;
 pub use error::CoreError;
 pub use material::{MATERIALS, Material};

@@ -40,7 +40,7 @@ fn sensors_and_probe_hear_the_responses() {
     assert!(apart(&heard[8], &scaled(&exact(at)[4])) < 1e-5);
     let there = (9.0, 84.0);
     assert!(apart(&heard[1], &scaled(&exact(Point::from_mm(there.0, there.1))[4])) < 1e-5);
-    assert_eq!(device.status(), Status { state: State::Running, blocks: 15, lost: 0 });
+    assert_eq!(device.status(), Status { state: State::Running, blocks: 15, ..Status::default() });
 }
 
 #[test]
