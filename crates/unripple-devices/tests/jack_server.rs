@@ -6,6 +6,7 @@ mod common;
 
 use common::server::Server;
 use common::{noise, play};
+use std::process::Command;
 use unripple_core::*;
 use unripple_devices::*;
 
@@ -116,6 +117,37 @@ fn lost(server: &mut Server, mut device: Jack) {
     let error = (0..20).find_map(|_| device.exchange(&drive, &mut heard).err());
     assert!(matches!(error, Some(DeviceError::Lost { .. } | DeviceError::Stalled { .. })), "{error:?}");
     println!("after the server ended: {}", device.status().state);
+}
+
+#[test]
+fn blocks_pass_after_the_period_has_changed() {
+    let Some(server) = Server::start(PERIOD) else {
+        println!("SKIPPED: there is no jackd here (Debian: apt install jackd2)");
+        return;
+    };
+    let bridge = match bridge(&server) {
+        Err(DevicesError::Jack { what, .. }) => {
+            println!("SKIPPED: {what}");
+            return;
+        }
+        other => other.unwrap(),
+    };
+    drop(bridge);
+    let mut device = Jack::open(&options(&server, Links::None)).unwrap();
+    let (drive, mut heard) = (vec![0.0; 3 * PERIOD], vec![0.0; 3 * PERIOD]);
+    for period in [256usize, 1024, 256, 441, 64] {
+        let changed = Command::new("jack_bufsize")
+            .env("JACK_DEFAULT_SERVER", &server.name)
+            .arg(period.to_string())
+            .output()
+            .expect("jack_bufsize");
+        assert!(changed.status.success(), "{changed:?}");
+        (0..40).for_each(|_| device.exchange(&drive, &mut heard).unwrap());
+        let status = device.status();
+        assert_eq!((status.state, status.server.map(|server| server.period)), (State::Running, Some(period)));
+    }
+    // A measurement under way must know that what it hears is later from now on.
+    assert!(device.status().lost > 0);
 }
 
 #[test]

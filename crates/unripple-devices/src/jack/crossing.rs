@@ -3,16 +3,22 @@ use super::library::{Cycle, Process};
 use rtrb::{Consumer, Producer, RingBuffer};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::Thread;
 use std::time::{Duration, Instant};
+use unripple_core::Work;
 
 /// How long a freewheeling server waits for drive before it goes on without.
 const FREEWHEEL_PATIENCE: Duration = Duration::from_secs(2);
 
+/// Work and threads that may be on their way between the program and the server's thread.
+const HANDED: usize = 8;
+
 /// The side of the rings that the server's thread has.
 ///
-/// Samples cross frame by frame: a frame of drive is one sample of every output and one 0; a frame of what is heard is one
-/// sample of every input and, in the first frame of a cycle, the number of cycles missed before it. A cycle either takes and
-/// gives all its frames, or none: so drive and what is heard of it stay in step whatever is missed.
+/// Either the thread does work that it was given, or samples cross frame by frame: a frame of drive is one sample of every output
+/// and one 0; a frame of what is heard is one sample of every input and, in the first frame of a cycle, the number of cycles missed
+/// before it. A cycle either takes and gives all its frames, or none: so drive and what is heard of it stay in step whatever is
+/// missed.
 pub(super) struct Crossing {
     outputs: usize,
     inputs: usize,
@@ -24,6 +30,16 @@ pub(super) struct Crossing {
     idle: bool,
     started: bool,
     missed: u32,
+    work: Option<Box<dyn Work>>,
+    hired: Consumer<Box<dyn Work>>,
+    fired: Producer<Box<dyn Work>>,
+    dismissing: Arc<AtomicBool>,
+    /// Who waits for blocks, and those who did before.
+    waiter: Option<Thread>,
+    waiters: Consumer<Thread>,
+    gone: Producer<Thread>,
+    /// The server's count of samples at which the next cycle begins, if none is left out.
+    due: Option<u32>,
 }
 
 /// The side of the rings that the program has.
@@ -31,6 +47,11 @@ pub(super) struct Shore {
     pub(super) drive: Producer<f32>,
     pub(super) heard: Consumer<f32>,
     pub(super) closing: Arc<AtomicBool>,
+    pub(super) hired: Producer<Box<dyn Work>>,
+    pub(super) fired: Consumer<Box<dyn Work>>,
+    pub(super) dismissing: Arc<AtomicBool>,
+    pub(super) waiters: Producer<Thread>,
+    pub(super) gone: Consumer<Thread>,
 }
 
 impl Crossing {
@@ -38,10 +59,42 @@ impl Crossing {
     pub(super) fn new(outputs: usize, inputs: usize, frames: usize, events: Arc<Events>) -> (Self, Shore) {
         let (push, take) = RingBuffer::new(frames * (outputs + 1));
         let (give, pop) = RingBuffer::new(frames * (inputs + 1));
+        let (hire, hired) = RingBuffer::new(HANDED);
+        let (fire, fired) = RingBuffer::new(HANDED);
+        let (wait, waiters) = RingBuffer::new(HANDED);
+        let (leave, left) = RingBuffer::new(HANDED);
         let closing = Arc::new(AtomicBool::new(false));
-        let shore = Shore { drive: push, heard: pop, closing: closing.clone() };
-        let (idle, started) = (true, false);
-        (Self { outputs, inputs, drive: take, heard: give, events, closing, idle, started, missed: 0 }, shore)
+        let dismissing = Arc::new(AtomicBool::new(false));
+        let shore = Shore {
+            drive: push,
+            heard: pop,
+            closing: closing.clone(),
+            hired: hire,
+            fired,
+            dismissing: dismissing.clone(),
+            waiters: wait,
+            gone: left,
+        };
+        let crossing = Self {
+            outputs,
+            inputs,
+            drive: take,
+            heard: give,
+            events,
+            closing,
+            idle: true,
+            started: false,
+            missed: 0,
+            work: None,
+            hired,
+            fired: fire,
+            dismissing,
+            waiter: None,
+            waiters,
+            gone: leave,
+            due: None,
+        };
+        (crossing, shore)
     }
 
     fn ready(&self, frames: usize) -> bool {
@@ -93,15 +146,86 @@ impl Crossing {
         heard.commit_all();
         Some(())
     }
+
+    /// Counts what the server left out since the last cycle.
+    fn count(&mut self, cycle: &Cycle) {
+        let Some((frame, _)) = cycle.time() else { return };
+        let skipped = self.due.map_or(0, |due| frame.wrapping_sub(due));
+        // Half of all counts and more are a server that has begun to count anew.
+        if skipped < u32::MAX / 2 && !self.events.freewheeling.load(Ordering::Acquire) {
+            self.events.skipped.fetch_add(u64::from(skipped), Ordering::Relaxed);
+        }
+        self.due = Some(frame.wrapping_add(cycle.frames() as u32));
+    }
+
+    /// Takes over what the program handed in, and hands back what it wants to have.
+    fn hand_over(&mut self) {
+        while let Ok(waiter) = self.waiters.pop() {
+            if let Some(before) = self.waiter.replace(waiter) {
+                // The program empties this ring before it fills the other, so there is room.
+                let _ = self.gone.push(before);
+            }
+        }
+        if let Ok(work) = self.hired.pop() {
+            self.work = Some(work);
+        }
+        if self.dismissing.load(Ordering::Acquire) {
+            self.dismiss();
+        }
+    }
+
+    fn dismiss(&mut self) {
+        if let Some(work) = self.work.take() {
+            // One piece of work is out at a time, so there is room.
+            let _ = self.fired.push(work);
+        }
+    }
 }
 
 impl Process for Crossing {
     fn cycle(&mut self, cycle: &mut Cycle) {
+        self.events.period.store(cycle.frames(), Ordering::Release);
+        self.count(cycle);
+        self.hand_over();
+        if let Some(work) = &mut self.work {
+            return work.cycle(cycle);
+        }
         if self.wait(cycle.frames()) && self.pass(cycle).is_some() {
             (self.started, self.missed) = (true, 0);
-            return;
+        } else {
+            self.missed = self.missed.saturating_add(u32::from(self.started));
+            (0..self.outputs).for_each(|output| cycle.output(output).fill(0.0));
         }
-        self.missed = self.missed.saturating_add(u32::from(self.started));
-        (0..self.outputs).for_each(|output| cycle.output(output).fill(0.0));
+        if let Some(waiter) = &self.waiter {
+            waiter.unpark();
+        }
+    }
+}
+
+impl unripple_core::Cycle for Cycle<'_> {
+    fn frames(&self) -> usize {
+        self.frames()
+    }
+
+    fn began(&self) -> Instant {
+        self.time().map_or_else(Instant::now, |(_, began)| began)
+    }
+
+    fn drive(&mut self, output: usize) -> &mut [f32] {
+        self.output(output)
+    }
+
+    fn heard(&self, input: usize) -> &[f32] {
+        self.input(input)
+    }
+}
+
+/// A client that is closed calls no more: whoever lent it work has that back.
+impl Drop for Crossing {
+    fn drop(&mut self) {
+        while let Ok(work) = self.hired.pop() {
+            self.work = Some(work);
+        }
+        self.dismiss();
     }
 }

@@ -4,11 +4,15 @@ use super::links::{Links, OWN, wires};
 use crate::DevicesError;
 use crate::error::check;
 use std::sync::atomic::Ordering;
+use std::thread::ThreadId;
 use std::time::{Duration, Instant};
-use unripple_core::{Device, DeviceError, Layout, State, Status};
+use unripple_core::{Device, DeviceError, Layout, Server, State, Status, TEND, Work};
 
 /// Frames that the rings hold at least, should the server's period grow.
-const ROOM: usize = 8192;
+const ROOM: usize = 32768;
+
+/// How long to wait at a time for a block: a server that is gone wakes nobody.
+const NAP: Duration = Duration::from_millis(100);
 
 /// How to join a JACK server.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,7 +54,11 @@ impl Default for JackOptions {
     }
 }
 
-/// A JACK server as a device. Its block is the server's period.
+/// A JACK server as a device. Its block is the server's period, as it was when it was opened.
+///
+/// It calls whoever is [employed](Device::employ), in the server's own cycle and whatever the period is at the moment. Or blocks are
+/// [exchanged](Device::exchange) with it, which wait in a ring, `lead` of them; a period that grows meanwhile makes it more, and
+/// counts as a block lost.
 ///
 /// In real time the server's thread neither waits nor allocates: where drive is late it plays silence, hears nothing, and counts.
 /// What was missed, a pause between exchanges included, is in [`Status::lost`] as soon as the first block after it is heard. So let
@@ -76,10 +84,17 @@ pub struct Jack {
     patience: Duration,
     /// Whether it let the server run without a clock.
     freewheel: bool,
-    /// Blocks driven, and blocks whose answer was not there in time and is to be thrown away.
+    /// Blocks driven, blocks whose answer is still to come, and those of them that were not there in time and are to be thrown
+    /// away.
     driven: u64,
+    under_way: u64,
     owed: u64,
     xruns: u64,
+    /// Who was last said to wait for blocks, and whether work is with the server.
+    waiter: Option<ThreadId>,
+    employs: bool,
+    /// Cycles when one was last seen to pass, and when that was.
+    seen: (u64, Instant),
     frames: Vec<f32>,
     status: Status,
 }
@@ -132,9 +147,10 @@ impl Jack {
         }
         let (lead, patience) = (options.lead as u64, Duration::from_secs_f64(options.patience));
         let frames = Vec::with_capacity(block * (outputs.max(inputs) + 1));
-        let status = Status::default();
+        let server = Server { period: block, priority: client.priority(), ..Server::default() };
+        let status = Status { server: Some(server), ..Status::default() };
         let freewheel = options.freewheel;
-        Ok(Self {
+        let mut jack = Self {
             client,
             shore,
             layout,
@@ -142,11 +158,48 @@ impl Jack {
             patience,
             freewheel,
             driven: 0,
+            under_way: 0,
             owed: 0,
             xruns: 0,
+            waiter: None,
+            employs: false,
+            seen: (0, Instant::now()),
             frames,
             status,
-        })
+        };
+        jack.ask();
+        Ok(jack)
+    }
+
+    /// Asks the server for its latencies.
+    fn ask(&mut self) {
+        if let Some(server) = &mut self.status.server
+            && !self.client.closed()
+        {
+            [server.capture, server.playback] = self.client.latencies();
+        }
+    }
+
+    /// Blocks that must be under way so that every cycle finds its drive: those asked for, or two cycles' worth.
+    fn needed(&self) -> u64 {
+        let (block, period) = (self.layout.block, self.client.events.period.load(Ordering::Acquire));
+        if period <= block { self.lead } else { self.lead.max((2 * period).div_ceil(block) as u64) }
+    }
+
+    /// Says who is to be woken when a block has passed.
+    fn wait_here(&mut self) {
+        let here = std::thread::current();
+        if self.waiter != Some(here.id()) {
+            while self.shore.gone.pop().is_ok() {}
+            self.waiter = self.shore.waiters.push(here.clone()).is_ok().then(|| here.id());
+        }
+    }
+
+    /// Cycles that came late since the last look, unless the server runs without a clock.
+    fn late(&mut self) -> u64 {
+        let xruns = self.client.events.xruns.load(Ordering::Relaxed);
+        let late = xruns - std::mem::replace(&mut self.xruns, xruns);
+        if self.client.events.freewheeling.load(Ordering::Acquire) { 0 } else { late }
     }
 
     fn push(&mut self, drive: &[f32]) -> Result<(), DeviceError> {
@@ -168,36 +221,35 @@ impl Jack {
         Ok(())
     }
 
-    /// Waits for one block and takes it.
-    fn pop(&mut self, heard: &mut [f32]) -> Result<(), DeviceError> {
+    /// Waits for one block and takes it; or else says that there is none before more drive is under way.
+    fn pop(&mut self, heard: &mut [f32]) -> Result<bool, DeviceError> {
         let (block, inputs) = (self.layout.block, self.layout.inputs.len());
         let wanted = block * (inputs + 1);
         let start = Instant::now();
         let cycles = self.client.events.cycles.load(Ordering::Acquire);
-        let mut rounds = 0;
+        self.wait_here();
         while self.shore.heard.slots() < wanted {
             if self.client.events.gone.load(Ordering::Acquire) {
                 let why = "the server shut down".to_owned();
                 self.status.state = State::Lost(why.clone());
                 return Err(DeviceError::Lost { device: self.layout.device.clone(), why });
             }
-            if start.elapsed() > self.patience {
+            if self.under_way < self.needed() {
+                return Ok(false);
+            }
+            let left = self.patience.saturating_sub(start.elapsed());
+            if left.is_zero() {
                 let passed = self.client.events.cycles.load(Ordering::Acquire) - cycles;
                 let time = self.patience.as_secs_f64();
                 let why = match passed {
                     0 => format!("no cycle for {time} s"),
-                    _ => format!(
-                        "{passed} cycles in {time} s, none of them ours; the server's period is {} samples, was {block}",
-                        self.client.period()
-                    ),
+                    _ => format!("{passed} cycles in {time} s, none of them ours"),
                 };
                 return Err(self.stall(why));
             }
-            rounds += 1;
-            let nap = if rounds < 200 { 20 } else { 200 };
-            std::thread::sleep(Duration::from_micros(nap));
+            std::thread::park_timeout(left.min(NAP));
         }
-        let Ok(chunk) = self.shore.heard.read_chunk(wanted) else { return Ok(()) };
+        let Ok(chunk) = self.shore.heard.read_chunk(wanted) else { return Ok(false) };
         let (first, second) = chunk.as_slices();
         for (input, plane) in heard.chunks_exact_mut(block).enumerate() {
             let samples = first.iter().chain(second).skip(input).step_by(inputs + 1);
@@ -206,7 +258,30 @@ impl Jack {
         let missed: f32 = first.iter().chain(second).skip(inputs).step_by(inputs + 1).sum();
         chunk.commit_all();
         self.status.lost += missed as u64;
-        Ok(())
+        self.under_way -= 1;
+        Ok(true)
+    }
+
+    /// The next block that is not thrown away; silence while more drive must be under way.
+    fn hear(&mut self, heard: &mut [f32]) -> Result<(), DeviceError> {
+        if self.under_way <= self.lead {
+            heard.fill(0.0);
+            return Ok(());
+        }
+        match self.pop(heard) {
+            Ok(true) => Ok(()),
+            Ok(false) => {
+                // The period has grown: all is later from now on.
+                self.lead += 1;
+                self.status.lost += 1;
+                heard.fill(0.0);
+                Ok(())
+            }
+            Err(error) => {
+                self.owed += 1;
+                Err(error)
+            }
+        }
     }
 
     fn stall(&mut self, why: String) -> DeviceError {
@@ -222,8 +297,16 @@ impl Device for Jack {
 
     fn status(&self) -> Status {
         let mut status = self.status.clone();
-        if self.client.events.gone.load(Ordering::Acquire) {
+        let events = &self.client.events;
+        if events.gone.load(Ordering::Acquire) {
             status.state = State::Lost("the server shut down".into());
+        }
+        if let Some(server) = &mut status.server {
+            let period = events.period.load(Ordering::Acquire);
+            server.period = if period > 0 { period } else { self.layout.block };
+            server.late = events.xruns.load(Ordering::Relaxed);
+            server.skipped = events.skipped.load(Ordering::Relaxed);
+            server.waiting = if self.employs { 0 } else { self.lead * self.layout.block as u64 };
         }
         status
     }
@@ -231,37 +314,75 @@ impl Device for Jack {
     fn exchange(&mut self, drive: &[f32], heard: &mut [f32]) -> Result<(), DeviceError> {
         self.layout.fits(drive.len(), heard.len())?;
         // Answers that came too late once are thrown away, so that latency stays what it is.
-        while self.owed > 0 {
-            self.pop(heard)?;
+        while self.owed > 0 && self.pop(heard)? {
             self.owed -= 1;
         }
         self.push(drive)?;
-        self.driven += 1;
-        if self.driven <= self.lead {
-            heard.fill(0.0);
-        } else if let Err(error) = self.pop(heard) {
-            self.owed += 1;
-            return Err(error);
-        }
-        let xruns = self.client.events.xruns.load(Ordering::Relaxed);
+        (self.driven, self.under_way) = (self.driven + 1, self.under_way + 1);
+        self.hear(heard)?;
+        let late = self.late();
         // What came late before the first block is nobody's loss.
-        if self.driven > 1 && !self.client.events.freewheeling.load(Ordering::Acquire) {
-            self.status.lost += xruns - self.xruns;
-        }
-        self.xruns = xruns;
+        self.status.lost += if self.driven > 1 { late } else { 0 };
         self.status.blocks += 1;
         self.status.state = State::Running;
         Ok(())
+    }
+
+    fn employ(&mut self, work: Box<dyn Work>) -> Result<(), Box<dyn Work>> {
+        self.shore.dismissing.store(false, Ordering::Release);
+        self.shore.hired.push(work).map_err(|rtrb::PushError::Full(work)| work)?;
+        self.employs = true;
+        self.late();
+        self.seen = (self.client.events.cycles.load(Ordering::Acquire), Instant::now());
+        Ok(())
+    }
+
+    fn dismiss(&mut self) -> Option<Box<dyn Work>> {
+        if !std::mem::take(&mut self.employs) {
+            return None;
+        }
+        self.shore.dismissing.store(true, Ordering::Release);
+        let start = Instant::now();
+        while self.shore.fired.is_empty() && start.elapsed() < self.patience {
+            if self.client.events.gone.load(Ordering::Acquire) {
+                break;
+            }
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        if self.shore.fired.is_empty() {
+            // A server that calls no more does not give back either; closing does.
+            self.client.close();
+            self.client.events.gone.store(true, Ordering::Release);
+        }
+        self.shore.fired.pop().ok()
+    }
+
+    fn tend(&mut self) -> Result<Duration, DeviceError> {
+        if self.client.events.gone.load(Ordering::Acquire) {
+            let (device, why) = (self.layout.device.clone(), "the server shut down".to_owned());
+            return Err(DeviceError::Lost { device, why });
+        }
+        let cycles = self.client.events.cycles.load(Ordering::Acquire);
+        self.status.lost += self.late();
+        if cycles > self.seen.0 {
+            self.status.blocks += cycles - self.seen.0;
+            self.seen = (cycles, Instant::now());
+            self.status.state = State::Running;
+        } else if self.seen.1.elapsed() > self.patience {
+            let time = self.seen.1.elapsed().as_secs_f64();
+            self.status.state = State::Stalled(format!("no cycle for {time:.0} s"));
+        }
+        self.ask();
+        Ok(TEND)
     }
 }
 
 impl Drop for Jack {
     fn drop(&mut self) {
         self.shore.closing.store(true, Ordering::Release);
-        if self.freewheel && !self.client.events.gone.load(Ordering::Acquire) {
+        if self.freewheel && !self.client.closed() && !self.client.events.gone.load(Ordering::Acquire) {
             // A server that cannot go back to its clock is beyond help from here.
             let _ = self.client.freewheel(false);
         }
     }
 }
-

@@ -1,4 +1,4 @@
-use std::sync::atomic::{AtomicBool, AtomicU64};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize};
 
 /// What happens to a client, told by atomics.
 #[derive(Debug, Default)]
@@ -7,6 +7,10 @@ pub(super) struct Events {
     pub(super) cycles: AtomicU64,
     /// Cycles that the server says came late.
     pub(super) xruns: AtomicU64,
+    /// Samples that the server left out between cycles so far.
+    pub(super) skipped: AtomicU64,
+    /// Samples of the last cycle.
+    pub(super) period: AtomicUsize,
     /// Whether the server waits for nobody's clock.
     pub(super) freewheeling: AtomicBool,
     /// Whether the server is gone.

@@ -11,18 +11,22 @@ mod api;
 
 use super::events::{Events, Side};
 use crate::DevicesError;
-use api::{Api, Arg, RawClient, RawPort, api};
+use api::{Api, Arg, LatencyRange, RawClient, RawPort, api};
 use std::ffi::{CStr, CString, c_int, c_uint, c_ulong, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr;
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
 
 const NO_START_SERVER: c_uint = 0x01;
 const SERVER_NAME: c_uint = 0x04;
 const PORT_IS_INPUT: c_ulong = 0x1;
 const PORT_IS_OUTPUT: c_ulong = 0x2;
 const PORT_IS_PHYSICAL: c_ulong = 0x4;
+/// Ways of asking for latencies.
+const CAPTURE_LATENCY: c_uint = 0;
+const PLAYBACK_LATENCY: c_uint = 1;
 /// A connection that is there already.
 const EXISTS: c_int = 17;
 
@@ -38,6 +42,7 @@ pub(super) trait Process: Send + 'static {
 /// The buffers of one cycle.
 pub(super) struct Cycle<'a> {
     api: &'static Api,
+    raw: *mut RawClient,
     frames: u32,
     inputs: &'a [*mut RawPort],
     outputs: &'a [*mut RawPort],
@@ -46,6 +51,20 @@ pub(super) struct Cycle<'a> {
 impl Cycle<'_> {
     pub(super) fn frames(&self) -> usize {
         self.frames as usize
+    }
+
+    /// The server's count of samples at the beginning of the cycle, and its time of that; nothing from a server that does not know.
+    pub(super) fn time(&self) -> Option<(u32, Instant)> {
+        let (mut frame, mut began, mut next, mut period) = (0, 0, 0, 0.0);
+        // SAFETY: the client is open while it is called; the places written to live until the call returns.
+        let (failed, now) = unsafe {
+            let times = self.api.get_cycle_times;
+            (times(self.raw, &mut frame, &mut began, &mut next, &mut period), (self.api.get_time)())
+        };
+        let here = Instant::now();
+        let ago = Duration::from_micros(now.saturating_sub(began));
+        let ahead = Duration::from_micros(began.saturating_sub(now));
+        (failed == 0).then(|| (frame, here.checked_sub(ago).unwrap_or(here) + ahead))
     }
 
     /// What came in at a port, by the order of registration; empty beyond the last.
@@ -76,6 +95,7 @@ impl Cycle<'_> {
 /// What the callbacks get.
 struct Context {
     api: &'static Api,
+    raw: *mut RawClient,
     inputs: Vec<*mut RawPort>,
     outputs: Vec<*mut RawPort>,
     process: Box<dyn Process>,
@@ -140,6 +160,9 @@ impl Client {
 
     /// Its name, as the server gave it.
     pub(super) fn name(&self) -> String {
+        if self.raw.is_null() {
+            return String::new();
+        }
         // SAFETY: the name lives as long as the client, and is copied.
         unsafe {
             let name = (self.api.get_client_name)(self.raw);
@@ -183,6 +206,7 @@ impl Client {
     pub(super) fn start(&mut self, process: Box<dyn Process>) -> Result<(), DevicesError> {
         let context = Context {
             api: self.api,
+            raw: self.raw,
             inputs: self.inputs.clone(),
             outputs: self.outputs.clone(),
             process,
@@ -244,6 +268,49 @@ impl Client {
         Err(DevicesError::Jack { what: format!("`{from}` cannot be connected to `{to}`"), fix })
     }
 
+    /// Real-time priority of the thread that calls in each cycle, where it has one.
+    pub(super) fn priority(&self) -> Option<u8> {
+        // SAFETY: the client is open.
+        let (real_time, priority) =
+            unsafe { ((self.api.is_realtime)(self.raw), (self.api.client_real_time_priority)(self.raw)) };
+        u8::try_from(priority).ok().filter(|priority| real_time != 0 && *priority > 0)
+    }
+
+    /// The largest latency in samples between our ports and the air, as the server knows it: of what is heard, of what is played.
+    pub(super) fn latencies(&self) -> [u64; 2] {
+        let sides = [(&self.inputs, CAPTURE_LATENCY), (&self.outputs, PLAYBACK_LATENCY)];
+        sides.map(|(ports, mode)| {
+            let latency = |port: &*mut RawPort| {
+                let mut range = LatencyRange::default();
+                // SAFETY: the port is the client's, which is open; the range lives until the call returns.
+                unsafe { (self.api.port_get_latency_range)(*port, mode, &mut range) };
+                u64::from(range.min.max(range.max))
+            };
+            ports.iter().map(latency).max().unwrap_or(0)
+        })
+    }
+
+    /// Takes part no longer: once this returns, nobody has what was given to [`Client::start`]. No other call may follow.
+    pub(super) fn close(&mut self) {
+        let _door = DOOR.lock();
+        if self.raw.is_null() {
+            return;
+        }
+        // SAFETY: closing ends the callbacks; after it nobody has the context. Neither is reached twice.
+        unsafe {
+            (self.api.client_close)(self.raw);
+            self.raw = ptr::null_mut();
+            if !self.context.is_null() {
+                drop(Box::from_raw(std::mem::replace(&mut self.context, ptr::null_mut())));
+            }
+        }
+    }
+
+    /// Whether it was closed.
+    pub(super) fn closed(&self) -> bool {
+        self.raw.is_null()
+    }
+
     /// Lets the server run without a clock, or with it again.
     pub(super) fn freewheel(&self, on: bool) -> Result<(), DevicesError> {
         // SAFETY: the client is open.
@@ -257,14 +324,7 @@ impl Client {
 
 impl Drop for Client {
     fn drop(&mut self) {
-        let _door = DOOR.lock();
-        // SAFETY: closing ends the callbacks; after it nobody has the context.
-        unsafe {
-            (self.api.client_close)(self.raw);
-            if !self.context.is_null() {
-                drop(Box::from_raw(self.context));
-            }
-        }
+        self.close();
     }
 }
 
@@ -272,12 +332,12 @@ unsafe extern "C" fn on_process(frames: u32, arg: Arg) -> c_int {
     let context = arg.cast::<Context>();
     // SAFETY: JACK calls this on one thread, between activation and closing; no other code reaches `process` meanwhile, and
     // the other fields are only read.
-    let (process, api, inputs, outputs, events) = unsafe {
+    let (process, mut cycle, events) = unsafe {
         let process = &mut *ptr::addr_of_mut!((*context).process);
-        let ports = (&*ptr::addr_of!((*context).inputs), &*ptr::addr_of!((*context).outputs));
-        (process, *ptr::addr_of!((*context).api), ports.0, ports.1, &*ptr::addr_of!((*context).events))
+        let (api, raw) = (*ptr::addr_of!((*context).api), *ptr::addr_of!((*context).raw));
+        let (inputs, outputs) = (&*ptr::addr_of!((*context).inputs), &*ptr::addr_of!((*context).outputs));
+        (process, Cycle { api, raw, frames, inputs, outputs }, &*ptr::addr_of!((*context).events))
     };
-    let mut cycle = Cycle { api, frames, inputs, outputs };
     let done = catch_unwind(AssertUnwindSafe(|| process.cycle(&mut cycle)));
     events.cycles.fetch_add(1, Ordering::Release);
     c_int::from(done.is_err())

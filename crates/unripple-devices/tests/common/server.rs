@@ -23,8 +23,18 @@ impl Server {
 
     /// The same under a name: a server that comes back.
     pub fn named(name: &str, period: usize) -> Option<Self> {
+        Self::with(name, period, &["--no-realtime"])
+    }
+
+    /// A server with real-time priority 10, where the system grants it.
+    pub fn real_time(name: &str, period: usize) -> Option<Self> {
+        Self::with(name, period, &["--realtime", "--realtime-priority", "10"])
+    }
+
+    fn with(name: &str, period: usize, scheduling: &[&str]) -> Option<Self> {
         let child = Command::new("jackd")
-            .args(["--no-realtime", "--no-mlock", "--name", name])
+            .args(scheduling)
+            .args(["--no-mlock", "--name", name])
             .args(["-d", "dummy", "-r", "48000", "-p", &period.to_string(), "-C", "2", "-P", "2"])
             .stdout(Stdio::null())
             .stderr(Stdio::null())

@@ -9,6 +9,14 @@ use std::sync::OnceLock;
 pub(super) enum RawClient {}
 pub(super) enum RawPort {}
 
+/// Least and largest latency in samples, of all paths to or from a port.
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub(super) struct LatencyRange {
+    pub(super) min: u32,
+    pub(super) max: u32,
+}
+
 pub(super) type Arg = *mut c_void;
 
 /// The functions used, by their C names without `jack_`.
@@ -47,6 +55,11 @@ functions! {
     set_freewheel_callback: fn(*mut RawClient, unsafe extern "C" fn(c_int, Arg), Arg) -> c_int;
     on_shutdown: fn(*mut RawClient, unsafe extern "C" fn(Arg), Arg);
     set_freewheel: fn(*mut RawClient, c_int) -> c_int;
+    is_realtime: fn(*mut RawClient) -> c_int;
+    client_real_time_priority: fn(*mut RawClient) -> c_int;
+    get_time: fn() -> u64;
+    get_cycle_times: fn(*const RawClient, *mut u32, *mut u64, *mut u64, *mut f32) -> c_int;
+    port_get_latency_range: fn(*mut RawPort, c_uint, *mut LatencyRange);
     connect: fn(*mut RawClient, *const c_char, *const c_char) -> c_int;
     get_ports: fn(*mut RawClient, *const c_char, *const c_char, c_ulong) -> *mut *const c_char;
     free: fn(*mut c_void);
