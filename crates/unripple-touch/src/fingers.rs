@@ -221,6 +221,12 @@ impl Fingers {
         self.counts.expired += gone as u64;
     }
 
+    /// When time-outs are to be looked at again, given the time in s: their clock goes on by a quarter of one at most from poll
+    /// to poll.
+    pub(crate) fn due(&self, now: f64) -> Option<f64> {
+        (!self.live.is_empty()).then_some(now + self.options.timeout / 8.0)
+    }
+
     /// Hands a wish on, if there is room.
     pub(crate) fn take_wish(&mut self, wish: Wish, heard: &mut Heard) {
         match heard.wish(wish) {

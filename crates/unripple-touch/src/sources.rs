@@ -1,4 +1,6 @@
 use crate::{Counts, Heard, Motion, Source};
+#[cfg(unix)]
+use std::os::fd::BorrowedFd;
 use unripple_core::{Outline, Phase, Point, Touch};
 
 /// Fingers at once over all sources; more are counted and dropped.
@@ -92,6 +94,20 @@ impl Sources {
             self.told = self.told.max(touch.time);
             touch.time = self.told;
         }
+    }
+
+    /// When to ask again at the latest if none of the [files](Sources::files) can be read before: a time in s of the caller's
+    /// clock, or never.
+    pub fn due(&self, now: f64) -> Option<f64> {
+        self.sources.iter().filter_map(|source| source.due(now)).min_by(f64::total_cmp)
+    }
+
+    /// Files and sockets that can be read as soon as there is something to poll for.
+    #[cfg(unix)]
+    pub fn files(&self) -> Vec<BorrowedFd<'_>> {
+        let mut files = Vec::new();
+        self.sources.iter().for_each(|source| source.files(&mut files));
+        files
     }
 
     fn follow(&mut self, source: usize, touch: Touch, heard: &mut Heard) {

@@ -219,6 +219,10 @@ impl Source for Synthetic {
         }
     }
 
+    fn due(&self, now: f64) -> Option<f64> {
+        Some(self.start.map_or(now, |start| start + self.step as f64 / self.options.rate))
+    }
+
     fn counts(&self) -> Counts {
         self.counts
     }

@@ -3,6 +3,8 @@ use super::receiver::OscReceiver;
 use crate::{Counts, Heard, Options, Source, TouchError};
 use std::io::ErrorKind;
 use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
+#[cfg(unix)]
+use std::os::fd::{AsFd, BorrowedFd};
 
 /// Packets read in one poll.
 const PACKETS: usize = 256;
@@ -91,6 +93,15 @@ impl Source for OscPort {
             }
         }
         self.receiver.end(heard);
+    }
+
+    fn due(&self, now: f64) -> Option<f64> {
+        self.receiver.due(now)
+    }
+
+    #[cfg(unix)]
+    fn files<'a>(&'a self, files: &mut Vec<BorrowedFd<'a>>) {
+        files.push(self.socket.as_fd());
     }
 
     fn counts(&self) -> Counts {

@@ -86,6 +86,11 @@ impl OscReceiver {
         self.senders.forget(before);
     }
 
+    /// When time-outs are to be looked at again.
+    pub(super) fn due(&self, now: f64) -> Option<f64> {
+        self.fingers.due(now)
+    }
+
     /// What was taken in and what was refused so far.
     pub fn counts(&self) -> Counts {
         self.fingers.counts

@@ -102,6 +102,15 @@ impl Source for Playback {
         }
     }
 
+    fn due(&self, now: f64) -> Option<f64> {
+        let Some(start) = self.start else { return Some(now) };
+        let end = || start + self.recording.duration();
+        match self.recording.items().get(self.next) {
+            Some(item) => Some(start + item.time()),
+            None => (!self.down.is_empty()).then(end),
+        }
+    }
+
     fn counts(&self) -> Counts {
         self.counts
     }

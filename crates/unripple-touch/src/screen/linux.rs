@@ -5,6 +5,7 @@ use evdev::raw_stream::RawDevice;
 use evdev::{AbsoluteAxisCode, Device};
 use std::fs::File;
 use std::io::{self, ErrorKind};
+use std::os::fd::{AsFd, BorrowedFd};
 use std::path::{Path, PathBuf};
 
 /// What a screen is called and what it measures.
@@ -71,6 +72,10 @@ impl Contacts for Kernel {
         let states = self.device.get_abs_state()?;
         let slot = states[usize::from(AbsoluteAxisCode::ABS_MT_SLOT.0)].value;
         Ok(usize::try_from(slot).unwrap_or(0))
+    }
+
+    fn file(&self) -> Option<BorrowedFd<'_>> {
+        Some(self.device.as_fd())
     }
 
     fn reopen(&mut self) -> io::Result<()> {

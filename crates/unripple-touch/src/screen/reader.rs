@@ -2,9 +2,13 @@ use super::slots::{Event, Report, Slots};
 use crate::error::check;
 use crate::{Counts, Fingers, Heard, Key, Options, Source, TouchError};
 use std::io;
+#[cfg(unix)]
+use std::os::fd::BorrowedFd;
 
 /// Batches of events read in one poll.
 const BATCHES: usize = 16;
+/// How often a screen is looked at that cannot wake anybody, in s.
+const PACE: f64 = 0.002;
 /// How long to wait before a lost screen is opened again, in s.
 const RETRY: f64 = 1.0;
 
@@ -38,6 +42,12 @@ pub trait Contacts: Send {
 
     /// Which slot the next events are of; asked for after events were lost.
     fn slot(&mut self) -> io::Result<usize>;
+
+    /// What can be read as soon as there are events; without it they are looked for every 2 ms.
+    #[cfg(unix)]
+    fn file(&self) -> Option<BorrowedFd<'_>> {
+        None
+    }
 
     /// Opens a screen again that was lost.
     fn reopen(&mut self) -> io::Result<()>;
@@ -156,6 +166,23 @@ impl Source for Screen {
                 break;
             }
         }
+    }
+
+    fn due(&self, now: f64) -> Option<f64> {
+        if let Some(since) = self.lost {
+            return Some(since + RETRY);
+        }
+        #[cfg(unix)]
+        if self.contacts.file().is_some() {
+            return self.fingers.due(now);
+        }
+        Some(now + PACE)
+    }
+
+    #[cfg(unix)]
+    fn files<'a>(&'a self, files: &mut Vec<BorrowedFd<'a>>) {
+        // A screen that was unplugged can be read for ever, and says nothing.
+        files.extend(self.contacts.file().filter(|_| self.lost.is_none()));
     }
 
     fn counts(&self) -> Counts {

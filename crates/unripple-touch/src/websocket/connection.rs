@@ -63,6 +63,7 @@ pub(super) struct Connection {
     state: Option<State>,
     spoken: f64,
     pinged: f64,
+    more: bool,
 }
 
 impl Connection {
@@ -75,7 +76,20 @@ impl Connection {
             .max_frame_size(Some(LONGEST));
         let door = Doorkeeper { allowed };
         let shaking = ServerHandshake::start(Metered::new(stream), door, Some(config));
-        Self { peer, state: Some(State::Shaking(Box::new(shaking))), spoken: now, pinged: now }
+        Self { peer, state: Some(State::Shaking(Box::new(shaking))), spoken: now, pinged: now, more: false }
+    }
+
+    /// Whether messages may be left that were read already.
+    pub(super) fn has_more(&self) -> bool {
+        self.more
+    }
+
+    /// What can be read when there is something to poll for.
+    pub(super) fn stream(&self) -> Option<&TcpStream> {
+        match self.state.as_ref()? {
+            State::Shaking(shaking) => Some(shaking.get_ref().get_ref().stream()),
+            State::Open(socket) => Some(socket.get_ref().stream()),
+        }
     }
 
     /// Reads what came and answers it.
@@ -115,6 +129,7 @@ impl Connection {
         fingers: &mut Fingers,
         heard: &mut Heard,
     ) -> Result<(), Gone> {
+        self.more = false;
         for _ in 0..MESSAGES {
             let message = match socket.read() {
                 Ok(message) => message,
@@ -139,6 +154,7 @@ impl Connection {
                 send(socket, tungstenite::Message::text(answer))?;
             }
         }
+        self.more = true;
         Ok(())
     }
 

@@ -13,6 +13,11 @@ impl Metered {
         Self { stream, left: 0 }
     }
 
+    /// The connection itself.
+    pub(super) fn stream(&self) -> &TcpStream {
+        &self.stream
+    }
+
     /// Allows so many bytes more to be read.
     pub(super) fn allow(&mut self, bytes: usize) {
         self.left = bytes;

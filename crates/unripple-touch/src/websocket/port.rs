@@ -3,7 +3,12 @@ use crate::error::check;
 use crate::{Counts, Fingers, Heard, Options, Source, TouchError};
 use std::io::ErrorKind;
 use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
+#[cfg(unix)]
+use std::os::fd::{AsFd, BorrowedFd};
 use std::sync::Arc;
+
+/// How often clients are looked after, to be pinged and dropped, in s.
+const LOOK: f64 = 0.1;
 
 /// Connections taken in one poll.
 const ACCEPTED: usize = 8;
@@ -145,6 +150,18 @@ impl Source for WebSocketPort {
             }
         }
         self.fingers.expire(heard);
+    }
+
+    fn due(&self, now: f64) -> Option<f64> {
+        // What was read already and not yet taken makes no socket readable.
+        let more = self.connections.iter().any(Connection::has_more);
+        (!self.connections.is_empty()).then_some(if more { now } else { now + LOOK })
+    }
+
+    #[cfg(unix)]
+    fn files<'a>(&'a self, files: &mut Vec<BorrowedFd<'a>>) {
+        files.push(self.listener.as_fd());
+        files.extend(self.connections.iter().filter_map(|connection| Some(connection.stream()?.as_fd())));
     }
 
     fn counts(&self) -> Counts {
