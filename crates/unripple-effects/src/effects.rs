@@ -162,6 +162,11 @@ impl Effects {
         Ok(())
     }
 
+    /// Whether no cue comes before the next touch or start: no finger is there, and no score runs.
+    pub fn rests(&self) -> bool {
+        self.has_begun && self.fingers.is_empty() && self.running.is_empty()
+    }
+
     /// Fingers on the surface now.
     pub fn fingers(&self) -> usize {
         self.fingers.len()

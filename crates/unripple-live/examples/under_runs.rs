@@ -8,11 +8,10 @@ mod server;
 
 use common::*;
 use server::Server;
-use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
-use unripple_core::{Device, Status};
+use unripple_core::{Cycle, Device, Status, Work};
 use unripple_devices::{Jack, JackOptions, Links};
 use unripple_effects::{Curve, Kind, Level, Texture};
-use unripple_live::{Engine, Stage, real_time};
+use unripple_live::{Engine, Stage};
 use unripple_touch::{Synthetic, SyntheticOptions};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -32,7 +31,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             server,
             outputs,
             links: Links::None,
-            lead: 2,
             ..JackOptions::default()
         })
     };
@@ -60,33 +58,31 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Plays while another client exchanges silence; how that fared, and what came of the wish for priority.
+/// Does nothing in each cycle.
+struct Nothing(usize);
+
+impl Work for Nothing {
+    fn cycle(&mut self, cycle: &mut dyn Cycle) {
+        (0..self.0).for_each(|output| cycle.drive(output).fill(0.0));
+    }
+}
+
+/// Plays while another client does nothing; how that fared, and what came of the wish for priority.
 fn beside(
     engine: &mut Engine,
     empty: &mut Jack,
     seconds: f64,
 ) -> Result<(Status, String), Box<dyn std::error::Error>> {
-    let stop = AtomicBool::new(false);
-    let idle = std::thread::scope(|scope| {
-        let idle = scope.spawn(|| {
-            // Alike in all but what it plays.
-            let _ = real_time();
-            let silence = vec![0.0; 8 * BLOCK];
-            let mut passed = Ok(());
-            while !stop.load(Relaxed) && passed.is_ok() {
-                passed = empty.exchange(&silence, &mut []);
-            }
-            empty.status()
-        });
-        let mut priority = String::new();
-        let played = engine.run(Some(seconds), |_, pulse| {
-            priority = pulse.priority.clone();
-            true
-        });
-        stop.store(true, Relaxed);
-        played.map(|()| idle.join().map(|idle| (idle, priority)))
+    let outputs = empty.layout().outputs.len();
+    empty.employ(Box::new(Nothing(outputs))).map_err(|_| "a server does not call")?;
+    let mut priority = String::new();
+    engine.run(Some(seconds), |_, pulse| {
+        priority = pulse.priority.clone();
+        true
     })?;
-    Ok(idle.map_err(|_| "the empty client panicked")?)
+    empty.tend()?;
+    empty.dismiss();
+    Ok((empty.status(), priority))
 }
 
 fn latencies(stage: &Stage) {

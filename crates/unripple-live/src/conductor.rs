@@ -115,8 +115,14 @@ impl Conductor {
     }
 
     /// Lets drives be made with real-time priority, where the system grants it.
-    pub fn hurry(&mut self) {
-        self.drives.hurry();
+    pub fn hurry(&mut self, priority: Option<u8>) {
+        self.drives.hurry(priority);
+    }
+
+    /// Whether nothing sounds and nothing waits: nothing is to be done then before somebody touches.
+    pub(crate) fn rests(&self) -> bool {
+        let silent = self.sounding.is_empty() && self.inputs.rest();
+        silent && self.waiting.is_empty() && self.effects.rests()
     }
 
     /// Plays a drive that asks the sheet for its tension, at once.

@@ -17,7 +17,8 @@ const LOUDEST: f64 = 0.25;
 #[derive(Debug)]
 pub struct Drives {
     maker: Maker,
-    hurried: bool,
+    /// The priority that makers were asked to have.
+    hurried: Option<u8>,
     /// The limit that drives are made for, in the drive's unit.
     limit: f64,
     full: Option<Full>,
@@ -72,7 +73,7 @@ impl Drives {
     pub fn new(maker: Maker, limit: f64, full: Option<Full>) -> Self {
         Self {
             maker,
-            hurried: false,
+            hurried: None,
             limit,
             full,
             pulse: None,
@@ -85,16 +86,14 @@ impl Drives {
     }
 
     /// Lets drives be made with priority, by this maker and those to come.
-    pub fn hurry(&mut self) {
-        self.maker.hurry();
-        self.hurried = true;
+    pub fn hurry(&mut self, priority: Option<u8>) {
+        self.maker.hurry(priority);
+        self.hurried = priority;
     }
 
     /// Forgets all that was made and goes on with another maker: the surface has changed.
     pub fn replace(&mut self, maker: Maker) {
-        if self.hurried {
-            maker.hurry();
-        }
+        maker.hurry(self.hurried);
         self.maker = maker;
         self.known.clear();
         self.pulse = None;

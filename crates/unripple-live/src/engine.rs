@@ -1,3 +1,4 @@
+use crate::ears::Ears;
 use crate::pinging::Pinging;
 use crate::{
     Conductor, Drives, Feeler, Follower, Heartbeat, Listener, LiveError, LiveOptions, Maker, Percentiles,
@@ -8,7 +9,14 @@ use unripple_calibrate::Ping;
 use unripple_core::{Device, Surface};
 use unripple_effects::{EffectSet, Effects};
 use unripple_player::{Prepared, player};
-use unripple_touch::{Heard, Sources};
+use unripple_touch::{Counts, Heard, Sources};
+
+/// Longest block of a player before a server, in samples: a command waits for one at most, and a server's period may become
+/// whatever it likes.
+const LONGEST_BLOCK: usize = 64;
+
+/// The shortest.
+const SHORTEST_BLOCK: usize = 16;
 
 /// A surface being played: touches in, waves out.
 ///
@@ -17,6 +25,9 @@ use unripple_touch::{Heard, Sources};
 pub struct Engine {
     pub(crate) stage: Stage,
     pub(crate) heart: Heartbeat,
+    pub(crate) ears: Ears,
+    /// Samples that the player may compute in one step: the device's block, in whole blocks of its own.
+    ahead: u64,
 }
 
 impl Engine {
@@ -38,15 +49,16 @@ impl Engine {
         let rate = surface.emission.rate;
         let effects = Effects::new(set, surface.outline.clone(), rate)?;
         let drives = Drives::new(maker, options.focus.limit, options.full);
-        let made_for = options.player(surface, layout.block)?;
-        let (player, desk) = player(&made_for)?;
-        let meters = desk.meters().clone();
+        let block = match device.status().server {
+            Some(_) => layout.block.clamp(SHORTEST_BLOCK, LONGEST_BLOCK),
+            None => layout.block,
+        };
+        let (player, desk) = player(&options.player(surface, block)?)?;
         let window = options.focus.window;
-        let time = Timing { rate, window, block: layout.block };
+        let time = Timing { rate, window, block };
         let conductor = Conductor::new(effects, drives, desk, time, options.waves);
         let stage = Stage {
             conductor,
-            sources,
             feeler: None,
             follower: None,
             drift: None,
@@ -54,13 +66,15 @@ impl Engine {
             listener: None,
             rate,
             block: layout.block,
-            window,
-            predict: options.predict,
             heard: Heard::default(),
+            fingers: Vec::new(),
+            counts: Counts::default(),
             computing: Percentiles::default(),
             clock: 0,
         };
-        Ok(Self { stage, heart: Heartbeat::new(player, device, meters) })
+        let ears = Ears::new(sources, options.predict, window);
+        let ahead = layout.block.next_multiple_of(block) as u64;
+        Ok(Self { stage, heart: Heartbeat::new(player, block, device), ears, ahead })
     }
 
     /// With fingers put on a virtual surface, which tells what they feel.
@@ -93,10 +107,11 @@ impl Engine {
     /// Those of the device; [`LiveError::Gone`] if no drive can be made any more.
     pub fn step(&mut self) -> Result<(), LiveError> {
         let stage = &mut self.stage;
-        stage.listen()?;
-        stage.conduct(stage.clock, stage.clock + stage.block as u64)?;
+        let news = self.ears.hear(stage.time());
+        stage.take(news)?;
+        stage.conduct(stage.clock, stage.clock + self.ahead)?;
         self.heart.beat()?;
-        stage.clock += stage.block as u64;
+        stage.clock = stage.conductor.desk().clock();
         stage.follow(self.heart.drive(), self.heart.heard())
     }
 

@@ -1,39 +1,43 @@
-use crate::Percentiles;
-use assert_no_alloc::assert_no_alloc;
-use rustix::time::{ClockId, clock_gettime};
+use crate::beats::Beats;
+use crate::{Percentiles, Timeline};
 use std::sync::Arc;
-use unripple_core::{Device, DeviceError};
-use unripple_player::{Meters, Player};
+use std::thread::Thread;
+use std::time::{Duration, Instant};
+use unripple_core::{Device, DeviceError, Work};
+use unripple_player::Player;
 
-/// The share of a block's time from which on the load is too high to be safe.
-const HEAVY: f32 = 0.7;
+pub(crate) use crate::beats::Overheard;
 
-/// The audio thread's work: one block out of the player and through the device.
+/// The audio thread's work: samples out of the player and through the device.
 ///
 /// In a program whose allocator is `assert_no_alloc::AllocDisabler`, an allocation by the player ends the program.
 pub struct Heartbeat {
-    player: Player,
+    /// Away while a device calls it.
+    beats: Option<Box<Beats>>,
     device: Box<dyn Device>,
-    meters: Arc<Meters>,
+    timeline: Arc<Timeline>,
     /// One sample of the device is so much drive.
     scale: f32,
     drive: Vec<f32>,
     sent: Vec<f32>,
     heard: Vec<f32>,
+    /// How long the cycles took, as far as they are known.
     work: Percentiles,
     heavy: u64,
 }
 
 impl Heartbeat {
-    /// A player before a device.
-    pub fn new(player: Player, device: Box<dyn Device>, meters: Arc<Meters>) -> Self {
+    /// A player of blocks of so many samples before a device.
+    pub fn new(player: Player, block: usize, device: Box<dyn Device>) -> Self {
         let layout = device.layout();
         let (outputs, inputs) = (layout.outputs.len() * layout.block, layout.inputs.len() * layout.block);
-        let scale = layout.full_scale as f32;
+        let (rate, scale) = (layout.rate, layout.full_scale as f32);
+        let timeline = Arc::new(Timeline::new(rate));
+        let beats = Beats::new(player, (block, layout.outputs.len()), (rate, scale), timeline.clone());
         Self {
-            player,
+            beats: Some(Box::new(beats)),
             device,
-            meters,
+            timeline,
             scale,
             drive: vec![0.0; outputs],
             sent: vec![0.0; outputs],
@@ -46,18 +50,55 @@ impl Heartbeat {
     /// One block: the player's, then the device's.
     ///
     /// # Errors
-    /// Those of [`Device::exchange`].
+    /// Those of [`Device::exchange`]; [`DeviceError::Lost`] while the device has the player.
     pub fn beat(&mut self) -> Result<(), DeviceError> {
-        let before = thread_time();
-        assert_no_alloc(|| self.player.process(&mut self.drive));
-        let taken = thread_time() - before;
-        self.work.add(taken);
-        let layout = self.device.layout();
-        let load = (taken * layout.rate / layout.block as f64) as f32;
-        self.meters.set_load(load);
-        self.heavy += u64::from(load > HEAVY);
+        let (block, rate) = (self.device.layout().block, self.device.layout().rate);
+        let Some(beats) = &mut self.beats else { return Err(away(self.device.as_ref())) };
+        let drive = &mut self.drive;
+        beats.fill(block, |output, at, samples| {
+            drive[output * block + at..][..samples.len()].copy_from_slice(samples);
+        });
         self.sent.iter_mut().zip(&self.drive).for_each(|(to, x)| *to = x / self.scale);
-        self.device.exchange(&self.sent, &mut self.heard)
+        self.device.exchange(&self.sent, &mut self.heard)?;
+        // What is computed next leaves when what waits before it has.
+        let waiting = self.device.status().server.map_or(0, |server| server.waiting);
+        let leaves = Instant::now() + Duration::from_secs_f64(waiting as f64 / rate);
+        beats.mark(beats.position(), leaves, block);
+        Ok(())
+    }
+
+    /// Hands the player to a device that calls, with whom to wake when it is time and who follows what is heard: whether it does. If it
+    /// does not, who follows comes back.
+    pub(crate) fn lend(&mut self, bell: Thread, overheard: Option<Overheard>) -> (bool, Option<Overheard>) {
+        let Some(mut beats) = self.beats.take() else { return (false, overheard) };
+        beats.tell(Some(bell), overheard);
+        match self.device.employ(beats) {
+            Ok(()) => (true, None),
+            Err(work) => {
+                self.beats = home(work);
+                (false, self.beats.as_mut().and_then(|beats| beats.take_overheard()))
+            }
+        }
+    }
+
+    /// Has the player back, if a device gave it back.
+    pub(crate) fn regain(&mut self) {
+        if self.beats.is_none() {
+            self.beats = self.device.dismiss().and_then(home);
+        }
+        if let Some(beats) = &mut self.beats {
+            beats.tell(None, None);
+            (self.work, self.heavy) = (beats.work().clone(), beats.heavy());
+        }
+    }
+
+    pub(crate) fn device_mut(&mut self) -> &mut dyn Device {
+        self.device.as_mut()
+    }
+
+    /// When what leaves.
+    pub(crate) fn timeline(&self) -> &Arc<Timeline> {
+        &self.timeline
     }
 
     /// What was driven in the last block, in the actuators' unit, one output after the other.
@@ -75,19 +116,25 @@ impl Heartbeat {
         self.device.as_ref()
     }
 
-    /// Processor time of the player's part of each block, in s.
+    /// Processor time of the player's part of each cycle of the device, in s.
     pub fn work(&self) -> &Percentiles {
-        &self.work
+        self.beats.as_ref().map_or(&self.work, |beats| beats.work())
     }
 
-    /// Blocks that took more than 70 % of their time.
+    /// Cycles that took more than 70 % of their time.
     pub fn heavy(&self) -> u64 {
-        self.heavy
+        self.beats.as_ref().map_or(self.heavy, |beats| beats.heavy())
     }
 }
 
-/// Processor time of this thread, in s.
-fn thread_time() -> f64 {
-    let time = clock_gettime(ClockId::ThreadCPUTime);
-    time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
+/// The player, out of what a device gave back.
+fn home(work: Box<dyn Work>) -> Option<Box<Beats>> {
+    (work as Box<dyn std::any::Any>).downcast().ok()
+}
+
+fn away(device: &dyn Device) -> DeviceError {
+    DeviceError::Lost {
+        device: device.layout().device.clone(),
+        why: "it has not given the player back".into(),
+    }
 }

@@ -1,4 +1,4 @@
-use crate::{LiveError, priority};
+use crate::LiveError;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use unripple_calibrate::{Between, BetweenOptions};
@@ -47,8 +47,8 @@ struct Ask {
 }
 
 enum Work {
-    /// Asks for priority; nothing is answered but that it was done.
-    Hurry,
+    /// Asks for a priority; nothing is answered but that it was done.
+    Hurry(Option<u8>),
     Focus(Vec<Point>),
     Trace(Made),
 }
@@ -72,7 +72,7 @@ impl Maker {
                 Err(error) => return ready.fail(error.into()),
             };
             ready.serve(|work| match work {
-                Work::Hurry => Ok(hurried()),
+                Work::Hurry(priority) => Ok(hurried(priority)),
                 Work::Focus(points) => focus(&focuser, points).map(Answer::Made),
                 Work::Trace(made) => trace(&responses, &made).map(Answer::Trace),
             });
@@ -99,7 +99,7 @@ impl Maker {
             };
             let at = |points: &[Point]| between.onto(points).map(Responses::Sampled);
             ready.serve(|work| match work {
-                Work::Hurry => Ok(hurried()),
+                Work::Hurry(priority) => Ok(hurried(priority)),
                 Work::Focus(points) => {
                     let responses = at(&points)?;
                     focus(&Focuser::new(&responses, &options)?, points).map(Answer::Made)
@@ -126,10 +126,10 @@ impl Maker {
         answer.recv().map_err(|_| gone())?
     }
 
-    /// Asks for real-time priority for the thread, below that of the audio thread: for play on a busy machine.
-    pub fn hurry(&self) {
+    /// Asks for a real-time priority for the thread, for play on a busy machine; without one nothing is asked for.
+    pub fn hurry(&self, priority: Option<u8>) {
         // Without it drives are made all the same.
-        let _ = self.ask(Work::Hurry);
+        let _ = self.ask(Work::Hurry(priority));
     }
 
     /// The drive that focuses at these points, all at once.
@@ -180,9 +180,9 @@ impl Ready {
     }
 }
 
-fn hurried() -> Answer {
+fn hurried(priority: Option<u8>) -> Answer {
     // What the system refuses, the summary of the audio thread says.
-    let _ = priority::beside();
+    let _ = crate::priority::at(priority);
     Answer::Hurried
 }
 

@@ -16,6 +16,11 @@ impl Pinging {
         Self { ping, period: period.max(1), begun: None }
     }
 
+    /// The sample at which the next is due.
+    pub fn due(&self, now: u64) -> u64 {
+        (now / self.period + 1) * self.period
+    }
+
     /// Sends one if it is time and nobody touches.
     pub fn step(&mut self, now: u64, touched: bool, conductor: &mut Conductor) {
         let period = now / self.period;

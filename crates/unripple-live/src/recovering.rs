@@ -1,5 +1,5 @@
 use std::time::{Duration, Instant};
-use unripple_core::{Device, DeviceError, Layout, State, Status};
+use unripple_core::{Cycle, Device, DeviceError, Layout, Server, State, Status, Work};
 
 /// Opens a device, as often as it is asked to.
 pub type Opener = Box<dyn FnMut() -> Result<Box<dyn Device>, String> + Send>;
@@ -12,7 +12,8 @@ const LONGEST_WAIT: Duration = Duration::from_secs(4);
 ///
 /// Once lost, it is tried again after a quarter of a second, then after twice that, up to four seconds, for as many tries as was
 /// said; then it stays lost. While it is away each block takes as long as it lasts, so that whoever plays needs to know nothing.
-/// A device that comes back with other channels, another rate or another block is not the same and is refused.
+/// A device that comes back with other channels or another rate is not the same and is refused; so is one with another block, unless
+/// it [calls](Device::employ): whoever is called plays on alone meanwhile.
 ///
 /// ```
 /// use unripple_core::*;
@@ -49,6 +50,11 @@ pub struct Recovering {
     before: Status,
     /// Times that a device came back.
     returns: u64,
+    /// What was being called by a device that is away, and whether one has it.
+    work: Option<Box<dyn Work>>,
+    lent: bool,
+    /// What the last server said of itself.
+    server: Option<Server>,
 }
 
 /// What a device is while it is away.
@@ -80,6 +86,9 @@ impl Recovering {
             status,
             before,
             returns: 0,
+            work: None,
+            lent: false,
+            server: None,
         })
     }
 
@@ -90,8 +99,12 @@ impl Recovering {
 
     /// Lets go of a device that failed.
     fn lose(&mut self, why: String) {
-        if let Some(device) = self.device.take() {
+        if let Some(mut device) = self.device.take() {
+            if std::mem::take(&mut self.lent) {
+                self.work = device.dismiss();
+            }
             let last = device.status();
+            self.server = last.server;
             self.before.blocks += last.blocks;
             self.before.lost += last.lost;
         }
@@ -108,7 +121,11 @@ impl Recovering {
         }
         self.tried += 1;
         match (self.open)() {
-            Ok(device) if *device.layout() == self.layout => {
+            Ok(mut device) if self.is_same(device.layout()) => {
+                if let Some(work) = self.work.take() {
+                    self.work = device.employ(work).err();
+                    self.lent = self.work.is_none();
+                }
                 self.device = Some(device);
                 self.returns += 1;
             }
@@ -132,14 +149,29 @@ impl Recovering {
         self.due = Instant::now() + wait.min(LONGEST_WAIT);
     }
 
-    /// Waits until a block would be over.
-    fn pause(&mut self) {
-        self.away.blocks += 1;
-        let over = self.away.blocks as f64 * self.layout.block as f64 / self.layout.rate;
-        let left = Duration::from_secs_f64(over).saturating_sub(self.away.since.elapsed());
-        if !left.is_zero() {
-            std::thread::sleep(left);
+    /// Whether a device is the one that was lost; one that calls may do so at any pace.
+    fn is_same(&self, other: &Layout) -> bool {
+        match self.work {
+            Some(_) => Layout { block: self.layout.block, ..other.clone() } == self.layout,
+            None => *other == self.layout,
         }
+    }
+
+    /// Time until the blocks that were counted while the device is away would be over.
+    fn left(&self) -> Duration {
+        let over = self.away.blocks as f64 * self.layout.block as f64 / self.layout.rate;
+        Duration::from_secs_f64(over).saturating_sub(self.away.since.elapsed())
+    }
+
+    /// A block into nowhere, if the last one is over.
+    fn play_alone(&mut self) {
+        let over = self.left().is_zero();
+        let Some(work) = self.work.as_mut().filter(|_| over) else { return };
+        let (frames, outputs) = (self.layout.block, self.layout.outputs.len());
+        let mut nowhere = Nowhere { drive: vec![0.0; frames * outputs], heard: vec![0.0; frames], frames };
+        work.cycle(&mut nowhere);
+        self.away.blocks += 1;
+        self.status.lost += 1;
     }
 }
 
@@ -153,11 +185,12 @@ impl Device for Recovering {
         match &self.device {
             Some(device) => {
                 let own = device.status();
-                status.state = own.state;
+                (status.state, status.server) = (own.state, own.server);
                 status.blocks += own.blocks;
                 status.lost += own.lost;
             }
             None => {
+                status.server = self.server.clone();
                 let why = format!("{} ({} tries of {})", self.away.why, self.tried, self.tries);
                 status.state = match self.tried < self.tries {
                     true => State::Stalled(why),
@@ -189,8 +222,67 @@ impl Device for Recovering {
         if self.device.is_none() && self.tried >= self.tries {
             return Err(DeviceError::Lost { device: self.layout.device.clone(), why: self.away.why.clone() });
         }
-        self.pause();
+        self.away.blocks += 1;
+        std::thread::sleep(self.left());
         Ok(())
+    }
+
+    fn employ(&mut self, work: Box<dyn Work>) -> Result<(), Box<dyn Work>> {
+        let Some(device) = &mut self.device else { return Err(work) };
+        device.employ(work)?;
+        self.lent = true;
+        Ok(())
+    }
+
+    fn dismiss(&mut self) -> Option<Box<dyn Work>> {
+        match &mut self.device {
+            Some(device) if std::mem::take(&mut self.lent) => device.dismiss(),
+            _ => self.work.take(),
+        }
+    }
+
+    /// As [`Device::tend`]; while the device is away, its work is called at the pace it would have, and played to nobody.
+    ///
+    /// # Errors
+    /// [`DeviceError::Lost`] once all tries were in vain.
+    fn tend(&mut self) -> Result<Duration, DeviceError> {
+        match &mut self.device {
+            Some(device) => match device.tend() {
+                Ok(wait) => return Ok(wait),
+                Err(error) => self.lose(error.to_string()),
+            },
+            None => self.retry(),
+        }
+        if self.device.is_none() && self.tried >= self.tries {
+            return Err(DeviceError::Lost { device: self.layout.device.clone(), why: self.away.why.clone() });
+        }
+        self.play_alone();
+        Ok(self.left())
+    }
+}
+
+/// A cycle of a device that is away.
+struct Nowhere {
+    drive: Vec<f32>,
+    heard: Vec<f32>,
+    frames: usize,
+}
+
+impl Cycle for Nowhere {
+    fn frames(&self) -> usize {
+        self.frames
+    }
+
+    fn began(&self) -> Instant {
+        Instant::now()
+    }
+
+    fn drive(&mut self, output: usize) -> &mut [f32] {
+        self.drive.chunks_exact_mut(self.frames).nth(output).unwrap_or_default()
+    }
+
+    fn heard(&self, _: usize) -> &[f32] {
+        &self.heard
     }
 }
 

@@ -72,6 +72,11 @@ impl Inputs {
         self.free.contains(&true)
     }
 
+    /// Whether all are free.
+    pub fn rest(&self) -> bool {
+        self.leaving.is_empty() && self.free.iter().all(|free| *free)
+    }
+
     /// Gives an input back that nothing comes through any more.
     pub fn give(&mut self, input: usize) {
         if let Some(free) = self.free.get_mut(input) {

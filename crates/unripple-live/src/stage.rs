@@ -1,9 +1,10 @@
+use crate::ears::News;
 use crate::pinging::Pinging;
 use crate::{Conductor, Feeler, Feeling, Follower, LiveError, Percentiles};
 use std::time::Instant;
 use unripple_calibrate::Drift;
-use unripple_core::{Phase, Point};
-use unripple_touch::{Heard, Sources};
+use unripple_core::{Phase, Point, Touch};
+use unripple_touch::{Counts, Heard};
 
 /// Who is told of all that is heard, and when (s of the device's clock).
 pub type Listener = Box<dyn FnMut(f64, &Heard) + Send>;
@@ -11,7 +12,6 @@ pub type Listener = Box<dyn FnMut(f64, &Heard) + Send>;
 /// All of a surface being played that is not the audio thread's: who touches it, what that sets off, what it does to the fingers.
 pub struct Stage {
     pub(crate) conductor: Conductor,
-    pub(crate) sources: Sources,
     pub(crate) feeler: Option<Feeler>,
     pub(crate) follower: Option<Follower>,
     /// What following said last.
@@ -19,46 +19,58 @@ pub struct Stage {
     pub(crate) pinging: Option<Pinging>,
     pub(crate) listener: Option<Listener>,
     pub(crate) rate: f64,
+    /// Samples that the device takes at a time.
     pub(crate) block: usize,
-    pub(crate) window: f64,
-    pub(crate) predict: bool,
     pub(crate) heard: Heard,
+    pub(crate) fingers: Vec<(u64, Point)>,
+    pub(crate) counts: Counts,
     pub(crate) computing: Percentiles,
     pub(crate) clock: u64,
 }
 
 impl Stage {
-    /// Hears all touches up to the clock.
-    pub(crate) fn listen(&mut self) -> Result<(), LiveError> {
-        self.heard.clear();
-        let now = self.clock as f64 / self.rate;
-        self.sources.poll(now, &mut self.heard);
+    /// Takes in what was heard.
+    pub(crate) fn take(&mut self, news: News) -> Result<(), LiveError> {
         if let Some(listener) = &mut self.listener {
-            listener(now, &self.heard);
+            listener(news.now, &news.heard);
         }
         if let Some(feeler) = &mut self.feeler {
-            self.heard.touches.iter().try_for_each(|touch| feeler.touch(touch))?;
-            feeler.follow()?;
+            news.heard.touches.iter().try_for_each(|touch| feeler.touch(touch))?;
         }
-        if self.predict {
-            for touch in self.heard.touches.iter_mut().filter(|touch| touch.phase == Phase::Move) {
-                let there = self.sources.predict(touch.finger, now, self.window);
-                touch.at = there.unwrap_or(touch.at);
-            }
-        }
+        (self.fingers, self.counts) = (news.fingers, news.counts);
+        let old = self.heard.touches.len();
+        news.aimed.into_iter().for_each(|touch| self.put(touch, old));
+        self.heard.wishes.extend(news.heard.wishes);
         Ok(())
+    }
+
+    /// One touch more to be played. Of the moves of a finger that nobody had time for, the `old` touches, only the last is worth
+    /// playing.
+    fn put(&mut self, touch: Touch, old: usize) {
+        let before =
+            self.heard.touches.iter_mut().enumerate().rev().find(|(_, was)| was.finger == touch.finger);
+        match before {
+            Some((at, was)) if at < old && touch.phase == Phase::Move && was.phase == Phase::Move => {
+                *was = touch
+            }
+            _ => self.heard.touches.push(touch),
+        }
     }
 
     /// Plays what was heard.
     pub(crate) fn conduct(&mut self, now: u64, until: u64) -> Result<(), LiveError> {
+        if let Some(feeler) = &mut self.feeler {
+            feeler.follow()?;
+        }
         let began = Instant::now();
         self.conductor.step(&self.heard, now, until)?;
         if let Some(pinging) = &mut self.pinging {
-            pinging.step(now, self.sources.fingers().next().is_some(), &mut self.conductor);
+            pinging.step(now, !self.fingers.is_empty(), &mut self.conductor);
         }
         if !self.heard.touches.is_empty() {
             self.computing.add(began.elapsed().as_secs_f64());
         }
+        self.heard.clear();
         Ok(())
     }
 
@@ -67,9 +79,14 @@ impl Stage {
         self.feeler.as_mut().map_or_else(Vec::new, Feeler::look)
     }
 
+    /// Whether what fingers feel can be told: of a virtual surface alone.
+    pub fn tells_feelings(&self) -> bool {
+        self.feeler.is_some()
+    }
+
     /// Where fingers are.
     pub fn fingers(&self) -> Vec<(u64, Point)> {
-        self.sources.fingers().map(|(finger, motion)| (finger, motion.at())).collect()
+        self.fingers.clone()
     }
 
     /// What turns touches into commands, and what became of them.
@@ -82,9 +99,9 @@ impl Stage {
         &mut self.conductor
     }
 
-    /// Where touches come from.
-    pub fn sources(&self) -> &Sources {
-        &self.sources
+    /// What all sources of touches took in and refused, as far as they have told.
+    pub fn counts(&self) -> Counts {
+        self.counts
     }
 
     /// What following the tension said last.
@@ -105,8 +122,7 @@ impl Stage {
     /// Follows tension by a block, and goes over to drives for the surface as it is.
     pub(crate) fn follow(&mut self, drive: &[f32], heard: &[f32]) -> Result<(), LiveError> {
         let Some(follower) = &mut self.follower else { return Ok(()) };
-        let touched = self.sources.fingers().next().is_some();
-        follower.take(drive, heard, self.block, touched);
+        follower.take(drive, heard, self.block, !self.fingers.is_empty());
         let maker = follower.observe()?;
         self.drift = follower.last().copied();
         match maker {

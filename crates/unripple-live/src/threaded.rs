@@ -1,21 +1,30 @@
-use crate::{Engine, Follower, Heartbeat, LiveError, Maker, Stage, priority};
+use crate::ears::{Ears, News};
+use crate::heartbeat::Overheard;
+use crate::{Engine, Follower, Heartbeat, LiveError, Maker, Priorities, Stage, Timeline, priority};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, mpsc};
+use std::thread::Thread;
 use std::time::{Duration, Instant};
 use unripple_calibrate::Drift;
 use unripple_core::{DeviceError, State};
 
-/// How often touches are looked for while another thread plays.
-const LOOK: Duration = Duration::from_micros(500);
+/// How often what goes on by itself is looked after while anything sounds or waits, in s of the device's clock.
+const PACE: f64 = 0.0025;
 
 /// How often whoever watches is told.
 const TELL: Duration = Duration::from_millis(200);
 
-/// Blocks ahead that commands are given: what is due later may still be taken back.
-const AHEAD: u64 = 4;
+/// Cycles ahead that commands are given, and the least time ahead in s: what is due later may still be taken back.
+const AHEAD: u64 = 2;
+const LEAST_AHEAD: f64 = 0.005;
 
-/// Blocks that may wait between the audio thread and whoever follows what it heard.
+/// Blocks that may wait between the audio thread and whoever follows what it heard, and how often they are fetched.
 const KEPT: usize = 64;
+const FETCH: Duration = Duration::from_millis(20);
+
+/// Time over which all fades out at the end, in s, and how long that is waited for, should the device stand still.
+const FADE: f64 = 0.02;
+const PATIENCE: Duration = Duration::from_secs(1);
 
 /// What the audio thread says of itself.
 #[derive(Clone, Debug, Default)]
@@ -28,11 +37,38 @@ pub struct Pulse {
     pub priority: String,
 }
 
+/// What the threads of a play share.
+struct Shared<'a> {
+    stop: AtomicBool,
+    pulse: Mutex<Pulse>,
+    /// Whether a finger is on the sheet.
+    touched: AtomicBool,
+    timeline: &'a Timeline,
+    /// Who turns touches into commands, to be woken.
+    bell: Thread,
+    priorities: Priorities,
+}
+
+impl Shared<'_> {
+    fn goes_on(&self) -> bool {
+        !self.stop.load(Ordering::Relaxed)
+    }
+}
+
+/// What comes in at the thread that turns touches into commands.
+struct Mail {
+    news: mpsc::Receiver<News>,
+    failures: mpsc::Receiver<DeviceError>,
+    finds: mpsc::Receiver<Found>,
+}
+
 impl Engine {
-    /// Plays for so many seconds of the device's clock, or until told to stop, the player and the device on a thread of their own
-    /// with real-time priority if that is granted. `tell` is called five times a second; it returns whether to go on.
+    /// Plays for so many seconds of the device's clock, or until told to stop; then all fades out, and nothing more is played. `tell` is
+    /// called five times a second; it returns whether to go on.
     ///
-    /// Touches are timed by the device's clock and answered in the next block.
+    /// The player runs on the device's own thread where that [calls](unripple_core::Device::employ), or else on one that exchanges
+    /// blocks with it. Touches are heard on another, timed when they come, and turned into commands on this one. All sleep until there is
+    /// something for them.
     ///
     /// # Errors
     /// Those of the device once it is lost for good; [`LiveError::Gone`] if a thread ended early.
@@ -41,62 +77,82 @@ impl Engine {
         seconds: Option<f64>,
         mut tell: impl FnMut(&mut Stage, &Pulse) -> bool,
     ) -> Result<(), LiveError> {
-        let Self { stage, heart } = self;
-        let (stop, pulse) = (AtomicBool::new(false), Mutex::new(Pulse::default()));
-        let planes = (heart.drive().len(), heart.heard().len());
-        let (blocks, overheard) = rtrb::RingBuffer::new(KEPT * (planes.0 + planes.1).max(1));
+        let Self { stage, heart, ears, .. } = self;
+        let layout = heart.device().layout();
+        let (channels, block) = ([layout.outputs.len(), layout.inputs.len()], stage.block);
+        let priorities = Priorities::of(heart.device());
+        let timeline = heart.timeline().clone();
+        let shared = Shared {
+            stop: AtomicBool::new(false),
+            pulse: Mutex::default(),
+            touched: AtomicBool::new(false),
+            timeline: &timeline,
+            bell: std::thread::current(),
+            priorities,
+        };
+        let samples = channels.iter().sum::<usize>() * block;
+        let (blocks, fetched) = rtrb::RingBuffer::new(KEPT * samples.max(1));
         let mut follower = stage.follower.take();
-        let blocks = follower.is_some().then_some(blocks);
-        let (failed, failures) = mpsc::channel();
-        let (found, finds) = mpsc::channel();
-        let (block, touched) = (stage.block, AtomicBool::new(false));
-        stage.conductor.hurry();
+        let overheard = follower.is_some().then(|| Overheard::new(blocks, channels, block));
+        let ((failed, failures), (found, finds), (told, news)) =
+            (mpsc::channel(), mpsc::channel(), mpsc::channel());
+        let mail = Mail { news, failures, finds };
+        stage.conductor.hurry(priorities.beside);
+        let (lent, overheard) = heart.lend(shared.bell.clone(), overheard);
         let result = std::thread::scope(|scope| {
-            let audio = std::thread::Builder::new().name("audio".into());
-            let spawned = audio.spawn_scoped(scope, || beat(heart, &stop, &pulse, blocks, &failed));
-            spawned.map_err(|error| LiveError::Gone { why: error.to_string() })?;
-            if let Some(follower) = &mut follower {
-                let drift = std::thread::Builder::new().name("drift".into());
-                let heard = Overheard { blocks: overheard, planes, block, touched: &touched };
-                let spawned = drift.spawn_scoped(scope, || follow(follower, heard, &stop, &found));
-                spawned.map_err(|error| LiveError::Gone { why: error.to_string() })?;
-            }
-            let result = stage.attend(seconds, &failures, &finds, &touched, |stage| {
-                let pulse = pulse.lock().map(|pulse| pulse.clone()).unwrap_or_default();
-                tell(stage, &pulse)
+            let shared = &shared;
+            let spawn = |name: &str| std::thread::Builder::new().name(name.into());
+            let gone = |error: std::io::Error| LiveError::Gone { why: error.to_string() };
+            let audio = spawn("audio").spawn_scoped(scope, move || match lent {
+                true => mind(heart, shared, &failed),
+                false => beat(heart, shared, overheard, &failed),
             });
-            stop.store(true, Ordering::Relaxed);
+            let audio = audio.map_err(gone)?;
+            let listen = spawn("touch").spawn_scoped(scope, move || listen(ears, shared, &told));
+            let followed = follower.as_mut().map(|follower| {
+                let heard = Fetched { blocks: fetched, drive: channels[0] * block, samples, block };
+                spawn("drift").spawn_scoped(scope, move || follow(follower, heard, shared, &found))
+            });
+            let result = match listen.and(followed.transpose()) {
+                Ok(_) => stage.attend(seconds, shared, &mail, |stage| {
+                    let pulse = shared.pulse.lock().map(|pulse| pulse.clone()).unwrap_or_default();
+                    tell(stage, &pulse)
+                }),
+                Err(error) => Err(gone(error)),
+            };
+            shared.stop.store(true, Ordering::Relaxed);
+            audio.thread().unpark();
             result
         });
+        self.heart.regain();
         self.stage.follower = follower;
         self.stage.clock = self.stage.conductor.desk().clock();
+        self.stage.counts = self.ears.counts();
         result
     }
 }
 
 /// Blocks on their way from the audio thread to whoever follows tension.
-struct Overheard<'a> {
+struct Fetched {
     blocks: rtrb::Consumer<f32>,
-    /// Samples of drive and of what was heard.
-    planes: (usize, usize),
+    /// Samples of drive, and of drive and what was heard, of a block of so many.
+    drive: usize,
+    samples: usize,
     block: usize,
-    /// Whether a finger is on the sheet.
-    touched: &'a AtomicBool,
 }
 
 /// What following found: how tension fares, and a maker for the surface as it is, if that has changed.
 type Found = Result<(Drift, Option<Maker>), LiveError>;
 
 /// The thread that follows tension: what it computes is too long for the one that hears touches.
-fn follow(follower: &mut Follower, mut heard: Overheard<'_>, stop: &AtomicBool, found: &mpsc::Sender<Found>) {
-    let (drive, inputs) = heard.planes;
-    let mut block = Vec::with_capacity(drive + inputs);
-    while !stop.load(Ordering::Relaxed) {
-        while let Ok(chunk) = heard.blocks.read_chunk(drive + inputs) {
+fn follow(follower: &mut Follower, mut heard: Fetched, shared: &Shared, found: &mpsc::Sender<Found>) {
+    let mut block = Vec::with_capacity(heard.samples);
+    while shared.goes_on() {
+        while let Ok(chunk) = heard.blocks.read_chunk(heard.samples) {
             block.clear();
             block.extend(chunk);
-            let (drive, heard_now) = block.split_at(drive);
-            follower.take(drive, heard_now, heard.block, heard.touched.load(Ordering::Relaxed));
+            let (drive, inputs) = block.split_at(heard.drive);
+            follower.take(drive, inputs, heard.block, shared.touched.load(Ordering::Relaxed));
         }
         let before = follower.observations();
         let maker = follower.observe();
@@ -109,36 +165,56 @@ fn follow(follower: &mut Follower, mut heard: Overheard<'_>, stop: &AtomicBool, 
         if sent.is_err() {
             return;
         }
-        std::thread::sleep(LOOK * 10);
+        if news {
+            shared.bell.unpark();
+        }
+        std::thread::sleep(FETCH);
+    }
+}
+
+/// The thread that hears touches: they are timed when they come, whatever is computed meanwhile.
+fn listen(ears: &mut Ears, shared: &Shared, told: &mpsc::Sender<News>) {
+    // Touches are worth more than all but the sound itself.
+    let _ = priority::at(shared.priorities.touch);
+    while shared.goes_on() {
+        let now = shared.timeline.now();
+        let news = ears.hear(now);
+        if news.any() {
+            if told.send(news).is_err() {
+                return;
+            }
+            shared.bell.unpark();
+        }
+        ears.wait(now);
     }
 }
 
 impl Stage {
-    /// This thread's part: touches, cues, drives, drift.
+    /// This thread's part: cues, drives, drift, as touches ask for them.
     fn attend(
         &mut self,
         seconds: Option<f64>,
-        failures: &mpsc::Receiver<DeviceError>,
-        finds: &mpsc::Receiver<Found>,
-        touched: &AtomicBool,
+        shared: &Shared,
+        mail: &Mail,
         mut tell: impl FnMut(&mut Self) -> bool,
     ) -> Result<(), LiveError> {
         let end = seconds.map(|seconds| self.clock + (seconds * self.rate) as u64);
         let mut told = Instant::now();
-        // Touches are worth more than all but the sound itself.
-        let _ = priority::beside();
+        let _ = priority::at(shared.priorities.beside);
         loop {
-            if let Ok(error) = failures.try_recv() {
+            if let Ok(error) = mail.failures.try_recv() {
                 return Err(error.into());
             }
             self.clock = self.conductor.desk().clock();
             if end.is_some_and(|end| self.clock >= end) {
-                return Ok(());
+                return self.fade_out(shared);
             }
-            self.listen()?;
-            touched.store(self.sources.fingers().next().is_some(), Ordering::Relaxed);
-            self.conduct(self.clock, self.clock + AHEAD * self.block as u64)?;
-            while let Ok(found) = finds.try_recv() {
+            while let Ok(news) = mail.news.try_recv() {
+                self.take(news)?;
+            }
+            shared.touched.store(!self.fingers.is_empty(), Ordering::Relaxed);
+            self.conduct(self.clock, self.until(shared.timeline))?;
+            while let Ok(found) = mail.finds.try_recv() {
                 let (drift, maker) = found?;
                 self.drift = Some(drift);
                 if let Some(maker) = maker {
@@ -148,43 +224,94 @@ impl Stage {
             if told.elapsed() >= TELL {
                 told = Instant::now();
                 if !tell(self) {
-                    return Ok(());
+                    return self.fade_out(shared);
                 }
             }
-            std::thread::sleep(LOOK);
+            let due = self.due().min(end.unwrap_or(u64::MAX));
+            shared.timeline.wake_at(due);
+            if self.conductor.desk().clock() < due {
+                std::thread::park_timeout(TELL.saturating_sub(told.elapsed()));
+            }
+        }
+    }
+
+    /// Ends it all, and waits until what was played last has left.
+    fn fade_out(&mut self, shared: &Shared) -> Result<(), LiveError> {
+        self.conductor.end(FADE);
+        let start = Instant::now();
+        while !self.conductor.is_over() && start.elapsed() < PATIENCE {
+            shared.timeline.wake_at(self.conductor.desk().clock() + 1);
+            std::thread::park_timeout(PATIENCE.saturating_sub(start.elapsed()));
+        }
+        let leaves = shared.timeline.leaves(self.conductor.desk().clock());
+        std::thread::sleep(leaves.saturating_duration_since(Instant::now()).min(PATIENCE));
+        // What the player said last is heard.
+        self.conduct(self.clock, self.clock)
+    }
+
+    /// The sample up to which commands are given now.
+    fn until(&self, timeline: &Timeline) -> u64 {
+        let cycles = AHEAD * timeline.period() as u64 + (PACE * self.rate) as u64;
+        self.clock + cycles.max((LEAST_AHEAD * self.rate) as u64)
+    }
+
+    /// The sample at which there will be something to do if no touch comes before.
+    fn due(&self) -> u64 {
+        if self.feeler.is_some() || !self.conductor.rests() {
+            return self.clock + (PACE * self.rate) as u64;
+        }
+        self.pinging.as_ref().map_or(u64::MAX, |pinging| pinging.due(self.clock))
+    }
+}
+
+/// The audio thread before a device that calls: it looks after that.
+fn mind(heart: &mut Heartbeat, shared: &Shared, failed: &mpsc::Sender<DeviceError>) {
+    if let Ok(mut pulse) = shared.pulse.lock() {
+        pulse.priority = shared.priorities.called();
+    }
+    while shared.goes_on() {
+        match heart.device_mut().tend() {
+            Ok(wait) => {
+                tell(heart, shared);
+                std::thread::park_timeout(wait);
+            }
+            Err(error) => return fail(error, shared, failed),
         }
     }
 }
 
-/// The audio thread.
+/// The audio thread before one that does not.
 fn beat(
     heart: &mut Heartbeat,
-    stop: &AtomicBool,
-    pulse: &Mutex<Pulse>,
-    mut blocks: Option<rtrb::Producer<f32>>,
+    shared: &Shared,
+    mut overheard: Option<Overheard>,
     failed: &mpsc::Sender<DeviceError>,
 ) {
-    let priority = priority::ask();
-    if let Ok(mut pulse) = pulse.lock() {
+    let priority = priority::at(shared.priorities.audio).unwrap_or_else(|refused| refused);
+    if let Ok(mut pulse) = shared.pulse.lock() {
         pulse.priority = priority;
     }
-    while !stop.load(Ordering::Relaxed) {
+    while shared.goes_on() {
         if let Err(error) = heart.beat() {
-            // Whoever hears of it stops.
-            let _ = failed.send(error);
-            break;
+            return fail(error, shared, failed);
         }
-        if let Some(blocks) = &mut blocks {
-            // What finds no room is lost to the follower alone.
-            let parts = heart.drive().iter().chain(heart.heard());
-            if blocks.slots() >= heart.drive().len() + heart.heard().len() {
-                parts.for_each(|x| blocks.push(*x).unwrap_or(()));
-            }
+        if let Some(overheard) = &mut overheard {
+            overheard.put(heart.drive(), heart.heard());
         }
-        // Never waited for: whoever reads holds it for moments only.
-        if let Ok(mut pulse) = pulse.try_lock() {
-            let status = heart.device().status();
-            (pulse.state, pulse.lost) = (status.state, status.lost);
-        }
+        tell(heart, shared);
     }
+}
+
+fn tell(heart: &Heartbeat, shared: &Shared) {
+    // Never waited for: whoever reads holds it for moments only.
+    if let Ok(mut pulse) = shared.pulse.try_lock() {
+        let status = heart.device().status();
+        (pulse.state, pulse.lost) = (status.state, status.lost);
+    }
+}
+
+fn fail(error: DeviceError, shared: &Shared, failed: &mpsc::Sender<DeviceError>) {
+    // Whoever hears of it stops.
+    let _ = failed.send(error);
+    shared.bell.unpark();
 }

@@ -21,7 +21,7 @@ const FELT: usize = 10;
 /// How often a lost sound server is looked for again.
 const TRIES: u32 = 1000;
 
-/// Blocks that drive is ahead of a sound server: the fewest that it takes.
+/// Blocks that drive is ahead of a device that does not call by itself: the fewest that it takes.
 const LEAD: usize = 2;
 
 /// What the model may miss of what is heard: the sheet still rings a little as it did under a finger.
@@ -137,7 +137,12 @@ fn recovering(
     mut open: impl FnMut() -> Result<Box<dyn Device>, DevicesError> + Send + 'static,
 ) -> Result<Opened, CliError> {
     let first = open().map_err(CliError::work)?;
-    let latency = (LEAD + 1) * first.layout().block;
+    let block = first.layout().block;
+    let latency = match first.status().server {
+        // What is played in a cycle is heard in the next at the earliest.
+        Some(server) => ((server.playback + server.capture) as usize).max(block),
+        None => (LEAD + 1) * block,
+    };
     let mut first = Some(first);
     let again = move || match first.take() {
         Some(device) => Ok(device),

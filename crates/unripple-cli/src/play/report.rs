@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use std::fmt::Write;
-use unripple::core::{State, Surface};
+use unripple::core::{Server, State, Surface};
 use unripple_calibrate::Drift;
 use unripple_live::{Engine, Feeling, Level, Percentiles, Pulse, Stage, Window};
 use unripple_player::Count;
@@ -44,12 +44,55 @@ pub struct Report {
     tension: Option<Tension>,
     #[serde(skip_serializing_if = "Option::is_none")]
     priority: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    server: Option<ServerSays>,
+    /// Whether what fingers feel could be told.
+    #[serde(skip)]
+    tells_feelings: bool,
 }
 
-/// The 50th, 99th, 99.9th percentile and the worst; `null` where nothing was.
+/// What a sound server says of itself and of the sitting.
+#[derive(Debug, Serialize)]
+struct ServerSays {
+    /// A cycle, as it was at the end.
+    period_s: f64,
+    /// From our ports to the air, as the server knows it; not in the times above.
+    playback_latency_s: f64,
+    /// Cycles that it says came late.
+    late_cycles: u64,
+    /// Time that it left out between cycles.
+    skipped_s: f64,
+    /// Real-time priority of its thread that calls us.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    real_time_priority: Option<u8>,
+}
+
+impl ServerSays {
+    fn of(server: &Server, rate: f64) -> Self {
+        Self {
+            period_s: server.period as f64 / rate,
+            playback_latency_s: server.playback as f64 / rate,
+            late_cycles: server.late,
+            skipped_s: server.skipped as f64 / rate,
+            real_time_priority: server.priority,
+        }
+    }
+
+    fn text(&self) -> String {
+        let Self { period_s, playback_latency_s, late_cycles, skipped_s, .. } = self;
+        let [period, latency, skipped] = [period_s, playback_latency_s, skipped_s].map(|s| 1e3 * s);
+        format!(
+            "\ntimes of samples are those at the server's ports; it says that they are heard {latency:.3} ms later\n\
+             the server: a cycle of {period:.3} ms, {late_cycles} late, {skipped:.1} ms left out between cycles\n"
+        )
+    }
+}
+
+/// The 50th, 90th, 99th, 99.9th percentile and the worst; `null` where nothing was.
 #[derive(Debug, Default, Serialize)]
 struct Four {
     p50: Option<f64>,
+    p90: Option<f64>,
     p99: Option<f64>,
     p999: Option<f64>,
     worst: Option<f64>,
@@ -58,17 +101,22 @@ struct Four {
 impl Four {
     fn of(times: &Percentiles) -> Self {
         match times.four() {
-            Some([p50, p99, p999, worst]) => {
-                Self { p50: Some(p50), p99: Some(p99), p999: Some(p999), worst: Some(worst) }
-            }
+            Some([p50, p99, p999, worst]) => Self {
+                p50: Some(p50),
+                p90: times.at(0.9),
+                p99: Some(p99),
+                p999: Some(p999),
+                worst: Some(worst),
+            },
             None => Self::default(),
         }
     }
 
     fn text(&self, name: &str) -> String {
         let ms = |value: Option<f64>| value.map_or("-".into(), |s| format!("{:.3}", 1e3 * s));
-        let Self { p50, p99, p999, worst } = self;
-        format!("  {name:<34}{:>9}{:>9}{:>9}{:>9}\n", ms(*p50), ms(*p99), ms(*p999), ms(*worst))
+        let Self { p50, p90, p99, p999, worst } = self;
+        let columns = [p50, p90, p99, p999, worst].map(|value| format!("{:>9}", ms(*value)));
+        format!("  {name:<34}{}\n", columns.concat())
     }
 }
 
@@ -141,9 +189,13 @@ impl Report {
         self.block_s = engine.heart().device().layout().block as f64 / rate;
         self.block_work_s = Four::of(engine.heart().work());
         self.heavy_blocks = engine.heart().heavy();
-        self.lost_blocks = engine.heart().device().status().lost;
+        let status = engine.heart().device().status();
+        self.lost_blocks = status.lost;
+        self.server = status.server.map(|server| ServerSays::of(&server, rate));
+        self.block_s = self.server.as_ref().map_or(self.block_s, |server| server.period_s);
         let stage = engine.stage();
-        let counts = stage.sources().counts();
+        self.tells_feelings = stage.tells_feelings();
+        let counts = stage.counts();
         self.touches = counts.touches;
         self.refused_touches = counts.errors();
         self.seconds = stage.time();
@@ -170,15 +222,9 @@ impl Report {
             "{}: {:.1} s played, {} touches, {} cues, {} drives made\n",
             self.surface, self.seconds, self.touches, self.cues, self.drives_made
         );
-        let db = |value: Option<f64>| value.map_or("-".into(), |db| format!("{db:.1}"));
-        let _ = writeln!(
-            text,
-            "felt: {} dB above threshold (most {}), contrast {}",
-            db(self.felt.level_db_median),
-            db(self.felt.level_db_most),
-            db(self.felt.contrast_median)
-        );
-        let _ = writeln!(text, "\n  {:<34}{:>9}{:>9}{:>9}{:>9}", "in ms", "p50", "p99", "p99.9", "worst");
+        text += &self.felt.text(self.tells_feelings);
+        let columns = ["p50", "p90", "p99", "p99.9", "worst"].map(|name| format!("{name:>9}"));
+        let _ = writeln!(text, "\n  {:<34}{}", "in ms", columns.concat());
         text += &self.first_sample_s.text("touch to first sample");
         text += &self.focus_s.text("touch to focus");
         text += &self.making_s.text("making a drive for a new place");
@@ -193,7 +239,10 @@ impl Report {
             (self.late, "commands late"),
             (self.refused, "commands refused by the player"),
             (self.lost_commands, "commands or reports lost"),
-            (self.lost_blocks, "blocks lost"),
+            (
+                self.lost_blocks,
+                "blocks lost: they left late or not at all, which is heard as a gap or a click",
+            ),
             (self.heavy_blocks, "blocks that took more than 70 % of their time"),
             (self.refused_touches, "packets, places or fingers refused"),
         ] {
@@ -201,6 +250,7 @@ impl Report {
                 let _ = writeln!(text, "{count} {what}");
             }
         }
+        text += &self.server.as_ref().map(ServerSays::text).unwrap_or_default();
         if let Some(failure) = &self.last_failure {
             let _ = writeln!(text, "the last that failed: {failure}");
         }
@@ -219,6 +269,17 @@ fn told(feeling: &Feeling) -> String {
 }
 
 impl Felt {
+    /// For people; `told` where a virtual surface says what is felt.
+    fn text(&self, told: bool) -> String {
+        if !told {
+            return "felt: unknown, since no virtual surface plays that could tell\n".into();
+        }
+        let db = |value: Option<f64>| value.map_or("-".into(), |db| format!("{db:.1}"));
+        let [median, most, contrast] =
+            [self.level_db_median, self.level_db_most, self.contrast_median].map(db);
+        format!("felt: {median} dB above threshold (most {most}), contrast {contrast}\n")
+    }
+
     fn add(&mut self, feeling: &Feeling) {
         self.levels.extend(feeling.level_db.filter(|db| *db > 0.0));
         self.contrasts.extend(feeling.contrast);

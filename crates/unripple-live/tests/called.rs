@@ -1,0 +1,191 @@
+//! A device that calls whoever plays, at a pace of its own that changes and halts: what it counts itself is what the play says of its
+//! latency.
+
+mod common;
+
+use common::*;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::sync::{Arc, Mutex};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+use unripple_core::{Cycle, Device, DeviceError, Layout, Phase, Point, Server, Status, Touch, Work};
+use unripple_touch::{Counts, Heard, Source};
+
+/// Touches in all.
+const TOUCHES: u64 = 20;
+
+/// Samples of one cycle after the other, over and over; after the halt it goes on.
+const CYCLES: [usize; 6] = [256, 256, 1024, 441, 64, 2048];
+const HALT: Duration = Duration::from_millis(300);
+
+/// What the device counts.
+#[derive(Default)]
+struct Counted {
+    /// Samples given so far, and when the first of the last cycle left.
+    given: u64,
+    last: Option<(u64, Instant)>,
+    /// Samples at which something began to sound.
+    onsets: Vec<u64>,
+    silent: u64,
+}
+
+/// Calls from a thread of its own.
+struct Caller {
+    layout: Layout,
+    counted: Arc<Mutex<Counted>>,
+    thread: Option<JoinHandle<Box<dyn Work>>>,
+    stop: Arc<AtomicBool>,
+}
+
+struct Buffers {
+    planes: Vec<Vec<f32>>,
+    began: Instant,
+}
+
+impl Cycle for Buffers {
+    fn frames(&self) -> usize {
+        self.planes[0].len()
+    }
+    fn began(&self) -> Instant {
+        self.began
+    }
+    fn drive(&mut self, output: usize) -> &mut [f32] {
+        &mut self.planes[output]
+    }
+    fn heard(&self, _: usize) -> &[f32] {
+        &[]
+    }
+}
+
+impl Counted {
+    fn count(&mut self, planes: &[Vec<f32>], began: Instant) {
+        self.last = Some((self.given, began));
+        for i in 0..planes[0].len() {
+            let sounds = planes.iter().any(|plane| plane[i] != 0.0);
+            // A drive has no gap as long as this.
+            if sounds && self.silent > 480 {
+                self.onsets.push(self.given + i as u64);
+            }
+            self.silent = if sounds { 0 } else { self.silent + 1 };
+        }
+        self.given += planes[0].len() as u64;
+    }
+}
+
+impl Device for Caller {
+    fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    fn status(&self) -> Status {
+        Status { server: Some(Server { period: 256, ..Server::default() }), ..Status::default() }
+    }
+
+    fn exchange(&mut self, _: &[f32], _: &mut [f32]) -> Result<(), DeviceError> {
+        panic!("a device that calls is asked for blocks");
+    }
+
+    fn employ(&mut self, mut work: Box<dyn Work>) -> Result<(), Box<dyn Work>> {
+        let (stop, counted, outputs) = (self.stop.clone(), self.counted.clone(), self.layout.outputs.len());
+        self.thread = Some(std::thread::spawn(move || {
+            let mut due = Instant::now();
+            for (cycle, frames) in CYCLES.into_iter().cycle().enumerate() {
+                if stop.load(Relaxed) {
+                    break;
+                }
+                if cycle == 40 {
+                    std::thread::sleep(HALT);
+                    due = Instant::now();
+                }
+                std::thread::sleep(due.saturating_duration_since(Instant::now()));
+                let mut buffers = Buffers { planes: vec![vec![0.0; frames]; outputs], began: due };
+                work.cycle(&mut buffers);
+                counted.lock().unwrap().count(&buffers.planes, due);
+                due += Duration::from_secs_f64(frames as f64 / RATE);
+            }
+            work
+        }));
+        Ok(())
+    }
+
+    fn dismiss(&mut self) -> Option<Box<dyn Work>> {
+        self.stop.store(true, Relaxed);
+        self.thread.take()?.join().ok()
+    }
+}
+
+/// Puts a finger down whenever all that the last one set off is over, and notes when.
+struct Taps {
+    counted: Arc<Mutex<Counted>>,
+    asked: Arc<Mutex<Vec<Asked>>>,
+}
+
+/// A touch was given at a time of the play's clock, at an instant at which the device stood so.
+struct Asked {
+    now: f64,
+    at: Instant,
+    stood: (u64, Instant),
+}
+
+impl Source for Taps {
+    fn name(&self) -> &str {
+        "taps"
+    }
+
+    fn poll(&mut self, now: f64, heard: &mut Heard) {
+        let (counted, mut asked) = (self.counted.lock().unwrap(), self.asked.lock().unwrap());
+        let finger = asked.len() as u64;
+        let Some(stood) = counted.last.filter(|_| counted.silent > 2000 && finger < TOUCHES) else { return };
+        if counted.onsets.len() < asked.len() {
+            return;
+        }
+        let at = Point::from_mm(20.0 + 5.0 * finger as f64, 90.0);
+        heard.touches.push(Touch { finger, phase: Phase::Down, at, time: now, force: None });
+        asked.push(Asked { now, at: Instant::now(), stood });
+    }
+
+    fn counts(&self) -> Counts {
+        Counts::default()
+    }
+}
+
+#[test]
+fn latency_is_what_the_device_counts() {
+    let (counted, asked) = (Arc::<Mutex<Counted>>::default(), Arc::<Mutex<Vec<Asked>>>::default());
+    let names = FILM.actuators.iter().map(|actuator| actuator.name.clone()).collect();
+    let layout = Layout {
+        device: "caller".into(),
+        rate: RATE,
+        block: 256,
+        outputs: names,
+        inputs: Vec::new(),
+        full_scale: 1.0,
+    };
+    let device = Caller { layout, counted: counted.clone(), thread: None, stop: Arc::default() };
+    let taps = Taps { counted: counted.clone(), asked: asked.clone() };
+    let mut engine = with_device(&clicks(), sources(vec![Box::new(taps)]), Box::new(device));
+    let (start, mut looks) = (Instant::now(), 0);
+    engine
+        .run(None, |_, _| {
+            // One look more, so that all that the player said was heard.
+            looks += u64::from(counted.lock().unwrap().onsets.len() as u64 == TOUCHES);
+            looks < 2 && start.elapsed() < Duration::from_secs(60)
+        })
+        .unwrap();
+    let (counted, asked) = (counted.lock().unwrap(), asked.lock().unwrap());
+    let said = &engine.stage().conductor().tally().first_sample;
+    assert_eq!([counted.onsets.len() as u64, asked.len() as u64, said.count()], [TOUCHES; 3]);
+    // What the play says, worst of all, beside what the device counted for the same touches.
+    let late = |(onset, asked): (&u64, &Asked)| *onset as f64 / RATE - asked.now;
+    let worst = counted.onsets.iter().zip(asked.iter()).map(late).fold(0.0, f64::max);
+    println!("worst {:.3} ms by the device, {:.3} by the play", 1e3 * worst, 1e3 * said.worst().unwrap());
+    assert!((said.worst().unwrap() - worst).abs() < 1.5 / RATE, "{:?} {worst}", said.worst());
+    // And touches are timed by where the device stood when they came.
+    for Asked { now, at, stood: (given, began) } in asked.iter() {
+        let stands = *given as f64 / RATE + at.saturating_duration_since(*began).as_secs_f64();
+        let longest = CYCLES.into_iter().max().unwrap() as f64 / RATE;
+        let least = stands.min(*given as f64 / RATE) - longest;
+        assert!((least..=stands + 1.5 / RATE).contains(now), "{now} where the device stood at {stands}");
+    }
+    assert!(engine.heart().work().count() > 100);
+}

@@ -1,0 +1,202 @@
+//! A film that is played through a real JACK server, and what that costs the machine: a period that changes is followed, priorities
+//! stay below the server's, and nobody wakes without a reason.
+//!
+//! Needs `jackd` and libjack (Debian: jackd2). Without them the tests say so and pass.
+
+mod common;
+#[path = "../../unripple-devices/tests/common/server.rs"]
+mod server;
+
+use common::*;
+use server::Server;
+use std::process::Command;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::time::{Duration, Instant};
+use unripple_core::{Device, DeviceError};
+use unripple_devices::{DevicesError, Jack, JackOptions, Links};
+use unripple_effects::{Curve, Kind, Level, Texture};
+use unripple_live::{Engine, Recovering};
+use unripple_touch::{Source, Synthetic, SyntheticOptions};
+
+/// One server at a time: libjack keeps some of its state per program.
+static ALONE: Mutex<()> = Mutex::new(());
+
+/// How long to wait for what must happen, however slow the machine.
+const DEADLINE: Duration = Duration::from_secs(60);
+
+fn names() -> Vec<String> {
+    FILM.actuators.iter().map(|actuator| actuator.name.clone()).collect()
+}
+
+/// As soon as the server answers.
+fn join(options: &JackOptions) -> Jack {
+    let start = Instant::now();
+    loop {
+        match Jack::open(options) {
+            Err(DevicesError::Jack { .. }) if start.elapsed() < DEADLINE => {
+                std::thread::sleep(Duration::from_millis(50));
+            }
+            other => return other.unwrap(),
+        }
+    }
+}
+
+/// The film with so many fingers on it, through a server.
+fn engine(server: &Server, fingers: usize) -> Engine {
+    let known = JackOptions {
+        server: Some(server.name.clone()),
+        outputs: names(),
+        links: Links::None,
+        lead: 2,
+        ..JackOptions::default()
+    };
+    let open = move || Ok(Box::new(join(&known)) as Box<dyn Device>);
+    let device = Recovering::open(Box::new(open), 1000).unwrap();
+    let options = SyntheticOptions { fingers, ..SyntheticOptions::default() };
+    let fingers: Vec<Box<dyn Source>> = match fingers {
+        0 => Vec::new(),
+        _ => vec![Box::new(Synthetic::new(&FILM.outline, options).unwrap())],
+    };
+    let grains = Texture { pitch: 2e-3, grain: 0.3, seed: 1, speed_gain: Curve::constant(1.0) };
+    with_device(&one(Kind::Texture(grains), Level::Share(0.2)), sources(fingers), Box::new(device))
+}
+
+/// Plays until a script is through, which runs beside it.
+fn beside<T: Send>(mut engine: Engine, script: impl FnOnce(&AtomicBool) -> T + Send) -> T {
+    let (playing, over) = (AtomicBool::new(false), AtomicBool::new(false));
+    std::thread::scope(|scope| {
+        let script = scope.spawn(|| {
+            let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| script(&playing)));
+            over.store(true, Relaxed);
+            result
+        });
+        let played = engine.run(None, |_, _| {
+            playing.store(true, Relaxed);
+            !over.load(Relaxed)
+        });
+        let result = script.join().unwrap();
+        played.unwrap();
+        result.unwrap_or_else(|fell| std::panic::resume_unwind(fell))
+    })
+}
+
+fn until(what: &AtomicBool) {
+    let start = Instant::now();
+    while !what.load(Relaxed) && start.elapsed() < DEADLINE {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    assert!(what.load(Relaxed), "nothing plays");
+}
+
+/// Listens to the film's ports as another client until something sounds there.
+fn sounds(server: &Server) -> bool {
+    let ports = names().iter().map(|name| format!("unripple:out_{name}")).collect();
+    let mut watch = join(&JackOptions {
+        client: "watch".into(),
+        server: Some(server.name.clone()),
+        inputs: names(),
+        links: Links::Ports { playback: Vec::new(), capture: ports },
+        ..JackOptions::default()
+    });
+    let mut heard = vec![0.0; names().len() * watch.layout().block];
+    let start = Instant::now();
+    while start.elapsed() < DEADLINE / 2 {
+        match watch.exchange(&[], &mut heard) {
+            Ok(()) if heard.iter().any(|x| x.abs() > 1e-3) => return true,
+            Ok(()) | Err(DeviceError::Stalled { .. }) => {}
+            Err(error) => panic!("{error}"),
+        }
+    }
+    false
+}
+
+#[test]
+fn a_changed_period_is_followed() {
+    let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let Some(server) = Server::start(256) else {
+        println!("SKIPPED: there is no jackd here (Debian: apt install jackd2)");
+        return;
+    };
+    beside(engine(&server, 10), |playing| {
+        until(playing);
+        assert!(sounds(&server), "silent before any change");
+        for period in ["1024", "256", "64", "441", "2048"] {
+            let changed = Command::new("jack_bufsize")
+                .env("JACK_DEFAULT_SERVER", &server.name)
+                .arg(period)
+                .output()
+                .expect("jack_bufsize");
+            assert!(changed.status.success(), "{changed:?}");
+            assert!(sounds(&server), "silent after the period became {period}");
+        }
+    });
+}
+
+/// Names and real-time priorities of this program's threads that have one.
+fn priorities() -> Vec<(String, u32)> {
+    let tasks = std::fs::read_dir("/proc/self/task").unwrap();
+    let stats = tasks.filter_map(|task| std::fs::read_to_string(task.ok()?.path().join("stat")).ok());
+    let read = |stat: String| {
+        let (name, rest) = stat.split_once('(')?.1.rsplit_once(')')?;
+        // The 40th field, of which the third is the first after the name.
+        let priority = rest.split_whitespace().nth(37)?.parse().ok()?;
+        Some((name.to_owned(), priority))
+    };
+    stats.filter_map(read).filter(|(_, priority)| *priority > 0).collect()
+}
+
+#[test]
+fn no_thread_stands_above_the_servers() {
+    let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let name = format!("unripple-priority-{}", std::process::id());
+    let Some(server) = Server::real_time(&name, 256) else {
+        println!("SKIPPED: there is no jackd here (Debian: apt install jackd2)");
+        return;
+    };
+    let found = beside(engine(&server, 2), |playing| {
+        until(playing);
+        std::thread::sleep(Duration::from_millis(500));
+        priorities()
+    });
+    println!("{found:?}");
+    // JACK runs its clients' callbacks five below its own thread, or lower where it was granted less.
+    if found.is_empty() {
+        println!("SKIPPED: no real-time priority is granted here");
+        return;
+    }
+    assert!(
+        found.iter().all(|(_, priority)| *priority <= 5),
+        "the server has 10, its callbacks 5: {found:?}"
+    );
+}
+
+/// Times that threads of this program went to sleep by themselves.
+fn naps() -> u64 {
+    let tasks = std::fs::read_dir("/proc/self/task").unwrap();
+    let stats = tasks.filter_map(|task| std::fs::read_to_string(task.ok()?.path().join("status")).ok());
+    let naps = |status: String| -> Option<u64> {
+        let line = status.lines().find(|line| line.starts_with("voluntary_ctxt_switches"))?;
+        line.split_whitespace().nth(1)?.parse().ok()
+    };
+    stats.filter_map(naps).sum()
+}
+
+#[test]
+fn nobody_wakes_without_a_reason() {
+    let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let Some(server) = Server::start(256) else {
+        println!("SKIPPED: there is no jackd here (Debian: apt install jackd2)");
+        return;
+    };
+    let (naps, seconds) = beside(engine(&server, 0), |playing| {
+        until(playing);
+        let (before, start) = (naps(), Instant::now());
+        std::thread::sleep(Duration::from_secs(2));
+        (naps() - before, start.elapsed().as_secs_f64())
+    });
+    // One for each cycle of the server at most, and some looks a second at how all fares.
+    let cycles = seconds * RATE / 256.0;
+    println!("{naps} naps in {seconds:.1} s, {cycles:.0} cycles");
+    assert!(naps as f64 <= 1.5 * cycles + 60.0 * seconds, "{naps} naps in {seconds:.1} s");
+}
