@@ -1,0 +1,219 @@
+//! How late `unripple play` answers a touch through a JACK server, what it costs while nobody touches and under ten fingers, and what
+//! its own summary says of that, beside a client that does nothing: `cargo run --release -p unripple-devices --example touch_to_port
+//! -- [PROGRAM] [TOUCHES] [SECONDS] [real-time]`. Needs `jackd`.
+
+mod client;
+mod rig;
+
+use client::{Client, Jack, Role};
+use rig::{Finger, Process, free_port, processor, program, server};
+use serde_json::Value;
+use std::error::Error;
+use std::net::UdpSocket;
+use std::sync::atomic::Ordering::Relaxed;
+use std::time::{Duration, Instant};
+
+const OUTPUTS: usize = 8;
+const PERIODS: [usize; 3] = [64, 256, 1024];
+
+/// How long to wait for anything.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+struct Wanted {
+    program: String,
+    touches: usize,
+    seconds: f64,
+    real_time: bool,
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut all = std::env::args().skip(1);
+    let wanted = Wanted {
+        program: all.next().unwrap_or_else(|| "target/release/unripple".into()),
+        touches: all.next().map_or(Ok(200), |n| n.parse())?,
+        seconds: all.next().map_or(Ok(10.0), |n| n.parse())?,
+        real_time: all.next().is_some(),
+    };
+    let Some(jack) = Jack::load() else {
+        println!("SKIPPED: there is no libjack here (Debian: apt install jackd2)");
+        return Ok(());
+    };
+    println!(
+        "from a touch to the first sample at the ports, ms, {} touches each; load average {}",
+        wanted.touches,
+        load()
+    );
+    println!(
+        "{:>6} {:<34}{:>8}{:>8}{:>8}{:>8}{:>8}{:>10}{:>10}{:>8}{:>8}",
+        "period",
+        "who, told by whom",
+        "p50",
+        "p90",
+        "p99",
+        "worst",
+        "missed",
+        "idle %",
+        "fingers %",
+        "late",
+        "lost"
+    );
+    for period in PERIODS {
+        sitting(jack, &wanted, period)?;
+    }
+    Ok(())
+}
+
+/// One server: touches for the program and for an empty client, one after the other.
+fn sitting(jack: &'static Jack, wanted: &Wanted, period: usize) -> Result<(), Box<dyn Error>> {
+    let name = format!("touch-to-port-{}", std::process::id());
+    let Some(_server) = server(&name, period, wanted.real_time) else {
+        println!("SKIPPED: there is no jackd here (Debian: apt install jackd2)");
+        return Ok(());
+    };
+    let socket = UdpSocket::bind("127.0.0.1:0")?;
+    socket.set_nonblocking(true)?;
+    let empty_port = socket.local_addr()?.port();
+    let ours = patiently(|| Client::open(jack, &name, "watch-ours", Role::Watch(OUTPUTS)))?;
+    let theirs = patiently(|| Client::open(jack, &name, "watch-empty", Role::Watch(1)))?;
+    let empty = Client::open(jack, &name, "empty", Role::Answer(socket)).ok_or("no third client")?;
+    if !theirs.hear("empty:out", 0) {
+        return Err("the empty client cannot be connected".into());
+    }
+    let port = free_port()?;
+    let played = play(wanted, &name, "click-button", port, &ours)?;
+    let thread = Some(empty.shared.thread.load(Relaxed));
+    let before = [processor(played.0.id(), None), processor(std::process::id(), thread)];
+    std::thread::sleep(Duration::from_secs_f64(wanted.seconds));
+    let after = [processor(played.0.id(), None), processor(std::process::id(), thread)];
+    let idle = [0, 1].map(|i| 100.0 * (after[i] - before[i]) / wanted.seconds);
+    let late = ours.shared.late.load(Relaxed);
+    let mut fingers = [Finger::new(port)?, Finger::new(empty_port)?];
+    let mut times = [Vec::new(), Vec::new()];
+    for _ in 0..wanted.touches {
+        for ((finger, watch), times) in fingers.iter_mut().zip([&ours, &theirs]).zip(&mut times) {
+            times.extend(touch(jack, finger, watch)?);
+        }
+    }
+    let late = ours.shared.late.load(Relaxed) - late;
+    let summary = finish(played)?;
+    let strokes = free_port()?;
+    let played = play(wanted, &name, "sandpaper", strokes, &ours)?;
+    let before = processor(played.0.id(), None);
+    Finger::new(strokes)?.ten(wanted.seconds);
+    let busy = 100.0 * (processor(played.0.id(), None) - before) / wanted.seconds;
+    let stroked = finish(played)?;
+    let missed = times.each_ref().map(|all| wanted.touches - all.len());
+    row(
+        period,
+        "play, an independent client",
+        &measured(&times[0]),
+        missed[0],
+        [Some(idle[0]), Some(busy)],
+        Some(late),
+        None,
+    );
+    let lost = summary["lost_blocks"].as_u64().zip(stroked["lost_blocks"].as_u64()).map(|(a, b)| a + b);
+    row(period, "play, its own summary", &told(&summary), 0, [None, None], None, lost);
+    row(
+        period,
+        "empty, an independent client",
+        &measured(&times[1]),
+        missed[1],
+        [Some(idle[1]), None],
+        Some(late),
+        None,
+    );
+    Ok(())
+}
+
+/// The program, once its ports are there and heard.
+fn play(
+    wanted: &Wanted,
+    name: &str,
+    effect: &str,
+    port: u16,
+    watch: &Client,
+) -> Result<Process, Box<dyn Error>> {
+    let played =
+        program(&wanted.program, name, effect, port).map_err(|e| format!("{}: {e}", wanted.program))?;
+    let ports = |i: usize| format!("unripple:out_a{}", i + 1);
+    patiently(|| (0..OUTPUTS).all(|i| watch.hear(&ports(i), i)).then_some(()))?;
+    // What a start costs is over.
+    std::thread::sleep(Duration::from_secs(1));
+    Ok(played)
+}
+
+/// Milliseconds from a touch to the first sample; nothing if none came.
+fn touch(jack: &Jack, finger: &mut Finger, watch: &Client) -> Result<Option<f64>, Box<dyn Error>> {
+    let shared = watch.shared;
+    // All that the last touch set off is over.
+    patiently(|| (shared.silent.load(Relaxed) > 3).then_some(()))?;
+    std::thread::sleep(Duration::from_secs_f64(0.06 + 0.04 * finger.chance()));
+    shared.found.store(0, Relaxed);
+    shared.armed.store(true, Relaxed);
+    let place = (10.0 + 130.0 * finger.chance() as f32, 10.0 + 130.0 * finger.chance() as f32);
+    let sent = jack.now();
+    finger.touch(1, place);
+    let start = Instant::now();
+    while shared.found.load(Relaxed) == 0 && start.elapsed() < Duration::from_secs(1) {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    finger.lift(1);
+    std::thread::sleep(Duration::from_millis(60));
+    let found = shared.found.load(Relaxed);
+    Ok((found > 0).then(|| 1e-3 * (found as f64 - sent as f64)))
+}
+
+/// Ends the program as a user would, and reads its summary.
+fn finish(mut played: Process) -> Result<Value, Box<dyn Error>> {
+    played.signal("-INT");
+    let mut text = String::new();
+    if let Some(mut out) = played.0.stdout.take() {
+        std::io::Read::read_to_string(&mut out, &mut text)?;
+    }
+    Ok(serde_json::from_str(&text)?)
+}
+
+fn patiently<T>(mut try_it: impl FnMut() -> Option<T>) -> Result<T, Box<dyn Error>> {
+    let start = Instant::now();
+    loop {
+        match try_it() {
+            Some(found) => return Ok(found),
+            None if start.elapsed() > PATIENCE => return Err("it does not come".into()),
+            None => std::thread::sleep(Duration::from_millis(20)),
+        }
+    }
+}
+
+fn measured(times: &[f64]) -> [f64; 4] {
+    let mut times = times.to_vec();
+    times.sort_unstable_by(f64::total_cmp);
+    let at = |share: f64| times.get((share * times.len() as f64) as usize).or(times.last()).copied();
+    [0.5, 0.9, 0.99, 1.0].map(|share| at(share).unwrap_or(f64::NAN))
+}
+
+fn told(summary: &Value) -> [f64; 4] {
+    let number = |key: &str| summary["first_sample_s"][key].as_f64().map_or(f64::NAN, |s| 1e3 * s);
+    ["p50", "p90", "p99", "worst"].map(number)
+}
+
+fn row(
+    period: usize,
+    who: &str,
+    times: &[f64; 4],
+    missed: usize,
+    shares: [Option<f64>; 2],
+    late: Option<u64>,
+    lost: Option<u64>,
+) {
+    let times: String = times.iter().map(|ms| format!("{ms:>8.2}")).collect();
+    let shares: String =
+        shares.map(|share| share.map_or(format!("{:>10}", "-"), |s| format!("{s:>10.2}"))).concat();
+    let counts: String =
+        [late, lost].map(|n| n.map_or(format!("{:>8}", "-"), |n| format!("{n:>8}"))).concat();
+    println!("{period:>6} {who:<34}{times}{missed:>8}{shares}{counts}");
+}
+
+fn load() -> String {
+    std::fs::read_to_string("/proc/loadavg").unwrap_or_default().split(' ').next().unwrap_or("-").to_owned()
+}
