@@ -28,7 +28,11 @@ const state = createState((kind, error) => toast(`A part of the page failed at â
 const cost = new Cost();
 const recall = new Recall(state);
 const tabs = new Tabs(state);
-let ids = 0;
+/** Answers go to all pages: no two should give the same number. */
+let ids = Math.floor(Math.random() * 2 ** 48);
+/** What is asked of a surface is asked of the one that is shown here. */
+const ABOUT = new Set(['measure', 'compare']);
+const about = (message) => (ABOUT.has(message.do) ? { ...message, edit: state.last('surface')?.edit } : message);
 
 const app = {
   state,
@@ -41,7 +45,7 @@ const app = {
   show: (name) => tabs.show(name),
   onShow: (name, fn) => state.subscribe('tab', (tab) => tab.name === name && fn()),
   link: {
-    send: (message) => link.send(message),
+    send: (message) => link.send(about(message)),
     get open() {
       return link.open;
     },

@@ -124,20 +124,29 @@ export function mount(root, app) {
     el('button', { type: 'button', class: 'button small', text: 'Copy', on: { click: () => app.copy(code.textContent) } }));
   const notes = el('ul', { class: 'notes' });
   const drawn = charts();
-  const links = el('div', { class: 'row' }, ['drive.wav', 'report.md', 'report.json'].map((name) =>
-    el('a', { class: 'button small', href: app.token(`/${name}`), download: name, text: name })));
-  const found = el('div', { class: 'stack', hidden: true }, table, el('h3', { text: 'The same from the command line' }), command,
+  const files = ['drive.wav', 'report.md', 'report.json'].map((name) => el('a', { class: 'button small', download: name, text: name }));
+  const links = el('div', { class: 'row' }, files);
+  const stale = el('p', { class: 'quiet', hidden: true, text: 'The surface has been changed since: measure again for its figures.' });
+  let of = null;
+  const compared = () => {
+    stale.hidden = of === null || of === app.state.last('surface')?.edit;
+  };
+  const found = el('div', { class: 'stack', hidden: true }, stale, table, el('h3', { text: 'The same from the command line' }), command,
     notes, drawn.parts, el('p', { class: 'quiet', text: 'Spectrum: drives thin, target thick.' }), links);
   root.append(el('h2', { text: 'Measure' }), ...parts, busyText, found);
   app.state.subscribe('measured', (message) => {
     busy(false);
     found.hidden = false;
+    of = message.edit ?? null;
+    compared();
+    for (const file of files) file.href = app.token(`/${file.download}?id=${message.id}`);
     table.replaceChildren(figures(message.report ?? {}));
     setText(code, message.command ?? '');
     notes.replaceChildren(...(message.report?.notes ?? []).map((note) => el('li', { text: note.text })));
     drawn.draw(message);
     setText(busyText, `Measured in ${seconds(message.seconds)}.`);
   });
+  app.state.subscribe('surface', compared);
   app.state.subscribe('fault', () => busy(false));
   app.state.subscribe('connection', ({ open }) => !open && busy(false));
 }

@@ -13,6 +13,7 @@ mod assets;
 mod bench;
 mod board;
 mod draft;
+mod edition;
 mod error;
 mod guard;
 mod jobs;

@@ -40,6 +40,11 @@ pub struct Caller {
 }
 
 impl Caller {
+    /// Whoever hears what is sent here.
+    pub fn new(told: Sender<String>) -> Self {
+        Self { told }
+    }
+
     /// Tells, unless so much waits to be told that it would be no use.
     pub fn refuse(&self, why: &str) {
         let text = serde_json::json!({ "is": "fault", "text": why }).to_string();
@@ -56,7 +61,7 @@ pub async fn serve(mut socket: WebSocket, studio: Arc<Studio>) {
     let mut link = Link {
         studio: studio.clone(),
         page,
-        caller: Caller { told },
+        caller: Caller::new(told),
         faults,
         texts: 0,
         frames: 0,

@@ -8,7 +8,7 @@ use axum::Router;
 use axum::body::Bytes;
 use axum::extract::ws::WebSocketUpgrade;
 use axum::extract::{DefaultBodyLimit, Path, Request, State};
-use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::http::{HeaderMap, HeaderValue, StatusCode, Uri, header};
 use axum::middleware::{Next, from_fn_with_state};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
@@ -129,11 +129,16 @@ async fn load(State(desk): State<Desk>, body: Bytes) -> Response {
     }
 }
 
-/// Files of the last act that was measured.
-async fn measured(State(desk): State<Desk>, Path(name): Path<String>) -> Response {
+/// Files of the last act that was measured; of no other, where its number is given.
+async fn measured(State(desk): State<Desk>, Path(name): Path<String>, uri: Uri) -> Response {
     let Some(measured) = desk.studio.measured() else {
         return (StatusCode::NOT_FOUND, "nothing has been measured yet\n").into_response();
     };
+    let wanted = uri.query().unwrap_or_default().split('&').find_map(|pair| pair.strip_prefix("id="));
+    if wanted.is_some_and(|id| id != measured.id.to_string()) {
+        let why = "something else has been measured since: measure again\n";
+        return (StatusCode::NOT_FOUND, why).into_response();
+    }
     match name.as_str() {
         "drive.wav" => download(measured.drive, "audio/wav", "drive.wav"),
         "report.json" => download(measured.json.into_bytes(), "application/json", "report.json"),

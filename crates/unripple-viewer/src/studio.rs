@@ -2,6 +2,7 @@
 
 use crate::bench::{Bench, Task};
 use crate::board::{Board, Notice};
+use crate::edition::{Edition, Editions};
 use crate::jobs::Jobs;
 use crate::link::Caller;
 use crate::lock::lock;
@@ -18,6 +19,8 @@ use unripple::core::Point;
 /// The last act that was measured: as files.
 #[derive(Clone, Debug, Default)]
 pub struct Measured {
+    /// The number that the page gave it.
+    pub id: u64,
     /// `drive.wav`.
     pub drive: Vec<u8>,
     /// `report.json`.
@@ -33,6 +36,7 @@ pub struct Studio {
     rig: Sender<Order>,
     shop: Sender<Work>,
     bench: Sender<Task>,
+    editions: Arc<Editions>,
     jobs: Jobs,
     measured: Arc<Mutex<Option<Measured>>>,
     quiet: bool,
@@ -53,7 +57,13 @@ impl Studio {
         let (shop, work) = channel();
         let measured = Arc::new(Mutex::new(None));
         let pending = Arc::new(AtomicUsize::new(0));
-        let outlets = Outlets { rig: rig.clone(), bench: bench.clone(), pending: pending.clone() };
+        let editions = Arc::new(Editions::default());
+        let outlets = Outlets {
+            rig: rig.clone(),
+            bench: bench.clone(),
+            pending: pending.clone(),
+            editions: editions.clone(),
+        };
         let workshop = Workshop::new(board.clone(), outlets, &instrument, told);
         let known = (view.source.clone(), view.respond.clone());
         let worker = Bench::new(board.clone(), rig.clone(), measured.clone(), known, pending);
@@ -63,7 +73,7 @@ impl Studio {
         thread("bench", move || worker.run(tasks))?;
         let jobs = Jobs::new(board.clone(), view.program.clone(), view.folder.clone());
         let quiet = view.quiet;
-        Ok(Arc::new(Self { board, rig, shop, bench, jobs, measured, quiet }))
+        Ok(Arc::new(Self { board, rig, shop, bench, editions, jobs, measured, quiet }))
     }
 
     /// Has something put up for a page that came.
@@ -99,13 +109,16 @@ impl Studio {
             Command::Undo => self.work(Work::Undo),
             Command::Redo => self.work(Work::Redo),
             Command::Open { name } => self.work(Work::Open(name, asker())),
-            Command::Measure(measure) => self.task(Task::Measure(measure, asker())),
+            Command::Measure(measure) => {
+                self.ask(measure.edit, caller, |of| Task::Measure { measure, of, caller: asker() });
+            }
             Command::Compare { off: true, .. } => {
                 self.board.withdraw("compare");
                 self.order(Order::Replay(None));
             }
-            Command::Compare { at, methods, window_ms, .. } => {
-                self.task(Task::Compare { at, methods, window_ms, caller: asker() });
+            Command::Compare { at, methods, window_ms, edit, .. } => {
+                let task = |of| Task::Compare { at, methods, window_ms, of, caller: asker() };
+                self.ask(edit, caller, task);
             }
             Command::Job(job) => self.jobs.obey(&job, self.toml(), caller),
             Command::Touch { .. } | Command::Seen { .. } => {}
@@ -156,8 +169,12 @@ impl Studio {
         let _ = self.shop.send(work);
     }
 
-    fn task(&self, task: Task) {
-        let _ = self.bench.send(task);
+    /// Has something computed of the surface that a page shows.
+    fn ask(&self, edit: Option<u64>, caller: &Caller, task: impl FnOnce(Arc<Edition>) -> Task) {
+        match self.editions.find(edit) {
+            Ok(of) => drop(self.bench.send(task(of))),
+            Err(why) => caller.refuse(&why),
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! What pages are told of the surface and of how it is played.
 
+use crate::edition::Edition;
 use crate::rig::{CELLS, Cells, Instrument, PULSES};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -24,7 +25,8 @@ pub struct Settled {
 }
 
 /// The message on a surface.
-pub fn surface(surface: &Surface, (undo, redo): (bool, bool), source: &str, library: bool) -> Value {
+pub fn surface(edition: &Edition, (undo, redo): (bool, bool), source: &str, library: bool) -> Value {
+    let surface = &edition.surface;
     let lambda = Medium::of(&surface.sheet).lambda_min(surface.emission.band[1]);
     let (width, height) = surface.outline.extent();
     let mut rings = vec![ring(&surface.outline.rim(RIM))];
@@ -32,6 +34,7 @@ pub fn surface(surface: &Surface, (undo, redo): (bool, bool), source: &str, libr
     let limit = surface.emission.limit;
     json!({
         "is": "surface",
+        "edit": edition.edit,
         "name": surface.name,
         "source": source,
         "library": library,

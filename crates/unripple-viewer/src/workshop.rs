@@ -2,6 +2,7 @@
 
 use crate::board::Board;
 use crate::draft::Draft;
+use crate::edition::{Edition, Editions};
 use crate::rig::{Instrument, Order, Spec, check_effect};
 use crate::told::{Settled, settings, surface};
 use crate::wire::{Edit, Settings};
@@ -37,6 +38,8 @@ pub struct Outlets {
     pub bench: Sender<crate::bench::Task>,
     /// Surfaces on their way to the bench.
     pub pending: Arc<AtomicUsize>,
+    /// What pages may ask about.
+    pub editions: Arc<Editions>,
 }
 
 /// The thread's own.
@@ -61,9 +64,8 @@ impl Workshop {
         let spec = instrument.spec.clone();
         let played = spec.clone();
         let workshop = Self { board, out, draft, spec, played, told, edits: 0, stale: false, edited: false };
-        workshop.tell();
+        workshop.publish();
         workshop.board.tell("settings", &settings(&workshop.told, instrument));
-        workshop.compute();
         workshop
     }
 
@@ -74,12 +76,7 @@ impl Workshop {
             while let Ok(next) = work.try_recv() {
                 self.take(next);
             }
-            if std::mem::take(&mut self.edited) {
-                self.edits += 1;
-                // What is asked of the surface once it is told must be answered for this one.
-                self.compute();
-                self.tell();
-            }
+            self.renew();
             if std::mem::take(&mut self.stale) {
                 self.rebuild();
             }
@@ -105,7 +102,7 @@ impl Workshop {
                     let name = surface.name.clone();
                     self.replace(surface, name);
                     // Whoever is answered finds it in its place.
-                    self.tell();
+                    self.renew();
                 });
                 // The page may have gone meanwhile.
                 let _ = answer.send(loaded);
@@ -174,18 +171,24 @@ impl Workshop {
         }
     }
 
-    fn tell(&self) {
-        let library = self.spec.stored.is_some();
-        self.board
-            .tell("surface", &surface(self.draft.surface(), self.draft.ways(), &self.told.source, library));
+    /// Makes what has been edited since the last time the surface that pages are shown.
+    fn renew(&mut self) {
+        if std::mem::take(&mut self.edited) {
+            self.edits += 1;
+            self.publish();
+        }
     }
 
-    fn compute(&self) {
-        let task =
-            crate::bench::Task::Design { edit: self.edits, surface: Box::new(self.draft.surface().clone()) };
+    /// Has the surface computed, and tells it: whoever knows of it can ask about it.
+    fn publish(&self) {
+        let edition = Arc::new(Edition { edit: self.edits, surface: self.draft.surface().clone() });
+        self.out.editions.publish(edition.clone());
         self.out.pending.fetch_add(1, Ordering::Relaxed);
         // Without a bench the program is at its end.
-        let _ = self.out.bench.send(task);
+        let _ = self.out.bench.send(crate::bench::Task::Design(edition.clone()));
+        let library = self.spec.stored.is_some();
+        let message = surface(&edition, self.draft.ways(), &self.told.source, library);
+        self.board.tell("surface", &message);
     }
 }
 

@@ -1,4 +1,5 @@
 use super::{Bench, method, options, places, text};
+use crate::edition::Edition;
 use crate::rig::{Order, Replay};
 use serde_json::json;
 use std::sync::Arc;
@@ -14,34 +15,35 @@ impl Bench {
         at: &[[f64; 2]],
         methods: &[String],
         window: Option<f64>,
+        of: &Edition,
     ) -> Result<(), String> {
         let methods = methods.iter().map(|name| method(name)).collect::<Result<Vec<Method>, String>>()?;
         let places = places(at);
-        let (surface, responses) = self.known(&places)?;
+        let (surface, responses) = (&of.surface, self.known(of, &places)?);
         let targets: Vec<Target> = places.into_iter().map(Target::at).collect();
         let (mut drives, mut panes): (Vec<Drive>, Vec<_>) = (Vec::new(), Vec::new());
         let (mut focus, mut used) = (0.0, Vec::<Point>::new());
         for method in methods {
-            let options = options(&surface, &responses, method, window);
+            let options = options(surface, &responses, method, window);
             let level = Level::Limit;
-            let act =
-                Act { surface: &surface, responses: &responses, targets: &targets, options: &options, level };
+            let act = Act { surface, responses: &responses, targets: &targets, options: &options, level };
             let acted = act.run().map_err(text)?;
             let instant = acted.focused.timing.first().map_or(0, |timing| timing.instant);
             focus = instant as f64 / acted.drive.rate();
             used = acted.focused.points.iter().flatten().copied().collect();
             panes.push(
-                json!({ "method": method.name(), "report": acted.report(&surface, &options), "focus_s": focus }),
+                json!({ "method": method.name(), "report": acted.report(surface, &options), "focus_s": focus }),
             );
             drives.push(acted.drive);
         }
         let top = surface.emission.band[1];
         let modes =
-            Modes::solve(&surface, top, unripple::act::accuracy(&surface)).map_err(|e| e.to_string())?;
-        let replay = Replay::record(&surface, Arc::new(modes), &drives, focus, &used);
+            Modes::solve(surface, top, unripple::act::accuracy(surface)).map_err(|e| e.to_string())?;
+        let replay = Replay::record(surface, Arc::new(modes), &drives, focus, &used);
         let replay = replay.map_err(|error| error.to_string())?;
         let message = json!({
             "is": "compare",
+            "edit": of.edit,
             "panes": panes,
             "from_s": replay.from(),
             "to_s": replay.to(),

@@ -1,6 +1,6 @@
 use super::Bench;
+use crate::edition::Edition;
 use serde_json::{Map, Value, json};
-use std::sync::Arc;
 use std::time::Instant;
 use unripple::act::ActError;
 use unripple::contrast_map::ContrastMap;
@@ -15,15 +15,16 @@ const PLACE: [f64; 2] = [62.0 / 150.0, 0.6];
 
 impl Bench {
     /// Computes and tells what a surface can do, the quickest first; what another edit overtakes is left.
-    pub(super) fn design(&mut self, edit: u64, surface: Surface) {
-        let mut told = Stage::new(edit);
-        if let Ok(figures) = Draft::by_law(&surface) {
+    pub(super) fn design(&mut self, edition: &Edition) {
+        let surface = &edition.surface;
+        let mut told = Stage::new(edition.edit);
+        if let Ok(figures) = Draft::by_law(surface) {
             told.add("figures", json!(figures));
             self.show(&told);
         }
         let place = self.place.filter(|place| surface.outline.contains(*place));
-        let place = place.unwrap_or_else(|| usual(&surface));
-        let found = self.stages(&mut told, &surface, place);
+        let place = place.unwrap_or_else(|| usual(surface));
+        let found = self.stages(&mut told, edition, place);
         if let Err(error) = found {
             told.add("fault", json!(error.to_string()));
         }
@@ -31,11 +32,10 @@ impl Bench {
         self.show(&told);
     }
 
-    fn stages(&mut self, told: &mut Stage, surface: &Surface, place: Point) -> Result<(), ActError> {
-        let draft = Arc::new(Draft::of(surface)?);
+    fn stages(&mut self, told: &mut Stage, edition: &Edition, place: Point) -> Result<(), ActError> {
+        let draft = self.draft(edition)?;
         told.add("figures", json!(draft.figures()));
         self.show(told);
-        self.draft = Some(draft.clone());
         if self.is_overtaken() {
             return Ok(());
         }

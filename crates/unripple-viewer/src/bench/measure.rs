@@ -1,4 +1,5 @@
 use super::{Bench, given, method, options, places, text};
+use crate::edition::Edition;
 use crate::lock::lock;
 use crate::spectrum::spectrum;
 use crate::studio::Measured;
@@ -16,33 +17,33 @@ const DRAWN: usize = 480;
 
 impl Bench {
     /// Measures one act, and tells all figures of it.
-    pub(super) fn measure(&mut self, measure: &Measure) -> Result<(), String> {
+    pub(super) fn measure(&mut self, measure: &Measure, of: &Edition) -> Result<(), String> {
         let began = Instant::now();
         let places = places(&measure.at);
-        let (surface, responses) = self.known(&places)?;
+        let (surface, responses) = (&of.surface, self.known(of, &places)?);
         let method = measure.method.as_deref().map_or(Ok(Method::default()), method)?;
         let window = given(measure.window_ms).map(|ms| ms * 1e-3);
-        let options = options(&surface, &responses, method, window);
+        let options = options(surface, &responses, method, window);
         let targets: Vec<Target> = places.into_iter().map(Target::at).collect();
         let level = given(measure.peak_um).map_or(Level::Limit, |um| Level::Peak(um * 1e-6));
-        let act =
-            Act { surface: &surface, responses: &responses, targets: &targets, options: &options, level };
+        let act = Act { surface, responses: &responses, targets: &targets, options: &options, level };
         let acted = act.run().map_err(text)?;
-        let report = acted.report(&surface, &options);
+        let report = acted.report(surface, &options);
         let value = serde_json::to_value(&report).map_err(|error| error.to_string())?;
         let message = json!({
             "is": "measured",
             "id": measure.id,
-            "command": command(&self.source, measure, method),
+            "edit": of.edit,
+            "command": command(self.source(of), measure, method),
             "report": value,
             "traces": traces(&acted),
             "spectrum": spectrum(&acted, surface.emission.band[1]),
-            "drive": drive(&acted.drive, &surface),
+            "drive": drive(&acted.drive, surface),
             "seconds": began.elapsed().as_secs_f64(),
         });
         let json = serde_json::to_string_pretty(&value).map_err(|error| error.to_string())?;
         let wav = encode_wav(&acted.drive).map_err(|error| error.to_string())?;
-        let files = Measured { drive: wav, json, markdown: report.markdown() };
+        let files = Measured { id: measure.id, drive: wav, json, markdown: report.markdown() };
         *lock(&self.measured) = Some(files);
         self.board.tell("measured", &message);
         Ok(())

@@ -3,13 +3,15 @@
 mod compare;
 mod design;
 mod measure;
+mod queue;
 
 use crate::board::Board;
+use crate::edition::Edition;
 use crate::link::Caller;
 use crate::rig::Order;
 use crate::studio::Measured;
 use crate::wire::Measure;
-use std::collections::VecDeque;
+use queue::Queue;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender};
 use std::sync::{Arc, Mutex};
@@ -18,26 +20,25 @@ use unripple::core::{Point, Responses, Surface};
 use unripple::drafting::Draft;
 use unripple::focus::{Method, Options};
 
-/// Tasks that may wait.
-const MOST_WAITING: usize = 16;
-
 /// What a surface is called on the command line that is none of those it knows: as its file is saved.
 const SAVED: &str = "surface.toml";
 
 /// The responses of a library at some places.
 pub type Responder = Arc<dyn Fn(&[Point]) -> Result<Responses, String> + Send + Sync>;
 
-/// What is to be computed.
+/// What is to be computed. An act is of the surface that was shown where it was asked for, whatever has become of it meanwhile.
 pub enum Task {
-    /// The figures of a surface, and the number of its edit.
-    Design {
-        /// Which edit made it.
-        edit: u64,
-        /// The surface.
-        surface: Box<Surface>,
-    },
+    /// The figures of a surface.
+    Design(Arc<Edition>),
     /// One act.
-    Measure(Measure, Caller),
+    Measure {
+        /// Which.
+        measure: Measure,
+        /// Of which surface.
+        of: Arc<Edition>,
+        /// Who asked.
+        caller: Caller,
+    },
     /// Two methods on the same touch.
     Compare {
         /// Where, in mm.
@@ -46,6 +47,8 @@ pub enum Task {
         methods: Vec<String>,
         /// The window, in ms; 0 or nothing for the surface's own.
         window_ms: Option<f64>,
+        /// Of which surface.
+        of: Arc<Edition>,
         /// Who asked.
         caller: Caller,
     },
@@ -56,14 +59,14 @@ pub struct Bench {
     board: Arc<Board>,
     rig: Sender<Order>,
     measured: Arc<Mutex<Option<Measured>>>,
+    /// What the surface is called on the command line, and the responses of a library: both of the surface before any edit.
     source: String,
-    /// Responses of a library at some places, as long as the surface is the library's.
     stored: Option<Responder>,
-    surface: Option<Surface>,
-    draft: Option<Arc<Draft>>,
+    /// The surface that was worked on last, by its edit.
+    draft: Option<(u64, Arc<Draft>)>,
     /// Where the last act was.
     place: Option<Point>,
-    waiting: VecDeque<Task>,
+    waiting: Queue,
     /// Surfaces that were asked for and not begun.
     pending: Arc<AtomicUsize>,
 }
@@ -77,25 +80,14 @@ impl Bench {
         (source, stored): (String, Option<Responder>),
         pending: Arc<AtomicUsize>,
     ) -> Self {
-        let (surface, draft, place) = (None, None, None);
-        Self {
-            board,
-            rig,
-            measured,
-            source,
-            stored,
-            surface,
-            draft,
-            place,
-            waiting: VecDeque::new(),
-            pending,
-        }
+        let (draft, place, waiting) = (None, None, Queue::default());
+        Self { board, rig, measured, source, stored, draft, place, waiting, pending }
     }
 
     /// Works until nobody asks any more. Of surfaces only the newest is computed.
     pub fn run(mut self, tasks: Receiver<Task>) {
         while let Ok(task) = tasks.recv() {
-            self.waiting.push_back(task);
+            self.waiting.push(task);
             while let Some(task) = self.next(&tasks) {
                 self.work(task);
             }
@@ -104,42 +96,20 @@ impl Bench {
 
     /// The next task, surfaces that were overtaken left out.
     fn next(&mut self, tasks: &Receiver<Task>) -> Option<Task> {
-        self.waiting.extend(tasks.try_iter());
+        tasks.try_iter().for_each(|task| self.waiting.push(task));
         self.pending.store(0, Ordering::Relaxed);
-        let newest = self.waiting.iter().rposition(|task| matches!(task, Task::Design { .. }));
-        let mut index = 0;
-        self.waiting.retain(|task| {
-            index += 1;
-            !matches!(task, Task::Design { .. }) || Some(index - 1) == newest
-        });
-        while self.waiting.len() > MOST_WAITING {
-            match self.waiting.pop_back() {
-                Some(Task::Measure(_, caller) | Task::Compare { caller, .. }) => {
-                    caller.refuse("measuring: expected one after the other, found too many at once");
-                }
-                Some(Task::Design { .. }) | None => {}
-            }
-        }
-        self.waiting.pop_front()
+        self.waiting.next()
     }
 
     fn work(&mut self, task: Task) {
         match task {
-            Task::Design { edit, surface } => {
-                if edit > 0 {
-                    self.stored = None;
-                    self.source = SAVED.into();
-                }
-                self.draft = None;
-                self.surface = Some((*surface).clone());
-                self.design(edit, *surface);
+            Task::Design(edition) => self.design(&edition),
+            Task::Measure { measure, of, caller } => {
+                self.measure(&measure, &of).unwrap_or_else(|why| caller.refuse(&why));
             }
-            Task::Measure(measure, caller) => {
-                self.measure(&measure).unwrap_or_else(|why| caller.refuse(&why))
-            }
-            Task::Compare { at, methods, window_ms, caller } => {
+            Task::Compare { at, methods, window_ms, of, caller } => {
                 let window = given(window_ms).map(|ms| ms * 1e-3);
-                self.compare(&at, &methods, window).unwrap_or_else(|why| caller.refuse(&why));
+                self.compare(&at, &methods, window, &of).unwrap_or_else(|why| caller.refuse(&why));
             }
         }
     }
@@ -149,18 +119,28 @@ impl Bench {
         self.pending.load(Ordering::Relaxed) > 0
     }
 
-    /// The surface and its responses, which hold some places.
-    fn known(&mut self, places: &[Point]) -> Result<(Surface, Arc<Responses>), String> {
-        let surface = self.surface.clone().ok_or("no surface yet")?;
+    /// What a surface is called on the command line.
+    fn source(&self, of: &Edition) -> &str {
+        if of.edit == 0 { &self.source } else { SAVED }
+    }
+
+    /// The modes of a surface, and what stands on them.
+    fn draft(&mut self, of: &Edition) -> Result<Arc<Draft>, ActError> {
+        if let Some((_, draft)) = self.draft.as_ref().filter(|(edit, _)| *edit == of.edit) {
+            return Ok(draft.clone());
+        }
+        let draft = Arc::new(Draft::of(&of.surface)?);
+        self.draft = Some((of.edit, draft.clone()));
+        Ok(draft)
+    }
+
+    /// The responses of a surface, which hold some places.
+    fn known(&mut self, of: &Edition, places: &[Point]) -> Result<Arc<Responses>, String> {
         self.place = places.first().copied();
-        if let Some(stored) = &self.stored {
-            return Ok((surface, Arc::new(stored(places)?)));
+        if let Some(stored) = self.stored.as_ref().filter(|_| of.edit == 0) {
+            return Ok(Arc::new(stored(places)?));
         }
-        if self.draft.is_none() {
-            self.draft = Some(Arc::new(Draft::of(&surface).map_err(text)?));
-        }
-        let draft = self.draft.as_ref().ok_or("no surface yet")?;
-        Ok((surface, draft.responses().map_err(text)?.clone()))
+        Ok(self.draft(of).map_err(text)?.responses().map_err(text)?.clone())
     }
 }
 

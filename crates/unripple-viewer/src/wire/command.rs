@@ -64,6 +64,9 @@ pub enum Command {
         /// The window; the surface's own where absent.
         #[serde(default)]
         window_ms: Option<f64>,
+        /// The edit of the surface that the page shows, as it was told; the newest where absent.
+        #[serde(default)]
+        edit: Option<u64>,
         /// Back to the live surface.
         #[serde(default)]
         off: bool,
@@ -180,6 +183,8 @@ pub struct Measure {
     pub window_ms: Option<f64>,
     /// The peak at the first target; as much as the limit gives where absent.
     pub peak_um: Option<f64>,
+    /// The edit of the surface that the page shows, as it was told; the newest where absent.
+    pub edit: Option<u64>,
 }
 
 /// Something that takes a while.
@@ -253,7 +258,7 @@ impl Command {
                 some("window_ms", measure.window_ms, [0.0, 10_000.0])?;
                 some("peak_um", measure.peak_um, [0.0, 1e6])
             }
-            Self::Compare { at, methods, window_ms, off } => {
+            Self::Compare { at, methods, window_ms, off, .. } => {
                 if *off {
                     return Ok(());
                 }

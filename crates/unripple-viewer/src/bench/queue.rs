@@ -1,0 +1,84 @@
+//! Tasks that wait for the bench.
+
+use super::Task;
+use std::collections::VecDeque;
+
+/// Acts to be measured or compared that may wait. Surfaces are not counted: of them one waits at most.
+const MOST: usize = 16;
+
+/// What is to be computed, in the order in which it was asked for.
+#[derive(Default)]
+pub struct Queue {
+    waiting: VecDeque<Task>,
+}
+
+impl Queue {
+    /// One more task. A surface takes the place of one that waits, and is never refused itself: what pages show would stay without
+    /// figures. An act too many is refused.
+    pub fn push(&mut self, task: Task) {
+        match &task {
+            Task::Design(_) => self.waiting.retain(|other| !matches!(other, Task::Design(_))),
+            Task::Measure { caller, .. } | Task::Compare { caller, .. } => {
+                let acts = self.waiting.iter().filter(|other| !matches!(other, Task::Design(_)));
+                if acts.count() >= MOST {
+                    caller.refuse("measuring: expected one after the other, found too many at once");
+                    return;
+                }
+            }
+        }
+        self.waiting.push_back(task);
+    }
+
+    /// The next task.
+    pub fn next(&mut self) -> Option<Task> {
+        self.waiting.pop_front()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Caller;
+    use crate::edition::Edition;
+    use crate::wire::Measure;
+    use std::sync::Arc;
+    use tokio::sync::mpsc::channel;
+    use unripple::physics::design::papers_surface;
+
+    fn edition(edit: u64) -> Arc<Edition> {
+        Arc::new(Edition { edit, surface: papers_surface() })
+    }
+
+    /// What waits: edits as they are, acts by 100 and the edit that they are asked of.
+    fn drained(queue: &mut Queue) -> Vec<u64> {
+        let name = |task| match task {
+            Task::Design(edition) => edition.edit,
+            Task::Measure { of, .. } | Task::Compare { of, .. } => 100 + of.edit,
+        };
+        std::iter::from_fn(|| queue.next()).map(name).collect()
+    }
+
+    #[test]
+    fn a_surface_gives_way_to_a_newer_one_and_to_nothing_else() {
+        let (told, mut faults) = channel(64);
+        let caller = Caller::new(told);
+        let act =
+            |edit| Task::Measure { measure: Measure::default(), of: edition(edit), caller: caller.clone() };
+        let mut queue = Queue::default();
+        queue.push(Task::Design(edition(1)));
+        for _ in 0..20 {
+            queue.push(act(1));
+        }
+        queue.push(Task::Design(edition(2)));
+        queue.push(act(2));
+        queue.push(Task::Design(edition(3)));
+        let mut expected = vec![101; 16];
+        expected.push(3);
+        assert_eq!(drained(&mut queue), expected);
+        let refused = std::iter::from_fn(|| faults.try_recv().ok()).count();
+        assert_eq!(refused, 5);
+        // In the order in which it was asked for.
+        [Task::Design(edition(4)), act(4), Task::Design(edition(5)), act(5)].map(|task| queue.push(task));
+        assert_eq!(drained(&mut queue), [104, 5, 105]);
+    }
+}
