@@ -24,6 +24,18 @@ pub struct Board {
     frames: AtomicUsize,
 }
 
+/// A page that is there.
+#[derive(Debug)]
+pub struct Viewing {
+    board: Arc<Board>,
+}
+
+impl Drop for Viewing {
+    fn drop(&mut self) {
+        self.board.viewers.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
 impl Board {
     /// An empty one.
     pub fn new() -> Self {
@@ -80,14 +92,11 @@ impl Board {
         self.version.subscribe()
     }
 
-    /// A page came.
-    pub fn enter(&self) {
-        self.viewers.fetch_add(1, Ordering::Relaxed);
-    }
-
-    /// A page left.
-    pub fn leave(&self) {
-        self.viewers.fetch_sub(1, Ordering::Relaxed);
+    /// A page comes, unless there are so many already; it is there until what is returned is dropped.
+    pub fn enter(self: &Arc<Self>, most: usize) -> Option<Viewing> {
+        let one_more = |viewers| (viewers < most).then_some(viewers + 1);
+        self.viewers.fetch_update(Ordering::Relaxed, Ordering::Relaxed, one_more).ok()?;
+        Some(Viewing { board: self.clone() })
     }
 
     /// Pages there are.
@@ -104,6 +113,15 @@ impl Board {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn no_more_pages_come_than_may() {
+        let board = Arc::new(Board::new());
+        let both = [board.enter(2), board.enter(2)];
+        assert!(both.iter().all(Option::is_some) && board.enter(2).is_none());
+        drop(both);
+        assert!(board.viewers() == 0 && board.enter(1).is_some());
+    }
 
     #[test]
     fn whoever_looks_misses_no_kind_however_many_post() {

@@ -5,19 +5,22 @@
 //!
 //! # In reading order
 //!
-//! A page speaks `wire`. `server` lets it in if `guard` does, `link` talks with it, `studio` passes on what it asks for: to the `rig`,
-//! which is the surface at work; to the `workshop`, where surfaces are changed; to the `bench`, where figures are computed; to `jobs`,
-//! which take a while. What comes of it stands on the `board`, from which each page takes what it has not seen, as fast as it can.
+//! A page speaks `wire`. `door` takes connections in, `lobby` has too many of them leave; `server` lets a page in if `guard` does,
+//! `link` talks with it, `studio` passes on what it asks for: to the `rig`, which is the surface at work; to the `workshop`, where
+//! surfaces are changed; to the `bench`, where figures are computed; to `jobs`, which take a while. What comes of it stands on the
+//! `board`, from which each page takes what it has not seen, as fast as it can.
 
 mod assets;
 mod bench;
 mod board;
+mod door;
 mod draft;
 mod edition;
 mod error;
 mod guard;
 mod jobs;
 mod link;
+mod lobby;
 mod lock;
 mod rig;
 mod server;

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 use tokio::sync::mpsc::{Receiver, Sender, channel};
-use tokio::time::{Instant, timeout};
+use tokio::time::{Instant, MissedTickBehavior, timeout};
 
 /// Frames that may be on their way before the page says that it has drawn them.
 const UNSEEN: u64 = 3;
@@ -19,8 +19,10 @@ const UNSURE: Duration = Duration::from_secs(1);
 /// How long a message may take to leave before the page is given up.
 const STUCK: Duration = Duration::from_secs(20);
 
-/// A page is asked whether it is still there this often.
+/// A page is asked whether it is still there this often, and given up when it has said nothing for so many times: then there is nobody at
+/// the other end.
 const ASKED: Duration = Duration::from_secs(5);
+const UNANSWERED: u32 = 4;
 
 /// Messages a second that are listened to, refusals that are borne, and refusals that wait to be told.
 const FASTEST: u32 = 600;
@@ -56,7 +58,6 @@ impl Caller {
 pub async fn serve(mut socket: WebSocket, studio: Arc<Studio>) {
     let page = GIVEN.fetch_add(1, Ordering::Relaxed);
     let (told, faults) = channel(WAITING);
-    studio.board.enter();
     studio.look();
     let mut link = Link {
         studio: studio.clone(),
@@ -69,12 +70,12 @@ pub async fn serve(mut socket: WebSocket, studio: Arc<Studio>) {
         seen: 0,
         last: Instant::now(),
         refused: 0,
+        unanswered: 0,
         second: (Instant::now(), 0),
         fingers: Vec::new(),
     };
     link.talk(&mut socket).await;
     link.lift();
-    studio.board.leave();
 }
 
 /// A page's link at work.
@@ -91,6 +92,8 @@ struct Link {
     seen: u64,
     last: Instant,
     refused: u32,
+    /// Questions since the page said something.
+    unanswered: u32,
     /// The second under way, and messages in it.
     second: (Instant, u32),
     /// Fingers that are down.
@@ -101,6 +104,8 @@ impl Link {
     async fn talk(&mut self, socket: &mut WebSocket) {
         let mut news = self.studio.board.watch();
         let mut ask = tokio::time::interval(ASKED);
+        // After a sleep of this machine a page has time to answer, too.
+        ask.set_missed_tick_behavior(MissedTickBehavior::Delay);
         loop {
             if !self.catch_up(socket).await {
                 return;
@@ -113,10 +118,17 @@ impl Link {
                     if !send(socket, Message::Text(fault.into())).await { return }
                 }
                 heard = socket.recv() => match heard {
-                    Some(Ok(message)) => if !self.hear(message) { return },
+                    Some(Ok(message)) => {
+                        self.unanswered = 0;
+                        if !self.hear(message) { return }
+                    }
                     _ => return,
                 },
-                _ = ask.tick() => if !send(socket, Message::Ping(Default::default())).await { return },
+                _ = ask.tick() => {
+                    self.unanswered += 1;
+                    let gone = self.unanswered > UNANSWERED;
+                    if gone || !send(socket, Message::Ping(Default::default())).await { return }
+                }
                 () = tokio::time::sleep_until(late), if self.shown > self.seen + UNSEEN => self.seen = self.shown,
             }
         }

@@ -3,19 +3,25 @@
 use crate::assets;
 use crate::guard::{Guard, Needs, Turned};
 use crate::link;
+use crate::lobby::Seat;
 use crate::studio::Studio;
 use axum::Router;
 use axum::body::Bytes;
 use axum::extract::ws::WebSocketUpgrade;
-use axum::extract::{DefaultBodyLimit, Path, Request, State};
+use axum::extract::{DefaultBodyLimit, Extension, FromRequest, Path, Request, State};
 use axum::http::{HeaderMap, HeaderValue, StatusCode, Uri, header};
 use axum::middleware::{Next, from_fn_with_state};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
 use std::sync::Arc;
+use std::time::Duration;
+use tokio::time::timeout;
 
 /// Bytes of the largest surface file that is taken.
 const LARGEST: usize = 256 << 10;
+
+/// How long a file may take to come.
+const SENT: Duration = Duration::from_secs(20);
 
 /// Pages at once.
 const MOST_PAGES: usize = 64;
@@ -69,6 +75,9 @@ async fn guard(State(desk): State<Desk>, request: Request, next: Next) -> Respon
         ));
         return (StatusCode::FORBIDDEN, why(turned)).into_response();
     }
+    if let Some(seat) = request.extensions().get::<Arc<Seat>>().filter(|_| needs != Needs::Nothing) {
+        seat.admit();
+    }
     let mut response = next.run(request).await;
     let headers = response.headers_mut();
     for (name, value) in [
@@ -102,19 +111,35 @@ fn file(name: &str, headers: &HeaderMap) -> Response {
     ([(header::CONTENT_TYPE, kind.to_owned()), (header::ETAG, print)], bytes).into_response()
 }
 
-async fn open(State(desk): State<Desk>, upgrade: WebSocketUpgrade) -> Response {
-    if desk.studio.board.viewers() >= MOST_PAGES {
+async fn open(
+    State(desk): State<Desk>,
+    seat: Option<Extension<Arc<Seat>>>,
+    upgrade: WebSocketUpgrade,
+) -> Response {
+    // Taken before the answer, so that no two pages take the last place.
+    let Some(viewing) = desk.studio.board.enter(MOST_PAGES) else {
         return (StatusCode::SERVICE_UNAVAILABLE, "too many pages are open\n").into_response();
-    }
+    };
     let upgrade = upgrade.max_message_size(link::TAKEN).max_frame_size(link::TAKEN);
-    upgrade.on_upgrade(move |socket| link::serve(socket, desk.studio))
+    upgrade.on_upgrade(async move |socket| {
+        if let Some(Extension(seat)) = &seat {
+            seat.settle();
+        }
+        link::serve(socket, desk.studio).await;
+        drop((viewing, seat));
+    })
 }
 
 async fn surface(State(desk): State<Desk>) -> Response {
     download(desk.studio.toml().into_bytes(), "application/toml", "surface.toml")
 }
 
-async fn load(State(desk): State<Desk>, body: Bytes) -> Response {
+async fn load(State(desk): State<Desk>, request: Request) -> Response {
+    let body = match timeout(SENT, Bytes::from_request(request, &desk)).await {
+        Ok(Ok(body)) => body,
+        Ok(Err(refused)) => return refused.into_response(),
+        Err(_) => return (StatusCode::REQUEST_TIMEOUT, "the file took too long to come\n").into_response(),
+    };
     let refused = |why: String| {
         desk.studio.log(&format!("refused: an uploaded surface: {}", why.lines().next().unwrap_or_default()));
         let text = serde_json::json!({ "text": why }).to_string();

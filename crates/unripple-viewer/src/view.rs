@@ -1,5 +1,6 @@
 use crate::ViewError;
 use crate::bench::Responder;
+use crate::door::listen;
 use crate::guard::Guard;
 use crate::rig::{Follow, Opener, PULSES, Spec};
 use crate::server::{Desk, router};
@@ -106,19 +107,19 @@ impl Viewer {
     /// Serves pages until `stop` is done.
     ///
     /// # Errors
-    /// [`ViewError::Gone`] if the network fails.
+    /// None that is known.
     pub fn serve(self, stop: impl Future<Output = ()> + Send + 'static) -> Result<(), ViewError> {
         let Self { listener, desk, runtime } = self;
         let studio = desk.studio.clone();
-        let result = runtime.block_on(async move {
+        runtime.block_on(async move {
             // Links last as long as pages do: what is open when it ends is cut.
             tokio::select! {
-                served = axum::serve(listener, router(desk)) => served,
-                () = stop => Ok(()),
+                () = listen(listener, router(desk)) => {}
+                () = stop => {}
             }
         });
         studio.close();
         runtime.shutdown_background();
-        result.map_err(|error| ViewError::Gone { why: error.to_string() })
+        Ok(())
     }
 }
