@@ -77,7 +77,7 @@ impl Field<'_> {
 }
 
 /// A period in samples.
-fn whole_period(period: f64, drive: &Drive) -> Result<usize, FieldError> {
+pub(crate) fn whole_period(period: f64, drive: &Drive) -> Result<usize, FieldError> {
     let samples = (period * drive.rate()).round();
     let legal = (1.0..=drive.samples() as f64).contains(&samples);
     let expected = format!("{} to {}, the drive's length", 1.0 / drive.rate(), drive.duration());
@@ -85,7 +85,7 @@ fn whole_period(period: f64, drive: &Drive) -> Result<usize, FieldError> {
     Ok(samples as usize)
 }
 
-fn spans(aims: &[Resolved], field: &Field<'_>, period: Option<usize>) -> Vec<Range<usize>> {
+pub(crate) fn spans(aims: &[Resolved], field: &Field<'_>, period: Option<usize>) -> Vec<Range<usize>> {
     if !aims.is_empty() {
         return aims.iter().map(|aim| aim.span.clone()).collect();
     }
@@ -96,7 +96,7 @@ fn spans(aims: &[Resolved], field: &Field<'_>, period: Option<usize>) -> Vec<Ran
 }
 
 /// For each aim, the first sample of its trace and the trace itself: its span, and half a period beyond it.
-fn target_traces(
+pub(crate) fn target_traces(
     aims: &[Resolved],
     field: &Field<'_>,
     spans: &[Range<usize>],
@@ -111,19 +111,19 @@ fn target_traces(
 
 /// What a target's own trace says.
 #[derive(Clone, Copy, Debug)]
-struct Peaks {
+pub(crate) struct Peaks {
     /// Velocity at T, displacement at its extreme.
-    levels: [f64; 2],
+    pub levels: [f64; 2],
     /// Sample at which the velocity is largest.
     fastest: usize,
     /// Sample at which the displacement is largest.
-    extreme: usize,
+    pub extreme: usize,
     /// Widths in time, in samples.
     widths: [Option<f64>; 2],
 }
 
 impl Peaks {
-    fn of(aim: &Resolved, first: usize, trace: &Trace) -> Self {
+    pub fn of(aim: &Resolved, first: usize, trace: &Trace) -> Self {
         let largest = |values: &[f64]| {
             let span = aim.span.start - first..aim.span.end - first;
             let larger = |best: usize, i: usize| if values[i].abs() > values[best].abs() { i } else { best };

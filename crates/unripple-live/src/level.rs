@@ -1,15 +1,13 @@
 use crate::drives::pulse_felt;
-use crate::{Full, LiveError, Maker};
+use crate::{Full, LiveError, Made, Maker};
 use std::fmt;
 use unripple_core::{Point, Surface};
-
-/// Share of the sheet's thickness that a full pulse moves it by, unless told otherwise: well within linear theory.
-const SHARE: f64 = 0.5;
+use unripple_physics::design::{LinearLevel, linearity};
 
 /// How strongly a surface is played: what a gain of 1 stands for.
 ///
 /// A drive at the limit may move a sheet by many times its thickness, which no sheet follows linearly. So a full pulse is one that moves it
-/// by half its thickness, unless the limit is asked for or gives less.
+/// as far as linear theory allows ([`LinearLevel`]: nowhere by more than half its thickness), unless the limit is asked for or gives less.
 #[derive(Clone, Copy, Debug)]
 pub struct Level {
     /// What a full pulse or waveform is felt like, and where that was found; the surface's own limit where `None`.
@@ -20,11 +18,11 @@ pub struct Level {
 }
 
 impl Level {
-    /// What is felt of a pulse that moves the sheet by half its thickness; as much as the surface's own limit allows where that is less, or
-    /// if `limited` asks for it.
+    /// What is felt of a pulse that moves the sheet as far as linear theory allows; as much as the surface's own limit allows where that
+    /// is less, or if `limited` asks for it.
     ///
     /// # Errors
-    /// Those of [`Maker::focus`].
+    /// Those of [`Maker::focus`] and [`Maker::reach`].
     pub fn of(surface: &Surface, maker: &Maker, limited: bool) -> Result<Self, LiveError> {
         let limit = surface.emission.limit;
         let (width, height) = surface.outline.extent();
@@ -32,12 +30,21 @@ impl Level {
         let made = maker.focus(&[place])?;
         let trace = maker.trace(&made)?;
         let most = trace.iter().fold(0.0, |m: f64, u| m.max(u.abs()));
-        let share = SHARE * surface.sheet.thickness / most;
-        if limited || !share.is_finite() || share >= 1.0 {
+        let share = if limited { None } else { Self::linear(surface, maker, &made)? };
+        let Some(share) = share.filter(|share| *share < 1.0) else {
             return Ok(Self { full: None, moved: [most, most], limit });
-        }
+        };
         let felt_db = 20.0 * (share * pulse_felt(&made, &trace)).log10();
         Ok(Self { full: Some(Full { place, felt_db }), moved: [share * most, most], limit })
+    }
+
+    /// The share of a drive at the limit that linear theory allows; `None` where that is not known.
+    fn linear(surface: &Surface, maker: &Maker, made: &Made) -> Result<Option<f64>, LiveError> {
+        let reach = maker.reach(made)?;
+        let steep = reach.steepness.unwrap_or_default();
+        let (slope, square) = (steep.slope, steep.mean_square_slope);
+        let found = linearity(surface, reach.displacement, slope, square, steep.curvature);
+        Ok(LinearLevel::of(surface, &found).map(|level| level.factor))
     }
 }
 

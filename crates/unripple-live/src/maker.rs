@@ -3,7 +3,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use unripple_calibrate::{Between, BetweenOptions};
 use unripple_core::{Drive, Point, Responses, SampledResponses};
-use unripple_field::Field;
+use unripple_field::{Aim, Field, Reach};
 use unripple_focus::{Focuser, Options, Target};
 use unripple_physics::Medium;
 
@@ -51,12 +51,14 @@ enum Work {
     Hurry(Option<u8>),
     Focus(Vec<Point>),
     Trace(Made),
+    Reach(Made),
 }
 
 enum Answer {
     Hurried,
     Made(Made),
     Trace(Vec<f64>),
+    Reach(Reach),
 }
 
 impl Maker {
@@ -75,6 +77,7 @@ impl Maker {
                 Work::Hurry(priority) => Ok(hurried(priority)),
                 Work::Focus(points) => focus(&focuser, points).map(Answer::Made),
                 Work::Trace(made) => trace(&responses, &made).map(Answer::Trace),
+                Work::Reach(made) => reach(&responses, &made).map(Answer::Reach),
             });
         })
     }
@@ -105,6 +108,7 @@ impl Maker {
                     focus(&Focuser::new(&responses, &options)?, points).map(Answer::Made)
                 }
                 Work::Trace(made) => trace(&at(&made.points)?, &made).map(Answer::Trace),
+                Work::Reach(made) => reach(&at(&made.points)?, &made).map(Answer::Reach),
             });
         })
     }
@@ -139,7 +143,7 @@ impl Maker {
     pub fn focus(&self, points: &[Point]) -> Result<Made, LiveError> {
         match self.ask(Work::Focus(points.to_vec()))? {
             Answer::Made(made) => Ok(made),
-            Answer::Trace(_) | Answer::Hurried => Err(gone()),
+            _ => Err(gone()),
         }
     }
 
@@ -151,7 +155,18 @@ impl Maker {
     pub fn trace(&self, made: &Made) -> Result<Vec<f64>, LiveError> {
         match self.ask(Work::Trace(made.clone()))? {
             Answer::Trace(trace) => Ok(trace),
-            Answer::Made(_) | Answer::Hurried => Err(gone()),
+            _ => Err(gone()),
+        }
+    }
+
+    /// How far a drive moves the surface at most; of a library, where it focuses.
+    ///
+    /// # Errors
+    /// Those of [`Field::reach`].
+    pub fn reach(&self, made: &Made) -> Result<Reach, LiveError> {
+        match self.ask(Work::Reach(made.clone()))? {
+            Answer::Reach(reach) => Ok(reach),
+            _ => Err(gone()),
         }
     }
 }
@@ -195,6 +210,15 @@ fn focus(focuser: &Focuser, points: Vec<Point>) -> Result<Made, LiveError> {
     let instant = focused.timing.first().map_or(0, |timing| timing.instant);
     let points = focused.points.into_iter().next().unwrap_or_default();
     Ok(Made { drive: Arc::new(focused.drive), instant, points })
+}
+
+/// Cells of the grid per shortest wavelength: enough for a level.
+const CELLS: f64 = 4.0;
+
+fn reach(responses: &Responses, made: &Made) -> Result<Reach, LiveError> {
+    let drive = made.drive.as_ref().clone().as_emitted();
+    let aim = Aim { points: made.points.clone(), instant: made.instant as f64 / drive.rate() };
+    Ok(Field::new(responses, &drive, CELLS)?.reach(&[aim], None)?)
 }
 
 fn trace(responses: &Responses, made: &Made) -> Result<Vec<f64>, LiveError> {

@@ -1,0 +1,68 @@
+//! How far a field goes at most: what decides whether linear theory holds.
+
+use crate::measure::{Peaks, spans, target_traces};
+use crate::{Aim, Field, FieldError, Maps, Measured, Steepness};
+use crate::{aim::Resolved, aim::segments, measure::whole_period};
+
+/// How far a field goes at most, over the whole surface and the time measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reach {
+    /// Largest displacement anywhere, in metres: on the grid or the library's points, and at the targets.
+    pub displacement: f64,
+    /// Largest slopes and curvature; `None` on a library's own points.
+    pub steepness: Option<Steepness>,
+}
+
+impl Reach {
+    /// Of a field that was measured.
+    pub fn of(measured: &Measured) -> Self {
+        Self::new(&measured.maps, measured.targets.iter().map(|target| target.peak_displacement_m))
+    }
+
+    /// Slopes are known where targets are at their extreme; elsewhere the surface is calmer, and what is more there is allowed
+    /// for in proportion to the displacement.
+    fn new(maps: &Maps, levels: impl Iterator<Item = f64>) -> Self {
+        let largest = |values: &[f32]| values.iter().fold(0.0, |m: f64, u| m.max(f64::from(u.abs())));
+        let displacement = levels.fold(largest(&maps.peak_displacement), |m, u| m.max(u.abs()));
+        let taken = maps.at_displacement_peak.iter().map(|shot| largest(&shot.displacement));
+        let taken = taken.fold(0.0, f64::max);
+        let more = if taken > 0.0 { (displacement / taken).max(1.0) } else { 1.0 };
+        let steepness = Steepness::of(maps).map(|steep| Steepness {
+            slope: steep.slope * more,
+            mean_square_slope: steep.mean_square_slope * more * more,
+            curvature: steep.curvature * more,
+        });
+        Self { displacement, steepness }
+    }
+}
+
+impl Field<'_> {
+    /// How far this field goes, over the time that [`Field::measure`] takes its figures from; `period` (s) as there. A small part
+    /// of the work of all figures.
+    ///
+    /// # Errors
+    /// Those of [`Field::measure`].
+    pub fn reach(&self, aims: &[Aim], period: Option<f64>) -> Result<Reach, FieldError> {
+        let period = period.map(|period| whole_period(period, self.drive)).transpose()?;
+        let resolved =
+            aims.iter().map(|aim| Resolved::of(aim, self, period)).collect::<Result<Vec<_>, _>>()?;
+        let spans = spans(&resolved, self, period);
+        let traces = target_traces(&resolved, self, &spans, period);
+        let peaks: Vec<Peaks> =
+            resolved.iter().zip(&traces).map(|(aim, (first, t))| Peaks::of(aim, *first, t)).collect();
+        let instants: Vec<usize> = peaks.iter().map(|peaks| peaks.extreme).collect();
+        let survey = self.source.survey(&segments(&spans), &instants);
+        let mut peak_displacement = vec![0.0_f32; self.points().len()];
+        for [_, displacement] in &survey.tallies {
+            peak_displacement.iter_mut().zip(&displacement.peak).for_each(|(p, own)| *p = p.max(*own));
+        }
+        let shots = instants.iter().zip(survey.snapshots);
+        let maps = Maps {
+            grid: self.grid().cloned(),
+            peak_displacement,
+            at_displacement_peak: shots.map(|(sample, values)| self.snapshot(*sample, values)).collect(),
+            ..Maps::default()
+        };
+        Ok(Reach::new(&maps, peaks.iter().map(|peaks| peaks.levels[1])))
+    }
+}
