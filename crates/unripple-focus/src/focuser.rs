@@ -22,6 +22,8 @@ pub struct Focused {
     pub points: Vec<Vec<Point>>,
     /// How it was made.
     pub method: Method,
+    /// Whether the limits gave the drive its shape, and not its size alone.
+    pub shaped: bool,
 }
 
 /// A plan that turns targets into drives: what does not depend on the targets is computed once.
@@ -90,6 +92,11 @@ impl<'r> Focuser<'r> {
         Ok(Self { responses, others, maker, options: options.clone(), window })
     }
 
+    /// What drives are made from.
+    pub fn responses(&self) -> &'r Responses {
+        self.responses
+    }
+
     /// The drive that focuses on these targets.
     ///
     /// With h_ak the velocity response of target k to actuator a, the reversed responses are superposed,
@@ -100,23 +107,46 @@ impl<'r> Focuser<'r> {
     /// # Errors
     /// As [`focus`].
     pub fn focus(&self, targets: &[Target]) -> Result<Focused, FocusError> {
+        self.focus_at(targets, 1.0)
+    }
+
+    /// The drive whose level is this share of that at the limit. Under limits on its shape ([`Method::Limited`]) it is solved for
+    /// that level, which takes another shape; other drives are the same but for their size.
+    ///
+    /// # Errors
+    /// As [`focus`]; [`FocusError::Range`] for a share that is no positive number.
+    pub fn focus_at(&self, targets: &[Target], share: f64) -> Result<Focused, FocusError> {
+        let positive = share.is_finite() && share > 0.0;
+        crate::error::require("share of the level at the limit", positive, "a positive number", share)?;
         target::check(targets, &self.responses.conditions().outline)?;
         let schedule = self.schedule(targets)?;
         let mut channels = vec![vec![0.0; schedule.length]; self.responses.ports().len()];
+        let mut shaped = self.options.method == Method::OneBit;
         let points = match &self.maker {
             Maker::Reversal(recorder) => self.reverse(recorder, targets, &schedule, &mut channels)?,
-            Maker::Planned(planned) => self.seek(planned, targets, &schedule, &mut channels)?,
-            Maker::Felt(plan) => return plan.focus(targets),
+            Maker::Planned(planned) => {
+                let sought = self.seek(planned, targets, &schedule, share, &mut channels)?;
+                shaped = sought.1;
+                sought.0
+            }
+            Maker::Felt(plan) => {
+                let focused = plan.focus(targets)?;
+                return Ok(Focused { drive: focused.drive.scaled(share), ..focused });
+            }
         };
-        self.limit(&mut channels)?;
+        // A level below that of the limits was solved for: what keeps them stays as it is.
+        let solved = self.options.method == Method::Limited && share != 1.0;
+        self.limit(&mut channels, solved)?;
         let names = self.responses.ports().iter().map(|port| port.name.clone()).collect();
         let drive = Drive::new(self.responses.conditions().rate, names, channels)?;
+        let drive = if solved || share == 1.0 { drive } else { drive.scaled(share) };
         Ok(Focused {
             drive,
             timing: schedule.timing,
             period: schedule.period,
             points,
             method: self.options.method,
+            shaped,
         })
     }
 
@@ -140,15 +170,18 @@ impl<'r> Focuser<'r> {
         Ok(points)
     }
 
-    /// Superposes the drives of all targets that come once and of those of each period.
+    /// Superposes the drives of all targets that come once and of those of each period; the points they stand for, and whether
+    /// limits shaped one of them.
     fn seek(
         &self,
         once: &Planned<'_>,
         targets: &[Target],
         schedule: &Schedule,
+        share: f64,
         channels: &mut [Vec<f64>],
-    ) -> Result<Vec<Vec<Point>>, FocusError> {
+    ) -> Result<(Vec<Vec<Point>>, bool), FocusError> {
         let mut points = vec![Vec::new(); targets.len()];
+        let mut shaped = false;
         let mut timings: Vec<Timing> = Vec::new();
         for timing in &schedule.timing {
             if !timings.contains(timing) {
@@ -158,17 +191,18 @@ impl<'r> Focuser<'r> {
         for timing in timings {
             let group: Vec<(usize, &Target)> =
                 targets.iter().enumerate().filter(|(i, _)| schedule.timing[*i] == timing).collect();
-            let (drive, used) = match timing.period {
-                None => once.drive(&group)?,
+            let sought = match timing.period {
+                None => once.drive(&group, share)?,
                 Some(period) => {
                     let steady = Planned::new(self.responses, self.others, &self.options, period, true)?;
-                    steady.drive(&group)?
+                    steady.drive(&group, share)?
                 }
             };
-            add(&drive, timing, self.window, channels);
-            group.iter().zip(used).for_each(|((index, _), used)| points[*index] = used);
+            add(&sought.drive, timing, self.window, channels);
+            group.iter().zip(sought.points).for_each(|((index, _), used)| points[*index] = used);
+            shaped |= sought.shaped;
         }
-        Ok(points)
+        Ok((points, shaped))
     }
 
     fn schedule(&self, targets: &[Target]) -> Result<Schedule, FocusError> {
@@ -202,8 +236,9 @@ impl<'r> Focuser<'r> {
         }
     }
 
-    /// Brings the drive to the limits: its peak to `limit`, then down to the rms limits.
-    fn limit(&self, channels: &mut [Vec<f64>]) -> Result<(), FocusError> {
+    /// Brings the drive to the limits: its peak to `limit`, then down to the rms limits. One that was `solved` for its level is only
+    /// brought down.
+    fn limit(&self, channels: &mut [Vec<f64>], solved: bool) -> Result<(), FocusError> {
         let limit = self.options.limit;
         let peak = channels.iter().map(|channel| peak(channel)).fold(0.0, f64::max);
         let usable = peak.is_finite() && peak > 0.0;
@@ -213,7 +248,7 @@ impl<'r> Focuser<'r> {
             Method::OneBit if d == 0.0 => 0.0,
             Method::OneBit => limit.copysign(d),
             // It keeps all limits already, and may stay below the peak for the sake of the rms.
-            Method::Limited if power && peak <= limit * (1.0 + 1e-9) => d.clamp(-limit, limit),
+            Method::Limited if (power || solved) && peak <= limit * (1.0 + 1e-9) => d.clamp(-limit, limit),
             _ => d / peak * limit,
         };
         for channel in channels.iter_mut() {

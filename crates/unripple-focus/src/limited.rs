@@ -33,6 +33,8 @@ pub(crate) struct Limits {
     /// From the level that the unlimited drive reaches when scaled to the limit (0) to that of one-bit (1). Several targets
     /// may not reach the latter together: then the way there is halved until they do.
     pub push: f64,
+    /// The level wanted, as a share of that one.
+    pub share: f64,
     pub samples: usize,
 }
 
@@ -60,8 +62,9 @@ struct Program<'a> {
 }
 
 impl Limits {
-    /// The drive at the limits, channels one behind the other. `matrix` is the objective's lower triangle, `energy` its
-    /// share ε, `free` the state that is best without limits.
+    /// The drive within the limits, channels one behind the other, and whether the limits shape it: below the level that the
+    /// unlimited drive reaches they do not. `matrix` is the objective's lower triangle, `energy` its share ε, `free` the state
+    /// that is best without limits.
     ///
     /// # Errors
     /// [`FocusError::Gap`] if the duality gap does not close.
@@ -72,7 +75,7 @@ impl Limits {
         energy: f64,
         levels: &Levels,
         free: &Mat<f64>,
-    ) -> Result<Vec<f64>, FocusError> {
+    ) -> Result<(Vec<f64>, bool), FocusError> {
         let unlimited = state.emit(free.as_ref())?;
         let lowest = self.scale(&unlimited);
         let map = state.map()?;
@@ -85,17 +88,18 @@ impl Limits {
         let mut program = Program { map, matrix: whole, energy, levels, wanted: Vec::new(), limits: self };
         let mut rise = self.push * (highest - lowest);
         for _ in 0..RETREATS {
-            if rise.is_nan() || rise <= 0.0 {
+            let level = self.share * (lowest + rise);
+            if rise.is_nan() || rise <= 0.0 || level <= lowest {
                 break;
             }
-            let level = lowest + rise;
             program.wanted = levels.wanted.iter().map(|wanted| wanted * level).collect();
             match program.solve(free * faer::Scale(level)) {
                 Err(FocusError::Gap { .. }) if levels.wanted.len() > 1 => rise *= 0.5,
-                found => return found,
+                found => return Ok((found?, true)),
             }
         }
-        Ok(unlimited.iter().map(|d| d * lowest).collect())
+        let level = (self.share * (lowest + rise.max(0.0))).min(lowest);
+        Ok((unlimited.iter().map(|d| d * level).collect(), false))
     }
 
     /// How many times a drive fits the limits.

@@ -16,6 +16,16 @@ pub(crate) struct Planned<'r> {
     options: Options,
 }
 
+/// A drive that was sought.
+pub(crate) struct Sought {
+    /// Channels one behind the other.
+    pub drive: Vec<f64>,
+    /// The points that each target stands for.
+    pub points: Vec<Vec<Point>>,
+    /// Whether limits gave it its shape.
+    pub shaped: bool,
+}
+
 impl<'r> Planned<'r> {
     /// For drives of `length` samples: once, or again and again for ever.
     ///
@@ -40,26 +50,28 @@ impl<'r> Planned<'r> {
         Ok(Self { state, objective, options: options.clone() })
     }
 
-    /// The drive that gives targets their gains as velocity at the focal instant, in m/s, and the points they stand for;
-    /// channels one behind the other.
+    /// The drive that gives targets their gains as velocity at the focal instant, in m/s, or under limits `share` of the level that
+    /// they allow.
     ///
     /// # Errors
     /// [`FocusError::Still`] and [`FocusError::Unknown`] for targets that cannot be reached.
-    pub fn drive(&self, targets: &[(usize, &Target)]) -> Result<(Vec<f64>, Vec<Vec<Point>>), FocusError> {
-        let (levels, used) = self.levels(targets)?;
+    pub fn drive(&self, targets: &[(usize, &Target)], share: f64) -> Result<Sought, FocusError> {
+        let (levels, points) = self.levels(targets)?;
         let state = self.objective.least(&levels)?;
         if self.options.method != Method::Limited {
-            return Ok((self.state.emit(state.as_ref())?, used));
+            return Ok(Sought { drive: self.state.emit(state.as_ref())?, points, shaped: false });
         }
         let limits = Limits {
             peak: self.options.limit,
             rms: self.options.rms_limit,
             total_rms: self.options.total_rms,
             push: self.options.push,
+            share,
             samples: self.state.length(),
         };
         let matrix = self.objective.around(&levels.points);
-        Ok((limits.drive(&self.state, matrix, self.objective.energy, &levels, &state)?, used))
+        let (drive, shaped) = limits.drive(&self.state, matrix, self.objective.energy, &levels, &state)?;
+        Ok(Sought { drive, points, shaped })
     }
 
     fn levels(&self, targets: &[(usize, &Target)]) -> Result<(Levels, Vec<Vec<Point>>), FocusError> {

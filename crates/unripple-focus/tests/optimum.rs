@@ -5,8 +5,8 @@ mod common;
 use common::Membrane;
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{Mat, MatRef};
-use unripple_core::{ModalResponses, Point, Pole};
-use unripple_focus::{Method, Options, Target, focus};
+use unripple_core::{Drive, ModalResponses, Point, Pole};
+use unripple_focus::{Focuser, Method, Options, Target, focus};
 
 const WINDOW: usize = 96;
 
@@ -159,6 +159,37 @@ fn limited_is_optimal_within_its_limits() {
             }
         }
     }
+}
+
+/// Below the level of the unlimited drive the limits do not bind, and above it a share of the level is that of a lower push.
+#[test]
+fn limited_at_a_level_is_solved_for_it() {
+    let responses = Membrane::small().responses();
+    let targets = [Target::at(target())];
+    let with = |push: f64| Options { push, limit: 0.3, ..options(Method::Limited, 0.95) };
+    let level = |drive: &Drive| {
+        let map = map(&Membrane::small().modal(), 1.0);
+        let samples = column(drive.channels().iter().flatten().copied().collect());
+        (weights(&Membrane::small().modal(), target()).transpose() * (map * samples))[(0, 0)]
+    };
+    let unit_peak = |drive: &Drive| drive.clone().scaled(1.0 / drive.peak());
+    let (lowest, highest) = (with(0.0), with(0.8));
+    let (lowest, highest) =
+        (Focuser::new(&responses, &lowest).unwrap(), Focuser::new(&responses, &highest).unwrap());
+    let (free, full) = (lowest.focus(&targets).unwrap(), highest.focus(&targets).unwrap());
+    assert!(!free.shaped && full.shaped && full.drive.peak() <= 0.3);
+    let share = level(&free.drive) / level(&full.drive);
+    for part in [0.01, 0.5, 0.999] {
+        let low = highest.focus_at(&targets, part * share).unwrap();
+        assert!(!low.shaped);
+        assert!((low.drive.peak() / (part * free.drive.peak()) - 1.0).abs() < 1e-9);
+        agrees("below the limits", &unit_peak(&low.drive), &column(free.drive.channels().concat()));
+    }
+    let between = highest.focus_at(&targets, 0.5 * (1.0 + share)).unwrap();
+    let pushed = focus(&responses, &targets, &with(0.4)).unwrap();
+    assert!(between.shaped);
+    agrees("half way", &unit_peak(&between.drive), &column(pushed.drive.channels().concat()));
+    assert!(highest.focus_at(&targets, -1.0).is_err());
 }
 
 #[test]

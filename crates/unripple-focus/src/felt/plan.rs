@@ -139,6 +139,7 @@ impl<'r> FeltPlan<'r> {
             period: None,
             points: targets.iter().map(|target| target.points.clone()).collect(),
             method: Method::Felt,
+            shaped: false,
         })
     }
 
