@@ -5,9 +5,9 @@ use crate::aware::aware;
 use crate::error::CliError;
 use crate::figures::{self, Scene};
 use crate::judge::{self, Judged};
-use crate::targets::{self, positive, seconds};
+use crate::targets::{self, seconds};
 use crate::{fingers, input, output, played, waveforms};
-use unripple::act::{self, Act, Level, Report, recommended_window};
+use unripple::act::{self, Act, Report, recommended_window};
 use unripple::core::{ActuatorKind, Decay, Drive, Point, Responses, Surface};
 use unripple::focus::{Focused, LossCorrection, Options};
 use unripple::physics::Medium;
@@ -30,7 +30,8 @@ pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
     let (surface, responses, stored) = source.respond(&places, options.between.interpolation())?;
     let settings = settings(options, &surface, &responses)?;
     let aware = aware(options, &surface)?;
-    let focused = aware.focus(&responses, &targets, &settings)?;
+    let focuser = aware.focuser(&responses, &settings)?;
+    let focused = focuser.focus(&targets).map_err(act::ActError::from)?;
 
     let judged_surface = plant.as_ref().unwrap_or(&surface);
     let other = plant.is_some() || options.judge_hz.is_some();
@@ -40,13 +41,14 @@ pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
     let touched = !contacts.is_empty();
     let under = touched.then(|| judge::model(judged_surface, options.judge_hz, &contacts)).transpose()?;
     let judging = under.as_ref().unwrap_or(free);
-    let level = level(options)?;
+    let level = targets::level(&options.targets)?;
     let act =
         Act { surface: judged_surface, responses: judging, targets: &targets, options: &settings, level };
-    let sent = act.send(&focused)?;
+    let sent = act.send(&focuser, focused)?;
     let judged = judge::seen(sent.until, || act.judge(&sent))?;
-    let drive = sent.drive;
+    let (focused, drive) = (sent.focused, sent.drive);
     let mut report = Report::of_focus(&surface, &focused, settings.window, &drive, &judged);
+    report.level = Some(sent.strength);
     report.fingers = act::felt(&contacts, judged_surface, [judging, free], &drive, judged.until)?;
     report.notes.extend(aware.note(&responses, &targets, &settings, &focused)?);
     report.judged_on = other.then(|| judged_on(judged_surface, options.judge_hz));
@@ -71,15 +73,6 @@ fn needing_modes(options: &FocusOptions) -> [(&'static str, bool); 7] {
         ("--method robust", options.method == MethodName::Robust),
         ("--method felt", options.method == MethodName::Felt),
     ]
-}
-
-/// How loud the drive is to be.
-fn level(options: &FocusOptions) -> Result<Level, CliError> {
-    Ok(match (options.targets.felt_db, options.targets.peak_um) {
-        (Some(db), _) => Level::Felt(db),
-        (None, Some(um)) => Level::Peak(positive(um, "--peak-um", "µm")? / 1e6),
-        (None, None) => Level::Limit,
-    })
 }
 
 fn settings(options: &FocusOptions, surface: &Surface, responses: &Responses) -> Result<Options, CliError> {

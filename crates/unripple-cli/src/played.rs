@@ -7,10 +7,10 @@ use crate::focus::finish;
 use crate::judge::{self, Judged};
 use crate::targets::seconds;
 use crate::{input, output, waveforms};
-use unripple::act::{Followed, Report, Stroked, unit};
+use unripple::act::{DecidedBy, Followed, Report, Strength, Stroked, unit};
 use unripple::core::{ActuatorKind, Drive, Point, Responses, Surface};
 use unripple::field::{Aim, Field, SilenceFigures, Wanted};
-use unripple::focus::{PlayOptions, PulseOptions, Stroke, play, strike};
+use unripple::focus::{Options, PlayOptions, PulseOptions, Stroke, play, strike};
 use unripple_store::{OutputDir, write_wav};
 
 /// Waveforms are planned and judged on modes up to these multiples of the band, the second if not told otherwise: at low
@@ -28,6 +28,9 @@ const AT_ONCE: usize = 256;
 
 /// Places measured for each pulse of a stroke.
 const BETWEEN: usize = 2;
+
+/// A drive nearer to its limit than this was held by it: float32 rounds by less.
+const HELD: f64 = 1e-6;
 
 /// A drive, what is known of it, and how it was judged.
 struct Work {
@@ -60,6 +63,11 @@ pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
     let judged = judge::judge(plant, &field, &work.aims, Some(work.drive.duration()), until)?;
     let mut report = Report::new("focus", &surface, &work.drive, &judged);
     report.method = Some(work.method);
+    let emission = &surface.emission;
+    let limits = Options { limit: emission.limit, rms_limit: emission.rms_limit, ..Options::default() };
+    let asked = Strength::of(&work.drive, &limits, DecidedBy::Asked);
+    let by = if asked.below_limit > 1.0 + HELD { DecidedBy::Asked } else { DecidedBy::Limit };
+    report.level = Some(Strength { decided_by: by, ..asked });
     report.judged_on = Some(format!("{}, modes to {judge_hz} Hz", plant.name));
     report.waveforms = work.waveforms;
     report.silent = work.silent;

@@ -2,6 +2,7 @@
 
 use crate::args::TargetOptions;
 use crate::error::CliError;
+use unripple::act::Level;
 use unripple::core::Point;
 use unripple::focus::{Line, Pattern, Target};
 use unripple_store::Drawing;
@@ -44,6 +45,16 @@ pub fn positive(value: f64, option: &str, unit: &str) -> Result<f64, CliError> {
     } else {
         Err(CliError::Input(format!("{option}: expected a number above 0 {unit}, found {value}")))
     }
+}
+
+/// How loud a drive is to be.
+pub fn level(options: &TargetOptions) -> Result<Level, CliError> {
+    Ok(match (options.felt_db, options.peak_um, options.full_limit) {
+        (Some(db), ..) => Level::Felt(db),
+        (None, Some(um), _) => Level::Peak(positive(um, "--peak-um", "µm")? / 1e6),
+        (None, None, true) => Level::Limit,
+        (None, None, false) => Level::default(),
+    })
 }
 
 /// A positive time given in milliseconds, in seconds.

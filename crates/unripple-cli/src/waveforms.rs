@@ -16,8 +16,18 @@ const STROKE: f64 = 10e-3;
 
 /// Refuses options that do not go together.
 pub fn check(options: &FocusOptions) -> Result<(), CliError> {
-    let TargetOptions { at, shape, peak_um, felt_db, waveform, silent, path, speed_mm_s, level_mm_s } =
-        &options.targets;
+    let TargetOptions {
+        at,
+        shape,
+        peak_um,
+        felt_db,
+        full_limit,
+        waveform,
+        silent,
+        path,
+        speed_mm_s,
+        level_mm_s,
+    } = &options.targets;
     let wrong = |text: &str| Err(CliError::Input(text.to_owned()));
     if !waveform.is_empty() && path.is_some() {
         return wrong("--waveform: expected no --path beside it, found one");
@@ -29,10 +39,10 @@ pub fn check(options: &FocusOptions) -> Result<(), CliError> {
         return wrong("--speed-mm-s, --level-mm-s: expected --path beside them, found none");
     }
     let moving = !waveform.is_empty() || path.is_some();
-    let levelled = peak_um.is_some() || felt_db.is_some();
+    let levelled = peak_um.is_some() || felt_db.is_some() || *full_limit;
     if moving && !(at.is_empty() && shape.is_empty() && !levelled) {
         return wrong(
-            "--waveform, --path: expected no --at, --shape, --peak-um or --felt-db beside them, found one",
+            "--waveform, --path: expected no --at, --shape, --peak-um, --felt-db or --full-limit beside them, found one",
         );
     }
     if moving && !options.finger.is_empty() {

@@ -33,7 +33,8 @@ fn field_on_the_drive_gives_the_figures_of_focus() {
     let out = scratch.join("out");
     let drive = format!("{out}/drive.wav");
     for method in ["time-reversal", "one-bit"] {
-        let arguments = ["--at", "62,90", "--method", method, "--window-ms", "30", "-o", &out];
+        let arguments =
+            ["--at", "62,90", "--method", method, "--window-ms", "30", "--full-limit", "-o", &out];
         let focus = json(&[&["focus", "hudin-2012"], &arguments[..]].concat());
         assert_eq!(focus["method"], method);
         let field = json(&["field", "hudin-2012", "--drive", &drive, "--at", "62,90", "--at-ms", "30"]);
@@ -56,7 +57,8 @@ fn field_on_the_drive_gives_the_figures_of_focus() {
 fn figures_agree_with_an_independent_computation() {
     let scratch = Scratch::new("independent");
     let out = scratch.join("out");
-    let focus = json(&["focus", "hudin-2012", "--at", "62,90", "--window-ms", "30", "-o", &out]);
+    let focus =
+        json(&["focus", "hudin-2012", "--at", "62,90", "--window-ms", "30", "--full-limit", "-o", &out]);
     for (key, expected) in [
         ("peak_velocity_m_s", 171.672_134),
         ("peak_displacement_m", 0.014_285_589_9),
@@ -228,7 +230,8 @@ fn actuators_may_lie_on_top_of_each_other() {
         let file = scratch.file(name, film(actuators));
         run(&["check", &file]);
         let out = scratch.join("out");
-        let report = json(&["focus", &file, "--at", "62,90", "--window-ms", "20", "-o", &out]);
+        let report =
+            json(&["focus", &file, "--at", "62,90", "--window-ms", "20", "--full-limit", "-o", &out]);
         number(&report, "/targets/0/peak_velocity_m_s")
     };
     let (one, two) = (peak("one.toml", force), peak("two.toml", &force.repeat(2)));
@@ -243,6 +246,7 @@ fn a_drive_may_know_of_the_finger() {
     let out = scratch.join("out");
     let common =
         ["focus", "hudin-2012", "--at", "62,90", "--window-ms", "20", "--finger", "62,90", "-o", &out];
+    let common = [&common[..], &["--full-limit"]].concat();
     let peak = |report: &Value| number(report, "/targets/0/peak_velocity_m_s").abs();
     let unaware = json(&common);
     let aware = json(&[&common[..], &["--finger-aware"]].concat());

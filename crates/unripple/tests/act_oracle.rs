@@ -1,9 +1,9 @@
 //! An act against its definitions, and against what is known of the paper's surface.
 
-use unripple::act::{Act, ActError, Level, LevelKind, model, recommended_window};
+use unripple::act::{Act, ActError, DecidedBy, Level, LevelKind, model, recommended_window};
 use unripple::core::{Point, Responses, Surface};
 use unripple::field::{Aim, MeasureOptions, measure};
-use unripple::focus::{Options, Target, focus};
+use unripple::focus::{Focuser, Method, Options, Target, focus};
 use unripple::physics::design::papers_surface;
 
 fn paper() -> (Surface, Responses) {
@@ -62,10 +62,98 @@ fn levels_are_met_and_those_beyond_the_limit_refused() {
         (Level::Felt(200.0), LevelKind::Felt),
         (Level::Felt(f64::NAN), LevelKind::Felt),
     ] {
-        let focused = focus(&responses, &targets, &options).unwrap();
-        let error = act(level).send(&focused).unwrap_err();
+        let focuser = Focuser::new(&responses, &options).unwrap();
+        let focused = focuser.focus(&targets).unwrap();
+        let error = act(level).send(&focuser, focused).unwrap_err();
         assert!(matches!(&error, ActError::Level { what, .. } if *what == kind), "{error}");
         assert!(error.to_string().contains("expected") && !error.is_failed_work(), "{error}");
+    }
+}
+
+/// `limited` at a level given, by another route: the push whose drive at the limit has that level.
+#[test]
+fn limited_is_solved_for_the_level_asked() {
+    let (surface, responses) = paper();
+    let targets = [Target::at(Point::from_mm(62.0, 90.0))];
+    let with = |push: f64, level: Level| {
+        let options = Options { method: Method::Limited, push, ..Options::default() };
+        let act =
+            Act { surface: &surface, responses: &responses, targets: &targets, options: &options, level };
+        act.run().unwrap()
+    };
+    let pushed = with(0.25, Level::Limit);
+    let figures = &pushed.judged.measured.targets[0];
+    let asked = with(0.6, Level::Peak(figures.peak_displacement_m.abs()));
+    let found = &asked.judged.measured.targets[0];
+    assert!(asked.focused.shaped && pushed.focused.shaped);
+    assert!((found.peak_velocity_m_s / figures.peak_velocity_m_s - 1.0).abs() < 1e-5);
+    assert!((found.contrast.unwrap() / figures.contrast.unwrap() - 1.0).abs() < 1e-3);
+    // Scaled down from its own push it would have been worse.
+    let scaled = with(0.6, Level::Limit);
+    assert!(found.contrast.unwrap() > 1.2 * scaled.judged.measured.targets[0].contrast.unwrap());
+    assert!(asked.drive.peak() <= 1.0 && asked.judged.notes.iter().all(|note| note.topic != "method"));
+    // Far below, the limit does not bind.
+    let low = with(0.6, Level::default());
+    assert!(!low.focused.shaped && low.judged.notes.iter().any(|note| note.topic == "method"));
+}
+
+#[test]
+fn a_sheet_of_which_nothing_is_known_is_driven_to_its_limit_and_that_is_said() {
+    let (mut surface, responses) = paper();
+    let targets = [Target::at(Point::from_mm(62.0, 90.0))];
+    let options = Options::default();
+    (surface.sheet.thickness, surface.sheet.strength, surface.sheet.tension) = (0.0, None, 0.0);
+    let level = Level::default();
+    let act = Act { surface: &surface, responses: &responses, targets: &targets, options: &options, level };
+    let acted = act.run().unwrap();
+    assert_eq!((acted.strength.decided_by, acted.drive.peak()), (DecidedBy::Limit, 1.0));
+    assert!(acted.judged.notes.iter().any(|note| note.topic == "level"), "{:?}", acted.judged.notes);
+}
+
+#[test]
+fn each_limit_has_its_headroom() {
+    let (surface, responses) = paper();
+    let targets = [Target::at(Point::from_mm(62.0, 90.0))];
+    let options = Options { rms_limit: Some(0.02), total_rms: Some(0.03), ..Options::default() };
+    let level = Level::default();
+    let act = Act { surface: &surface, responses: &responses, targets: &targets, options: &options, level };
+    let acted = act.run().unwrap();
+    let rms = |c: &Vec<f64>| (c.iter().map(|d| d * d).sum::<f64>() / c.len() as f64).sqrt();
+    let channels = acted.drive.channels();
+    let most = channels.iter().map(rms).fold(0.0, f64::max);
+    let together = channels.iter().map(|c| rms(c).powi(2)).sum::<f64>().sqrt();
+    let expected = [("peak", 1.0 / acted.drive.peak()), ("rms", 0.02 / most), ("total rms", 0.03 / together)];
+    for (limit, (name, below)) in acted.strength.limits.iter().zip(expected) {
+        assert_eq!(limit.limit, name);
+        assert!((limit.below / below - 1.0).abs() < 1e-9 && limit.below > 1.0, "{limit:?}");
+    }
+    let least = expected.into_iter().map(|(_, below)| below).fold(f64::INFINITY, f64::min);
+    assert!((acted.strength.below_limit / least - 1.0).abs() < 1e-9);
+    let text = acted.report(&surface, &options).text();
+    assert!(text.contains("below the rms limit of 0.02 N"), "{text}");
+}
+
+/// Contrast and other ratios do not depend on the level; rounding to float32 is all that differs, and is left out here.
+#[test]
+fn ratios_do_not_depend_on_the_level() {
+    let (_, responses) = paper();
+    let targets = [Target::at(Point::from_mm(62.0, 90.0))];
+    for method in [Method::TimeReversal, Method::OneBit, Method::Inverse, Method::Concentrate, Method::Felt] {
+        let options = Options { method, window: 20e-3, ..Options::default() };
+        let focuser = Focuser::new(&responses, &options).unwrap();
+        let figures = |share: f64| {
+            let drive = focuser.focus_at(&targets, share).unwrap().drive;
+            let aim = Aim { points: targets[0].points.clone(), instant: 20e-3 };
+            let measured = measure(&responses, &drive, &[aim], &MeasureOptions::default()).unwrap();
+            let found = &measured.targets[0];
+            [found.contrast, found.background_contrast, found.worst_spot, found.displacement_contrast]
+                .map(Option::unwrap)
+        };
+        // A power of two leaves every digit, another share all but the last.
+        assert_eq!(figures(1.0), figures(1.0 / 256.0), "{method}");
+        for (a, b) in figures(1.0).into_iter().zip(figures(3.7e-3)) {
+            assert!((a / b - 1.0).abs() < 1e-6, "{method}: {a} {b}");
+        }
     }
 }
 

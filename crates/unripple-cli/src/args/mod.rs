@@ -125,13 +125,15 @@ pub struct TargetOptions {
     /// A shape in mm: an SVG file, triangle:X,Y,SIZE or circle:X,Y,R. Repeatable.
     #[arg(long, value_name = "SHAPE")]
     pub shape: Vec<String>,
-    /// Peak displacement wanted at the first target, in µm; by default as much as the drive limit gives.
+    /// Peak displacement wanted at the first target, in µm; by default nothing moves by more than about half the sheet's thickness.
     #[arg(long, value_name = "UM", allow_negative_numbers = true)]
     pub peak_um: Option<f64>,
-    /// Level wanted at the first target as felt, in dB above the threshold of touch; by default as much as the drive limit
-    /// gives.
+    /// Level wanted at the first target as felt, in dB above the threshold of touch.
     #[arg(long, value_name = "L", allow_negative_numbers = true, conflicts_with = "peak_um")]
     pub felt_db: Option<f64>,
+    /// As strong as the drive limit allows, though linear theory may not hold there.
+    #[arg(long, conflicts_with_all = ["peak_um", "felt_db"])]
+    pub full_limit: bool,
     /// A waveform at a point in mm: sine:HZ,MS, burst:HZ,CYCLES, click:MS or a WAV file, with its peak in µm. Repeatable.
     #[arg(long, value_name = "X,Y,WHAT[,UM]", allow_hyphen_values = true)]
     pub waveform: Vec<String>,
@@ -163,7 +165,7 @@ pub struct FocusOptions {
     /// How far from time reversal (0) to the method's own limit (1).
     #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
     pub strength: Option<f64>,
-    /// For `limited`: from the level of the unlimited drive (0) to that of one-bit (1).
+    /// For `limited`: the level at the limit, from that of the unlimited drive (0) to that of one-bit (1).
     #[arg(long, value_name = "SHARE", default_value_t = 0.5, allow_negative_numbers = true)]
     pub push: f64,
     /// Largest rms of all actuators together, in the drive's unit.

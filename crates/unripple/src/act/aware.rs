@@ -45,18 +45,13 @@ impl Aware {
         Ok(Self { under, others })
     }
 
-    /// The drive, from these responses of the bare surface.
+    /// What makes drives, from these responses of the bare surface.
     ///
     /// # Errors
-    /// Those of [`Focuser::beside`] and [`Focuser::focus`].
-    pub fn focus(
-        &self,
-        bare: &Responses,
-        targets: &[Target],
-        options: &Options,
-    ) -> Result<Focused, ActError> {
+    /// Those of [`Focuser::beside`].
+    pub fn focuser<'a>(&'a self, bare: &'a Responses, options: &Options) -> Result<Focuser<'a>, ActError> {
         let known = self.under.as_ref().unwrap_or(bare);
-        Ok(Focuser::beside(known, &self.others, options)?.focus(targets)?)
+        Ok(Focuser::beside(known, &self.others, options)?)
     }
 
     /// What knowing of the fingers gave back, at the first target and the drive limit.

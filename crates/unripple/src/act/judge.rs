@@ -1,7 +1,7 @@
+use super::ActError;
 use super::note::{self, Note};
-use super::{ActError, note::largest};
 use crate::core::{Point, Surface};
-use crate::field::{Aim, Field, Measured, Steepness, Trace};
+use crate::field::{Aim, Field, Measured, Reach, Trace};
 use crate::physics::design::{Linearity, linearity};
 
 /// Cells of the grid per shortest wavelength that figures are taken on.
@@ -38,8 +38,10 @@ pub fn judge(
     let measured = field.measure(aims, period)?;
     let first: Vec<Point> = aims.iter().filter_map(|aim| aim.points.first().copied()).collect();
     let traces = field.traces(&first, until)?;
-    let linearity = small(surface, &measured);
-    let notes = note::all(surface, &measured, linearity.as_ref());
+    let reach = Reach::of(&measured);
+    let found = linear(surface, &reach);
+    let notes = note::all(surface, &measured, reach.displacement, &found);
+    let linearity = reach.steepness.map(|_| found);
     Ok(Judged { measured, traces, until, linearity, notes })
 }
 
@@ -48,14 +50,8 @@ pub fn known(field: &Field) -> f64 {
     field.known().saturating_sub(1) as f64 / field.rate()
 }
 
-/// How far from small the deflections are. Slopes are known where targets are at their extreme; elsewhere the surface is
-/// calmer, and what is more there is allowed for in proportion to the displacement.
-fn small(surface: &Surface, measured: &Measured) -> Option<Linearity> {
-    let steep = Steepness::of(&measured.maps)?;
-    let largest = largest(measured);
-    let taken = measured.maps.at_displacement_peak.iter().flat_map(|s| &s.displacement);
-    let taken = taken.fold(0.0, |m: f64, u| m.max(f64::from(u.abs())));
-    let more = if taken > 0.0 { (largest / taken).max(1.0) } else { 1.0 };
-    let (slope, square) = (steep.slope * more, steep.mean_square_slope * more * more);
-    Some(linearity(surface, largest, slope, square, steep.curvature * more))
+/// How far from small the deflections of a field are. Without slopes, displacement alone counts.
+pub(super) fn linear(surface: &Surface, reach: &Reach) -> Linearity {
+    let steep = reach.steepness.unwrap_or_default();
+    linearity(surface, reach.displacement, steep.slope, steep.mean_square_slope, steep.curvature)
 }

@@ -1,13 +1,21 @@
 use super::error::{ActError, LevelKind};
-use super::judge::known;
-use crate::core::{Drive, Responses};
-use crate::field::{Aim, Field};
+use super::judge::{known, linear};
+use super::send::Aimed;
+use super::strength::DecidedBy;
+use crate::core::{Drive, Responses, Surface};
+use crate::field::Field;
+use crate::physics::design::{LinearBound, LinearLevel};
+
+/// Cells of the grid per shortest wavelength: enough for a level.
+const CELLS: f64 = 4.0;
 
 /// How loud a drive is to be.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Level {
-    /// As loud as the drive limit allows.
+    /// As loud as linear theory allows ([`LinearLevel`]: nowhere by more than half the sheet's thickness), at most at the limit.
     #[default]
+    Linear,
+    /// As loud as the drive limit allows.
     Limit,
     /// By the largest displacement of the first target's mean, in metres.
     Peak(f64),
@@ -15,38 +23,78 @@ pub enum Level {
     Felt(f64),
 }
 
+/// What brings a drive to a level.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Step {
+    /// Factor on the drive; above 1 the level is beyond it.
+    pub factor: f64,
+    /// What decides it.
+    pub by: DecidedBy,
+}
+
 impl Level {
-    /// The factor on a drive at its limit that brings it to this level; `None` for the limit itself.
-    ///
-    /// The field is that of `responses`; displacements count up to `until` (s), or in the last `period` samples.
+    /// What brings a drive to this level; `None` for the limit, and where nothing is known that decides.
     ///
     /// # Errors
-    /// [`ActError::Level`] for numbers without meaning, levels above what the drive limit gives, a target that does not
-    /// move; those of [`Field::traces`] and [`Field::measure`].
-    pub fn gain(
+    /// [`ActError::Level`] for numbers without meaning and a target that does not move; those of [`Field::traces`] and
+    /// [`Field::measure`].
+    pub(super) fn step(
         self,
+        surface: &Surface,
         responses: &Responses,
         drive: &Drive,
-        aims: &[Aim],
-        period: Option<usize>,
-        until: f64,
-    ) -> Result<Option<f64>, ActError> {
-        match self {
-            Self::Limit => Ok(None),
+        aimed: &Aimed,
+    ) -> Result<Option<Step>, ActError> {
+        Ok(match self {
+            Self::Limit => None,
+            Self::Linear => {
+                let reach = Field::new(responses, drive, CELLS)?.reach(&aimed.aims, aimed.seconds())?;
+                LinearLevel::of(surface, &linear(surface, &reach)).map(Step::from)
+            }
             Self::Peak(wanted) => {
                 let legal = wanted.is_finite() && wanted > 0.0;
                 let found = || micrometres(wanted);
                 refuse(!legal, LevelKind::Peak, "a number above 0 µm", found)?;
-                let most = largest(responses, drive, aims, period, until)?;
-                let expected = format!("at most {:.4} µm, which the drive limit gives", most * 1e6);
-                refuse(wanted > most, LevelKind::Peak, expected, found)?;
-                Ok(Some(wanted / most))
+                Some(Step { factor: wanted / largest(responses, drive, aimed)?, by: DecidedBy::PeakUm })
             }
             Self::Felt(wanted) => {
-                let period = period.map(|samples| samples as f64 / drive.rate());
-                felt_gain(wanted, responses, drive, aims, period).map(Some)
+                refuse(!wanted.is_finite(), LevelKind::Felt, "a finite number of dB", || wanted.to_string())?;
+                let found = felt(responses, drive, aimed)?;
+                Some(Step { factor: 10f64.powf((wanted - found) / 20.0), by: DecidedBy::FeltDb })
+            }
+        })
+    }
+
+    /// Refuses a level asked for that is beyond the drive at its limit.
+    ///
+    /// # Errors
+    /// [`ActError::Level`].
+    pub(super) fn within(self, step: Step) -> Result<(), ActError> {
+        let beyond = step.factor > 1.0;
+        match self {
+            Self::Linear | Self::Limit => Ok(()),
+            Self::Peak(wanted) => {
+                let most = wanted / step.factor * 1e6;
+                let expected = format!("at most {most:.4} µm, which the drive limit gives");
+                refuse(beyond, LevelKind::Peak, expected, || micrometres(wanted))
+            }
+            Self::Felt(wanted) => {
+                let most = wanted - 20.0 * step.factor.log10();
+                let expected = format!("at most {most:.2} dB above threshold, which the drive limit gives");
+                refuse(beyond, LevelKind::Felt, expected, || wanted.to_string())
             }
         }
+    }
+}
+
+impl From<LinearLevel> for Step {
+    fn from(level: LinearLevel) -> Self {
+        let by = match level.bound {
+            LinearBound::Thickness => DecidedBy::Thickness,
+            LinearBound::Tension => DecidedBy::Tension,
+            LinearBound::Yield => DecidedBy::Yield,
+        };
+        Self { factor: level.factor, by }
     }
 }
 
@@ -65,43 +113,24 @@ fn micrometres(metres: f64) -> String {
     format!("{um:.12e}").parse::<f64>().unwrap_or(um).to_string()
 }
 
-/// The factor on a drive at its limit that puts the first target at `wanted` dB above the threshold of touch.
-fn felt_gain(
-    wanted: f64,
-    responses: &Responses,
-    drive: &Drive,
-    aims: &[Aim],
-    period: Option<f64>,
-) -> Result<f64, ActError> {
-    let found = || wanted.to_string();
-    refuse(!wanted.is_finite(), LevelKind::Felt, "a finite number of dB", found)?;
+/// What is felt at the first target, in dB above the threshold of touch.
+fn felt(responses: &Responses, drive: &Drive, aimed: &Aimed) -> Result<f64, ActError> {
     let field = Field::new(responses, drive, 1.0)?;
-    let first = &aims[..aims.len().min(1)];
-    let targets = field.measure(first, period)?.targets;
-    let Some(most) = targets.first().and_then(|target| target.felt_level_db) else {
-        return Err(ActError::Level {
-            what: LevelKind::Felt,
-            expected: "a first target that the drive moves".into(),
-            found: "silence there".into(),
-        });
-    };
-    let expected = format!("at most {most:.2} dB above threshold, which the drive limit gives");
-    refuse(wanted > most, LevelKind::Felt, expected, found)?;
-    Ok(10f64.powf((wanted - most) / 20.0))
+    let first = &aimed.aims[..aimed.aims.len().min(1)];
+    let targets = field.measure(first, aimed.seconds())?.targets;
+    targets.first().and_then(|target| target.felt_level_db).ok_or_else(|| ActError::Level {
+        what: LevelKind::Felt,
+        expected: "a first target that the drive moves".into(),
+        found: "silence there".into(),
+    })
 }
 
 /// Largest displacement of the first target's mean over the time measured, in metres.
-fn largest(
-    responses: &Responses,
-    drive: &Drive,
-    aims: &[Aim],
-    period: Option<usize>,
-    until: f64,
-) -> Result<f64, ActError> {
+fn largest(responses: &Responses, drive: &Drive, aimed: &Aimed) -> Result<f64, ActError> {
     let field = Field::new(responses, drive, 1.0)?;
-    let points = aims.first().map_or(&[][..], |aim| &aim.points);
-    let traces = field.traces(points, until.min(known(&field)))?;
-    let first = period.map_or(0, |period| drive.samples().saturating_sub(period));
+    let points = aimed.aims.first().map_or(&[][..], |aim| &aim.points);
+    let traces = field.traces(points, aimed.until.min(known(&field)))?;
+    let first = aimed.period.map_or(0, |period| drive.samples().saturating_sub(period));
     let samples = traces.first().map_or(0, |trace| trace.displacement.len());
     let mean = |i: usize| traces.iter().map(|t| t.displacement[i]).sum::<f64>() / traces.len() as f64;
     Ok((first..samples).map(|i| mean(i).abs()).fold(0.0, f64::max))

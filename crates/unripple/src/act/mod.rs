@@ -11,6 +11,8 @@ mod level;
 mod model;
 mod note;
 mod report;
+mod send;
+mod strength;
 mod window;
 
 pub use aware::Aware;
@@ -21,11 +23,13 @@ pub use level::Level;
 pub use model::{accuracy, model};
 pub use note::{Note, nearby};
 pub use report::{Channel, Followed, Report, Stroked, unit};
+pub use send::Sent;
+pub use strength::{DecidedBy, Headroom, Strength};
 pub use window::recommended_window;
 
 use crate::core::{Drive, Responses, Surface};
-use crate::field::{Aim, Field};
-use crate::focus::{Focused, Options, Target, focus};
+use crate::field::Field;
+use crate::focus::{Focused, Focuser, Options, Target};
 
 /// One act of focusing.
 ///
@@ -65,59 +69,26 @@ pub struct Act<'a> {
 /// What came of an act.
 #[derive(Clone, Debug)]
 pub struct Acted {
-    /// The drive at its limit, and its timing.
+    /// The drive before its last scaling, and its timing.
     pub focused: Focused,
     /// The drive at the level asked for, as float32 samples.
     pub drive: Drive,
+    /// How strong that is, and what decided it.
+    pub strength: Strength,
     /// What that drive was found to do.
     pub judged: Judged,
-}
-
-/// A drive at the level asked for, and where and when it is to be judged.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Sent {
-    /// The drive, as float32 samples.
-    pub drive: Drive,
-    /// Every target with its focal instant.
-    pub aims: Vec<Aim>,
-    /// The period of a repeated drive, in seconds.
-    pub period: Option<f64>,
-    /// How far targets are traced, in seconds: twice the last focal instant, or the end of a repeated drive.
-    pub until: f64,
 }
 
 impl Act<'_> {
     /// Makes the drive, brings it to its level and judges it.
     ///
     /// # Errors
-    /// Those of [`focus`], [`Act::send`] and [`Act::judge`].
+    /// Those of [`Focuser`], [`Act::send`] and [`Act::judge`].
     pub fn run(&self) -> Result<Acted, ActError> {
-        let focused = focus(self.responses, self.targets, self.options)?;
-        let sent = self.send(&focused)?;
+        let focuser = Focuser::new(self.responses, self.options)?;
+        let sent = self.send(&focuser, focuser.focus(self.targets)?)?;
         let judged = self.judge(&sent)?;
-        Ok(Acted { focused, drive: sent.drive, judged })
-    }
-
-    /// Brings a drive, however it was made, to the level asked for.
-    ///
-    /// # Errors
-    /// Those of [`Level::gain`].
-    pub fn send(&self, focused: &Focused) -> Result<Sent, ActError> {
-        let rate = focused.drive.rate();
-        let seconds = |samples: usize| samples as f64 / rate;
-        let timed = self.targets.iter().zip(&focused.timing);
-        let aims: Vec<Aim> = timed
-            .map(|(target, timing)| Aim { points: target.points.clone(), instant: seconds(timing.instant) })
-            .collect();
-        let last = focused.timing.iter().map(|timing| timing.instant).max().unwrap_or(0);
-        let until = match focused.period {
-            Some(_) => seconds(focused.drive.samples().saturating_sub(1)),
-            None => 2.0 * seconds(last),
-        };
-        let full = focused.drive.clone().as_emitted();
-        let gain = self.level.gain(self.responses, &full, &aims, focused.period, until)?;
-        let drive = gain.map_or(full, |gain| focused.drive.clone().scaled(gain).as_emitted());
-        Ok(Sent { drive, aims, period: focused.period.map(seconds), until })
+        Ok(Acted { focused: sent.focused, drive: sent.drive, strength: sent.strength, judged })
     }
 
     /// Judges a drive on the act's own responses.
@@ -126,13 +97,16 @@ impl Act<'_> {
     /// Those of [`Field::new`] and [`judge()`].
     pub fn judge(&self, sent: &Sent) -> Result<Judged, ActError> {
         let field = Field::new(self.responses, &sent.drive, CELLS)?;
-        judge(self.surface, &field, &sent.aims, sent.period, sent.until)
+        let mut judged = judge(self.surface, &field, &sent.aims, sent.period, sent.until)?;
+        judged.notes.extend(sent.notes.iter().cloned());
+        Ok(judged)
     }
 }
 
 impl Acted {
     /// The report of `unripple focus` on `surface` with these options, no files named.
     pub fn report(&self, surface: &Surface, options: &Options) -> Report {
-        Report::of_focus(surface, &self.focused, options.window, &self.drive, &self.judged)
+        let report = Report::of_focus(surface, &self.focused, options.window, &self.drive, &self.judged);
+        Report { level: Some(self.strength.clone()), ..report }
     }
 }

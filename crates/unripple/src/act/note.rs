@@ -1,6 +1,7 @@
-use crate::core::Surface;
-use crate::field::Measured;
-use crate::focus::{Focused, Target};
+use super::{Act, ActError};
+use crate::core::{Drive, Surface};
+use crate::field::{Aim, Field, Measured};
+use crate::focus::{Focused, Focuser, Method, Options, Target, focus};
 use crate::physics::design::Linearity;
 use serde::Serialize;
 
@@ -29,15 +30,9 @@ pub fn nearby(focused: &Focused, targets: &[Target]) -> Vec<Note> {
     places.collect()
 }
 
-/// The largest displacement anywhere, in metres.
-pub(super) fn largest(measured: &Measured) -> f64 {
-    let peak = measured.maps.peak_displacement.iter().fold(0.0, |m: f64, u| m.max(f64::from(u.abs())));
-    measured.targets.iter().map(|t| t.peak_displacement_m.abs()).fold(peak, f64::max)
-}
-
 /// Warnings that go with measured figures.
-pub(super) fn all(surface: &Surface, measured: &Measured, linearity: Option<&Linearity>) -> Vec<Note> {
-    let mut notes = linearity.map_or_else(Vec::new, |found| linear_theory(surface, largest(measured), found));
+pub(super) fn all(surface: &Surface, measured: &Measured, largest: f64, found: &Linearity) -> Vec<Note> {
+    let mut notes = linear_theory(surface, largest, found);
     if measured.targets.iter().any(|target| !target.span_complete) {
         notes.push(Note {
             topic: "span",
@@ -52,7 +47,7 @@ fn linear_theory(surface: &Surface, largest: f64, found: &Linearity) -> Vec<Note
     let um = |metres: f64| metres * 1e6;
     let mut notes = Vec::new();
     let mut note = |text| notes.push(Note { topic: "linear theory", text });
-    if found.displacement_over_thickness > 1.0 {
+    if surface.sheet.thickness > 0.0 && found.displacement_over_thickness > 1.0 {
         note(format!(
             "the largest displacement, {:.0} µm, is above the sheet's thickness of {:.0} µm: the sheet would stretch as \
              much as it bends, and linear theory does not hold",
@@ -77,4 +72,61 @@ fn linear_theory(surface: &Surface, largest: f64, found: &Linearity) -> Vec<Note
         ));
     }
     notes
+}
+
+/// That the level is that of the limit, because nothing is known of the sheet that would bound it.
+pub(super) fn unknown(surface: &Surface, drive: &Drive) -> Option<Note> {
+    let known = surface.sheet.thickness > 0.0;
+    (!known && drive.peak() > 0.0).then(|| Note {
+        topic: "level",
+        text: "neither thickness nor tension and strength say how far the sheet may move: the drive is at its limit, and                whether linear theory holds there is not known"
+            .into(),
+    })
+}
+
+/// What is void of a method below the limit of the drive.
+pub(super) fn idle(
+    act: &Act<'_>,
+    focuser: &Focuser<'_>,
+    focused: &Focused,
+    drive: &Drive,
+    aims: &[Aim],
+    scaled: bool,
+) -> Result<Option<Note>, ActError> {
+    let text = match focused.method {
+        Method::Limited if scaled => {
+            "no drive under the limit was found for this level: it is that at the limit, scaled down".into()
+        }
+        Method::Limited if !focused.shaped => format!(
+            "the limit does not bind at this level: the drive is that of concentrate with a strength of {}, and its push has no \
+             effect",
+            act.options.strength.unwrap_or(focused.method.strength())
+        ),
+        Method::OneBit => one_bit(act, focuser, drive, aims)?,
+        _ => return Ok(None),
+    };
+    Ok(Some(Note { topic: "method", text }))
+}
+
+/// One-bit below the limit, beside time reversal at the same peak.
+fn one_bit(act: &Act<'_>, focuser: &Focuser<'_>, drive: &Drive, aims: &[Aim]) -> Result<String, ActError> {
+    let options = Options { method: Method::TimeReversal, ..act.options.clone() };
+    let reversed = focus(focuser.responses(), act.targets, &options)?.drive;
+    let peak = |drive: &Drive| -> Result<f64, ActError> {
+        let Some(aim) = aims.first() else { return Ok(0.0) };
+        let traces = Field::new(act.responses, drive, 1.0)?.traces(&aim.points, aim.instant)?;
+        let sum: f64 = traces.iter().filter_map(|trace| trace.velocity.last()).sum();
+        Ok((sum / traces.len().max(1) as f64).abs())
+    };
+    let share = peak(drive)? / peak(&reversed)?;
+    let said = "one-bit is for the highest peak at the limit, which does not bind at this level";
+    if share.is_nan() || share > 1.0 {
+        return Ok(format!(
+            "{said}: its drive is scaled down as a whole, but time reversal would pass the limit for the same peak"
+        ));
+    }
+    let energy = share * share * reversed.energy() / drive.energy();
+    Ok(format!(
+        "{said}: its drive is scaled down as a whole, and time reversal gives the same peak velocity for {energy:.2} times the energy"
+    ))
 }

@@ -107,7 +107,7 @@ impl Draft {
     pub fn focus(&self, at: Point, window: Option<f64>) -> Result<Acted, ActError> {
         let (targets, options) = (&[Target::at(at)], &self.options(window)?);
         let (surface, responses) = (&self.surface, self.responses()?);
-        Act { surface, responses, targets, options, level: Level::Limit }.run()
+        Act { surface, responses, targets, options, level: Level::default() }.run()
     }
 
     fn options(&self, window: Option<f64>) -> Result<Options, ActError> {

@@ -3,7 +3,7 @@ mod text;
 
 pub use played::{Followed, Stroked};
 
-use super::{Felt, Judged, Note};
+use super::{Felt, Judged, Note, Strength};
 use crate::core::{Actuator, ActuatorKind, CoilDrive, Drive, Surface};
 use crate::field::{DriveFigures, SilenceFigures, TakenOn, TargetFigures};
 use crate::focus::Focused;
@@ -56,6 +56,12 @@ pub struct Report {
     pub linearity: Option<Linearity>,
     /// What was sent.
     pub drive: DriveFigures,
+    /// How strong that is beside its limits, and what decided it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub level: Option<Strength>,
+    /// Thickness of the sheet, in metres.
+    #[serde(skip)]
+    pub thickness: f64,
     /// Shortest wavelength of the band, in metres.
     pub lambda_min_m: f64,
     /// Radius around every target that does not count as outside, in metres.
@@ -107,6 +113,8 @@ impl Report {
             fingers: Vec::new(),
             linearity: judged.linearity,
             drive: measured.drive.clone(),
+            level: None,
+            thickness: surface.sheet.thickness,
             lambda_min_m: measured.lambda_min_m,
             focal_radius_m: measured.focal_radius_m,
             taken_on: measured.taken_on,

@@ -28,6 +28,9 @@ impl Report {
             let _ = writeln!(text, "\n{}", finger_line(finger));
         }
         let _ = writeln!(text, "\n{}", self.drive_line());
+        if let Some(line) = self.level_line() {
+            let _ = writeln!(text, "{line}");
+        }
         if let Some(line) = self.felt_line() {
             let _ = writeln!(text, "{line}");
         }
@@ -67,6 +70,9 @@ impl Report {
             let _ = writeln!(text, "{line}\n");
         }
         let _ = writeln!(text, "## Drive\n\n{}\n", self.drive_line());
+        if let Some(line) = self.level_line() {
+            let _ = writeln!(text, "{line}\n");
+        }
         text += "| channel | actuator | at mm | unit |\n|---:|---|---|---|\n";
         for (i, a) in self.actuators.iter().enumerate() {
             let _ = writeln!(
@@ -121,17 +127,32 @@ impl Report {
         ))
     }
 
+    fn level_line(&self) -> Option<String> {
+        let unit = self.actuators.first().map_or("", |a| a.unit);
+        self.level.as_ref().map(|level| level.text(unit, self.thickness))
+    }
+
     fn drive_line(&self) -> String {
         let unit = self.actuators.first().map_or("", |a| a.unit);
         let d = &self.drive;
-        let level = |x: f64| if x < 0.01 { format!("{x:.3e}") } else { format!("{x:.4}") };
         format!(
-            "drive: peak {} {unit}, rms {} {unit}, energy {:.4e} {unit}²s, {:.2} % of it above the band",
-            level(d.peak),
-            level(d.rms),
+            "drive: peak {}{unit}, rms {}{unit}, energy {:.4e} {unit}²s, {:.2} % of it above the band",
+            prefixed(d.peak),
+            prefixed(d.rms),
             d.energy,
             100.0 * d.share_above_band
         )
+    }
+}
+
+/// A number with the prefix of the unit that follows it.
+fn prefixed(value: f64) -> String {
+    let found = [("", 0.1), ("m", 1e-4), ("µ", 1e-7)].into_iter().find(|(_, least)| value.abs() >= *least);
+    match found {
+        Some(("", _)) => format!("{value:.4} "),
+        Some(("m", _)) => format!("{:.3} m", value * 1e3),
+        Some((prefix, _)) => format!("{:.3} {prefix}", value * 1e6),
+        None => format!("{value:.3e} "),
     }
 }
 

@@ -1,0 +1,166 @@
+//! A drive brought to the level asked for.
+
+use super::level::Step;
+use super::strength::{DecidedBy, Strength};
+use super::{Act, ActError, Level, Note, note};
+use crate::core::Drive;
+use crate::field::Aim;
+use crate::focus::{FocusError, Focused, Focuser, Method};
+
+/// A level that is solved for counts as met when off by less than this share; what is left is scaled.
+const MET: f64 = 1e-6;
+
+/// Steps towards such a level: each leaves less than a fifth of what was missing.
+const STEPS: usize = 12;
+
+/// A drive at the level asked for, and where and when it is to be judged.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sent {
+    /// The drive before its last scaling, and its timing.
+    pub focused: Focused,
+    /// The drive, as float32 samples.
+    pub drive: Drive,
+    /// Every target with its focal instant.
+    pub aims: Vec<Aim>,
+    /// The period of a repeated drive, in seconds.
+    pub period: Option<f64>,
+    /// How far targets are traced, in seconds: twice the last focal instant, or the end of a repeated drive.
+    pub until: f64,
+    /// How strong it is, and what decided that.
+    pub strength: Strength,
+    /// What the level does to the method.
+    pub notes: Vec<Note>,
+}
+
+/// Where and when a drive is to be judged.
+#[derive(Clone, Debug)]
+pub(super) struct Aimed {
+    pub aims: Vec<Aim>,
+    /// Of a repeated drive, in samples.
+    pub period: Option<usize>,
+    /// In seconds.
+    pub until: f64,
+    rate: f64,
+}
+
+impl Aimed {
+    fn of(act: &Act<'_>, focused: &Focused) -> Self {
+        let rate = focused.drive.rate();
+        let seconds = |samples: usize| samples as f64 / rate;
+        let timed = act.targets.iter().zip(&focused.timing);
+        let aims = timed
+            .map(|(target, timing)| Aim { points: target.points.clone(), instant: seconds(timing.instant) })
+            .collect();
+        let last = focused.timing.iter().map(|timing| timing.instant).max().unwrap_or(0);
+        let until = match focused.period {
+            Some(_) => seconds(focused.drive.samples().saturating_sub(1)),
+            None => 2.0 * seconds(last),
+        };
+        Self { aims, period: focused.period, until, rate }
+    }
+
+    /// The period, in seconds.
+    pub fn seconds(&self) -> Option<f64> {
+        self.period.map(|samples| samples as f64 / self.rate)
+    }
+}
+
+/// A drive on its way to a level.
+struct Levelled {
+    focused: Focused,
+    drive: Drive,
+    by: DecidedBy,
+    /// What the drive at its limit would have to be multiplied by; `None` where nothing decides.
+    factor: Option<f64>,
+    /// Whether a drive that is shaped by limits could only be scaled.
+    scaled: bool,
+}
+
+impl Act<'_> {
+    /// Brings a drive that was made at its limit to the level asked for. A method whose drives take another shape at another
+    /// level is asked for that level.
+    ///
+    /// # Errors
+    /// [`ActError::Level`] for numbers without meaning, levels above what the drive limit gives, a target that does not
+    /// move; those of [`Focuser::focus_at`] and of the field.
+    pub fn send(&self, focuser: &Focuser<'_>, focused: Focused) -> Result<Sent, ActError> {
+        let aimed = Aimed::of(self, &focused);
+        let levelled = self.level(focuser, focused, &aimed)?;
+        let strength = Strength::of(&levelled.drive, self.options, levelled.by).allowing(
+            levelled.factor.filter(|_| levelled.by == DecidedBy::Limit && self.level == Level::Linear),
+        );
+        let mut notes = Vec::new();
+        if self.level == Level::Linear && levelled.factor.is_none() {
+            notes.extend(note::unknown(self.surface, &levelled.drive));
+        }
+        if levelled.factor.is_some_and(|factor| factor < 1.0) {
+            notes.extend(note::idle(
+                self,
+                focuser,
+                &levelled.focused,
+                &levelled.drive,
+                &aimed.aims,
+                levelled.scaled,
+            )?);
+        }
+        let period = aimed.seconds();
+        let Levelled { focused, drive, .. } = levelled;
+        Ok(Sent { focused, drive, aims: aimed.aims, period, until: aimed.until, strength, notes })
+    }
+
+    fn level(&self, focuser: &Focuser<'_>, focused: Focused, aimed: &Aimed) -> Result<Levelled, ActError> {
+        let full = focused.drive.clone().as_emitted();
+        let first = self.step(&full, aimed)?;
+        let at_limit = |focused, factor| Levelled {
+            focused,
+            drive: full.clone(),
+            by: DecidedBy::Limit,
+            factor,
+            scaled: false,
+        };
+        let Some(step) = first else { return Ok(at_limit(focused, None)) };
+        self.level.within(step)?;
+        if step.factor >= 1.0 && self.level == Level::Linear {
+            return Ok(at_limit(focused, Some(step.factor)));
+        }
+        let (by, factor) = (step.by, Some(step.factor));
+        if focused.method == Method::Limited
+            && let Some((focused, drive)) = self.solve(focuser, step, aimed)?
+        {
+            return Ok(Levelled { focused, drive, by, factor, scaled: false });
+        }
+        let drive = focused.drive.clone().scaled(step.factor).as_emitted();
+        let scaled = focused.method == Method::Limited;
+        Ok(Levelled { focused, drive, by, factor, scaled })
+    }
+
+    /// The drive whose own level is the one asked for; `None` if it is not found.
+    fn solve(
+        &self,
+        focuser: &Focuser<'_>,
+        mut step: Step,
+        aimed: &Aimed,
+    ) -> Result<Option<(Focused, Drive)>, ActError> {
+        let mut share = 1.0;
+        for _ in 0..STEPS {
+            share *= step.factor;
+            let focused = match focuser.focus_at(self.targets, share) {
+                Err(FocusError::Gap { .. }) => return Ok(None),
+                found => found?,
+            };
+            let emitted = focused.drive.clone().as_emitted();
+            let Some(next) = self.step(&emitted, aimed)? else { return Ok(None) };
+            step = next;
+            if (step.factor - 1.0).abs() < MET {
+                let room = Strength::of(&emitted, self.options, step.by).below_limit;
+                let drive = focused.drive.clone().scaled(step.factor.min(room.max(1.0))).as_emitted();
+                return Ok(Some((focused, drive)));
+            }
+        }
+        Ok(None)
+    }
+
+    fn step(&self, drive: &Drive, aimed: &Aimed) -> Result<Option<Step>, ActError> {
+        self.level.step(self.surface, self.responses, drive, aimed)
+    }
+}

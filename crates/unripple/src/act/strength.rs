@@ -1,0 +1,130 @@
+//! How strong a drive is beside its limits, and what decided that.
+
+use crate::core::Drive;
+use crate::focus::Options;
+use serde::Serialize;
+
+/// What decided the level of a drive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DecidedBy {
+    /// Linear theory: nothing moves by more than half the sheet's thickness, as found on a coarse grid.
+    Thickness,
+    /// Linear theory: slopes add a twentieth to the tension.
+    Tension,
+    /// Linear theory: half of the strain that is left until the sheet yields.
+    Yield,
+    /// A limit of the drive.
+    Limit,
+    /// The displacement asked for.
+    PeakUm,
+    /// The level asked for as felt.
+    FeltDb,
+    /// The levels asked for of waveforms or of a stroke.
+    Asked,
+}
+
+/// How strong a drive is, and how far below its limits.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Strength {
+    /// What decided the level.
+    pub decided_by: DecidedBy,
+    /// How far the drive is below the limit that it is nearest to, in dB and as a factor.
+    pub below_limit_db: f64,
+    /// That factor: how many times as strong the drive could be.
+    pub below_limit: f64,
+    /// Each limit.
+    pub limits: Vec<Headroom>,
+    /// Where the limit decided: how many times as strong linear theory would allow it to be.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub linear_theory_allows: Option<f64>,
+}
+
+/// A limit of the drive, and what is used of it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Headroom {
+    /// `peak` and `rms` of an actuator, `total rms` of all together.
+    pub limit: &'static str,
+    /// The limit, in the drive's unit.
+    pub allowed: f64,
+    /// What the drive takes, of the actuator that takes most.
+    pub used: f64,
+    /// How far below it is, in dB.
+    pub below_db: f64,
+    /// The same as a factor.
+    pub below: f64,
+}
+
+impl Headroom {
+    fn of(limit: &'static str, allowed: f64, used: f64) -> Self {
+        let below = if used > 0.0 { allowed / used } else { f64::INFINITY };
+        Self { limit, allowed, used, below_db: 20.0 * below.log10(), below }
+    }
+}
+
+impl Strength {
+    /// Of a drive beside the limits of its options: of each sample, and of the rms over the whole of it.
+    pub fn of(drive: &Drive, options: &Options, decided_by: DecidedBy) -> Self {
+        let square = |c: &Vec<f64>| c.iter().map(|d| d * d).sum::<f64>() / c.len().max(1) as f64;
+        let squares: Vec<f64> = drive.channels().iter().map(square).collect();
+        let most = squares.iter().copied().fold(0.0, f64::max).sqrt();
+        let together = squares.iter().sum::<f64>().sqrt();
+        let mut limits = vec![Headroom::of("peak", options.limit, drive.peak())];
+        limits.extend(options.rms_limit.map(|rms| Headroom::of("rms", rms, most)));
+        limits.extend(options.total_rms.map(|rms| Headroom::of("total rms", rms, together)));
+        let below_limit = limits.iter().map(|limit| limit.below).fold(f64::INFINITY, f64::min);
+        let below_limit_db = 20.0 * below_limit.log10();
+        Self { decided_by, below_limit_db, below_limit, limits, linear_theory_allows: None }
+    }
+
+    /// With what linear theory would allow.
+    pub(super) fn allowing(mut self, factor: Option<f64>) -> Self {
+        self.linear_theory_allows = factor;
+        self
+    }
+
+    /// In a sentence; `unit` is that of the drive.
+    pub fn text(&self, unit: &str, thickness: f64) -> String {
+        let linear = |what: String| format!("{what}, well within linear theory");
+        let what = match self.decided_by {
+            DecidedBy::Thickness => {
+                let half = round(0.5e6 * thickness);
+                linear(format!("nothing moves by more than about half the sheet's thickness ({half} µm)"))
+            }
+            DecidedBy::Tension => linear("slopes add at most a twentieth to the tension".into()),
+            DecidedBy::Yield => linear("strain goes at most half way from rest to yield".into()),
+            DecidedBy::Limit => "as strong as the limits allow".into(),
+            DecidedBy::PeakUm => "the displacement asked for".into(),
+            DecidedBy::FeltDb => "the level asked for as felt".into(),
+            DecidedBy::Asked => "as asked for".into(),
+        };
+        let limits: Vec<String> = self.limits.iter().map(|limit| limit.text(unit)).collect();
+        let more = match (self.decided_by, self.linear_theory_allows) {
+            (DecidedBy::Thickness | DecidedBy::Tension | DecidedBy::Yield, _) => {
+                " (--full-limit goes there)".into()
+            }
+            (_, Some(factor)) => format!(" (linear theory would bear {} times as much)", round(factor)),
+            _ => String::new(),
+        };
+        format!("level: {what}; {}{more}", limits.join(", "))
+    }
+}
+
+impl Headroom {
+    fn text(&self, unit: &str) -> String {
+        let Self { limit, allowed, below, below_db, .. } = *self;
+        match below_db < 0.05 {
+            true => format!("at the {limit} limit of {} {unit}", round(allowed)),
+            false => format!(
+                "{below_db:.1} dB ({} times) below the {limit} limit of {} {unit}",
+                round(below),
+                round(allowed)
+            ),
+        }
+    }
+}
+
+/// Three digits.
+fn round(value: f64) -> String {
+    format!("{value:.2e}").parse::<f64>().unwrap_or(value).to_string()
+}
