@@ -25,7 +25,20 @@ fn all_methods_stand_side_by_side() {
     let of = |i: usize, key: &str| number(&report, &format!("/methods/{i}/{key}"));
     assert_eq!(of(0, "energy_for_peak"), 1.0);
     assert!(of(3, "targets/0/contrast") > 1.5 * of(0, "targets/0/contrast"));
-    assert!(of(1, "targets/0/peak_velocity_m_s") > of(0, "targets/0/peak_velocity_m_s"));
+    // All move as far as linear theory allows; what each reaches at the limit stands beside it.
+    for (i, method) in names.iter().enumerate() {
+        assert_eq!(methods[i]["level"]["decided_by"], "thickness", "{method}");
+        let moved = of(i, "targets/0/peak_displacement_m").abs();
+        assert!(moved < 1.02 * 62.5e-6 && moved > 20e-6, "{method}: {moved}");
+    }
+    assert!(of(1, "peak_at_limit") > 2.0 && of(0, "peak_at_limit") == 1.0);
+    let text = report["methods"][4]["notes"][0]["text"].as_str().unwrap();
+    assert!(names[4] == "limited" && text.contains("the limit does not bind"), "{text}");
+    let full = json(&["compare", &file, "--at", "62,90", "--window-ms", "30", "--full-limit"]);
+    let at = |i: usize, key: &str| number(&full, &format!("/methods/{i}/{key}"));
+    let ratio = at(1, "targets/0/peak_velocity_m_s") / at(0, "targets/0/peak_velocity_m_s");
+    assert!((ratio / of(1, "peak_at_limit") - 1.0).abs() < 1e-9);
+    assert!(at(4, "targets/0/contrast") < of(4, "targets/0/contrast"), "shaped by the limit there");
     // The knob at 0 is time reversal itself, and contrast rises along it.
     for front in report["fronts"].as_array().unwrap().iter().filter(|f| f["knob"] == "strength") {
         let (contrast, energy) = (values(&front["contrast"]), values(&front["energy_for_peak"]));

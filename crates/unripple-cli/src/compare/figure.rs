@@ -15,8 +15,6 @@ type Felt = fn(&TargetFigures) -> Option<f64>;
 pub fn draw(rows: &[Row], fronts: &[Front], felt: &[Row]) -> Figure {
     // What is felt is not made for contrast.
     let rows: Vec<&Row> = rows.iter().filter(|row| row.method != Method::Felt.name()).collect();
-    let peak = |row: &&Row| row.targets.first().map_or(f64::NAN, |t| t.peak_velocity_m_s.abs());
-    let first = rows.first().map_or(f64::NAN, peak);
     let energy = plot(
         "Energy for the same peak, time reversal = 1",
         fronts,
@@ -27,7 +25,7 @@ pub fn draw(rows: &[Row], fronts: &[Front], felt: &[Row]) -> Figure {
         "Peak at the drive limit, time reversal = 1",
         fronts,
         |front| (front.peak.clone(), front.contrast.clone()),
-        rows.iter().map(|row| (peak(row) / first, contrast(row))).unzip(),
+        rows.iter().map(|row| (row.peak_at_limit, row.contrast_at_limit)).unzip(),
     );
     Figure {
         width_mm: 178.0,

@@ -4,7 +4,7 @@ use crate::error::CliError;
 use serde::Serialize;
 use unripple::core::Point;
 use unripple::field::Field;
-use unripple::focus::{Focuser, Method, Options};
+use unripple::focus::{Focused, Focuser, Method, Options};
 
 /// What turning a method's knob gives, point by point.
 #[derive(Debug, Serialize)]
@@ -35,7 +35,7 @@ const ECONOMIES: [[f64; 2]; 5] = [[0.01, 0.04], [0.06, 0.04], [0.2, 0.05], [0.5,
 const PUSHES: [f64; 6] = [0.1, 0.3, 0.5, 0.7, 0.85, 0.95];
 
 /// Contrast, energy per squared peak, peak.
-type Trade = [f64; 3];
+pub type Trade = [f64; 3];
 
 /// What is felt elsewhere against the drive that it takes: one row per weight of energy, the first that of time reversal.
 pub fn felt(ground: &Ground<'_>) -> Result<Vec<Row>, CliError> {
@@ -92,7 +92,12 @@ fn front(
 fn trade(ground: &Ground<'_>, options: &Options) -> Result<Trade, CliError> {
     let focuser = Focuser::new(ground.known, options).map_err(CliError::input)?;
     let focused = focuser.focus(ground.targets).map_err(CliError::input)?;
-    let drive = focused.drive.as_emitted();
+    traded(ground, &focused)
+}
+
+/// What a drive trades at the first target and its focal instant.
+pub fn traded(ground: &Ground<'_>, focused: &Focused) -> Result<Trade, CliError> {
+    let drive = focused.drive.clone().as_emitted();
     let instant = focused.timing.first().map_or(0.0, |timing| timing.instant as f64 / drive.rate());
     let field = Field::new(ground.plant, &drive, CELLS).map_err(CliError::input)?;
     let target = &ground.targets[0];

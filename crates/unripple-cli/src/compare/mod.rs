@@ -11,19 +11,23 @@ use crate::targets::{self, seconds};
 use crate::{figures, input, judge, output};
 use row::Row;
 use serde::Serialize;
-use unripple::core::Responses;
+use unripple::act::Level;
+use unripple::core::{Responses, Surface};
 use unripple::focus::{Method, Options, Target};
 use unripple::physics::design::recommended_window;
 use unripple_store::OutputDir;
 
 /// Everything that is compared with.
 pub struct Ground<'a> {
+    pub surface: &'a Surface,
     /// What drives are made from.
     pub known: &'a Responses,
     /// What they are judged on.
     pub plant: &'a Responses,
     pub targets: &'a [Target],
     pub options: &'a Options,
+    /// How strongly each method drives.
+    pub level: Level,
 }
 
 /// All methods, one row each, and what a method's knob trades.
@@ -57,7 +61,15 @@ pub fn run(options: &CompareOptions, as_json: bool) -> Result<(), CliError> {
         seconds(options.window_ms, "--window-ms")?.unwrap_or_else(|| recommended_window(&surface, modes));
     let (limit, rms_limit) = (surface.emission.limit, surface.emission.rms_limit);
     let settings = Options { window, limit, rms_limit, ..Options::default() };
-    let ground = Ground { known: &known, plant: &plant, targets: &targets, options: &settings };
+    let level = targets::level(&options.targets)?;
+    let ground = Ground {
+        surface: &surface,
+        known: &known,
+        plant: &plant,
+        targets: &targets,
+        options: &settings,
+        level,
+    };
     let mut rows = Method::ALL.iter().map(|m| row::judge(&ground, *m)).collect::<Result<Vec<_>, _>>()?;
     row::relate(&mut rows);
     let fronts = front::all(&ground)?;
@@ -76,7 +88,8 @@ pub fn run(options: &CompareOptions, as_json: bool) -> Result<(), CliError> {
         felt,
         files: Vec::new(),
     };
-    let text = row::table(&found.methods, window, judged_to);
+    let conditions = row::Conditions { window, judged_to, level };
+    let text = row::table(&found.methods, conditions);
     if let Some(out) = out {
         files.extend(figures::write(
             &out,
@@ -84,7 +97,7 @@ pub fn run(options: &CompareOptions, as_json: bool) -> Result<(), CliError> {
         )?);
         found.files = files;
         out.write("report.json", output::json(&found)?.as_bytes())?;
-        out.write("report.md", row::markdown(&found.surface, &found.methods, window, judged_to).as_bytes())?;
+        out.write("report.md", row::markdown(&found.surface, &found.methods, conditions).as_bytes())?;
         finish(out)?;
     }
     output::answer(as_json, &found, &text)

@@ -1,13 +1,15 @@
 use super::Ground;
+use super::front::traded;
 use crate::error::CliError;
-use crate::judge::CELLS;
+use crate::judge::{CELLS, Note};
 use serde::Serialize;
 use std::fmt::Write;
 use std::time::Instant;
-use unripple::field::{Aim, DriveFigures, Field, Measured, TargetFigures};
-use unripple::focus::{Focused, Focuser, Method, Options};
+use unripple::act::{Act, Level, Strength};
+use unripple::field::{DriveFigures, Field, Measured, TargetFigures};
+use unripple::focus::{Focuser, Method, Options};
 
-/// What one method does, as emitted at the drive limit.
+/// What one method does, as emitted at the level asked for.
 #[derive(Debug, Serialize)]
 pub struct Row {
     pub method: &'static str,
@@ -18,8 +20,14 @@ pub struct Row {
     pub energy_for_peak: f64,
     /// Rms of the drive that the felt level of the first target takes, over that of time reversal, in dB.
     pub drive_for_level_db: f64,
+    /// Peak velocity of the first target at the drive limit, over that of time reversal, and the contrast there.
+    pub peak_at_limit: f64,
+    pub contrast_at_limit: f64,
     pub targets: Vec<TargetFigures>,
     pub drive: DriveFigures,
+    /// How strong the drive is beside its limits.
+    pub level: Strength,
+    pub notes: Vec<Note>,
 }
 
 /// Makes and judges the drive of one method.
@@ -35,30 +43,34 @@ pub fn with(ground: &Ground<'_>, options: &Options) -> Result<Row, CliError> {
     let start = Instant::now();
     let focused = focuser.focus(ground.targets).map_err(CliError::input)?;
     let drive_s = start.elapsed().as_secs_f64();
-    let Measured { targets, drive, .. } = measured(ground, &focused)?;
-    let (energy_for_peak, drive_for_level_db) = (1.0, 0.0);
-    let method = options.method.name();
-    Ok(Row { method, plan_s, drive_s, energy_for_peak, drive_for_level_db, targets, drive })
+    let [contrast_at_limit, _, peak_at_limit] = traded(ground, &focused)?;
+    let Ground { surface, plant: responses, targets, level, .. } = *ground;
+    let act = Act { surface, responses, targets, options, level };
+    let sent = act.send(&focuser, focused)?;
+    let field = Field::new(responses, &sent.drive, CELLS).map_err(CliError::input)?;
+    let Measured { targets, drive, .. } = field.measure(&sent.aims, sent.period).map_err(CliError::input)?;
+    Ok(Row {
+        method: options.method.name(),
+        plan_s,
+        drive_s,
+        energy_for_peak: 1.0,
+        drive_for_level_db: 0.0,
+        peak_at_limit,
+        contrast_at_limit,
+        targets,
+        drive,
+        level: sent.strength,
+        notes: sent.notes,
+    })
 }
 
-fn measured(ground: &Ground<'_>, focused: &Focused) -> Result<Measured, CliError> {
-    let drive = focused.drive.clone().as_emitted();
-    let seconds = |samples: usize| samples as f64 / drive.rate();
-    let aims: Vec<Aim> = ground
-        .targets
-        .iter()
-        .zip(&focused.timing)
-        .map(|(target, timing)| Aim { points: target.points.clone(), instant: seconds(timing.instant) })
-        .collect();
-    let field = Field::new(ground.plant, &drive, CELLS).map_err(CliError::input)?;
-    field.measure(&aims, focused.period.map(seconds)).map_err(CliError::input)
-}
-
-/// Energies for the same peak, and drives for the same felt level, over those of the first row.
+/// Energies for the same peak, drives for the same felt level and peaks at the limit, over those of the first row.
 pub fn relate(rows: &mut [Row]) {
     let first = rows.first().map_or([f64::NAN; 2], prices);
+    let peak = rows.first().map_or(f64::NAN, |row| row.peak_at_limit);
     rows.iter_mut().for_each(|row| {
         let [energy, drive] = prices(row);
+        row.peak_at_limit /= peak;
         (row.energy_for_peak, row.drive_for_level_db) = (energy / first[0], drive - first[1]);
     });
 }
@@ -71,7 +83,7 @@ fn prices(row: &Row) -> [f64; 2] {
     [row.drive.energy / (peak * peak), 20.0 * row.drive.rms.log10() - level]
 }
 
-const HEADINGS: [&str; 14] = [
+const HEADINGS: [&str; 15] = [
     "method",
     "contrast",
     "background",
@@ -79,6 +91,7 @@ const HEADINGS: [&str; 14] = [
     "spot mm",
     "peak m/s",
     "energy for peak",
+    "peak at limit",
     "felt dB",
     "felt contrast",
     "felt background",
@@ -99,8 +112,9 @@ fn cells(row: &Row) -> Vec<String> {
         number(of(|t| t.background_contrast), 1),
         number(of(|t| t.worst_spot), 2),
         number(of(|t| t.spot_diameter_m.map(|d| d * 1e3)), 2),
-        number(of(|t| Some(t.peak_velocity_m_s)), 1),
+        target.map_or("-".into(), |t| three(t.peak_velocity_m_s)),
         format!("{:.2}", row.energy_for_peak),
+        format!("{:.2}", row.peak_at_limit),
         number(of(|t| t.felt_level_db), 1),
         number(of(|t| t.felt_contrast_db), 1),
         number(of(|t| t.felt_background_db), 1),
@@ -111,9 +125,15 @@ fn cells(row: &Row) -> Vec<String> {
     ]
 }
 
+/// Three digits, as many as a level is worth.
+fn three(value: f64) -> String {
+    let digits = (2.0 - value.abs().max(1e-9).log10().floor()).clamp(0.0, 6.0) as usize;
+    format!("{value:.digits$}")
+}
+
 /// For a terminal.
-pub fn table(rows: &[Row], window: f64, judged_to: f64) -> String {
-    let mut text = format!("{}\n\n", conditions(window, judged_to));
+pub fn table(rows: &[Row], conditions: Conditions) -> String {
+    let mut text = format!("{conditions}\n\n");
     let all: Vec<Vec<String>> =
         std::iter::once(HEADINGS.map(String::from).to_vec()).chain(rows.iter().map(cells)).collect();
     for row in &all {
@@ -126,25 +146,54 @@ pub fn table(rows: &[Row], window: f64, judged_to: f64) -> String {
         }
         text.push('\n');
     }
+    for (row, note) in notes(rows) {
+        let _ = write!(text, "\nnote ({}): {}", row.method, note.text);
+    }
     text
 }
 
+fn notes(rows: &[Row]) -> impl Iterator<Item = (&Row, &Note)> {
+    rows.iter().flat_map(|row| row.notes.iter().map(move |note| (row, note)))
+}
+
 /// For a page.
-pub fn markdown(surface: &str, rows: &[Row], window: f64, judged_to: f64) -> String {
-    let mut text = format!("# {surface}: methods compared\n\n{}\n\n", conditions(window, judged_to));
+pub fn markdown(surface: &str, rows: &[Row], conditions: Conditions) -> String {
+    let mut text = format!("# {surface}: methods compared\n\n{conditions}\n\n");
     let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
     text.push_str(&line(&HEADINGS.map(String::from)));
     text.push_str(&line(&HEADINGS.map(|_| "---".into())));
     rows.iter().for_each(|row| text.push_str(&line(&cells(row))));
+    for (row, note) in notes(rows) {
+        let _ = write!(text, "\n- **{}**: {}", row.method, note.text);
+    }
+    text.push('\n');
     text.push_str("\n![Contrast against energy, and against the peak at the drive limit](compare.png)\n");
     text
 }
 
-fn conditions(window: f64, judged_to: f64) -> String {
-    format!(
-        "Window {:.1} ms, first target, at the drive limit, judged on modes to {judged_to:.0} Hz. Energy for the same peak is relative \
-         to time reversal's; felt: dB above threshold, and below the target's level; drive for the same felt level in \
-         dB over time reversal's.",
-        window * 1e3
-    )
+/// What all rows have in common.
+#[derive(Clone, Copy, Debug)]
+pub struct Conditions {
+    pub window: f64,
+    pub judged_to: f64,
+    pub level: Level,
+}
+
+impl std::fmt::Display for Conditions {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let level = match self.level {
+            Level::Linear => "each as strong as linear theory and the drive limit allow".to_owned(),
+            Level::Limit => "at the drive limit".to_owned(),
+            Level::Peak(metres) => format!("each moving it by {} µm", three(metres * 1e6)),
+            Level::Felt(db) => format!("each felt there {db:.1} dB above threshold"),
+        };
+        write!(
+            f,
+            "Window {:.1} ms, first target, {level}, judged on modes to {:.0} Hz. Energy for the same peak and peak at the drive limit \
+             are relative to time reversal's; felt: dB above threshold, and below the target's level; drive for the same felt level \
+             in dB over time reversal's.",
+            self.window * 1e3,
+            self.judged_to
+        )
+    }
 }
