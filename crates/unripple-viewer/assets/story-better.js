@@ -38,7 +38,7 @@ export const better = {
       scene: { compare: PAIR, settings: PULSES },
       show: { at: 'focus' },
       text: (f) => [
-        'Left or above time reversal, right or below the inverse: for the same place, within the same limit of the drive, at the instant of the focus.',
+        'Left or above time reversal, right or below the inverse: for the same place, each as strong as linear theory allows, at the instant of the focus.',
         `The inverse asks for a field that is a point and nothing else. Of all drives that come near it takes the one of least energy. Its contrast is ${f.n(f.paneTarget(1).contrast)}: ${f.times(f.paneTarget(0).contrast, f.paneTarget(1).contrast)} that of time reversal.`,
       ],
       figures: contrasts,
@@ -58,7 +58,7 @@ export const better = {
       scene: { compare: PAIR, settings: PULSES },
       show: { at: 'focus' },
       text: (f) => [
-        `Within the same limit the inverse’s peak is ${f.v(f.paneTarget(1).peak_velocity_m_s)} where time reversal has ${f.v(f.paneTarget(0).peak_velocity_m_s)}.`,
+        `Both move the sheet by no more than half its thickness: the inverse’s peak is ${f.v(f.paneTarget(1).peak_velocity_m_s)} where time reversal has ${f.v(f.paneTarget(0).peak_velocity_m_s)}.`,
         `For the same peak it takes ${f.n(cost(f), 2)} times the energy.`,
       ],
       figures: (f) => [

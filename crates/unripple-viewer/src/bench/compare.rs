@@ -25,7 +25,7 @@ impl Bench {
         let (mut focus, mut used) = (0.0, Vec::<Point>::new());
         for method in methods {
             let options = options(surface, &responses, method, window);
-            let level = Level::Limit;
+            let level = Level::default();
             let act = Act { surface, responses: &responses, targets: &targets, options: &options, level };
             let acted = act.run().map_err(text)?;
             let instant = acted.focused.timing.first().map_or(0, |timing| timing.instant);

@@ -25,7 +25,7 @@ impl Bench {
         let window = given(measure.window_ms).map(|ms| ms * 1e-3);
         let options = options(surface, &responses, method, window);
         let targets: Vec<Target> = places.into_iter().map(Target::at).collect();
-        let level = given(measure.peak_um).map_or(Level::Limit, |um| Level::Peak(um * 1e-6));
+        let level = given(measure.peak_um).map_or_else(Level::default, |um| Level::Peak(um * 1e-6));
         let act = Act { surface, responses: &responses, targets: &targets, options: &options, level };
         let acted = act.run().map_err(text)?;
         let report = acted.report(surface, &options);
