@@ -186,7 +186,7 @@ impl Conductor {
         }
         self.forget_over();
         if self.told.replace(now) != Some(now) {
-            self.tell_again(now)?;
+            self.tell_again(At::Now)?;
         }
         let mut cues = std::mem::take(&mut self.cues);
         for touch in &heard.touches {
@@ -214,7 +214,7 @@ impl Conductor {
     pub fn renew(&mut self, maker: Maker, now: u64) -> Result<(), LiveError> {
         self.drives.replace(maker);
         self.sounding.values_mut().for_each(|kept| kept.told = false);
-        self.tell_again(now)
+        self.tell_again(At::Sample(now))
     }
 
     /// The sample nearest to a time in s.

@@ -69,10 +69,10 @@ impl Conductor {
     }
 
     /// Tells the player again what it may not know.
-    pub(crate) fn tell_again(&mut self, now: u64) -> Result<(), LiveError> {
+    pub(crate) fn tell_again(&mut self, at: At) -> Result<(), LiveError> {
         let untold = self.sounding.iter().filter(|(_, kept)| !kept.told).map(|(voice, _)| *voice);
         for voice in untold.collect::<Vec<u64>>() {
-            let told = self.change(voice, |sounding| sounding, At::Sample(now));
+            let told = self.change(voice, |sounding| sounding, at);
             if !self.tally.went(told)?
                 && let Some(kept) = self.sounding.get_mut(&voice)
             {
@@ -116,13 +116,14 @@ impl Conductor {
                 let (drive, gain) = self.comb(*place, *level, *period)?;
                 Command::Start { voice, drive, at, gain, period: Some(*period) }
             }
+            // All may be taken by now if this is not the first time.
+            Sounding::Wave { .. } if !self.inputs.any() => return Ok(false),
             Sounding::Wave { wave, looped, fade, .. } => {
                 let (samples, looped) = (wave.samples.clone(), *looped);
                 let rises = (fade * self.rate).round() as u32;
                 let Some(filters) = self.filters(&kept.sounding)?.map(|filters| (filters, rises)) else {
                     return Ok(true);
                 };
-                // All may be taken by now if this is not the first time.
                 let Some(input) = self.inputs.take() else { return Ok(false) };
                 kept.input = Some(input);
                 Command::Wave { voice, input, filters: Some(filters), samples, at, gain: 1.0, looped }

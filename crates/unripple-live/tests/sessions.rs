@@ -5,7 +5,10 @@ mod common;
 
 use common::*;
 use unripple_core::{Device, DeviceError, Layout, Phase, Point, Random, Status, Surface, Touch};
-use unripple_effects::{Curve, Effect, EffectSet, Hum, Kind, Level, Region, Texture, Tone, Train};
+use unripple_effects::{
+    Curve, Effect, EffectSet, Envelope, Event, Hum, Kind, Level, Region, Score, Sound, Start, Texture, Tone,
+    Train,
+};
 use unripple_live::{Engine, LiveOptions, Maker};
 use unripple_player::Clicks;
 use unripple_touch::{Counts, Heard, Source};
@@ -86,7 +89,15 @@ fn loud(random: &mut Random, hums: bool) -> EffectSet {
         scatter: 0.01,
         seed: 2,
     };
+    let comb = Train { rate: random.between(2.0, 400.0), jitter: 0.0, scatter: 0.0, ..train.clone() };
+    let swell = Envelope::new(vec![(0.0, 0.0), (0.05, 1.0), (0.1, 0.0)], vec![(0.0, 150.0)]).unwrap();
+    let event = |at, sound| Event { at, gain: 1.0, place: None, sound };
+    let swells = hums.then(|| event(0.05, Sound::Wave(swell)));
+    let events = [event(0.0, Sound::Pulse), event(0.03, Sound::Pulse)].into_iter().chain(swells).collect();
+    let score = Score { start: Start::Touch, period: Some(0.25), events };
     let mut set = clicks();
+    set.effects.push(effect("comb", random.uniform(), Kind::Train(comb)));
+    set.effects.push(effect("score", random.uniform(), Kind::Score(score)));
     set.effects.push(effect("grains", random.uniform(), Kind::Texture(texture)));
     if hums {
         set.effects.push(effect("hum", random.uniform(), Kind::Hum(hum)));

@@ -57,8 +57,11 @@ fn a_comb_ends_however_much_else_is_asked_for() {
         rig.touch(vec![at(1, phase, place(40.0 + 0.2 * f64::from(step)), rig.now())]);
         rig.play(8);
     }
+    // A jump after 80 ms without a word: 64 grains of each texture at one moment, and the lift behind them.
+    rig.play(60);
     let now = rig.now();
     rig.touch(vec![at(1, Phase::Move, place(60.0), now), at(1, Phase::Up, place(60.0), now)]);
+    assert!(rig.conductor.tally().lost > 0);
     rig.falls_silent(3.0);
 }
 
@@ -74,9 +77,13 @@ fn a_lift_is_obeyed_when_the_player_can_take_no_more_commands() {
         rig.touch_ahead(Vec::new(), 4800);
         rig.play(1);
     }
-    rig.touch_ahead(vec![touch(1, Phase::Up, 60.0, 90.0, rig.now())], 4800);
+    // Some more that it must refuse, and the lift behind them.
+    rig.touch_ahead(Vec::new(), 5200);
+    rig.touch_ahead(vec![touch(1, Phase::Up, 60.0, 90.0, rig.now())], 5200);
+    rig.play(1);
+    assert!(rig.conductor.desk().meters().count(Count::Refused) > 0);
     // What was given ahead is played, since a lift takes back only what still waits.
-    rig.play(75);
+    rig.play(82);
     rig.falls_silent(2.0);
 }
 

@@ -6,6 +6,10 @@
 //! - **When.** A command for [`At::Now`] that was sent before a block begins acts at that block's first sample; one for a sample acts exactly
 //!   there. The same commands for the same samples give the same bits, however early they were sent. Of commands for the same
 //!   sample the first sent acts first.
+//! - **Until when.** What is over by itself, a drive or a waveform played once, is sent and forgotten. What goes on, a comb, a loop or a looped
+//!   waveform, is sent for a [`Hold`] and sounds as long as that is kept: the player looks at all holds with each block, so that ending
+//!   needs no room and cannot fail. The hold also says when the player is done with it or has refused it. What was sent may be taken back
+//!   ([`Desk::withdraw`]). All ends with a fade, by [`Desk::end`] or when the desk is dropped.
 //! - **Drives** ([`Prepared`]) are played once, as a comb, or as a loop. Voices add. Each copy is scaled, as a whole, as it starts, so that
 //!   no limit of any actuator can be passed by it and all that was started before, whatever is stopped or faded later.
 //!   With no limit in the way, the samples of a single voice are emitted bit for bit.
