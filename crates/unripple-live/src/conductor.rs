@@ -1,7 +1,7 @@
 use crate::log::{Began, Log};
 use crate::pace::Pace;
 use crate::sounding::{Inputs, Kept, Sounding};
-use crate::{Drives, LiveError, Maker, Tally, Timing};
+use crate::{Drives, LiveError, Maker, Tally, Timeline, Timing};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Instant;
@@ -72,6 +72,8 @@ pub struct Conductor {
     /// What each voice plays, and what of it has begun, while somebody wants to know.
     log: Option<Log>,
     ended: bool,
+    /// When samples leave, while a device plays by a clock of its own.
+    timeline: Option<Arc<Timeline>>,
 }
 
 /// A cue that waits for its time, and when the touch came that it answers first, in samples.
@@ -111,12 +113,18 @@ impl Conductor {
             missed: 0,
             log: None,
             ended: false,
+            timeline: None,
         }
     }
 
     /// Lets drives be made with real-time priority, where the system grants it.
     pub fn hurry(&mut self, priority: Option<u8>) {
         self.drives.hurry(priority);
+    }
+
+    /// Counts latency by when samples leave, from now on.
+    pub(crate) fn count_by(&mut self, timeline: Arc<Timeline>) {
+        self.timeline = Some(timeline);
     }
 
     /// Whether nothing sounds and nothing waits: nothing is to be done then before somebody touches.
@@ -335,6 +343,18 @@ impl Conductor {
         }
     }
 
+    /// The first sample that leaves of what begins at one: waveforms pass filters first.
+    fn leaves(&self, voice: Voice, sample: u64) -> u64 {
+        let waves = self.sounding.values().any(|kept| kept.name == voice.0 && kept.input.is_some());
+        sample + if waves { self.desk.wave_delay() as u64 } else { 0 }
+    }
+
+    /// Seconds from a touch, timed by a sample, to another sample.
+    fn late(&self, asked: u64, sample: u64) -> f64 {
+        let plain = || sample.saturating_sub(asked) as f64 / self.rate;
+        self.timeline.as_ref().map_or_else(plain, |timeline| timeline.between(asked, sample))
+    }
+
     /// Hears what the player says.
     fn listen(&mut self) {
         while let Some(report) = self.desk.report() {
@@ -345,9 +365,9 @@ impl Conductor {
             match report {
                 Report::Started { voice, sample, .. } => {
                     let Some(asked) = self.asked.remove(&voice.0) else { continue };
-                    let late = sample.saturating_sub(asked);
-                    self.tally.first_sample.add(late as f64 / self.rate);
-                    self.tally.focus.add((late + self.lead) as f64 / self.rate);
+                    let late = self.late(asked, self.leaves(voice, sample));
+                    self.tally.first_sample.add(late);
+                    self.tally.focus.add(late + self.lead as f64 / self.rate);
                 }
                 Report::Refused { voice, .. } => {
                     voice.map(|voice| self.asked.remove(&voice.0));

@@ -98,6 +98,7 @@ impl Engine {
             (mpsc::channel(), mpsc::channel(), mpsc::channel());
         let mail = Mail { news, failures, finds };
         stage.conductor.hurry(priorities.beside);
+        stage.conductor.count_by(timeline.clone());
         let (lent, overheard) = heart.lend(shared.bell.clone(), overheard);
         let result = std::thread::scope(|scope| {
             let shared = &shared;
@@ -177,9 +178,11 @@ fn listen(ears: &mut Ears, shared: &Shared, told: &mpsc::Sender<News>) {
     // Touches are worth more than all but the sound itself.
     let _ = priority::at(shared.priorities.touch);
     while shared.goes_on() {
-        let now = shared.timeline.now();
+        let at = Instant::now();
+        let now = shared.timeline.at(at);
         let news = ears.hear(now);
         if news.any() {
+            shared.timeline.note(now, at);
             if told.send(news).is_err() {
                 return;
             }

@@ -1,12 +1,20 @@
 //! Which sample leaves the device when: what touches are timed by, and what latency is counted on.
 
+use std::collections::VecDeque;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicI64, AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 /// Nothing has left yet.
 const NEVER: i64 = i64::MIN;
 
-/// Set by whoever plays in each cycle, read by whoever hears touches. Nobody locks it.
+/// Cycles that are remembered: more than pass until the player's word on them is heard.
+const CYCLES: usize = 512;
+
+/// Touches that are remembered until they are answered.
+const TOUCHES: usize = 4096;
+
+/// Set by whoever plays in each cycle, who never waits for anybody; read by whoever hears touches and whoever answers them.
 #[derive(Debug)]
 pub(crate) struct Timeline {
     base: Instant,
@@ -19,6 +27,11 @@ pub(crate) struct Timeline {
     period: AtomicUsize,
     /// The sample from which on somebody wants to be woken.
     wake: AtomicU64,
+    /// First samples of the last cycles and their origins, over and over, and how many there were.
+    cycles: Vec<(AtomicU64, AtomicI64)>,
+    passed: AtomicUsize,
+    /// When touches came: the sample that they were timed by, and the instant.
+    came: Mutex<VecDeque<(u64, Instant)>>,
 }
 
 impl Timeline {
@@ -31,6 +44,9 @@ impl Timeline {
             next: AtomicU64::new(0),
             period: AtomicUsize::new(0),
             wake: AtomicU64::new(u64::MAX),
+            cycles: (0..CYCLES).map(|_| (AtomicU64::new(u64::MAX), AtomicI64::new(NEVER))).collect(),
+            passed: AtomicUsize::new(0),
+            came: Mutex::default(),
         }
     }
 
@@ -42,7 +58,11 @@ impl Timeline {
     /// A cycle of so many samples, the first of which leaves at an instant; `next` is the first sample that is not computed yet.
     pub fn mark(&self, sample: u64, leaves: Instant, frames: usize, next: u64) {
         let since_zero = (sample as f64 * 1e9 / self.rate) as i64;
-        self.origin.store(self.ns(leaves) - since_zero, Ordering::Release);
+        let origin = self.ns(leaves) - since_zero;
+        let (first, of) = &self.cycles[self.passed.fetch_add(1, Ordering::Relaxed) % CYCLES];
+        of.store(origin, Ordering::Release);
+        first.store(sample, Ordering::Release);
+        self.origin.store(origin, Ordering::Release);
         self.period.store(frames, Ordering::Release);
         self.next.store(next, Ordering::Release);
     }
@@ -60,19 +80,34 @@ impl Timeline {
         }
     }
 
-    /// When a sample leaves, if the device goes on as it did.
+    /// When a sample left, or will if the device goes on as it did.
     pub fn leaves(&self, sample: u64) -> Instant {
-        let origin = self.origin.load(Ordering::Acquire);
-        if origin == NEVER {
-            return self.base;
-        }
+        let cycle = |(first, origin): &(AtomicU64, AtomicI64)| {
+            (first.load(Ordering::Acquire), origin.load(Ordering::Acquire))
+        };
+        let before = self.cycles.iter().map(cycle).filter(|(first, _)| *first <= sample);
+        let Some((_, origin)) = before.max_by_key(|(first, _)| *first) else { return self.base };
         let after = origin + (sample as f64 * 1e9 / self.rate) as i64;
         self.base + Duration::from_nanos(u64::try_from(after).unwrap_or(0))
     }
 
-    /// The sample that leaves now, in s.
-    pub fn now(&self) -> f64 {
-        self.at(Instant::now())
+    /// Touches came at an instant, and are timed as at `now`, in s of the player's clock.
+    pub fn note(&self, now: f64, at: Instant) {
+        if let Ok(mut came) = self.came.lock() {
+            came.push_back(((now * self.rate).round() as u64, at));
+            if came.len() > TOUCHES {
+                came.pop_front();
+            }
+        }
+    }
+
+    /// Seconds from when a touch came that was timed by a sample until another sample leaves: whatever the device left out between them
+    /// is in it.
+    pub fn between(&self, touch: u64, sample: u64) -> f64 {
+        let noted =
+            self.came.lock().ok().and_then(|came| came.iter().find(|(timed, _)| *timed == touch).copied());
+        let came = noted.map_or_else(|| self.leaves(touch), |(_, at)| at);
+        self.leaves(sample).saturating_duration_since(came).as_secs_f64()
     }
 
     /// Samples of the last cycle.
@@ -110,11 +145,35 @@ mod tests {
             assert!((found - 480.0 - samples).abs() < 1e-3, "{found}");
         }
         // A device that stands still does not let time run ahead of it.
-        assert_eq!(line.at(start + Duration::from_secs(2)) * 48e3, (736.0 + 256.0) / 48e3 * 48e3);
+        let found = line.at(start + Duration::from_secs(2)) * 48e3;
+        assert!((found - 992.0).abs() < 1e-6, "{found}");
         // And one that goes on later goes on from there.
         line.mark(736, start + Duration::from_secs(2), 256, 992);
         let found = line.at(start + Duration::from_secs(2)) * 48e3;
         assert!((found - 736.0).abs() < 1e-3, "{found}");
+    }
+
+    #[test]
+    fn latency_holds_what_the_device_left_out() {
+        let (line, start) = (Timeline::new(48e3), Instant::now());
+        let at = |samples: f64| start + Duration::from_secs_f64(samples / 48e3);
+        line.mark(0, start, 256, 256);
+        // A touch in the midst of a cycle, which a device in step answers in the next.
+        let touched = line.at(at(100.0));
+        line.note(touched, at(100.0));
+        line.mark(256, at(256.0), 256, 512);
+        assert!((line.between(100, 256) * 48e3 - 156.0).abs() < 0.01);
+        // One that is answered after a gap, and told of some cycles later.
+        let touched = (line.at(at(300.0)) * 48e3).round() as u64;
+        line.note(touched as f64 / 48e3, at(300.0));
+        line.mark(512, at(5512.0), 256, 768);
+        line.mark(768, at(9768.0), 256, 1024);
+        assert!((line.between(touched, 512) * 48e3 - 5212.0).abs() < 0.01);
+        // One that the device's own clock knows no sample for.
+        let touched = (line.at(at(20_000.0)) * 48e3).round() as u64;
+        line.note(touched as f64 / 48e3, at(20_000.0));
+        line.mark(1024, at(30_000.0), 256, 1280);
+        assert!((line.between(touched, 1024) * 48e3 - 10_000.0).abs() < 0.01);
     }
 
     #[test]
