@@ -92,6 +92,11 @@ impl Connection {
         }
     }
 
+    /// Whether it has not yet shown that it is a client.
+    pub(super) fn is_shaking(&self) -> bool {
+        matches!(self.state, Some(State::Shaking(_)))
+    }
+
     /// Reads what came and answers it.
     pub(super) fn poll(
         &mut self,

@@ -18,7 +18,7 @@ const ACCEPTED: usize = 8;
 pub struct WebSocketOptions {
     /// Pages that may connect beside those of this machine, as browsers name them: `https://lab.example:8443`.
     pub origins: Vec<String>,
-    /// Connections at once; more are closed at once.
+    /// Connections at once; one more takes the place of one that has not said yet what it wants, or is closed at once.
     pub most: usize,
     /// A client that says nothing for as long, not even to a ping, is dropped, in s.
     pub silence: f64,
@@ -106,7 +106,9 @@ impl WebSocketPort {
     fn welcome(&mut self, stream: TcpStream) {
         if self.connections.len() >= self.most {
             self.fingers.counts.crowded += 1;
-            return;
+            // Whoever says nothing keeps nobody out: the oldest that has not said yet what it wants makes room.
+            let Some(quiet) = self.connections.iter().position(Connection::is_shaking) else { return };
+            self.connections.remove(quiet);
         }
         // Answers are short and wanted at once.
         if stream.set_nonblocking(true).and_then(|()| stream.set_nodelay(true)).is_err() {

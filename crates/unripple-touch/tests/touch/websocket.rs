@@ -313,6 +313,21 @@ fn slow_handshakes_and_crowds_are_dropped() {
 }
 
 #[test]
+fn a_crowd_that_says_nothing_keeps_no_client_out() {
+    let mut web = Web::with(options(), WebSocketOptions { most: 3, ..Default::default() });
+    let mut good = web.client();
+    let crowd: Vec<Client> = (0..20).map(|_| Client::new(&web.port)).collect();
+    web.until(|web| web.counts().crowded == 18);
+    let mut another = web.client();
+    assert_eq!((web.counts().silent, web.port.tracked()), (0, 3));
+    good.say(&touch(1, "down", 62.0, 90.0));
+    assert_eq!(told(&web.touches(1)), [(1, Down, 62.0, 90.0)]);
+    another.say(&touch(1, "down", 20.0, 20.0));
+    assert_eq!(told(&web.touches(1)), [(2, Down, 20.0, 20.0)]);
+    drop(crowd);
+}
+
+#[test]
 fn hostile_bytes_end_their_own_connection_alone() {
     let mut web = Web::new();
     let mut good = web.client();
