@@ -14,6 +14,7 @@ use crate::{View, ViewError};
 use std::sync::atomic::AtomicUsize;
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex};
+use std::thread::JoinHandle;
 use unripple::core::Point;
 
 /// The last act that was measured: as files.
@@ -39,6 +40,8 @@ pub struct Studio {
     editions: Arc<Editions>,
     jobs: Jobs,
     measured: Arc<Mutex<Option<Measured>>>,
+    /// The thread that plays.
+    playing: Mutex<Option<JoinHandle<()>>>,
     quiet: bool,
 }
 
@@ -68,12 +71,12 @@ impl Studio {
         let known = (view.source.clone(), view.respond.clone());
         let worker = Bench::new(board.clone(), rig.clone(), measured.clone(), known, pending);
         let stage = Rig::new(board.clone(), instrument);
-        thread("surface", move || stage.run(orders))?;
+        let playing = Mutex::new(Some(thread("surface", move || stage.run(orders))?));
         thread("workshop", move || workshop.run(work))?;
         thread("bench", move || worker.run(tasks))?;
         let jobs = Jobs::new(board.clone(), view.program.clone(), view.folder.clone());
         let quiet = view.quiet;
-        Ok(Arc::new(Self { board, rig, shop, bench, editions, jobs, measured, quiet }))
+        Ok(Arc::new(Self { board, rig, shop, bench, editions, jobs, measured, playing, quiet }))
     }
 
     /// Has something put up for a page that came.
@@ -154,10 +157,15 @@ impl Studio {
         }
     }
 
-    /// Ends the play.
-    pub fn close(&self) {
+    /// Ends jobs and the play; returns when the device is let go.
+    ///
+    /// # Errors
+    /// [`ViewError::Gone`] if the play ended before.
+    pub fn close(&self) -> Result<(), ViewError> {
         self.order(Order::Stop);
         self.jobs.close();
+        let ended = lock(&self.playing).take().map_or(Ok(()), JoinHandle::join);
+        ended.map_err(|_| ViewError::Gone { why: "the surface's own failed".into() })
     }
 
     // Whoever has gone has told why, and the program is at its end.
@@ -178,7 +186,7 @@ impl Studio {
     }
 }
 
-fn thread(name: &str, work: impl FnOnce() + Send + 'static) -> Result<(), ViewError> {
+fn thread(name: &str, work: impl FnOnce() + Send + 'static) -> Result<JoinHandle<()>, ViewError> {
     let spawned = std::thread::Builder::new().name(name.into()).spawn(work);
-    spawned.map(drop).map_err(|error| ViewError::Gone { why: error.to_string() })
+    spawned.map_err(|error| ViewError::Gone { why: error.to_string() })
 }

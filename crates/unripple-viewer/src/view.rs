@@ -104,10 +104,10 @@ impl Viewer {
         self.desk.guard.elsewhere()
     }
 
-    /// Serves pages until `stop` is done.
+    /// Serves pages until `stop` is done. Then connections are cut, jobs ended, and the device let go.
     ///
     /// # Errors
-    /// None that is known.
+    /// [`ViewError::Gone`] if the surface ended before.
     pub fn serve(self, stop: impl Future<Output = ()> + Send + 'static) -> Result<(), ViewError> {
         let Self { listener, desk, runtime } = self;
         let studio = desk.studio.clone();
@@ -118,8 +118,7 @@ impl Viewer {
                 () = stop => {}
             }
         });
-        studio.close();
         runtime.shutdown_background();
-        Ok(())
+        studio.close()
     }
 }

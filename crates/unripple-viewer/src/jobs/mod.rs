@@ -20,7 +20,7 @@ const MOST: usize = 2;
 
 /// How long jobs are waited for at the end, and how often they are looked at then.
 const ENDING: Duration = Duration::from_secs(3);
-const LOOKED: Duration = Duration::from_millis(50);
+const LOOKED: Duration = Duration::from_millis(20);
 
 /// Distance of points of a calibration that says none, in mm.
 const GRID_MM: f64 = 15.0;
@@ -79,8 +79,8 @@ impl Jobs {
             other => return Err(format!("job: expected calibrate, doctor or devices, found {other}")),
         }
         arguments.push("--json".into());
-        put(&surface, &toml)?;
-        let started = Running::start(id, &self.program, arguments, library, surface, self.board.clone())?;
+        let file = Sheet::put(surface, &toml)?;
+        let started = Running::start(id, &self.program, arguments, library, file, self.board.clone())?;
         running.push(started);
         Ok(())
     }
@@ -96,12 +96,33 @@ impl Jobs {
     }
 }
 
-/// The surface as a file, for a program beside this one.
-fn put(path: &Path, toml: &str) -> Result<(), String> {
-    let failed = |error: std::io::Error| format!("writing {} for a job: {error}", path.display());
-    // A file that is there already is somebody else's.
-    let mut file = File::options().write(true).create_new(true).open(path).map_err(failed)?;
-    file.write_all(toml.as_bytes()).map_err(failed)
+/// The surface as a file, for a program beside this one; gone when it is dropped.
+pub struct Sheet {
+    path: PathBuf,
+}
+
+impl Sheet {
+    fn put(path: PathBuf, toml: &str) -> Result<Self, String> {
+        let failed = |path: &Path, error| format!("writing {} for a job: {error}", path.display());
+        // A file that is there already is somebody else's.
+        let opened = File::options().write(true).create_new(true).open(&path);
+        let mut file = opened.map_err(|error| failed(&path, error))?;
+        let sheet = Self { path };
+        file.write_all(toml.as_bytes()).map_err(|error| failed(&sheet.path, error))?;
+        Ok(sheet)
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+impl Drop for Sheet {
+    fn drop(&mut self) {
+        // A file that is gone already need not be removed.
+        let _ = std::fs::remove_file(&self.path);
+    }
 }
 
 /// A name that is one folder and nowhere else.

@@ -21,9 +21,14 @@ pub struct Served {
 
 impl Served {
     pub fn new(token: Option<&str>) -> Self {
+        Self::with(token, |_| ())
+    }
+
+    /// The same, with something otherwise.
+    pub fn with(token: Option<&str>, change: impl FnOnce(&mut View)) -> Self {
         let mut surface = papers_surface();
         surface.emission.band[1] = 700.0;
-        let view = View {
+        let mut view = View {
             surface,
             stored: None,
             respond: None,
@@ -38,6 +43,7 @@ impl Served {
             folder: std::env::temp_dir(),
             quiet: true,
         };
+        change(&mut view);
         let (told, url) = channel();
         let (done, over) = channel();
         let thread = std::thread::spawn(move || {
@@ -96,12 +102,20 @@ impl Served {
     }
 }
 
-impl Drop for Served {
-    fn drop(&mut self) {
+impl Served {
+    /// Stops it, and waits until it has.
+    pub fn stop(&mut self) {
+        // It may have ended already.
         let _ = self.done.send(());
         if let Some(thread) = self.thread.take() {
             thread.join().unwrap().unwrap();
         }
+    }
+}
+
+impl Drop for Served {
+    fn drop(&mut self) {
+        self.stop();
     }
 }
 
