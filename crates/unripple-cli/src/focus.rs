@@ -32,6 +32,7 @@ pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
     let aware = aware(options, &surface)?;
     let focuser = aware.focuser(&responses, &settings)?;
     let focused = focuser.focus(&targets).map_err(act::ActError::from)?;
+    let restored = aware.note(&responses, &targets, &settings, &focused)?;
 
     let judged_surface = plant.as_ref().unwrap_or(&surface);
     let other = plant.is_some() || options.judge_hz.is_some();
@@ -50,7 +51,7 @@ pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
     let mut report = Report::of_focus(&surface, &focused, settings.window, &drive, &judged);
     report.level = Some(sent.strength);
     report.fingers = act::felt(&contacts, judged_surface, [judging, free], &drive, judged.until)?;
-    report.notes.extend(aware.note(&responses, &targets, &settings, &focused)?);
+    report.notes.extend(restored);
     report.judged_on = other.then(|| judged_on(judged_surface, options.judge_hz));
     if let Some((told, notes)) = stored {
         report.notes.extend(notes.into_iter().chain(act::nearby(&focused, &targets)));

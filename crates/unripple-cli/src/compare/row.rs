@@ -114,7 +114,7 @@ fn cells(row: &Row) -> Vec<String> {
         number(of(|t| t.spot_diameter_m.map(|d| d * 1e3)), 2),
         target.map_or("-".into(), |t| three(t.peak_velocity_m_s)),
         format!("{:.2}", row.energy_for_peak),
-        format!("{:.2}", row.peak_at_limit),
+        three(row.peak_at_limit),
         number(of(|t| t.felt_level_db), 1),
         number(of(|t| t.felt_contrast_db), 1),
         number(of(|t| t.felt_background_db), 1),
