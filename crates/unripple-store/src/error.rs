@@ -56,6 +56,14 @@ pub enum StoreError {
         /// What is there.
         found: String,
     },
+    /// An output would take the place of what the same work reads.
+    #[error("will not write to {}: expected nothing there that is read, found {}; name another output", path.display(), read.display())]
+    Reads {
+        /// The output.
+        path: PathBuf,
+        /// What is read.
+        read: PathBuf,
+    },
 }
 
 fn did_you_mean(nearest: &Option<String>) -> String {
@@ -66,7 +74,11 @@ impl StoreError {
     /// Whether what was given is at fault, rather than the place it should be written to.
     pub fn is_bad_input(&self) -> bool {
         match self {
-            Self::Read { .. } | Self::UnknownSurface { .. } | Self::Surface(_) | Self::Content { .. } => true,
+            Self::Read { .. }
+            | Self::UnknownSurface { .. }
+            | Self::Surface(_)
+            | Self::Content { .. }
+            | Self::Reads { .. } => true,
             Self::Write { .. } | Self::Occupied { .. } => false,
         }
     }

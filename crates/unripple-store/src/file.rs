@@ -1,8 +1,11 @@
+//! Single files: text that is read, and files that are written whole or not at all.
+
 use crate::StoreError;
+use crate::building::Building;
+use crate::underway::{Underway, What};
 use std::fs::{self, File};
-use std::io::{Read, Write};
+use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Largest text file read, in bytes.
 pub const LARGEST_TEXT: usize = 1 << 20;
@@ -37,10 +40,11 @@ pub(crate) fn too_large(name: &str, bytes: u64) -> StoreError {
     StoreError::content(name, format!("at most {LARGEST_TEXT} bytes"), format!("{bytes}"))
 }
 
-/// Writes a file whole or not at all: beside its place first, then renamed into it.
+/// Writes a file whole or not at all: beside its place first, then renamed into it. Of a link, what it leads to is replaced.
 ///
 /// # Errors
-/// [`StoreError::Write`] if the folder cannot be written to; whatever was there before is still there.
+/// [`StoreError::Write`] if the folder cannot be written to, [`StoreError::Occupied`] if a device or the like is there;
+/// whatever was there before is still there.
 ///
 /// ```
 /// let path = std::env::temp_dir().join(format!("unripple-doc-{}.txt", std::process::id()));
@@ -54,33 +58,72 @@ pub fn write_file(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), StoreError
     write_beside(path, |file| file.write_all(bytes).map_err(StoreError::write(path)))
 }
 
+/// Name of a file in the hidden folder that it is written in.
+const CONTENT: &str = "content";
+
 /// Lets `fill` write a new file beside `path`, then renames it into place; nothing is left if either fails.
 pub(crate) fn write_beside(
     path: &Path,
     fill: impl FnOnce(&mut File) -> Result<(), StoreError>,
 ) -> Result<(), StoreError> {
-    let beside = sibling(path)?;
-    let mut file =
-        File::options().write(true).create_new(true).open(&beside).map_err(StoreError::write(path))?;
-    let written = fill(&mut file).and_then(|()| fs::rename(&beside, path).map_err(StoreError::write(path)));
-    if written.is_err() {
-        // The first error is the one to report.
-        let _ = fs::remove_file(&beside);
-    }
-    written
+    let place = replaceable(path)?;
+    let building = Building::beside(&place)?;
+    let mut file = building.file(CONTENT).map_err(StoreError::write(path))?;
+    fill(&mut file)?;
+    building.held(|_| fs::rename(building.path().join(CONTENT), &place)).map_err(StoreError::write(path))
 }
 
-/// A hidden name beside `path` that no other call of this process gives.
-pub(crate) fn sibling(path: &Path) -> Result<PathBuf, StoreError> {
-    static COUNT: AtomicU64 = AtomicU64::new(0);
-    let Some(name) = path.file_name() else {
-        return Err(StoreError::Occupied {
-            path: path.into(),
-            expected: "a path that ends in a name",
-            found: "none".into(),
-        });
+/// Where a file is to be written: at the end of links. What is neither a file nor a folder is refused.
+fn replaceable(path: &Path) -> Result<PathBuf, StoreError> {
+    let metadata = match fs::symlink_metadata(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(path.into()),
+        other => other.map_err(StoreError::write(path))?,
     };
-    let count = COUNT.fetch_add(1, Ordering::Relaxed);
-    let hidden = format!(".{}.unripple-{}-{count}", name.to_string_lossy(), std::process::id());
-    Ok(path.with_file_name(hidden))
+    let linked = metadata.is_symlink();
+    let place = if linked { fs::canonicalize(path).map_err(StoreError::write(path))? } else { path.into() };
+    let kind = fs::metadata(&place).map_err(StoreError::write(path))?;
+    if kind.is_file() || kind.is_dir() {
+        return Ok(place);
+    }
+    let (expected, found) = ("a file, or none yet", "a device or the like".into());
+    Err(StoreError::Occupied { path: path.into(), expected, found })
+}
+
+/// A new file for what cannot be made again, such as what people did: nothing that is there is overwritten but an empty file.
+/// It goes again unless it is kept.
+///
+/// # Errors
+/// [`StoreError::Occupied`] if there is such a file or a folder, [`StoreError::Write`] if it cannot be made.
+///
+/// ```
+/// let path = std::env::temp_dir().join(format!("unripple-doc-new-{}.txt", std::process::id()));
+/// let (file, underway) = unripple_store::new_file(&path)?;
+/// drop(underway);
+/// assert!(!path.exists());
+/// # drop(file);
+/// # Ok::<(), unripple_store::StoreError>(())
+/// ```
+pub fn new_file(path: impl AsRef<Path>) -> Result<(File, Underway), StoreError> {
+    let path = path.as_ref();
+    let mut options = File::options();
+    let made = match fs::metadata(path) {
+        // A pipe, say, which waits for its reader, or a file that was made to have a name.
+        Ok(there) if !there.is_dir() && there.len() == 0 => {
+            let file = options.write(true).open(path);
+            Underway::begin(|_| file)
+        }
+        Ok(there) => {
+            return Err(StoreError::Occupied {
+                path: path.into(),
+                expected: "no such file yet, since what it holds cannot be made again",
+                found: if there.is_dir() { "a folder" } else { "one that is not empty" }.into(),
+            });
+        }
+        Err(_) => Underway::begin(|entry| {
+            let file = options.write(true).create_new(true).open(path)?;
+            entry.what = What::File(path.into());
+            Ok(file)
+        }),
+    };
+    made.map(|(underway, file)| (file, underway)).map_err(StoreError::write(path))
 }

@@ -10,7 +10,8 @@
 //! - [`Library`] keeps responses, measured or modelled, as a Zarr v3 folder that survives being killed, and exports them as
 //!   WAV and SOFA.
 //! - [`load_effects`] reads built-in effects, a file of effects, or one for phones; [`effects_to_toml`] writes one.
-//! - [`OutputDir`] gathers what a run writes and puts it in place in one step.
+//! - [`OutputDir`] gathers what a run writes and puts it in place in one step, over nothing but an earlier run's own;
+//!   [`abandon_all`] takes away what is under construction, for whoever ends the program.
 //!
 //! ```
 //! let surface = unripple_store::load_surface("hudin-2012")?;
@@ -18,6 +19,7 @@
 //! # Ok::<(), unripple_store::StoreError>(())
 //! ```
 
+mod building;
 mod builtin;
 mod decimal;
 mod degrees;
@@ -28,12 +30,15 @@ mod fault;
 mod file;
 mod library;
 mod lines;
+mod listing;
 mod load;
 mod names;
 mod output;
 mod sofa;
 mod surface;
 mod svg;
+mod swap;
+mod underway;
 mod wav;
 
 pub use builtin::{BUILTINS, Builtin};
@@ -43,11 +48,13 @@ pub use effects::{
 };
 pub use error::StoreError;
 pub use fault::{Fault, FileFaults};
-pub use file::{LARGEST_TEXT, write_file};
+pub use file::{LARGEST_TEXT, new_file, write_file};
 pub use library::{Damage, Library, LibraryPlan, MAY_DIFFER, PointState, Quality, Take};
+pub use listing::MARKER;
 pub use load::load_surface;
-pub use output::{Committed, MARKER, OutputDir};
+pub use output::{Committed, OutputDir};
 pub use sofa::SofaAbout;
 pub use surface::{parse_surface, parse_surface_with, to_toml};
 pub use svg::{Curve, Drawing, FillRule, Polyline, SvgShape, read_curves};
+pub use underway::{Abandoned, Underway, abandon_all};
 pub use wav::{Wav, decode_wav, encode_wav, read_wav, write_wav};

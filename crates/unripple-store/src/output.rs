@@ -1,17 +1,19 @@
+//! Folders of results: whole or not at all, and never over what is not ours.
+
 use crate::StoreError;
-use crate::file::{sibling, write_file};
-use std::fs;
+use crate::building::{Building, sweep};
+use crate::file::write_file;
+use crate::listing::{self, MARKER, Said};
+use crate::swap::swap;
+use crate::underway::{Entry, What};
+use std::fs::{self, File};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// The hidden file that says that a folder is ours, so that a later run may replace it whole.
-pub const MARKER: &str = ".unripple";
-const MARKER_TEXT: &[u8] = b"Written by unripple. A later run may replace this folder whole.\n";
-
 /// A folder of results in the making: built beside its place, put there in one step, gone if it never is.
 ///
-/// An empty folder, or one that an earlier run wrote (it holds [`MARKER`]), is replaced whole. Anything else is refused
-/// before any work is done.
+/// A folder that an earlier run wrote is replaced whole if it holds only what that run wrote, as it wrote it: the hidden file
+/// [`MARKER`] lists that. Anything else is refused before any work is done, and again at the end.
 ///
 /// ```
 /// use unripple_store::OutputDir;
@@ -22,23 +24,25 @@ const MARKER_TEXT: &[u8] = b"Written by unripple. A later run may replace this f
 /// let committed = out.commit()?;
 /// assert!(place.join("report.md").exists() && !committed.replaced);
 /// assert!(OutputDir::create(&place)?.commit()?.replaced);
+///
+/// std::fs::write(place.join("notes.txt"), "not ours").unwrap();
+/// assert!(OutputDir::create(&place).unwrap_err().to_string().contains("`notes.txt`"));
 /// # std::fs::remove_dir_all(&place).unwrap();
 /// # Ok::<(), unripple_store::StoreError>(())
 /// ```
 #[derive(Debug)]
 pub struct OutputDir {
     place: PathBuf,
-    build: PathBuf,
-    parents: Vec<PathBuf>,
-    done: bool,
+    reads: Vec<PathBuf>,
+    building: Building,
 }
 
-/// What became of an output folder.
+/// What became of an output.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Committed {
     /// Where it is.
     pub path: PathBuf,
-    /// Whether an earlier run's folder was replaced.
+    /// Whether that of an earlier run was replaced.
     pub replaced: bool,
 }
 
@@ -48,26 +52,30 @@ impl OutputDir {
     /// # Errors
     /// [`StoreError::Occupied`] if something else is there; [`StoreError::Write`] if the folder above cannot be written to.
     pub fn create(path: impl AsRef<Path>) -> Result<Self, StoreError> {
+        Self::create_beside(path, &[])
+    }
+
+    /// As [`OutputDir::create`], for work that reads these files and folders, none of which may be replaced.
+    ///
+    /// # Errors
+    /// As [`OutputDir::create`], and [`StoreError::Reads`] if one of them is there.
+    pub fn create_beside(path: impl AsRef<Path>, reads: &[PathBuf]) -> Result<Self, StoreError> {
         let path = path.as_ref();
         let place = match fs::canonicalize(path) {
             Ok(real) => real,
             Err(error) if error.kind() == ErrorKind::NotFound => path.into(),
             Err(error) => return Err(StoreError::write(path)(error)),
         };
-        occupant(&place)?;
-        let build = sibling(&place)?;
-        let parents = missing_parents(&place);
-        let out = Self { place, build, parents, done: false };
-        fs::create_dir_all(out.build.parent().unwrap_or(Path::new("")))
-            .and_then(|()| fs::create_dir(&out.build))
-            .map_err(StoreError::write(path))?;
-        out.write(MARKER, MARKER_TEXT)?;
-        Ok(out)
+        let reads: Vec<PathBuf> = reads.iter().filter_map(|read| fs::canonicalize(read).ok()).collect();
+        occupant(&place, &reads)?;
+        sweep(&place);
+        let building = Building::beside(&place)?;
+        Ok(Self { place, reads, building })
     }
 
     /// Where to write now.
     pub fn path(&self) -> &Path {
-        &self.build
+        self.building.path()
     }
 
     /// Where it all will be.
@@ -80,43 +88,44 @@ impl OutputDir {
     /// # Errors
     /// [`StoreError::Write`] if it cannot be written.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), StoreError> {
-        write_file(self.build.join(name), bytes)
+        write_file(self.path().join(name), bytes)
     }
 
-    /// Puts the folder in its place, replacing an earlier run's.
+    /// Puts the folder in its place, replacing an earlier run's. At every moment one of the two is there, whoever is killed.
     ///
     /// # Errors
-    /// As [`OutputDir::create`], if the place was taken meanwhile; what was there stays.
-    pub fn commit(mut self) -> Result<Committed, StoreError> {
-        let failed = |reason| StoreError::Write { path: self.place.clone(), reason };
-        let before = occupant(&self.place)?;
-        if before == Occupant::Nothing {
-            fs::rename(&self.build, &self.place).map_err(failed)?;
+    /// As [`OutputDir::create_beside`], if the place was taken meanwhile; what was there stays.
+    pub fn commit(self) -> Result<Committed, StoreError> {
+        let before = occupant(&self.place, &self.reads)?;
+        let list = listing::of(self.path()).map_err(StoreError::write(&self.place))?;
+        write_file(self.path().join(MARKER), list.as_bytes())?;
+        let replaced = before == Occupant::EarlierRun;
+        if replaced {
+            // Held until that run is gone: nobody else is to take it for what a killed run left.
+            let earlier = File::open(&self.place).ok();
+            let _locked = earlier.as_ref().is_some_and(|folder| folder.try_lock().is_ok());
+            self.building.held(|entry| self.replace(entry))?;
+            listing::remove(self.path()).map_err(StoreError::write(self.path()))?;
         } else {
-            let aside = sibling(&self.place)?;
-            fs::rename(&self.place, &aside).map_err(failed)?;
-            if let Err(error) = fs::rename(&self.build, &self.place) {
-                // The earlier folder goes back; the error to report is the first one.
-                let _ = fs::rename(&aside, &self.place);
-                return Err(failed(error));
-            }
-            fs::remove_dir_all(&aside).map_err(StoreError::write(&aside))?;
+            self.building.put(&self.place).map_err(StoreError::write(&self.place))?;
         }
-        self.done = true;
-        Ok(Committed { path: self.place.clone(), replaced: before == Occupant::EarlierRun })
+        Ok(Committed { path: self.place, replaced })
     }
-}
 
-impl Drop for OutputDir {
-    fn drop(&mut self) {
-        if self.done {
-            return;
+    /// Changes places with the earlier run, and looks once more at what that holds, now that nobody reaches it by its name.
+    fn replace(&self, entry: &mut Entry) -> Result<(), StoreError> {
+        swap(self.path(), &self.place).map_err(StoreError::write(&self.place))?;
+        let Err(error) = earlier(self.path()) else {
+            entry.what = What::Listed(self.path().into());
+            return Ok(());
+        };
+        if swap(self.path(), &self.place).is_err() {
+            // What somebody put there is under the hidden name now, and stays.
+            entry.finish();
+            return Err(error);
         }
-        // Nobody is left to tell about a failure to tidy up.
-        let _ = fs::remove_dir_all(&self.build);
-        for parent in &self.parents {
-            let _ = fs::remove_dir(parent);
-        }
+        // Said of the place that people know.
+        earlier(&self.place).and(Err(error))
     }
 }
 
@@ -128,35 +137,55 @@ enum Occupant {
     EarlierRun,
 }
 
-fn occupant(place: &Path) -> Result<Occupant, StoreError> {
-    let refuse = |found: &str| StoreError::Occupied {
+fn refuse(place: &Path, found: impl Into<String>) -> StoreError {
+    StoreError::Occupied {
         path: place.into(),
-        expected: "no such folder yet, an empty one, or one that an earlier run wrote",
+        expected: "no such folder yet, an empty one, or one that holds only what an earlier run wrote",
         found: found.into(),
-    };
+    }
+}
+
+fn occupant(place: &Path, reads: &[PathBuf]) -> Result<Occupant, StoreError> {
     let metadata = match fs::symlink_metadata(place) {
         Ok(metadata) => metadata,
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Occupant::Nothing),
         Err(error) => return Err(StoreError::write(place)(error)),
     };
     if !metadata.is_dir() {
-        return Err(refuse("something that is not a folder"));
+        return Err(refuse(place, "something that is not a folder"));
     }
     if std::env::current_dir().is_ok_and(|here| here.starts_with(place)) {
-        return Err(refuse("the folder you are in"));
+        return Err(refuse(place, "the folder you are in"));
     }
-    if place.join(MARKER).is_file() {
-        return Ok(Occupant::EarlierRun);
+    if let Some(read) = reads.iter().find(|read| read.starts_with(place)) {
+        return Err(StoreError::Reads { path: place.into(), read: read.clone() });
     }
     let mut items = fs::read_dir(place).map_err(StoreError::write(place))?;
-    match items.next() {
-        None => Ok(Occupant::EmptyFolder),
-        Some(_) => Err(refuse("a folder with other things in it")),
+    if items.next().is_none() {
+        return Ok(Occupant::EmptyFolder);
     }
+    earlier(place).map(|()| Occupant::EarlierRun)
 }
 
-/// The folders above `place` that do not exist, deepest first.
-fn missing_parents(place: &Path) -> Vec<PathBuf> {
-    let above = place.ancestors().skip(1).filter(|p| !p.as_os_str().is_empty());
-    above.take_while(|p| !p.exists()).map(Path::to_owned).collect()
+/// Refuses a folder that is not an earlier run's, as that left it.
+fn earlier(folder: &Path) -> Result<(), StoreError> {
+    let failed = StoreError::write(folder);
+    let files = match listing::read(folder) {
+        Ok(Said::Files(files)) => files,
+        Ok(Said::Nothing) => return Err(refuse(folder, "a folder with other things in it")),
+        Ok(Said::Unfinished) => {
+            return Err(refuse(folder, "what a run that was ended had begun; move it away or delete it"));
+        }
+        Ok(Said::Unlisted) => {
+            let found = "one of an earlier version of this program, which did not list what it wrote; move it away or delete it";
+            return Err(refuse(folder, found));
+        }
+        Err(error) => return Err(failed(error)),
+    };
+    match listing::guests(folder, &files).map_err(StoreError::write(folder))? {
+        None => Ok(()),
+        Some(guests) => {
+            Err(refuse(folder, format!("{guests} there; move that away, or name another folder")))
+        }
+    }
 }

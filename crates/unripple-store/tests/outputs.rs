@@ -120,3 +120,121 @@ fn files_are_whole_or_not_at_all() {
     assert!(matches!(write_file("..", b"x"), Err(StoreError::Occupied { .. })));
     assert_eq!(scratch.names(), ["a.txt", "taken"]);
 }
+
+#[test]
+fn what_somebody_put_into_a_folder_of_ours_is_kept() {
+    let scratch = Scratch::new("guests");
+    let place = scratch.0.join("out");
+    let first = OutputDir::create(&place).unwrap();
+    first.write("report.md", b"# Report\n").unwrap();
+    first.commit().unwrap();
+    let refuse = |words: &str| {
+        let error = OutputDir::create(&place).unwrap_err();
+        assert!(matches!(error, StoreError::Occupied { .. }) && error.to_string().contains(words), "{error}");
+    };
+    fs::write(place.join("notes.txt"), "x").unwrap();
+    refuse("`notes.txt`");
+    fs::remove_file(place.join("notes.txt")).unwrap();
+    fs::create_dir(place.join("lib")).unwrap();
+    refuse("`lib`");
+    fs::remove_dir(place.join("lib")).unwrap();
+    std::os::unix::fs::symlink("/", place.join("root")).unwrap();
+    refuse("`root`");
+    fs::remove_file(place.join("root")).unwrap();
+    fs::write(place.join("report.md"), b"# Rapport").unwrap();
+    refuse("`report.md`");
+    fs::remove_file(place.join("report.md")).unwrap();
+    fs::create_dir(place.join("report.md")).unwrap();
+    refuse("`report.md`");
+    fs::remove_dir(place.join("report.md")).unwrap();
+    // What the user has deleted is not missed; the same bytes again are ours.
+    assert!(OutputDir::create(&place).unwrap().commit().unwrap().replaced);
+    assert_eq!(names(&place), [MARKER]);
+}
+
+#[test]
+fn what_comes_into_the_folder_meanwhile_is_kept() {
+    let scratch = Scratch::new("meanwhile");
+    let place = scratch.0.join("out");
+    OutputDir::create(&place).unwrap().commit().unwrap();
+    let out = OutputDir::create(&place).unwrap();
+    out.write("report.md", b"new").unwrap();
+    fs::write(place.join("notes.txt"), "x").unwrap();
+    assert!(matches!(out.commit(), Err(StoreError::Occupied { .. })));
+    assert_eq!(names(&place), [MARKER, "notes.txt"]);
+    assert_eq!(scratch.names(), ["out"]);
+}
+
+#[test]
+fn folders_of_others_with_a_temporary_name_stay() {
+    let scratch = Scratch::new("taken-names");
+    // As another container leaves them, whose processes have the same numbers.
+    let taken: Vec<String> =
+        (0..64).map(|count| format!(".out.unripple-{}-{count}", std::process::id())).collect();
+    for name in &taken {
+        fs::create_dir(scratch.0.join(name)).unwrap();
+        fs::write(scratch.0.join(name).join("theirs"), "x").unwrap();
+    }
+    if let Ok(out) = OutputDir::create(scratch.0.join("out")) {
+        out.commit().unwrap();
+    }
+    for name in &taken {
+        assert_eq!(names(&scratch.0.join(name)), ["theirs"]);
+    }
+}
+
+#[test]
+fn devices_and_links_are_not_replaced_by_files() {
+    let scratch = Scratch::new("links");
+    let (real, link) = (scratch.0.join("real.txt"), scratch.0.join("link.txt"));
+    fs::write(&real, "old").unwrap();
+    std::os::unix::fs::symlink("real.txt", &link).unwrap();
+    write_file(&link, b"new").unwrap();
+    assert_eq!(fs::read(&real).unwrap(), b"new");
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    let socket = scratch.0.join("socket");
+    let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+    assert!(write_file(&socket, b"x").is_err());
+    assert_eq!(scratch.names(), ["link.txt", "real.txt", "socket"]);
+}
+
+#[test]
+fn what_killed_runs_left_is_removed_and_nothing_else() {
+    let scratch = Scratch::new("stale");
+    let place = scratch.0.join("out");
+    OutputDir::create(&place).unwrap().commit().unwrap();
+    let hidden = |letters: &str| scratch.0.join(format!(".out.unripple-{letters}"));
+    let unfinished = b"unripple output, unfinished\n";
+    // A killed run's; an earlier run's that was just replaced; the same with somebody's notes; not ours, by name or by what it says.
+    let killed = hidden("00000000000000ab");
+    fs::create_dir(&killed).unwrap();
+    fs::write(killed.join(MARKER), unfinished).unwrap();
+    fs::write(killed.join("half.png"), "x").unwrap();
+    for (letters, more) in [("00000000000000ac", None), ("00000000000000ad", Some("notes.txt"))] {
+        fs::create_dir(hidden(letters)).unwrap();
+        fs::copy(place.join(MARKER), hidden(letters).join(MARKER)).unwrap();
+        more.into_iter().for_each(|name| fs::write(hidden(letters).join(name), "x").unwrap());
+    }
+    for name in ["short", "00000000000000ae"] {
+        fs::create_dir(hidden(name)).unwrap();
+    }
+    fs::write(hidden("short").join(MARKER), unfinished).unwrap();
+    fs::write(hidden("00000000000000ae").join("theirs"), "x").unwrap();
+    fs::create_dir(hidden("00000000000000af")).unwrap();
+    // One whose maker lives.
+    let living = OutputDir::create(&place).unwrap();
+    living.write("report.md", b"x").unwrap();
+    drop(OutputDir::create(&place).unwrap());
+    let alive = living.path().file_name().unwrap().to_str().unwrap().to_owned();
+    let mut expected = vec![
+        ".out.unripple-00000000000000ad",
+        ".out.unripple-00000000000000ae",
+        ".out.unripple-short",
+        &alive,
+        "out",
+    ];
+    expected.sort_unstable();
+    assert_eq!(scratch.names(), expected);
+    living.commit().unwrap();
+    assert_eq!(names(&place), [MARKER, "report.md"]);
+}

@@ -1,7 +1,9 @@
 use super::plan::LibraryPlan;
 use super::{disk, manifest};
 use crate::StoreError;
+use crate::underway::undisturbed;
 use serde_json::{Value, json};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Points whose states, or qualities, are in one chunk: few files to open, little to write again for each point.
@@ -173,7 +175,11 @@ impl Array {
     /// Makes its folder and writes its metadata.
     pub fn describe(&self, root: &Path) -> Result<(), StoreError> {
         let folder = self.folder(root);
-        std::fs::create_dir_all(&folder).map_err(StoreError::write(&folder))?;
+        let made = undisturbed(|| match std::fs::create_dir(&folder) {
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => Ok(()),
+            done => done,
+        });
+        made.map_err(StoreError::write(&folder))?;
         let text = serde_json::to_vec_pretty(&self.metadata()).unwrap_or_default();
         disk::write(&manifest::path(&folder), &[&text])
     }

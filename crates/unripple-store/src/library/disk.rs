@@ -1,4 +1,5 @@
 use crate::StoreError;
+use crate::underway::{Underway, What};
 use std::fs::{self, File};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
@@ -11,16 +12,30 @@ pub(crate) const PART: &str = ".part";
 /// The name itself is on the medium after [`sync_folder`].
 pub(crate) fn write(path: &Path, parts: &[&[u8]]) -> Result<(), StoreError> {
     let beside = beside(path);
-    let filled = File::create(&beside).and_then(|mut file| {
-        parts.iter().try_for_each(|bytes| file.write_all(bytes))?;
-        file.sync_all()
-    });
-    let written = filled.and_then(|()| fs::rename(&beside, path)).map_err(StoreError::write(path));
-    if written.is_err() {
-        // The first error is the one to report.
-        let _ = fs::remove_file(&beside);
+    let (underway, mut file) = Underway::begin(|entry| {
+        // One that is there is what a killed process left: only one writes at a time.
+        let file = File::create(&beside)?;
+        entry.what = What::File(beside.clone());
+        Ok(file)
+    })
+    .map_err(StoreError::write(path))?;
+    let filled = parts.iter().try_for_each(|bytes| file.write_all(bytes)).and_then(|()| file.sync_all());
+    filled.map_err(StoreError::write(path))?;
+    let put = underway.held(|entry| fs::rename(&beside, path).map(|()| entry.finish()));
+    put.map_err(StoreError::write(path))
+}
+
+/// Removes what killed processes were writing into a folder.
+pub(crate) fn sweep(folder: &Path) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let part = entry.file_name().to_str().is_some_and(|name| {
+            name.strip_suffix(PART).is_some_and(|name| name == "zarr.json" || name.starts_with("c"))
+        });
+        if part && entry.file_type().is_ok_and(|kind| kind.is_file()) {
+            // It does no harm where it is.
+            let _ = fs::remove_file(entry.path());
+        }
     }
-    written
 }
 
 fn beside(path: &Path) -> PathBuf {

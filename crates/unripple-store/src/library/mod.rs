@@ -13,7 +13,9 @@ mod state;
 mod wav;
 
 use crate::StoreError;
-use crate::file::sibling;
+use crate::building::{Building, sweep};
+use crate::listing::{self, MARKER, Said};
+use crate::underway::undisturbed;
 use array::Arrays;
 use std::fs::{self, File};
 use std::io::ErrorKind;
@@ -83,21 +85,24 @@ impl Library {
             return Self::resume(folder, plan);
         }
         vacant(folder)?;
-        let build = sibling(folder)?;
-        let made = make(&build, plan).and_then(|()| {
-            // Unlike on other systems, a folder cannot be renamed onto an empty one everywhere.
-            let _ = fs::remove_dir(folder);
-            fs::rename(&build, folder).map_err(StoreError::write(folder))
-        });
-        if let Err(error) = made {
-            // The first error is the one to report.
-            let _ = fs::remove_dir_all(&build);
-            return Err(error);
-        }
+        sweep(folder);
+        let building = Building::beside(folder)?;
+        make(&building, plan)?;
+        building.put(folder).map_err(StoreError::write(folder))?;
         disk::sync_folder(above(folder))?;
         let mut library = Self::open(folder)?;
         library.acquire()?;
         Ok(library)
+    }
+
+    /// Whether [`Library::create`] may find room at `folder`, for whoever has long work to do before: nothing, an empty folder, or
+    /// a library.
+    ///
+    /// # Errors
+    /// [`StoreError::Occupied`] if something else is there, [`StoreError::Write`] if it cannot be looked at.
+    pub fn may_be_at(folder: impl AsRef<Path>) -> Result<(), StoreError> {
+        let folder = folder.as_ref();
+        if manifest::path(folder).exists() { Ok(()) } else { vacant(folder) }
     }
 
     fn resume(folder: &Path, plan: &LibraryPlan) -> Result<Self, StoreError> {
@@ -204,6 +209,11 @@ impl Library {
             Err(fs::TryLockError::Error(error)) => return Err(StoreError::write(&path)(error)),
         }
         self.lock = Some(file);
+        if matches!(listing::read(&self.root), Ok(Said::Unfinished)) {
+            // It was finished where it was made.
+            undisturbed(|| fs::remove_file(self.root.join(MARKER))).map_err(StoreError::write(&self.root))?;
+        }
+        self.arrays.all().iter().for_each(|array| disk::sweep(&array.folder(&self.root)));
         self.refresh();
         Ok(())
     }
@@ -217,9 +227,7 @@ fn vacant(folder: &Path) -> Result<(), StoreError> {
         found: found.into(),
     };
     match fs::symlink_metadata(folder) {
-        Err(error) if error.kind() == ErrorKind::NotFound => {
-            fs::create_dir_all(above(folder)).map_err(StoreError::write(folder))
-        }
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
         Err(error) => Err(StoreError::write(folder)(error)),
         Ok(metadata) if !metadata.is_dir() => Err(occupied("something that is not a folder")),
         Ok(_) => match fs::read_dir(folder).map_err(StoreError::write(folder))?.next() {
@@ -235,8 +243,8 @@ fn above(path: &Path) -> &Path {
 }
 
 /// A library without any response.
-fn make(root: &Path, plan: &LibraryPlan) -> Result<(), StoreError> {
-    fs::create_dir(root).map_err(StoreError::write(root))?;
+fn make(building: &Building, plan: &LibraryPlan) -> Result<(), StoreError> {
+    let root = building.path();
     let file = manifest::path(root);
     let description = manifest::encode(plan, &file.display().to_string())?;
     let arrays = Arrays::of(plan);

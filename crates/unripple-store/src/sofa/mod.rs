@@ -8,6 +8,7 @@ mod netcdf;
 
 pub use about::SofaAbout;
 
+use crate::building::sweep;
 use crate::file::write_beside;
 use crate::{Committed, Library, StoreError};
 use message::{Kind, MOST_TEXT};
@@ -86,9 +87,7 @@ impl Library {
             axes: ["M", "R", "E", "N", "I", "C", "S"].into_iter().zip(sizes.map(|n| n as u64)).collect(),
             variables: variables(),
         };
-        if let Some(parent) = path.parent().filter(|parent| !parent.as_os_str().is_empty()) {
-            std::fs::create_dir_all(parent).map_err(StoreError::write(path))?;
-        }
+        sweep(path);
         write_beside(path, |out| self.fill(&file, &done, path, out))?;
         Ok(Committed { path: path.into(), replaced })
     }

@@ -1,0 +1,168 @@
+//! A folder under construction: beside its place, under a name of its own, locked while its maker lives.
+
+use crate::StoreError;
+use crate::listing::{self, MARKER, Said, UNFINISHED};
+use crate::underway::{Entry, Underway, What};
+use std::collections::hash_map::RandomState;
+use std::fs::{self, File, TryLockError};
+use std::hash::{BuildHasher, Hasher};
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+
+/// Characters of the place's name that are part of the hidden one, so that that is at most 255 bytes.
+const SHOWN: usize = 40;
+
+/// Letters of the random part of a hidden name.
+const LETTERS: usize = 16;
+
+/// Names that are tried: one is enough, unless somebody has 2^64 folders.
+const TRIES: usize = 16;
+
+/// A hidden folder that this process alone fills, gone when it is dropped unless it was put somewhere.
+#[derive(Debug)]
+pub(crate) struct Building {
+    path: PathBuf,
+    underway: Underway,
+    /// Locked for as long as the maker lives, whatever ends it. Some file systems have no locks.
+    _lock: Option<File>,
+}
+
+impl Building {
+    /// A new folder beside `place`; folders above are made where missing.
+    pub fn beside(place: &Path) -> Result<Self, StoreError> {
+        for _ in 0..TRIES {
+            if let Some(building) = Self::locked(place)? {
+                return Ok(building);
+            }
+        }
+        Err(StoreError::write(place)(ErrorKind::AlreadyExists.into()))
+    }
+
+    /// Locked before it says what it is, so that nobody takes what says so for a killed run's; none if somebody took it for one
+    /// before it was locked.
+    fn locked(place: &Path) -> Result<Option<Self>, StoreError> {
+        let (underway, path) = Underway::begin(|entry| {
+            above(place, &mut entry.parents).map_err(StoreError::write(place))?;
+            let path = made(place)?;
+            entry.what = What::Folder(path.clone());
+            Ok::<_, StoreError>(path)
+        })?;
+        let lock = File::open(&path).ok();
+        let tried = lock.as_ref().map(File::try_lock);
+        if matches!(tried, Some(Err(TryLockError::WouldBlock))) {
+            return Ok(None);
+        }
+        match underway.held(|_| fs::write(path.join(MARKER), UNFINISHED)) {
+            Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+            done => {
+                done.map(|()| Some(Self { path, underway, _lock: lock })).map_err(StoreError::write(place))
+            }
+        }
+    }
+
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Does something with the folder's name or with names in it.
+    pub fn held<T>(&self, act: impl FnOnce(&mut Entry) -> T) -> T {
+        self.underway.held(act)
+    }
+
+    /// A new file in it.
+    pub fn file(&self, name: &str) -> io::Result<File> {
+        self.held(|_| File::options().read(true).write(true).create_new(true).open(self.path.join(name)))
+    }
+
+    /// Puts the folder where nothing or an empty folder is.
+    pub fn put(self, place: &Path) -> io::Result<()> {
+        self.held(|entry| {
+            // Unlike on other systems, a folder cannot be renamed onto an empty one everywhere.
+            match fs::rename(&self.path, place) {
+                Err(error) if fs::remove_dir(place).is_err() => return Err(error),
+                Err(_) => fs::rename(&self.path, place)?,
+                Ok(()) => {}
+            }
+            entry.finish();
+            Ok(())
+        })
+    }
+}
+
+/// Makes the folders above `place` that are missing, and adds them to `made`, deepest first.
+fn above(place: &Path, made: &mut Vec<PathBuf>) -> io::Result<()> {
+    let above = place.ancestors().skip(1).filter(|p| !p.as_os_str().is_empty());
+    let missing: Vec<&Path> = above.take_while(|p| !p.exists()).collect();
+    for folder in missing.into_iter().rev() {
+        match fs::create_dir(folder) {
+            Ok(()) => made.insert(0, folder.into()),
+            // Somebody else was quicker, whose folder it is then.
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(())
+}
+
+fn made(place: &Path) -> Result<PathBuf, StoreError> {
+    for _ in 0..TRIES {
+        let path = hidden(place)?;
+        match fs::create_dir(&path) {
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+            done => return done.map(|()| path).map_err(StoreError::write(place)),
+        }
+    }
+    Err(StoreError::write(place)(ErrorKind::AlreadyExists.into()))
+}
+
+/// A hidden name beside `place` that nobody else has: numbers of processes are not enough, containers share folders.
+pub(crate) fn hidden(place: &Path) -> Result<PathBuf, StoreError> {
+    let Some(start) = start(place) else {
+        return Err(StoreError::Occupied {
+            path: place.into(),
+            expected: "a path that ends in a name",
+            found: "none".into(),
+        });
+    };
+    let random = RandomState::new().build_hasher().finish();
+    Ok(place.with_file_name(format!("{start}{random:0LETTERS$x}")))
+}
+
+/// How hidden names beside `place` begin.
+fn start(place: &Path) -> Option<String> {
+    let name = place.file_name()?.to_string_lossy();
+    Some(format!(".{}.unripple-", name.chars().take(SHOWN).collect::<String>()))
+}
+
+/// Removes what killed runs left beside `place`: folders that say that they are ours, and whose makers live no more. Others
+/// stay, and so does anything that cannot be looked at.
+pub(crate) fn sweep(place: &Path) {
+    let (Some(start), Some(above)) = (start(place), place.parent()) else { return };
+    let above = if above.as_os_str().is_empty() { Path::new(".") } else { above };
+    for entry in fs::read_dir(above).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let random = name.to_str().and_then(|name| name.strip_prefix(&start));
+        let ours = random.is_some_and(|r| r.len() == LETTERS && r.bytes().all(|b| b.is_ascii_hexdigit()));
+        if ours && entry.file_type().is_ok_and(|kind| kind.is_dir()) {
+            // What cannot be removed now is there for the next one.
+            let _ = bury(&entry.path(), place);
+        }
+    }
+}
+
+fn bury(folder: &Path, place: &Path) -> io::Result<()> {
+    let lock = File::open(folder)?;
+    if lock.try_lock().is_err() {
+        return Ok(());
+    }
+    match listing::read(folder)? {
+        Said::Unfinished => fs::remove_dir_all(folder),
+        // If it is empty: whoever was killed had just made it, or had removed all else.
+        Said::Nothing => fs::remove_dir(folder),
+        // An earlier run's that was replaced, unless nothing came in its place, or somebody put something into it.
+        Said::Files(files) if place.exists() && listing::guests(folder, &files)?.is_none() => {
+            listing::remove(folder)
+        }
+        _ => Ok(()),
+    }
+}

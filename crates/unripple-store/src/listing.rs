@@ -1,0 +1,135 @@
+//! The hidden file of an output folder: it lists what a run wrote there, so that a later run may replace that and nothing else.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::fs::{self, File};
+use std::io::{self, ErrorKind, Read};
+use std::path::Path;
+
+/// The hidden file that says which files of a folder are ours, so that a later run may replace them.
+pub const MARKER: &str = ".unripple";
+
+/// Its first lines. The number is that of the format.
+const HEAD: &str = "unripple output 1\n\
+    A later run replaces this folder if it holds only what is listed here, unchanged: bytes, CRC-32C, name.\n";
+
+/// What it says while the folder is being filled.
+pub(crate) const UNFINISHED: &str = "unripple output, unfinished\n";
+
+/// Largest one that is read, in bytes: a million files.
+const LARGEST: u64 = 1 << 26;
+
+/// Things that are not ours, named one by one.
+const NAMED: usize = 3;
+
+/// Bytes and checksum of a file.
+type Print = (u64, u32);
+
+/// What a folder says of itself.
+pub(crate) enum Said {
+    /// Nothing: no run of ours wrote it.
+    Nothing,
+    /// That it is not finished.
+    Unfinished,
+    /// That it is ours, but not what was written: an earlier or a later version of this program.
+    Unlisted,
+    /// What was written.
+    Files(BTreeMap<String, Print>),
+}
+
+/// What a folder says of itself.
+pub(crate) fn read(folder: &Path) -> io::Result<Said> {
+    let path = folder.join(MARKER);
+    let metadata = match fs::symlink_metadata(&path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Said::Nothing),
+        other => other?,
+    };
+    if !metadata.is_file() {
+        return Ok(Said::Nothing);
+    }
+    let mut bytes = Vec::new();
+    File::open(&path)?.take(LARGEST).read_to_end(&mut bytes)?;
+    let text = String::from_utf8(bytes).unwrap_or_default();
+    // An empty one: whoever was killed was about to say so.
+    if text.is_empty() || text == UNFINISHED {
+        return Ok(Said::Unfinished);
+    }
+    let lines = text.strip_prefix(HEAD).map(|lines| lines.lines().map(line).collect::<Option<_>>());
+    Ok(lines.flatten().map_or(Said::Unlisted, Said::Files))
+}
+
+fn line(text: &str) -> Option<(String, Print)> {
+    let mut words = text.splitn(3, ' ');
+    let (bytes, check, name) = (words.next()?, words.next()?, words.next()?);
+    Some((name.to_owned(), (bytes.parse().ok()?, u32::from_str_radix(check, 16).ok()?)))
+}
+
+/// The text that lists all files of a folder.
+pub(crate) fn of(folder: &Path) -> io::Result<String> {
+    let mut files = BTreeMap::new();
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        if let Some(name) = entry.file_name().to_str().filter(|name| *name != MARKER)
+            && entry.file_type()?.is_file()
+        {
+            files.insert(name.to_owned(), print(&entry.path())?);
+        }
+    }
+    let mut text = HEAD.to_owned();
+    for (name, (bytes, check)) in files {
+        let _ = writeln!(text, "{bytes} {check:08x} {name}");
+    }
+    Ok(text)
+}
+
+fn print(path: &Path) -> io::Result<Print> {
+    let (mut file, mut chunk) = (File::open(path)?, vec![0; 1 << 16]);
+    let (mut bytes, mut check) = (0, 0);
+    loop {
+        match file.read(&mut chunk)? {
+            0 => return Ok((bytes, check)),
+            n => (bytes, check) = (bytes + n as u64, crc32c::crc32c_append(check, &chunk[..n])),
+        }
+    }
+}
+
+/// What is in a folder that is not on its list, or not as it was: in words, none if all is ours.
+pub(crate) fn guests(folder: &Path, files: &BTreeMap<String, Print>) -> io::Result<Option<String>> {
+    let mut guests = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let name = entry.file_name();
+        if name == MARKER {
+            continue;
+        }
+        let listed = name.to_str().and_then(|name| files.get(name));
+        let (kind, name) = (entry.file_type()?, name.to_string_lossy().into_owned());
+        let same = |known: &Print| {
+            Ok::<bool, io::Error>(entry.metadata()?.len() == known.0 && print(&entry.path())? == *known)
+        };
+        match listed {
+            Some(known) if kind.is_file() && same(known)? => {}
+            Some(_) if kind.is_file() => guests.push(format!("`{name}`, which was changed since")),
+            _ if kind.is_dir() => guests.push(format!("the folder `{name}`")),
+            _ => guests.push(format!("`{name}`")),
+        }
+    }
+    guests.sort();
+    let more = guests.len().saturating_sub(NAMED);
+    guests.truncate(NAMED);
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    Ok((!guests.is_empty()).then(|| format!("{}{more}", guests.join(", "))))
+}
+
+/// Removes what a folder lists, its list, and the folder if nothing else is in it.
+pub(crate) fn remove(folder: &Path) -> io::Result<()> {
+    let gone = |done: io::Result<()>| match done {
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
+        other => other,
+    };
+    if let Said::Files(files) = read(folder)? {
+        files.keys().try_for_each(|name| gone(fs::remove_file(folder.join(name))))?;
+        gone(fs::remove_file(folder.join(MARKER)))?;
+    }
+    gone(fs::remove_dir(folder))
+}
