@@ -28,6 +28,7 @@ mod effects;
 mod error;
 mod fault;
 mod file;
+mod kept;
 mod library;
 mod lines;
 mod listing;
@@ -43,15 +44,16 @@ mod wav;
 
 pub use builtin::{BUILTINS, Builtin};
 pub use effects::{
-    BuiltinEffects, EFFECTS_SCHEMA, builtin_effect, builtin_effects, effects_to_toml, import_haptic,
-    load_effects, parse_effects,
+    BuiltinEffects, EFFECTS_SCHEMA, builtin_effect, builtin_effects, effect_files, effects_to_toml,
+    import_haptic, load_effects, parse_effects,
 };
 pub use error::StoreError;
 pub use fault::{Fault, FileFaults};
 pub use file::{LARGEST_TEXT, new_file, write_file};
+pub use kept::{check_kept_wav, write_kept_wav};
 pub use library::{Damage, Library, LibraryPlan, MAY_DIFFER, PointState, Quality, Take};
 pub use listing::MARKER;
-pub use load::load_surface;
+pub use load::{load_surface, surface_files};
 pub use output::{Committed, OutputDir};
 pub use sofa::SofaAbout;
 pub use surface::{parse_surface, parse_surface_with, to_toml};

@@ -3,8 +3,9 @@ use crate::file::{LARGEST_TEXT, read_start, read_text};
 use crate::names::nearest;
 use crate::surface::parse_surface_with;
 use crate::{BUILTINS, FileFaults, StoreError};
+use std::cell::RefCell;
 use std::io::ErrorKind;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use unripple_core::Surface;
 
 /// The built-in surface of that name, or else the surface file at that path.
@@ -44,6 +45,26 @@ pub fn load_surface(name_or_path: &str) -> Result<Surface, StoreError> {
             other => other,
         })
     })?)
+}
+
+/// The files that [`load_surface`] reads for a name: none for a built-in surface, else the surface file and the SVG files that it
+/// names.
+pub fn surface_files(name_or_path: &str) -> Vec<PathBuf> {
+    if BUILTINS.iter().any(|b| b.name == name_or_path) {
+        return Vec::new();
+    }
+    let path = Path::new(name_or_path);
+    let files = RefCell::new(vec![path.to_path_buf()]);
+    let folder = path.parent().unwrap_or(Path::new(""));
+    if let Ok(text) = read_text(path) {
+        // Faults of the file are told of by whoever loads it.
+        let _ = parse_surface_with(&text, name_or_path, &|svg| {
+            let file = folder.join(svg);
+            files.borrow_mut().push(file.clone());
+            read_text(&file)
+        });
+    }
+    files.into_inner()
 }
 
 fn decode<'b>(file: &str, bytes: &'b [u8]) -> Result<&'b str, FileFaults> {

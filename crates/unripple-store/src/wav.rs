@@ -69,7 +69,7 @@ pub fn encode_wav(drive: &Drive) -> Result<Vec<u8>, StoreError> {
     Ok(bytes.into_inner())
 }
 
-fn encode(to: impl Write + Seek, spec: WavSpec, drive: &Drive) -> Result<(), hound::Error> {
+pub(crate) fn encode(to: impl Write + Seek, spec: WavSpec, drive: &Drive) -> Result<(), hound::Error> {
     let mut writer = WavWriter::new(to, spec)?;
     for sample in 0..drive.samples() {
         for channel in drive.channels() {
@@ -79,7 +79,7 @@ fn encode(to: impl Write + Seek, spec: WavSpec, drive: &Drive) -> Result<(), hou
     writer.finalize()
 }
 
-fn spec(path: &Path, drive: &Drive) -> Result<WavSpec, StoreError> {
+pub(crate) fn spec(path: &Path, drive: &Drive) -> Result<WavSpec, StoreError> {
     let name = path.display().to_string();
     let refuse = |expected: &str, found: String| StoreError::content(&name, expected, found);
     let count = drive.channels().len();
@@ -105,7 +105,7 @@ fn spec(path: &Path, drive: &Drive) -> Result<WavSpec, StoreError> {
     })
 }
 
-fn into_io(error: hound::Error) -> std::io::Error {
+pub(crate) fn into_io(error: hound::Error) -> std::io::Error {
     match error {
         hound::Error::IoError(error) => error,
         other => std::io::Error::other(other),

@@ -3,7 +3,7 @@ use crate::StoreError;
 use crate::document::stem;
 use crate::file::read_text;
 use std::io::ErrorKind;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use unripple_effects::{Effect, EffectSet, Kind, Region};
 
 /// Endings of files that are imported rather than read.
@@ -42,6 +42,12 @@ pub fn load_effects(name_or_path: &str) -> Result<EffectSet, StoreError> {
     let effect =
         Effect { name: name.clone(), region: Region::Everywhere, level: super::level::DEFAULT, kind };
     Ok(EffectSet { name, about: String::new(), effects: vec![effect] })
+}
+
+/// The file that [`load_effects`] reads for a name; none for built-in effects.
+pub fn effect_files(name_or_path: &str) -> Vec<PathBuf> {
+    let known = builtin_effects().iter().any(|builtin| builtin.name == name_or_path);
+    if known { Vec::new() } else { vec![name_or_path.into()] }
 }
 
 fn unknown(name: &str) -> StoreError {

@@ -12,7 +12,7 @@ mod write;
 
 pub use builtin::{BuiltinEffects, builtin_effect, builtin_effects};
 pub use import::import_haptic;
-pub use load::load_effects;
+pub use load::{effect_files, load_effects};
 pub use write::effects_to_toml;
 
 use crate::document;

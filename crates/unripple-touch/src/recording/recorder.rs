@@ -31,6 +31,7 @@ impl<W: Write> Recorder<W> {
     pub fn new(mut to: W, start: f64) -> Result<Self, TouchError> {
         let head = Head { format: FORMAT.to_owned(), version: VERSION };
         put(&mut to, serde_json::to_string(&head))?;
+        to.flush().map_err(error)?;
         Ok(Self { to, start, last: start })
     }
 
@@ -46,7 +47,12 @@ impl<W: Write> Recorder<W> {
             }
             put(&mut self.to, line::write(&item, self.start))?;
         }
-        Ok(())
+        // Whoever is killed has lost no touch.
+        if heard.touches.is_empty() && heard.wishes.is_empty() {
+            Ok(())
+        } else {
+            self.to.flush().map_err(error)
+        }
     }
 
     /// Ends the recording, and gives back what it was written to.
