@@ -55,7 +55,7 @@ impl CliError {
     pub fn report(&self) -> ExitCode {
         match self {
             Self::Input(text) | Self::Work(text) => eprintln!("error: {text}"),
-            Self::Faults(faults) => eprint!("{}", rendered(faults.as_ref())),
+            Self::Faults(faults) => eprintln!("{}", rendered(faults.as_ref()).trim_end_matches('\n')),
         }
         ExitCode::from(if matches!(self, Self::Work(_)) { 1 } else { 2 })
     }

@@ -6,6 +6,7 @@ use crate::figures::{self, Scene};
 use crate::fingers;
 use crate::focus::finish;
 use crate::judge::{self, CELLS, Judged};
+use crate::reads::Reads;
 use crate::targets::{numbers, place, seconds};
 use crate::{input, output};
 use unripple::act::{self, Report};
@@ -18,7 +19,8 @@ pub fn run(options: &FieldOptions, as_json: bool) -> Result<(), CliError> {
     source.allows(&[("--finger", !options.finger.is_empty()), ("--judge-hz", options.judge_hz.is_some())])?;
     let names: Vec<String> = source.surface.actuators.iter().map(|a| a.name.clone()).collect();
     let drive = read_wav(&options.drive)?.into_drive(&names, &options.drive.display().to_string())?;
-    let out = options.output.as_ref().map(OutputDir::create).transpose()?;
+    let out = options.output.as_ref();
+    let out = out.map(|place| OutputDir::create_beside(place, &options.reads())).transpose()?;
     let contacts = fingers::contacts(&options.finger, &source.surface)?;
     let places = options.at.iter().map(|text| place(text, "--at")).collect::<Result<Vec<_>, _>>()?;
     let (surface, responses, stored) = match source.stored {

@@ -5,6 +5,7 @@ use crate::aware::aware;
 use crate::error::CliError;
 use crate::figures::{self, Scene};
 use crate::judge::{self, Judged};
+use crate::reads::Reads;
 use crate::targets::{self, seconds};
 use crate::{fingers, input, output, played, waveforms};
 use unripple::act::{self, Act, Report, recommended_window};
@@ -21,7 +22,7 @@ pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
     let source = input::source(&options.surface)?;
     source.allows(&needing_modes(options))?;
     let plant = options.on.as_deref().map(input::surface).transpose()?;
-    let out = OutputDir::create(&options.output)?;
+    let out = OutputDir::create_beside(&options.output, &options.reads())?;
     let known = source.lambda_min();
     let lambda_min = known
         .unwrap_or_else(|| Medium::of(&source.surface.sheet).lambda_min(source.surface.emission.band[1]));

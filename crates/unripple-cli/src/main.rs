@@ -1,5 +1,13 @@
 //! `unripple`: time-reversed focusing of touch, from the command line.
 
+/// As that of the standard library, but a reader of standard error that has gone away, as in `2>&1 | head`, is no reason to panic.
+macro_rules! eprintln {
+    ($($text:tt)*) => {{
+        use std::io::Write as _;
+        let _ = writeln!(std::io::stderr(), $($text)*);
+    }};
+}
+
 mod args;
 mod aware;
 mod between;
@@ -24,6 +32,7 @@ mod open;
 mod output;
 mod play;
 mod played;
+mod reads;
 mod reproduce;
 mod respond;
 mod targets;

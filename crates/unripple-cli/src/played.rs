@@ -5,6 +5,7 @@ use crate::error::CliError;
 use crate::figures::{self, Scene};
 use crate::focus::finish;
 use crate::judge::{self, Judged};
+use crate::reads::Reads;
 use crate::targets::seconds;
 use crate::{input, output, waveforms};
 use unripple::act::{DecidedBy, Followed, Report, Strength, Stroked, unit};
@@ -48,7 +49,7 @@ pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
     let surface = source.surface;
     let plant = options.on.as_deref().map(input::surface).transpose()?;
     let plant = plant.as_ref().unwrap_or(&surface);
-    let out = OutputDir::create(&options.output)?;
+    let out = OutputDir::create_beside(&options.output, &options.reads())?;
     let stroke = waveforms::stroke(&options.targets)?;
     let [planned, judged] = if stroke.is_some() { STROKES } else { WAVEFORMS };
     let model = judge::model(&surface, Some(planned * surface.emission.band[1]), &[])?;

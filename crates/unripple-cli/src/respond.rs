@@ -19,6 +19,7 @@ const BATCH: usize = 64;
 pub fn run(options: &RespondOptions, as_json: bool) -> Result<(), CliError> {
     let surface = input::surface(&options.surface)?;
     let pitch = positive(options.grid_mm, "--grid-mm", "mm")? / 1e3;
+    Library::may_be_at(&options.output)?;
     let Responses::Modal(modal) = judge::model(&surface, None, &[])? else {
         return Err(CliError::Work("expected a model with modes, found samples".into()));
     };

@@ -213,7 +213,7 @@ pub struct FocusOptions {
     /// Judge on modes up to this frequency, in Hz; by default those of the band.
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     pub judge_hz: Option<f64>,
-    /// Folder for drive.wav, report.json, report.md and figures. An earlier run's folder is replaced whole.
+    /// Folder for drive.wav, report.json, report.md and figures. An earlier run's folder is replaced whole, unless something else is in it.
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
 }
@@ -277,7 +277,7 @@ pub struct FieldOptions {
 /// Options of `reproduce`.
 #[derive(Debug, Args)]
 pub struct ReproduceOptions {
-    /// Folder for the page and its figures. An earlier run's folder is replaced whole.
+    /// Folder for the page and its figures. An earlier run's folder is replaced whole, unless something else is in it.
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
     /// Placements averaged in the statistics of contrast.

@@ -43,7 +43,7 @@ pub struct PlayOptions {
     /// Virtual: the tension drifts by so many per cent, up and down within a minute.
     #[arg(long, value_name = "PERCENT", allow_negative_numbers = true)]
     pub drift_percent: Option<f64>,
-    /// Keep all that was driven, as a WAV file in the actuators' unit; at most a minute.
+    /// Keep all that was driven, as a WAV file in the actuators' unit; at most a minute. One that was kept earlier is replaced.
     #[arg(long, value_name = "WAV")]
     pub keep_drive: Option<PathBuf>,
 }
@@ -72,7 +72,7 @@ pub struct TouchOptions {
     /// A recorded session, played again.
     #[arg(long, value_name = "FILE")]
     pub session: Option<PathBuf>,
-    /// Record all touches to a file, for --session.
+    /// Record all touches to a new file, for --session.
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
 }

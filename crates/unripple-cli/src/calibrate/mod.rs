@@ -40,6 +40,7 @@ impl From<CalibrateError> for CliError {
 pub fn run(options: &CalibrateOptions, as_json: bool) -> Result<(), CliError> {
     let surface = input::surface(&options.surface)?;
     let settings = settings(options)?;
+    Library::may_be_at(&options.output)?;
     let Responses::Modal(model) = judge::model(&surface, None, &[])? else {
         return Err(CliError::Input("expected a surface, found responses at points".into()));
     };

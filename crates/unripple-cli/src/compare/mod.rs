@@ -7,6 +7,7 @@ mod row;
 use crate::args::CompareOptions;
 use crate::error::CliError;
 use crate::focus::finish;
+use crate::reads::Reads;
 use crate::targets::{self, seconds};
 use crate::{figures, input, judge, output};
 use row::Row;
@@ -48,7 +49,8 @@ struct Comparison {
 
 pub fn run(options: &CompareOptions, as_json: bool) -> Result<(), CliError> {
     let surface = input::surface(&options.surface)?;
-    let out = options.output.as_ref().map(OutputDir::create).transpose()?;
+    let out = options.output.as_ref();
+    let out = out.map(|place| OutputDir::create_beside(place, &options.reads())).transpose()?;
     let known = judge::model(&surface, None, &[])?;
     let targets = targets::all(&options.targets, known.conditions().lambda_min)?;
     let judged_to = options.judge_hz.unwrap_or(2.0 * surface.emission.band[1]);

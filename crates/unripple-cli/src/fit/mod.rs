@@ -8,9 +8,10 @@ use crate::args::FitOptions;
 use crate::error::CliError;
 use crate::{grid, output};
 use report::Report;
+use std::path::Path;
 use std::time::Instant;
 use unripple::core::{Point, Surface};
-use unripple_store::Library;
+use unripple_store::{Library, StoreError};
 
 /// Most half waves of a profile, and most strays: beyond, a fit takes hours.
 const MOST: usize = 8;
@@ -39,6 +40,7 @@ pub fn run(options: &FitOptions, as_json: bool) -> Result<(), CliError> {
         }
     }
     let wanted = wanted(options, &surface)?;
+    room(options)?;
     let heard = heard::Heard::of(&library, &surface)?;
     eprintln!("fitting {} responses; minutes in a band of some kHz", heard.count());
     let start = Instant::now();
@@ -58,6 +60,16 @@ pub fn run(options: &FitOptions, as_json: bool) -> Result<(), CliError> {
             Some(report::Written { library: folder.display().to_string(), points: wanted.len() });
     }
     output::answer(as_json, &report, &report.text())
+}
+
+/// Refuses, before minutes of work, a place where the new library cannot be.
+fn room(options: &FitOptions) -> Result<(), CliError> {
+    let Some(folder) = &options.output else { return Ok(()) };
+    let real = |path: &Path| std::fs::canonicalize(path).ok();
+    if real(folder).is_some_and(|folder| Some(folder) == real(Path::new(&options.library))) {
+        return Err(StoreError::Reads { path: folder.clone(), read: options.library.clone().into() }.into());
+    }
+    Ok(Library::may_be_at(folder)?)
 }
 
 /// Where responses of the fitted model are wanted.

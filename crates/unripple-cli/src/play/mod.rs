@@ -6,6 +6,7 @@ mod touches;
 
 use crate::args::PlayOptions;
 use crate::error::CliError;
+use crate::reads::Reads;
 use crate::targets::{positive, seconds};
 use crate::{input, judge, output};
 use open::Opened;
@@ -18,7 +19,7 @@ use unripple::core::{Drive, Responses, Surface};
 use unripple::physics::Medium;
 use unripple_calibrate::{Ping, PingOptions};
 use unripple_live::{Engine, Follower, Level, LiveError, LiveOptions, Maker, Pulse, Stage, Window};
-use unripple_store::{load_effects, write_wav};
+use unripple_store::{check_kept_wav, load_effects, write_kept_wav};
 
 /// Most of a drive that is kept, in s.
 const KEPT: f64 = 60.0;
@@ -42,6 +43,13 @@ pub fn run(options: &PlayOptions, as_json: bool) -> Result<(), CliError> {
     let source = input::source(&options.surface)?;
     let surface = source.surface.clone();
     let set = load_effects(&options.effect)?;
+    if let Some(path) = &options.keep_drive {
+        if options.touch.record.as_ref() == Some(path) {
+            let text = "--keep-drive: expected another file than that of --record, found the same";
+            return Err(CliError::Input(text.into()));
+        }
+        check_kept_wav(path, &options.reads())?;
+    }
     let window = window(options, &surface)?;
     let responses = Arc::new(match source.stored {
         Some(stored) => Responses::Sampled(stored.responses),
@@ -72,6 +80,7 @@ pub fn run(options: &PlayOptions, as_json: bool) -> Result<(), CliError> {
     let live = touches.live || options.real_time || options.device.is_real();
     let mut session = Session { options, touches, report: Report::new(&surface, &window, &level), told: 0.0 };
     let stop = interrupted()?;
+    session.touches.begin();
     let seconds = seconds_to_play(options, session.touches.lasts)?;
     match live {
         true => session.run(&mut engine, seconds, &stop)?,
@@ -156,7 +165,10 @@ impl Session<'_> {
         match &self.options.keep_drive {
             Some(path) => {
                 let drive = drive(&kept, engine)?;
-                Ok(write_wav(path, &drive)?)
+                if write_kept_wav(path, &self.options.reads(), &drive)?.replaced {
+                    eprintln!("replaced the earlier drive in {}", path.display());
+                }
+                Ok(())
             }
             None => Ok(()),
         }

@@ -8,6 +8,7 @@ use std::net::SocketAddr;
 use std::sync::{Arc, Mutex};
 use unripple::core::Surface;
 use unripple_live::Listener;
+use unripple_store::{Underway, new_file};
 use unripple_touch::{
     Heard, Options, OscPort, Playback, Recorder, Recording, Screen, Source, Sources, Synthetic,
     SyntheticOptions, TouchError, WebSocketOptions, WebSocketPort,
@@ -23,6 +24,8 @@ const ALONE: usize = 2;
 #[derive(Default)]
 pub struct Touches {
     recording: Option<Arc<Mutex<Tape>>>,
+    /// The recording's file goes again unless the sitting begins.
+    unused: Option<Underway>,
     /// Whether anybody out there may touch, so that the clock on the wall counts.
     pub live: bool,
     /// How long a recorded session lasts, in s.
@@ -94,9 +97,10 @@ impl Touches {
             sources.push(source);
         }
         if let Some(path) = &options.record {
-            let file = File::create(path).map_err(|e| CliError::work(format!("{}: {e}", path.display())))?;
+            let (file, unused) = new_file(path)?;
             let recorder = Some(Recorder::new(BufWriter::new(file), 0.0)?);
             touches.recording = Some(Arc::new(Mutex::new(Tape { recorder, failed: None })));
+            touches.unused = Some(unused);
         }
         Ok((touches, sources))
     }
@@ -109,6 +113,13 @@ impl Touches {
                 tape.hear(now, heard);
             }
         }))
+    }
+
+    /// The sitting begins: what is recorded stays from now on, however it ends.
+    pub fn begin(&mut self) {
+        if let Some(unused) = self.unused.take() {
+            unused.keep();
+        }
     }
 
     /// Ends the recording.

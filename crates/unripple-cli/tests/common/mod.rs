@@ -10,9 +10,10 @@ pub struct Scratch(PathBuf);
 
 impl Scratch {
     pub fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("unripple-{name}-{}", std::process::id()));
-        let _ = std::fs::remove_dir_all(&path);
-        std::fs::create_dir_all(&path).unwrap();
+        // Numbers of processes are not enough: containers share folders. One that is there is somebody else's.
+        let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap().as_nanos();
+        let path = std::env::temp_dir().join(format!("unripple-{name}-{}-{now}", std::process::id()));
+        std::fs::create_dir(&path).unwrap();
         Self(path)
     }
 

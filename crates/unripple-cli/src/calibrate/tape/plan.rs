@@ -131,7 +131,7 @@ pub fn put(folder: &Path, plan: &Value, drive: &Drive) -> Result<(), CliError> {
                     folder.display()
                 )));
             }
-            write_wav(&play, drive)?;
+            // The plan first: what is to be played is written again wherever a plan is without it.
             write_file(&file, text.as_bytes())?;
         }
         Err(error) => return Err(failed(error)),
