@@ -26,6 +26,7 @@ mod fit;
 mod focus;
 mod grid;
 mod input;
+mod interrupt;
 mod judge;
 mod modes;
 mod open;
@@ -46,7 +47,7 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    match run(&arguments) {
+    match interrupt::watch().and_then(|()| run(&arguments)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => error.report(),
     }

@@ -8,7 +8,7 @@ use crate::args::PlayOptions;
 use crate::error::CliError;
 use crate::reads::Reads;
 use crate::targets::{positive, seconds};
-use crate::{input, judge, output};
+use crate::{input, interrupt, judge, output};
 use open::Opened;
 pub use open::{late, opener};
 use report::Report;
@@ -116,10 +116,7 @@ fn seconds_to_play(options: &PlayOptions, lasts: Option<f64>) -> Result<Option<f
 
 /// Becomes true when somebody wants to stop.
 pub fn interrupted() -> Result<Arc<AtomicBool>, CliError> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let own = stop.clone();
-    ctrlc::set_handler(move || own.store(true, Ordering::Relaxed)).map_err(CliError::work)?;
-    Ok(stop)
+    Ok(interrupt::wished())
 }
 
 /// What follows the tension of a surface that is known by its modes.

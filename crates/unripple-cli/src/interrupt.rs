@@ -1,0 +1,45 @@
+//! Ctrl+C, and other wishes that the program end: nothing unfinished is left behind.
+
+use crate::error::CliError;
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::iterator::Signals;
+use signal_hook::low_level::emulate_default_handler;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
+
+/// What becomes true when somebody wants a command to stop that ends by itself.
+static WISHED: OnceLock<Arc<AtomicBool>> = OnceLock::new();
+
+/// From now on whoever ends this program leaves nothing unfinished behind: what is under construction is taken away, and then the
+/// program ends as the signal would have ended it, so that shells see that (status 128 and its number).
+pub fn watch() -> Result<(), CliError> {
+    let wishes =
+        [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| *signal != SIGHUP || !is_ignored(SIGHUP));
+    let mut signals = Signals::new(wishes).map_err(CliError::work)?;
+    let watch = move || {
+        for signal in signals.forever() {
+            // The first one is a wish to stop; whoever sends another does not want to wait.
+            if WISHED.get().is_some_and(|wished| !wished.swap(true, Ordering::Relaxed)) {
+                continue;
+            }
+            let _abandoned = unripple_store::abandon_all();
+            let _ = emulate_default_handler(signal);
+            std::process::exit(128 + signal);
+        }
+    };
+    std::thread::Builder::new().name("signals".into()).spawn(watch).map_err(CliError::work)?;
+    Ok(())
+}
+
+/// Becomes true when somebody wants to stop, for a command that then ends by itself.
+pub fn wished() -> Arc<AtomicBool> {
+    WISHED.get_or_init(Arc::default).clone()
+}
+
+/// Whether whoever started this program wants it to go on without a terminal, as `nohup` does. Only Linux tells.
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let bits = ignored.and_then(|bits| u64::from_str_radix(bits.trim(), 16).ok());
+    bits.is_some_and(|bits| bits & (1 << (signal - 1)) != 0)
+}

@@ -1,0 +1,316 @@
+//! Ctrl+C at any moment of any command: nothing is left that nobody asked for, nothing of anybody's is touched.
+//!
+//! `UNRIPPLE_INTERRUPTS` sets how often each command is interrupted, `UNRIPPLE_SEED` the moments.
+
+mod common;
+
+use common::{Scratch, run};
+use std::collections::BTreeMap;
+use std::fs;
+use std::os::unix::process::ExitStatusExt;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+use unripple_store::{Library, PointState, load_surface, to_toml};
+
+/// Two actuators, few modes: quick.
+const FILM: &str = r#"format = 1
+name = "A small film"
+[outline]
+rectangle_mm = [150, 150]
+[sheet]
+material = "BoPET"
+thickness_mm = 0.125
+tension_n_per_m = 200
+decay_time_ms = 70
+[drive]
+band_hz = [0, 700]
+sample_rate_hz = 48000
+[[actuator]]
+at_mm = [12, 31]
+[[actuator]]
+at_mm = [121, 17]
+"#;
+
+/// A command that takes longer is interrupted before this, in ms.
+const LONGEST: u64 = 2500;
+
+/// A command, and what may be new in the folder after it was interrupted.
+struct Case {
+    arguments: &'static str,
+    leaves: &'static [&'static str],
+}
+
+const CASES: [Case; 18] = [
+    Case { arguments: "design film.toml", leaves: &[] },
+    Case { arguments: "modes film.toml --max-hz 1400", leaves: &[] },
+    Case { arguments: "check film.toml", leaves: &[] },
+    Case { arguments: "devices", leaves: &[] },
+    Case { arguments: "doctor film.toml --tuio 0", leaves: &[] },
+    Case { arguments: "focus film.toml --at 62,90 -o out", leaves: &[] },
+    Case { arguments: "focus film.toml --waveform 62,90,burst:300,5 -o made/here/out", leaves: &["made"] },
+    Case { arguments: "compare hudin-2012 --at 62,90 -o out", leaves: &[] },
+    Case { arguments: "field film.toml --drive drive.wav --frames 10 -o out", leaves: &[] },
+    Case { arguments: "export lib -o out", leaves: &[] },
+    Case { arguments: "export lib -o lib.sofa", leaves: &["lib.sofa"] },
+    Case { arguments: "reproduce -o out", leaves: &[] },
+    Case { arguments: "respond film.toml --grid-mm 6 --length-ms 40 -o new-lib", leaves: &["new-lib"] },
+    Case { arguments: "calibrate film.toml --grid-mm 50 --sweep-ms 100 -o new-lib", leaves: &["new-lib"] },
+    Case {
+        arguments: "calibrate film.toml --at 60,60 --device tape --tape takes -o new-lib",
+        leaves: &["takes", "new-lib"],
+    },
+    Case { arguments: "fit measured --at 60,60 -o fitted", leaves: &["fitted"] },
+    Case {
+        arguments: "play film.toml --seconds 20 --record taps.jsonl --keep-drive kept.wav",
+        leaves: &["taps.jsonl", "kept.wav"],
+    },
+    Case { arguments: "view film.toml --port 0 --no-browser --seconds 5", leaves: &[] },
+];
+
+/// A fixed sequence of numbers that look random.
+struct Dice(u64);
+
+impl Dice {
+    fn below(&mut self, most: u64) -> u64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) % most.max(1)
+    }
+}
+
+fn number(name: &str, usual: u64) -> u64 {
+    std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
+}
+
+/// Every file below a folder, and what is in it; folders end in a slash.
+fn all(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    for entry in fs::read_dir(folder).unwrap().map(Result::unwrap) {
+        let name = entry.file_name().into_string().unwrap();
+        if entry.file_type().unwrap().is_dir() {
+            found.insert(format!("{name}/"), Vec::new());
+            found.extend(
+                all(&entry.path()).into_iter().map(|(below, text)| (format!("{name}/{below}"), text)),
+            );
+        } else {
+            found.insert(name, fs::read(entry.path()).unwrap());
+        }
+    }
+    found
+}
+
+/// A folder with things of the user's and of earlier runs.
+fn folder() -> Scratch {
+    let scratch = Scratch::new("interrupts");
+    let film = scratch.file("film.toml", FILM);
+    scratch.file("notes.txt", "an afternoon");
+    // One whose actuators hear each other well, for a fit.
+    let mut surface = load_surface("hudin-2012").unwrap();
+    surface.emission.band[1] = 1000.0;
+    let paper = scratch.file("paper.toml", to_toml(&surface));
+    let [out, library, measured] = ["out", "lib", "measured"].map(|name| scratch.join(name));
+    for arguments in [
+        vec!["focus", film.as_str(), "--at", "40,50", "-o", &out],
+        vec!["respond", &film, "--grid-mm", "20", "--length-ms", "20", "-o", &library],
+        vec!["calibrate", &paper, "-o", &measured],
+    ] {
+        let output = run(&arguments);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+    fs::copy(scratch.path().join("out/drive.wav"), scratch.path().join("drive.wav")).unwrap();
+    scratch
+}
+
+/// Runs a command in a folder and sends it a signal after a while, unless it has ended by then.
+fn interrupted(folder: &Path, arguments: &str, signal: &str, after: Duration) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_unripple"));
+    command.args(arguments.split(' ')).current_dir(folder);
+    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
+    let (mut child, began) = (command.spawn().unwrap(), Instant::now());
+    while child.try_wait().unwrap().is_none() {
+        if began.elapsed() >= after {
+            send(signal, child.id());
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    child.wait_with_output().unwrap()
+}
+
+/// One that has ended cannot be sent any signal.
+fn send(signal: &str, process: u32) {
+    let _ = Command::new("kill").args([signal, &process.to_string()]).stderr(Stdio::null()).status();
+}
+
+/// Whether a folder is one whole run: all that its hidden file lists is there, of that length.
+fn is_whole(files: &BTreeMap<String, Vec<u8>>, place: &str) -> bool {
+    let Some(list) = files.get(&format!("{place}/.unripple")) else { return false };
+    let text = String::from_utf8_lossy(list);
+    let mut lines = text.lines().skip(2).map(|line| line.splitn(3, ' ').collect::<Vec<_>>()).peekable();
+    let there = |words: &Vec<&str>| {
+        files.get(&format!("{place}/{}", words[2])).map(Vec::len) == words[0].parse().ok()
+    };
+    lines.peek().is_some() && lines.all(|words| there(&words))
+}
+
+/// What is wrong with what is there now.
+fn faults(case: &Case, before: &BTreeMap<String, Vec<u8>>, after: &BTreeMap<String, Vec<u8>>) -> Vec<String> {
+    let mut faults = Vec::new();
+    let is_out = |name: &str| name.starts_with("out/");
+    for (name, bytes) in before.iter().filter(|(name, _)| !is_out(name)) {
+        if after.get(name) != Some(bytes) {
+            faults.push(format!("{name} was touched"));
+        }
+    }
+    let same =
+        before.iter().filter(|(name, _)| is_out(name)).eq(after.iter().filter(|(name, _)| is_out(name)));
+    if !(same || is_whole(after, "out")) {
+        faults.push("out is neither the old one nor a new one".into());
+    }
+    for name in after.keys().filter(|name| !before.contains_key(*name) && !is_out(name)) {
+        let top = name.split('/').next().unwrap_or_default();
+        if !case.leaves.contains(&top) || name.contains(".unripple-") || name.ends_with(".part") {
+            faults.push(format!("{name} was left"));
+        }
+    }
+    if after.contains_key("made/") && !is_whole(after, "made/here/out") {
+        faults.push("made is not whole".into());
+    }
+    if let Some(wav) = after.get("kept.wav") {
+        let counted = wav.get(4..8).map(|bytes| u32::from_le_bytes(bytes.try_into().unwrap()));
+        if counted != Some(wav.len() as u32 - 8) {
+            faults.push("kept.wav is not closed".into());
+        }
+    }
+    if let Some(taps) = after.get("taps.jsonl") {
+        let lines = taps.split_inclusive(|byte| *byte == b'\n');
+        let whole =
+            |line: &[u8]| line.ends_with(b"\n") && serde_json::from_slice::<serde_json::Value>(line).is_ok();
+        if taps.is_empty() || !lines.into_iter().all(whole) {
+            faults.push("taps.jsonl is not whole".into());
+        }
+    }
+    faults
+}
+
+/// Takes away what an interrupted command was allowed to leave.
+fn tidy(folder: &Path, leaves: &[&str]) {
+    for place in leaves.iter().map(|name| folder.join(name)) {
+        let _ = if place.is_dir() { fs::remove_dir_all(place) } else { fs::remove_file(place) };
+    }
+}
+
+#[test]
+fn nothing_is_left_of_what_was_interrupted() {
+    let (rounds, seed) = (number("UNRIPPLE_INTERRUPTS", 4), number("UNRIPPLE_SEED", 1));
+    println!("seed {seed}, {rounds} rounds");
+    let mut dice = Dice(seed);
+    let scratch = folder();
+    let (mut wrong, signals) = (Vec::new(), ["-INT", "-TERM", "-INT", "-HUP"]);
+    for case in &CASES {
+        let began = Instant::now();
+        let untouched = all(scratch.path());
+        interrupted(scratch.path(), case.arguments, "-INT", Duration::from_millis(LONGEST));
+        let lasts = began.elapsed().as_millis().min(u128::from(LONGEST)) as u64;
+        let mut before = all(scratch.path());
+        wrong.extend(
+            faults(case, &untouched, &before).into_iter().map(|fault| format!("{}: {fault}", case.arguments)),
+        );
+        let mut ended = [0; 2];
+        for round in 0..rounds {
+            if case.leaves != ["new-lib"] || round == 0 {
+                tidy(scratch.path(), case.leaves);
+                before.retain(|name, _| !case.leaves.contains(&name.split('/').next().unwrap_or_default()));
+            }
+            let after = Duration::from_millis(dice.below(lasts + lasts / 8));
+            let signal = signals[(round % 4) as usize];
+            let output = interrupted(scratch.path(), case.arguments, signal, after);
+            ended[usize::from(output.status.signal().is_some())] += 1;
+            let now = all(scratch.path());
+            // What was begun is taken up: only what was there before all is to stay as it was.
+            before.retain(|name, _| !case.leaves.contains(&name.split('/').next().unwrap_or_default()));
+            let said = String::from_utf8_lossy(&output.stderr);
+            if !(output.status.success() || output.status.signal().is_some()) {
+                wrong.push(format!("{} {signal} after {after:?}: {} {said}", case.arguments, output.status));
+            }
+            let faults = faults(case, &before, &now);
+            wrong.extend(faults.iter().map(|f| format!("{} {signal} after {after:?}: {f}", case.arguments)));
+            before = now;
+        }
+        println!(
+            "{:74} {lasts:5} ms {:3} ended by the signal {:3} by themselves",
+            case.arguments, ended[1], ended[0]
+        );
+        if case.leaves == ["new-lib"] {
+            taken_up(&scratch, case.arguments);
+        }
+        tidy(scratch.path(), case.leaves);
+    }
+    assert!(wrong.is_empty(), "{}\n{:?}", wrong.join("\n"), scratch.names());
+}
+
+/// A library that was being filled is filled by the same command, and is a whole one then.
+fn taken_up(scratch: &Scratch, arguments: &str) {
+    let output = Command::new(env!("CARGO_BIN_EXE_unripple"))
+        .args(arguments.split(' '))
+        .current_dir(scratch.path())
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{arguments}: {}", String::from_utf8_lossy(&output.stderr));
+    let library = Library::open(scratch.path().join("new-lib")).unwrap();
+    assert_eq!(library.verify(), []);
+    assert!(library.in_state(PointState::Missing).is_empty());
+}
+
+#[test]
+fn a_second_ctrl_c_does_not_wait() {
+    let scratch = Scratch::new("second");
+    let film = scratch.file("film.toml", FILM);
+    let record = scratch.join("taps.jsonl");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_unripple"));
+    command.args(["play", &film, "--real-time", "--record", &record]);
+    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    std::thread::sleep(Duration::from_millis(800));
+    for _ in 0..2 {
+        send("-INT", child.id());
+    }
+    let output = child.wait_with_output().unwrap();
+    assert!(output.status.success() || output.status.signal() == Some(2), "{output:?}");
+    let names = scratch.names();
+    assert!(names == ["film.toml"] || names == ["film.toml", "taps.jsonl"], "{names:?}");
+}
+
+/// Nobody can tidy up after SIGKILL but the next run.
+#[test]
+fn killed_runs_lose_nothing_and_the_next_one_tidies_up() {
+    let (rounds, seed) = (number("UNRIPPLE_INTERRUPTS", 4), number("UNRIPPLE_SEED", 1));
+    let mut dice = Dice(seed);
+    let scratch = Scratch::new("killed");
+    let film = scratch.file("film.toml", FILM);
+    let library = scratch.join("lib");
+    assert!(
+        run(&["respond", &film, "--grid-mm", "20", "--length-ms", "20", "-o", &library]).status.success()
+    );
+    let export = "export lib -o out";
+    let began = Instant::now();
+    assert!(interrupted(scratch.path(), export, "-KILL", Duration::from_secs(60)).status.success());
+    let lasts = began.elapsed().as_micros() as u64;
+    let (exported, mut left) = (all(scratch.path()), 0);
+    for round in 0..5 * rounds {
+        let after = Duration::from_micros(dice.below(lasts + lasts / 4));
+        interrupted(scratch.path(), export, "-KILL", after);
+        let now = all(scratch.path());
+        left += usize::from(now != exported);
+        let out = |files: &BTreeMap<String, Vec<u8>>| {
+            files
+                .iter()
+                .filter(|(name, _)| name.starts_with("out/"))
+                .map(|(n, b)| (n.clone(), b.clone()))
+                .collect::<Vec<_>>()
+        };
+        assert!(out(&now) == out(&exported), "round {round} after {after:?}");
+    }
+    println!("{left} of {} killed runs left something", 5 * rounds);
+    assert!(interrupted(scratch.path(), export, "-KILL", Duration::from_secs(60)).status.success());
+    assert!(all(scratch.path()) == exported, "{:?}", scratch.names());
+}
