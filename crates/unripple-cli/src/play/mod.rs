@@ -80,8 +80,8 @@ pub fn run(options: &PlayOptions, as_json: bool) -> Result<(), CliError> {
     let live = touches.live || options.real_time || options.device.is_real();
     let mut session = Session { options, touches, report: Report::new(&surface, &window, &level), told: 0.0 };
     let stop = interrupted()?;
-    session.touches.begin();
     let seconds = seconds_to_play(options, session.touches.lasts)?;
+    session.touches.begin();
     match live {
         true => session.run(&mut engine, seconds, &stop)?,
         false => session.step(&mut engine, seconds, &stop)?,
