@@ -1,13 +1,16 @@
 //! The same measurement through a real JACK server, whose ports lead to the virtual surface as another client.
 //!
-//! Needs `jackd` and libjack (Debian: jackd2). Without them the test says so and passes.
+//! Needs `jackd` and libjack (Debian: jackd2). Without them the test is skipped, and fails in CI.
 
 mod measured_bench;
 #[path = "../../unripple-devices/tests/common/server.rs"]
 mod server;
+#[path = "../../unripple-core/tests/shared/skip.rs"]
+mod skip;
 
 use measured_bench::*;
 use server::Server;
+use skip::skip;
 use std::cell::RefCell;
 use unripple_calibrate::measure::{Listen, MeasureOptions};
 use unripple_core::{Device, PROBE, Point};
@@ -19,8 +22,7 @@ const PERIOD: usize = 256;
 #[test]
 fn a_jack_server_changes_nothing() {
     let Some(server) = Server::start(PERIOD) else {
-        println!("SKIPPED: there is no jackd here (Debian: apt install jackd2)");
-        return;
+        return skip(server::NONE);
     };
     let options = VirtualOptions { block: PERIOD, ..VirtualOptions::default() };
     let direct = WORLD.device_with(&options);

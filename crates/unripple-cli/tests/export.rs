@@ -1,9 +1,14 @@
 //! Libraries exported as WAV and as SOFA, the latter read by Python's own readers.
 
 mod common;
+#[path = "../../unripple-core/tests/shared/python.rs"]
+mod python;
+#[path = "../../unripple-core/tests/shared/skip.rs"]
+mod skip;
 
 use common::{Scratch, json, number, refused, run};
-use std::path::{Path, PathBuf};
+use python::python;
+use skip::skip;
 use std::process::Command;
 
 /// Made of the model: 16 points, 8 actuators.
@@ -102,36 +107,6 @@ with h5py.File(path) as file:
 print("read")
 "#;
 
-/// A Python that has the packages: the system's, or that of an environment in the target folder, made when needed.
-fn python() -> Result<PathBuf, String> {
-    let has = |python: &Path| {
-        Command::new(python)
-            .args(["-c", "import sofar, h5py, netCDF4"])
-            .output()
-            .is_ok_and(|output| output.status.success())
-    };
-    let own = PathBuf::from("python3");
-    if has(&own) {
-        return Ok(own);
-    }
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().ok_or("no target folder")?;
-    let folder = target.join("peers-sofa");
-    let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    let run = |command: &mut Command| match command.output() {
-        Ok(output) if output.status.success() => Ok(()),
-        Ok(output) => Err(String::from_utf8_lossy(&output.stderr).lines().last().unwrap_or("").to_owned()),
-        Err(error) => Err(error.to_string()),
-    };
-    if !python.exists() {
-        run(Command::new("python3").args(["-m", "venv"]).arg(&folder))?;
-    }
-    if !has(&python) {
-        let pip = ["-m", "pip", "install", "--quiet", "--retries", "1", "--timeout", "20"];
-        run(Command::new(&python).args(pip).args(["sofar>=1.2,<2", "h5py>=3,<4", "netCDF4>=1.6,<2"]))?;
-    }
-    Ok(python)
-}
-
 #[test]
 fn python_reads_and_verifies_the_sofa_file() {
     let scratch = Scratch::new("export-sofa");
@@ -140,12 +115,10 @@ fn python_reads_and_verifies_the_sofa_file() {
     assert_eq!((told["format"].as_str(), number(&told, "/points")), (Some("sofa"), 16.0));
     let again = run(&["export", &library, "-o", &out, "--author", "Zoë <z@example.org>"]);
     assert!(String::from_utf8_lossy(&again.stderr).contains("replaced the earlier export"));
-    let python = match python() {
+    let packages = ["sofar>=1.2,<2", "h5py>=3,<4", "netCDF4>=1.6,<2"];
+    let python = match python("peers-sofa", "sofar, h5py, netCDF4", &packages) {
         Ok(python) => python,
-        Err(why) => {
-            eprintln!("SKIPPED: Python with sofar is not here and cannot be had: {why}");
-            return;
-        }
+        Err(why) => return skip(&format!("Python with sofar is not here and cannot be had: {why}")),
     };
     let output = Command::new(python).args(["-W", "error", "-c", SCRIPT, &out, &library]).output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout);

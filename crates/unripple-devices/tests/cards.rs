@@ -2,6 +2,10 @@
 //! as fast as their threads do, each at a pace of its own.
 #![cfg(feature = "cards")]
 
+#[path = "../../unripple-core/tests/shared/skip.rs"]
+mod skip;
+
+use skip::skip;
 use unripple_core::{Device, DeviceError, State};
 use unripple_devices::DevicesError;
 use unripple_devices::cards::{Card, CardOptions, found};
@@ -13,7 +17,7 @@ fn names(count: usize) -> Vec<String> {
 /// Options for the null device, if the system has one.
 fn null() -> Option<CardOptions> {
     if !found().iter().any(|card| card.id == "null") {
-        eprintln!("SKIPPED: the sound system has no null device");
+        skip("the sound system has no null device (Debian: apt install libasound2-data)");
         return None;
     }
     let null = Some("null".to_owned());

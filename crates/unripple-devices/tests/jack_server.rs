@@ -1,11 +1,14 @@
 //! A real JACK server with its dummy driver, freewheeling: nothing is lost between two clients, and latency stays.
 //!
-//! Needs `jackd` and libjack (Debian: jackd2). Without them the test says so and passes.
+//! Needs `jackd` and libjack (Debian: jackd2). Without them the test is skipped, and fails in CI.
 
 mod common;
+#[path = "../../unripple-core/tests/shared/skip.rs"]
+mod skip;
 
 use common::server::Server;
 use common::{noise, play};
+use skip::skip;
 use std::process::Command;
 use unripple_core::*;
 use unripple_devices::*;
@@ -71,16 +74,9 @@ fn latency(device: &mut Jack) -> usize {
 #[test]
 fn samples_pass_a_real_server_unchanged_and_latency_stays() {
     let Some(mut server) = Server::start(PERIOD) else {
-        println!("SKIPPED: there is no jackd here (Debian: apt install jackd2)");
-        return;
+        return skip(common::server::NONE);
     };
-    let bridge = match bridge(&server) {
-        Err(DevicesError::Jack { what, .. }) => {
-            println!("SKIPPED: {what}");
-            return;
-        }
-        other => other.unwrap(),
-    };
+    let bridge = bridge(&server).unwrap();
     let client = || options(&server, Links::Client(bridge.name()));
     let mut found = Vec::new();
     for _ in 0..3 {

@@ -17,8 +17,7 @@ use unripple_touch::{Synthetic, SyntheticOptions};
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let seconds: f64 = std::env::args().nth(1).map_or(Ok(20.0), |s| s.parse())?;
     let Some(server) = Server::start(BLOCK) else {
-        println!("SKIPPED: there is no jackd here (Debian: apt install jackd2)");
-        return Ok(());
+        return Err(server::NONE.into());
     };
     // The server is there once a bridge is.
     let nothing = || Box::new(device()) as Box<dyn Device>;

@@ -1,14 +1,17 @@
 //! A film that is played through a real JACK server with its dummy driver: freewheeling, nothing is lost; killed and started again,
 //! it is found again.
 //!
-//! Needs `jackd` and libjack (Debian: jackd2). Without them the tests say so and pass.
+//! Needs `jackd` and libjack (Debian: jackd2). Without them the tests are skipped, and fail in CI.
 
 mod common;
 #[path = "../../unripple-devices/tests/common/server.rs"]
 mod server;
+#[path = "../../unripple-core/tests/shared/skip.rs"]
+mod skip;
 
 use common::*;
 use server::Server;
+use skip::skip;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::Relaxed};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
@@ -93,8 +96,7 @@ fn grains() -> Kind {
 fn freewheeling_nothing_is_lost() {
     let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
     let Some(server) = Server::start(PERIOD) else {
-        println!("SKIPPED: there is no jackd here (Debian: apt install jackd2)");
-        return;
+        return skip(server::NONE);
     };
     let ear = Ear::default();
     let bridge = server.bridge("ear", || listening(&ear)).unwrap();
@@ -120,8 +122,7 @@ fn freewheeling_nothing_is_lost() {
 fn a_server_that_was_killed_is_found_again() {
     let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
     let Some(server) = Server::start(PERIOD) else {
-        println!("SKIPPED: there is no jackd here (Debian: apt install jackd2)");
-        return;
+        return skip(server::NONE);
     };
     let name = server.name.clone();
     let ear = Ear::default();

@@ -1,12 +1,18 @@
 //! Python's own readers of Zarr open a library: an independent implementation of the format.
 
 mod library_common;
+#[path = "../../unripple-core/tests/shared/python.rs"]
+mod python;
+#[path = "../../unripple-core/tests/shared/skip.rs"]
+mod skip;
 
 use library_common::{Folder, filled, plan};
+use python::python;
+use skip::skip;
 use std::process::Command;
 
 const SCRIPT: &str = r#"
-import sys, numpy, zarr
+import sys, numpy, xarray, zarr
 group = zarr.open_group(sys.argv[1], mode="r")
 responses, state = group["responses"], group["state"]
 assert responses.shape == (300, 2, 9) and responses.chunks == (1, 2, 9), responses
@@ -19,28 +25,24 @@ assert numpy.allclose(group["position"][:, 0], 1e-4 * numpy.arange(300))
 assert group["quality"][7, 1, 3] == 0.07 and numpy.isnan(group["reciprocity_error"][()])
 about = group.attrs["unripple_library"]
 assert about["sample_rate_hz"] == 48000 and [a["name"] for a in about["actuators"]] == ["a1", "a2"]
-try:
-    import xarray
-except ImportError:
-    print("no xarray")
-else:
-    opened = xarray.open_zarr(sys.argv[1], consolidated=False)
-    assert opened.responses.dims == ("point", "actuator", "sample") and opened.sizes["point"] == 300
-    assert float(opened.responses[5, 1, 2]) == responses[5, 1, 2]
+opened = xarray.open_zarr(sys.argv[1], consolidated=False)
+assert opened.responses.dims == ("point", "actuator", "sample") and opened.sizes["point"] == 300
+assert float(opened.responses[5, 1, 2]) == responses[5, 1, 2]
 print("opened")
 "#;
 
 #[test]
 fn python_opens_it() {
-    let found =
-        Command::new("python3").args(["-c", "import zarr; assert zarr.__version__[0] == '3'"]).output();
-    if !found.is_ok_and(|output| output.status.success()) {
-        eprintln!("SKIPPED: Python with zarr 3 is not here (pip install zarr xarray)");
-        return;
-    }
+    let modules = "xarray, zarr; assert zarr.__version__[0] == '3'";
+    let python = match python("peers-zarr", modules, &["zarr>=3,<4", "xarray>=2025.1"]) {
+        Ok(python) => python,
+        Err(why) => {
+            return skip(&format!("Python with zarr 3 and xarray is not here and cannot be had: {why}"));
+        }
+    };
     let folder = Folder::new("python");
     drop(filled(&folder.0, &plan(300, 2, 9)));
-    let output = Command::new("python3").args(["-c", SCRIPT]).arg(&folder.0).output().unwrap();
+    let output = Command::new(python).args(["-c", SCRIPT]).arg(&folder.0).output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout);
     assert!(said.contains("opened"), "{said}{}", String::from_utf8_lossy(&output.stderr));
 }

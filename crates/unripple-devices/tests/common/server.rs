@@ -7,6 +7,9 @@ use std::time::{Duration, Instant};
 use unripple_core::Device;
 use unripple_devices::{Bridge, DevicesError};
 
+/// Why there is no server.
+pub const NONE: &str = "there is no jackd here (Debian: apt install jackd2)";
+
 /// A server of one test's own, gone afterwards.
 pub struct Server {
     child: Child,
