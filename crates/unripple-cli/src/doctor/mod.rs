@@ -45,7 +45,16 @@ pub fn run(options: &DoctorOptions, as_json: bool) -> Result<(), CliError> {
     checks.push(device::priority());
     let why = reasons(&checks);
     let report = Report { surface: surface.name.clone(), checks, why_you_may_feel_nothing: why };
-    output::answer(as_json, &report, &report.text())
+    output::answer(as_json, &report, &report.text())?;
+    let failed = report.checks.iter().filter(|check| check.verdict == Verdict::Failed);
+    let failed: Vec<&str> = failed.map(|check| check.name).collect();
+    match failed.is_empty() {
+        true => Ok(()),
+        false => {
+            let (count, all) = (failed.len(), report.checks.len());
+            Err(CliError::Work(format!("{count} of {all} checks failed: {}", failed.join(", "))))
+        }
+    }
 }
 
 fn told(surface: &Surface) -> String {
