@@ -30,6 +30,7 @@ pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
     let places: Vec<Point> = targets.iter().flat_map(|target| target.points.iter().copied()).collect();
     let (surface, responses, stored) = source.respond(&places, options.between.interpolation())?;
     let settings = settings(options, &surface, &responses)?;
+    targets::carries(responses.conditions(), settings.window, "--window-ms")?;
     let aware = aware(options, &surface)?;
     let focuser = aware.focuser(&responses, &settings)?;
     let focused = focuser.focus(&targets).map_err(act::ActError::from)?;

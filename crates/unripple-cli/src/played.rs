@@ -6,7 +6,7 @@ use crate::figures::{self, Scene};
 use crate::focus::finish;
 use crate::judge::{self, Judged};
 use crate::reads::Reads;
-use crate::targets::seconds;
+use crate::targets::{carries, seconds};
 use crate::{input, output, waveforms};
 use unripple::act::{DecidedBy, Followed, Report, Strength, Stroked, unit};
 use unripple::core::{ActuatorKind, Drive, Point, Responses, Surface};
@@ -59,6 +59,7 @@ pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
         Some(stroke) => stroked(options, &surface, &stroke, [&model, &judging])?,
         None => followed(options, &surface, [&model, &judging])?,
     };
+    carries(model.conditions(), work.drive.duration(), "--window-ms")?;
     let field = Field::new(&judging, &work.drive, CELLS).map_err(CliError::input)?;
     let until = work.drive.duration() - 1.0 / work.drive.rate();
     let judged = judge::judge(plant, &field, &work.aims, Some(work.drive.duration()), until)?;
@@ -135,6 +136,7 @@ fn stroked(
         rms_limit: surface.emission.rms_limit,
         ..defaults
     };
+    carries(model.conditions(), settings.window, "--window-ms")?;
     let pulses = stroke.pulses(model).map_err(CliError::input)?;
     let struck = strike(model, &pulses, &settings).map_err(CliError::input)?;
     let drive = struck.drive.as_emitted();

@@ -2,7 +2,7 @@
 
 use crate::args::RespondOptions;
 use crate::error::CliError;
-use crate::targets::{positive, seconds};
+use crate::targets::{carries, positive, seconds};
 use crate::{grid, input, judge, output};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
@@ -63,6 +63,7 @@ fn plan(
 ) -> Result<LibraryPlan, CliError> {
     let windows = [Some(modal.poles.len()), None].map(|modes| recommended_window(surface, modes));
     let length = seconds(options.length_ms, "--length-ms")?.unwrap_or(2.0 * windows[0].max(windows[1]));
+    carries(&modal.conditions, length, "--length-ms")?;
     let points = grid::points(&surface.outline, pitch)?;
     let conditions = modal.conditions.clone();
     let samples = window_samples(length, conditions.rate) + 1;

@@ -2,8 +2,8 @@
 
 use crate::args::TargetOptions;
 use crate::error::CliError;
-use unripple::act::Level;
-use unripple::core::Point;
+use unripple::act::{self, Level};
+use unripple::core::{Conditions, Point};
 use unripple::focus::{Line, Pattern, Target};
 use unripple_store::Drawing;
 
@@ -55,6 +55,11 @@ pub fn level(options: &TargetOptions) -> Result<Level, CliError> {
         (None, None, true) => Level::Limit,
         (None, None, false) => Level::default(),
     })
+}
+
+/// Refuses a time that no wave of the band fits into, naming the option that makes it longer.
+pub fn carries(conditions: &Conditions, seconds: f64, option: &str) -> Result<(), CliError> {
+    act::carries(conditions, seconds).map_err(|error| CliError::Work(format!("{option}: {error}")))
 }
 
 /// A positive time given in milliseconds, in seconds.

@@ -61,6 +61,7 @@ pub fn run(options: &CompareOptions, as_json: bool) -> Result<(), CliError> {
     };
     let window =
         seconds(options.window_ms, "--window-ms")?.unwrap_or_else(|| recommended_window(&surface, modes));
+    targets::carries(known.conditions(), window, "--window-ms")?;
     let (limit, rms_limit) = (surface.emission.limit, surface.emission.rms_limit);
     let settings = Options { window, limit, rms_limit, ..Options::default() };
     let level = targets::level(&options.targets)?;

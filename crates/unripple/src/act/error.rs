@@ -35,6 +35,19 @@ pub enum ActError {
         /// The value.
         found: f64,
     },
+    /// No wave fits into so short a time.
+    #[error(
+        "expected at least {:.4} ms, one period at the top of the band ({top} Hz): nothing shorter carries a wave, found {:.4} ms",
+        least * 1e3, found * 1e3
+    )]
+    Short {
+        /// The shortest time, in seconds.
+        least: f64,
+        /// The top of the band, in Hz.
+        top: f64,
+        /// The time, in seconds.
+        found: f64,
+    },
     /// The responses are not of the form that is needed.
     #[error("responses: expected modes, which {what} needs, found samples")]
     NeedsModes {
@@ -46,7 +59,7 @@ pub enum ActError {
 impl ActError {
     /// Whether the work failed although the input makes sense.
     pub fn is_failed_work(&self) -> bool {
-        matches!(self, Self::Physics(PhysicsError::NotConverged { .. }))
+        matches!(self, Self::Physics(PhysicsError::NotConverged { .. }) | Self::Short { .. })
     }
 }
 

@@ -4,6 +4,7 @@
 //! that they are the same everywhere.
 
 mod aware;
+mod carries;
 mod error;
 mod fingers;
 mod judge;
@@ -16,6 +17,7 @@ mod strength;
 mod window;
 
 pub use aware::Aware;
+pub use carries::carries;
 pub use error::{ActError, LevelKind};
 pub use fingers::{Felt, felt};
 pub use judge::{CELLS, Judged, judge, known};
