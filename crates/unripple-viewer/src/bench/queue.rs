@@ -78,7 +78,9 @@ mod tests {
         let refused = std::iter::from_fn(|| faults.try_recv().ok()).count();
         assert_eq!(refused, 5);
         // In the order in which it was asked for.
-        [Task::Design(edition(4)), act(4), Task::Design(edition(5)), act(5)].map(|task| queue.push(task));
+        for task in [Task::Design(edition(4)), act(4), Task::Design(edition(5)), act(5)] {
+            queue.push(task);
+        }
         assert_eq!(drained(&mut queue), [104, 5, 105]);
     }
 }
