@@ -87,13 +87,8 @@ fn sitting(jack: &'static Jack, wanted: &Wanted, period: usize) -> Result<(), Bo
     let after = [processor(played.0.id(), None), processor(std::process::id(), thread)];
     let idle = [0, 1].map(|i| 100.0 * (after[i] - before[i]) / wanted.seconds);
     let late = ours.shared.late.load(Relaxed);
-    let mut fingers = [Finger::new(port)?, Finger::new(empty_port)?];
-    let mut times = [Vec::new(), Vec::new()];
-    for _ in 0..wanted.touches {
-        for ((finger, watch), times) in fingers.iter_mut().zip([&ours, &theirs]).zip(&mut times) {
-            times.extend(touch(jack, finger, watch)?);
-        }
-    }
+    let fingers = [Finger::new(port)?, Finger::new(empty_port)?];
+    let times = touches(jack, wanted.touches, fingers, [&ours, &theirs])?;
     let late = ours.shared.late.load(Relaxed) - late;
     let summary = finish(played)?;
     let strokes = free_port()?;
@@ -124,6 +119,22 @@ fn sitting(jack: &'static Jack, wanted: &Wanted, period: usize) -> Result<(), Bo
         None,
     );
     Ok(())
+}
+
+/// Milliseconds from each touch to its answer, of two who are touched in turn.
+fn touches(
+    jack: &Jack,
+    count: usize,
+    mut fingers: [Finger; 2],
+    watches: [&Client; 2],
+) -> Result<[Vec<f64>; 2], Box<dyn Error>> {
+    let mut times = [Vec::new(), Vec::new()];
+    for _ in 0..count {
+        for ((finger, watch), times) in fingers.iter_mut().zip(watches).zip(&mut times) {
+            times.extend(touch(jack, finger, watch)?);
+        }
+    }
+    Ok(times)
 }
 
 /// The program, once its ports are there and heard.
