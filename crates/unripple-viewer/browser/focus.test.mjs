@@ -31,10 +31,20 @@ async function goOn(page) {
   await told(page, 'settings', ({ paused }) => !paused);
 }
 
-/** Whether fingers weigh on the sheet. */
+/** Whether fingers weigh on the sheet. Its clock begins anew: a page that is told so must not hold the one before for it. */
 async function weigh(page, load) {
+  const { head_s: before } = await told(page, 'status');
+  await page.evaluate((wanted) => {
+    const { state } = window.unripple;
+    window.begun = null;
+    state.subscribe('settings', (settings) => {
+      if (settings.load === wanted) window.begun ??= state.last('status').head_s;
+    });
+  }, load);
   await page.getByLabel('Fingers weigh').setChecked(load);
   await told(page, 'settings', (settings) => settings.load === load);
+  const begun = await page.evaluate(() => window.begun);
+  assert.ok(begun < before, `the clock stands at ${begun} s, where it stood at ${before} s before`);
 }
 
 test('fingers', async (t) => {

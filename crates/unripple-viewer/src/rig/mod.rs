@@ -115,7 +115,7 @@ impl Rig {
 
     /// Works until told to stop, or until nobody is there any more to tell.
     pub fn run(mut self, orders: Receiver<Order>) {
-        self.tell_transport();
+        self.tell_anew();
         let mut due = Instant::now();
         let mut passed = Instant::now();
         loop {
@@ -179,7 +179,7 @@ impl Rig {
                     None => Transport { now: self.head(), speed, ..Transport::default() },
                 };
                 self.replay = replay;
-                self.tell_transport();
+                self.tell_anew();
             }
             Order::Look | Order::Stop => {}
         }
@@ -207,7 +207,9 @@ impl Rig {
         self.instrument = instrument;
         self.replay = None;
         let Transport { speed, paused, .. } = self.transport;
-        self.transport = Transport { speed, paused: paused && speed < 1.0, ..Transport::default() };
+        // A block of it is played at once, so that there is something to look at even while time stands still.
+        let now = 1.0 / self.instrument.rate();
+        self.transport = Transport { speed, paused: paused && speed < 1.0, now, ..Transport::default() };
         self.pace = (Instant::now(), 0.0, speed);
         self.before = 0.0;
         self.wrong = None;
@@ -219,7 +221,7 @@ impl Rig {
             probe.at = self.instrument.spec.surface.outline.nearest(probe.at);
             probe.weights = lens::weights(plant, &[probe.at]);
         }
-        self.tell_transport();
+        self.tell_anew();
     }
 
     fn probe(&mut self, asked: &wire::Probe) {

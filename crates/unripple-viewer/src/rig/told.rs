@@ -72,6 +72,17 @@ impl Rig {
         }
     }
 
+    /// Tells all there is to tell of another clock, at once: whoever is told next of how that surface is played must not take what he
+    /// knows of the clock before for it, nor see a picture of then.
+    pub(super) fn tell_anew(&mut self) {
+        for pane in ["frame 0", "frame 1"] {
+            self.board.withdraw(pane);
+        }
+        self.known.fingers.clear();
+        self.tell();
+        self.tell_transport();
+    }
+
     /// Tells how time passes and what is followed.
     pub(super) fn tell_transport(&mut self) {
         let probe =
