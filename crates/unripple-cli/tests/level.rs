@@ -80,6 +80,34 @@ fn a_thick_plate_is_driven_to_its_limit() {
     assert!(topics(&report).is_empty(), "{}", report["notes"]);
 }
 
+/// A slack thick film gets tight before it moves by half its thickness; a weak plate breaks.
+#[test]
+fn tension_and_yield_decide_where_they_come_first() {
+    let scratch = Scratch::new("level-bounds");
+    let out = scratch.join("out");
+    let sheet = |name: &str, sheet: &str| {
+        scratch.file(
+            name,
+            format!(
+                "format = 1\nname = \"A sheet\"\n[outline]\nrectangle_mm = [150, 120]\n[sheet]\nyoung_gpa = 4\n\
+                 density_kg_m3 = 1400\npoisson_ratio = 0.3\nthickness_mm = 1\ndecay_time_ms = 40\n{sheet}\n[drive]\n\
+                 band_hz = [0, 1500]\nsample_rate_hz = 16000\nlimit = 5\n[[actuator]]\nat_mm = [12, 31]\n\
+                 [[actuator]]\nat_mm = [140, 44]\n[[actuator]]\nat_mm = [40, 110]\n"
+            ),
+        )
+    };
+    for (bound, file, key, half) in [
+        ("tension", sheet("slack.toml", "tension_n_per_m = 5"), "tension_change", 0.05),
+        ("yield", sheet("weak.toml", "tension_n_per_m = 0\nstrength_mpa = 0.02"), "share_of_yield", 0.5),
+    ] {
+        let report = json(&["focus", &file, "--at", "62,70", "--window-ms", "30", "-o", &out]);
+        assert_eq!(report["level"]["decided_by"], bound);
+        let found = number(&report, &format!("/linearity/{key}"));
+        assert!((found / half - 1.0).abs() < 1e-3, "{bound}: {found}");
+        assert!(topics(&report).is_empty() && report["linearity"]["holds"] == true, "{}", report["notes"]);
+    }
+}
+
 #[test]
 fn what_a_method_does_at_its_limit_is_void_below_it_and_said_to_be() {
     let scratch = Scratch::new("level-methods");

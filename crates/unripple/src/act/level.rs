@@ -1,13 +1,13 @@
 use super::error::{ActError, LevelKind};
-use super::judge::{known, linear};
+use super::judge::{CELLS, known, linear};
 use super::send::Aimed;
 use super::strength::DecidedBy;
 use crate::core::{Drive, Responses, Surface};
 use crate::field::Field;
 use crate::physics::design::{LinearBound, LinearLevel};
 
-/// Cells of the grid per shortest wavelength: enough for a level.
-const CELLS: f64 = 4.0;
+/// Cells of the grid per shortest wavelength: enough for displacements, while slopes take as many as figures.
+const COARSE: f64 = 4.0;
 
 /// How loud a drive is to be.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -48,8 +48,15 @@ impl Level {
         Ok(match self {
             Self::Limit => None,
             Self::Linear => {
-                let reach = Field::new(responses, drive, CELLS)?.reach(&aimed.aims, aimed.seconds())?;
-                LinearLevel::of(surface, &linear(surface, &reach)).map(Step::from)
+                let found = |cells: f64| -> Result<Option<LinearLevel>, ActError> {
+                    let reach = Field::new(responses, drive, cells)?.reach(&aimed.aims, aimed.seconds())?;
+                    Ok(LinearLevel::of(surface, &linear(surface, &reach)))
+                };
+                let level = match found(COARSE)? {
+                    Some(level) if level.bound != LinearBound::Thickness => found(CELLS)?,
+                    level => level,
+                };
+                level.map(Step::from)
             }
             Self::Peak(wanted) => {
                 let legal = wanted.is_finite() && wanted > 0.0;
