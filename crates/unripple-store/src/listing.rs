@@ -104,8 +104,13 @@ pub(crate) fn guests(folder: &Path, files: &BTreeMap<String, Print>) -> io::Resu
         }
         let listed = name.to_str().and_then(|name| files.get(name));
         let (kind, name) = (entry.file_type()?, name.to_string_lossy().into_owned());
-        let same = |known: &Print| {
-            Ok::<bool, io::Error>(entry.metadata()?.len() == known.0 && print(&entry.path())? == *known)
+        // What is gone meanwhile is nobody's: another run has replaced all that was ours.
+        let same = |known: &Print| match entry
+            .metadata()
+            .and_then(|found| Ok(found.len() == known.0 && print(&entry.path())? == *known))
+        {
+            Err(error) if error.kind() == ErrorKind::NotFound => Ok(true),
+            other => other,
         };
         match listed {
             Some(known) if kind.is_file() && same(known)? => {}

@@ -115,7 +115,8 @@ impl OutputDir {
     /// Changes places with the earlier run, and looks once more at what that holds, now that nobody reaches it by its name.
     fn replace(&self, entry: &mut Entry) -> Result<(), StoreError> {
         swap(self.path(), &self.place).map_err(StoreError::write(&self.place))?;
-        let Err(error) = earlier(self.path()) else {
+        let found = earlier(self.path());
+        let Some(error) = found.err().filter(|_| !is_gone(self.path())) else {
             entry.what = What::Listed(self.path().into());
             return Ok(());
         };
@@ -126,6 +127,14 @@ impl OutputDir {
         }
         // Said of the place that people know.
         earlier(&self.place).and(Err(error))
+    }
+}
+
+/// Whether nothing is left of a folder, since another run has tidied up what this one had replaced.
+fn is_gone(folder: &Path) -> bool {
+    match fs::read_dir(folder) {
+        Ok(mut items) => items.next().is_none(),
+        Err(error) => error.kind() == ErrorKind::NotFound,
     }
 }
 

@@ -46,8 +46,9 @@ mod tests {
     fn folders_change_places_either_way() {
         let scratch = std::env::temp_dir().join(format!("unripple-swap-{}", std::process::id()));
         let [a, b] = ["a", "b"].map(|name| scratch.join(name));
+        fs::create_dir(&scratch).unwrap();
         for folder in [&a, &b] {
-            fs::create_dir_all(folder).unwrap();
+            fs::create_dir(folder).unwrap();
             fs::write(folder.join(folder.file_name().unwrap()), "x").unwrap();
         }
         by_renaming(&a, &b).unwrap();

@@ -8,7 +8,7 @@ use unripple_store::{StoreError, check_kept_wav, read_wav, write_kept_wav, write
 #[test]
 fn a_kept_drive_is_replaced_until_somebody_changes_it() {
     let scratch = std::env::temp_dir().join(format!("unripple-kept-{}", std::process::id()));
-    fs::create_dir_all(&scratch).unwrap();
+    fs::create_dir(&scratch).unwrap();
     let path = scratch.join("drive.wav");
     let drive =
         Drive::new(48e3, vec!["a".into(), "b".into()], vec![vec![0.5, -0.25], vec![0.0, 1.0]]).unwrap();

@@ -89,7 +89,7 @@ fn five_lines_are_enough() {
 #[test]
 fn files_are_found_by_name_and_by_ending() {
     let folder = std::env::temp_dir().join(format!("unripple-effects-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::create_dir(&folder).unwrap();
     let write = |name: &str, text: &str| {
         let path = folder.join(name);
         std::fs::write(&path, text).unwrap();

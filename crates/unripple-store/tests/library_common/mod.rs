@@ -14,7 +14,9 @@ impl Folder {
         static COUNT: AtomicUsize = AtomicUsize::new(0);
         let count = COUNT.fetch_add(1, Ordering::Relaxed);
         let folder = format!("unripple-library-{name}-{}-{count}", std::process::id());
-        Self(std::env::temp_dir().join(folder))
+        let path = std::env::temp_dir().join(folder);
+        assert!(!path.exists(), "{} is somebody else's", path.display());
+        Self(path)
     }
 }
 

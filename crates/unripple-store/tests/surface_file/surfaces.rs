@@ -166,7 +166,7 @@ fn an_outline_drawn_in_svg() {
 #[test]
 fn from_disk() {
     let folder = std::env::temp_dir().join(format!("unripple-surfaces-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::create_dir(&folder).unwrap();
     let file = folder.join("film.toml");
     let load = || load_surface(&file.display().to_string());
 
