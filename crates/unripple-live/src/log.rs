@@ -59,10 +59,11 @@ impl Log {
         match report {
             Report::Started { voice, sample, gain } => self.start(voice.0, *sample, *gain),
             Report::Ended { voice, .. } => self.forget(voice.0),
-            Report::Refused { voice: Some(voice), .. } => {
-                if self.playing.get(&voice.0).is_some_and(|playing| !playing.repeats) {
-                    self.forget(voice.0);
-                }
+            // Of what repeats a change may have been refused.
+            Report::Refused { voice: Some(voice), .. }
+                if self.playing.get(&voice.0).is_some_and(|playing| !playing.repeats) =>
+            {
+                self.forget(voice.0);
             }
             _ => {}
         }

@@ -22,6 +22,8 @@ const FINGERS: u64 = 12;
 #[derive(Debug, Default)]
 struct Day {
     played_s: f64,
+    /// Of which with fingers.
+    touched_s: f64,
     sittings: u64,
     stood: u64,
     restarted: u64,
@@ -118,18 +120,20 @@ impl Sitting {
         }
     }
 
-    /// All fingers leave.
-    fn end(mut self, day: &mut Day) {
+    /// All fingers leave, for so many seconds.
+    fn end(mut self, rest: f64, day: &mut Day) {
+        day.touched_s += self.rig.now();
         let now = self.rig.now();
         let lifts = (0..FINGERS).map(|finger| at(finger, Phase::Up, somewhere(&mut Random::seeded(1)), now));
         self.rig.touch(lifts.collect());
-        self.rig.falls_silent(1.0);
+        self.rig.rings_out(rest);
         day.count(&self);
     }
 
     /// The audio side is started anew in the middle of it all: what was there fades out.
     fn restart(self, random: &mut Random, day: &mut Day) {
         day.restarted += 1;
+        day.touched_s += self.rig.now();
         day.count(&self);
         let blocks = self.rig.blocks(0.05) + 1;
         let Rig { mut conductor, mut player, mut drive, .. } = self.rig;
@@ -167,15 +171,17 @@ fn every_sitting_ends_in_silence() {
     while day.played_s < wanted && began.elapsed().as_secs_f64() < most {
         let mut random = Random::seeded(day.sittings);
         let mut sitting = Sitting::new(&mut random);
-        let length = random.between(1.0, 120.0);
+        let length = random.between(1.0, 40.0);
         while sitting.rig.now() < length && began.elapsed().as_secs_f64() < most {
             sitting.go_on(&mut random, &mut day);
-            if random.uniform() < 1e-4 {
+            if random.uniform() < 5e-4 {
                 sitting.restart(&mut random, &mut day);
                 sitting = Sitting::new(&mut random);
             }
         }
-        sitting.end(&mut day);
+        // Most of a day nobody is there.
+        let rest = random.between(60.0, 600.0).min(wanted - day.played_s - sitting.rig.now());
+        sitting.end(rest.max(1.0), &mut day);
         day.sittings += 1;
         if told.elapsed() > Duration::from_secs(60) {
             told = Instant::now();

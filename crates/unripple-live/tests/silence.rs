@@ -99,7 +99,7 @@ fn a_waveform_that_is_refused_gives_its_input_back() {
     }
     assert!(rig.conductor.tally().refused >= 6);
     rig.touch(lift(6, rig.now()));
-    rig.falls_silent(1.0);
+    rig.rings_out(1.0);
 }
 
 /// What waveforms are over is known even if the word of it was lost.
@@ -117,7 +117,7 @@ fn inputs_are_free_again_when_reports_were_lost() {
     }
     assert!(rig.conductor.desk().meters().count(Count::ReportsLost) > 0);
     rig.touch(lift(3, rig.now()));
-    rig.falls_silent(1.0);
+    rig.rings_out(1.0);
 }
 
 #[derive(Clone, Debug)]
@@ -165,7 +165,7 @@ proptest! {
             }
         }
         rig.touch(lift(6, rig.now()));
-        rig.falls_silent(1.0);
+        rig.rings_out(1.0);
     }
 
     #[test]
@@ -174,6 +174,6 @@ proptest! {
         rig.touch(stroke(5, 0, 0.0));
         prop_assert!(rig.rest(blocks + 50) > 0.0);
         rig.touch(lift(5, rig.now()));
-        rig.falls_silent(1.0);
+        rig.rings_out(1.0);
     }
 }

@@ -84,13 +84,18 @@ impl Rig {
         (0..blocks).map(block).fold(0.0, f32::max)
     }
 
-    /// Two windows without a touch, and then exact silence for so many seconds. Waveforms take a block longer on their way, and what begins
-    /// waits for one.
+    /// Two windows without a touch, a block in which the lift is heard and one that rounds up; then exact silence for so many seconds.
     pub fn falls_silent(&mut self, seconds: f64) {
         self.rest(self.blocks(2.0 * WINDOW) + 2);
         let left = self.rest(self.blocks(seconds));
         assert!(left == 0.0, "{left} two windows after the last lift");
         assert!(self.conductor.desk().meters().is_silent());
+    }
+
+    /// The same after waveforms: these come later by the player's delay, and fade.
+    pub fn rings_out(&mut self, seconds: f64) {
+        self.rest(self.blocks(self.conductor.desk().wave_delay() as f64 / RATE));
+        self.falls_silent(seconds);
     }
 
     /// So many seconds, in whole blocks.

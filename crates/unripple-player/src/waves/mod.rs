@@ -33,6 +33,9 @@ pub(crate) struct Waves {
     arch: Arch,
 }
 
+/// Filters, and samples of the fade to them.
+type Turn = (Arc<PreparedFilters>, u32);
+
 /// A prepared waveform that enters an input.
 struct Sound {
     whose: Whose,
@@ -123,7 +126,7 @@ impl Waves {
     pub(crate) fn start(
         &mut self,
         (whose, input): (Whose, usize),
-        (samples, filters): (Arc<[f32]>, Option<(Arc<PreparedFilters>, u32)>),
+        (samples, filters): (Arc<[f32]>, Option<Turn>),
         start: u64,
         (gain, looped): (f32, bool),
         outlet: &mut Outlet,
