@@ -11,6 +11,9 @@ mod told;
 mod transport;
 mod works;
 
+#[cfg(test)]
+mod tests;
+
 pub use instrument::{CELLS, Follow, Instrument, Opener, PULSES, Spec, check_effect};
 pub use lens::Cells;
 pub use replay::Replay;
