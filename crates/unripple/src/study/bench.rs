@@ -138,6 +138,11 @@ impl Bench {
         Replay::once(&self.poles, self.conditions.rate, window)
     }
 
+    /// The same however long the window.
+    pub fn once_of_any_length(&self, window: f64) -> Replay {
+        Replay::of_any_length(&self.poles, self.conditions.rate, window)
+    }
+
     /// A pulse over a window (s) every `period` seconds.
     pub fn repeated(&self, window: f64, period: f64) -> Replay {
         Replay::repeated(&self.poles, self.conditions.rate, window, period)

@@ -1,5 +1,5 @@
 use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatRef, Par};
+use faer::{Accum, Mat, MatRef, Par, c64};
 use unripple_core::{Pole, window_samples};
 
 /// What a replayed response leaves of every mode at the focal instant: `I_mn = Σ_i heard_m[i] g_n[i] / rate`.
@@ -20,6 +20,22 @@ impl Replay {
     pub fn once(poles: &[Pole], rate: f64, window: f64) -> Self {
         let rings = rings(poles, rate, window_samples(window, rate));
         Self::of(rings.clone(), rings, rate)
+    }
+
+    /// The same at any length for the same work: the sums over samples in closed form. For modes that swing, σ < ω, or stand
+    /// still.
+    ///
+    /// g_m = Re a_m z_m^i, so that I_mn = ½ Re Σ_i (a_m a_n (z_m z_n)^i + a_m a_n* (z_m z_n*)^i), two geometric series.
+    pub fn of_any_length(poles: &[Pole], rate: f64, window: f64) -> Self {
+        let terms = window_samples(window, rate) as f64 + 1.0;
+        let swings: Vec<(c64, c64)> = poles.iter().map(|pole| phasor(*pole)).collect();
+        let whole = Mat::from_fn(poles.len(), poles.len(), |m, n| {
+            let ((a, s), (b, r)) = (swings[m], swings[n]);
+            let sum = a * b * geometric((s + r) / rate, terms)
+                + a * b.conj() * geometric((s + r.conj()) / rate, terms);
+            sum.re / (2.0 * rate)
+        });
+        Self(Form::Whole(whole))
     }
 
     /// A pulse repeated every `period` seconds, long after the first and long before the last.
@@ -63,6 +79,22 @@ impl Replay {
             Self(Form::Whole(product(heard.transpose(), rings.as_ref())))
         }
     }
+}
+
+/// A mode's velocity as a_m and s_m of Re a_m e^{s_m t}.
+fn phasor(pole: Pole) -> (c64, c64) {
+    let swing = ((pole.omega - pole.sigma) * (pole.omega + pole.sigma)).max(0.0).sqrt();
+    let lag = if swing > 0.0 { pole.sigma / swing } else { 0.0 };
+    (c64::new(1.0, lag), c64::new(-pole.sigma, swing))
+}
+
+/// Σ e^{xi} for i from 0, so many terms.
+fn geometric(x: c64, terms: f64) -> c64 {
+    if (x * terms).norm() < 1e-9 {
+        return c64::new(terms, 0.0);
+    }
+    let one = c64::new(1.0, 0.0);
+    ((x * terms).exp() - one) / (x.exp() - one)
 }
 
 /// Modal velocities g_m at samples 0 to `last`, samples x modes.
@@ -110,6 +142,20 @@ mod tests {
             let expected = by_pulses(window as usize, step as usize, rate);
             let error = (&found - &expected).norm_max() / expected.norm_max();
             assert!(error < 1e-9, "{window} {step}: {error}");
+        }
+    }
+
+    #[test]
+    fn series_are_their_sums() {
+        let (rate, mut poles) = (8e3, poles());
+        poles.push(Pole::new(0.0, 0.0));
+        let identity = Mat::<f64>::identity(5, 5);
+        for window in [0.0, 0.004, 0.2] {
+            let apply = |replay: Replay| replay.apply(identity.as_ref());
+            let expected = apply(Replay::once(&poles, rate, window));
+            let found = apply(Replay::of_any_length(&poles, rate, window));
+            let error = (&found - &expected).norm_max() / expected.norm_max();
+            assert!(error < 1e-10, "{window}: {error}");
         }
     }
 
