@@ -6,10 +6,10 @@ use crate::error::CliError;
 use crate::figures::{self, Scene};
 use crate::judge::{self, Judged};
 use crate::reads::Reads;
-use crate::targets::{self, seconds};
+use crate::targets::{self, of_window, seconds};
 use crate::{fingers, input, output, played, waveforms};
-use unripple::act::{self, Act, Report, recommended_window};
-use unripple::core::{ActuatorKind, Decay, Drive, Point, Responses, Surface};
+use unripple::act::{self, Act, Note, Report, chosen_window};
+use unripple::core::{ActuatorKind, Decay, Drive, Point, Surface};
 use unripple::focus::{Focused, LossCorrection, Options};
 use unripple::physics::Medium;
 use unripple_store::{OutputDir, write_wav};
@@ -29,11 +29,15 @@ pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
     let targets = targets::all(&options.targets, lambda_min)?;
     let places: Vec<Point> = targets.iter().flat_map(|target| target.points.iter().copied()).collect();
     let (surface, responses, stored) = source.respond(&places, options.between.interpolation())?;
-    let settings = settings(options, &surface, &responses)?;
-    targets::carries(responses.conditions(), settings.window, "--window-ms")?;
+    let asked = seconds(options.window_ms, "--window-ms")?;
+    let chosen = asked.is_none().then(|| chosen_window(&surface, &responses));
+    let window = asked.or(chosen.as_ref().map(|chosen| chosen.seconds)).unwrap_or_default();
+    targets::carries(responses.conditions(), window, "--window-ms")?;
+    let settings = settings(options, &surface, window)?;
     let aware = aware(options, &surface)?;
     let focuser = aware.focuser(&responses, &settings)?;
-    let focused = focuser.focus(&targets).map_err(act::ActError::from)?;
+    let focused = focuser.focus(&targets).map_err(act::ActError::from);
+    let focused = focused.map_err(|error| of_window(error.into(), asked.is_some()))?;
     let restored = aware.note(&responses, &targets, &settings, &focused)?;
 
     let judged_surface = plant.as_ref().unwrap_or(&surface);
@@ -53,6 +57,7 @@ pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
     let mut report = Report::of_focus(&surface, &focused, settings.window, &drive, &judged);
     report.level = Some(sent.strength);
     report.fingers = act::felt(&contacts, judged_surface, [judging, free], &drive, judged.until)?;
+    report.notes.extend(chosen.map(|chosen| Note { topic: "window", text: chosen.text() }));
     report.notes.extend(restored);
     report.judged_on = other.then(|| judged_on(judged_surface, options.judge_hz));
     if let Some((told, notes)) = stored {
@@ -78,9 +83,7 @@ fn needing_modes(options: &FocusOptions) -> [(&'static str, bool); 7] {
     ]
 }
 
-fn settings(options: &FocusOptions, surface: &Surface, responses: &Responses) -> Result<Options, CliError> {
-    let window =
-        seconds(options.window_ms, "--window-ms")?.unwrap_or_else(|| recommended_window(surface, responses));
+fn settings(options: &FocusOptions, surface: &Surface, window: f64) -> Result<Options, CliError> {
     let loss = match (options.losses, &surface.sheet.decay) {
         (LossName::None, _) => LossCorrection::None,
         (LossName::PerMode, _) => LossCorrection::PerMode,

@@ -9,7 +9,7 @@ use serde_json::json;
 use std::time::{SystemTime, UNIX_EPOCH};
 use unripple::act::unit;
 use unripple::core::{ModalResponses, Responses, Surface, window_samples};
-use unripple::physics::design::recommended_window;
+use unripple::physics::design::Windows;
 use unripple::physics::sample;
 use unripple_store::{Library, LibraryPlan, PointState, Quality, Take};
 
@@ -61,8 +61,8 @@ fn plan(
     modal: &ModalResponses,
     pitch: f64,
 ) -> Result<LibraryPlan, CliError> {
-    let windows = [Some(modal.poles.len()), None].map(|modes| recommended_window(surface, modes));
-    let length = seconds(options.length_ms, "--length-ms")?.unwrap_or(2.0 * windows[0].max(windows[1]));
+    let length = seconds(options.length_ms, "--length-ms")?
+        .unwrap_or_else(|| 2.0 * Windows::of(surface).recommended().seconds);
     carries(&modal.conditions, length, "--length-ms")?;
     let points = grid::points(&surface.outline, pitch)?;
     let conditions = modal.conditions.clone();

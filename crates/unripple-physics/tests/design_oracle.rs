@@ -1,7 +1,8 @@
 //! Design figures against the paper's numbers and against values worked out apart.
 
+use std::f64::consts::PI;
 use unripple_core::{Decay, Edge, Edges, Outline, Shape, Surface};
-use unripple_physics::design::{Cavity, closed, papers_surface};
+use unripple_physics::design::{Cavity, Windows, closed, papers_surface};
 use unripple_physics::{Design, Modes, PhysicsError, design};
 
 fn close(found: f64, expected: f64, tolerance: f64) {
@@ -41,10 +42,52 @@ fn windows_are_worked_out_by_hand() {
     let d = paper();
     // (2 · 0.0225 · 418.88 + 0.6) / (2 · 8 · 33.806) s.
     close(d.window_paper_s, 0.03596, 1e-3);
-    let cavity = Cavity::of(&papers_surface(), 3000.0).counted(306.0);
-    let endless = cavity.contrast(8.0, 1e3);
-    close(cavity.contrast(8.0, d.window_recommended_s) / endless, 0.9, 1e-6);
-    close(d.contrast_endless, endless, 1e-6);
+    // Nine tenths of the largest contrast over T, by simulation as by the modes' closed form; three quarters is the window of live play.
+    let windows = Windows::of(&papers_surface());
+    let (patient, prompt) = (windows.recommended(), windows.shortest(0.75));
+    assert_eq!(
+        (patient.seconds, patient.why.clone()),
+        (d.window_recommended_s, d.window_recommended_why.clone())
+    );
+    close(patient.seconds, 0.030, 0.03);
+    close(patient.contrast / patient.largest, 0.9, 3e-3);
+    close(prompt.contrast / prompt.largest, 0.75, 3e-3);
+    close(d.contrast_endless / d.contrast_predicted, patient.largest / patient.contrast, 1e-9);
+    assert!(patient.why.contains("the shortest with nine tenths of the largest contrast"), "{}", patient.why);
+}
+
+#[test]
+fn windows_are_never_below_three_crossings() {
+    // A plate that swallows waves before they have come across: contrast is highest while most of it is silent.
+    let mut dead = papers_surface();
+    dead.sheet.decay = Decay::Time(0.5e-3);
+    let shortest = Windows::of(&dead).recommended();
+    let chord = PI * 0.0225 / 0.6;
+    assert!(shortest.at_floor && shortest.why.contains("cross the surface three times"), "{shortest:?}");
+    // Between the slowest and the fastest waves of the band, 33.8 and 66 m/s.
+    assert!(shortest.seconds > 3.0 * chord / 66.0 && shortest.seconds < 3.0 * chord / 33.8, "{shortest:?}");
+}
+
+#[test]
+fn losses_that_grow_with_frequency_leave_a_window() {
+    for loss_factor in [0.001, 0.01, 0.1] {
+        let mut film = papers_surface();
+        film.sheet.decay = Decay::LossFactor(loss_factor);
+        for chosen in [Windows::of(&film).recommended(), Windows::by_law(&film, "asked for").recommended()] {
+            assert!((0.005..0.2).contains(&chosen.seconds), "{loss_factor}: {chosen:?}");
+        }
+    }
+}
+
+#[test]
+fn a_window_without_modes_says_so() {
+    let chosen = Windows::by_law(&papers_surface(), "asked for").recommended();
+    assert!(chosen.why.ends_with("by the statistics of its modes: asked for"), "{}", chosen.why);
+    // Ten thousand modes: nobody solves for them here.
+    let mut large = papers_surface();
+    large.outline = Outline::new(Shape::Rectangle { width: 1.0, height: 0.8 });
+    let chosen = Windows::of(&large).recommended();
+    assert!(chosen.why.contains("too many") && chosen.seconds > 0.01, "{chosen:?}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! An act against its definitions, and against what is known of the paper's surface.
 
-use unripple::act::{Act, ActError, DecidedBy, Level, LevelKind, model, recommended_window};
+use unripple::act::{Act, ActError, DecidedBy, Level, LevelKind, chosen_window, model, recommended_window};
 use unripple::core::{Point, Responses, Surface};
 use unripple::field::{Aim, MeasureOptions, measure};
 use unripple::focus::{Focuser, Method, Options, Target, focus};
@@ -158,11 +158,15 @@ fn ratios_do_not_depend_on_the_level() {
 }
 
 #[test]
-fn the_window_is_that_of_the_modes_or_as_long_as_samples_last() {
+fn the_window_is_that_of_the_design_or_as_long_as_samples_last() {
     let (surface, responses) = paper();
     let own = recommended_window(&surface, &responses);
-    assert!((own - 0.042_170_404).abs() < 1e-8, "{own}");
+    let design = unripple::physics::design(&surface).unwrap();
+    assert_eq!(own, design.window_recommended_s);
     let Responses::Modal(modal) = &responses else { panic!("modes") };
     let short = unripple::physics::sample(modal, &[Point::from_mm(62.0, 90.0)], 961);
-    assert_eq!(recommended_window(&surface, &Responses::Sampled(short)), 0.02);
+    let chosen = chosen_window(&surface, &Responses::Sampled(short));
+    assert_eq!(chosen.seconds, 0.02);
+    assert!(chosen.why.starts_with("the longest that the responses last"), "{}", chosen.why);
+    assert!(chosen.contrast < 0.9 * chosen.largest, "{chosen:?}");
 }

@@ -8,14 +8,13 @@ use crate::args::CompareOptions;
 use crate::error::CliError;
 use crate::focus::finish;
 use crate::reads::Reads;
-use crate::targets::{self, seconds};
+use crate::targets::{self, of_window, seconds};
 use crate::{figures, input, judge, output};
 use row::Row;
 use serde::Serialize;
-use unripple::act::Level;
+use unripple::act::{Level, chosen_window};
 use unripple::core::{Responses, Surface};
 use unripple::focus::{Method, Options, Target};
-use unripple::physics::design::recommended_window;
 use unripple_store::OutputDir;
 
 /// Everything that is compared with.
@@ -39,6 +38,9 @@ struct Comparison {
     command: &'static str,
     surface: String,
     window_s: f64,
+    /// Why it is that, where nobody asked for it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    window_why: Option<String>,
     judged_to_hz: f64,
     methods: Vec<Row>,
     fronts: Vec<front::Front>,
@@ -55,12 +57,9 @@ pub fn run(options: &CompareOptions, as_json: bool) -> Result<(), CliError> {
     let targets = targets::all(&options.targets, known.conditions().lambda_min)?;
     let judged_to = options.judge_hz.unwrap_or(2.0 * surface.emission.band[1]);
     let plant = judge::model(&surface, Some(judged_to), &[])?;
-    let modes = match &known {
-        Responses::Modal(modal) => Some(modal.poles.len()),
-        Responses::Sampled(_) => None,
-    };
-    let window =
-        seconds(options.window_ms, "--window-ms")?.unwrap_or_else(|| recommended_window(&surface, modes));
+    let asked = seconds(options.window_ms, "--window-ms")?;
+    let chosen = asked.is_none().then(|| chosen_window(&surface, &known));
+    let window = asked.or(chosen.as_ref().map(|chosen| chosen.seconds)).unwrap_or_default();
     targets::carries(known.conditions(), window, "--window-ms")?;
     let (limit, rms_limit) = (surface.emission.limit, surface.emission.rms_limit);
     let settings = Options { window, limit, rms_limit, ..Options::default() };
@@ -73,7 +72,8 @@ pub fn run(options: &CompareOptions, as_json: bool) -> Result<(), CliError> {
         options: &settings,
         level,
     };
-    let mut rows = Method::ALL.iter().map(|m| row::judge(&ground, *m)).collect::<Result<Vec<_>, _>>()?;
+    let rows = Method::ALL.iter().map(|m| row::judge(&ground, *m)).collect::<Result<Vec<_>, _>>();
+    let mut rows = rows.map_err(|error| of_window(error, asked.is_some()))?;
     row::relate(&mut rows);
     let fronts = front::all(&ground)?;
     let felt = front::felt(&ground)?;
@@ -85,6 +85,7 @@ pub fn run(options: &CompareOptions, as_json: bool) -> Result<(), CliError> {
         command: "compare",
         surface: surface.name.clone(),
         window_s: window,
+        window_why: chosen.as_ref().map(|chosen| chosen.why.clone()),
         judged_to_hz: judged_to,
         methods: rows,
         fronts,
@@ -92,7 +93,10 @@ pub fn run(options: &CompareOptions, as_json: bool) -> Result<(), CliError> {
         files: Vec::new(),
     };
     let conditions = row::Conditions { window, judged_to, level };
-    let text = row::table(&found.methods, conditions);
+    let mut text = row::table(&found.methods, conditions);
+    if let Some(chosen) = &chosen {
+        text += &format!("\nwindow {}\n", chosen.text());
+    }
     if let Some(out) = out {
         files.extend(figures::write(
             &out,

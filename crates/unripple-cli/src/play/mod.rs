@@ -7,7 +7,7 @@ mod touches;
 use crate::args::PlayOptions;
 use crate::error::CliError;
 use crate::reads::Reads;
-use crate::targets::{positive, seconds};
+use crate::targets::{of_window, positive, seconds};
 use crate::{input, interrupt, judge, output};
 use open::Opened;
 pub use open::{late, opener};
@@ -15,6 +15,7 @@ use report::Report;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use touches::Touches;
+use unripple::act::lasting;
 use unripple::core::{Drive, Responses, Surface};
 use unripple::physics::Medium;
 use unripple_calibrate::{Ping, PingOptions};
@@ -50,14 +51,15 @@ pub fn run(options: &PlayOptions, as_json: bool) -> Result<(), CliError> {
         }
         check_kept_wav(path, &options.reads())?;
     }
-    let window = window(options, &surface)?;
     let responses = Arc::new(match source.stored {
         Some(stored) => Responses::Sampled(stored.responses),
         None => judge::model(&surface, None, &[])?,
     });
+    let window = window(options, &surface, &responses)?;
     let mut settings = LiveOptions::new(&surface, window.seconds);
     settings.focus.method = options.method.method();
-    let maker = maker(&surface, &responses, &settings)?;
+    let asked = options.window_ms.is_some();
+    let maker = maker(&surface, &responses, &settings).map_err(|error| of_window(error, asked))?;
     let level = Level::of(&surface, &maker, options.full_limit)?;
     settings.full = level.full;
     let (touches, sources) = Touches::open(&options.touch, &surface)?;
@@ -102,10 +104,10 @@ fn maker(surface: &Surface, responses: &Arc<Responses>, settings: &LiveOptions) 
     }
 }
 
-fn window(options: &PlayOptions, surface: &Surface) -> Result<Window, CliError> {
+fn window(options: &PlayOptions, surface: &Surface, responses: &Responses) -> Result<Window, CliError> {
     Ok(match seconds(options.window_ms, "--window-ms")? {
         Some(asked) => Window::of(surface, asked),
-        None => Window::prompt(surface),
+        None => Window::prompt_within(surface, lasting(responses)),
     })
 }
 

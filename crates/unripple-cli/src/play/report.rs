@@ -12,6 +12,10 @@ use unripple_player::Count;
 pub struct Report {
     surface: String,
     window_s: f64,
+    /// The one that `design` recommends where nobody waits.
+    window_unhurried_s: f64,
+    #[serde(skip)]
+    window: String,
     #[serde(skip_serializing_if = "Option::is_none")]
     full_level_db: Option<f64>,
     seconds: f64,
@@ -145,6 +149,8 @@ impl Report {
         Self {
             surface: surface.name.clone(),
             window_s: window.seconds,
+            window_unhurried_s: window.unhurried,
+            window: window.to_string(),
             full_level_db: level.full.map(|full| full.felt_db),
             ..Self::default()
         }
@@ -222,6 +228,7 @@ impl Report {
             "{}: {:.1} s played, {} touches, {} cues, {} drives made\n",
             self.surface, self.seconds, self.touches, self.cues, self.drives_made
         );
+        let _ = writeln!(text, "{}", self.window);
         text += &self.felt.text(self.tells_feelings);
         let columns = ["p50", "p90", "p99", "p99.9", "worst"].map(|name| format!("{name:>9}"));
         let _ = writeln!(text, "\n  {:<34}{}", "in ms", columns.concat());

@@ -199,22 +199,9 @@ impl Cavity {
         (self.contrast(actuators, window).powi(-2) + noise * heard).powf(-0.5)
     }
 
-    /// The window in seconds at which contrast reaches a share of what an endless one gives.
-    pub fn window_for(&self, actuators: f64, share: f64) -> f64 {
-        let slowest = self.bins.iter().map(|bin| bin.sigma).fold(f64::INFINITY, f64::min);
-        let density = self.bins.iter().map(|bin| bin.density).fold(0.0, f64::max);
-        let endless = 50.0 * (1.0 / slowest).min(100.0 * density);
-        let aim = share * self.contrast(actuators, endless);
-        let (mut low, mut high) = (0.0, endless);
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if self.contrast(actuators, middle) < aim {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        high
+    /// Time that waves take along the mean chord πS/P, averaged over the modes, in s.
+    pub fn crossing(&self) -> f64 {
+        self.sum(|bin| bin.modes * bin.trip) / self.modes() / 2.0
     }
 
     /// 1/C², with what repetition adds to the leakage and to the modes' own focus as multiples of the first.

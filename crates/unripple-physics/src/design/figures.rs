@@ -1,4 +1,4 @@
-use super::ground::{Ground, WORTHWHILE};
+use super::ground::Ground;
 use super::paper::WAVELENGTH;
 use super::tradeoffs::{by_band, by_noise, by_rate, by_window};
 use super::{ByBand, ByNoise, ByRate, ByWindow, Deformation, Note, Touch, Wave, closed, table1};
@@ -45,15 +45,17 @@ pub struct Design {
     pub decay_time_s: f64,
     /// The paper's window (2S k_max + P)/(2 N c_min) with k_max = 2π/15 mm, in seconds.
     pub window_paper_s: f64,
-    /// The window at which N actuators reach nine tenths of the contrast of an endless window, in seconds.
+    /// The shortest window in which the actuators reach nine tenths of the largest contrast ([`Windows`](super::Windows)), in seconds.
     pub window_recommended_s: f64,
+    /// Why it is that, in words.
+    pub window_recommended_why: String,
     /// Exponent of T in the contrast around that window; a half for the √T law.
     pub window_exponent: f64,
     /// Contrast at the recommended window ([`Cavity::contrast`](super::Cavity::contrast)).
     pub contrast_predicted: f64,
     /// Contrast at the recommended window, plain form ([`closed::contrast`]).
     pub contrast_plain: f64,
-    /// Contrast of an endless window.
+    /// The same at the window where contrast is largest.
     pub contrast_endless: f64,
     /// Contrast against window and number of actuators.
     pub contrast_by_window: Vec<ByWindow>,
@@ -87,7 +89,7 @@ impl Design {
     /// Every figure but the notes, which comment on the others.
     pub(super) fn on(ground: &Ground) -> Self {
         let Ground { surface, medium, cavity, actuators: n, window, .. } = ground;
-        let (n, window) = (*n, *window);
+        let (n, chosen, window) = (*n, window, window.seconds);
         let lambda_min = TAU / ground.k_top;
         let [low, top] = surface.emission.band;
         let paper_decay = window / n;
@@ -111,10 +113,11 @@ impl Design {
             decay_time_s: cavity.decay_time(),
             window_paper_s: ground.window_paper(),
             window_recommended_s: window,
+            window_recommended_why: chosen.why.clone(),
             window_exponent: ground.exponent(),
             contrast_predicted: contrast,
             contrast_plain: closed::contrast(n, top - low, cavity.decay_time(), window, cavity.modes()),
-            contrast_endless: contrast / WORTHWHILE,
+            contrast_endless: contrast * chosen.largest / chosen.contrast,
             contrast_by_window: by_window(cavity),
             contrast_by_band: by_band(surface, ground.scale, n, window),
             contrast_by_noise: by_noise(cavity, n, window),

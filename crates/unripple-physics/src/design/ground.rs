@@ -1,12 +1,9 @@
-use super::Cavity;
 use super::cavity::{modes_below, modes_per_wavenumber, signed_perimeter};
 use super::paper::WAVELENGTH;
+use super::{Cavity, Recommended, Windows};
 use crate::{Medium, Modes, PhysicsError};
 use std::f64::consts::{PI, TAU};
 use unripple_core::Surface;
-
-/// Share of the contrast of an endless window at which more window is no longer worth its wait.
-pub(super) const WORTHWHILE: f64 = 0.9;
 
 /// Relative accuracy of the frequencies that are counted.
 const ACCURACY: f64 = 1e-4;
@@ -26,13 +23,17 @@ pub(super) struct Ground<'a> {
     pub k_top: f64,
     /// Number of actuators.
     pub actuators: f64,
-    /// The window recommended, in seconds.
-    pub window: f64,
+    /// The window recommended.
+    pub window: Recommended,
 }
 
 impl<'a> Ground<'a> {
-    /// With the modes that [`count`] or [`counted`] gives, or why there are none.
-    pub fn of(surface: &'a Surface, counted: Counted) -> Result<Self, PhysicsError> {
+    /// With the modes that [`count`] or [`counted`] gives, or why there are none, and a window chosen from some contrasts.
+    pub fn of(
+        surface: &'a Surface,
+        counted: Counted,
+        windows: impl FnOnce() -> Windows,
+    ) -> Result<Self, PhysicsError> {
         check(surface)?;
         let top = surface.emission.band[1];
         let medium = Medium::of(&surface.sheet);
@@ -58,7 +59,7 @@ impl<'a> Ground<'a> {
             first_mode_hz,
             k_top: medium.wavenumber(TAU * top),
             actuators,
-            window: cavity.window_for(actuators, WORTHWHILE),
+            window: windows().recommended(),
             cavity,
         })
     }
@@ -90,9 +91,9 @@ impl<'a> Ground<'a> {
 
     /// Exponent of T in the contrast around the window.
     pub fn exponent(&self) -> f64 {
-        let step = 1.01;
+        let (step, window) = (1.01, self.window.seconds);
         let at = |window: f64| self.cavity.contrast(self.actuators, window);
-        (at(self.window * step) / at(self.window / step)).ln() / (2.0 * f64::ln(step))
+        (at(window * step) / at(window / step)).ln() / (2.0 * f64::ln(step))
     }
 }
 
@@ -134,7 +135,7 @@ pub(super) fn counted(surface: &Surface, modes: &Modes) -> (usize, Option<f64>) 
 }
 
 /// The wavenumber below which Weyl's law counts one mode.
-fn first_wavenumber(surface: &Surface) -> f64 {
+pub(super) fn first_wavenumber(surface: &Surface) -> f64 {
     let (area, rim) = (surface.outline.area(), signed_perimeter(&surface.outline));
     (rim + (rim * rim + 16.0 * PI * area).sqrt()) / (2.0 * area)
 }

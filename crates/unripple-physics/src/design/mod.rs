@@ -14,6 +14,7 @@ mod text;
 mod touch;
 mod tradeoffs;
 mod waves;
+mod window;
 
 pub use cavity::Cavity;
 pub use deformation::{Bend, Deformation, deformation};
@@ -26,6 +27,7 @@ pub use strip::{Scattering, Strip, finger_impedance};
 pub use touch::{Touch, table1};
 pub use tradeoffs::{ACTUATORS, ByBand, ByNoise, ByRate, ByWindow, WINDOWS};
 pub use waves::Wave;
+pub use window::{Recommended, Windows};
 
 use crate::{Modes, PhysicsError};
 use unripple_core::Surface;
@@ -44,7 +46,7 @@ use unripple_core::Surface;
 /// # Ok::<(), unripple_physics::PhysicsError>(())
 /// ```
 pub fn design(surface: &Surface) -> Result<Design, PhysicsError> {
-    on(&ground::Ground::of(surface, ground::count(surface))?)
+    on(&ground::Ground::of(surface, ground::count(surface), || Windows::of(surface))?)
 }
 
 /// The same from modes that are known already: all of the band, at least.
@@ -52,7 +54,7 @@ pub fn design(surface: &Surface) -> Result<Design, PhysicsError> {
 /// # Errors
 /// Those of [`design()`].
 pub fn design_on(surface: &Surface, modes: &Modes) -> Result<Design, PhysicsError> {
-    on(&ground::Ground::of(surface, Ok(ground::counted(surface, modes)))?)
+    on(&ground::Ground::of(surface, Ok(ground::counted(surface, modes)), || Windows::of(surface))?)
 }
 
 /// The same at once, modes uncounted: by Weyl's law, and in [`Design::mode_count_exact_reason`] the reason given.
@@ -60,23 +62,12 @@ pub fn design_on(surface: &Surface, modes: &Modes) -> Result<Design, PhysicsErro
 /// # Errors
 /// Those of [`design()`].
 pub fn design_by_law(surface: &Surface, reason: impl Into<String>) -> Result<Design, PhysicsError> {
-    on(&ground::Ground::of(surface, Err(reason.into()))?)
+    let reason = reason.into();
+    on(&ground::Ground::of(surface, Err(reason.clone()), || Windows::by_law(surface, reason))?)
 }
 
 fn on(ground: &ground::Ground<'_>) -> Result<Design, PhysicsError> {
     let mut design = Design::on(ground);
     design.notes = notes::notes(ground.surface, &design);
     Ok(design)
-}
-
-/// The window that [`design()`] recommends, in seconds: where contrast reaches nine tenths of what an endless one gives.
-///
-/// `modes` is the number of modes in the band where it is known already; otherwise Weyl's law counts them.
-pub fn recommended_window(surface: &Surface, modes: Option<usize>) -> f64 {
-    let by_law = Cavity::of(surface, surface.emission.band[1]);
-    let cavity = match modes {
-        Some(count) => by_law.counted(count as f64),
-        None => by_law,
-    };
-    cavity.window_for(surface.actuators.len() as f64, ground::WORTHWHILE)
 }

@@ -78,18 +78,14 @@ fn modes(d: &Design, f: &mut Formatter<'_>) -> Result {
 
 fn contrast(d: &Design, f: &mut Formatter<'_>) -> Result {
     section(f, "Window and contrast")?;
-    let recommended = d.window_recommended_s * 1e3;
-    line(
-        f,
-        "window recommended",
-        &format!("{recommended:.1} ms, for 0.9 of the contrast of an endless one"),
-    )?;
+    let recommended = super::window::milliseconds(d.window_recommended_s);
+    line(f, "window recommended", &format!("{recommended} ms, {}", d.window_recommended_why))?;
     line(f, "window by the paper's formula", &format!("{:.1} ms", d.window_paper_s * 1e3))?;
     let (here, endless) = (d.contrast_predicted, d.contrast_endless);
     line(
         f,
         "contrast predicted",
-        &format!("{here:.1}, endless {endless:.1}, plain form {:.1}", d.contrast_plain),
+        &format!("{here:.1}, at best {endless:.1}, plain form {:.1}", d.contrast_plain),
     )?;
     write!(f, "  {:>8}", "T ms \\ N")?;
     ACTUATORS.iter().try_for_each(|n| write!(f, " {n:>7}"))?;

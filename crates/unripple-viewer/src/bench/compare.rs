@@ -20,6 +20,7 @@ impl Bench {
         let methods = methods.iter().map(|name| method(name)).collect::<Result<Vec<Method>, String>>()?;
         let places = places(at);
         let (surface, responses) = (&of.surface, self.known(of, &places)?);
+        let window = self.window(of, window);
         let targets: Vec<Target> = places.into_iter().map(Target::at).collect();
         let (mut drives, mut panes): (Vec<Drive>, Vec<_>) = (Vec::new(), Vec::new());
         let (mut focus, mut used) = (0.0, Vec::<Point>::new());

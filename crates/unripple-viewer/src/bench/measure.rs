@@ -22,7 +22,7 @@ impl Bench {
         let places = places(&measure.at);
         let (surface, responses) = (&of.surface, self.known(of, &places)?);
         let method = measure.method.as_deref().map_or(Ok(Method::default()), method)?;
-        let window = given(measure.window_ms).map(|ms| ms * 1e-3);
+        let window = self.window(of, given(measure.window_ms).map(|ms| ms * 1e-3));
         let options = options(surface, &responses, method, window);
         let targets: Vec<Target> = places.into_iter().map(Target::at).collect();
         let level = given(measure.peak_um).map_or_else(Level::default, |um| Level::Peak(um * 1e-6));

@@ -134,6 +134,13 @@ impl Bench {
         Ok(draft)
     }
 
+    /// The window in s that is asked for, or the one that the draft knows already; `None` for a library's.
+    fn window(&self, of: &Edition, asked: Option<f64>) -> Option<f64> {
+        let stored = of.edit == 0 && self.stored.is_some();
+        let known = self.draft.as_ref().filter(|(edit, _)| *edit == of.edit && !stored);
+        asked.or(known.map(|(_, draft)| draft.design().window_recommended_s))
+    }
+
     /// The responses of a surface, which hold some places.
     fn known(&mut self, of: &Edition, places: &[Point]) -> Result<Arc<Responses>, String> {
         self.place = places.first().copied();

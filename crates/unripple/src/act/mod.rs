@@ -27,7 +27,7 @@ pub use note::{Note, nearby};
 pub use report::{Channel, Followed, Report, Stroked, unit};
 pub use send::Sent;
 pub use strength::{DecidedBy, Headroom, Strength};
-pub use window::recommended_window;
+pub use window::{chosen_window, lasting, recommended_window};
 
 use crate::core::{Drive, Responses, Surface};
 use crate::field::Field;

@@ -6,7 +6,7 @@ mod spot;
 pub use figures::{Figure, figures};
 pub use spot::Spot;
 
-use crate::act::{Act, ActError, Acted, Level, accuracy, recommended_window};
+use crate::act::{Act, ActError, Acted, Level, accuracy};
 use crate::contrast_map::{ContrastMap, MapOptions, contrast_map};
 use crate::core::{Point, Responses, Surface};
 use crate::focus::{Options, Target};
@@ -97,7 +97,7 @@ impl Draft {
     /// # Errors
     /// Those of [`Draft::responses`], [`focus`](crate::focus::focus()) and [`Field::snapshots`](crate::field::Field::snapshots).
     pub fn spot(&self, at: Point, window: Option<f64>) -> Result<Spot, ActError> {
-        spot::spot(self.responses()?, at, &self.options(window)?)
+        spot::spot(self.responses()?, at, &self.options(window))
     }
 
     /// The same with all figures: what `unripple focus` does.
@@ -105,20 +105,20 @@ impl Draft {
     /// # Errors
     /// Those of [`Draft::responses`] and [`Act::run`].
     pub fn focus(&self, at: Point, window: Option<f64>) -> Result<Acted, ActError> {
-        let (targets, options) = (&[Target::at(at)], &self.options(window)?);
+        let (targets, options) = (&[Target::at(at)], &self.options(window));
         let (surface, responses) = (&self.surface, self.responses()?);
         Act { surface, responses, targets, options, level: Level::default() }.run()
     }
 
-    fn options(&self, window: Option<f64>) -> Result<Options, ActError> {
+    fn options(&self, window: Option<f64>) -> Options {
         let emission = &self.surface.emission;
-        let (limit, rms_limit, window) = (emission.limit, emission.rms_limit, self.window(window)?);
-        Ok(Options { window, limit, rms_limit, ..Options::default() })
+        let (limit, rms_limit, window) = (emission.limit, emission.rms_limit, self.window(window));
+        Options { window, limit, rms_limit, ..Options::default() }
     }
 
-    fn window(&self, asked: Option<f64>) -> Result<f64, ActError> {
-        let own = |found: &Arc<Responses>| recommended_window(&self.surface, found);
-        asked.map_or_else(|| self.responses().map(own), Ok)
+    /// The window in s that is asked for, or the one that the surface recommends.
+    fn window(&self, asked: Option<f64>) -> f64 {
+        asked.unwrap_or(self.design.window_recommended_s)
     }
 
     /// The contrast of time reversal all over the surface, `across` cells along its longer side.
@@ -126,7 +126,7 @@ impl Draft {
     /// # Errors
     /// Those of [`Draft::responses`] and [`contrast_map`].
     pub fn map(&self, window: Option<f64>, across: usize) -> Result<ContrastMap, ActError> {
-        let options = MapOptions { window: self.window(window)?, across, ..MapOptions::default() };
+        let options = MapOptions { window: self.window(window), across, ..MapOptions::default() };
         contrast_map(self.responses()?, &options)
     }
 }

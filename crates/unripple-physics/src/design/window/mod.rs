@@ -1,0 +1,227 @@
+//! How long to record before reversing: contrast against the window, and the shortest window that is worth its wait.
+
+mod modal;
+mod places;
+
+use super::Cavity;
+use super::cavity::modes_below;
+use super::ground::first_wavenumber;
+use crate::{Medium, ResponseOptions, responses};
+use modal::Modal;
+use rayon::prelude::*;
+use std::f64::consts::TAU;
+use unripple_core::{Responses, Surface};
+
+/// Share of the largest contrast at which more window is no longer worth its wait.
+pub(super) const WORTHWHILE: f64 = 0.9;
+
+/// How often waves cross the surface in a window at least, along the mean chord. In a shorter one waves have not been everywhere: parts of the surface
+/// are silent, and contrast says how many rather than how good the focus is.
+const CROSSINGS: f64 = 3.0;
+
+/// What is said of a window of so many crossings.
+const CROSSED: &str =
+    "in which waves cross the surface three times, the shortest that leaves no part of it silent";
+
+/// The longest window that is considered, in seconds. A focus comes a window after it was asked for; past this nobody waits. Where
+/// losses grow with frequency contrast may creep on for minutes, as the lowest modes outlive the others.
+const LONGEST: f64 = 0.5;
+
+/// Share of the largest contrast that is as good as it: the window named for it is the shortest that has that much.
+const AS_GOOD: f64 = 0.995;
+
+/// Windows considered to each doubling: contrast changes by 6 % at most from one to the next, and is interpolated.
+const PER_DOUBLING: f64 = 6.0;
+
+/// Relative accuracy of the frequencies. The contrast of a mean over targets does not ask where each mode is, only for as many
+/// modes as alike as the surface's own.
+const ACCURACY: f64 = 1e-3;
+
+/// Modes below the top of the band up to which they are solved for. The work grows as their square; the statistics of so many
+/// modes are good.
+const MOST_MODES: f64 = 2000.0;
+
+/// Contrast of a time-reversed focus against its window, T, for the actuators of a surface.
+///
+/// From the modes of the surface with all that hangs on it, for targets spread over it away from the rim: the C of
+/// 1/C² = ⟨(rms velocity outside the focal disc)²/(velocity at the target)²⟩ over the targets, at the focal instant. A surface of very many modes,
+/// or one whose modes cannot be computed, has that of [`Cavity`], from its first mode on.
+///
+/// Everything that recommends a window asks here, with nothing but the surface, so that it is the same everywhere.
+///
+/// ```
+/// use unripple_physics::design::{Windows, papers_surface};
+///
+/// let windows = Windows::of(&papers_surface());
+/// let (patient, prompt) = (windows.recommended(), windows.shortest(0.75));
+/// assert!(prompt.seconds < patient.seconds && patient.contrast > 0.89 * patient.largest);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Windows {
+    /// Contrast against window in s, ascending.
+    curve: Vec<(f64, f64)>,
+    /// Why it is by statistics, where it is.
+    statistics: Option<String>,
+}
+
+/// A window, and why it is that.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recommended {
+    /// The window, in s, to three digits.
+    pub seconds: f64,
+    /// Contrast to be expected with it.
+    pub contrast: f64,
+    /// The largest contrast of all windows considered.
+    pub largest: f64,
+    /// The shortest window within half a per cent of it, in s.
+    pub largest_at: f64,
+    /// Whether it is the shortest considered: waves cross the surface three times in it.
+    pub at_floor: bool,
+    /// What it is in words, for people: a clause without the window itself.
+    pub why: String,
+}
+
+impl Recommended {
+    /// The same, or the longest that responses last, in s, and that in words.
+    pub fn within(self, longest: f64, windows: &Windows) -> Self {
+        if self.seconds <= longest {
+            return self;
+        }
+        let why = format!(
+            "the longest that the responses last; {} ms would be better: {}",
+            milliseconds(self.seconds),
+            self.why
+        );
+        Self { seconds: longest, contrast: windows.contrast(longest), why, ..self }
+    }
+
+    /// It in a clause: so many milliseconds, and why.
+    pub fn text(&self) -> String {
+        format!("{} ms, {}", milliseconds(self.seconds), self.why)
+    }
+}
+
+impl Windows {
+    /// Of a surface. Takes as long as a coarse solution for its modes.
+    pub fn of(surface: &Surface) -> Self {
+        let top = surface.emission.band[1];
+        let below = modes_below(&surface.outline, Medium::of(&surface.sheet).wavenumber(TAU * top));
+        if below.is_nan() || below > MOST_MODES {
+            return Self::by_law(
+                surface,
+                format!("some {below:.0} modes are too many to be solved for here"),
+            );
+        }
+        let options = ResponseOptions { accuracy: ACCURACY, ..ResponseOptions::default() };
+        match responses(surface, &options) {
+            Ok(Responses::Modal(modal)) => match Modal::of(&modal) {
+                Some(modal) => Self::along(surface, None, |window| modal.contrast(window)),
+                None => Self::by_law(surface, "focal discs leave nothing of the surface outside them"),
+            },
+            Ok(Responses::Sampled(_)) => Self::by_law(surface, "its modes are not known"),
+            Err(error) => Self::by_law(surface, error.to_string()),
+        }
+    }
+
+    /// The same at once, by statistics, for the reason given.
+    pub fn by_law(surface: &Surface, reason: impl Into<String>) -> Self {
+        let mut ringing = surface.clone();
+        let first = Medium::of(&surface.sheet).omega(first_wavenumber(surface)) / TAU;
+        let [low, top] = surface.emission.band;
+        // Below the first mode nothing rings, whatever Weyl's law says.
+        ringing.emission.band[0] = low.max(first).min(top);
+        let cavity = Cavity::of(&ringing, top);
+        let actuators = surface.actuators.len() as f64;
+        Self::along(surface, Some(reason.into()), |window| cavity.contrast(actuators, window))
+    }
+
+    fn along(surface: &Surface, statistics: Option<String>, contrast: impl Fn(f64) -> f64 + Sync) -> Self {
+        let shortest = CROSSINGS * Cavity::of(surface, surface.emission.band[1]).crossing();
+        let longest = LONGEST.max(4.0 * shortest);
+        let steps = (PER_DOUBLING * (longest / shortest).log2()).ceil();
+        let at = |step: u32| shortest * (longest / shortest).powf(f64::from(step) / steps);
+        let curve = (0..=steps as u32).into_par_iter().map(|step| (at(step), contrast(at(step)))).collect();
+        Self { curve, statistics }
+    }
+
+    /// The window that `unripple design` recommends: the shortest with nine tenths of the largest contrast.
+    pub fn recommended(&self) -> Recommended {
+        self.shortest(WORTHWHILE)
+    }
+
+    /// The shortest window whose contrast is a share, 0 to 1, of the largest.
+    pub fn shortest(&self, share: f64) -> Recommended {
+        let known = self.curve.iter().map(|(_, c)| *c).filter(|c| c.is_finite());
+        let Some(largest) = known.max_by(f64::total_cmp) else {
+            let seconds = rounded_up(self.floor());
+            let why = format!("{CROSSED}: no contrast is to be had here that would tell windows apart");
+            let (largest, at_floor) = (f64::NAN, true);
+            return Recommended { seconds, contrast: largest, largest, largest_at: seconds, at_floor, why };
+        };
+        let as_good = self.curve.iter().find(|(_, c)| *c >= AS_GOOD * largest);
+        let largest_at = as_good.map_or(f64::NAN, |(t, _)| *t);
+        let aim = share * largest;
+        let crossed = self.curve.iter().position(|(_, c)| *c >= aim).unwrap_or(0);
+        let seconds = match crossed.checked_sub(1) {
+            None => self.floor(),
+            Some(before) => {
+                let ((t0, c0), (t1, c1)) = (self.curve[before], self.curve[crossed]);
+                t0 * (t1 / t0).powf(((aim - c0) / (c1 - c0)).clamp(0.0, 1.0))
+            }
+        };
+        let seconds = rounded_up(seconds);
+        let at_floor = crossed == 0;
+        let why = self.why(share, at_floor, (largest_at, largest));
+        Recommended { seconds, contrast: self.contrast(seconds), largest, largest_at, at_floor, why }
+    }
+
+    /// Contrast to be expected with a window, in s; between the shortest and the longest considered.
+    pub fn contrast(&self, window: f64) -> f64 {
+        let after = self.curve.partition_point(|(t, _)| *t < window);
+        match (after.checked_sub(1).and_then(|i| self.curve.get(i)), self.curve.get(after)) {
+            (Some((t0, c0)), Some((t1, c1))) => c0 + (c1 - c0) * (window / t0).ln() / (t1 / t0).ln(),
+            (Some((_, c)), None) | (None, Some((_, c))) => *c,
+            (None, None) => f64::NAN,
+        }
+    }
+
+    fn floor(&self) -> f64 {
+        self.curve.first().map_or(0.0, |(t, _)| *t)
+    }
+
+    fn why(&self, share: f64, at_floor: bool, (largest_at, largest): (f64, f64)) -> String {
+        let peak = format!("{largest:.1} at {:.1} ms", 1e3 * largest_at);
+        let longest = self.curve.last().map_or(0.0, |(t, _)| *t);
+        let share =
+            if share == WORTHWHILE { "nine tenths".into() } else { format!("{:.0} %", 100.0 * share) };
+        let mut why = if at_floor {
+            format!("{CROSSED}, with no less than {share} of the largest contrast ({peak})")
+        } else {
+            format!("the shortest with {share} of the largest contrast ({peak})")
+        };
+        if self.contrast(longest) > (2.0 - AS_GOOD) * self.contrast(0.5 * longest) {
+            why += &format!(", which still grows at {:.0} ms, the longest considered", 1e3 * longest);
+        }
+        if let Some(reason) = &self.statistics {
+            why += &format!(", by the statistics of its modes: {reason}");
+        }
+        why
+    }
+}
+
+/// A window in milliseconds as it is told: three digits.
+pub(super) fn milliseconds(seconds: f64) -> String {
+    let ms = 1e3 * seconds;
+    let decimals = (2.0 - ms.log10().floor()).clamp(0.0, 6.0) as usize;
+    format!("{ms:.decimals$}")
+}
+
+/// Three digits, upwards: a window reads as it is, and reaches what it was chosen for.
+fn rounded_up(seconds: f64) -> f64 {
+    if !(seconds > 0.0 && seconds.is_finite()) {
+        return seconds;
+    }
+    // In units of a power of ten below one, so that the digits are those of a decimal number.
+    let unit = 10f64.powi(2 - seconds.log10().floor() as i32);
+    (seconds * unit * (1.0 - 1e-9)).ceil() / unit
+}

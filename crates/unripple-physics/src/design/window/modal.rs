@@ -1,0 +1,184 @@
+//! Contrast of time reversal against its window in closed form, from modal responses.
+
+use super::places::{grid, targets};
+use crate::design::closed::DISC;
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatRef, Par, c64};
+use unripple_core::{ModalResponses, Onset, Point, Pole};
+
+/// A surface laid out for the contrast of time reversal at many windows.
+///
+/// Responses h_a(x) = Σ_m b_am φ_m(x) g_m(t), recorded at A for T and played backwards, leave at the focal instant the velocity
+/// Σ_m φ_m(x) Σ_n (Σ_a b_am b_an) I_mn φ_n(A), with I_mn = ∫_0^T g_m g_n dt a sum of exponentials of T.
+pub(super) struct Modal {
+    terms: Vec<Term>,
+    /// Σ_a b_am b_an, modes x modes.
+    gains: Mat<f64>,
+    /// Shapes at the targets, modes x targets.
+    targets: Mat<f64>,
+    /// Shapes at the grid's points, points x modes.
+    points: Mat<f64>,
+    /// Points inside the focal disc of each target.
+    within: Vec<Vec<usize>>,
+}
+
+/// Re a e^{st}, a part of the velocity of a mode.
+#[derive(Clone, Copy, Debug)]
+struct Term {
+    mode: usize,
+    amplitude: c64,
+    rate: c64,
+}
+
+impl Modal {
+    /// `None` where no target has a point outside its focal disc.
+    pub fn of(responses: &ModalResponses) -> Option<Self> {
+        let ModalResponses { ports, poles, input, shapes, conditions } = responses;
+        let actuators: Vec<Point> = ports.iter().map(|port| port.at).collect();
+        let points = grid(&conditions.outline, conditions.lambda_min);
+        let mut targets = targets(&conditions.outline, &actuators, conditions.lambda_min);
+        let reach = DISC * conditions.lambda_min;
+        let inside = |target: &Point| -> Vec<usize> {
+            (0..points.len()).filter(|i| points[*i].distance(*target) <= reach).collect()
+        };
+        targets.retain(|target| inside(target).len() < points.len());
+        if targets.is_empty() || ports.is_empty() || poles.is_empty() {
+            return None;
+        }
+        Some(Self {
+            terms: poles.iter().enumerate().flat_map(|(mode, pole)| terms(mode, *pole)).collect(),
+            gains: product(input.transpose(), input.as_ref()),
+            targets: shapes.at_all(&targets).transpose().to_owned(),
+            within: targets.iter().map(inside).collect(),
+            points: shapes.at_all(&points),
+        })
+    }
+
+    /// Contrast at the focal instant of a window in seconds, from the mean of 1/C² over the targets.
+    pub fn contrast(&self, window: f64) -> f64 {
+        let states = product(self.left(window).as_ref(), self.targets.as_ref());
+        let field = product(self.points.as_ref(), states.as_ref());
+        let square = |target: usize| {
+            let column = field.col(target);
+            let all: f64 = column.iter().map(|v| v * v).sum();
+            let disc: f64 = self.within[target].iter().map(|i| column[*i] * column[*i]).sum();
+            let outside = (field.nrows() - self.within[target].len()) as f64;
+            let peak: f64 =
+                self.targets.col(target).iter().zip(states.col(target).iter()).map(|(a, b)| a * b).sum();
+            (all - disc) / outside / (peak * peak)
+        };
+        let targets = self.targets.ncols();
+        ((0..targets).map(square).sum::<f64>() / targets as f64).powf(-0.5)
+    }
+
+    /// What a unit of mode n at the target leaves in mode m, modes x modes.
+    fn left(&self, window: f64) -> Mat<f64> {
+        let modes = self.gains.nrows();
+        let mut left = Mat::zeros(modes, modes);
+        for (i, a) in self.terms.iter().enumerate() {
+            for b in &self.terms[..=i] {
+                let gathered = together(a, b, window);
+                left[(a.mode, b.mode)] += gathered;
+                if a.mode == b.mode && !std::ptr::eq(a, b) {
+                    left[(a.mode, b.mode)] += gathered;
+                }
+            }
+        }
+        for m in 0..modes {
+            for n in 0..=m {
+                let value = left[(m, n)] * self.gains[(m, n)];
+                left[(m, n)] = value;
+                left[(n, m)] = value;
+            }
+        }
+        left
+    }
+}
+
+/// ∫_0^T Re a e^{st} Re b e^{rt} dt.
+fn together(a: &Term, b: &Term, window: f64) -> f64 {
+    let sum = a.amplitude * b.amplitude * gathered(a.rate + b.rate, window)
+        + a.amplitude * b.amplitude.conj() * gathered(a.rate + b.rate.conj(), window);
+    0.5 * sum.re
+}
+
+/// ∫_0^T e^{st} dt.
+fn gathered(rate: c64, window: f64) -> c64 {
+    let x = rate * window;
+    if x.norm() < 1e-5 {
+        return (x * 0.5 + 1.0) * window;
+    }
+    (x.exp() - 1.0) / rate
+}
+
+/// The velocity of a mode as exponentials, those of [`Pole::velocity`].
+fn terms(mode: usize, pole: Pole) -> Vec<Term> {
+    let Pole { omega, sigma, onset } = pole;
+    let term = |amplitude: c64, rate: c64| Term { mode, amplitude, rate };
+    let square = (omega - sigma) * (omega + sigma);
+    if square > 0.0 {
+        let swing = square.sqrt();
+        let amplitude = match onset {
+            Onset::Velocity => c64::new(1.0, sigma / swing),
+            Onset::Displacement => c64::new(0.0, omega / swing),
+        };
+        return vec![term(amplitude, c64::new(-sigma, swing))];
+    }
+    // Overdamped: two real exponentials. At the limit they are one; a hair beside it, the same to five digits.
+    let split = (-square).sqrt().max(1e-5 * sigma);
+    if split == 0.0 {
+        return vec![term(c64::new(f64::from(u8::from(onset == Onset::Velocity)), 0.0), c64::new(0.0, 0.0))];
+    }
+    let [slow, fast] = match onset {
+        Onset::Velocity => [0.5 - 0.5 * sigma / split, 0.5 + 0.5 * sigma / split],
+        Onset::Displacement => [-0.5 * omega / split, 0.5 * omega / split],
+    };
+    vec![
+        term(c64::new(slow, 0.0), c64::new(split - sigma, 0.0)),
+        term(c64::new(fast, 0.0), c64::new(-split - sigma, 0.0)),
+    ]
+}
+
+/// The matrix product on one core, which sums in one order: the same surface has the same window to the last bit.
+fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
+    let mut sum = Mat::zeros(a.nrows(), b.ncols());
+    matmul(sum.as_mut(), Accum::Replace, a, b, 1.0, Par::Seq);
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn terms_add_up_to_the_velocity() {
+        for (omega, sigma) in [(900.0, 30.0), (300.0, 400.0), (50.0, 50.0), (0.0, 0.0), (0.0, 20.0)] {
+            for pole in [Pole::new(omega, sigma), Pole::moved(omega, sigma)] {
+                for t in [0.0, 1e-3, 7e-3, 0.05] {
+                    let sum: f64 = terms(0, pole).iter().map(|x| (x.amplitude * (x.rate * t).exp()).re).sum();
+                    assert!(
+                        (sum - pole.velocity(t)).abs() < 1e-4,
+                        "{pole:?} {t}: {sum} {}",
+                        pole.velocity(t)
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn integrals_are_those_of_fine_sums() {
+        let (a, b) = (terms(0, Pole::new(900.0, 30.0)), terms(1, Pole::new(300.0, 400.0)));
+        let (window, steps) = (0.02, 20_000);
+        for (one, other) in [(&a, &a), (&a, &b), (&b, &b)] {
+            let found: f64 = one.iter().flat_map(|x| other.iter().map(move |y| together(x, y, window))).sum();
+            let value = |terms: &[Term], t: f64| {
+                terms.iter().map(|x| (x.amplitude * (x.rate * t).exp()).re).sum::<f64>()
+            };
+            let dt = window / f64::from(steps);
+            let at = |i: i32| (f64::from(i) + 0.5) * dt;
+            let sum: f64 = (0..steps).map(|i| value(one, at(i)) * value(other, at(i)) * dt).sum();
+            assert!((found / sum - 1.0).abs() < 1e-5, "{found} {sum}");
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! Where contrast is taken: targets spread over a surface, and the grid that they are compared with.
+
+use std::f64::consts::TAU;
+use unripple_core::{Outline, Point};
+
+/// Targets that contrast is averaged over.
+const TARGETS: usize = 96;
+
+/// Places tried for them.
+const TRIES: u32 = 4000;
+
+/// Directions in which a target must be clear of the rim.
+const DIRECTIONS: u32 = 16;
+
+/// Cells of the grid along a shortest wavelength. The square of a field has half its wavelength, so that two would do.
+const CELLS: f64 = 3.0;
+
+/// Steps of a sequence that fills the plane evenly, without the symmetries of a grid: powers of 1/ρ with ρ³ = ρ + 1 (Roberts 2018).
+const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
+
+/// Targets on a surface: at least a shortest wavelength from the rim, or a quarter of the mean chord on a small one, and half of
+/// one from the `actuators`, beside which everything is loud.
+pub(super) fn targets(outline: &Outline, actuators: &[Point], wavelength: f64) -> Vec<Point> {
+    let (width, height) = outline.extent();
+    let margin = wavelength.min(0.8 * outline.area() / outline.perimeter());
+    let around = |p: Point, i: u32| {
+        let (sin, cos) = (TAU * f64::from(i) / f64::from(DIRECTIONS)).sin_cos();
+        Point::new(p.x + margin * cos, p.y + margin * sin)
+    };
+    let clear = |p: &Point| {
+        outline.contains(*p)
+            && (0..DIRECTIONS).all(|i| outline.contains(around(*p, i)))
+            && actuators.iter().all(|a| a.distance(*p) >= 0.5 * wavelength)
+    };
+    let [along, up] = STEPS.map(|step| move |i: u32| (0.5 + f64::from(i) * step).fract());
+    (1..=TRIES).map(|i| Point::new(width * along(i), height * up(i))).filter(clear).take(TARGETS).collect()
+}
+
+/// Centres of the cells inside the outline.
+pub(super) fn grid(outline: &Outline, wavelength: f64) -> Vec<Point> {
+    let (width, height) = outline.extent();
+    let cells = |length: f64| (CELLS * length / wavelength).ceil().max(1.0) as usize;
+    let (columns, rows) = (cells(width), cells(height));
+    let centre = |i: usize, of: usize| (i as f64 + 0.5) / of as f64;
+    (0..rows)
+        .flat_map(|j| (0..columns).map(move |i| (i, j)))
+        .map(|(i, j)| Point::new(width * centre(i, columns), height * centre(j, rows)))
+        .filter(|p| outline.contains(*p))
+        .collect()
+}
