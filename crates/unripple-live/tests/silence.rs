@@ -45,6 +45,28 @@ fn a_player_that_stood_still_while_fingers_stroked_and_left_falls_silent() {
     rig.falls_silent(5.0);
 }
 
+/// What was sent before anybody knew is taken back, what comes later is not sent, and what fingers hold goes on.
+#[test]
+fn what_fingers_did_while_the_player_stood_still_is_not_made_up_for() {
+    let mut rig = Rig::new(&set(vec![comb(20.0), grains(0.4e-3)]), &options());
+    for step in 0..50 {
+        rig.touch(stroke(4, step, rig.now()));
+        rig.play(1);
+    }
+    (50..60).for_each(|step| rig.touch(stroke(4, step, rig.now())));
+    // By the machine's clock: longer than a player is believed to be between two blocks.
+    std::thread::sleep(std::time::Duration::from_millis(250));
+    (60..100).for_each(|step| rig.touch(stroke(4, step, rig.now())));
+    let started = |rig: &Rig| rig.conductor.desk().meters().count(Count::Started);
+    let before = started(&rig);
+    rig.play(1);
+    assert!(started(&rig) - before <= 4, "more than a copy of each comb began");
+    assert!(rig.rest(60) > 0.0 && started(&rig) > before, "what fingers hold goes on");
+    assert!(rig.conductor.tally().stale > 0);
+    rig.touch(lift(4, rig.now()));
+    rig.falls_silent(1.0);
+}
+
 /// Forty textures at once are more than there is room for, and a comb among them ends all the same.
 #[test]
 fn a_comb_ends_however_much_else_is_asked_for() {
