@@ -39,8 +39,14 @@ impl Window {
 
     /// The same, or the longest that responses last, in s.
     pub fn prompt_within(surface: &Surface, longest: f64) -> Self {
+        Self::prompt_and(surface, longest, None).0
+    }
+
+    /// The same, and the one that was asked for, in s, if one was: the modes are solved for once.
+    pub fn prompt_and(surface: &Surface, longest: f64, asked: Option<f64>) -> (Self, Self) {
         let windows = Windows::of(surface);
-        Self::among(&windows, windows.shortest(WORTH).seconds.min(longest))
+        let prompt = Self::among(&windows, windows.shortest(WORTH).seconds.min(longest));
+        (prompt, asked.map_or(prompt, |seconds| Self::among(&windows, seconds)))
     }
 
     /// One that was asked for, in s.

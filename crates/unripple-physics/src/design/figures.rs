@@ -86,6 +86,12 @@ pub struct Design {
 }
 
 impl Design {
+    /// The recommended window in a clause: so many milliseconds, and why.
+    pub fn window_text(&self) -> String {
+        let ms = super::window::milliseconds(self.window_recommended_s);
+        format!("{ms} ms, {}", self.window_recommended_why)
+    }
+
     /// Every figure but the notes, which comment on the others.
     pub(super) fn on(ground: &Ground) -> Self {
         let Ground { surface, medium, cavity, actuators: n, window, .. } = ground;

@@ -78,8 +78,7 @@ fn modes(d: &Design, f: &mut Formatter<'_>) -> Result {
 
 fn contrast(d: &Design, f: &mut Formatter<'_>) -> Result {
     section(f, "Window and contrast")?;
-    let recommended = super::window::milliseconds(d.window_recommended_s);
-    line(f, "window recommended", &format!("{recommended} ms, {}", d.window_recommended_why))?;
+    line(f, "window recommended", &d.window_text())?;
     line(f, "window by the paper's formula", &format!("{:.1} ms", d.window_paper_s * 1e3))?;
     let (here, endless) = (d.contrast_predicted, d.contrast_endless);
     line(

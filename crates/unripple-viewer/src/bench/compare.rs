@@ -20,12 +20,12 @@ impl Bench {
         let methods = methods.iter().map(|name| method(name)).collect::<Result<Vec<Method>, String>>()?;
         let places = places(at);
         let (surface, responses) = (&of.surface, self.known(of, &places)?);
-        let window = self.window(of, window);
+        let (window, _) = self.window(of, &responses, window);
         let targets: Vec<Target> = places.into_iter().map(Target::at).collect();
         let (mut drives, mut panes): (Vec<Drive>, Vec<_>) = (Vec::new(), Vec::new());
         let (mut focus, mut used) = (0.0, Vec::<Point>::new());
         for method in methods {
-            let options = options(surface, &responses, method, window);
+            let options = options(surface, method, window);
             let level = Level::default();
             let act = Act { surface, responses: &responses, targets: &targets, options: &options, level };
             let acted = act.run().map_err(text)?;

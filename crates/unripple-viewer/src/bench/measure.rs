@@ -22,13 +22,15 @@ impl Bench {
         let places = places(&measure.at);
         let (surface, responses) = (&of.surface, self.known(of, &places)?);
         let method = measure.method.as_deref().map_or(Ok(Method::default()), method)?;
-        let window = self.window(of, given(measure.window_ms).map(|ms| ms * 1e-3));
-        let options = options(surface, &responses, method, window);
+        let asked = given(measure.window_ms).map(|ms| ms * 1e-3);
+        let (window, note) = self.window(of, &responses, asked);
+        let options = options(surface, method, window);
         let targets: Vec<Target> = places.into_iter().map(Target::at).collect();
         let level = given(measure.peak_um).map_or_else(Level::default, |um| Level::Peak(um * 1e-6));
         let act = Act { surface, responses: &responses, targets: &targets, options: &options, level };
         let acted = act.run().map_err(text)?;
-        let report = acted.report(surface, &options);
+        let mut report = acted.report(surface, &options);
+        report.notes.extend(note);
         let value = serde_json::to_value(&report).map_err(|error| error.to_string())?;
         let message = json!({
             "is": "measured",

@@ -15,7 +15,7 @@ use queue::Queue;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender};
 use std::sync::{Arc, Mutex};
-use unripple::act::{self, ActError};
+use unripple::act::{self, ActError, Note};
 use unripple::core::{Point, Responses, Surface};
 use unripple::drafting::Draft;
 use unripple::focus::{Method, Options};
@@ -134,11 +134,21 @@ impl Bench {
         Ok(draft)
     }
 
-    /// The window in s that is asked for, or the one that the draft knows already; `None` for a library's.
-    fn window(&self, of: &Edition, asked: Option<f64>) -> Option<f64> {
+    /// The window in s that is asked for, or else the recommended one and the note that says why it is that.
+    fn window(&self, of: &Edition, responses: &Responses, asked: Option<f64>) -> (f64, Option<Note>) {
+        if let Some(seconds) = asked {
+            return (seconds, None);
+        }
         let stored = of.edit == 0 && self.stored.is_some();
         let known = self.draft.as_ref().filter(|(edit, _)| *edit == of.edit && !stored);
-        asked.or(known.map(|(_, draft)| draft.design().window_recommended_s))
+        let (seconds, text) = match known.map(|(_, draft)| draft.design()) {
+            Some(design) => (design.window_recommended_s, design.window_text()),
+            None => {
+                let chosen = act::chosen_window(&of.surface, responses);
+                (chosen.seconds, chosen.text())
+            }
+        };
+        (seconds, Some(Note { topic: "window", text }))
     }
 
     /// The responses of a surface, which hold some places.
@@ -152,8 +162,7 @@ impl Bench {
 }
 
 /// The options of an act, as the command line makes them.
-fn options(surface: &Surface, responses: &Responses, method: Method, window: Option<f64>) -> Options {
-    let window = window.unwrap_or_else(|| act::recommended_window(surface, responses));
+fn options(surface: &Surface, method: Method, window: f64) -> Options {
     let (limit, rms_limit) = (surface.emission.limit, surface.emission.rms_limit);
     Options { method, window, limit, rms_limit, ..Options::default() }
 }

@@ -96,8 +96,10 @@ impl Instrument {
     pub fn build(spec: Spec) -> Result<Self, ViewError> {
         let surface = &spec.surface;
         let accuracy = unripple::act::accuracy(surface);
-        let suggested = Window::prompt(surface);
-        let window = spec.window.map_or(suggested, |seconds| Window::of(surface, seconds));
+        let lasting =
+            |stored: &SampledResponses| stored.samples().saturating_sub(1) as f64 / stored.conditions.rate;
+        let longest = spec.stored.as_deref().map_or(f64::INFINITY, lasting);
+        let (suggested, window) = Window::prompt_and(surface, longest, spec.window);
         let mut options = LiveOptions::new(surface, window.seconds);
         options.focus.method = spec.method;
         let maker = maker(&spec, accuracy, &options)?;

@@ -85,8 +85,9 @@ impl Act<'_> {
     /// Makes the drive, brings it to its level and judges it.
     ///
     /// # Errors
-    /// Those of [`Focuser`], [`Act::send`] and [`Act::judge`].
+    /// Those of [`carries`], [`Focuser`], [`Act::send`] and [`Act::judge`].
     pub fn run(&self) -> Result<Acted, ActError> {
+        carries(self.responses.conditions(), self.options.window)?;
         let focuser = Focuser::new(self.responses, self.options)?;
         let sent = self.send(&focuser, focuser.focus(self.targets)?)?;
         let judged = self.judge(&sent)?;
