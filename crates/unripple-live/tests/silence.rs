@@ -5,7 +5,7 @@ mod common;
 #[path = "common/rig.rs"]
 mod rig;
 
-use common::{BLOCK, RATE, touch};
+use common::{BLOCK, RATE, clicks, touch};
 use proptest::prelude::*;
 use rig::*;
 use unripple_core::{Phase, Point, Random, Touch};
@@ -48,15 +48,22 @@ fn a_player_that_stood_still_while_fingers_stroked_and_left_falls_silent() {
 /// What was sent before anybody knew is taken back, what comes later is not sent, and what fingers hold goes on.
 #[test]
 fn what_fingers_did_while_the_player_stood_still_is_not_made_up_for() {
-    let mut rig = Rig::new(&set(vec![comb(20.0), grains(0.4e-3)]), &options());
+    let mut all = vec![comb(20.0)];
+    all.extend(clicks().effects);
+    let mut rig = Rig::new(&set(all), &options());
     for step in 0..50 {
         rig.touch(stroke(4, step, rig.now()));
         rig.play(1);
     }
-    (50..60).for_each(|step| rig.touch(stroke(4, step, rig.now())));
+    let tap = |rig: &mut Rig| {
+        for phase in [Phase::Down, Phase::Up] {
+            rig.touch(vec![touch(9, phase, 60.0, 90.0, rig.now())]);
+        }
+    };
+    (0..20).for_each(|_| tap(&mut rig));
     // By the machine's clock: longer than a player is believed to be between two blocks.
     std::thread::sleep(std::time::Duration::from_millis(250));
-    (60..100).for_each(|step| rig.touch(stroke(4, step, rig.now())));
+    (0..20).for_each(|_| tap(&mut rig));
     let started = |rig: &Rig| rig.conductor.desk().meters().count(Count::Started);
     let before = started(&rig);
     rig.play(1);
