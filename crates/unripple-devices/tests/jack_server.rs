@@ -10,10 +10,14 @@ use common::server::Server;
 use common::{noise, play};
 use skip::skip;
 use std::process::Command;
+use std::sync::Mutex;
 use unripple_core::*;
 use unripple_devices::*;
 
 const PERIOD: usize = 256;
+
+/// One server at a time: libjack keeps some of its state per program.
+static ALONE: Mutex<()> = Mutex::new(());
 
 /// A device that hears what it plays, in the same block.
 struct Loop(Layout);
@@ -73,6 +77,7 @@ fn latency(device: &mut Jack) -> usize {
 
 #[test]
 fn samples_pass_a_real_server_unchanged_and_latency_stays() {
+    let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
     let Some(mut server) = Server::start(PERIOD) else {
         return skip(common::server::NONE);
     };
@@ -117,6 +122,7 @@ fn lost(server: &mut Server, mut device: Jack) {
 
 #[test]
 fn blocks_pass_after_the_period_has_changed() {
+    let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
     let Some(server) = Server::start(PERIOD) else {
         println!("SKIPPED: there is no jackd here (Debian: apt install jackd2)");
         return;

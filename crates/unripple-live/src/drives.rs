@@ -89,6 +89,8 @@ impl Drives {
     pub fn hurry(&mut self, priority: Option<u8>) {
         self.maker.hurry(priority);
         self.hurried = priority;
+        // What the first touch would wait for: a drive that fails here fails there, and is told then.
+        let _ = self.full_pulse();
     }
 
     /// Forgets all that was made and goes on with another maker: the surface has changed.

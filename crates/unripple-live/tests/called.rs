@@ -9,6 +9,7 @@ use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 use unripple_core::{Cycle, Device, DeviceError, Layout, Phase, Point, Server, Status, Touch, Work};
+use unripple_effects::{Kind, Level, Train};
 use unripple_touch::{Counts, Heard, Source};
 
 /// Touches in all.
@@ -27,6 +28,9 @@ struct Counted {
     /// When something began to sound.
     onsets: Vec<Instant>,
     silent: u64,
+    /// The last sample of every output, and the largest step from one to the next.
+    ends: Vec<f32>,
+    step: f32,
 }
 
 /// Calls from a thread of its own.
@@ -67,6 +71,13 @@ impl Counted {
                 self.onsets.push(began + Duration::from_secs_f64(i as f64 / RATE));
             }
             self.silent = if sounds { 0 } else { self.silent + 1 };
+        }
+        self.ends.resize(planes.len(), 0.0);
+        for (end, plane) in self.ends.iter_mut().zip(planes) {
+            for x in plane {
+                self.step = self.step.max((x - *end).abs());
+                *end = *x;
+            }
         }
         self.given += planes[0].len() as u64;
     }
@@ -112,6 +123,19 @@ impl Device for Caller {
         self.stop.store(true, Relaxed);
         self.thread.take()?.join().ok()
     }
+}
+
+fn caller(counted: &Arc<Mutex<Counted>>) -> Caller {
+    let names = FILM.actuators.iter().map(|actuator| actuator.name.clone()).collect();
+    let layout = Layout {
+        device: "caller".into(),
+        rate: RATE,
+        block: 256,
+        outputs: names,
+        inputs: Vec::new(),
+        full_scale: 1.0,
+    };
+    Caller { layout, counted: counted.clone(), thread: None, stop: Arc::default() }
 }
 
 /// Puts a finger down whenever all that the last one set off is over, and notes when.
@@ -162,16 +186,7 @@ impl Source for Taps {
 #[test]
 fn latency_is_what_the_device_counts() {
     let (counted, asked) = (Arc::<Mutex<Counted>>::default(), Arc::<Mutex<Vec<Asked>>>::default());
-    let names = FILM.actuators.iter().map(|actuator| actuator.name.clone()).collect();
-    let layout = Layout {
-        device: "caller".into(),
-        rate: RATE,
-        block: 256,
-        outputs: names,
-        inputs: Vec::new(),
-        full_scale: 1.0,
-    };
-    let device = Caller { layout, counted: counted.clone(), thread: None, stop: Arc::default() };
+    let device = caller(&counted);
     let taps = Taps { counted: counted.clone(), asked: asked.clone(), left: Mutex::new(Instant::now()) };
     let mut engine = with_device(&clicks(), sources(vec![Box::new(taps)]), Box::new(device));
     let (start, mut looks) = (Instant::now(), 0);
@@ -201,4 +216,27 @@ fn latency_is_what_the_device_counts() {
         assert!((least..=most).contains(now), "{now} where the device stood at {least} to {most}");
     }
     assert!(engine.heart().work().count() > 100);
+}
+
+#[test]
+fn the_end_fades_to_silence() {
+    let counted = Arc::<Mutex<Counted>>::default();
+    // Each pulse begins before the last is over, so that there is never silence.
+    let steady = Train { rate: 100.0, count: None, envelope: None, jitter: 0.0, scatter: 0.0, seed: 1 };
+    let finger = Script::new(vec![touch(1, Phase::Down, 62.0, 90.0, 0.1)]);
+    let set = one(Kind::Train(steady), Level::Share(0.2));
+    let mut engine = with_device(&set, sources(vec![Box::new(finger)]), Box::new(caller(&counted)));
+    let (start, mut before) = (Instant::now(), None);
+    engine
+        .run(None, |stage, _| {
+            let counted = counted.lock().unwrap();
+            let sounds = stage.time() > 1.0 && counted.silent == 0 && counted.step > 0.0;
+            before = sounds.then_some(counted.step);
+            !sounds && start.elapsed() < Duration::from_secs(60)
+        })
+        .unwrap();
+    let counted = counted.lock().unwrap();
+    let before = before.expect("it sounds");
+    assert!(counted.silent > 0, "cut off in the midst of a wave");
+    assert!(counted.step <= 1.01 * before, "a step of {} at the end, {before} while it played", counted.step);
 }

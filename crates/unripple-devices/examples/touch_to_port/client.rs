@@ -27,6 +27,11 @@ impl Jack {
         // SAFETY: JACK's library has no initialisers that matter; the types are those that jack.h declares; it is never unloaded.
         unsafe {
             let library: &'static Library = Box::leak(Box::new(Library::new("libjack.so.0").ok()?));
+            for silent in [b"jack_set_error_function\0".as_slice(), b"jack_set_info_function\0"] {
+                type Say = unsafe extern "C" fn(*const c_char);
+                let set: libloading::Symbol<unsafe extern "C" fn(Say)> = library.get(silent).ok()?;
+                set(ignore);
+            }
             let jack = Self {
                 open: *library.get(b"jack_client_open\0").ok()?,
                 register: *library.get(b"jack_port_register\0").ok()?,
@@ -142,6 +147,8 @@ impl Drop for Client {
 unsafe impl Sync for Shared {}
 // SAFETY: as above.
 unsafe impl Send for Shared {}
+
+unsafe extern "C" fn ignore(_: *const c_char) {}
 
 unsafe extern "C" fn on_xrun(arg: Raw) -> c_int {
     // SAFETY: leaked, and only atomics are changed.

@@ -169,6 +169,8 @@ fn touch(jack: &Jack, finger: &mut Finger, watch: &Client) -> Result<Option<f64>
     while shared.found.load(Relaxed) == 0 && start.elapsed() < Duration::from_secs(1) {
         std::thread::sleep(Duration::from_millis(2));
     }
+    // Lifted at any moment of a cycle, too: the program counts what that sets off as well.
+    std::thread::sleep(Duration::from_secs_f64(0.03 * finger.chance()));
     finger.lift(1);
     std::thread::sleep(Duration::from_millis(60));
     let found = shared.found.load(Relaxed);
