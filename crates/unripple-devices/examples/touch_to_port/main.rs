@@ -174,7 +174,7 @@ fn touch(jack: &Jack, finger: &mut Finger, watch: &Client) -> Result<Option<f64>
     finger.lift(1);
     std::thread::sleep(Duration::from_millis(60));
     let found = shared.found.load(Relaxed);
-    Ok((found > 0).then(|| 1e-3 * (found as f64 - sent as f64)))
+    Ok((found > 0).then_some(1e-3 * (found as f64 - sent as f64)))
 }
 
 /// Ends the program as a user would, and reads its summary.
