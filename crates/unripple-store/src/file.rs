@@ -67,6 +67,10 @@ pub(crate) fn write_beside(
     fill: impl FnOnce(&mut File) -> Result<(), StoreError>,
 ) -> Result<(), StoreError> {
     let place = replaceable(path)?;
+    // A file makes no folders: one that is not there is more likely misspelt than wanted.
+    if let Some(folder) = place.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        fs::metadata(folder).map_err(StoreError::write(path))?;
+    }
     let building = Building::beside(&place)?;
     let mut file = building.file(CONTENT).map_err(StoreError::write(path))?;
     fill(&mut file)?;
