@@ -48,7 +48,7 @@ use crate::focus::{Focused, Focuser, Options, Target};
 /// let act = Act { surface: &surface, responses: &responses, targets: &targets, options: &options, level };
 /// let acted = act.run()?;
 /// let target = &acted.judged.measured.targets[0];
-/// assert!((target.contrast.unwrap_or(0.0) - 26.385).abs() < 0.001);
+/// assert!((target.contrast.unwrap_or(0.0) - 25.075).abs() < 0.001);
 /// assert!((target.peak_displacement_m.abs() / 40e-6 - 1.0).abs() < 1e-6);
 /// let report = acted.report(&surface, &options);
 /// assert!(report.text().contains("contrast"));

@@ -27,9 +27,10 @@ use std::sync::{Arc, OnceLock};
 /// let by_law = Draft::by_law(&surface)?; // at once
 /// let draft = Draft::of(&surface)?; // modes solved
 /// let predicted = |draft: &[unripple::drafting::Figure]| draft[0].value;
-/// assert!((predicted(&by_law) / predicted(&draft.figures()) - 1.0).abs() < 0.02);
+/// // Before the modes are known the window is chosen by their statistics, and is another.
+/// assert!((predicted(&by_law) / predicted(&draft.figures()) - 1.0).abs() < 0.15);
 /// let spot = draft.spot(Point::from_mm(62.0, 90.0), None)?;
-/// assert!((spot.contrast.unwrap_or(0.0) - 26.385).abs() < 0.001);
+/// assert!((spot.contrast.unwrap_or(0.0) - 25.075).abs() < 0.001);
 /// let map = draft.map(None, 24)?;
 /// assert!(map.contrast.iter().flatten().count() == 24 * 24);
 /// # Ok::<(), unripple::act::ActError>(())
