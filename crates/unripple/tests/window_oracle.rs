@@ -6,7 +6,7 @@ mod window_common;
 use rayon::prelude::*;
 use unripple::study::{Bench, CELLS};
 use unripple_core::{Point, Surface};
-use unripple_physics::design::Windows;
+use unripple_physics::design::{Cavity, Windows};
 use window_common::{LOSS_FACTORS, drum, film, glass, panel, table, targets, with_loss};
 
 /// Contrasts of one surface over many windows.
@@ -38,15 +38,18 @@ impl Judge {
 }
 
 /// Holds the window recommended for a kind of surface, at every loss factor, against simulation.
-fn holds(kind: &Surface) {
-    let mut faults = Vec::new();
+///
+/// Where three crossings of the surface are the bound, a shorter window may do as well; only so many may be excused by that.
+fn holds(kind: &Surface, excusable: usize) {
+    let (mut faults, mut excused) = (Vec::new(), 0);
     for loss_factor in LOSS_FACTORS {
         let surface = with_loss(kind, loss_factor);
         let judge = Judge::of(&surface);
         let chosen = Windows::of(&surface).recommended();
-        // All windows that are considered: from a third below the one chosen to half a second, ten to each doubling or so.
-        let longer = (0..).map(|i| chosen.seconds / 1.5 * 1.08f64.powi(i)).take_while(|t| *t <= 0.5);
-        let largest = longer.map(|t| judge.contrast(t)).fold(0.0, f64::max);
+        // All windows that are considered: from three crossings to half a second, ten to each doubling or so.
+        let shortest = 3.0 * Cavity::of(&surface, surface.emission.band[1]).crossing();
+        let all = (0..).map(|i| shortest * 1.08f64.powi(i)).take_while(|t| *t <= 0.5);
+        let largest = all.map(|t| judge.contrast(t)).fold(0.0, f64::max);
         let share = |window: f64| judge.contrast(window) / largest;
         let (here, shorter) = (share(chosen.seconds), share(chosen.seconds / 1.5));
         println!(
@@ -54,34 +57,36 @@ fn holds(kind: &Surface) {
             kind.name,
             chosen.text()
         );
+        excused += usize::from(shorter >= 0.88 && chosen.at_floor);
         if here < 0.88 || !(chosen.at_floor || shorter < 0.88) {
             faults.push(format!("{} {loss_factor}: {here:.3} {shorter:.3}", kind.name));
         }
     }
     assert!(faults.is_empty(), "{faults:?}");
+    assert!(excused <= excusable, "{}: {excused} are excused", kind.name);
 }
 
 #[test]
 fn of_a_film() {
-    holds(&film());
+    holds(&film(), 0);
 }
 
 #[test]
 fn of_a_glass_plate() {
-    holds(&glass());
+    holds(&glass(), 0);
 }
 
 #[test]
 fn of_a_panel_on_springs() {
-    holds(&panel());
+    holds(&panel(), 1);
 }
 
 #[test]
 fn of_a_drum_skin() {
-    holds(&drum());
+    holds(&drum(), 0);
 }
 
 #[test]
 fn of_a_table() {
-    holds(&table());
+    holds(&table(), 0);
 }

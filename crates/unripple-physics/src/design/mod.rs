@@ -27,7 +27,7 @@ pub use strip::{Scattering, Strip, finger_impedance};
 pub use touch::{Touch, table1};
 pub use tradeoffs::{ACTUATORS, ByBand, ByNoise, ByRate, ByWindow, WINDOWS};
 pub use waves::Wave;
-pub use window::{Recommended, Windows};
+pub use window::{Recommended, Windows, milliseconds};
 
 use crate::{Modes, PhysicsError};
 use unripple_core::Surface;

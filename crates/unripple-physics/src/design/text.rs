@@ -83,8 +83,8 @@ fn contrast(d: &Design, f: &mut Formatter<'_>) -> Result {
     let (here, endless) = (d.contrast_predicted, d.contrast_endless);
     line(
         f,
-        "contrast predicted",
-        &format!("{here:.1}, at best {endless:.1}, plain form {:.1}", d.contrast_plain),
+        "contrast by closed forms",
+        &format!("{here:.1} with it, at the best window {endless:.1}; plain form {:.1}", d.contrast_plain),
     )?;
     write!(f, "  {:>8}", "T ms \\ N")?;
     ACTUATORS.iter().try_for_each(|n| write!(f, " {n:>7}"))?;

@@ -115,8 +115,8 @@ impl Windows {
         let options = ResponseOptions { accuracy: ACCURACY, ..ResponseOptions::default() };
         match responses(surface, &options) {
             Ok(Responses::Modal(modal)) => match Modal::of(&modal) {
-                Some(modal) => Self::along(surface, None, |window| modal.contrast(window)),
-                None => Self::by_law(surface, "focal discs leave nothing of the surface outside them"),
+                Ok(modal) => Self::along(surface, None, |window| modal.contrast(window)),
+                Err(reason) => Self::by_law(surface, reason),
             },
             Ok(Responses::Sampled(_)) => Self::by_law(surface, "its modes are not known"),
             Err(error) => Self::by_law(surface, error.to_string()),
@@ -199,7 +199,8 @@ impl Windows {
         } else {
             format!("the shortest with {share} of the largest contrast ({peak})")
         };
-        if self.contrast(longest) > (2.0 - AS_GOOD) * self.contrast(0.5 * longest) {
+        let still = self.contrast(longest);
+        if still >= AS_GOOD * largest && still > (2.0 - AS_GOOD) * self.contrast(0.5 * longest) {
             why += &format!(", which still grows at {:.0} ms, the longest considered", 1e3 * longest);
         }
         if let Some(reason) = &self.statistics {
@@ -210,7 +211,7 @@ impl Windows {
 }
 
 /// A window in milliseconds as it is told: three digits.
-pub(super) fn milliseconds(seconds: f64) -> String {
+pub fn milliseconds(seconds: f64) -> String {
     let ms = 1e3 * seconds;
     let decimals = (2.0 - ms.log10().floor()).clamp(0.0, 6.0) as usize;
     format!("{ms:.decimals$}")

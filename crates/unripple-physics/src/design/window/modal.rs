@@ -31,8 +31,11 @@ struct Term {
 }
 
 impl Modal {
-    /// `None` where no target has a point outside its focal disc.
-    pub fn of(responses: &ModalResponses) -> Option<Self> {
+    /// Lays it out.
+    ///
+    /// # Errors
+    /// In words, why no contrast can be told from these responses.
+    pub fn of(responses: &ModalResponses) -> Result<Self, &'static str> {
         let ModalResponses { ports, poles, input, shapes, conditions } = responses;
         let actuators: Vec<Point> = ports.iter().map(|port| port.at).collect();
         let points = grid(&conditions.outline, conditions.lambda_min);
@@ -41,11 +44,17 @@ impl Modal {
         let inside = |target: &Point| -> Vec<usize> {
             (0..points.len()).filter(|i| points[*i].distance(*target) <= reach).collect()
         };
-        targets.retain(|target| inside(target).len() < points.len());
-        if targets.is_empty() || ports.is_empty() || poles.is_empty() {
-            return None;
+        if ports.is_empty() || poles.is_empty() {
+            return Err("there is nothing that drives it, or no mode in the band");
         }
-        Some(Self {
+        if targets.is_empty() {
+            return Err("no place is half a wavelength away from all actuators and the rim");
+        }
+        targets.retain(|target| inside(target).len() < points.len());
+        if targets.is_empty() {
+            return Err("focal discs leave nothing of the surface outside them");
+        }
+        Ok(Self {
             terms: poles.iter().enumerate().flat_map(|(mode, pole)| terms(mode, *pole)).collect(),
             gains: product(input.transpose(), input.as_ref()),
             targets: shapes.at_all(&targets).transpose().to_owned(),
@@ -75,11 +84,13 @@ impl Modal {
     fn left(&self, window: f64) -> Mat<f64> {
         let modes = self.gains.nrows();
         let mut left = Mat::zeros(modes, modes);
+        // One exponential for each term: those of pairs are products of them.
+        let ends: Vec<c64> = self.terms.iter().map(|term| (term.rate * window).exp()).collect();
         for (i, a) in self.terms.iter().enumerate() {
-            for b in &self.terms[..=i] {
-                let gathered = together(a, b, window);
+            for (j, b) in self.terms[..=i].iter().enumerate() {
+                let gathered = together([a, b], [ends[i], ends[j]], window);
                 left[(a.mode, b.mode)] += gathered;
-                if a.mode == b.mode && !std::ptr::eq(a, b) {
+                if a.mode == b.mode && i != j {
                     left[(a.mode, b.mode)] += gathered;
                 }
             }
@@ -95,20 +106,20 @@ impl Modal {
     }
 }
 
-/// ∫_0^T Re a e^{st} Re b e^{rt} dt.
-fn together(a: &Term, b: &Term, window: f64) -> f64 {
-    let sum = a.amplitude * b.amplitude * gathered(a.rate + b.rate, window)
-        + a.amplitude * b.amplitude.conj() * gathered(a.rate + b.rate.conj(), window);
+/// ∫_0^T Re a e^{st} Re b e^{rt} dt, with e^{sT} and e^{rT}.
+fn together([a, b]: [&Term; 2], [end, other]: [c64; 2], window: f64) -> f64 {
+    let sum = a.amplitude * b.amplitude * gathered(a.rate + b.rate, end * other, window)
+        + a.amplitude * b.amplitude.conj() * gathered(a.rate + b.rate.conj(), end * other.conj(), window);
     0.5 * sum.re
 }
 
-/// ∫_0^T e^{st} dt.
-fn gathered(rate: c64, window: f64) -> c64 {
+/// ∫_0^T e^{st} dt, with e^{sT}.
+fn gathered(rate: c64, end: c64, window: f64) -> c64 {
     let x = rate * window;
     if x.norm() < 1e-5 {
         return (x * 0.5 + 1.0) * window;
     }
-    (x.exp() - 1.0) / rate
+    (end - 1.0) / rate
 }
 
 /// The velocity of a mode as exponentials, those of [`Pole::velocity`].
@@ -171,7 +182,15 @@ mod tests {
         let (a, b) = (terms(0, Pole::new(900.0, 30.0)), terms(1, Pole::new(300.0, 400.0)));
         let (window, steps) = (0.02, 20_000);
         for (one, other) in [(&a, &a), (&a, &b), (&b, &b)] {
-            let found: f64 = one.iter().flat_map(|x| other.iter().map(move |y| together(x, y, window))).sum();
+            let found: f64 = one
+                .iter()
+                .flat_map(|x| {
+                    other.iter().map(move |y| {
+                        let ends = [x, y].map(|term| (term.rate * window).exp());
+                        together([x, y], ends, window)
+                    })
+                })
+                .sum();
             let value = |terms: &[Term], t: f64| {
                 terms.iter().map(|x| (x.amplitude * (x.rate * t).exp()).re).sum::<f64>()
             };
