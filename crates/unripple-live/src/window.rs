@@ -1,5 +1,5 @@
 use unripple_core::Surface;
-use unripple_physics::design::{Recommended, Windows};
+use unripple_physics::design::{Recommended, Windows, milliseconds};
 
 /// Share of the largest contrast below which a shorter window is not worth the time it saves.
 const WORTH: f64 = 0.75;
@@ -45,33 +45,33 @@ impl Window {
     /// The same, and the one that was asked for, in s, if one was: the modes are solved for once.
     pub fn prompt_and(surface: &Surface, longest: f64, asked: Option<f64>) -> (Self, Self) {
         let windows = Windows::of(surface);
-        let prompt = Self::among(&windows, windows.shortest(WORTH).seconds.min(longest));
-        (prompt, asked.map_or(prompt, |seconds| Self::among(&windows, seconds)))
+        let prompt = Self::among(&windows, windows.shortest(WORTH).seconds.min(longest), longest);
+        (prompt, asked.map_or(prompt, |seconds| Self::among(&windows, seconds, longest)))
     }
 
     /// One that was asked for, in s.
     pub fn of(surface: &Surface, seconds: f64) -> Self {
-        Self::among(&Windows::of(surface), seconds)
+        Self::among(&Windows::of(surface), seconds, f64::INFINITY)
     }
 
-    fn among(windows: &Windows, seconds: f64) -> Self {
-        let Recommended { seconds: unhurried, largest, largest_at, .. } = windows.recommended();
+    fn among(windows: &Windows, seconds: f64, longest: f64) -> Self {
+        let recommended = windows.recommended().within(longest, windows);
+        let Recommended { seconds: unhurried, largest, largest_at, .. } = recommended;
         Self { seconds, contrast: windows.contrast(seconds), unhurried, largest, largest_at }
     }
 }
 
 impl std::fmt::Display for Window {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let ms = |seconds: f64| 1e3 * seconds;
         write!(
             f,
-            "window {:.1} ms: contrast {:.1}, {:.0} % of the largest ({:.1} at {:.1} ms); where nobody waits, {:.1} ms",
-            ms(self.seconds),
+            "window {} ms: contrast {:.1}, {:.0} % of the largest ({:.1} at {:.1} ms); where nobody waits, {} ms",
+            milliseconds(self.seconds),
             self.contrast,
             100.0 * self.contrast / self.largest,
             self.largest,
-            ms(self.largest_at),
-            ms(self.unhurried)
+            1e3 * self.largest_at,
+            milliseconds(self.unhurried)
         )
     }
 }

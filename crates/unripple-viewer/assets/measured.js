@@ -36,7 +36,7 @@ function figures(report) {
 
 /** The form: where, how strong, and the button. */
 function form(app, busy) {
-  const peak = el('input', { type: 'number', min: '0.001', step: 'any', placeholder: 'half the thickness', inputmode: 'decimal' });
+  const peak = el('input', { type: 'number', min: '0.001', step: 'any', placeholder: 'as linear theory allows', inputmode: 'decimal' });
   const where = el('p', { class: 'quiet' });
   let places = [];
   const button = el('button', {

@@ -38,7 +38,7 @@ export const better = {
       scene: { compare: PAIR, settings: PULSES },
       show: { at: 'focus' },
       text: (f) => [
-        'Left or above time reversal, right or below the inverse: for the same place, each as strong as linear theory allows, at the instant of the focus.',
+        'Left or above time reversal, right or below the inverse: for the same place, each as strong as linear theory and the actuators allow, at the instant of the focus.',
         `The inverse asks for a field that is a point and nothing else. Of all drives that come near it takes the one of least energy. Its contrast is ${f.n(f.paneTarget(1).contrast)}: ${f.times(f.paneTarget(0).contrast, f.paneTarget(1).contrast)} that of time reversal.`,
       ],
       figures: contrasts,

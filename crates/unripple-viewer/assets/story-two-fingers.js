@@ -36,7 +36,7 @@ export const twoFingers = {
       scene: { surface: 'hudin-2012', settings: FAST, fingers: [E, D] },
       measure: [{ name: 'both', at: [E, D] }],
       text: (f) => [
-        'The hardest case: both pulses at the same instant. Each focus lies in the ripple of the other, and both share the limit of the drive.',
+        'The hardest case: both pulses at the same instant. Each focus lies in the ripple of the other, and both share what the actuators give.',
         `Measured together: ${f.n(f.target('both', 0).contrast)} at E and ${f.n(f.target('both', 1).contrast)} at D, where E alone had ${f.n(f.target('first').contrast)}.`,
       ],
       figures: (f) => [

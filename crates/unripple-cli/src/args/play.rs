@@ -21,7 +21,7 @@ pub struct PlayOptions {
     /// How drives are made.
     #[arg(long, value_enum, default_value = "time-reversal")]
     pub method: MethodName,
-    /// Window T in ms, which is the delay of every focus; by default as long as contrast is worth it.
+    /// Window T in ms, which is the delay of every focus; by default the shortest with three quarters of the largest contrast.
     #[arg(long, value_name = "MS", allow_negative_numbers = true)]
     pub window_ms: Option<f64>,
     /// Samples of a block.

@@ -189,10 +189,10 @@ impl std::fmt::Display for Conditions {
         };
         write!(
             f,
-            "Window {:.1} ms, first target, {level}, judged on modes to {:.0} Hz. Energy for the same peak and peak at the drive limit \
+            "Window {} ms, first target, {level}, judged on modes to {:.0} Hz. Energy for the same peak and peak at the drive limit \
              are relative to time reversal's; felt: dB above threshold, and below the target's level; drive for the same felt level \
              in dB over time reversal's.",
-            self.window * 1e3,
+            unripple::physics::design::milliseconds(self.window),
             self.judged_to
         )
     }

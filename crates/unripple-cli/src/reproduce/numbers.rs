@@ -107,7 +107,7 @@ fn modes(surface: &Surface, design: &Design, [vacuum, one, both]: [f64; 3]) -> V
             "30 ms",
             format!("{:.1} ms", design.window_paper_s * 1e3),
             format!(
-                "the paper's formula with its c_min gives {:.1} ms, rounded down there; nine tenths of all contrast takes {:.1} ms",
+                "the paper's formula with its c_min gives {:.1} ms, rounded down there; nine tenths of the largest contrast take {:.1} ms",
                 design.window_paper_s * 1e3,
                 design.window_recommended_s * 1e3
             ),

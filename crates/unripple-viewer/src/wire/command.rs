@@ -181,7 +181,7 @@ pub struct Measure {
     pub method: Option<String>,
     /// The window; the command line's own where absent.
     pub window_ms: Option<f64>,
-    /// The peak at the first target; as much as the limit gives where absent.
+    /// The peak at the first target; as much as linear theory allows where absent.
     pub peak_um: Option<f64>,
     /// The edit of the surface that the page shows, as it was told; the newest where absent.
     pub edit: Option<u64>,

@@ -79,7 +79,8 @@ pub(super) fn unknown(surface: &Surface, drive: &Drive) -> Option<Note> {
     let known = surface.sheet.thickness > 0.0;
     (!known && drive.peak() > 0.0).then(|| Note {
         topic: "level",
-        text: "neither thickness nor tension and strength say how far the sheet may move: the drive is at its limit, and                whether linear theory holds there is not known"
+        text: "neither thickness nor tension and strength say how far the sheet may move: the drive is at its limit, and \
+               whether linear theory holds there is not known"
             .into(),
     })
 }
