@@ -1,26 +1,20 @@
 use crate::log::{Began, Log};
 use crate::pace::Pace;
 use crate::sounding::{Inputs, Kept, Sounding};
+use crate::waiting::Waiting;
 use crate::{Drives, LiveError, Maker, Tally, Timeline, Timing};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Instant;
-use unripple_core::{Point, Touch};
-use unripple_effects::{Act, Cue, Effects, Level};
+use unripple_effects::{Act, Cue, Effects};
 use unripple_player::{At, Command, Count, Desk, Prepared, Report, Voice};
 use unripple_touch::{Heard, Wish};
-
-/// Cues that may wait for their time; more are counted and dropped.
-const MOST_WAITING: usize = 1 << 16;
 
 /// Starts whose touches are remembered until they are reported.
 const MOST_ASKED: usize = 1 << 12;
 
 /// The player's name of pings.
 const PING: u64 = u64::MAX;
-
-/// A pulse that is begun so late, in s, is not begun at all.
-const STALE: f64 = 0.1;
 
 /// Turns what touches set off into commands for a player: cues wait here for their time, drives are made or remembered, and what
 /// sounds follows the finger.
@@ -49,9 +43,9 @@ pub struct Conductor {
     pub(crate) desk: Desk,
     pub(crate) rate: f64,
     /// Samples from the beginning of a drive to its focus.
-    lead: u64,
-    waiting: BTreeMap<(u64, u64), Waiting>,
-    order: u64,
+    pub(crate) lead: u64,
+    pub(crate) waiting: BTreeMap<(u64, u64), Waiting>,
+    pub(crate) order: u64,
     pub(crate) sounding: BTreeMap<u64, Kept>,
     pub(crate) inputs: Inputs,
     /// Names given to the player so far.
@@ -74,12 +68,6 @@ pub struct Conductor {
     ended: bool,
     /// When samples leave, while a device plays by a clock of its own.
     timeline: Option<Arc<Timeline>>,
-}
-
-/// A cue that waits for its time, and when the touch came that it answers first, in samples.
-struct Waiting {
-    cue: Cue,
-    asked: Option<u64>,
 }
 
 impl std::fmt::Debug for Conductor {
@@ -226,34 +214,8 @@ impl Conductor {
     }
 
     /// The sample nearest to a time in s.
-    fn sample(&self, time: f64) -> u64 {
+    pub(crate) fn sample(&self, time: f64) -> u64 {
         (time * self.rate).round().max(0.0) as u64
-    }
-
-    /// Puts cues where they wait for the beginning of their drives.
-    fn queue(&mut self, cues: &mut Vec<Cue>, now: u64, touch: Option<&Touch>) {
-        let mut voice = None;
-        for cue in cues.drain(..) {
-            let focus = self.sample(cue.at);
-            let sample = focus.saturating_sub(self.lead).max(now);
-            let late = now.saturating_sub(focus) as f64 / self.rate;
-            if late > STALE && matches!(cue.act, Act::Pulse { .. } | Act::Shape { .. }) {
-                // Nobody feels now what was asked for then; making it would only make the next later.
-                self.tally.stale += 1;
-                continue;
-            }
-            if let Act::Stop { .. } = cue.act {
-                self.waiting.retain(|(at, _), other| other.cue.voice != cue.voice || *at < sample);
-            } else if self.waiting.len() >= MOST_WAITING {
-                self.tally.dropped += 1;
-                continue;
-            }
-            // Of what a touch sets off under a voice the first answers it.
-            let first = voice.replace(cue.voice) != Some(cue.voice);
-            let asked = touch.filter(|_| first).map(|touch| self.sample(touch.time));
-            self.order += 1;
-            self.waiting.insert((sample, self.order), Waiting { cue, asked });
-        }
     }
 
     fn wish(&mut self, wish: &Wish, now: u64) {
@@ -290,31 +252,6 @@ impl Conductor {
                 Ok(())
             }
         }
-    }
-
-    fn pulse(&mut self, points: &[Point], level: Level, asked: Option<u64>, at: At) -> Result<(), LiveError> {
-        if !self.can_begin() {
-            return Ok(());
-        }
-        let gain = self.pulse_gain(points, level)?;
-        let drive = self.drives.at(points)?.prepared;
-        let voice = Voice(self.name(asked));
-        self.send(Command::Start { voice, drive, at, gain, period: None });
-        Ok(())
-    }
-
-    pub(crate) fn pulse_gain(&mut self, points: &[Point], level: Level) -> Result<f32, LiveError> {
-        let (gain, beyond) = self.drives.pulse_gain(points, level.scaled(self.trim))?;
-        self.tally.beyond += u64::from(beyond);
-        Ok(gain as f32)
-    }
-
-    /// Whether what is over by itself may begin now; what may not is counted.
-    pub(crate) fn can_begin(&mut self) -> bool {
-        let full = self.desk.room() == 0;
-        self.tally.stale += u64::from(self.stands);
-        self.tally.lost += u64::from(full && !self.stands);
-        !self.stands && !full
     }
 
     /// A name that the player has not heard yet, for what answers a touch that came at a sample.

@@ -24,6 +24,7 @@ mod pace;
 mod percentiles;
 mod pinging;
 mod priority;
+mod pulses;
 mod recovering;
 mod sounding;
 mod stage;
@@ -31,6 +32,7 @@ mod tally;
 mod threaded;
 mod timeline;
 mod voices;
+mod waiting;
 mod window;
 
 pub use conductor::Conductor;
