@@ -1,14 +1,17 @@
 //! A film that is played through a real JACK server, and what that costs the machine: a period that changes is followed, priorities
 //! stay below the server's, and nobody wakes without a reason.
 //!
-//! Needs `jackd` and libjack (Debian: jackd2). Without them the tests say so and pass.
+//! Needs `jackd` and libjack (Debian: jackd2). Without them the tests are skipped, and fail in CI.
 
 mod common;
 #[path = "../../unripple-devices/tests/common/server.rs"]
 mod server;
+#[path = "../../unripple-core/tests/shared/skip.rs"]
+mod skip;
 
 use common::*;
 use server::Server;
+use skip::skip;
 use std::process::Command;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -115,8 +118,7 @@ fn sounds(server: &Server) -> bool {
 fn a_changed_period_is_followed() {
     let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
     let Some(server) = Server::start(256) else {
-        println!("SKIPPED: there is no jackd here (Debian: apt install jackd2)");
-        return;
+        return skip(server::NONE);
     };
     beside(engine(&server, 10), |playing| {
         until(playing);
@@ -133,42 +135,66 @@ fn a_changed_period_is_followed() {
     });
 }
 
-/// Names and real-time priorities of this program's threads that have one.
-fn priorities() -> Vec<(String, u32)> {
+/// A thread: its number, name and real-time priority, 0 without one.
+type Thread = (String, String, u32);
+
+/// Those of this program.
+fn threads() -> Vec<Thread> {
     let tasks = std::fs::read_dir("/proc/self/task").unwrap();
     let stats = tasks.filter_map(|task| std::fs::read_to_string(task.ok()?.path().join("stat")).ok());
     let read = |stat: String| {
-        let (name, rest) = stat.split_once('(')?.1.rsplit_once(')')?;
+        let (number, rest) = stat.split_once(" (")?;
+        let (name, rest) = rest.rsplit_once(')')?;
         // The 40th field, of which the third is the first after the name.
         let priority = rest.split_whitespace().nth(37)?.parse().ok()?;
-        Some((name.to_owned(), priority))
+        Some((number.to_owned(), name.to_owned(), priority))
     };
-    stats.filter_map(read).filter(|(_, priority)| *priority > 0).collect()
+    stats.filter_map(read).collect()
+}
+
+/// The number of this thread, as in [`threads`].
+fn own() -> String {
+    let path = std::fs::read_link("/proc/thread-self").unwrap();
+    path.file_name().unwrap().to_string_lossy().into_owned()
 }
 
 #[test]
-fn no_thread_stands_above_the_servers() {
+fn no_thread_stands_above_the_servers_and_those_that_touches_wait_for_have_a_priority() {
     let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    if let Err(refused) = unripple_live::real_time() {
+        return skip(&refused);
+    }
     let name = format!("unripple-priority-{}", std::process::id());
     let Some(server) = Server::real_time(&name, 256) else {
-        println!("SKIPPED: there is no jackd here (Debian: apt install jackd2)");
-        return;
+        return skip(server::NONE);
     };
+    let caller = own();
+    let named = |found: &[Thread], wanted: &str| -> Vec<u32> {
+        let called = found.iter().filter(|(number, name, _)| number == wanted || name == wanted);
+        called.map(|(_, _, priority)| *priority).collect()
+    };
+    let waited_for = ["touch", "focus", &caller];
     let found = beside(engine(&server, 2), |playing| {
         until(playing);
-        std::thread::sleep(Duration::from_millis(500));
-        priorities()
+        let start = Instant::now();
+        loop {
+            let found = threads();
+            let have = waited_for.iter().all(|thread| named(&found, thread).iter().any(|own| *own > 0));
+            if have || start.elapsed() > DEADLINE / 4 {
+                return found;
+            }
+            std::thread::sleep(Duration::from_millis(20));
+        }
     });
     println!("{found:?}");
-    // JACK runs its clients' callbacks five below its own thread, or lower where it was granted less.
-    if found.is_empty() {
-        println!("SKIPPED: no real-time priority is granted here");
-        return;
+    // JACK runs its clients' callbacks five below its own thread, which has 10.
+    const CALLBACK: u32 = 5;
+    for thread in waited_for {
+        let has = named(&found, thread).iter().any(|own| (1..CALLBACK).contains(own));
+        assert!(has, "`{thread}` has no priority below the callback's {CALLBACK}: {found:?}");
     }
-    assert!(
-        found.iter().all(|(_, priority)| *priority <= 5),
-        "the server has 10, its callbacks 5: {found:?}"
-    );
+    let high: Vec<u32> = found.iter().map(|(_, _, own)| *own).filter(|own| *own >= CALLBACK).collect();
+    assert_eq!(high, [CALLBACK], "the callback alone has {CALLBACK}, and nobody more: {found:?}");
 }
 
 /// Times that threads of this program went to sleep by themselves.
@@ -186,8 +212,7 @@ fn naps() -> u64 {
 fn nobody_wakes_without_a_reason() {
     let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
     let Some(server) = Server::start(256) else {
-        println!("SKIPPED: there is no jackd here (Debian: apt install jackd2)");
-        return;
+        return skip(server::NONE);
     };
     let (naps, seconds) = beside(engine(&server, 0), |playing| {
         until(playing);
