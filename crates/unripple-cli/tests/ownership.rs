@@ -220,6 +220,53 @@ fn two_outputs_are_two_files() {
 }
 
 #[test]
+fn two_outputs_by_two_ways_to_one_place_are_one() {
+    let scratch = Scratch::new("one-place");
+    let film = scratch.file("film.toml", FILM);
+    let link = scratch.join("link");
+    std::os::unix::fs::symlink(scratch.path(), &link).unwrap();
+    let direct = scratch.join("a.wav");
+    for other in ["./a.wav", "link/a.wav"].map(|name| scratch.join(name)) {
+        let arguments = ["play", &film, "--seconds", "0.2", "--record", &other, "--keep-drive", &direct];
+        kept(&scratch, &arguments, 2, &["--keep-drive", "found the same"]);
+    }
+}
+
+/// A sitting that is refused has not begun.
+#[test]
+fn a_drive_that_cannot_be_kept_is_refused_before_anything_is_made() {
+    let scratch = Scratch::new("clocked");
+    let film = scratch.file("film.toml", FILM);
+    let (taps, drive) = (scratch.join("taps.jsonl"), scratch.join("drive.wav"));
+    for clock in [["--real-time"].as_slice(), &["--tuio", "0"], &["--websocket", "0"], &["--device", "jack"]]
+    {
+        // The window is no number of ms, which is found while drives are prepared.
+        let both = ["play", &film, "--record", &taps, "--keep-drive", &drive];
+        let late = ["--seconds", "0.2", "--window-ms", "-1"];
+        let found = format!("real time ({}", clock[0]);
+        kept(&scratch, &[&both[..], clock, &late[..2]].concat(), 2, &["--keep-drive", &found]);
+        kept(&scratch, &[&both[..], clock, &late].concat(), 2, &["--keep-drive", &found]);
+    }
+}
+
+#[test]
+fn a_place_that_is_taken_is_refused_before_drives_are_prepared() {
+    let scratch = Scratch::new("taken");
+    let film = scratch.file("film.toml", FILM);
+    let notes = scratch.file("notes.txt", "an afternoon");
+    let dangling = scratch.join("dangling");
+    std::os::unix::fs::symlink(scratch.path().join("nothing"), &dangling).unwrap();
+    let folder = scratch.path().display().to_string();
+    for (place, word) in [(&notes, "not empty"), (&folder, "a folder"), (&dangling, "a link")] {
+        // The window is no number of ms, which is found while drives are prepared.
+        let arguments = ["play", film.as_str(), "--window-ms", "-1", "--record", place];
+        kept(&scratch, &arguments, 1, &["will not write", word]);
+    }
+    let nowhere = scratch.join("no/taps.jsonl");
+    kept(&scratch, &["play", &film, "--window-ms", "-1", "--record", &nowhere], 1, &["cannot write to"]);
+}
+
+#[test]
 fn readers_that_go_away_are_no_failure() {
     let scratch = Scratch::new("readers");
     let (film, out) = (scratch.file("film.toml", FILM), scratch.join("out"));

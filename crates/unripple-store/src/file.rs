@@ -93,11 +93,46 @@ fn replaceable(path: &Path) -> Result<PathBuf, StoreError> {
     Err(StoreError::Occupied { path: path.into(), expected, found })
 }
 
+/// Whether [`new_file`] could make a file here, for whoever has much to do before the file is wanted: nothing is made.
+///
+/// # Errors
+/// [`StoreError::Occupied`] if a file that is not empty, a folder or a link that leads nowhere is there, [`StoreError::Write`] if the
+/// place cannot be looked at or its folder is not there.
+///
+/// ```
+/// let path = std::env::temp_dir().join(format!("unripple-doc-check-{}.txt", std::process::id()));
+/// unripple_store::check_new_file(&path)?;
+/// assert!(!path.exists());
+/// std::fs::write(&path, "an afternoon").unwrap();
+/// assert!(unripple_store::check_new_file(&path).is_err());
+/// # std::fs::remove_file(&path).unwrap();
+/// # Ok::<(), unripple_store::StoreError>(())
+/// ```
+pub fn check_new_file(path: impl AsRef<Path>) -> Result<(), StoreError> {
+    let path = path.as_ref();
+    let occupied = |found: &str| StoreError::Occupied {
+        path: path.into(),
+        expected: "no such file yet, since what it holds cannot be made again",
+        found: found.into(),
+    };
+    match fs::metadata(path) {
+        // A pipe, say, which waits for its reader, or a file that was made to have a name.
+        Ok(there) if !there.is_dir() && there.len() == 0 => Ok(()),
+        Ok(there) => Err(occupied(if there.is_dir() { "a folder" } else { "one that is not empty" })),
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(StoreError::write(path)(error)),
+        Err(_) if fs::symlink_metadata(path).is_ok() => Err(occupied("a link that leads nowhere")),
+        Err(_) => match path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+            Some(folder) => fs::metadata(folder).map(|_| ()).map_err(StoreError::write(path)),
+            None => Ok(()),
+        },
+    }
+}
+
 /// A new file for what cannot be made again, such as what people did: nothing that is there is overwritten but an empty file.
 /// It goes again unless it is kept.
 ///
 /// # Errors
-/// [`StoreError::Occupied`] if there is such a file or a folder, [`StoreError::Write`] if it cannot be made.
+/// Those of [`check_new_file`], and [`StoreError::Write`] if it cannot be made.
 ///
 /// ```
 /// let path = std::env::temp_dir().join(format!("unripple-doc-new-{}.txt", std::process::id()));
@@ -109,25 +144,17 @@ fn replaceable(path: &Path) -> Result<PathBuf, StoreError> {
 /// ```
 pub fn new_file(path: impl AsRef<Path>) -> Result<(File, Underway), StoreError> {
     let path = path.as_ref();
+    check_new_file(path)?;
     let mut options = File::options();
-    let made = match fs::metadata(path) {
-        // A pipe, say, which waits for its reader, or a file that was made to have a name.
-        Ok(there) if !there.is_dir() && there.len() == 0 => {
-            let file = options.write(true).open(path);
-            Underway::begin(|_| file)
-        }
-        Ok(there) => {
-            return Err(StoreError::Occupied {
-                path: path.into(),
-                expected: "no such file yet, since what it holds cannot be made again",
-                found: if there.is_dir() { "a folder" } else { "one that is not empty" }.into(),
-            });
-        }
-        Err(_) => Underway::begin(|entry| {
+    let made = if path.exists() {
+        let file = options.write(true).open(path);
+        Underway::begin(|_| file)
+    } else {
+        Underway::begin(|entry| {
             let file = options.write(true).create_new(true).open(path)?;
             entry.what = What::File(path.into());
             Ok(file)
-        }),
+        })
     };
     made.map(|(underway, file)| (file, underway)).map_err(StoreError::write(path))
 }

@@ -49,7 +49,7 @@ pub use effects::{
 };
 pub use error::StoreError;
 pub use fault::{Fault, FileFaults};
-pub use file::{LARGEST_TEXT, new_file, write_file};
+pub use file::{LARGEST_TEXT, check_new_file, new_file, write_file};
 pub use kept::{check_kept_wav, write_kept_wav};
 pub use library::{Damage, Library, LibraryPlan, MAY_DIFFER, PointState, Quality, Take};
 pub use listing::MARKER;

@@ -48,6 +48,16 @@ pub struct PlayOptions {
     pub keep_drive: Option<PathBuf>,
 }
 
+impl PlayOptions {
+    /// What makes a sitting go by the clock on the wall, as typed; `None` where it goes as fast as it can.
+    pub fn clock(&self) -> Option<String> {
+        let device = || format!("--device {}", self.device.device.name());
+        let real = self.device.is_real().then(device);
+        real.or_else(|| self.real_time.then(|| "--real-time".into()))
+            .or_else(|| self.touch.live().map(Into::into))
+    }
+}
+
 /// Where touches come from.
 #[derive(Debug, Args)]
 pub struct TouchOptions {
@@ -75,6 +85,18 @@ pub struct TouchOptions {
     /// Record all touches to a new file, for --session.
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
+}
+
+impl TouchOptions {
+    /// An option by which somebody out there may touch.
+    pub fn live(&self) -> Option<&'static str> {
+        let options = [
+            (self.tuio.is_some(), "--tuio"),
+            (self.websocket.is_some(), "--websocket"),
+            (!self.screen.is_empty(), "--screen"),
+        ];
+        options.into_iter().find_map(|(given, name)| given.then_some(name))
+    }
 }
 
 /// Options of `doctor`.

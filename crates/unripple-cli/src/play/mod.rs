@@ -1,6 +1,7 @@
 //! `unripple play`: a surface that answers fingers, live.
 
 mod open;
+mod outputs;
 mod report;
 mod touches;
 
@@ -20,7 +21,7 @@ use unripple::core::{Drive, Responses, Surface};
 use unripple::physics::Medium;
 use unripple_calibrate::{Ping, PingOptions};
 use unripple_live::{Engine, Follower, Level, LiveError, LiveOptions, Maker, Pulse, Stage, Window};
-use unripple_store::{check_kept_wav, load_effects, write_kept_wav};
+use unripple_store::{load_effects, write_kept_wav};
 
 /// Most of a drive that is kept, in s.
 const KEPT: f64 = 60.0;
@@ -44,13 +45,7 @@ pub fn run(options: &PlayOptions, as_json: bool) -> Result<(), CliError> {
     let source = input::source(&options.surface)?;
     let surface = source.surface.clone();
     let set = load_effects(&options.effect)?;
-    if let Some(path) = &options.keep_drive {
-        if options.touch.record.as_ref() == Some(path) {
-            let text = "--keep-drive: expected another file than that of --record, found the same";
-            return Err(CliError::Input(text.into()));
-        }
-        check_kept_wav(path, &options.reads())?;
-    }
+    outputs::check(options)?;
     let responses = Arc::new(match source.stored {
         Some(stored) => Responses::Sampled(stored.responses),
         None => judge::model(&surface, None, &[])?,
@@ -63,7 +58,7 @@ pub fn run(options: &PlayOptions, as_json: bool) -> Result<(), CliError> {
     let level = Level::of(&surface, &maker, options.full_limit)?;
     settings.full = level.full;
     let (touches, sources) = Touches::open(&options.touch, &surface)?;
-    let Opened { device, feeler, latency } = open::open(options, &surface, touches.live)?;
+    let Opened { device, feeler, latency } = open::open(options, &surface)?;
     let engine = Engine::new(&surface, maker, &set, sources, device, &settings)?;
     let mut engine = match feeler {
         Some(feeler) => engine.with_feeler(feeler),
@@ -79,14 +74,13 @@ pub fn run(options: &PlayOptions, as_json: bool) -> Result<(), CliError> {
     for line in [window.to_string(), level.to_string()].iter().chain(&touches.told) {
         eprintln!("{line}");
     }
-    let live = touches.live || options.real_time || options.device.is_real();
     let mut session = Session { options, touches, report: Report::new(&surface, &window, &level), told: 0.0 };
     let stop = interrupted()?;
     let seconds = seconds_to_play(options, session.touches.lasts)?;
     session.touches.begin();
-    match live {
-        true => session.run(&mut engine, seconds, &stop)?,
-        false => session.step(&mut engine, seconds, &stop)?,
+    match options.clock() {
+        Some(_) => session.run(&mut engine, seconds, &stop)?,
+        None => session.step(&mut engine, seconds, &stop)?,
     }
     session.touches.finish()?;
     let report = session.report.finish(&mut engine);
@@ -175,11 +169,6 @@ impl Session<'_> {
 
     /// Plays by the device's clock, on a thread of its own.
     fn run(&mut self, engine: &mut Engine, seconds: Option<f64>, stop: &AtomicBool) -> Result<(), CliError> {
-        if self.options.keep_drive.is_some() {
-            return Err(CliError::Input(
-                "--keep-drive: expected a run that needs no clock, found one in real time".into(),
-            ));
-        }
         engine.run(seconds, |stage, pulse| {
             self.tell(stage, Some(pulse));
             !stop.load(Ordering::Relaxed)

@@ -43,10 +43,10 @@ pub struct Opened {
     pub latency: usize,
 }
 
-/// Opens what was asked for; `live` where somebody out there touches.
-pub fn open(options: &PlayOptions, surface: &Surface, live: bool) -> Result<Opened, CliError> {
+/// Opens what was asked for.
+pub fn open(options: &PlayOptions, surface: &Surface) -> Result<Opened, CliError> {
     match options.device.device {
-        DeviceName::Virtual => virtual_surface(options, surface, live),
+        DeviceName::Virtual => virtual_surface(options, surface),
         DeviceName::Jack => jack(&options.device, surface, heard(options, surface)),
         DeviceName::Card => card(&options.device, surface, heard(options, surface)),
         DeviceName::Tape => Err(CliError::Input(
@@ -55,13 +55,13 @@ pub fn open(options: &PlayOptions, surface: &Surface, live: bool) -> Result<Open
     }
 }
 
-fn virtual_surface(options: &PlayOptions, surface: &Surface, live: bool) -> Result<Opened, CliError> {
+fn virtual_surface(options: &PlayOptions, surface: &Surface) -> Result<Opened, CliError> {
     let stepper = StepperOptions { max_fingers: FINGERS, ..StepperOptions::default() };
     let mut plain = VirtualOptions {
         block: options.block,
         stepper,
         accuracy: judge::accuracy(surface),
-        real_time: live || options.real_time,
+        real_time: options.clock().is_some(),
         ..VirtualOptions::default()
     };
     plain.mishaps.tension = options.drift_percent.map_or_else(Vec::new, drift);

@@ -26,8 +26,6 @@ pub struct Touches {
     recording: Option<Arc<Mutex<Tape>>>,
     /// The recording's file goes again unless the sitting begins.
     unused: Option<Underway>,
-    /// Whether anybody out there may touch, so that the clock on the wall counts.
-    pub live: bool,
     /// How long a recorded session lasts, in s.
     pub lasts: Option<f64>,
     /// A line for each source.
@@ -65,23 +63,17 @@ impl Touches {
         let mut touches = Self::default();
         let mut sources = Sources::new(&surface.outline);
         let heard = Options::new(&surface.outline);
-        let mut strangers: Vec<Box<dyn Source>> = Vec::new();
+        let mut all: Vec<Box<dyn Source>> = Vec::new();
         if let Some(port) = options.tuio {
-            strangers.push(Box::new(OscPort::bind(SocketAddr::new(options.listen, port), heard.clone())?));
+            all.push(Box::new(OscPort::bind(SocketAddr::new(options.listen, port), heard.clone())?));
         }
         if let Some(port) = options.websocket {
             let address = SocketAddr::new(options.listen, port);
-            strangers.push(Box::new(WebSocketPort::bind(
-                address,
-                heard.clone(),
-                WebSocketOptions::default(),
-            )?));
+            all.push(Box::new(WebSocketPort::bind(address, heard.clone(), WebSocketOptions::default())?));
         }
         for path in &options.screen {
-            strangers.push(Box::new(Screen::open(path, heard.clone())?));
+            all.push(Box::new(Screen::open(path, heard.clone())?));
         }
-        touches.live = !strangers.is_empty();
-        let mut all = strangers;
         if let Some(path) = &options.session {
             let recording = Recording::open(path)?;
             touches.lasts = Some(recording.duration() + AFTER);
