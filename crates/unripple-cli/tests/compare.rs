@@ -83,3 +83,51 @@ fn a_table_needs_no_folder() {
         refused(&["focus", &file, "--at", "62,90", "--method", "inverse", "--strength", "1.5", "-o", "x"], 2);
     assert!(errors.contains("strength: expected 0 to 1, found 1.5"), "{errors}");
 }
+
+/// A level that some methods do not reach is theirs at their limit, and the others' as asked for.
+#[test]
+fn a_method_that_cannot_reach_a_level_is_shown_at_its_limit() {
+    let scratch = Scratch::new("compare-weak");
+    let weak = FILM.replace("sample_rate_hz", "limit = 1e-4\nsample_rate_hz");
+    let file = scratch.file("weak.toml", weak);
+    let compare = |level: &[&str]| {
+        json(&[&["compare", file.as_str(), "--at", "62,90", "--window-ms", "30"], level].concat())
+    };
+    let full = compare(&["--full-limit"]);
+    let rows = |report: &Value, key: &str| report[key].as_array().unwrap().clone();
+    // Between what the weakest and what the strongest reach.
+    let middle = |key: &str| {
+        let mut all: Vec<f64> = rows(&full, "methods").iter().map(|row| number(row, key).abs()).collect();
+        all.sort_by(f64::total_cmp);
+        all[all.len() / 2 - 1].midpoint(all[all.len() / 2])
+    };
+    let (felt, moved) = ("/targets/0/felt_level_db", "/targets/0/peak_displacement_m");
+    let peak = (1e6 * middle(moved)).to_string();
+    for (report, decided, unit) in [
+        (compare(&["--peak-um", &peak]), "peak_um", "\u{b5}m"),
+        (compare(&["--felt-db", &middle(felt).to_string()]), "felt_db", "dB"),
+    ] {
+        let methods = rows(&report, "methods");
+        assert_eq!(methods.len(), rows(&full, "methods").len());
+        let mut short = 0;
+        for (row, limit) in methods.iter().zip(rows(&full, "methods")) {
+            let beyond = row["level"]["decided_by"] == "limit";
+            assert!(beyond || row["level"]["decided_by"] == decided, "{row}");
+            let notes = row["notes"].as_array().unwrap();
+            let said = notes.iter().filter(|note| note["topic"] == "level").collect::<Vec<_>>();
+            assert_eq!(said.len(), usize::from(beyond), "{row}");
+            if beyond {
+                short += 1;
+                assert!(said[0]["text"].as_str().unwrap().contains(unit), "{}", said[0]);
+                for key in [felt, "/targets/0/peak_velocity_m_s", "/drive/peak"] {
+                    assert_eq!(number(row, key), number(&limit, key), "{key}");
+                }
+            }
+        }
+        assert!(short > 0 && short < methods.len(), "{short}");
+    }
+    // One act alone is refused: it would not be what was asked for.
+    let out = scratch.join("out");
+    let focus = ["focus", &file, "--at", "62,90", "--window-ms", "30", "--method", "inverse", "-o", &out];
+    assert!(refused(&[&focus[..], &["--peak-um", &peak]].concat(), 2).contains("at most"));
+}

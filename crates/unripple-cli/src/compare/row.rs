@@ -9,7 +9,7 @@ use unripple::act::{Act, Level, Strength};
 use unripple::field::{DriveFigures, Field, Measured, TargetFigures};
 use unripple::focus::{Focuser, Method, Options};
 
-/// What one method does, as emitted at the level asked for.
+/// What one method does, as emitted at the level asked for, or at its limit where that is beyond.
 #[derive(Debug, Serialize)]
 pub struct Row {
     pub method: &'static str,
@@ -46,7 +46,7 @@ pub fn with(ground: &Ground<'_>, options: &Options) -> Result<Row, CliError> {
     let [contrast_at_limit, _, peak_at_limit] = traded(ground, &focused)?;
     let Ground { surface, plant: responses, targets, level, .. } = *ground;
     let act = Act { surface, responses, targets, options, level };
-    let sent = act.send(&focuser, focused)?;
+    let sent = act.send_at_most(&focuser, focused)?;
     let field = Field::new(responses, &sent.drive, CELLS).map_err(CliError::input)?;
     let Measured { targets, drive, .. } = field.measure(&sent.aims, sent.period).map_err(CliError::input)?;
     Ok(Row {
@@ -184,8 +184,12 @@ impl std::fmt::Display for Conditions {
         let level = match self.level {
             Level::Linear => "each as strong as linear theory and the drive limit allow".to_owned(),
             Level::Limit => "at the drive limit".to_owned(),
-            Level::Peak(metres) => format!("each moving it by {} µm", three(metres * 1e6)),
-            Level::Felt(db) => format!("each felt there {db:.1} dB above threshold"),
+            Level::Peak(metres) => {
+                format!("each moving it by {} µm if the drive limit lets it", three(metres * 1e6))
+            }
+            Level::Felt(db) => {
+                format!("each felt there {db:.1} dB above threshold if the drive limit lets it")
+            }
         };
         write!(
             f,

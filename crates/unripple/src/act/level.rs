@@ -77,21 +77,44 @@ impl Level {
     /// # Errors
     /// [`ActError::Level`].
     pub(super) fn within(self, step: Step) -> Result<(), ActError> {
-        let beyond = step.factor > 1.0;
-        match self {
-            Self::Linear | Self::Limit => Ok(()),
-            Self::Peak(wanted) => {
-                let most = wanted / step.factor * 1e6;
-                let expected = format!("at most {most:.4} µm, which the drive limit gives");
-                refuse(beyond, LevelKind::Peak, expected, || micrometres(wanted))
-            }
-            Self::Felt(wanted) => {
-                let most = wanted - 20.0 * step.factor.log10();
-                let expected = format!("at most {most:.2} dB above threshold, which the drive limit gives");
-                refuse(beyond, LevelKind::Felt, expected, || wanted.to_string())
+        match self.beyond(step) {
+            None => Ok(()),
+            Some(Beyond { what, most, wanted, .. }) => {
+                let expected = format!("at most {most}, which the drive limit gives");
+                Err(ActError::Level { what, expected, found: wanted })
             }
         }
     }
+
+    /// What a level asked for is beyond; `None` if the drive at its limit gives it.
+    pub(super) fn beyond(self, step: Step) -> Option<Beyond> {
+        let found = match self {
+            Self::Linear | Self::Limit => return None,
+            Self::Peak(wanted) => Beyond {
+                what: LevelKind::Peak,
+                most: format!("{:.4} µm", wanted / step.factor * 1e6),
+                wanted: micrometres(wanted),
+                unit: "µm",
+            },
+            Self::Felt(wanted) => Beyond {
+                what: LevelKind::Felt,
+                most: format!("{:.2} dB above threshold", wanted - 20.0 * step.factor.log10()),
+                wanted: wanted.to_string(),
+                unit: "dB",
+            },
+        };
+        (step.factor > 1.0).then_some(found)
+    }
+}
+
+/// A level asked for that the drive limit does not give.
+pub(super) struct Beyond {
+    pub what: LevelKind,
+    /// What it gives, with its unit.
+    pub most: String,
+    /// What was asked for, and its unit.
+    pub wanted: String,
+    pub unit: &'static str,
 }
 
 impl From<LinearLevel> for Step {

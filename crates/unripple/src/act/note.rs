@@ -1,3 +1,4 @@
+use super::level::Beyond;
 use super::{Act, ActError};
 use crate::core::{Drive, Surface};
 use crate::field::{Aim, Field, Measured};
@@ -83,6 +84,15 @@ pub(super) fn unknown(surface: &Surface, drive: &Drive) -> Option<Note> {
                whether linear theory holds there is not known"
             .into(),
     })
+}
+
+/// That a drive is at its limit, because the level asked for is beyond that.
+pub(super) fn beyond(beyond: &Beyond) -> Note {
+    let Beyond { most, wanted, unit, .. } = beyond;
+    Note {
+        topic: "level",
+        text: format!("reaches {most} at the drive limit, not the {wanted} {unit} asked for"),
+    }
 }
 
 /// What is void of a method below the limit of the drive.

@@ -85,7 +85,40 @@ impl Act<'_> {
     /// move; those of [`Focuser::focus_at`] and of the field.
     pub fn send(&self, focuser: &Focuser<'_>, focused: Focused) -> Result<Sent, ActError> {
         let aimed = Aimed::of(self, &focused);
-        let levelled = self.level(focuser, focused, &aimed)?;
+        let full = focused.drive.clone().as_emitted();
+        let step = self.step(&full, &aimed)?;
+        step.map_or(Ok(()), |step| self.level.within(step))?;
+        self.brought(focuser, focused, full, step, aimed)
+    }
+
+    /// As [`send`](Self::send), but for a level above what the drive limit gives the drive is at its limit, and a note says how far
+    /// that reaches: for whoever shows several drives side by side.
+    ///
+    /// # Errors
+    /// As [`send`](Self::send), but for such levels.
+    pub fn send_at_most(&self, focuser: &Focuser<'_>, focused: Focused) -> Result<Sent, ActError> {
+        let aimed = Aimed::of(self, &focused);
+        let full = focused.drive.clone().as_emitted();
+        let step = self.step(&full, &aimed)?;
+        let Some(beyond) = step.and_then(|step| self.level.beyond(step)) else {
+            return self.brought(focuser, focused, full, step, aimed);
+        };
+        let at_limit = Act { level: Level::Limit, ..*self };
+        let mut sent = at_limit.brought(focuser, focused, full, None, aimed)?;
+        sent.notes.push(note::beyond(&beyond));
+        Ok(sent)
+    }
+
+    /// Takes the step from a drive at its limit, `full` as it is emitted.
+    fn brought(
+        &self,
+        focuser: &Focuser<'_>,
+        focused: Focused,
+        full: Drive,
+        step: Option<Step>,
+        aimed: Aimed,
+    ) -> Result<Sent, ActError> {
+        let levelled = self.level(focuser, focused, full, step, &aimed)?;
         let strength = Strength::of(&levelled.drive, self.options, levelled.by).allowing(
             levelled.factor.filter(|_| levelled.by == DecidedBy::Limit && self.level == Level::Linear),
         );
@@ -108,18 +141,17 @@ impl Act<'_> {
         Ok(Sent { focused, drive, aims: aimed.aims, period, until: aimed.until, strength, notes })
     }
 
-    fn level(&self, focuser: &Focuser<'_>, focused: Focused, aimed: &Aimed) -> Result<Levelled, ActError> {
-        let full = focused.drive.clone().as_emitted();
-        let first = self.step(&full, aimed)?;
-        let at_limit = |focused, factor| Levelled {
-            focused,
-            drive: full.clone(),
-            by: DecidedBy::Limit,
-            factor,
-            scaled: false,
-        };
-        let Some(step) = first else { return Ok(at_limit(focused, None)) };
-        self.level.within(step)?;
+    fn level(
+        &self,
+        focuser: &Focuser<'_>,
+        focused: Focused,
+        full: Drive,
+        step: Option<Step>,
+        aimed: &Aimed,
+    ) -> Result<Levelled, ActError> {
+        let at_limit =
+            |focused, factor| Levelled { focused, drive: full, by: DecidedBy::Limit, factor, scaled: false };
+        let Some(step) = step else { return Ok(at_limit(focused, None)) };
         if step.factor >= 1.0 && self.level == Level::Linear {
             return Ok(at_limit(focused, Some(step.factor)));
         }
