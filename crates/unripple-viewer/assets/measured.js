@@ -142,7 +142,7 @@ export function mount(root, app) {
     for (const file of files) file.href = app.token(`/${file.download}?id=${message.id}`);
     table.replaceChildren(figures(message.report ?? {}));
     setText(code, message.command ?? '');
-    notes.replaceChildren(...(message.report?.notes ?? []).map((note) => el('li', { text: note.text })));
+    notes.replaceChildren(...(message.report?.notes ?? []).map((note) => el('li', { text: `${note.topic}: ${note.text}` })));
     drawn.draw(message);
     setText(busyText, `Measured in ${seconds(message.seconds)}.`);
   });
