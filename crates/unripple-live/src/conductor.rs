@@ -5,13 +5,16 @@ use crate::waiting::Waiting;
 use crate::{Drives, LiveError, Maker, Tally, Timeline, Timing};
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use unripple_effects::{Act, Cue, Effects};
 use unripple_player::{At, Command, Count, Desk, Prepared, Report, Voice};
 use unripple_touch::{Heard, Wish};
 
 /// Starts whose touches are remembered until they are reported.
 const MOST_ASKED: usize = 1 << 12;
+
+/// Time after which a step that makes drives looks at what came meanwhile, so that a finger that lifts is not kept waiting.
+const LONG: Duration = Duration::from_millis(5);
 
 /// The player's name of pings.
 const PING: u64 = u64::MAX;
@@ -34,6 +37,9 @@ const PING: u64 = u64::MAX;
 ///   next block, by when it may have moved or be gone.
 /// - The player refuses, or something is over: the hold says so, the entry goes, and the input of a waveform is free. A change that was
 ///   refused is told again. Reports only measure; if some were lost, all that goes on is told again.
+/// - Drives take long to make: a stop ends what sounds at once, whatever is still to be made, and takes back what its voice waits for.
+///   Where threads play, a step makes drives for a few milliseconds only and leaves the rest to the next, so that it hears of the stop.
+///   A pulse whose turn comes too late is not begun.
 /// - The player stands still: after a tenth of a second what was sent to it and would be over by itself is taken back, and nothing more is
 ///   sent before it goes on. Fingers are followed meanwhile, and what they then still hold is told.
 /// - This side is gone: the player fades out by itself. [`Conductor::end`] asks it to.
@@ -46,6 +52,10 @@ pub struct Conductor {
     pub(crate) lead: u64,
     pub(crate) waiting: BTreeMap<(u64, u64), Waiting>,
     pub(crate) order: u64,
+    /// The last of those that waited when the present step began.
+    pub(crate) old: u64,
+    /// Whether there had been no time for some of them.
+    pub(crate) late: bool,
     pub(crate) sounding: BTreeMap<u64, Kept>,
     pub(crate) inputs: Inputs,
     /// Names given to the player so far.
@@ -88,6 +98,8 @@ impl Conductor {
             lead: (window * rate).round() as u64,
             waiting: BTreeMap::new(),
             order: 0,
+            old: 0,
+            late: false,
             sounding: BTreeMap::new(),
             inputs: Inputs::new(inputs),
             names: 0,
@@ -181,9 +193,7 @@ impl Conductor {
             self.desk.withdraw();
         }
         self.forget_over();
-        if self.told.replace(now) != Some(now) {
-            self.tell_again(At::Now)?;
-        }
+        (self.old, self.late) = (self.order, self.is_behind(now));
         let mut cues = std::mem::take(&mut self.cues);
         for touch in &heard.touches {
             self.effects.touch(touch, &mut cues);
@@ -195,12 +205,34 @@ impl Conductor {
         self.effects.tick((until + self.lead) as f64 / self.rate, &mut cues);
         self.queue(&mut cues, now, None);
         self.cues = cues;
+        let began = Instant::now();
+        if self.told.replace(now) != Some(now) && !self.tell_again(At::Now, began)? {
+            self.told = None;
+        }
         while let Some(entry) = self.waiting.first_entry().filter(|entry| entry.key().0 < until) {
             let ((sample, _), Waiting { cue, asked }) = entry.remove_entry();
             let played = self.play(&cue, asked, sample, now);
             self.tally.cues += u64::from(self.tally.went(played)?);
+            if self.is_long(began) {
+                break;
+            }
         }
         Ok(())
+    }
+
+    /// Whether a step has taken so long that what came meanwhile is looked at first; never where nothing comes meanwhile.
+    pub(crate) fn is_long(&self, began: Instant) -> bool {
+        self.timeline.is_some() && began.elapsed() > LONG
+    }
+
+    /// Whether something waits that would have begun before a sample had there been time.
+    pub(crate) fn is_behind(&self, until: u64) -> bool {
+        self.waiting.first_key_value().is_some_and(|((at, _), _)| *at < until)
+    }
+
+    /// A fade of so many seconds in samples; without any, drives that have begun ring out.
+    pub(crate) fn fade(&self, seconds: f64) -> Option<u32> {
+        Some((seconds * self.rate).round() as u32).filter(|samples| *samples > 0)
     }
 
     /// Goes on with another maker: what sounds goes over to drives for the surface as it is now.
@@ -210,7 +242,10 @@ impl Conductor {
     pub fn renew(&mut self, maker: Maker, now: u64) -> Result<(), LiveError> {
         self.drives.replace(maker);
         self.sounding.values_mut().for_each(|kept| kept.told = false);
-        self.tell_again(At::Sample(now))
+        if !self.tell_again(At::Sample(now), Instant::now())? {
+            self.told = None;
+        }
+        Ok(())
     }
 
     /// The sample nearest to a time in s.
@@ -233,8 +268,8 @@ impl Conductor {
     fn play(&mut self, cue: &Cue, asked: Option<u64>, sample: u64, now: u64) -> Result<(), LiveError> {
         let at = if sample <= now { At::Now } else { At::Sample(sample) };
         match &cue.act {
-            Act::Pulse { place, gain } => self.pulse(&[*place], *gain, asked, at),
-            Act::Shape { points, gain } => self.pulse(points, *gain, asked, at),
+            Act::Pulse { place, gain } => self.pulse(&[*place], *gain, asked, (sample, at)),
+            Act::Shape { points, gain } => self.pulse(points, *gain, asked, (sample, at)),
             Act::Comb { place, rate, gain } => {
                 let period = (self.rate / rate).round();
                 self.keep(cue.voice, Sounding::Comb { place: *place, level: *gain, period }, asked, at)
@@ -247,8 +282,7 @@ impl Conductor {
             Act::Move { place } => self.change(cue.voice, |sounding| sounding.moved(*place), at),
             Act::Gain { gain } => self.change(cue.voice, |sounding| sounding.at_level(*gain), at),
             Act::Stop { fade } => {
-                let samples = (fade * self.rate).round() as u32;
-                self.let_go(cue.voice, (samples > 0).then_some(samples), at);
+                self.let_go(cue.voice, self.fade(*fade), at);
                 Ok(())
             }
         }

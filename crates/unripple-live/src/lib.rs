@@ -26,6 +26,8 @@ mod pinging;
 mod priority;
 mod pulses;
 mod recovering;
+#[cfg(test)]
+mod slow;
 mod sounding;
 mod stage;
 mod tally;

@@ -67,6 +67,15 @@ impl Maker {
     /// # Errors
     /// [`LiveError::Focus`] for responses or options that do not allow a plan.
     pub fn new(responses: Arc<Responses>, options: &Options) -> Result<Self, LiveError> {
+        Self::planned(responses, options, || ())
+    }
+
+    /// The same with something to be done before each drive is made.
+    pub(crate) fn planned(
+        responses: Arc<Responses>,
+        options: &Options,
+        before: impl Fn() + Send + 'static,
+    ) -> Result<Self, LiveError> {
         let options = options.clone();
         Self::spawn(move |ready| {
             let focuser = match Focuser::new(&responses, &options) {
@@ -75,7 +84,10 @@ impl Maker {
             };
             ready.serve(|work| match work {
                 Work::Hurry(priority) => Ok(hurried(priority)),
-                Work::Focus(points) => focus(&focuser, points).map(Answer::Made),
+                Work::Focus(points) => {
+                    before();
+                    focus(&focuser, points).map(Answer::Made)
+                }
                 Work::Trace(made) => trace(&responses, &made).map(Answer::Trace),
                 Work::Reach(made) => reach(&responses, &made).map(Answer::Reach),
             });

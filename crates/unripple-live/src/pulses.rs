@@ -9,13 +9,19 @@ use unripple_player::{At, Command, Voice};
 pub(crate) const STALE: f64 = 0.1;
 
 impl Conductor {
+    /// Plays a pulse that was to begin at a sample.
     pub(crate) fn pulse(
         &mut self,
         points: &[Point],
         level: Level,
         asked: Option<u64>,
-        at: At,
+        (sample, at): (u64, At),
     ) -> Result<(), LiveError> {
+        if self.desk.clock() > sample + (STALE * self.rate) as u64 {
+            // The player went on while other drives were made.
+            self.tally.stale += 1;
+            return Ok(());
+        }
         if !self.can_begin() {
             return Ok(());
         }

@@ -230,7 +230,7 @@ impl Stage {
                     return self.fade_out(shared);
                 }
             }
-            let due = self.due().min(end.unwrap_or(u64::MAX));
+            let due = self.due(shared.timeline).min(end.unwrap_or(u64::MAX));
             shared.timeline.wake_at(due);
             if self.conductor.desk().clock() < due {
                 std::thread::park_timeout(TELL.saturating_sub(told.elapsed()));
@@ -259,7 +259,11 @@ impl Stage {
     }
 
     /// The sample at which there will be something to do if no touch comes before.
-    fn due(&self) -> u64 {
+    fn due(&self, timeline: &Timeline) -> u64 {
+        // What there was no time for is gone on with at once.
+        if self.conductor.is_behind(self.until(timeline)) {
+            return self.clock;
+        }
         if self.feeler.is_some() || !self.conductor.rests() {
             return self.clock + (PACE * self.rate) as u64;
         }

@@ -3,6 +3,7 @@
 use crate::sounding::{Kept, Sounding};
 use crate::{Conductor, LiveError};
 use std::sync::Arc;
+use std::time::Instant;
 use unripple_core::Point;
 use unripple_effects::Level;
 use unripple_player::{At, Command, Hold, Prepared, PreparedFilters, Voice};
@@ -68,8 +69,8 @@ impl Conductor {
         told
     }
 
-    /// Tells the player again what it may not know.
-    pub(crate) fn tell_again(&mut self, at: At) -> Result<(), LiveError> {
+    /// Tells the player again what it may not know; whether there was time for all of it in a step that began at some instant.
+    pub(crate) fn tell_again(&mut self, at: At, began: Instant) -> Result<bool, LiveError> {
         let untold = self.sounding.iter().filter(|(_, kept)| !kept.told).map(|(voice, _)| *voice);
         for voice in untold.collect::<Vec<u64>>() {
             let told = self.change(voice, |sounding| sounding, at);
@@ -79,8 +80,11 @@ impl Conductor {
                 // It would fail each time.
                 kept.told = true;
             }
+            if self.is_long(began) {
+                return Ok(false);
+            }
         }
-        Ok(())
+        Ok(true)
     }
 
     /// Forgets what the player says is over: played to its end, or refused.

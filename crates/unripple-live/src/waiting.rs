@@ -4,6 +4,7 @@ use crate::Conductor;
 use crate::pulses::STALE;
 use unripple_core::Touch;
 use unripple_effects::{Act, Cue};
+use unripple_player::At;
 
 /// Cues that may wait for their time; more are counted and dropped.
 const MOST_WAITING: usize = 1 << 16;
@@ -22,22 +23,75 @@ impl Conductor {
             let focus = self.sample(cue.at);
             let sample = focus.saturating_sub(self.lead).max(now);
             let late = now.saturating_sub(focus) as f64 / self.rate;
-            if late > STALE && matches!(cue.act, Act::Pulse { .. } | Act::Shape { .. }) {
+            if late > STALE && passes(&cue.act) {
                 // Nobody feels now what was asked for then; making it would only make the next later.
                 self.tally.stale += 1;
-                continue;
-            }
-            if let Act::Stop { .. } = cue.act {
-                self.waiting.retain(|(at, _), other| other.cue.voice != cue.voice || *at < sample);
-            } else if self.waiting.len() >= MOST_WAITING {
-                self.tally.dropped += 1;
                 continue;
             }
             // Of what a touch sets off under a voice the first answers it.
             let first = voice.replace(cue.voice) != Some(cue.voice);
             let asked = touch.filter(|_| first).map(|touch| self.sample(touch.time));
+            if let Act::Stop { fade } = cue.act
+                && self.stop(&cue, fade, sample, now)
+            {
+                continue;
+            }
+            if self.overtake(&cue, now) {
+                continue;
+            }
+            if self.waiting.len() >= MOST_WAITING {
+                self.tally.dropped += 1;
+                continue;
+            }
             self.order += 1;
             self.waiting.insert((sample, self.order), Waiting { cue, asked });
         }
     }
+
+    /// Ends a voice from a sample on, at once rather than in its turn: drives that were asked for before may take long to make. Whether
+    /// that was all; a stop that is known ahead has its turn besides.
+    fn stop(&mut self, cue: &Cue, fade: f64, sample: u64, now: u64) -> bool {
+        let fade = self.fade(fade);
+        if sample > now {
+            self.waiting.retain(|(at, _), other| other.cue.voice != cue.voice || *at < sample);
+            if let Some(hold) = self.sounding.get(&cue.voice).and_then(|kept| kept.hold.as_ref()) {
+                hold.stop(At::Sample(sample), fade);
+            }
+            return false;
+        }
+        let (old, late) = (self.old, self.late);
+        self.waiting.retain(|(_, order), Waiting { cue: other, .. }| {
+            // What came in the same moment and is over by itself is played, unless there is no time for all of it.
+            let along = passes(&other.act) && *order > old && !late && other.at <= cue.at;
+            other.voice != cue.voice || along
+        });
+        self.let_go(cue.voice, fade, At::Now);
+        self.tally.cues += 1;
+        true
+    }
+
+    /// Puts a new place or level where an older one waits that nobody had time for: only the last is worth a drive. Whether there was one.
+    fn overtake(&mut self, cue: &Cue, now: u64) -> bool {
+        if !matches!(cue.act, Act::Move { .. } | Act::Gain { .. }) {
+            return false;
+        }
+        let old = self.old;
+        let mut of_voice = self.waiting.iter_mut().rev().filter(|(_, waits)| waits.cue.voice == cue.voice);
+        match of_voice.next() {
+            Some(((at, order), waits))
+                if *at <= now
+                    && *order <= old
+                    && std::mem::discriminant(&waits.cue.act) == std::mem::discriminant(&cue.act) =>
+            {
+                waits.cue = cue.clone();
+                true
+            }
+            _ => false,
+        }
+    }
+}
+
+/// Whether an act is over by itself.
+fn passes(act: &Act) -> bool {
+    matches!(act, Act::Pulse { .. } | Act::Shape { .. })
 }
