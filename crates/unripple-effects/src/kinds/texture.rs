@@ -84,8 +84,11 @@ impl Play for Rubbing {
         self.last = Some(*to);
     }
 
-    fn leave(&mut self, _now: &Moment, _out: &mut Out) {
-        self.last = None;
+    fn leave(&mut self, now: &Moment, out: &mut Out) {
+        // Also grains that were cued ahead.
+        if self.last.take().is_some() {
+            out.stop(0, now.time, 0.0);
+        }
     }
 
     fn due(&mut self, until: f64, out: &mut Out) {
