@@ -32,7 +32,8 @@ pub trait Device: Send {
         Err(work)
     }
 
-    /// Calls no longer, and gives back what was called: after the cycle under way, if there is one.
+    /// Calls no longer, and gives back what was called: after the cycle under way, if there is one. Nothing comes back from a device that
+    /// stands still and cannot be left.
     fn dismiss(&mut self) -> Option<Box<dyn Work>> {
         None
     }

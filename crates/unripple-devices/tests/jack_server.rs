@@ -10,7 +10,9 @@ use common::server::Server;
 use common::{noise, play};
 use skip::skip;
 use std::process::Command;
-use std::sync::Mutex;
+use std::sync::{Mutex, mpsc};
+use std::thread;
+use std::time::Duration;
 use unripple_core::*;
 use unripple_devices::*;
 
@@ -143,6 +145,40 @@ fn blocks_pass_after_the_period_has_changed() {
     }
     // A measurement under way must know that what it hears is later from now on.
     assert!(device.status().lost > 0);
+}
+
+#[test]
+fn a_server_that_stands_still_is_left_and_joined_again() {
+    let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let Some(server) = Server::start(PERIOD) else {
+        return skip(common::server::NONE);
+    };
+    // The server is there once a bridge is.
+    drop(bridge(&server).unwrap());
+    for freewheel in [false, true] {
+        let options = JackOptions { patience: 0.5, freewheel, ..options(&server, Links::None) };
+        let mut device = Jack::open(&options).unwrap();
+        let (drive, mut heard) = (vec![0.0; 3 * PERIOD], vec![0.0; 3 * PERIOD]);
+        (0..10).for_each(|_| device.exchange(&drive, &mut heard).unwrap());
+        server.stand_still(true);
+        let (left, ended) = mpsc::channel();
+        let left = thread::scope(|scope| {
+            scope.spawn(move || {
+                let stalled = (0..20).find_map(|_| device.exchange(&drive, &mut heard).err());
+                drop(device);
+                // One client is on its way out yet.
+                let refused = Jack::open(&options).unwrap_err().to_string();
+                left.send((stalled, refused))
+            });
+            let left = ended.recv_timeout(Duration::from_secs(60));
+            server.stand_still(false);
+            left
+        });
+        let (stalled, refused) = left.expect("a client cannot leave a server that stands still");
+        assert!(matches!(stalled, Some(DeviceError::Stalled { .. })), "{stalled:?}");
+        assert!(refused.contains("stands still"), "{refused}");
+        drop(bridge(&server).unwrap());
+    }
 }
 
 #[test]

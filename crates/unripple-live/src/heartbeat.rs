@@ -81,7 +81,7 @@ impl Heartbeat {
         }
     }
 
-    /// Has the player back, if a device gave it back.
+    /// Has the player back, if a device gave it back. One that stands still does not: what was measured of the work is not known then.
     pub(crate) fn regain(&mut self) {
         if self.beats.is_none() {
             self.beats = self.device.dismiss().and_then(home);

@@ -225,3 +225,26 @@ fn nobody_wakes_without_a_reason() {
     println!("{naps} naps in {seconds:.1} s, {cycles:.0} cycles");
     assert!(naps as f64 <= 1.5 * cycles + 60.0 * seconds, "{naps} naps in {seconds:.1} s");
 }
+
+#[test]
+fn a_server_that_stands_still_does_not_hold_up_the_end() {
+    let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let Some(server) = Server::start(256) else {
+        return skip(server::NONE);
+    };
+    let engine = engine(&server, 2);
+    let (over, ended) = std::sync::mpsc::channel();
+    let ended = std::thread::scope(|scope| {
+        scope.spawn(|| {
+            beside(engine, |playing| {
+                until(playing);
+                server.stand_still(true);
+            });
+            over.send(()).unwrap();
+        });
+        let ended = ended.recv_timeout(DEADLINE).is_ok();
+        server.stand_still(false);
+        ended
+    });
+    assert!(ended, "the end of a play waits for a server that stands still");
+}

@@ -82,8 +82,6 @@ pub struct Jack {
     layout: Layout,
     lead: u64,
     patience: Duration,
-    /// Whether it let the server run without a clock.
-    freewheel: bool,
     /// Blocks driven, blocks whose answer is still to come, and those of them that were not there in time and are to be thrown
     /// away.
     driven: u64,
@@ -143,20 +141,18 @@ impl Jack {
             full_scale: scale,
         };
         if options.freewheel {
-            client.freewheel(true)?;
+            client.freewheel()?;
         }
         let (lead, patience) = (options.lead as u64, Duration::from_secs_f64(options.patience));
         let frames = Vec::with_capacity(block * (outputs.max(inputs) + 1));
         let server = Server { period: block, priority: client.priority(), ..Server::default() };
         let status = Status { server: Some(server), ..Status::default() };
-        let freewheel = options.freewheel;
         let mut jack = Self {
             client,
             shore,
             layout,
             lead,
             patience,
-            freewheel,
             driven: 0,
             under_way: 0,
             owed: 0,
@@ -342,15 +338,17 @@ impl Device for Jack {
             return None;
         }
         self.shore.dismissing.store(true, Ordering::Release);
-        let start = Instant::now();
-        while self.shore.fired.is_empty() && start.elapsed() < self.patience {
+        // One that was seen to stand still before is not waited for again.
+        let passes = self.client.events.cycles.load(Ordering::Acquire) > self.seen.0;
+        let last = if passes { Instant::now() } else { self.seen.1 };
+        while self.shore.fired.is_empty() && last.elapsed() < self.patience {
             if self.client.events.gone.load(Ordering::Acquire) {
                 break;
             }
             std::thread::sleep(Duration::from_millis(1));
         }
         if self.shore.fired.is_empty() {
-            // A server that calls no more does not give back either; closing does.
+            // A server that calls no more does not give back either; closing does, unless the server stands still.
             self.client.close();
             self.client.events.gone.store(true, Ordering::Release);
         }
@@ -380,9 +378,5 @@ impl Device for Jack {
 impl Drop for Jack {
     fn drop(&mut self) {
         self.shore.closing.store(true, Ordering::Release);
-        if self.freewheel && !self.client.closed() && !self.client.events.gone.load(Ordering::Acquire) {
-            // A server that cannot go back to its clock is beyond help from here.
-            let _ = self.client.freewheel(false);
-        }
     }
 }

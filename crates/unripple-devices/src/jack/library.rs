@@ -1,22 +1,24 @@
 //! The C library of JACK, opened at run time: no build depends on it, and where it is missing that is an error like any
 //! other. The one place of this crate with `unsafe`: calls across the C interface, as `jack/jack.h` declares it.
 //!
-//! What makes them sound: the library stays loaded for ever; a client's raw pointer lives from [`Client::open`] until its
-//! drop, which closes it before the context of the callbacks is freed; the process callback alone touches the context's
+//! What makes them sound: the library stays loaded for ever; a client's raw pointer lives from [`Client::open`] until
+//! [`Closing`] closes it, before the context of the callbacks is freed; the process callback alone touches the context's
 //! process part, on one thread at a time, as JACK promises; strings that JACK gives are copied at once; panics do not cross
 //! the interface.
 #![allow(unsafe_code)]
 
 mod api;
+mod closing;
 
 use super::events::{Events, Side};
 use crate::DevicesError;
 use api::{Api, Arg, LatencyRange, RawClient, RawPort, api};
+use closing::{Closing, door};
 use std::ffi::{CStr, CString, c_int, c_uint, c_ulong, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr;
+use std::sync::Arc;
 use std::sync::atomic::Ordering;
-use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 const NO_START_SERVER: c_uint = 0x01;
@@ -29,9 +31,6 @@ const CAPTURE_LATENCY: c_uint = 0;
 const PLAYBACK_LATENCY: c_uint = 1;
 /// A connection that is there already.
 const EXISTS: c_int = 17;
-
-/// Opening and closing clients is not for two threads at once.
-static DOOR: Mutex<()> = Mutex::new(());
 
 /// What is done in each cycle.
 pub(super) trait Process: Send + 'static {
@@ -110,6 +109,8 @@ pub(super) struct Client {
     outputs: Vec<*mut RawPort>,
     /// Once active: what the callbacks get, owned.
     context: *mut Context,
+    /// Whether it let the server run without a clock.
+    freewheels: bool,
     pub(super) events: Arc<Events>,
 }
 
@@ -134,7 +135,7 @@ impl Client {
     pub(super) fn open(name: &str, server: Option<&str>) -> Result<Self, DevicesError> {
         let api = api()?;
         let (name, server_name) = (text(name)?, text(server.unwrap_or_default())?);
-        let _door = DOOR.lock();
+        let _door = door()?;
         let mut status = 0;
         // SAFETY: strings outlive the calls; the variadic argument is the server's name exactly with SERVER_NAME.
         let raw = unsafe {
@@ -155,7 +156,15 @@ impl Client {
             });
         }
         let (inputs, outputs) = (Vec::new(), Vec::new());
-        Ok(Self { api, raw, inputs, outputs, context: ptr::null_mut(), events: Arc::default() })
+        Ok(Self {
+            api,
+            raw,
+            inputs,
+            outputs,
+            context: ptr::null_mut(),
+            freewheels: false,
+            events: Arc::default(),
+        })
     }
 
     /// Its name, as the server gave it.
@@ -290,20 +299,16 @@ impl Client {
         })
     }
 
-    /// Takes part no longer: once this returns, nobody has what was given to [`Client::start`]. No other call may follow.
+    /// Takes part no longer: once this returns, nobody has what was given to [`Client::start`], unless the server stands still. That is
+    /// left after a second, and drops what it has when it goes on. No other call may follow.
     pub(super) fn close(&mut self) {
-        let _door = DOOR.lock();
-        if self.raw.is_null() {
+        let raw = std::mem::replace(&mut self.raw, ptr::null_mut());
+        if raw.is_null() {
             return;
         }
-        // SAFETY: closing ends the callbacks; after it nobody has the context. Neither is reached twice.
-        unsafe {
-            (self.api.client_close)(self.raw);
-            self.raw = ptr::null_mut();
-            if !self.context.is_null() {
-                drop(Box::from_raw(std::mem::replace(&mut self.context, ptr::null_mut())));
-            }
-        }
+        let context = std::mem::replace(&mut self.context, ptr::null_mut());
+        let (freewheels, events) = (self.freewheels, self.events.clone());
+        Closing { api: self.api, raw, context, freewheels, events }.begin();
     }
 
     /// Whether it was closed.
@@ -311,10 +316,11 @@ impl Client {
         self.raw.is_null()
     }
 
-    /// Lets the server run without a clock, or with it again.
-    pub(super) fn freewheel(&self, on: bool) -> Result<(), DevicesError> {
+    /// Lets the server run without a clock until the client is closed.
+    pub(super) fn freewheel(&mut self) -> Result<(), DevicesError> {
         // SAFETY: the client is open.
-        if unsafe { (self.api.set_freewheel)(self.raw, c_int::from(on)) } == 0 {
+        if unsafe { (self.api.set_freewheel)(self.raw, 1) } == 0 {
+            self.freewheels = true;
             return Ok(());
         }
         let fix = "not every server can; PipeWire and JACK 2 do".into();

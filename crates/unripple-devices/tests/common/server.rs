@@ -46,10 +46,19 @@ impl Server {
         Some(Self { child, name: name.to_owned() })
     }
 
+    /// Lets the server stand still, as one does whose machine is out of breath, or go on.
+    pub fn stand_still(&self, still: bool) {
+        let signal = if still { "-STOP" } else { "-CONT" };
+        let sent = Command::new("kill").args([signal, &self.child.id().to_string()]).status();
+        assert!(sent.is_ok_and(|status| status.success()), "no {signal} for the server");
+    }
+
     /// Asks the server to end, and waits until it has.
     pub fn stop(&mut self) {
         if let Ok(None) = self.child.try_wait() {
             let _ = Command::new("kill").arg(self.child.id().to_string()).status();
+            // One that stands still hears of it once it goes on.
+            let _ = Command::new("kill").args(["-CONT", &self.child.id().to_string()]).status();
             let _ = self.child.wait();
         }
     }
