@@ -62,6 +62,21 @@ fn what_cannot_be_exported_is_refused() {
     let wordy = refused(&["export", &library, "-o", &to("o.sofa"), "--license", &long], 2);
     assert!(wordy.contains("60000 bytes for `License`"), "{wordy}");
 
+    // What somebody added, changed or cut off is theirs.
+    let sofa = to("changed.sofa");
+    assert!(run(&["export", &library, "-o", &sofa]).status.success());
+    let whole = std::fs::read(&sofa).unwrap();
+    let middle = whole.len() / 2;
+    let flipped = [&whole[..middle], &[whole[middle] ^ 1], &whole[middle + 1..]].concat();
+    for changed in [[&whole[..], b"x"].concat(), whole[..whole.len() - 1].to_vec(), flipped] {
+        std::fs::write(&sofa, &changed).unwrap();
+        assert!(refused(&["export", &library, "-o", &sofa], 1).contains("changed since"));
+        assert!(std::fs::read(&sofa).unwrap() == changed);
+    }
+    std::fs::write(&sofa, &whole).unwrap();
+    assert!(run(&["export", &library, "-o", &sofa]).status.success());
+    std::fs::remove_file(&sofa).unwrap();
+
     // A damaged point is named, and what was there before stays.
     assert!(run(&["export", &library, "-o", &to("o.sofa")]).status.success());
     let before = std::fs::read(to("o.sofa")).unwrap();
@@ -104,6 +119,9 @@ with netCDF4.Dataset(path) as file:
 with h5py.File(path) as file:
     assert [file["Data.IR"].dims[i][0].name for i in range(4)] == ["/M", "/R", "/N", "/E"]
     assert (file["Data.IR"][7] == ir[7]).all() and file["Data.IR"].dtype == "<f8"
+# What is changed in its place is no longer as it was written.
+with h5py.File(path, "r+") as file:
+    file["Data.IR"][0, 0, 0, 0] = 1
 print("read")
 "#;
 
@@ -123,4 +141,5 @@ fn python_reads_and_verifies_the_sofa_file() {
     let output = Command::new(python).args(["-W", "error", "-c", SCRIPT, &out, &library]).output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout);
     assert!(said.contains("read"), "{said}{}", String::from_utf8_lossy(&output.stderr));
+    assert!(refused(&["export", &library, "-o", &out], 1).contains("changed since"));
 }

@@ -5,6 +5,7 @@ mod bytes;
 mod heap;
 mod message;
 mod netcdf;
+mod seal;
 
 pub use about::SofaAbout;
 
@@ -39,7 +40,7 @@ impl Library {
     /// `EmitterDescriptions`. Places are in metres, cartesian, on the plane z = 0; `Data.IR` is `[M][R][N][E]` in float64,
     /// in m/s per unit of drive and second, and `Data.Delay` says where time 0 is. Provenance is in `History`.
     ///
-    /// An earlier export is replaced. The file appears whole or not at all.
+    /// An earlier export is replaced while nobody has changed it. The file appears whole or not at all.
     ///
     /// # Errors
     /// [`StoreError::Content`] without finished points, for damage to one, or text of more than 60 000 bytes;
@@ -88,7 +89,10 @@ impl Library {
             variables: variables(),
         };
         sweep(path);
-        write_beside(path, |out| self.fill(&file, &done, path, out))?;
+        write_beside(path, |out| {
+            self.fill(&file, &done, path, out)?;
+            seal::seal(out).map_err(StoreError::write(path))
+        })?;
         Ok(Committed { path: path.into(), replaced })
     }
 
@@ -174,7 +178,7 @@ fn responses<W: Write>(to: &mut Counted<'_, W>, values: &[f32], samples: usize) 
 fn occupied(path: &Path) -> Result<bool, StoreError> {
     let occupied = |found: &str| StoreError::Occupied {
         path: path.into(),
-        expected: "no such file yet, or one that an earlier export wrote",
+        expected: "no such file yet, or one that an earlier export wrote, unchanged",
         found: found.into(),
     };
     let metadata = match std::fs::metadata(path) {
@@ -185,9 +189,15 @@ fn occupied(path: &Path) -> Result<bool, StoreError> {
     if !metadata.is_file() {
         return Err(occupied("something that is not a file"));
     }
-    let mut start = Vec::new();
-    let file = File::open(path).and_then(|file| file.take(512).read_to_end(&mut start));
-    file.map_err(StoreError::write(path))?;
-    let known = start.windows(API.len()).any(|bytes| bytes == API.as_bytes());
-    if start.starts_with(SIGNATURE) && known { Ok(true) } else { Err(occupied("another file")) }
+    let looked = || -> io::Result<_> {
+        let (mut file, mut start) = (File::open(path)?, Vec::new());
+        Read::by_ref(&mut file).take(512).read_to_end(&mut start)?;
+        let known = start.windows(API.len()).any(|bytes| bytes == API.as_bytes());
+        Ok((start.starts_with(SIGNATURE) && known, seal::is_whole(&mut file)?))
+    };
+    match looked().map_err(StoreError::write(path))? {
+        (true, Some(true)) => Ok(true),
+        (true, _) => Err(occupied("one that was changed since, or that an earlier version wrote")),
+        (false, _) => Err(occupied("another file")),
+    }
 }
