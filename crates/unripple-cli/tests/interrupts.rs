@@ -325,7 +325,7 @@ fn a_second_ctrl_c_does_not_wait() {
     assert_eq!(status.signal(), Some(2), "{status}");
     assert_eq!(scratch.names(), ["film.toml", "kept.wav", "taps.jsonl"]);
     let case = Case { arguments: "", leaves: &["film.toml", "kept.wav", "taps.jsonl"] };
-    assert_eq!(faults(&case, &BTreeMap::new(), &all(scratch.path())), [String::new(); 0]);
+    assert_eq!(faults(&case, &BTreeMap::new(), &all(scratch.path())), Vec::<String>::new());
 }
 
 /// Nobody can tidy up after SIGKILL but the next run.
