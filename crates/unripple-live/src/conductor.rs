@@ -1,5 +1,6 @@
 use crate::log::{Began, Log};
 use crate::pace::Pace;
+use crate::pulses::Ahead;
 use crate::sounding::{Inputs, Kept, Sounding};
 use crate::waiting::Waiting;
 use crate::{Drives, LiveError, Maker, Tally, Timeline, Timing};
@@ -29,7 +30,7 @@ const PING: u64 = u64::MAX;
 ///
 /// # Nothing sounds that nobody wants
 ///
-/// What is over by itself, a pulse or a waveform played once, is sent and may be lost. What goes on is held: the player ends it once the
+/// What is over by itself, a pulse or a waveform played once, may be lost; a stop takes back what was given ahead and has not begun. What goes on is held: the player ends it once the
 /// [`Hold`](unripple_player::Hold) is stopped or dropped, and here a hold lives in the entry of its voice and nowhere else. So what
 /// is forgotten here ends there, and a stop needs no room, neither on the way nor in the player.
 ///
@@ -58,6 +59,7 @@ pub struct Conductor {
     pub(crate) late: bool,
     pub(crate) sounding: BTreeMap<u64, Kept>,
     pub(crate) inputs: Inputs,
+    pub(crate) ahead: Ahead,
     /// Names given to the player so far.
     names: u64,
     /// Factor on all levels.
@@ -102,6 +104,7 @@ impl Conductor {
             late: false,
             sounding: BTreeMap::new(),
             inputs: Inputs::new(inputs),
+            ahead: Ahead::default(),
             names: 0,
             trim: 1.0,
             asked: BTreeMap::new(),
@@ -268,8 +271,8 @@ impl Conductor {
     fn play(&mut self, cue: &Cue, asked: Option<u64>, sample: u64, now: u64) -> Result<(), LiveError> {
         let at = if sample <= now { At::Now } else { At::Sample(sample) };
         match &cue.act {
-            Act::Pulse { place, gain } => self.pulse(&[*place], *gain, asked, (sample, at)),
-            Act::Shape { points, gain } => self.pulse(points, *gain, asked, (sample, at)),
+            Act::Pulse { place, gain } => self.pulse(cue.voice, (&[*place], *gain), asked, (sample, at)),
+            Act::Shape { points, gain } => self.pulse(cue.voice, (points, *gain), asked, (sample, at)),
             Act::Comb { place, rate, gain } => {
                 let period = (self.rate / rate).round();
                 self.keep(cue.voice, Sounding::Comb { place: *place, level: *gain, period }, asked, at)
@@ -282,6 +285,7 @@ impl Conductor {
             Act::Move { place } => self.change(cue.voice, |sounding| sounding.moved(*place), at),
             Act::Gain { gain } => self.change(cue.voice, |sounding| sounding.at_level(*gain), at),
             Act::Stop { fade } => {
+                self.ahead.take_back(cue.voice);
                 self.let_go(cue.voice, self.fade(*fade), at);
                 Ok(())
             }
@@ -332,7 +336,9 @@ impl Conductor {
             if let Some(log) = &mut self.log {
                 log.hear(&report);
             }
-            self.tally.hear(&report);
+            if !self.ahead.meant(&report) {
+                self.tally.hear(&report);
+            }
             match report {
                 Report::Started { voice, sample, .. } => {
                     let Some(asked) = self.asked.remove(&voice.0) else { continue };

@@ -1,19 +1,53 @@
 //! What is over by itself: one drive, once.
 
 use crate::{Conductor, LiveError};
+use std::collections::BTreeSet;
 use unripple_core::Point;
 use unripple_effects::Level;
-use unripple_player::{At, Command, Voice};
+use unripple_player::{At, Command, Hold, Report, Voice, Why};
 
 /// A pulse that is begun so late, in s, is not begun at all.
 pub(crate) const STALE: f64 = 0.1;
 
+/// Names of pulses taken back that are remembered until the player says so; it says nothing of those that had begun.
+const MOST_TAKEN: usize = 1 << 12;
+
+/// Pulses that were given ahead, so that a stop can take back those that have not begun.
+#[derive(Debug, Default)]
+pub(crate) struct Ahead {
+    /// Voice, the player's name, and the hold of each.
+    given: Vec<(u64, u64, Hold)>,
+    taken: BTreeSet<u64>,
+}
+
+impl Ahead {
+    /// Takes back a voice's pulses: what has begun rings out.
+    pub fn take_back(&mut self, voice: u64) {
+        for (_, name, _) in self.given.extract_if(.., |(of, ..)| *of == voice) {
+            self.taken.insert(name);
+            if self.taken.len() > MOST_TAKEN {
+                self.taken.pop_first();
+            }
+        }
+    }
+
+    /// Forgets those that are over.
+    pub fn forget_over(&mut self) {
+        self.given.retain(|(_, _, hold)| hold.over().is_none());
+    }
+
+    /// Whether the player says no more than that one was taken back.
+    pub fn meant(&mut self, report: &Report) -> bool {
+        matches!(report, Report::Refused { voice: Some(name), why: Why::Stale } if self.taken.remove(&name.0))
+    }
+}
+
 impl Conductor {
-    /// Plays a pulse that was to begin at a sample.
+    /// Plays a pulse of a voice that was to begin at a sample.
     pub(crate) fn pulse(
         &mut self,
-        points: &[Point],
-        level: Level,
+        voice: u64,
+        (points, level): (&[Point], Level),
         asked: Option<u64>,
         (sample, at): (u64, At),
     ) -> Result<(), LiveError> {
@@ -27,8 +61,15 @@ impl Conductor {
         }
         let gain = self.pulse_gain(points, level)?;
         let drive = self.drives.at(points)?.prepared;
-        let voice = Voice(self.name(asked));
-        self.send(Command::Start { voice, drive, at, gain, period: None });
+        let name = self.name(asked);
+        let start = Command::Start { voice: Voice(name), drive, at, gain, period: None };
+        match at {
+            At::Now => drop(self.send(start)),
+            At::Sample(_) => {
+                let hold = self.hold(start);
+                self.ahead.given.extend(hold.map(|hold| (voice, name, hold)));
+            }
+        }
         Ok(())
     }
 

@@ -98,6 +98,7 @@ impl Conductor {
             !over
         });
         self.inputs.settle();
+        self.ahead.forget_over();
     }
 
     /// Begins something in the player, or changes it there; what finds no room is told again later.
@@ -174,8 +175,8 @@ impl Conductor {
         Ok(Some(self.desk.filters(&responses)?))
     }
 
-    /// Sends what goes on as long as it is held.
-    fn hold(&mut self, command: Command) -> Option<Hold> {
+    /// Sends what sounds as long as it is held.
+    pub(crate) fn hold(&mut self, command: Command) -> Option<Hold> {
         self.note(&command);
         let held = self.desk.hold(command);
         self.tally.lost += u64::from(held.is_err());

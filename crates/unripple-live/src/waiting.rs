@@ -65,6 +65,7 @@ impl Conductor {
             let along = passes(&other.act) && *order > old && !late && other.at <= cue.at;
             other.voice != cue.voice || along
         });
+        self.ahead.take_back(cue.voice);
         self.let_go(cue.voice, fade, At::Now);
         self.tally.cues += 1;
         true
