@@ -26,8 +26,8 @@ pub enum LiveError {
         /// What the device has.
         found: String,
     },
-    /// The thread that makes drives is gone.
-    #[error("the thread that makes drives is gone: {why}")]
+    /// A thread is gone: the one that makes drives, or another that play needs.
+    #[error("a thread that play needs is gone: {why}")]
     Gone {
         /// Why, as far as is known.
         why: String,

@@ -214,7 +214,7 @@ fn hurried(priority: Option<u8>) -> Answer {
 }
 
 fn gone() -> LiveError {
-    LiveError::Gone { why: "it ended early".into() }
+    LiveError::Gone { why: "the one that makes drives ended early".into() }
 }
 
 fn focus(focuser: &Focuser, points: Vec<Point>) -> Result<Made, LiveError> {

@@ -1,7 +1,9 @@
 use crate::ears::{Ears, News};
 use crate::heartbeat::Overheard;
 use crate::{Engine, Follower, Heartbeat, LiveError, Maker, Priorities, Stage, Timeline, priority};
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::TryRecvError;
 use std::sync::{Mutex, mpsc};
 use std::thread::Thread;
 use std::time::{Duration, Instant};
@@ -71,7 +73,11 @@ impl Engine {
     /// something for them.
     ///
     /// # Errors
-    /// Those of the device once it is lost for good; [`LiveError::Gone`] if a thread ended early.
+    /// Those of the device once it is lost for good; [`LiveError::Gone`] if a thread ended early. Unless the device is lost, all fades out
+    /// before.
+    ///
+    /// # Panics
+    /// If `tell` or a source of touches does; all fades out before.
     pub fn run(
         &mut self,
         seconds: Option<f64>,
@@ -100,36 +106,42 @@ impl Engine {
         stage.conductor.hurry(priorities.beside);
         stage.conductor.count_by(timeline.clone());
         let (lent, overheard) = heart.lend(shared.bell.clone(), overheard);
-        let result = std::thread::scope(|scope| {
-            let shared = &shared;
-            let spawn = |name: &str| std::thread::Builder::new().name(name.into());
-            let gone = |error: std::io::Error| LiveError::Gone { why: error.to_string() };
-            let audio = spawn("audio").spawn_scoped(scope, move || match lent {
-                true => mind(heart, shared, &failed),
-                false => beat(heart, shared, overheard, &failed),
-            });
-            let audio = audio.map_err(gone)?;
-            let listen = spawn("touch").spawn_scoped(scope, move || listen(ears, shared, &told));
-            let followed = follower.as_mut().map(|follower| {
-                let heard = Fetched { blocks: fetched, drive: channels[0] * block, samples, block };
-                spawn("drift").spawn_scoped(scope, move || follow(follower, heard, shared, &found))
-            });
-            let result = match listen.and(followed.transpose()) {
-                Ok(_) => stage.attend(seconds, shared, &mail, |stage| {
-                    let pulse = shared.pulse.lock().map(|pulse| pulse.clone()).unwrap_or_default();
-                    tell(stage, &pulse)
-                }),
-                Err(error) => Err(gone(error)),
-            };
-            shared.stop.store(true, Ordering::Relaxed);
-            audio.thread().unpark();
-            result
-        });
+        let scope = || {
+            std::thread::scope(|scope| {
+                let shared = &shared;
+                let spawn = |name: &str| std::thread::Builder::new().name(name.into());
+                let gone = |error: std::io::Error| LiveError::Gone { why: error.to_string() };
+                let audio = spawn("audio").spawn_scoped(scope, move || match lent {
+                    true => mind(heart, shared, &failed),
+                    false => beat(heart, shared, overheard, &failed),
+                });
+                let audio = audio.map_err(gone)?;
+                let listen = spawn("touch").spawn_scoped(scope, move || listen(ears, shared, &told));
+                let followed = follower.as_mut().map(|follower| {
+                    let heard = Fetched { blocks: fetched, drive: channels[0] * block, samples, block };
+                    spawn("drift").spawn_scoped(scope, move || follow(follower, heard, shared, &found))
+                });
+                let result = match listen.and(followed.transpose()) {
+                    Ok(_) => stage.to_the_end(shared, |stage| {
+                        stage.attend(seconds, shared, &mail, |stage| {
+                            let pulse = shared.pulse.lock().map(|pulse| pulse.clone()).unwrap_or_default();
+                            tell(stage, &pulse)
+                        })
+                    }),
+                    Err(error) => Ok(Err(gone(error))),
+                };
+                shared.stop.store(true, Ordering::Relaxed);
+                audio.thread().unpark();
+                // The other threads are waited for before this one unwinds.
+                result.unwrap_or_else(|panic| resume_unwind(panic))
+            })
+        };
+        let result = catch_unwind(AssertUnwindSafe(scope));
         self.heart.regain();
         self.stage.follower = follower;
         self.stage.clock = self.stage.conductor.desk().clock();
         self.stage.counts = self.ears.counts();
-        result
+        result.unwrap_or_else(|panic| resume_unwind(panic))
     }
 }
 
@@ -205,15 +217,21 @@ impl Stage {
         let mut told = Instant::now();
         let _ = priority::at(shared.priorities.beside);
         loop {
-            if let Ok(error) = mail.failures.try_recv() {
-                return Err(error.into());
+            match mail.failures.try_recv() {
+                Ok(error) => return Err(error.into()),
+                Err(TryRecvError::Disconnected) => return Err(early("audio")),
+                Err(TryRecvError::Empty) => {}
             }
             self.clock = self.conductor.desk().clock();
             if end.is_some_and(|end| self.clock >= end) {
-                return self.fade_out(shared);
+                return Ok(());
             }
-            while let Ok(news) = mail.news.try_recv() {
-                self.take(news)?;
+            loop {
+                match mail.news.try_recv() {
+                    Ok(news) => self.take(news)?,
+                    Err(TryRecvError::Disconnected) => return Err(early("touch")),
+                    Err(TryRecvError::Empty) => break,
+                }
             }
             shared.touched.store(!self.fingers.is_empty(), Ordering::Relaxed);
             self.conduct(self.clock, self.until(shared.timeline))?;
@@ -227,7 +245,7 @@ impl Stage {
             if told.elapsed() >= TELL {
                 told = Instant::now();
                 if !tell(self) {
-                    return self.fade_out(shared);
+                    return Ok(());
                 }
             }
             let due = self.due(shared.timeline).min(end.unwrap_or(u64::MAX));
@@ -238,8 +256,27 @@ impl Stage {
         }
     }
 
+    /// Attends until that ends, well or badly, and lets all fade out: nothing goes on that nobody looks after.
+    fn to_the_end(
+        &mut self,
+        shared: &Shared,
+        attend: impl FnOnce(&mut Self) -> Result<(), LiveError>,
+    ) -> std::thread::Result<Result<(), LiveError>> {
+        let ended = catch_unwind(AssertUnwindSafe(|| attend(self)));
+        if matches!(ended, Ok(Err(LiveError::Device(_)))) {
+            // A device that is lost plays nothing more.
+            return ended;
+        }
+        self.fade_out(shared);
+        match ended {
+            // What the player said last is heard.
+            Ok(Ok(())) => catch_unwind(AssertUnwindSafe(|| self.conduct(self.clock, self.clock))),
+            ended => ended,
+        }
+    }
+
     /// Ends it all, and waits until what was played last has left.
-    fn fade_out(&mut self, shared: &Shared) -> Result<(), LiveError> {
+    fn fade_out(&mut self, shared: &Shared) {
         self.conductor.end(FADE);
         let start = Instant::now();
         while !self.conductor.is_over() && start.elapsed() < PATIENCE {
@@ -248,8 +285,6 @@ impl Stage {
         }
         let leaves = shared.timeline.leaves(self.conductor.desk().clock());
         std::thread::sleep(leaves.saturating_duration_since(Instant::now()).min(PATIENCE));
-        // What the player said last is heard.
-        self.conduct(self.clock, self.clock)
     }
 
     /// The sample up to which commands are given now.
@@ -269,6 +304,10 @@ impl Stage {
         }
         self.pinging.as_ref().map_or(u64::MAX, |pinging| pinging.due(self.clock))
     }
+}
+
+fn early(thread: &str) -> LiveError {
+    LiveError::Gone { why: format!("the thread `{thread}` ended early") }
 }
 
 /// The audio thread before a device that calls: it looks after that.

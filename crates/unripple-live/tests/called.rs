@@ -5,11 +5,13 @@ mod common;
 
 use common::*;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, mpsc};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 use unripple_core::{Cycle, Device, DeviceError, Layout, Phase, Point, Server, Status, Touch, Work};
-use unripple_effects::{Kind, Level, Train};
+use unripple_devices::Handle;
+use unripple_effects::{EffectSet, Kind, Level, Train};
+use unripple_live::{Feeler, LiveError};
 use unripple_touch::{Counts, Heard, Source};
 
 /// Touches in all.
@@ -218,13 +220,17 @@ fn latency_is_what_the_device_counts() {
     assert!(engine.heart().work().count() > 100);
 }
 
+/// One finger that stays, and a train under it of which each pulse begins before the last is over, so that there is never silence.
+fn steady() -> (EffectSet, Script) {
+    let steady = Train { rate: 100.0, count: None, envelope: None, jitter: 0.0, scatter: 0.0, seed: 1 };
+    let finger = Script::new(vec![touch(1, Phase::Down, 62.0, 90.0, 0.1)]);
+    (one(Kind::Train(steady), Level::Share(0.2)), finger)
+}
+
 #[test]
 fn the_end_fades_to_silence() {
     let counted = Arc::<Mutex<Counted>>::default();
-    // Each pulse begins before the last is over, so that there is never silence.
-    let steady = Train { rate: 100.0, count: None, envelope: None, jitter: 0.0, scatter: 0.0, seed: 1 };
-    let finger = Script::new(vec![touch(1, Phase::Down, 62.0, 90.0, 0.1)]);
-    let set = one(Kind::Train(steady), Level::Share(0.2));
+    let (set, finger) = steady();
     let mut engine = with_device(&set, sources(vec![Box::new(finger)]), Box::new(caller(&counted)));
     let (start, mut before) = (Instant::now(), None);
     engine
@@ -239,4 +245,119 @@ fn the_end_fades_to_silence() {
     let before = before.expect("it sounds");
     assert!(counted.silent > 0, "cut off in the midst of a wave");
     assert!(counted.step <= 1.01 * before, "a step of {} at the end, {before} while it played", counted.step);
+}
+
+/// How a play ended: as it said, or by unwinding.
+type Ended = std::thread::Result<Result<(), LiveError>>;
+
+/// Goes wrong, by this, once it has sounded for a second.
+struct Wrong {
+    counted: Arc<Mutex<Counted>>,
+    /// The largest step by then.
+    before: Arc<Mutex<Option<f32>>>,
+}
+
+impl Wrong {
+    /// Whether it is time, which is noted.
+    fn is_due(&self, now: f64) -> bool {
+        let counted = self.counted.lock().unwrap();
+        let due = now > 1.0 && counted.silent == 0 && counted.step > 0.0;
+        let mut before = self.before.lock().unwrap();
+        if due && before.is_none() {
+            *before = Some(counted.step);
+        }
+        due
+    }
+}
+
+/// A source that panics.
+struct Panics(Wrong);
+
+impl Source for Panics {
+    fn name(&self) -> &str {
+        "panics"
+    }
+    fn poll(&mut self, now: f64, _: &mut Heard) {
+        assert!(!self.0.is_due(now), "as planned");
+    }
+    fn due(&self, now: f64) -> Option<f64> {
+        Some(now + 0.01)
+    }
+    fn counts(&self) -> Counts {
+        Counts::default()
+    }
+}
+
+/// One that tells of a finger when nothing of it can be watched any more.
+struct Unwatched(Wrong, Handle);
+
+impl Source for Unwatched {
+    fn name(&self) -> &str {
+        "unwatched"
+    }
+    fn poll(&mut self, now: f64, heard: &mut Heard) {
+        if self.0.is_due(now) {
+            // Fewer places than before.
+            self.1.watch(&[Point::from_mm(60.0, 60.0)], 4).unwrap();
+            heard.touches.push(touch(7, Phase::Down, 60.0, 60.0, now));
+        }
+    }
+    fn due(&self, now: f64) -> Option<f64> {
+        Some(now + 0.01)
+    }
+    fn counts(&self) -> Counts {
+        Counts::default()
+    }
+}
+
+/// Plays on a thread of its own until it ends, with a source besides and with what looks on, and holds the end against a cut.
+fn ends_without_a_cut(
+    source: impl FnOnce(Wrong, Handle) -> Option<Box<dyn Source>> + Send + 'static,
+    look: impl Fn(&Wrong, f64) + Send + 'static,
+) -> Ended {
+    let (counted, before) = (Arc::<Mutex<Counted>>::default(), Arc::<Mutex<Option<f32>>>::default());
+    let wrong = || Wrong { counted: counted.clone(), before: before.clone() };
+    let (here, there) = (wrong(), wrong());
+    let (ended, end) = mpsc::channel();
+    std::thread::spawn(move || {
+        let (set, finger) = steady();
+        let sheet = common::device();
+        let all = [Some(Box::new(finger) as Box<dyn Source>), source(here, sheet.handle())];
+        let device = caller(&there.counted);
+        let feeler = Feeler::new(sheet.handle(), &FILM, 10).unwrap();
+        let all = sources(all.into_iter().flatten().collect());
+        let mut engine = with_device(&set, all, Box::new(device)).with_feeler(feeler);
+        let run = std::panic::AssertUnwindSafe(|| {
+            engine.run(None, |stage, _| {
+                look(&there, stage.time());
+                true
+            })
+        });
+        let run = std::panic::catch_unwind(run);
+        // While the engine is still there.
+        ended.send(run).unwrap();
+    });
+    let end = end.recv_timeout(Duration::from_secs(30)).expect("it goes on as if nothing had happened");
+    let (counted, before) = (counted.lock().unwrap(), before.lock().unwrap().expect("it sounded"));
+    assert!(counted.silent > 0, "cut off in the midst of a wave");
+    assert!(counted.step <= 1.01 * before, "a step of {} at the end, {before} while it played", counted.step);
+    end
+}
+
+#[test]
+fn a_look_that_panics_ends_the_play() {
+    let end = ends_without_a_cut(|_, _| None, |wrong, now| assert!(!wrong.is_due(now), "as planned"));
+    assert!(end.is_err());
+}
+
+#[test]
+fn a_source_that_panics_ends_the_play() {
+    let end = ends_without_a_cut(|wrong, _| Some(Box::new(Panics(wrong))), |_, _| ());
+    assert!(end.is_err());
+}
+
+#[test]
+fn an_error_ends_the_play_with_a_fade() {
+    let end = ends_without_a_cut(|wrong, handle| Some(Box::new(Unwatched(wrong, handle))), |_, _| ());
+    assert!(matches!(end, Ok(Err(LiveError::Devices(_)))), "{end:?}");
 }
