@@ -36,8 +36,8 @@ const PING: u64 = u64::MAX;
 ///
 /// - The way is full: the command comes back. Pulses are lost and counted; of what goes on the entry stays and is told again with the
 ///   next block, by when it may have moved or be gone.
-/// - The player refuses, or something is over: the hold says so, the entry goes, and the input of a waveform is free. A change that was
-///   refused is told again. Reports only measure; if some were lost, all that goes on is told again.
+/// - The player refuses, or something is over: the hold says so, the entry goes, and the input of a waveform is free. What goes on and
+///   found no room stays and is begun again after a while. A change that was refused is told again. Reports only measure; if some were lost, all that goes on is told again.
 /// - Drives take long to make: a stop ends what sounds at once, whatever is still to be made, and takes back what its voice waits for.
 ///   Where threads play, a step makes drives for a few milliseconds only and leaves the rest to the next, so that it hears of the stop.
 ///   A pulse whose turn comes too late is not begun.
@@ -346,12 +346,17 @@ impl Conductor {
                     self.tally.first_sample.add(late);
                     self.tally.focus.add(late + self.lead as f64 / self.rate);
                 }
-                Report::Refused { voice, .. } => {
+                Report::Refused { voice, why } => {
                     voice.map(|voice| self.asked.remove(&voice.0));
                     // Filters have no name: those of any waveform may be meant.
                     let meant =
                         |kept: &&mut Kept| voice.map_or(kept.input.is_some(), |voice| voice.0 == kept.name);
-                    self.sounding.values_mut().filter(meant).for_each(|kept| kept.told = false);
+                    let hopeless = voice.is_some() && !why.may_pass();
+                    for kept in self.sounding.values_mut().filter(meant) {
+                        kept.told = false;
+                        kept.hopeless |=
+                            hopeless && kept.hold.as_ref().is_some_and(|hold| hold.over().is_some());
+                    }
                 }
                 _ => {}
             }

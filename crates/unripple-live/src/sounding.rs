@@ -44,6 +44,17 @@ pub(crate) struct Kept {
     pub input: Option<usize>,
     /// Whether the player was told where and how strong.
     pub told: bool,
+    /// The sample before which it is not begun again.
+    pub again: u64,
+    /// Whether the player refuses it for what it is, not for want of room.
+    pub hopeless: bool,
+}
+
+impl Kept {
+    /// What the player was not told yet, under a name.
+    pub fn new(sounding: Sounding, name: u64) -> Self {
+        Self { sounding, name, hold: None, input: None, told: false, again: 0, hopeless: false }
+    }
 }
 
 /// The player's inputs for waveforms. One is free again once the player says that what came through it is over: then nothing

@@ -10,7 +10,7 @@ pub struct Tally {
     pub dropped: u64,
     /// Pulses dropped because they came too late to be felt where they belong.
     pub stale: u64,
-    /// Waveforms not played because all inputs were taken.
+    /// Waveforms that found all inputs taken: not played, or later if they go on.
     pub crowded: u64,
     /// Levels asked for that the limit does not allow: played as strongly as it does.
     pub beyond: u64,

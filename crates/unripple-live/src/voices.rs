@@ -11,6 +11,9 @@ use unripple_player::{At, Command, Hold, Prepared, PreparedFilters, Voice};
 /// Time over which a moved waveform goes from one place to the next, in s.
 const GLIDE: f64 = 0.01;
 
+/// Time after which what found no room in the player is begun again, in s: soon for a finger, and seldom enough to take no room itself.
+const AGAIN: f64 = 0.02;
+
 /// Commands that change of place or level may take.
 const CHANGE: usize = 2;
 
@@ -23,17 +26,15 @@ impl Conductor {
         asked: Option<u64>,
         at: At,
     ) -> Result<(), LiveError> {
-        if matches!(sounding, Sounding::Wave { .. }) && !self.inputs.any() {
-            self.tally.crowded += 1;
-            return Ok(());
-        }
-        let late = !sounding.goes_on() && !self.can_begin();
-        if late {
-            return Ok(());
-        }
+        let crowded = matches!(sounding, Sounding::Wave { .. }) && !self.inputs.any();
+        self.tally.crowded += u64::from(crowded);
+        // What goes on waits for room, as long as it is wanted.
+        let lost = !sounding.goes_on() && (crowded || !self.can_begin());
         let name = self.name(asked);
-        let mut kept = Kept { sounding, name, hold: None, input: None, told: false };
-        self.tell(&mut kept, at)?;
+        let mut kept = Kept::new(sounding, name);
+        if !lost {
+            self.tell(&mut kept, at)?;
+        }
         self.let_go(voice, None, at);
         if kept.hold.is_some() || kept.sounding.goes_on() {
             self.sounding.insert(voice, kept);
@@ -87,15 +88,21 @@ impl Conductor {
         Ok(true)
     }
 
-    /// Forgets what the player says is over: played to its end, or refused.
+    /// Forgets what the player says is over: played to its end, or refused. What goes on and was refused for want of room is begun again
+    /// after a while.
     pub(crate) fn forget_over(&mut self) {
-        let inputs = &mut self.inputs;
+        let (inputs, later) = (&mut self.inputs, self.desk.clock() + (AGAIN * self.rate) as u64);
         self.sounding.retain(|_, kept| {
-            let over = kept.hold.as_ref().is_some_and(|hold| hold.over().is_some());
-            if let Some(input) = kept.input.filter(|_| over) {
+            let Some(hold) = &kept.hold else { return !kept.hopeless };
+            if hold.over().is_none() {
+                return true;
+            }
+            let again = kept.sounding.goes_on() && !hold.is_stopped() && !kept.hopeless;
+            if let Some(input) = kept.input.take() {
                 inputs.give(input);
             }
-            !over
+            (kept.hold, kept.told, kept.again) = (None, false, later);
+            again
         });
         self.inputs.settle();
         self.ahead.forget_over();
@@ -104,7 +111,8 @@ impl Conductor {
     /// Begins something in the player, or changes it there; what finds no room is told again later.
     fn tell(&mut self, kept: &mut Kept, at: At) -> Result<(), LiveError> {
         kept.told = false;
-        if self.stands || self.desk.room() < CHANGE {
+        let early = kept.hold.is_none() && self.desk.clock() < kept.again;
+        if early || self.stands || self.desk.room() < CHANGE {
             return Ok(());
         }
         kept.told = match kept.hold {

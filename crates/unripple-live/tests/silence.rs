@@ -9,7 +9,7 @@ use common::{BLOCK, RATE, clicks, touch};
 use proptest::prelude::*;
 use rig::*;
 use unripple_core::{Phase, Point, Random, Touch};
-use unripple_effects::Tone;
+use unripple_effects::{Effect, Tone};
 use unripple_player::{Count, Options, WaveOptions};
 
 /// All fingers go round and round.
@@ -163,6 +163,47 @@ fn inputs_are_free_again_when_reports_were_lost() {
     assert!(rig.conductor.desk().meters().count(Count::ReportsLost) > 0);
     rig.touch(lift(3, rig.now()));
     rig.rings_out(1.0);
+}
+
+/// One finger more than there is room for: it gets its turn when another has left, and not before.
+fn waits_for_room(kind: Effect, options: Options, room: u64) {
+    let mut rig = Rig::new(&set(vec![kind]), &options);
+    rig.touch(stroke(room, 0, 0.0));
+    assert!(rig.rest(100) > 0.0);
+    rig.touch(vec![at(room, Phase::Down, Point::from_mm(100.0, 100.0), rig.now())]);
+    rig.rest(100);
+    rig.touch(lift(room, rig.now()));
+    // Long enough for those to be over, and for one more to begin.
+    rig.rest(100);
+    assert!(rig.rest(400) > 0.0, "the last finger feels nothing although there is room");
+    rig.touch(lift(room + 1, rig.now()));
+    rig.rings_out(1.0);
+}
+
+#[test]
+fn a_hum_for_which_there_is_no_input_waits_for_one() {
+    let waves = WaveOptions { inputs: 3, ..options().waves.unwrap() };
+    waits_for_room(hum(Tone::Sine(200.0)), Options { waves: Some(waves), ..options() }, 3);
+}
+
+#[test]
+fn a_hum_for_which_the_player_has_no_room_waits_for_it() {
+    let waves = WaveOptions { sounds: 3, ..options().waves.unwrap() };
+    waits_for_room(hum(Tone::Sine(200.0)), Options { waves: Some(waves), ..options() }, 3);
+}
+
+#[test]
+fn a_comb_for_which_the_player_has_no_voice_waits_for_one() {
+    waits_for_room(comb(40.0), Options { voices: 3, ..options() }, 3);
+}
+
+/// A comb faster than blocks are can never be played, and is asked for once.
+#[test]
+fn a_comb_that_can_never_be_played_is_not_asked_for_again() {
+    let mut rig = Rig::new(&set(vec![comb(400.0)]), &Options { block: 256, ..options() });
+    rig.touch(stroke(1, 0, 0.0));
+    rig.rest(200);
+    assert!((1..=2).contains(&rig.conductor.tally().refused), "{}", rig.conductor.tally().refused);
 }
 
 #[derive(Clone, Debug)]

@@ -214,3 +214,13 @@ pub enum Why {
     /// Too late to be wanted: taken back with [`Desk::withdraw`](crate::Desk::withdraw), or put off for longer than it lasts.
     Stale,
 }
+
+impl Why {
+    /// Whether the same may be obeyed another time: it was not for what was asked for.
+    pub fn may_pass(self) -> bool {
+        match self {
+            Self::Voices | Self::Copies | Self::Pending | Self::Unknown | Self::Stale => true,
+            Self::Outputs | Self::Samples | Self::Gain | Self::Period | Self::Input => false,
+        }
+    }
+}
