@@ -51,7 +51,19 @@ struct Shared<'a> {
     priorities: Priorities,
 }
 
-impl Shared<'_> {
+impl<'a> Shared<'a> {
+    /// Of a play that begins, with this thread to be woken.
+    fn new(timeline: &'a Timeline, priorities: Priorities) -> Self {
+        Self {
+            stop: AtomicBool::new(false),
+            pulse: Mutex::default(),
+            touched: AtomicBool::new(false),
+            timeline,
+            bell: std::thread::current(),
+            priorities,
+        }
+    }
+
     fn goes_on(&self) -> bool {
         !self.stop.load(Ordering::Relaxed)
     }
@@ -88,14 +100,7 @@ impl Engine {
         let (channels, block) = ([layout.outputs.len(), layout.inputs.len()], stage.block);
         let priorities = Priorities::of(heart.device());
         let timeline = heart.timeline().clone();
-        let shared = Shared {
-            stop: AtomicBool::new(false),
-            pulse: Mutex::default(),
-            touched: AtomicBool::new(false),
-            timeline: &timeline,
-            bell: std::thread::current(),
-            priorities,
-        };
+        let shared = Shared::new(&timeline, priorities);
         let samples = channels.iter().sum::<usize>() * block;
         let (blocks, fetched) = rtrb::RingBuffer::new(KEPT * samples.max(1));
         let mut follower = stage.follower.take();
