@@ -19,24 +19,31 @@ pub struct Percentiles {
     bins: Vec<u64>,
     count: u64,
     worst: f64,
+    unknown: u64,
 }
 
 impl Default for Percentiles {
     fn default() -> Self {
-        Self { bins: vec![0; BINS], count: 0, worst: 0.0 }
+        Self { bins: vec![0; BINS], count: 0, worst: 0.0, unknown: 0 }
     }
 }
 
 impl Percentiles {
-    /// One more, in s; what is no number is left out. Never allocates.
+    /// One more, in s; what is no number is left out, and counted as [`Percentiles::unknown`]. Never allocates.
     pub fn add(&mut self, seconds: f64) {
         if seconds.is_nan() {
+            self.unknown += 1;
             return;
         }
         let bin = ((seconds / SHORTEST).max(1.0).ln() / STEP.ln()).ceil() as usize;
         self.bins[bin.min(BINS - 1)] += 1;
         self.count += 1;
         self.worst = self.worst.max(seconds);
+    }
+
+    /// How many there were that nobody knows the time of.
+    pub fn unknown(&self) -> u64 {
+        self.unknown
     }
 
     /// How many there are.
@@ -90,7 +97,7 @@ mod tests {
     fn odd_times_are_borne() {
         let mut times = Percentiles::default();
         [0.0, -1.0, f64::NAN, f64::INFINITY, 1e9].into_iter().for_each(|t| times.add(t));
-        assert_eq!((times.count(), times.worst()), (4, Some(f64::INFINITY)));
+        assert_eq!((times.count(), times.unknown(), times.worst()), (4, 1, Some(f64::INFINITY)));
         assert!(times.at(0.25).unwrap() <= SHORTEST);
     }
 }

@@ -30,6 +30,8 @@ pub(crate) struct Timeline {
     /// First samples of the last cycles and their origins, over and over, and how many there were.
     cycles: Vec<(AtomicU64, AtomicI64)>,
     passed: AtomicUsize,
+    /// The first sample that no touch is timed by yet.
+    fresh: AtomicU64,
     /// When touches came: the sample that they were timed by, and the instant.
     came: Mutex<VecDeque<(u64, Instant)>>,
 }
@@ -46,6 +48,7 @@ impl Timeline {
             wake: AtomicU64::new(u64::MAX),
             cycles: (0..CYCLES).map(|_| (AtomicU64::new(u64::MAX), AtomicI64::new(NEVER))).collect(),
             passed: AtomicUsize::new(0),
+            fresh: AtomicU64::new(0),
             came: Mutex::default(),
         }
     }
@@ -68,33 +71,43 @@ impl Timeline {
     }
 
     /// The sample that leaves at an instant, in s of the player's clock: within a cycle of the first one that is not computed yet, however
-    /// long the device stands still.
+    /// long the device stands still. Touches that come meanwhile are told apart by it: each is timed a sample after the one before, for
+    /// another cycle at most.
     pub fn at(&self, instant: Instant) -> f64 {
         let next = self.next.load(Ordering::Acquire) as f64 / self.rate;
+        let ahead = self.period() as f64 / self.rate;
         match self.origin.load(Ordering::Acquire) {
             NEVER => next,
             origin => {
-                let ahead = self.period() as f64 / self.rate;
-                (1e-9 * (self.ns(instant) - origin) as f64).clamp(0.0, next + ahead)
+                let found = (1e-9 * (self.ns(instant) - origin) as f64).clamp(0.0, next + ahead);
+                let fresh = self.fresh.load(Ordering::Acquire) as f64 / self.rate;
+                found.max(fresh.min(next + 2.0 * ahead))
             }
         }
     }
 
-    /// When a sample left, or will if the device goes on as it did.
+    /// When a sample left, or will if the device goes on as it did; before all that is remembered if nobody knows any more.
     pub fn leaves(&self, sample: u64) -> Instant {
+        self.known(sample).unwrap_or(self.base)
+    }
+
+    /// The same, if the cycle that it was in is remembered.
+    fn known(&self, sample: u64) -> Option<Instant> {
         let cycle = |(first, origin): &(AtomicU64, AtomicI64)| {
             (first.load(Ordering::Acquire), origin.load(Ordering::Acquire))
         };
         let before = self.cycles.iter().map(cycle).filter(|(first, _)| *first <= sample);
-        let Some((_, origin)) = before.max_by_key(|(first, _)| *first) else { return self.base };
+        let (_, origin) = before.max_by_key(|(first, _)| *first)?;
         let after = origin + (sample as f64 * 1e9 / self.rate) as i64;
-        self.base + Duration::from_nanos(u64::try_from(after).unwrap_or(0))
+        Some(self.base + Duration::from_nanos(u64::try_from(after).unwrap_or(0)))
     }
 
     /// Touches came at an instant, and are timed as at `now`, in s of the player's clock.
     pub fn note(&self, now: f64, at: Instant) {
+        let sample = (now * self.rate).round() as u64;
+        self.fresh.fetch_max(sample + 1, Ordering::AcqRel);
         if let Ok(mut came) = self.came.lock() {
-            came.push_back(((now * self.rate).round() as u64, at));
+            came.push_back((sample, at));
             if came.len() > TOUCHES {
                 came.pop_front();
             }
@@ -102,12 +115,13 @@ impl Timeline {
     }
 
     /// Seconds from when a touch came that was timed by a sample until another sample leaves: whatever the device left out between them
-    /// is in it.
+    /// is in it. Not a number once either is too long ago to be remembered.
     pub fn between(&self, touch: u64, sample: u64) -> f64 {
         let noted =
             self.came.lock().ok().and_then(|came| came.iter().find(|(timed, _)| *timed == touch).copied());
-        let came = noted.map_or_else(|| self.leaves(touch), |(_, at)| at);
-        self.leaves(sample).saturating_duration_since(came).as_secs_f64()
+        let came = noted.map_or_else(|| self.known(touch), |(_, at)| Some(at));
+        let (Some(came), Some(leaves)) = (came, self.known(sample)) else { return f64::NAN };
+        leaves.saturating_duration_since(came).as_secs_f64()
     }
 
     /// Samples of the last cycle.
@@ -174,6 +188,44 @@ mod tests {
         line.note(touched as f64 / 48e3, at(20_000.0));
         line.mark(1024, at(30_000.0), 256, 1280);
         assert!((line.between(touched, 1024) * 48e3 - 10_000.0).abs() < 0.01);
+    }
+
+    #[test]
+    fn touches_of_a_device_that_stands_still_are_told_apart() {
+        let (line, start) = (Timeline::new(48e3), Instant::now());
+        line.mark(0, start, 256, 256);
+        let came = |i: u32| start + Duration::from_millis(100) * (i + 1);
+        let timed: Vec<u64> = (0..20)
+            .map(|i| {
+                let now = line.at(came(i));
+                line.note(now, came(i));
+                (now * 48e3).round() as u64
+            })
+            .collect();
+        assert!(timed.iter().all(|sample| *sample <= 256 + 2 * 256), "{timed:?}");
+        line.mark(256, start + Duration::from_secs(5), 256, 512);
+        for (i, touch) in (0..).zip(&timed) {
+            let wanted = (start + Duration::from_secs(5) - came(i)).as_secs_f64();
+            assert!((line.between(*touch, 256) - wanted).abs() < 1e-6, "touch {i} of {timed:?}");
+        }
+        // Once it goes on, touches are timed as ever.
+        line.mark(1024, start + Duration::from_secs(6), 256, 1280);
+        assert!((line.at(start + Duration::from_secs(6)) * 48e3 - 1024.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn what_is_forgotten_is_no_latency_of_nothing() {
+        let (line, start) = (Timeline::new(48e3), Instant::now());
+        line.note(0.0, start);
+        let cycle = |i: u64| {
+            line.mark(256 * i, start + Duration::from_secs_f64(256.0 * i as f64 / 48e3), 256, 256 * (i + 1))
+        };
+        (0..CYCLES as u64).for_each(cycle);
+        assert!((line.between(0, 256) - 256.0 / 48e3).abs() < 1e-6);
+        (CYCLES as u64..CYCLES as u64 + 2).for_each(cycle);
+        // The cycle of sample 256 is forgotten, and so is that of a touch that nobody noted.
+        assert!(line.between(0, 256).is_nan() && line.between(1, 256 * 400).is_nan());
+        assert!((line.between(0, 512) - 512.0 / 48e3).abs() < 1e-6);
     }
 
     #[test]
