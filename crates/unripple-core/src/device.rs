@@ -82,6 +82,8 @@ pub struct Status {
     pub blocks: u64,
     /// Blocks that came late or were lost so far.
     pub lost: u64,
+    /// Samples that drive given by [`Device::exchange`] waits until it leaves the device, as far as that is known.
+    pub waiting: u64,
     /// What the server behind it says, where there is one.
     pub server: Option<Server>,
 }
@@ -98,10 +100,11 @@ pub struct Server {
     pub playback: u64,
     /// Samples from the air to our ports, likewise.
     pub capture: u64,
-    /// Samples that drive given by [`Device::exchange`] waits until it leaves at a port.
-    pub waiting: u64,
-    /// Cycles that it says came late, whoever's fault that was.
+    /// Cycles that it says came late, whoever's fault that was: all its clients are told of each.
     pub late: u64,
+    /// Cycles whose time was over before our own part of them was done: nobody else's part is in it, but the time until we were
+    /// called is.
+    pub own_late: u64,
     /// Samples that it left out between cycles: silence, and a jump in what sounds.
     pub skipped: u64,
 }

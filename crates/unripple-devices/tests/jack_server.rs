@@ -10,9 +10,10 @@ use common::server::Server;
 use common::{noise, play};
 use skip::skip;
 use std::process::Command;
-use std::sync::{Mutex, mpsc};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, mpsc};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use unripple_core::*;
 use unripple_devices::*;
 
@@ -179,6 +180,49 @@ fn a_server_that_stands_still_is_left_and_joined_again() {
         assert!(refused.contains("stands still"), "{refused}");
         drop(bridge(&server).unwrap());
     }
+}
+
+/// Sleeps for three cycles in every tenth, and counts that; or does nothing.
+struct Sleepy {
+    cycles: u64,
+    sleeps: Option<Arc<AtomicU64>>,
+}
+
+impl Work for Sleepy {
+    fn cycle(&mut self, cycle: &mut dyn Cycle) {
+        self.cycles += 1;
+        let Some(sleeps) = self.sleeps.as_ref().filter(|_| self.cycles.is_multiple_of(10)) else { return };
+        thread::sleep(Duration::from_secs_f64(3.0 * cycle.frames() as f64 / 48e3));
+        sleeps.fetch_add(1, Ordering::Relaxed);
+    }
+}
+
+#[test]
+fn who_was_late_is_told_from_who_heard_of_it() {
+    let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let Some(server) = Server::start(PERIOD) else {
+        return skip(common::server::NONE);
+    };
+    // The server is there once a bridge is.
+    drop(bridge(&server).unwrap());
+    let sleeps = Arc::new(AtomicU64::new(0));
+    let mut devices = [Some(sleeps.clone()), None].map(|sleeps| {
+        let mut device = Jack::open(&options(&server, Links::None)).unwrap();
+        assert!(device.employ(Box::new(Sleepy { cycles: 0, sleeps })).is_ok());
+        device
+    });
+    let start = Instant::now();
+    while sleeps.load(Ordering::Relaxed) < 20 && start.elapsed() < Duration::from_secs(60) {
+        thread::sleep(Duration::from_millis(20));
+    }
+    let [slow, idle] = devices.each_mut().map(|device| {
+        device.dismiss();
+        device.status().server.unwrap()
+    });
+    let slept = sleeps.load(Ordering::Relaxed);
+    println!("{slept} cycles slept through: {slow:?}, beside it {idle:?}");
+    assert!(slept >= 20 && slow.own_late >= slept, "{slow:?} of {slept}");
+    assert!(idle.own_late < slow.own_late, "{idle:?}, beside {slow:?}");
 }
 
 #[test]

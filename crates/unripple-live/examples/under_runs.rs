@@ -1,5 +1,8 @@
-//! A film played in real time through a JACK server with its dummy driver, beside a client that does nothing: `cargo run --release -p
-//! unripple-live --example under_runs -- [SECONDS]`. Needs `jackd`.
+//! A client that does nothing in a JACK server with its dummy driver, first alone, then beside a film that is played in real time:
+//! `cargo run --release -p unripple-live --example under_runs -- [SECONDS]`. Needs `jackd`.
+//!
+//! A server tells all its clients of each late cycle, so what two clients of one run lost is the same by construction. What playing
+//! costs is the difference between the runs, and each client's own late cycles.
 
 #[path = "../tests/common/mod.rs"]
 mod common;
@@ -8,6 +11,7 @@ mod server;
 
 use common::*;
 use server::Server;
+use std::time::Instant;
 use unripple_core::{Cycle, Device, Status, Work};
 use unripple_devices::{Jack, JackOptions, Links};
 use unripple_effects::{Curve, Kind, Level, Texture};
@@ -33,6 +37,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             ..JackOptions::default()
         })
     };
+    let alone = alone(&mut open("empty")?, seconds)?;
     let mut empty = open("empty")?;
     let playing = open("playing")?;
     let fingers = SyntheticOptions { fingers: 10, ..SyntheticOptions::default() };
@@ -48,9 +53,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         "blocks of {BLOCK} samples, {:.3} ms, {seconds} s of the server's clock",
         1e3 * BLOCK as f64 / RATE
     );
-    println!("{:<12}{:>10}{:>10}", "client", "blocks", "lost");
-    println!("{:<12}{:>10}{:>10}", "playing", played.blocks, played.lost);
-    println!("{:<12}{:>10}{:>10}", "empty", idle.blocks, idle.lost);
+    println!("{:<26}{:>10}{:>10}{:>10}{:>13}", "client", "blocks", "lost", "own late", "left out, ms");
+    for (client, status) in [("empty, alone", &alone), ("empty, beside playing", &idle), ("playing", &played)]
+    {
+        let server = status.server.clone().unwrap_or_default();
+        let skipped = 1e3 * server.skipped as f64 / RATE;
+        let Status { blocks, lost, .. } = status;
+        println!("{client:<26}{blocks:>10}{lost:>10}{:>10}{skipped:>13.1}", server.own_late);
+    }
     let ms = engine.heart().work().four().unwrap_or_default().map(|s| format!("{:.4}", 1e3 * s));
     println!("processor time of a block, ms: p50 {}, p99 {}, p99.9 {}, worst {}", ms[0], ms[1], ms[2], ms[3]);
     latencies(engine.stage());
@@ -64,6 +74,17 @@ impl Work for Nothing {
     fn cycle(&mut self, cycle: &mut dyn Cycle) {
         (0..self.0).for_each(|output| cycle.drive(output).fill(0.0));
     }
+}
+
+/// How a client that does nothing fares while nobody plays.
+fn alone(empty: &mut Jack, seconds: f64) -> Result<Status, Box<dyn std::error::Error>> {
+    let (outputs, start) = (empty.layout().outputs.len(), Instant::now());
+    empty.employ(Box::new(Nothing(outputs))).map_err(|_| "a server does not call")?;
+    while start.elapsed().as_secs_f64() < seconds {
+        std::thread::sleep(empty.tend()?);
+    }
+    empty.dismiss();
+    Ok(empty.status())
 }
 
 /// Plays while another client does nothing; how that fared, and what came of the wish for priority.

@@ -61,7 +61,7 @@ impl Heartbeat {
         self.sent.iter_mut().zip(&self.drive).for_each(|(to, x)| *to = x / self.scale);
         self.device.exchange(&self.sent, &mut self.heard)?;
         // What is computed next leaves when what waits before it has.
-        let waiting = self.device.status().server.map_or(0, |server| server.waiting);
+        let waiting = self.device.status().waiting;
         let leaves = Instant::now() + Duration::from_secs_f64(waiting as f64 / rate);
         beats.mark(beats.position(), leaves, block);
         Ok(())

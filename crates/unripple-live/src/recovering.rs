@@ -53,8 +53,9 @@ pub struct Recovering {
     /// What was being called by a device that is away, and whether one has it.
     work: Option<Box<dyn Work>>,
     lent: bool,
-    /// What the last server said of itself.
+    /// What the last server said of itself, and what those that are gone counted: cycles late, our own late, samples left out.
     server: Option<Server>,
+    counted: [u64; 3],
 }
 
 /// What a device is while it is away.
@@ -89,6 +90,7 @@ impl Recovering {
             work: None,
             lent: false,
             server: None,
+            counted: [0; 3],
         })
     }
 
@@ -104,7 +106,12 @@ impl Recovering {
                 self.work = device.dismiss();
             }
             let last = device.status();
-            self.server = last.server;
+            if let Some(mut server) = last.server {
+                let counts = [&mut server.late, &mut server.own_late, &mut server.skipped];
+                let more = counts.map(std::mem::take);
+                self.counted.iter_mut().zip(more).for_each(|(to, more)| *to += more);
+                self.server = Some(server);
+            }
             self.before.blocks += last.blocks;
             self.before.lost += last.lost;
         }
@@ -186,6 +193,7 @@ impl Device for Recovering {
             Some(device) => {
                 let own = device.status();
                 (status.state, status.server) = (own.state, own.server);
+                status.waiting = own.waiting;
                 status.blocks += own.blocks;
                 status.lost += own.lost;
             }
@@ -199,6 +207,11 @@ impl Device for Recovering {
             }
         }
         status.lost += self.status.lost;
+        if let Some(server) = &mut status.server {
+            let [late, own_late, skipped] = self.counted;
+            (server.late, server.own_late) = (server.late + late, server.own_late + own_late);
+            server.skipped += skipped;
+        }
         status
     }
 
@@ -295,12 +308,17 @@ mod tests {
     /// A device that fails after some blocks.
     struct Mortal(Layout, u32);
 
+    /// What its server counts in one life.
+    fn counts(late: u64) -> Option<Server> {
+        Some(Server { late, own_late: 2 * late, skipped: 100 * late, ..Server::default() })
+    }
+
     impl Device for Mortal {
         fn layout(&self) -> &Layout {
             &self.0
         }
         fn status(&self) -> Status {
-            Status::default()
+            Status { waiting: 7, server: counts(3), ..Status::default() }
         }
         fn exchange(&mut self, drive: &[f32], heard: &mut [f32]) -> Result<(), DeviceError> {
             self.1 = self
@@ -346,6 +364,8 @@ mod tests {
         assert!(sounding[..3].iter().all(|s| *s) && sounding[3..].iter().all(|s| !s));
         assert_eq!(device.status().state, State::Running);
         assert_eq!(device.status().lost as usize, sounding.len() - 3);
+        // Two lives.
+        assert_eq!((device.status().waiting, device.status().server), (7, counts(6)));
         // 0.25 s and 0.5 s of waiting in blocks of 10 ms.
         assert!(sounding.len() > 60, "{}", sounding.len());
     }

@@ -39,6 +39,7 @@ pub struct Report {
     heavy_blocks: u64,
     block_s: f64,
     first_sample_s: Four,
+    unknown_times: u64,
     focus_s: Four,
     making_s: Four,
     computing_s: Four,
@@ -62,8 +63,10 @@ struct ServerSays {
     period_s: f64,
     /// From our ports to the air, as the server knows it; not in the times above.
     playback_latency_s: f64,
-    /// Cycles that it says came late.
+    /// Cycles that it says came late, whoever's fault that was.
     late_cycles: u64,
+    /// Cycles that were over before our own part of them was done.
+    own_late_cycles: u64,
     /// Time that it left out between cycles.
     skipped_s: f64,
     /// Real-time priority of its thread that calls us.
@@ -77,17 +80,19 @@ impl ServerSays {
             period_s: server.period as f64 / rate,
             playback_latency_s: server.playback as f64 / rate,
             late_cycles: server.late,
+            own_late_cycles: server.own_late,
             skipped_s: server.skipped as f64 / rate,
             real_time_priority: server.priority,
         }
     }
 
     fn text(&self) -> String {
-        let Self { period_s, playback_latency_s, late_cycles, skipped_s, .. } = self;
+        let Self { period_s, playback_latency_s, late_cycles, own_late_cycles, skipped_s, .. } = self;
         let [period, latency, skipped] = [period_s, playback_latency_s, skipped_s].map(|s| 1e3 * s);
         format!(
             "\ntimes of samples are those at the server's ports; it says that they are heard {latency:.3} ms later\n\
-             the server: a cycle of {period:.3} ms, {late_cycles} late, {skipped:.1} ms left out between cycles\n"
+             the server: a cycle of {period:.3} ms, {late_cycles} late by its count of all clients, {skipped:.1} ms left out between \
+             cycles\nour own part of a cycle was not done in time {own_late_cycles} times\n"
         )
     }
 }
@@ -212,6 +217,7 @@ impl Report {
         self.making_s = Four::of(conductor.drives().making());
         self.first_sample_s = Four::of(&tally.first_sample);
         self.focus_s = Four::of(&tally.focus);
+        self.unknown_times = tally.first_sample.unknown();
         (self.cues, self.failed_cues, self.last_failure) = (tally.cues, tally.failed, tally.failure.clone());
         (self.started, self.limited, self.least_limit) = (tally.started, tally.limited, tally.least);
         (self.waves_limited, self.beyond_limit) = (tally.waves_limited, tally.beyond);
@@ -240,6 +246,10 @@ impl Report {
         let _ =
             writeln!(text, "\nlimited: {} events, {} times all waveforms", self.limited, self.waves_limited);
         for (count, what) in [
+            (
+                self.unknown_times,
+                "answers to touches not among these times: told of too late to know when they left",
+            ),
             (self.beyond_limit, "levels beyond the limit, played as strongly as it allows"),
             (self.failed_cues, "cues that could not be played"),
             (self.stale, "pulses dropped because they came too late"),

@@ -51,6 +51,30 @@ fn chunks_of_any_size_change_nothing() {
 }
 
 #[test]
+fn drive_waits_as_long_as_the_card_says() {
+    for chunks in [&[64][..], &[32], &[300], &[1024]] {
+        let clock = || Clock::nominal(chunks);
+        let (card, mut ferry) = Held::open(clock(), clock(), true, None);
+        let mut told = Vec::new();
+        for block in 0..400 {
+            exchange(&mut ferry, block..block + 1).unwrap();
+            told.push((card.0.lock().unwrap().now, ferry.status().waiting as f64));
+        }
+        exchange(&mut ferry, 400..500).unwrap();
+        let card = card.0.lock().unwrap();
+        for block in 200..400 {
+            // When the first sample of the next block passes the converter, in frames since the card was opened.
+            let first = sample(0, (block + 1) * BLOCK);
+            let left = card.played.iter().position(|frame| frame[0] == first).unwrap() as f64;
+            let (now, waiting) = told[block];
+            // Blocks come back in bursts, a chunk's worth at a time, and what the card holds is one to two chunks.
+            let (found, grain) = (left - now, (2 * clock().largest() + BLOCK) as f64);
+            assert!((waiting - found).abs() <= grain, "{chunks:?}: says {waiting}, waits {found}");
+        }
+    }
+}
+
+#[test]
 fn a_card_of_larger_periods_than_blocks_needs_more_lead() {
     let clock = || Clock::nominal(&[300]);
     let (card, mut ferry) = Held::open(clock(), clock(), true, Some(4));

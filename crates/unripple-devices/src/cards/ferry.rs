@@ -227,6 +227,9 @@ impl Device for Ferry {
         if let Some(why) = self.events.why_gone() {
             status.state = State::Lost(why);
         }
+        // What is ahead in the ring, and then in the card.
+        let period = self.events.counts.largest(Side::Playback);
+        status.waiting = self.manners.lead * self.layout.block as u64 + period as u64;
         status
     }
 

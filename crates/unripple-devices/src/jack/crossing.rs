@@ -174,19 +174,8 @@ impl Crossing {
         }
     }
 
-    fn dismiss(&mut self) {
-        if let Some(work) = self.work.take() {
-            // One piece of work is out at a time, so there is room.
-            let _ = self.fired.push(work);
-        }
-    }
-}
-
-impl Process for Crossing {
-    fn cycle(&mut self, cycle: &mut Cycle) {
-        self.events.period.store(cycle.frames(), Ordering::Release);
-        self.count(cycle);
-        self.hand_over();
+    /// Work, or samples that cross.
+    fn serve(&mut self, cycle: &mut Cycle) {
         if let Some(work) = &mut self.work {
             return work.cycle(cycle);
         }
@@ -198,6 +187,26 @@ impl Process for Crossing {
         }
         if let Some(waiter) = &self.waiter {
             waiter.unpark();
+        }
+    }
+
+    fn dismiss(&mut self) {
+        if let Some(work) = self.work.take() {
+            // One piece of work is out at a time, so there is room.
+            let _ = self.fired.push(work);
+        }
+    }
+}
+
+impl Process for Crossing {
+    fn cycle(&mut self, cycle: &mut Cycle) {
+        self.events.period.store(cycle.frames(), Ordering::Release);
+        let next = cycle.next();
+        self.count(cycle);
+        self.hand_over();
+        self.serve(cycle);
+        if next.is_some_and(|next| cycle.now() > next) && !self.events.freewheeling.load(Ordering::Acquire) {
+            self.events.own_late.fetch_add(1, Ordering::Relaxed);
         }
     }
 }

@@ -302,8 +302,9 @@ impl Device for Jack {
             server.period = if period > 0 { period } else { self.layout.block };
             server.late = events.xruns.load(Ordering::Relaxed);
             server.skipped = events.skipped.load(Ordering::Relaxed);
-            server.waiting = if self.employs { 0 } else { self.lead * self.layout.block as u64 };
+            server.own_late = events.own_late.load(Ordering::Relaxed);
         }
+        status.waiting = if self.employs { 0 } else { self.lead * self.layout.block as u64 };
         status
     }
 

@@ -7,6 +7,8 @@ pub(super) struct Events {
     pub(super) cycles: AtomicU64,
     /// Cycles that the server says came late.
     pub(super) xruns: AtomicU64,
+    /// Cycles that were over before our part of them was done.
+    pub(super) own_late: AtomicU64,
     /// Samples that the server left out between cycles so far.
     pub(super) skipped: AtomicU64,
     /// Samples of the last cycle.

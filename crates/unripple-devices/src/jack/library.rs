@@ -66,6 +66,22 @@ impl Cycle<'_> {
         (failed == 0).then(|| (frame, here.checked_sub(ago).unwrap_or(here) + ahead))
     }
 
+    /// When the next cycle is to begin, by the server's clock: to be asked at the beginning of this one, since the server counts on
+    /// meanwhile.
+    pub(super) fn next(&self) -> Option<u64> {
+        let (mut frame, mut began, mut next, mut period) = (0, 0, 0, 0.0);
+        // SAFETY: as above.
+        let failed =
+            unsafe { (self.api.get_cycle_times)(self.raw, &mut frame, &mut began, &mut next, &mut period) };
+        (failed == 0).then_some(next)
+    }
+
+    /// The server's clock now, in microseconds.
+    pub(super) fn now(&self) -> u64 {
+        // SAFETY: takes nothing.
+        unsafe { (self.api.get_time)() }
+    }
+
     /// What came in at a port, by the order of registration; empty beyond the last.
     pub(super) fn input(&self, port: usize) -> &[f32] {
         let Some(port) = self.inputs.get(port) else { return &[] };
