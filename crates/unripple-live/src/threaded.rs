@@ -127,7 +127,7 @@ impl Engine {
                     spawn("drift").spawn_scoped(scope, move || follow(follower, heard, shared, &found))
                 });
                 let result = match listen.and(followed.transpose()) {
-                    Ok(_) => stage.to_the_end(shared, |stage| {
+                    Ok(_) => stage.attend_and_fade(shared, |stage| {
                         stage.attend(seconds, shared, &mail, |stage| {
                             let pulse = shared.pulse.lock().map(|pulse| pulse.clone()).unwrap_or_default();
                             tell(stage, &pulse)
@@ -262,7 +262,7 @@ impl Stage {
     }
 
     /// Attends until that ends, well or badly, and lets all fade out: nothing goes on that nobody looks after.
-    fn to_the_end(
+    fn attend_and_fade(
         &mut self,
         shared: &Shared,
         attend: impl FnOnce(&mut Self) -> Result<(), LiveError>,
