@@ -225,6 +225,37 @@ fn who_was_late_is_told_from_who_heard_of_it() {
     assert!(idle.own_late < slow.own_late, "{idle:?}, beside {slow:?}");
 }
 
+/// Falls in its fifth cycle.
+struct Falling(u32);
+
+impl Work for Falling {
+    fn cycle(&mut self, _: &mut dyn Cycle) {
+        self.0 += 1;
+        assert!(self.0 < 5, "on purpose");
+    }
+}
+
+#[test]
+fn a_client_that_the_server_calls_no_more_is_lost() {
+    let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let Some(server) = Server::start(PERIOD) else {
+        return skip(common::server::NONE);
+    };
+    // The server is there once a bridge is.
+    drop(bridge(&server).unwrap());
+    let mut device = Jack::open(&JackOptions { patience: 0.5, ..options(&server, Links::None) }).unwrap();
+    assert!(device.employ(Box::new(Falling(0))).is_ok());
+    let start = Instant::now();
+    let lost = loop {
+        match device.tend() {
+            Ok(wait) if start.elapsed() < Duration::from_secs(20) => thread::sleep(wait),
+            other => break other,
+        }
+    };
+    assert!(matches!(&lost, Err(DeviceError::Lost { why, .. }) if why.contains("goes on")), "{lost:?}");
+    assert!(device.dismiss().is_some());
+}
+
 #[test]
 fn no_server_is_an_error_that_says_what_to_do() {
     let options = JackOptions { server: Some("unripple-none".into()), ..Default::default() };

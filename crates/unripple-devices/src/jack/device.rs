@@ -1,6 +1,7 @@
 use super::crossing::{Crossing, Shore};
 use super::library::Client;
 use super::links::{Links, OWN, wires};
+use super::watch::{Pace, Watch};
 use crate::DevicesError;
 use crate::error::check;
 use std::sync::atomic::Ordering;
@@ -91,8 +92,7 @@ pub struct Jack {
     /// Who was last said to wait for blocks, and whether work is with the server.
     waiter: Option<ThreadId>,
     employs: bool,
-    /// Cycles when one was last seen to pass, and when that was.
-    seen: (u64, Instant),
+    watch: Watch,
     frames: Vec<f32>,
     status: Status,
 }
@@ -159,7 +159,7 @@ impl Jack {
             xruns: 0,
             waiter: None,
             employs: false,
-            seen: (0, Instant::now()),
+            watch: Watch::new(0),
             frames,
             status,
         };
@@ -330,7 +330,7 @@ impl Device for Jack {
         self.shore.hired.push(work).map_err(|rtrb::PushError::Full(work)| work)?;
         self.employs = true;
         self.late();
-        self.seen = (self.client.events.cycles.load(Ordering::Acquire), Instant::now());
+        self.watch = Watch::new(self.client.events.cycles.load(Ordering::Acquire));
         Ok(())
     }
 
@@ -340,8 +340,7 @@ impl Device for Jack {
         }
         self.shore.dismissing.store(true, Ordering::Release);
         // One that was seen to stand still before is not waited for again.
-        let passes = self.client.events.cycles.load(Ordering::Acquire) > self.seen.0;
-        let last = if passes { Instant::now() } else { self.seen.1 };
+        let last = self.watch.last(self.client.events.cycles.load(Ordering::Acquire));
         while self.shore.fired.is_empty() && last.elapsed() < self.patience {
             if self.client.events.gone.load(Ordering::Acquire) {
                 break;
@@ -363,13 +362,21 @@ impl Device for Jack {
         }
         let cycles = self.client.events.cycles.load(Ordering::Acquire);
         self.status.lost += self.late();
-        if cycles > self.seen.0 {
-            self.status.blocks += cycles - self.seen.0;
-            self.seen = (cycles, Instant::now());
-            self.status.state = State::Running;
-        } else if self.seen.1.elapsed() > self.patience {
-            let time = self.seen.1.elapsed().as_secs_f64();
-            self.status.state = State::Stalled(format!("no cycle for {time:.0} s"));
+        match self.watch.look(cycles, self.patience, || self.client.frame()) {
+            Pace::Passed(more) => {
+                self.status.blocks += more;
+                self.status.state = State::Running;
+            }
+            Pace::Waiting => {}
+            Pace::Stands(since) => {
+                self.status.state = State::Stalled(format!("no cycle for {:.0} s", since.as_secs_f64()));
+            }
+            Pace::LeftOut(since) => {
+                let (device, time) = (self.layout.device.clone(), since.as_secs_f64());
+                let why = format!("the server goes on, but has not called for {time:.0} s");
+                self.status.state = State::Lost(why.clone());
+                return Err(DeviceError::Lost { device, why });
+            }
         }
         self.ask();
         Ok(TEND)

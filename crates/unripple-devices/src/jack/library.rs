@@ -207,6 +207,12 @@ impl Client {
         unsafe { (self.api.get_buffer_size)(self.raw) as usize }
     }
 
+    /// The server's count of samples at the beginning of its cycle, whether or not it calls us in it.
+    pub(super) fn frame(&self) -> u32 {
+        // SAFETY: the client is open.
+        unsafe { (self.api.last_frame_time)(self.raw) }
+    }
+
     /// Adds a port of its own, before [`Client::start`]: one that hears, or one that speaks.
     pub(super) fn add(&mut self, name: &str, hears: bool) -> Result<(), DevicesError> {
         let (short, kind) = (text(name)?, c"32 bit float mono audio");

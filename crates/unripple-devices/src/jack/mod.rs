@@ -6,6 +6,7 @@ mod device;
 mod events;
 mod library;
 mod links;
+mod watch;
 
 pub use bridge::Bridge;
 pub use device::{Jack, JackOptions};

@@ -58,6 +58,7 @@ functions! {
     is_realtime: fn(*mut RawClient) -> c_int;
     client_real_time_priority: fn(*mut RawClient) -> c_int;
     get_time: fn() -> u64;
+    last_frame_time: fn(*const RawClient) -> u32;
     get_cycle_times: fn(*const RawClient, *mut u32, *mut u64, *mut u64, *mut f32) -> c_int;
     port_get_latency_range: fn(*mut RawPort, c_uint, *mut LatencyRange);
     connect: fn(*mut RawClient, *const c_char, *const c_char) -> c_int;
