@@ -194,9 +194,11 @@ fn follow(follower: &mut Follower, mut heard: Fetched, shared: &Shared, found: &
 fn listen(ears: &mut Ears, shared: &Shared, told: &mpsc::Sender<News>) {
     // Touches are worth more than all but the sound itself.
     let _ = priority::at(shared.priorities.touch);
+    let mut now = 0.0f64;
     while shared.goes_on() {
         let at = Instant::now();
-        let now = shared.timeline.at(at);
+        // A device that stood still goes on from an earlier sample than touches were timed by meanwhile; time does not go back for them.
+        now = shared.timeline.at(at).max(now);
         let news = ears.hear(now);
         if news.any() {
             shared.timeline.note(now, at);

@@ -20,10 +20,13 @@ const TOUCHES: u64 = 20;
 /// Samples of one cycle after the other, over and over; after the halt it goes on.
 const CYCLES: [usize; 6] = [256, 256, 1024, 441, 64, 2048];
 const HALT: Duration = Duration::from_millis(300);
+/// The cycle before which it does.
+const HALTS: usize = 40;
 
 /// What the device counts.
 #[derive(Default)]
 struct Counted {
+    cycles: usize,
     /// Samples given so far, and when the first of the last cycle left.
     given: u64,
     last: Option<(u64, Instant)>,
@@ -66,6 +69,7 @@ impl Cycle for Buffers {
 impl Counted {
     fn count(&mut self, planes: &[Vec<f32>], began: Instant) {
         self.last = Some((self.given, began));
+        self.cycles += 1;
         for i in 0..planes[0].len() {
             let sounds = planes.iter().any(|plane| plane[i] != 0.0);
             // A drive has no gap as long as this.
@@ -106,7 +110,7 @@ impl Device for Caller {
                 if stop.load(Relaxed) {
                     break;
                 }
-                if cycle == 40 {
+                if cycle == HALTS {
                     std::thread::sleep(HALT);
                     due = Instant::now();
                 }
@@ -165,7 +169,10 @@ impl Source for Taps {
     fn poll(&mut self, now: f64, heard: &mut Heard) {
         let (counted, mut asked) = (self.counted.lock().unwrap(), self.asked.lock().unwrap());
         let finger = asked.len() as u64;
-        let Some(stood) = counted.last.filter(|_| counted.silent > 2000 && finger < TOUCHES) else { return };
+        // None for a while before the device halts, so that one comes as soon as it goes on.
+        let halts = (HALTS / 2..=HALTS).contains(&counted.cycles);
+        let may = counted.silent > 2000 && finger < TOUCHES && !halts;
+        let Some(stood) = counted.last.filter(|_| may) else { return };
         if counted.onsets.len() < asked.len() {
             return;
         }
