@@ -62,11 +62,10 @@ fn drive_waits_as_long_as_the_card_says() {
         }
         exchange(&mut ferry, 400..500).unwrap();
         let card = card.0.lock().unwrap();
-        for block in 200..400 {
+        for (block, (now, waiting)) in told.into_iter().enumerate().skip(200) {
             // When the first sample of the next block passes the converter, in frames since the card was opened.
             let first = sample(0, (block + 1) * BLOCK);
             let left = card.played.iter().position(|frame| frame[0] == first).unwrap() as f64;
-            let (now, waiting) = told[block];
             // Blocks come back in bursts, a chunk's worth at a time, and what the card holds is one to two chunks.
             let (found, grain) = (left - now, (2 * clock().largest() + BLOCK) as f64);
             assert!((waiting - found).abs() <= grain, "{chunks:?}: says {waiting}, waits {found}");
