@@ -10,8 +10,8 @@ use std::sync::{Arc, OnceLock};
 /// What becomes true when somebody wants a command to stop that ends by itself.
 static WISHED: OnceLock<Arc<AtomicBool>> = OnceLock::new();
 
-/// From now on whoever ends this program leaves nothing unfinished behind: what is under construction is taken away, and then the
-/// program ends as the signal would have ended it, so that shells see that (status 128 and its number).
+/// From now on whoever ends this program leaves nothing unfinished behind: what is under construction is taken away, no call of JACK is
+/// cut short, and then the program ends as the signal would have ended it, so that shells see that (status 128 and its number).
 pub fn watch() -> Result<(), CliError> {
     let wishes =
         [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| *signal != SIGHUP || !is_ignored(SIGHUP));
@@ -23,6 +23,7 @@ pub fn watch() -> Result<(), CliError> {
                 continue;
             }
             let _abandoned = unripple_store::abandon_all();
+            unripple_devices::jack::shut();
             let _ = emulate_default_handler(signal);
             std::process::exit(128 + signal);
         }

@@ -182,6 +182,31 @@ fn a_server_that_stands_still_is_left_and_joined_again() {
     }
 }
 
+#[test]
+fn a_server_that_stands_still_is_not_waited_for_by_who_would_join() {
+    let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let Some(server) = Server::start(PERIOD) else {
+        return skip(common::server::NONE);
+    };
+    // The server is there once a bridge is.
+    drop(bridge(&server).unwrap());
+    server.stand_still(true);
+    let (tell, told) = mpsc::channel();
+    let options = options(&server, Links::None);
+    let wanted = options.clone();
+    let joins = thread::spawn(move || tell.send(Jack::open(&wanted).map(drop)));
+    let joined = told.recv_timeout(Duration::from_secs(60));
+    server.stand_still(false);
+    joins.join().unwrap().unwrap();
+    let refused = joined.expect("no word from a server that stands still").unwrap_err().to_string();
+    assert!(refused.contains("no answer within"), "{refused}");
+    // Whoever was too late left again, and the way is free.
+    let start = Instant::now();
+    while let Err(error) = Jack::open(&options) {
+        assert!(start.elapsed() < Duration::from_secs(20), "{error}");
+    }
+}
+
 /// Sleeps for three cycles in every tenth, and counts that; or does nothing.
 struct Sleepy {
     cycles: u64,

@@ -9,16 +9,20 @@
 
 mod api;
 mod closing;
+mod door;
+mod joining;
 
 use super::events::{Events, Side};
 use crate::DevicesError;
 use api::{Api, Arg, LatencyRange, RawClient, RawPort, api};
-use closing::{Closing, door};
+use closing::Closing;
+pub(super) use door::shut;
+use joining::join;
 use std::ffi::{CStr, CString, c_int, c_uint, c_ulong, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr;
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 
 const NO_START_SERVER: c_uint = 0x01;
@@ -151,23 +155,23 @@ impl Client {
     pub(super) fn open(name: &str, server: Option<&str>) -> Result<Self, DevicesError> {
         let api = api()?;
         let (name, server_name) = (text(name)?, text(server.unwrap_or_default())?);
-        let _door = door()?;
-        let mut status = 0;
-        // SAFETY: strings outlive the calls; the variadic argument is the server's name exactly with SERVER_NAME.
-        let raw = unsafe {
-            match server {
-                None => (api.client_open)(name.as_ptr(), NO_START_SERVER, &mut status),
-                Some(_) => (api.client_open)(
-                    name.as_ptr(),
-                    NO_START_SERVER | SERVER_NAME,
-                    &mut status,
-                    server_name.as_ptr(),
-                ),
-            }
-        };
+        let options = NO_START_SERVER | if server.is_some() { SERVER_NAME } else { 0 };
+        let status = Arc::new(AtomicU32::new(0));
+        let told = status.clone();
+        let raw = join(api, move || {
+            let mut status = 0;
+            // SAFETY: strings outlive the calls; the variadic argument is the server's name, read exactly with SERVER_NAME.
+            let raw = unsafe { (api.client_open)(name.as_ptr(), options, &mut status, server_name.as_ptr()) };
+            told.store(status, Ordering::Relaxed);
+            raw
+        })?;
         if raw.is_null() {
             return Err(DevicesError::Jack {
-                what: format!("no server `{}` answers (status {status:#x})", server.unwrap_or("default")),
+                what: format!(
+                    "no server `{}` answers (status {:#x})",
+                    server.unwrap_or("default"),
+                    status.load(Ordering::Relaxed)
+                ),
                 fix: "start one, for example `jackd -d alsa`, or log in to a PipeWire session".into(),
             });
         }

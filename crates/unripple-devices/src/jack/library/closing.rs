@@ -2,41 +2,10 @@
 
 use super::Context;
 use super::api::{Api, RawClient};
-use crate::DevicesError;
+use super::door::{DOOR, PATIENCE};
 use crate::jack::events::Events;
 use std::sync::atomic::Ordering;
-use std::sync::{Arc, Mutex, MutexGuard, TryLockError, mpsc};
-use std::time::{Duration, Instant};
-
-/// How long a client that leaves is waited for, and how long one that joins waits for it: a server at work takes a few cycles.
-const PATIENCE: Duration = Duration::from_secs(1);
-
-/// Opening and closing clients is not for two threads at once.
-static DOOR: Mutex<()> = Mutex::new(());
-
-/// Waits until no client joins or leaves.
-///
-/// # Errors
-/// [`DevicesError::Jack`] while one cannot leave its server: the library would let nobody join any server before.
-pub(super) fn door() -> Result<MutexGuard<'static, ()>, DevicesError> {
-    let start = Instant::now();
-    loop {
-        match DOOR.try_lock() {
-            Ok(door) => return Ok(door),
-            Err(TryLockError::Poisoned(door)) => return Ok(door.into_inner()),
-            Err(TryLockError::WouldBlock) if start.elapsed() < PATIENCE => {
-                std::thread::sleep(Duration::from_millis(1));
-            }
-            Err(TryLockError::WouldBlock) => {
-                return Err(DevicesError::Jack {
-                    what: "a client of this program is still on its way out of a server that stands still"
-                        .into(),
-                    fix: "let that server go on, or end it".into(),
-                });
-            }
-        }
-    }
-}
+use std::sync::{Arc, mpsc};
 
 /// A client that leaves, with all that its callbacks have; it has left once this is dropped.
 pub(super) struct Closing {
