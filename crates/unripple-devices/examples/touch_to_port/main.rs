@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Ok(());
     };
     println!(
-        "from a touch to the first sample at the ports, ms, {} touches each; load average {}",
+        "from a touch, and from its end, to the first sample at the ports, ms, {} touches each; load average {}",
         wanted.touches,
         load()
     );
@@ -97,7 +97,7 @@ fn sitting(jack: &'static Jack, wanted: &Wanted, period: usize) -> Result<(), Bo
     Finger::new(strokes)?.ten(wanted.seconds);
     let busy = 100.0 * (processor(played.0.id(), None) - before) / wanted.seconds;
     let stroked = finish(played)?;
-    let missed = times.each_ref().map(|all| wanted.touches - all.len());
+    let missed = times.each_ref().map(|all| 2 * wanted.touches - all.len());
     row(
         period,
         "play, an independent client",
@@ -121,7 +121,7 @@ fn sitting(jack: &'static Jack, wanted: &Wanted, period: usize) -> Result<(), Bo
     Ok(())
 }
 
-/// Milliseconds from each touch to its answer, of two who are touched in turn.
+/// Milliseconds from each touch and from its end to their answers, of two who are touched in turn.
 fn touches(
     jack: &Jack,
     count: usize,
@@ -131,7 +131,7 @@ fn touches(
     let mut times = [Vec::new(), Vec::new()];
     for _ in 0..count {
         for ((finger, watch), times) in fingers.iter_mut().zip(watches).zip(&mut times) {
-            times.extend(touch(jack, finger, watch)?);
+            times.extend(touch(jack, finger, watch)?.into_iter().flatten());
         }
     }
     Ok(times)
@@ -154,25 +154,33 @@ fn play(
     Ok(played)
 }
 
-/// Milliseconds from a touch to the first sample; nothing if none came.
-fn touch(jack: &Jack, finger: &mut Finger, watch: &Client) -> Result<Option<f64>, Box<dyn Error>> {
+/// Milliseconds from a touch to the first sample, and from its end: the program's own summary counts both, and so does this.
+fn touch(jack: &Jack, finger: &mut Finger, watch: &Client) -> Result<[Option<f64>; 2], Box<dyn Error>> {
+    let place = (10.0 + 130.0 * finger.chance() as f32, 10.0 + 130.0 * finger.chance() as f32);
+    let pressed = answer(jack, finger, watch, |finger| finger.touch(1, place))?;
+    Ok([pressed, answer(jack, finger, watch, |finger| finger.lift(1))?])
+}
+
+/// Milliseconds from what a finger does to the first sample; nothing if none came.
+fn answer(
+    jack: &Jack,
+    finger: &mut Finger,
+    watch: &Client,
+    act: impl Fn(&mut Finger),
+) -> Result<Option<f64>, Box<dyn Error>> {
     let shared = watch.shared;
-    // All that the last touch set off is over.
+    // All that the last one set off is over.
     patiently(|| (shared.silent.load(Relaxed) > 3).then_some(()))?;
-    std::thread::sleep(Duration::from_secs_f64(0.06 + 0.04 * finger.chance()));
+    // At any moment of a cycle: this spans two of the longest.
+    std::thread::sleep(Duration::from_secs_f64(0.06 + 2.0 * 1024.0 / 48e3 * finger.chance()));
     shared.found.store(0, Relaxed);
     shared.armed.store(true, Relaxed);
-    let place = (10.0 + 130.0 * finger.chance() as f32, 10.0 + 130.0 * finger.chance() as f32);
     let sent = jack.now();
-    finger.touch(1, place);
+    act(finger);
     let start = Instant::now();
     while shared.found.load(Relaxed) == 0 && start.elapsed() < Duration::from_secs(1) {
         std::thread::sleep(Duration::from_millis(2));
     }
-    // Lifted at any moment of a cycle, too: the program counts what that sets off as well.
-    std::thread::sleep(Duration::from_secs_f64(0.03 * finger.chance()));
-    finger.lift(1);
-    std::thread::sleep(Duration::from_millis(60));
     let found = shared.found.load(Relaxed);
     Ok((found > 0).then_some(1e-3 * (found as f64 - sent as f64)))
 }
