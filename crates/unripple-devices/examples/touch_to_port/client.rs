@@ -65,6 +65,8 @@ pub struct Shared {
     /// Whether the next sample that is not 0 is to be noted, and when it left, in µs; 0 before.
     pub armed: AtomicBool,
     pub found: AtomicU64,
+    /// When the last sample that was not 0 left, in µs.
+    pub last: AtomicU64,
     /// Cycles in a row without a sound, cycles in all, and late ones.
     pub silent: AtomicU64,
     pub cycles: AtomicU64,
@@ -115,6 +117,7 @@ impl Client {
                 out,
                 armed: AtomicBool::new(false),
                 found: AtomicU64::new(0),
+                last: AtomicU64::new(0),
                 silent: AtomicU64::new(0),
                 cycles: AtomicU64::new(0),
                 late: AtomicU64::new(0),
@@ -172,19 +175,23 @@ unsafe extern "C" fn on_process(frames: u32, arg: Raw) -> c_int {
             }
             return 0;
         }
-        let first = |port: &Raw| {
+        let sounds = |port: &Raw| {
             let heard = std::slice::from_raw_parts((shared.jack.buffer)(*port, frames), frames as usize);
-            heard.iter().position(|x| *x != 0.0)
+            let first = heard.iter().position(|x| *x != 0.0)?;
+            Some((first, heard.iter().rposition(|x| *x != 0.0)?))
         };
-        let Some(first) = shared.ins.iter().filter_map(first).min() else {
+        let sounding = shared.ins.iter().filter_map(sounds).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let Some((first, last)) = sounding else {
             shared.silent.fetch_add(1, Relaxed);
             return 0;
         };
         shared.silent.store(0, Relaxed);
+        let (mut frame, mut began, mut next, mut period) = (0, 0, 0, 0.0);
+        (shared.jack.times)(shared.raw, &mut frame, &mut began, &mut next, &mut period);
+        let at = |sample: usize| began + (1e6 * sample as f64 / shared.rate) as u64;
+        shared.last.store(at(last), Relaxed);
         if shared.armed.swap(false, Relaxed) {
-            let (mut frame, mut began, mut next, mut period) = (0, 0, 0, 0.0);
-            (shared.jack.times)(shared.raw, &mut frame, &mut began, &mut next, &mut period);
-            shared.found.store(began + (1e6 * first as f64 / shared.rate) as u64, Relaxed);
+            shared.found.store(at(first), Relaxed);
         }
         0
     }

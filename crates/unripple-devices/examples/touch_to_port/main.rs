@@ -145,8 +145,8 @@ fn play(
     port: u16,
     watch: &Client,
 ) -> Result<Process, Box<dyn Error>> {
-    let played =
-        program(&wanted.program, name, effect, port).map_err(|e| format!("{}: {e}", wanted.program))?;
+    let played = program(&wanted.program, name, port, &["--effect", effect])
+        .map_err(|e| format!("{}: {e}", wanted.program))?;
     let ports = |i: usize| format!("unripple:out_a{}", i + 1);
     patiently(|| (0..OUTPUTS).all(|i| watch.hear(&ports(i), i)).then_some(()))?;
     // What a start costs is over.

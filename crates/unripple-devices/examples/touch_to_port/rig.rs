@@ -37,10 +37,11 @@ pub fn server(name: &str, period: usize, real_time: bool) -> Option<Process> {
 }
 
 /// The program, playing through a server and hearing touches at a port.
-pub fn program(path: &str, server: &str, effect: &str, port: u16) -> std::io::Result<Process> {
+pub fn program(path: &str, server: &str, port: u16, more: &[&str]) -> std::io::Result<Process> {
     let child = Command::new(path)
         .args(["play", "hudin-2012", "--json", "--device", "jack", "--jack-server", server])
-        .args(["--effect", effect, "--tuio", &port.to_string()])
+        .args(["--tuio", &port.to_string()])
+        .args(more)
         .stdout(Stdio::piped())
         .stderr(Stdio::null())
         .spawn()?;
