@@ -193,5 +193,12 @@ fn every_sitting_ends_in_silence() {
         }
     }
     println!("{:.2} h played in {:.0} s: {day:?}", day.played_s / 3600.0, began.elapsed().as_secs_f64());
+    if day.played_s < wanted {
+        println!(
+            "STOPPED by the time allowed: {:.2} h of {:.2} h were played",
+            day.played_s / 3600.0,
+            wanted / 3600.0
+        );
+    }
     assert!(day.loudest > 0.5 * FILM.emission.limit, "limits were never reached");
 }
