@@ -69,7 +69,11 @@ fn latency(device: &mut Jack) -> usize {
     let sent: Vec<Vec<f64>> = (0..3).map(|seed| noise(seed + 1, samples)).collect();
     let heard = play(device, samples + 20 * PERIOD, |o, i| sent[o].get(i).copied().unwrap_or(0.0));
     let first = f64::from(sent[0][0] as f32);
-    let late = heard[0].iter().position(|x| *x == first).expect("what was sent comes back");
+    let Some(late) = heard[0].iter().position(|x| *x == first) else {
+        let came = heard[0].iter().position(|x| *x != 0.0);
+        let of = came.and_then(|at| sent[0].iter().position(|x| f64::from(*x as f32) == heard[0][at]));
+        panic!("the first that comes back, at {came:?}, is {of:?} of what was sent; {:?}", device.status());
+    };
     for (sent, heard) in sent.iter().zip(&heard) {
         assert!(heard[..late].iter().all(|x| *x == 0.0));
         let same = sent.iter().zip(&heard[late..]).position(|(a, b)| f64::from(*a as f32) != *b);
@@ -207,18 +211,22 @@ fn a_server_that_stands_still_is_not_waited_for_by_who_would_join() {
     }
 }
 
-/// Sleeps for three cycles in every tenth, and counts that; or does nothing.
+/// Sleeps for three cycles in every tenth, or does nothing; counts when it slept, and when the cycle's time was over at its end.
 struct Sleepy {
     cycles: u64,
     sleeps: Option<Arc<AtomicU64>>,
+    over: Arc<AtomicU64>,
 }
 
 impl Work for Sleepy {
     fn cycle(&mut self, cycle: &mut dyn Cycle) {
+        let lasts = Duration::from_secs_f64(cycle.frames() as f64 / 48e3);
         self.cycles += 1;
-        let Some(sleeps) = self.sleeps.as_ref().filter(|_| self.cycles.is_multiple_of(10)) else { return };
-        thread::sleep(Duration::from_secs_f64(3.0 * cycle.frames() as f64 / 48e3));
-        sleeps.fetch_add(1, Ordering::Relaxed);
+        if let Some(sleeps) = self.sleeps.as_ref().filter(|_| self.cycles.is_multiple_of(10)) {
+            thread::sleep(3 * lasts);
+            sleeps.fetch_add(1, Ordering::Relaxed);
+        }
+        self.over.fetch_add(u64::from(cycle.began().elapsed() > lasts), Ordering::Relaxed);
     }
 }
 
@@ -230,24 +238,28 @@ fn who_was_late_is_told_from_who_heard_of_it() {
     };
     // The server is there once a bridge is.
     drop(bridge(&server).unwrap());
-    let sleeps = Arc::new(AtomicU64::new(0));
+    let (sleeps, over) = (Arc::new(AtomicU64::new(0)), Arc::new(AtomicU64::new(0)));
     let mut devices = [Some(sleeps.clone()), None].map(|sleeps| {
         let mut device = Jack::open(&options(&server, Links::None)).unwrap();
-        assert!(device.employ(Box::new(Sleepy { cycles: 0, sleeps })).is_ok());
+        // What the idle one sees is what is wanted last.
+        let over = if sleeps.is_some() { Arc::default() } else { over.clone() };
+        assert!(device.employ(Box::new(Sleepy { cycles: 0, sleeps, over })).is_ok());
         device
     });
     let start = Instant::now();
-    while sleeps.load(Ordering::Relaxed) < 20 && start.elapsed() < Duration::from_secs(60) {
+    while sleeps.load(Ordering::Relaxed) < 40 && start.elapsed() < Duration::from_secs(60) {
         thread::sleep(Duration::from_millis(20));
     }
     let [slow, idle] = devices.each_mut().map(|device| {
         device.dismiss();
         device.status().server.unwrap()
     });
-    let slept = sleeps.load(Ordering::Relaxed);
-    println!("{slept} cycles slept through: {slow:?}, beside it {idle:?}");
-    assert!(slept >= 20 && slow.own_late >= slept, "{slow:?} of {slept}");
-    assert!(idle.own_late < slow.own_late, "{idle:?}, beside {slow:?}");
+    let (slept, over) = (sleeps.load(Ordering::Relaxed), over.load(Ordering::Relaxed));
+    println!("{slept} cycles slept through: {slow:?}, beside it {idle:?}, who saw {over} of its own");
+    assert!(slept >= 40 && slow.own_late >= slept, "{slow:?} of {slept}");
+    // On a busy machine it is late as well, and sees that; what it only hears of is the other's. Now and then time runs out between two looks
+    // at the clock, here and in the device.
+    assert!(idle.own_late <= over + over / 4 + slept / 2, "{idle:?}, beside {slow:?}, of {over}");
 }
 
 /// Falls in its fifth cycle.

@@ -140,10 +140,12 @@ impl Jack {
             inputs: options.inputs.clone(),
             full_scale: scale,
         };
+        let (lead, patience) = (options.lead as u64, Duration::from_secs_f64(options.patience));
+        client.events.settle(patience);
         if options.freewheel {
             client.freewheel()?;
+            client.events.settle(patience);
         }
-        let (lead, patience) = (options.lead as u64, Duration::from_secs_f64(options.patience));
         let frames = Vec::with_capacity(block * (outputs.max(inputs) + 1));
         let server = Server { period: block, priority: client.priority(), ..Server::default() };
         let status = Status { server: Some(server), ..Status::default() };

@@ -1,4 +1,8 @@
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+/// Cycles after which a change holds: one may be under way already, and one begins the change.
+const SETTLED: u64 = 3;
 
 /// What happens to a client, told by atomics.
 #[derive(Debug, Default)]
@@ -26,4 +30,16 @@ pub(super) enum Side {
     Playback,
     /// Those that sound comes from.
     Capture,
+}
+
+impl Events {
+    /// Waits until what was just changed holds in all clients: a server takes up connections at the beginning of a cycle, and a client that
+    /// was late with its last cycle has no part in the first of a server that has begun to freewheel. What is sent before is lost without
+    /// a word. A server that stands still is found out by whoever waits for a block.
+    pub(super) fn settle(&self, patience: Duration) {
+        let (start, cycles) = (Instant::now(), self.cycles.load(Ordering::Acquire));
+        while self.cycles.load(Ordering::Acquire) < cycles + SETTLED && start.elapsed() < patience {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
 }

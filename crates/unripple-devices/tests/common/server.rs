@@ -51,6 +51,20 @@ impl Server {
         let signal = if still { "-STOP" } else { "-CONT" };
         let sent = Command::new("kill").args([signal, &self.child.id().to_string()]).status();
         assert!(sent.is_ok_and(|status| status.success()), "no {signal} for the server");
+        // Threads go on until one of them has been told, which takes its time where others are at work.
+        let start = Instant::now();
+        while still && !self.stands_still() {
+            assert!(start.elapsed() < Duration::from_secs(20), "the server does not stand still");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    /// Whether the kernel says so of all its threads.
+    fn stands_still(&self) -> bool {
+        let tasks =
+            std::fs::read_dir(format!("/proc/{}/task", self.child.id())).into_iter().flatten().flatten();
+        let states = tasks.filter_map(|task| std::fs::read_to_string(task.path().join("stat")).ok());
+        states.map(|stat| stat.rsplit_once(") ").is_some_and(|(_, rest)| rest.starts_with('T'))).all(|is| is)
     }
 
     /// Asks the server to end, and waits until it has.
