@@ -63,8 +63,8 @@ impl Server {
     fn stands_still(&self) -> bool {
         let tasks =
             std::fs::read_dir(format!("/proc/{}/task", self.child.id())).into_iter().flatten().flatten();
-        let states = tasks.filter_map(|task| std::fs::read_to_string(task.path().join("stat")).ok());
-        states.map(|stat| stat.rsplit_once(") ").is_some_and(|(_, rest)| rest.starts_with('T'))).all(|is| is)
+        let mut states = tasks.filter_map(|task| std::fs::read_to_string(task.path().join("stat")).ok());
+        states.all(|stat| stat.rsplit_once(") ").is_some_and(|(_, rest)| rest.starts_with('T')))
     }
 
     /// Asks the server to end, and waits until it has.
