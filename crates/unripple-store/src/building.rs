@@ -156,7 +156,7 @@ fn bury(folder: &Path, place: &Path) -> io::Result<()> {
         return Ok(());
     }
     match listing::read(folder)? {
-        Said::Unfinished => fs::remove_dir_all(folder),
+        Said::Unfinished => listing::remove_unfinished(folder),
         // If it is empty: whoever was killed had just made it, or had removed all else.
         Said::Nothing => fs::remove_dir(folder),
         // An earlier run's that was replaced, unless nothing came in its place, or somebody put something into it.

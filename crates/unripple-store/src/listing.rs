@@ -138,3 +138,22 @@ pub(crate) fn remove(folder: &Path) -> io::Result<()> {
     }
     gone(fs::remove_dir(folder))
 }
+
+/// Removes an unfinished folder with all that is in it, and what it says of itself last: whoever is killed meanwhile leaves a folder of
+/// which the next run still knows whose it is.
+pub(crate) fn remove_unfinished(folder: &Path) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        if entry.file_name() == MARKER {
+            continue;
+        }
+        match entry.file_type()?.is_dir() {
+            true => fs::remove_dir_all(entry.path())?,
+            false => fs::remove_file(entry.path())?,
+        }
+    }
+    match fs::remove_file(folder.join(MARKER)) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
+        _ => fs::remove_dir(folder),
+    }
+}

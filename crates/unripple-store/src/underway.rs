@@ -44,7 +44,7 @@ impl Entry {
         let _ = match std::mem::replace(&mut self.what, What::Nothing) {
             What::Nothing => Ok(()),
             What::File(path) => fs::remove_file(path),
-            What::Folder(path) => fs::remove_dir_all(path),
+            What::Folder(path) => listing::remove_unfinished(&path),
             What::Listed(path) => listing::remove(&path),
         };
         for parent in &self.parents {
