@@ -1,6 +1,6 @@
 //! A library of JACK that keeps a lock while a client joins, as JACK 2 does for all programs of a user.
 //!
-//! The stand-in is C, compiled here: with the real one the same happens once in some dozens of tries, and then no JACK program starts any
+//! The stand-in is C, compiled here: with the real one the same happens once in some hundred tries, and then no JACK program starts any
 //! more. Needs `cc`, which Rust needs too.
 #![cfg(target_os = "linux")]
 

@@ -10,8 +10,7 @@ mod client;
 mod rig;
 
 use client::{Client, Jack, Role};
-use rig::{Finger, Process, free_port, program, server};
-use serde_json::Value;
+use rig::{Finger, Process, free_port, patiently, program, server};
 use std::error::Error;
 use std::process::Command;
 use std::sync::atomic::Ordering::Relaxed;
@@ -21,8 +20,7 @@ const OUTPUTS: usize = 8;
 const FINGERS: i32 = 8;
 const RATE: f64 = 48e3;
 
-/// How long to wait for anything, and how long to listen after the last finger has gone.
-const PATIENCE: Duration = Duration::from_secs(20);
+/// How long to listen after the last finger has gone.
 const LISTENED: Duration = Duration::from_secs(4);
 
 /// What is done to the server while fingers move.
@@ -128,7 +126,7 @@ fn sit(jack: &'static Jack, path: &str, sitting: &Sitting) -> Result<bool, Box<d
     std::thread::sleep(LISTENED);
     let last = watch.shared.last.load(Relaxed);
     let period = period_of(sitting);
-    let summary = finish(&mut played)?;
+    let summary = played.finish()?;
     drop(watch);
     let window = summary["window_s"].as_f64().ok_or("no window in the summary")?;
     let after = (last as f64 - gone as f64) * 1e-6;
@@ -146,7 +144,7 @@ fn sit(jack: &'static Jack, path: &str, sitting: &Sitting) -> Result<bool, Box<d
     Ok(heard && after <= allowed)
 }
 
-/// The longest period at the end of a sitting.
+/// The period at the end of a sitting.
 fn period_of(sitting: &Sitting) -> usize {
     match sitting.mishap {
         Mishap::Periods(all) => all.last().copied().unwrap_or(sitting.period),
@@ -202,25 +200,4 @@ fn stroke(
         server.signal("-CONT");
     }
     Ok(jack.now())
-}
-
-/// Ends the program as a user would, and reads its summary.
-fn finish(played: &mut Process) -> Result<Value, Box<dyn Error>> {
-    played.signal("-INT");
-    let mut text = String::new();
-    if let Some(mut out) = played.0.stdout.take() {
-        std::io::Read::read_to_string(&mut out, &mut text)?;
-    }
-    Ok(serde_json::from_str(&text)?)
-}
-
-fn patiently<T>(mut try_it: impl FnMut() -> Option<T>) -> Result<T, Box<dyn Error>> {
-    let start = Instant::now();
-    loop {
-        match try_it() {
-            Some(found) => return Ok(found),
-            None if start.elapsed() > PATIENCE => return Err("it does not come".into()),
-            None => std::thread::sleep(Duration::from_millis(20)),
-        }
-    }
 }

@@ -6,7 +6,7 @@ mod client;
 mod rig;
 
 use client::{Client, Jack, Role};
-use rig::{Finger, Process, free_port, processor, program, server};
+use rig::{Finger, Process, free_port, patiently, processor, program, server};
 use serde_json::Value;
 use std::error::Error;
 use std::net::UdpSocket;
@@ -15,9 +15,6 @@ use std::time::{Duration, Instant};
 
 const OUTPUTS: usize = 8;
 const PERIODS: [usize; 3] = [64, 256, 1024];
-
-/// How long to wait for anything.
-const PATIENCE: Duration = Duration::from_secs(20);
 
 struct Wanted {
     program: String,
@@ -80,7 +77,7 @@ fn sitting(jack: &'static Jack, wanted: &Wanted, period: usize) -> Result<(), Bo
         return Err("the empty client cannot be connected".into());
     }
     let port = free_port()?;
-    let played = play(wanted, &name, "click-button", port, &ours)?;
+    let mut played = play(wanted, &name, "click-button", port, &ours)?;
     let thread = Some(empty.shared.thread.load(Relaxed));
     let before = [processor(played.0.id(), None), processor(std::process::id(), thread)];
     std::thread::sleep(Duration::from_secs_f64(wanted.seconds));
@@ -90,13 +87,13 @@ fn sitting(jack: &'static Jack, wanted: &Wanted, period: usize) -> Result<(), Bo
     let fingers = [Finger::new(port)?, Finger::new(empty_port)?];
     let times = touches(jack, wanted.touches, fingers, [&ours, &theirs])?;
     let late = ours.shared.late.load(Relaxed) - late;
-    let summary = finish(played)?;
+    let summary = played.finish()?;
     let strokes = free_port()?;
-    let played = play(wanted, &name, "sandpaper", strokes, &ours)?;
+    let mut played = play(wanted, &name, "sandpaper", strokes, &ours)?;
     let before = processor(played.0.id(), None);
     Finger::new(strokes)?.ten(wanted.seconds);
     let busy = 100.0 * (processor(played.0.id(), None) - before) / wanted.seconds;
-    let stroked = finish(played)?;
+    let stroked = played.finish()?;
     let missed = times.each_ref().map(|all| 2 * wanted.touches - all.len());
     row(
         period,
@@ -183,27 +180,6 @@ fn answer(
     }
     let found = shared.found.load(Relaxed);
     Ok((found > 0).then_some(1e-3 * (found as f64 - sent as f64)))
-}
-
-/// Ends the program as a user would, and reads its summary.
-fn finish(mut played: Process) -> Result<Value, Box<dyn Error>> {
-    played.signal("-INT");
-    let mut text = String::new();
-    if let Some(mut out) = played.0.stdout.take() {
-        std::io::Read::read_to_string(&mut out, &mut text)?;
-    }
-    Ok(serde_json::from_str(&text)?)
-}
-
-fn patiently<T>(mut try_it: impl FnMut() -> Option<T>) -> Result<T, Box<dyn Error>> {
-    let start = Instant::now();
-    loop {
-        match try_it() {
-            Some(found) => return Ok(found),
-            None if start.elapsed() > PATIENCE => return Err("it does not come".into()),
-            None => std::thread::sleep(Duration::from_millis(20)),
-        }
-    }
 }
 
 fn measured(times: &[f64]) -> [f64; 4] {

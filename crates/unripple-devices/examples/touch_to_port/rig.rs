@@ -1,8 +1,14 @@
 //! A server of our own, the program on it, and what the kernel says of their work.
 
+use serde_json::Value;
+use std::error::Error;
+use std::io::Read;
 use std::net::UdpSocket;
 use std::process::{Child, Command, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
+
+/// How long to wait for anything.
+const PATIENCE: Duration = Duration::from_secs(20);
 
 /// A process that is asked to end when this goes.
 pub struct Process(pub Child);
@@ -11,6 +17,28 @@ impl Process {
     /// Sends a signal by its name.
     pub fn signal(&self, name: &str) {
         let _ = Command::new("kill").args([name, &self.0.id().to_string()]).status();
+    }
+
+    /// Ends the program as a user would, and reads its summary.
+    pub fn finish(&mut self) -> Result<Value, Box<dyn Error>> {
+        self.signal("-INT");
+        let mut text = String::new();
+        if let Some(mut out) = self.0.stdout.take() {
+            out.read_to_string(&mut text)?;
+        }
+        Ok(serde_json::from_str(&text)?)
+    }
+}
+
+/// Tries until something comes.
+pub fn patiently<T>(mut try_it: impl FnMut() -> Option<T>) -> Result<T, Box<dyn Error>> {
+    let start = Instant::now();
+    loop {
+        match try_it() {
+            Some(found) => return Ok(found),
+            None if start.elapsed() > PATIENCE => return Err("it does not come".into()),
+            None => std::thread::sleep(Duration::from_millis(20)),
+        }
     }
 }
 
