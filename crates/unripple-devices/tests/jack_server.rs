@@ -293,6 +293,40 @@ fn a_client_that_the_server_calls_no_more_is_lost() {
     assert!(device.dismiss().is_some());
 }
 
+/// JACK 2 deletes all clients of a program when one joins after a server was gone; who leaves with one of them later crashes.
+#[test]
+fn nobody_joins_before_the_clients_of_a_server_that_is_gone_have_left() {
+    let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let Some(mut server) = Server::start(PERIOD) else {
+        return skip(common::server::NONE);
+    };
+    let first = bridge(&server).unwrap();
+    let device = Jack::open(&options(&server, Links::Client("loop".into()))).unwrap();
+    server.stop();
+    let start = Instant::now();
+    while !matches!(device.status().state, State::Lost(_)) {
+        assert!(start.elapsed() < Duration::from_secs(20), "{:?}", device.status());
+        thread::sleep(Duration::from_millis(1));
+    }
+    drop(first);
+    let again = Server::named(&server.name, PERIOD).unwrap();
+    let refused = loop {
+        let layout = Layout { block: PERIOD, ..device.layout().clone() };
+        match Bridge::start(Box::new(Loop(layout)), "loop", Some(&again.name)) {
+            Err(why) if why.to_string().contains("answers") && start.elapsed() < Duration::from_secs(20) => {
+                thread::sleep(Duration::from_millis(50));
+            }
+            other => break other.map(drop).unwrap_err().to_string(),
+        }
+    };
+    assert!(refused.contains("has not left"), "{refused}");
+    drop(device);
+
+    let _loop = bridge(&again).unwrap();
+    let mut device = Jack::open(&options(&again, Links::Client("loop".into()))).unwrap();
+    latency(&mut device);
+}
+
 #[test]
 fn no_server_is_an_error_that_says_what_to_do() {
     let options = JackOptions { server: Some("unripple-none".into()), ..Default::default() };

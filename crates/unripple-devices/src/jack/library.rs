@@ -11,6 +11,7 @@ mod api;
 mod closing;
 mod door;
 mod joining;
+mod roll;
 
 use super::events::{Events, Side};
 use crate::DevicesError;
@@ -175,16 +176,10 @@ impl Client {
                 fix: "start one, for example `jackd -d alsa`, or log in to a PipeWire session".into(),
             });
         }
-        let (inputs, outputs) = (Vec::new(), Vec::new());
-        Ok(Self {
-            api,
-            raw,
-            inputs,
-            outputs,
-            context: ptr::null_mut(),
-            freewheels: false,
-            events: Arc::default(),
-        })
+        let (inputs, outputs, events) = (Vec::new(), Vec::new(), Arc::<Events>::default());
+        // SAFETY: the events are shared until the client is closed, by this or by who closes it.
+        unsafe { (api.on_shutdown)(raw, on_shutdown, Arc::as_ptr(&events).cast_mut().cast()) };
+        Ok(Self { api, raw, inputs, outputs, context: ptr::null_mut(), freewheels: false, events })
     }
 
     /// Its name, as the server gave it.
@@ -254,7 +249,6 @@ impl Client {
         let arg = self.context.cast::<c_void>();
         // SAFETY: the context is freed only after the client is closed.
         let failed = unsafe {
-            (self.api.on_shutdown)(self.raw, on_shutdown, arg);
             let set = [
                 (self.api.set_process_callback)(self.raw, on_process, arg),
                 (self.api.set_xrun_callback)(self.raw, on_xrun, arg),
@@ -393,6 +387,7 @@ unsafe extern "C" fn on_freewheel(starting: c_int, arg: Arg) {
 }
 
 unsafe extern "C" fn on_shutdown(arg: Arg) {
-    // SAFETY: see `events`.
-    unsafe { events(arg) }.gone.store(true, Ordering::Release);
+    roll::server_gone();
+    // SAFETY: the events are shared until the client is closed, and are atomics.
+    unsafe { &*arg.cast::<Events>() }.gone.store(true, Ordering::Release);
 }

@@ -3,6 +3,7 @@
 use super::Context;
 use super::api::{Api, RawClient};
 use super::door::{DOOR, PATIENCE};
+use super::roll;
 use crate::jack::events::Events;
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, mpsc};
@@ -41,6 +42,11 @@ impl Closing {
 impl Drop for Closing {
     fn drop(&mut self) {
         let _door = DOOR.lock();
+        if !roll::leave(self.raw) {
+            // The library may have deleted it, or may not; its callbacks keep what they have.
+            std::mem::forget(self.events.clone());
+            return;
+        }
         // SAFETY: nobody else has the client, which is open; closing ends the callbacks, and after it nobody has the context.
         unsafe {
             if self.freewheels && !self.events.gone.load(Ordering::Acquire) {

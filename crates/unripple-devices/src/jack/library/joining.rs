@@ -2,10 +2,11 @@
 //! returns.
 
 use super::api::{Api, RawClient};
-use super::door::{DOOR, door};
+use super::door::{DOOR, PATIENCE, door};
+use super::roll;
 use crate::DevicesError;
 use std::sync::mpsc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How long the library is waited for to join: a server at work answers within some cycles, one on a loaded machine within a second.
 const JOINING: Duration = Duration::from_secs(5);
@@ -24,7 +25,7 @@ impl Opened {
 
 impl Drop for Opened {
     fn drop(&mut self) {
-        if !self.1.is_null() {
+        if !self.1.is_null() && roll::leave(self.1) {
             // SAFETY: nobody else has the client, which is open.
             unsafe { (self.0.client_close)(self.1) };
         }
@@ -34,31 +35,50 @@ impl Drop for Opened {
 /// Joins a server by a call of the library, which gives a null pointer where none answers.
 ///
 /// # Errors
-/// [`DevicesError::Jack`] if the call does not return, or while another client joins or leaves.
+/// [`DevicesError::Jack`] if the call does not return, while another client joins or leaves, or while one has not left a server that is
+/// gone.
 pub(super) fn join(
     api: &'static Api,
     open: impl FnOnce() -> *mut RawClient + Send + 'static,
 ) -> Result<*mut RawClient, DevicesError> {
+    let start = Instant::now();
+    while roll::in_danger() && start.elapsed() < PATIENCE {
+        std::thread::sleep(Duration::from_millis(1));
+    }
     drop(door()?);
     let (tell, told) = mpsc::channel();
     let call = move || {
         let _door = DOOR.lock();
+        let opened = (!roll::in_danger()).then(|| {
+            let raw = open();
+            if !raw.is_null() {
+                roll::enter(raw);
+            }
+            Opened(api, raw)
+        });
         // Nobody there any more drops it, and so closes it.
-        let _ = tell.send(Opened(api, open()));
+        let _ = tell.send(opened);
     };
     let spawned = std::thread::Builder::new().name("join".into()).spawn(call);
     spawned.map_err(|error| DevicesError::Jack {
         what: format!("no thread to join a server with ({error})"),
         fix: "end other programs".into(),
     })?;
-    told.recv_timeout(JOINING).map(Opened::take).map_err(|_| DevicesError::Jack {
-        what: format!("no answer within {} s", JOINING.as_secs()),
-        fix: format!(
-            "let a server that stands still go on, or end it; if there is none, a program was killed while it held JACK's lock: end all \
-             JACK programs and remove {}",
-            database()
-        ),
-    })
+    match told.recv_timeout(JOINING) {
+        Ok(Some(opened)) => Ok(opened.take()),
+        Ok(None) => Err(DevicesError::Jack {
+            what: "a client of this program has not left yet since a server was gone".into(),
+            fix: "let go of it first".into(),
+        }),
+        Err(_) => Err(DevicesError::Jack {
+            what: format!("no answer within {} s", JOINING.as_secs()),
+            fix: format!(
+                "let a server that stands still go on, or end it; if there is none, a program was killed while it held JACK's lock: end \
+                 all JACK programs and remove {}",
+                database()
+            ),
+        }),
+    }
 }
 
 /// Where JACK 2 keeps the database that its programs share.
