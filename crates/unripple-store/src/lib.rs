@@ -41,6 +41,7 @@ mod svg;
 mod swap;
 mod underway;
 mod wav;
+mod wide;
 
 pub use builtin::{BUILTINS, Builtin};
 pub use effects::{

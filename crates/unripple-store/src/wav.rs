@@ -1,5 +1,6 @@
 use crate::StoreError;
 use crate::file::write_beside;
+use crate::wide::{self, Format};
 use hound::{SampleFormat, WavReader, WavSpec, WavWriter};
 use std::fs::File;
 use std::io::{BufReader, BufWriter, Cursor, ErrorKind, Read, Seek, Write};
@@ -112,7 +113,7 @@ pub(crate) fn into_io(error: hound::Error) -> std::io::Error {
     }
 }
 
-/// Reads a WAV file of integers of 8 to 32 bits or float32.
+/// Reads a WAV file of integers of 8 to 32 bits, float32 or float64.
 ///
 /// # Errors
 /// [`StoreError::Content`] if it is empty, not a WAV, cut short, or holds a sample that is not finite;
@@ -140,21 +141,18 @@ pub fn decode_wav(mut reader: impl Read, name: &str) -> Result<Wav, StoreError> 
         }
         read => read.map_err(StoreError::read(Path::new(name)))?,
     }
-    let reader = WavReader::new((&first[..]).chain(reader)).map_err(|error| refuse(name, error, 0))?;
-    let spec = reader.spec();
-    if spec.sample_rate == 0 {
-        return Err(StoreError::content(name, "a positive sample rate", "0 Hz"));
-    }
-    let count = usize::from(spec.channels);
-    let mut channels = vec![Vec::new(); count];
-    let mut keep = |i: usize, sample: f64| {
-        channels[i % count].push(sample);
-        if sample.is_finite() {
-            return Ok(());
+    let reader = match wide::format((&first[..]).chain(reader)).map_err(StoreError::read(Path::new(name)))? {
+        Format::Other(whole) => whole,
+        Format::Float64 { rate, channels, rest } => {
+            let mut wav = Filling::new(rate, channels, name)?;
+            wide::samples(BufReader::new(rest), name, |i, sample| wav.keep(i, sample))?;
+            return wav.whole(name);
         }
-        let found = format!("{sample} at sample {} of channel {}", i / count, i % count);
-        Err(StoreError::content(name, "finite samples", found))
     };
+    let reader = WavReader::new(reader).map_err(|error| refuse(name, error, 0))?;
+    let spec = reader.spec();
+    let mut wav = Filling::new(spec.sample_rate, spec.channels, name)?;
+    let mut keep = |i: usize, sample: f64| wav.keep(i, sample);
     match spec.sample_format {
         SampleFormat::Float => {
             for (i, sample) in reader.into_samples::<f32>().enumerate() {
@@ -168,7 +166,47 @@ pub fn decode_wav(mut reader: impl Read, name: &str) -> Result<Wav, StoreError> 
             }
         }
     }
-    Ok(Wav { rate: f64::from(spec.sample_rate), channels })
+    wav.whole(name)
+}
+
+/// Channels that are being read, sample after sample of each in turn.
+struct Filling<'a> {
+    wav: Wav,
+    name: &'a str,
+}
+
+impl<'a> Filling<'a> {
+    fn new(rate: u32, channels: u16, name: &'a str) -> Result<Self, StoreError> {
+        if rate == 0 {
+            return Err(StoreError::content(name, "a positive sample rate", "0 Hz"));
+        }
+        if channels == 0 {
+            return Err(StoreError::content(name, "1 channel or more", "none"));
+        }
+        let channels = vec![Vec::new(); usize::from(channels)];
+        Ok(Self { wav: Wav { rate: f64::from(rate), channels }, name })
+    }
+
+    /// The sample number `i` of all channels together. In messages channels count from 1, as sockets do.
+    fn keep(&mut self, i: usize, sample: f64) -> Result<(), StoreError> {
+        let count = self.wav.channels.len();
+        self.wav.channels[i % count].push(sample);
+        if sample.is_finite() {
+            return Ok(());
+        }
+        let found = format!("{sample} at sample {} of channel {}", i / count, i % count + 1);
+        Err(StoreError::content(self.name, "finite samples", found))
+    }
+
+    /// All of it; a last instant that not all channels have is a file cut short.
+    fn whole(self, name: &str) -> Result<Wav, StoreError> {
+        let length = self.wav.channels.first().map_or(0, Vec::len);
+        if self.wav.channels.iter().any(|channel| channel.len() != length) {
+            let found = format!("one that ends within sample {length}");
+            return Err(StoreError::content(name, "channels of one length", found));
+        }
+        Ok(self.wav)
+    }
 }
 
 /// A reader's error as ours: what the bytes say is the file's fault, the rest the system's.
@@ -183,5 +221,5 @@ fn refuse(name: &str, error: hound::Error, samples: usize) -> StoreError {
         hound::Error::FormatError(message) => message.into(),
         other => other.to_string(),
     };
-    StoreError::content(name, "a WAV file of integers or float32", found)
+    StoreError::content(name, "a WAV file of integers, float32 or float64", found)
 }

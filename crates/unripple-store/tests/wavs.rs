@@ -39,6 +39,48 @@ fn integers(bits: u16, samples: &[i32]) -> Vec<u8> {
     bytes
 }
 
+/// A WAV of two channels of float64, its format plain or one that says its own further on, with a chunk before the samples.
+fn doubles(extensible: bool, samples: &[f64]) -> Vec<u8> {
+    let mut format = if extensible { 0xfffe_u16 } else { 3 }.to_le_bytes().to_vec();
+    format.extend(2_u16.to_le_bytes());
+    format.extend(96_000_u32.to_le_bytes());
+    format.extend((96_000_u32 * 16).to_le_bytes());
+    format.extend(16_u16.to_le_bytes());
+    format.extend(64_u16.to_le_bytes());
+    if extensible {
+        format.extend(22_u16.to_le_bytes());
+        format.extend(64_u16.to_le_bytes());
+        format.extend([0; 4]);
+        format.extend(3_u16.to_le_bytes());
+        format.extend([0; 14]);
+    }
+    let data: Vec<u8> = samples.iter().flat_map(|s| s.to_le_bytes()).collect();
+    let mut bytes = b"RIFF\0\0\0\0WAVE".to_vec();
+    for (name, chunk) in
+        [(b"LIST", b"odd".to_vec()), (b"fmt ", format), (b"fact", vec![0; 4]), (b"data", data)]
+    {
+        bytes.extend(name);
+        bytes.extend((chunk.len() as u32).to_le_bytes());
+        bytes.extend(&chunk);
+        bytes.extend(vec![0; chunk.len() % 2]);
+    }
+    bytes
+}
+
+#[test]
+fn float64_comes_as_it_is() {
+    for extensible in [false, true] {
+        let wav = decode_wav(Cursor::new(doubles(extensible, &[0.1, -2.5, 1e-300, 4.0])), "d.wav").unwrap();
+        assert_eq!(wav, Wav { rate: 96e3, channels: vec![vec![0.1, 1e-300], vec![-2.5, 4.0]] });
+        let whole = doubles(extensible, &[0.0, 0.0, 0.0, f64::NAN]);
+        assert_eq!(refusal(&whole), "d.wav: expected finite samples, found NaN at sample 1 of channel 2");
+        let cut = &doubles(extensible, &[0.0; 4])[..whole.len() - 3];
+        assert!(refusal(cut).ends_with("found a file that ends after 3 samples"), "{}", refusal(cut));
+        let odd = refusal(&doubles(extensible, &[0.0; 3]));
+        assert!(odd.contains("channels of one length"), "{odd}");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(32))]
     #[test]
@@ -58,6 +100,12 @@ proptest! {
     fn bytes_never_panic(bytes in proptest::collection::vec(any::<u8>(), 0..400), cut in 0_usize..200) {
         let _ = decode_wav(&bytes[..], "d.wav");
         let mut wav = integers(16, &[1, 2, 3, 4]);
+        for (i, byte) in bytes.iter().take(8).enumerate() {
+            let at = (usize::from(*byte) + i * cut) % wav.len();
+            wav[at] = wav[at].wrapping_add(*byte);
+        }
+        let _ = decode_wav(&wav[..], "d.wav");
+        let mut wav = doubles(cut % 2 == 0, &[1.0, 2.0]);
         for (i, byte) in bytes.iter().take(8).enumerate() {
             let at = (usize::from(*byte) + i * cut) % wav.len();
             wav[at] = wav[at].wrapping_add(*byte);
@@ -85,12 +133,12 @@ fn what_is_no_wav() {
     assert_eq!(refusal(b""), "d.wav: expected a WAV file, found an empty file");
     assert_eq!(
         refusal(b"format = 1\n"),
-        "d.wav: expected a WAV file of integers or float32, found no RIFF tag found"
+        "d.wav: expected a WAV file of integers, float32 or float64, found no RIFF tag found"
     );
     let whole = integers(16, &[1, 2, 3, 4]);
     assert_eq!(
         refusal(&whole[..whole.len() - 3]),
-        "d.wav: expected a WAV file of integers or float32, found a file that ends after 2 samples"
+        "d.wav: expected a WAV file of integers, float32 or float64, found a file that ends after 2 samples"
     );
     assert!(matches!(read_wav(scratch("absent.wav")), Err(StoreError::Read { .. })));
 }
@@ -103,7 +151,7 @@ fn samples_that_are_no_numbers() {
     std::fs::remove_file(&path).unwrap();
     let at = bytes.len() - 8;
     bytes[at..at + 4].copy_from_slice(&f32::NAN.to_le_bytes());
-    assert_eq!(refusal(&bytes), "d.wav: expected finite samples, found NaN at sample 1 of channel 0");
+    assert_eq!(refusal(&bytes), "d.wav: expected finite samples, found NaN at sample 1 of channel 1");
 }
 
 #[test]
