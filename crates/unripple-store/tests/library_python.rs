@@ -12,7 +12,8 @@ use skip::skip;
 use std::process::Command;
 
 const SCRIPT: &str = r#"
-import sys, numpy, xarray, zarr
+import sys, warnings, numpy, xarray, zarr
+warnings.simplefilter("error", UserWarning)
 group = zarr.open_group(sys.argv[1], mode="r")
 responses, state = group["responses"], group["state"]
 assert responses.shape == (300, 2, 9) and responses.chunks == (1, 2, 9), responses
@@ -25,6 +26,8 @@ assert numpy.allclose(group["position"][:, 0], 1e-4 * numpy.arange(300))
 assert group["quality"][7, 1, 3] == 0.07 and numpy.isnan(group["reciprocity_error"][()])
 about = group.attrs["unripple_library"]
 assert about["sample_rate_hz"] == 48000 and [a["name"] for a in about["actuators"]] == ["a1", "a2"]
+assert sorted(name for name, _ in group.arrays()) == ["position", "quality", "reciprocity_error", "responses", "state"]
+assert group["calibration"].attrs["unripple_calibration"]["log"]["latency"] == 3.5
 opened = xarray.open_zarr(sys.argv[1], consolidated=False)
 assert opened.responses.dims == ("point", "actuator", "sample") and opened.sizes["point"] == 300
 assert float(opened.responses[5, 1, 2]) == responses[5, 1, 2]
@@ -41,7 +44,9 @@ fn python_opens_it() {
         }
     };
     let folder = Folder::new("python");
-    drop(filled(&folder.0, &plan(300, 2, 9)));
+    let mut library = filled(&folder.0, &plan(300, 2, 9));
+    library.log("latency", 3.5.into()).unwrap();
+    drop(library);
     let output = Command::new(python).args(["-c", SCRIPT]).arg(&folder.0).output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout);
     assert!(said.contains("opened"), "{said}{}", String::from_utf8_lossy(&output.stderr));

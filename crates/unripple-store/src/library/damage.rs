@@ -1,4 +1,4 @@
-use super::{Library, PointState, manifest};
+use super::{Library, PointState, manifest, record};
 use crate::StoreError;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -44,6 +44,7 @@ impl Library {
             }
         };
         note(manifest::read(&self.root).map(drop), manifest::path(&self.root), None);
+        note(record::read(&self.root).map(drop), record::path(&self.root), None);
         let arrays = &self.arrays;
         for array in arrays.all() {
             note(array.check(&self.root), manifest::path(&array.folder(&self.root)), None);
@@ -74,6 +75,10 @@ impl Library {
         let damage = self.verify();
         for point in damage.iter().filter_map(|damage| damage.point) {
             self.states[point] = PointState::Missing;
+        }
+        if record::read(&self.root).is_err() {
+            // The doubt that it leaves is written down.
+            self.write_record(self.record.clone())?;
         }
         let arrays = &self.arrays;
         let unknown = f64::NAN.to_le_bytes();

@@ -135,7 +135,7 @@ pub(crate) fn json(file: &Path) -> Result<Value, StoreError> {
 }
 
 /// Of the text without its spaces and line breaks, so that other tools may write it anew.
-fn checksum(value: &Value) -> String {
+pub(crate) fn checksum(value: &Value) -> String {
     format!("{:08x}", crc32c::crc32c(value.to_string().as_bytes()))
 }
 

@@ -4,11 +4,13 @@ mod array;
 mod damage;
 mod disk;
 mod gather;
+mod grow;
 mod manifest;
 mod outline;
 mod plan;
 mod put;
 mod quality;
+mod record;
 mod state;
 mod wav;
 
@@ -26,6 +28,7 @@ pub use damage::Damage;
 pub use plan::{LibraryPlan, MAY_DIFFER};
 pub use put::Take;
 pub use quality::Quality;
+pub use record::Doubt;
 pub use state::PointState;
 
 /// The file that a process holds a lock on while it writes; within an array, where readers of Zarr do not wonder at it.
@@ -40,6 +43,9 @@ const LOCK: &str = "state/.lock";
 /// A point counts as finished once its chunk is on the medium and its state says so, in that order, each file put in place
 /// by renaming: whoever is killed, and whenever, loses no finished point, and others may read meanwhile. Only one process
 /// writes at a time.
+///
+/// Beside them is a record of how it was measured, in a Zarr group `calibration`: a log, and why it is not to be trusted if it is not
+/// ([`Library::doubts`]).
 ///
 /// ```
 /// use unripple_core::{Conditions, Outline, Point, Port, Shape};
@@ -68,6 +74,7 @@ pub struct Library {
     arrays: Arrays,
     states: Vec<PointState>,
     damaged: Vec<Damage>,
+    record: record::Record,
     lock: Option<File>,
 }
 
@@ -138,7 +145,15 @@ impl Library {
         let coordinates: Vec<f64> = array::floats(&bytes).collect();
         plan.points = coordinates.as_chunks::<2>().0.iter().map(|[x, y]| Point::new(*x, *y)).collect();
         plan.check(&arrays.position.chunk(&root, 0).display().to_string())?;
-        let mut library = Self { root, plan, arrays, states: Vec::new(), damaged: Vec::new(), lock: None };
+        let mut library = Self {
+            root,
+            plan,
+            arrays,
+            states: Vec::new(),
+            damaged: Vec::new(),
+            record: record::Record::default(),
+            lock: None,
+        };
         library.refresh();
         Ok(library)
     }
@@ -151,6 +166,7 @@ impl Library {
     /// Looks again which points are finished, for a reader while another process writes.
     pub fn refresh(&mut self) {
         (self.states, self.damaged) = self.read_states();
+        self.record = record::read_or_doubt(&self.root);
     }
 
     /// What it was made to hold.

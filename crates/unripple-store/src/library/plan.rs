@@ -106,7 +106,7 @@ impl LibraryPlan {
     }
 
     /// What another plan has otherwise, in words; `None` if it is the same but for [`MAY_DIFFER`].
-    pub(crate) fn difference(&self, found: &Self) -> Option<String> {
+    pub fn difference(&self, found: &Self) -> Option<String> {
         let told = |what: &str, here: String, there: String| {
             (here != there).then(|| format!("{what}: {there} instead of {here}"))
         };
@@ -117,7 +117,7 @@ impl LibraryPlan {
             .or_else(|| {
                 let mut pairs = self.points.iter().zip(&found.points).enumerate();
                 let (i, (here, there)) = pairs.find(|(_, (here, there))| here != there)?;
-                told(&format!("point {i}"), format!("{here:?}"), format!("{there:?}"))
+                told(&format!("point {}", i + 1), format!("{here:?}"), format!("{there:?}"))
             })
             .or_else(|| told("samples", self.samples.to_string(), found.samples.to_string()))
             .or_else(|| told("sample rate in Hz", a.rate.to_string(), b.rate.to_string()))
@@ -144,7 +144,7 @@ fn ports(here: &LibraryPlan, there: &LibraryPlan) -> Option<String> {
     };
     let mut pairs = (0..here.ports.len()).map(|i| (i, told(here, i), told(there, i)));
     let (i, a, b) = pairs.find(|(_, a, b)| a != b)?;
-    Some(format!("actuator {i}: {b} instead of {a}"))
+    Some(format!("actuator {}: {b} instead of {a}", i + 1))
 }
 
 fn provenance(here: &BTreeMap<String, String>, there: &BTreeMap<String, String>) -> Option<String> {

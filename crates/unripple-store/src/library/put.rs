@@ -62,6 +62,26 @@ impl Library {
         written
     }
 
+    /// Makes points missing again, so that they are measured anew; what the log says of them goes.
+    ///
+    /// # Errors
+    /// [`StoreError::Content`] for a point beyond the last; [`StoreError::Write`]; [`StoreError::Occupied`] if another process writes.
+    pub fn forget(&mut self, points: &[usize]) -> Result<(), StoreError> {
+        points.iter().try_for_each(|point| self.within(*point))?;
+        self.acquire()?;
+        let before = self.states.clone();
+        points.iter().for_each(|point| self.states[*point] = PointState::Missing);
+        let mut blocks: Vec<usize> = points.iter().map(|point| point / BLOCK).collect();
+        blocks.sort_unstable();
+        blocks.dedup();
+        let written = self.write_states(&blocks);
+        if written.is_err() {
+            self.states = before;
+            return written;
+        }
+        self.forget_points(points)
+    }
+
     fn fits(&self, take: &Take<'_>) -> Result<(), StoreError> {
         self.within(take.point)?;
         let name = self.root.display().to_string();

@@ -81,8 +81,12 @@ fn room(outline: &Outline) -> String {
     format!("{kind}, {width} m by {height} m, in which flexural waves reverberate")
 }
 
-/// Date and time of day, as AES69 writes them, of seconds after 1970 (Hinnant 2013, `civil_from_days`).
-fn date(seconds: u64) -> String {
+/// Date and time of day (UTC), as AES69 writes them, of seconds after 1970 (Hinnant 2013, `civil_from_days`).
+///
+/// ```
+/// assert_eq!(unripple_store::date(1_700_000_000), "2023-11-14 22:13:20");
+/// ```
+pub fn date(seconds: u64) -> String {
     let (days, rest) = (seconds / 86_400, seconds % 86_400);
     // Years begin in March, so that leap days come last; eras are of 400 years.
     let shifted = days + 719_468;

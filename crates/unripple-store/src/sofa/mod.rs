@@ -7,7 +7,7 @@ mod message;
 mod netcdf;
 mod seal;
 
-pub use about::SofaAbout;
+pub use about::{SofaAbout, date};
 
 use crate::building::sweep;
 use crate::file::write_beside;
