@@ -79,7 +79,7 @@ pub fn sinc(t: f64) -> f64 {
 }
 
 /// The Kaiser window at `u` of its half-width, 1 at the middle.
-fn kaiser(u: f64, beta: f64) -> f64 {
+pub(crate) fn kaiser(u: f64, beta: f64) -> f64 {
     if u.abs() > 1.0 { 0.0 } else { bessel_i0(beta * (1.0 - u * u).sqrt()) / bessel_i0(beta) }
 }
 

@@ -6,6 +6,7 @@ mod integral;
 mod interpolate;
 mod kernel;
 mod measure;
+mod resample;
 mod spectrum;
 mod synth;
 mod threshold;
@@ -21,6 +22,7 @@ pub use measure::{
     snr_db,
 };
 pub use realfft::num_complex::Complex;
+pub use resample::resample;
 pub use spectrum::{band_energies, share_above};
 pub use synth::ModalSynth;
 pub use threshold::Threshold;
