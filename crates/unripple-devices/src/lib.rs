@@ -3,7 +3,7 @@
 //! [`Virtual`] is the surface of the time-stepper behind the trait [`Device`](unripple_core::Device), with [`Unknowns`] that no
 //! model is told; [`Tape`] keeps a drive and brings recordings back; [`Jack`] is a sound server; with the
 //! feature `cards`, `cards::Card` is a sound card; [`check_wiring`] says which
-//! channel is silent, swapped or reversed; [`list`] says what there is.
+//! channel is silent, swapped or reversed, [`check_responses`] and [`reciprocal`] the same of recordings; [`list`] says what there is.
 
 #[cfg(feature = "cards")]
 pub mod cards;
@@ -26,4 +26,6 @@ pub use tap::Tap;
 pub use tape::Tape;
 pub use unknowns::{Truth, Unknowns};
 pub use virtual_surface::{Handle, Virtual, VirtualOptions};
-pub use wiring::{Expected, Lead, WiringOptions, WiringReport, check_wiring};
+pub use wiring::{
+    Expected, Lead, Reciprocal, WiringOptions, WiringReport, check_responses, check_wiring, reciprocal,
+};

@@ -2,10 +2,12 @@
 
 mod expected;
 mod likeness;
+mod reciprocal;
 mod report;
 mod take;
 
 pub use expected::Expected;
+pub use reciprocal::{Reciprocal, reciprocal};
 pub use report::{Lead, WiringReport};
 
 use crate::DevicesError;
@@ -13,7 +15,7 @@ use crate::error::{check, same};
 use likeness::{Likeness, Routes, routes, signs};
 use report::leads;
 use take::{Takes, record};
-use unripple_core::Device;
+use unripple_core::{Device, Layout};
 
 /// How wires are tried.
 ///
@@ -121,9 +123,40 @@ pub fn check_wiring(
     same("inputs of the wiring's model", expected.inputs(), layout.inputs.len())?;
     let takes: Takes = record(device, &layout, options)?;
     let predicted = take::predict(expected, &layout, options);
-    let latency = likeness::latency(&takes, &predicted);
-    let mut likeness = Likeness::new(&takes, &predicted, latency);
-    let found: Routes = routes(&mut likeness, &layout);
+    Ok(judged(&takes, &predicted, &layout, options))
+}
+
+/// The same from responses that were measured some other way, `heard[output][input]`, as if bursts had been played: for recordings. They
+/// are per unit impulse of drive, later by any latency; how loud each input is does not matter. `layout` has the channels of the model
+/// alone.
+///
+/// # Errors
+/// As [`check_wiring`].
+pub fn check_responses(
+    heard: &[Vec<Vec<f64>>],
+    layout: &Layout,
+    expected: &Expected,
+    options: &WiringOptions,
+) -> Result<WiringReport, DevicesError> {
+    options.check(layout.rate)?;
+    same("outputs of the wiring's model", expected.outputs(), layout.outputs.len())?;
+    same("inputs of the wiring's model", expected.inputs(), layout.inputs.len())?;
+    same("outputs of measured responses", heard.len(), layout.outputs.len())?;
+    for row in heard {
+        same("inputs of measured responses", row.len(), layout.inputs.len())?;
+    }
+    let mut takes = take::played(heard, layout, options);
+    let mut predicted = take::predict(expected, layout, options);
+    take::level(&mut takes.heard, takes.inputs);
+    take::level(&mut predicted, takes.inputs);
+    Ok(judged(&takes, &predicted, layout, options))
+}
+
+/// What recordings say of wires beside what was predicted of them.
+fn judged(takes: &Takes, predicted: &[Vec<f64>], layout: &Layout, options: &WiringOptions) -> WiringReport {
+    let latency = likeness::latency(takes, predicted);
+    let mut likeness = Likeness::new(takes, predicted, latency);
+    let found: Routes = routes(&mut likeness, layout);
     let signs = signs(&mut likeness, &found);
-    Ok(leads(&mut likeness, &found, &signs, &layout, options))
+    leads(&mut likeness, &found, &signs, layout, options)
 }

@@ -69,6 +69,39 @@ pub(super) fn record(
     Ok(Takes { outputs, inputs, heard: all, noise, window, most })
 }
 
+/// What would have been heard of the same bursts, by responses that were measured.
+pub(super) fn played(heard: &[Vec<Vec<f64>>], layout: &Layout, options: &WiringOptions) -> Takes {
+    let samples = |time: f64| (time * layout.rate).ceil() as usize;
+    let (window, most) = (samples(options.listen), samples(options.max_latency));
+    let burst = burst(options, layout.rate);
+    let line = |response: &Vec<f64>| {
+        let mut line = unripple_dsp::convolve(&burst, response);
+        line.resize(window + most, 0.0);
+        line
+    };
+    let inputs = layout.inputs.len();
+    Takes {
+        outputs: layout.outputs.len(),
+        inputs,
+        heard: heard.iter().flatten().map(line).collect(),
+        noise: vec![0.0; inputs],
+        window,
+        most,
+    }
+}
+
+/// Brings all inputs to one level, each over all outputs.
+pub(super) fn level(lines: &mut [Vec<f64>], inputs: usize) {
+    for input in 0..inputs {
+        let own = lines.iter().skip(input).step_by(inputs);
+        let level = own.map(|line| rms(line).powi(2)).sum::<f64>().sqrt();
+        if level > 0.0 {
+            let own = lines.iter_mut().skip(input).step_by(inputs);
+            own.flatten().for_each(|x| *x /= level);
+        }
+    }
+}
+
 /// What a model says of the same bursts.
 pub(super) fn predict(expected: &Expected, layout: &Layout, options: &WiringOptions) -> Vec<Vec<f64>> {
     let window = (options.listen * layout.rate).ceil() as usize;
