@@ -1,5 +1,6 @@
 mod played;
 mod text;
+mod unscaled;
 
 pub use played::{Followed, Stroked};
 

@@ -173,6 +173,11 @@ fn finger_line(finger: &Felt) -> String {
     )
 }
 
+/// A figure in words, unless it is not known.
+fn known(value: f64, said: impl Fn(f64) -> String) -> String {
+    if value.is_nan() { "unknown".into() } else { said(value) }
+}
+
 /// Name, velocity, displacement and what is felt of every figure, headings first.
 fn rows(t: &TargetFigures) -> Vec<[String; 4]> {
     let ratio = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.2}"));
@@ -185,8 +190,8 @@ fn rows(t: &TargetFigures) -> Vec<[String; 4]> {
         row("", "velocity".into(), "displacement".into(), "as felt".into()),
         row(
             "peak",
-            format!("{:.4} m/s", t.peak_velocity_m_s),
-            format!("{:.2} µm", t.peak_displacement_m * 1e6),
+            known(t.peak_velocity_m_s, |v| format!("{v:.4} m/s")),
+            known(t.peak_displacement_m, |u| format!("{:.2} µm", u * 1e6)),
             felt(t.felt_level_db),
         ),
         row(
