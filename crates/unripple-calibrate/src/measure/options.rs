@@ -31,6 +31,12 @@ pub struct MeasureOptions {
     pub most_distortion_db: f64,
     /// Samples that what is heard comes late by.
     pub latency: f64,
+    /// Seconds by which the probe alone hears later than the sensors do; `None` to find it.
+    pub probe_delay: Option<f64>,
+    /// Whether what is measured is held against a model of the surface.
+    pub model: bool,
+    /// Actuators that are left out, since they are dead: what is heard of them is not judged.
+    pub without: Vec<usize>,
 }
 
 impl Default for MeasureOptions {
@@ -49,6 +55,9 @@ impl Default for MeasureOptions {
             least_snr_db: 20.0,
             most_distortion_db: -20.0,
             latency: 0.0,
+            probe_delay: None,
+            model: true,
+            without: Vec::new(),
         }
     }
 }
@@ -101,6 +110,9 @@ impl MeasureOptions {
     /// Why a channel is bad, if it is: its first response that is worse than asked. `each` is what its responses are counted by.
     pub(super) fn fault(&self, channel: &Channel, each: &str) -> Option<String> {
         channel.quality.iter().enumerate().find_map(|(index, quality)| {
+            if self.without.contains(&index) {
+                return None;
+            }
             let (number, snr_db) = (index + 1, quality.snr_db);
             if snr_db.is_nan() || snr_db < self.least_snr_db {
                 let least = self.least_snr_db;

@@ -157,12 +157,14 @@ impl Session {
             return Ok(Some([found.samples - LEAD as f64 + known, 0.0]));
         }
         let own = |(a, channel): (usize, &Channel)| channel.responses.get(a).cloned().unwrap_or_default();
-        let found: Vec<Vec<f64>> = channels.iter().enumerate().map(own).collect();
+        let heard = |(a, _): &(usize, &Channel)| !self.options.without.contains(a);
+        let found: Vec<Vec<f64>> = channels.iter().enumerate().filter(heard).map(own).collect();
         let places: Vec<Point> = model.ports.iter().map(|port| port.at).collect();
         let samples = self.options.samples(self.sweep.rate);
         let said = sample(model, &places, samples);
+        let alive = (0..places.len()).filter(|a| !self.options.without.contains(a));
         let said: Vec<Vec<f64>> =
-            (0..places.len()).map(|a| said.response(a, a).iter().map(|h| f64::from(*h)).collect()).collect();
+            alive.map(|a| said.response(a, a).iter().map(|h| f64::from(*h)).collect()).collect();
         let [late, spread] = latency(&found, &said, LEAD, self.sweep.rate, self.band)?;
         Ok(Some([late + known, spread]))
     }
