@@ -2,7 +2,7 @@
 
 use crate::args::{ExportOptions, FormatName};
 use crate::error::CliError;
-use crate::output;
+use crate::{input, output};
 use serde_json::json;
 use std::time::{SystemTime, UNIX_EPOCH};
 use unripple_store::{Library, PointState, SofaAbout};
@@ -10,6 +10,7 @@ use unripple_store::{Library, PointState, SofaAbout};
 pub fn run(options: &ExportOptions, as_json: bool) -> Result<(), CliError> {
     let format = format(options)?;
     let library = Library::open(&options.library)?;
+    let notes = input::warn(&library);
     let (done, all) = (library.done().len(), library.points().len());
     if done == 0 {
         return Err(CliError::Input(format!(
@@ -39,6 +40,7 @@ pub fn run(options: &ExportOptions, as_json: bool) -> Result<(), CliError> {
         "actuators": plan.ports.len(),
         "samples": plan.samples,
         "sample_rate_hz": plan.conditions.rate,
+        "notes": notes,
     });
     let left = match all - done {
         0 => String::new(),

@@ -23,6 +23,7 @@ pub fn run(options: &FieldOptions, as_json: bool) -> Result<(), CliError> {
     let out = out.map(|place| OutputDir::create_beside(place, &options.reads())).transpose()?;
     let contacts = fingers::contacts(&options.finger, &source.surface)?;
     let places = options.at.iter().map(|text| place(text, "--at")).collect::<Result<Vec<_>, _>>()?;
+    let unscaled = source.without_scale().is_some();
     let (surface, responses, stored) = match source.stored {
         Some(_) => source.respond(&places, options.between.interpolation())?,
         None => {
@@ -47,8 +48,12 @@ pub fn run(options: &FieldOptions, as_json: bool) -> Result<(), CliError> {
         let without = judge::model(&surface, options.judge_hz, &[])?;
         report.fingers = act::felt(&contacts, &surface, [&responses, &without], &drive, until)?;
     }
+    if unscaled {
+        report = report.without_scale();
+    }
     if let Some(out) = out {
-        let shown = Shown { options, surface: &surface, drive: &drive, aims: &aims, judged: &judged };
+        let shown =
+            Shown { options, surface: &surface, drive: &drive, aims: &aims, judged: &judged, unscaled };
         shown.write(&out, &mut report, &field)?;
         finish(out)?;
     }
@@ -113,6 +118,8 @@ struct Shown<'a> {
     drive: &'a Drive,
     aims: &'a [Aim],
     judged: &'a Judged,
+    /// Whether nobody knows how many m/s and µm it is, in which figures are drawn.
+    unscaled: bool,
 }
 
 impl Shown<'_> {
@@ -120,11 +127,14 @@ impl Shown<'_> {
         let measured = &self.judged.measured;
         let points: Vec<Vec<Point>> = self.aims.iter().map(|aim| aim.points.clone()).collect();
         let scene = Scene::new(self.surface, &points, measured.focal_radius_m);
-        let mut figures =
-            vec![("traces", figures::traces(&measured.targets, &self.judged.traces, self.drive.rate()))];
-        figures.extend(figures::snapshots(&scene, measured).map(|figure| ("snapshot", figure)));
-        figures.extend(figures::peaks(&scene, measured).map(|figure| ("peaks", figure)));
-        figures.extend(figures::felt(&scene, measured).map(|figure| ("felt", figure)));
+        let mut figures = Vec::new();
+        if !self.unscaled {
+            let rate = self.drive.rate();
+            figures.push(("traces", figures::traces(&measured.targets, &self.judged.traces, rate)));
+            figures.extend(figures::snapshots(&scene, measured).map(|figure| ("snapshot", figure)));
+            figures.extend(figures::peaks(&scene, measured).map(|figure| ("peaks", figure)));
+            figures.extend(figures::felt(&scene, measured).map(|figure| ("felt", figure)));
+        }
         report.files = figures::write(out, &figures)?;
         if self.options.frames > 0
             && let Some(movie) = figures::movie(field, &scene, self.span()?, self.options.frames)?

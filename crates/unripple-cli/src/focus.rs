@@ -23,6 +23,7 @@ pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
     source.allows(&needing_modes(options))?;
     let plant = options.on.as_deref().map(input::surface).transpose()?;
     let out = OutputDir::create_beside(&options.output, &options.reads())?;
+    let unscaled = source.without_scale().filter(|_| plant.is_none());
     let known = source.lambda_min();
     let lambda_min = known
         .unwrap_or_else(|| Medium::of(&source.surface.sheet).lambda_min(source.surface.emission.band[1]));
@@ -48,7 +49,7 @@ pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
     let touched = !contacts.is_empty();
     let under = touched.then(|| judge::model(judged_surface, options.judge_hz, &contacts)).transpose()?;
     let judging = under.as_ref().unwrap_or(free);
-    let level = targets::level(&options.targets)?;
+    let level = targets::level_on(&options.targets, unscaled.as_deref())?;
     let act =
         Act { surface: judged_surface, responses: judging, targets: &targets, options: &settings, level };
     let sent = act.send(&focuser, focused)?;
@@ -64,7 +65,10 @@ pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
         report.notes.extend(notes.into_iter().chain(act::nearby(&focused, &targets)));
         report.judged_on.get_or_insert(told);
     }
-    write(&out, &mut report, judged_surface, &drive, &judged, &focused)?;
+    if unscaled.is_some() {
+        report = report.without_scale();
+    }
+    write(&out, &mut report, judged_surface, &drive, &judged, &focused, unscaled.is_none())?;
     finish(out)?;
     output::answer(as_json, &report, &report.text())
 }
@@ -124,17 +128,19 @@ fn write(
     drive: &Drive,
     judged: &Judged,
     focused: &Focused,
+    scaled: bool,
 ) -> Result<(), CliError> {
     let measured = &judged.measured;
     let scene = Scene::new(surface, &focused.points, measured.focal_radius_m);
     let unit = act::unit(&surface.actuators.first().map_or(ActuatorKind::Force, |a| a.kind));
-    let mut figures = vec![
-        ("traces", figures::traces(&measured.targets, &judged.traces, drive.rate())),
-        ("drive", figures::channels(drive, unit)),
-    ];
-    figures.extend(figures::snapshots(&scene, measured).map(|figure| ("focus", figure)));
-    figures.extend(figures::peaks(&scene, measured).map(|figure| ("peaks", figure)));
-    figures.extend(figures::felt(&scene, measured).map(|figure| ("felt", figure)));
+    let mut figures = vec![("drive", figures::channels(drive, unit))];
+    // The others are drawn in m/s and µm, which nobody knows without a scale.
+    if scaled {
+        figures.insert(0, ("traces", figures::traces(&measured.targets, &judged.traces, drive.rate())));
+        figures.extend(figures::snapshots(&scene, measured).map(|figure| ("focus", figure)));
+        figures.extend(figures::peaks(&scene, measured).map(|figure| ("peaks", figure)));
+        figures.extend(figures::felt(&scene, measured).map(|figure| ("felt", figure)));
+    }
     write_wav(out.path().join("drive.wav"), drive)?;
     report.files = vec!["drive.wav".into()];
     report.files.extend(figures::write(out, &figures)?);

@@ -3,6 +3,7 @@
 use crate::between;
 use crate::error::CliError;
 use crate::judge::{self, Note};
+use serde_json::Value;
 use unripple::core::{Point, Responses, SampledResponses, Surface};
 use unripple_calibrate::Interpolation;
 use unripple_store::{Library, StoreError, load_surface};
@@ -38,10 +39,43 @@ pub struct Stored {
     pub told: String,
     /// What is wrong with it.
     pub notes: Vec<Note>,
+    /// Why its levels mean nothing, if they do not.
+    pub without_scale: Option<String>,
 }
 
-/// A surface by name or file, or a library by its folder.
+/// What is wrong with a library as a whole, as notes: why it is not to be trusted, what was left out, what is not known of it.
+fn about(library: &Library) -> Vec<Note> {
+    let mut notes: Vec<Note> =
+        library.doubts().iter().map(|doubt| Note { topic: "doubtful", text: doubt.to_string() }).collect();
+    let dead: Vec<&str> = library.dead().iter().map(|i| library.plan().ports[*i].name.as_str()).collect();
+    if !dead.is_empty() {
+        let text = format!("without {}, dead or left out when it was measured", dead.join(", "));
+        notes.push(Note { topic: "actuators", text });
+    }
+    notes.extend(library.without_scale().map(|why| Note { topic: "level", text: why.into() }));
+    notes
+}
+
+/// Warns of a library on standard error: why it is not to be trusted, what was left out, what is not known of it. Returns the same as notes.
+pub fn warn(library: &Library) -> Vec<Note> {
+    let notes = about(library);
+    for note in &notes {
+        let what = if note.topic == "doubtful" { "doubtful: " } else { "" };
+        eprintln!("warning: {}: {what}{}", library.path().display(), note.text);
+    }
+    notes
+}
+
+/// A surface by name or file, or a library by its folder; what is wrong with that is said on standard error.
 pub fn source(name: &str) -> Result<Source, CliError> {
+    if Library::is_at(name) {
+        warn(&Library::open(name)?);
+    }
+    quiet_source(name)
+}
+
+/// The same without a word on standard error, for whoever asks again and again.
+pub fn quiet_source(name: &str) -> Result<Source, CliError> {
     if !Library::is_at(name) {
         return Ok(Source { surface: surface(name)?, stored: None });
     }
@@ -61,6 +95,7 @@ pub fn source(name: &str) -> Result<Source, CliError> {
         )));
     }
     let (responses, damage) = library.intact()?;
+    let responses = without_own(&library, responses)?;
     let (points, all) = (responses.points.len(), library.points().len());
     if points == 0 {
         return Err(CliError::Input(format!(
@@ -68,8 +103,8 @@ pub fn source(name: &str) -> Result<Source, CliError> {
         )));
     }
     let note = |text| Note { topic: "library", text };
-    let mut notes: Vec<Note> =
-        damage.iter().take(LISTED).map(|damage| note(format!("damaged, and left out: {damage}"))).collect();
+    let mut notes = about(&library);
+    notes.extend(damage.iter().take(LISTED).map(|damage| note(format!("damaged, and left out: {damage}"))));
     if damage.len() > LISTED {
         notes.push(note(format!("{} files more are damaged", damage.len() - LISTED)));
     }
@@ -77,8 +112,23 @@ pub fn source(name: &str) -> Result<Source, CliError> {
         notes.push(note(format!("{points} of {all} points are finished and sound")));
     }
     let told = format!("the {points} points of {name}");
-    Ok(Source { surface, stored: Some(Stored { responses, told, notes }) })
+    let without_scale = library.without_scale().map(str::to_owned);
+    Ok(Source { surface, stored: Some(Stored { responses, told, notes, without_scale }) })
 }
+
+/// What is left when the actuators' own sensors are of another scale than the probe: figures over all points would mix both.
+fn without_own(library: &Library, responses: SampledResponses) -> Result<SampledResponses, CliError> {
+    let apart = library.logged("sensors").and_then(|said| said.get("left_out")).and_then(Value::as_bool);
+    if apart != Some(true) {
+        return Ok(responses);
+    }
+    let own = |point: &Point| responses.ports.iter().any(|port| port.at.distance(*point) < SAME);
+    let kept: Vec<usize> = (0..responses.points.len()).filter(|i| !own(&responses.points[*i])).collect();
+    if kept.is_empty() { Ok(responses) } else { responses.select(&kept).map_err(CliError::work) }
+}
+
+/// A point this near to an actuator, in metres, is the actuator's own.
+const SAME: f64 = 1e-6;
 
 /// What figures taken on a library are of, and notes on it.
 pub type Told = (String, Vec<Note>);
@@ -92,6 +142,11 @@ impl Source {
         self.stored.as_ref().map(|stored| stored.responses.conditions.lambda_min)
     }
 
+    /// Why lengths and velocities taken on it mean nothing, if they do not.
+    pub fn without_scale(&self) -> Option<String> {
+        self.stored.as_ref().and_then(|stored| stored.without_scale.clone())
+    }
+
     /// The surface, its responses within the band, and, of a library, what to say of them. A library's are made complete at
     /// `places`.
     pub fn respond(
@@ -100,7 +155,7 @@ impl Source {
         way: Interpolation,
     ) -> Result<(Surface, Responses, Option<Told>), CliError> {
         match self.stored {
-            Some(Stored { responses, told, mut notes }) => {
+            Some(Stored { responses, told, mut notes, .. }) => {
                 let (responses, more) = between::completed(responses, &self.surface, places, way)?;
                 notes.extend(more);
                 Ok((self.surface, Responses::Sampled(responses), Some((told, notes))))

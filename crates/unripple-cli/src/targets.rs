@@ -57,6 +57,20 @@ pub fn level(options: &TargetOptions) -> Result<Level, CliError> {
     })
 }
 
+/// The same on responses of which nobody knows the scale, if there is a reason `why`: as loud as the limit allows, and no level that is asked
+/// for by its size.
+pub fn level_on(options: &TargetOptions, why: Option<&str>) -> Result<Level, CliError> {
+    match (level(options)?, why) {
+        (level, None) => Ok(level),
+        (Level::Linear | Level::Limit, Some(_)) => Ok(Level::Limit),
+        (Level::Peak(_) | Level::Felt(_), Some(why)) => {
+            let option = if options.peak_um.is_some() { "--peak-um" } else { "--felt-db" };
+            let text = format!("{option}: expected a library whose level is known, found one without: {why}");
+            Err(CliError::Input(text))
+        }
+    }
+}
+
 /// Refuses a time that no wave of the band fits into, naming the option that makes it longer.
 pub fn carries(conditions: &Conditions, seconds: f64, option: &str) -> Result<(), CliError> {
     act::carries(conditions, seconds).map_err(|error| CliError::Work(format!("{option}: {error}")))

@@ -74,7 +74,7 @@ fn respond(name: &str, source: &input::Source) -> Option<Responder> {
     let name = name.to_owned();
     Some(Arc::new(move |places| {
         let answered =
-            input::source(&name).and_then(|source| source.respond(places, Interpolation::default()));
+            input::quiet_source(&name).and_then(|source| source.respond(places, Interpolation::default()));
         answered.map(|(_, responses, _)| responses).map_err(|error| error.to_string())
     }))
 }

@@ -44,6 +44,7 @@ impl From<LiveError> for CliError {
 pub fn run(options: &PlayOptions, as_json: bool) -> Result<(), CliError> {
     let source = input::source(&options.surface)?;
     let surface = source.surface.clone();
+    let notes = source.stored.as_ref().map_or_else(Vec::new, |stored| stored.notes.clone());
     let set = load_effects(&options.effect)?;
     outputs::check(options)?;
     let responses = Arc::new(match source.stored {
@@ -74,7 +75,9 @@ pub fn run(options: &PlayOptions, as_json: bool) -> Result<(), CliError> {
     for line in [window.to_string(), level.to_string()].iter().chain(&touches.told) {
         eprintln!("{line}");
     }
-    let mut session = Session { options, touches, report: Report::new(&surface, &window, &level), told: 0.0 };
+    let mut report = Report::new(&surface, &window, &level);
+    report.notes = notes;
+    let mut session = Session { options, touches, report, told: 0.0 };
     let stop = interrupted()?;
     let seconds = seconds_to_play(options, session.touches.lasts)?;
     session.touches.begin();

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 use std::fmt::Write;
+use unripple::act::Note;
 use unripple::core::{Server, State, Surface};
 use unripple_calibrate::Drift;
 use unripple_live::{Engine, Feeling, Level, Percentiles, Pulse, Stage, Window};
@@ -51,6 +52,9 @@ pub struct Report {
     priority: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     server: Option<ServerSays>,
+    /// What is wrong with the library that was played on.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<Note>,
     /// Whether what fingers feel could be told.
     #[serde(skip)]
     tells_feelings: bool,
