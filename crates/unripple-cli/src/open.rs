@@ -31,7 +31,7 @@ pub fn jack(options: &DeviceOptions, surface: &Surface, inputs: Vec<String>) -> 
         inputs,
         outputs: names(surface),
         links: options.jack_client.clone().map_or(Links::System, Links::Client),
-        full_scale: surface.emission.limit,
+        full_scale: options.output_scale.unwrap_or(surface.emission.limit),
         freewheel: options.freewheel,
         ..JackOptions::default()
     }
@@ -51,7 +51,7 @@ pub fn card(
         outputs: names(surface),
         rate: surface.emission.rate,
         block: options.card_block,
-        full_scale: surface.emission.limit,
+        full_scale: options.output_scale.unwrap_or(surface.emission.limit),
         ..Default::default()
     }
 }

@@ -1,70 +1,20 @@
 //! Calibration by files: what is written is played on a virtual surface elsewhere, and what that hears is brought back.
 
 mod common;
+#[path = "common/elsewhere.rs"]
+mod elsewhere;
 
 use common::{Scratch, json, number, refused, run};
+use elsewhere::{Elsewhere, apart, bring, bring_at, response};
 use serde_json::Value;
 use std::path::Path;
-use unripple::core::{Device, Drive, Point};
-use unripple_devices::{Handle, Unknowns, Virtual, VirtualOptions};
-use unripple_store::{load_surface, read_wav, write_wav};
+use unripple::core::Point;
+use unripple_store::{load_surface, read_wav};
 
 const SEED: u64 = 3;
 
-/// A surface that is not as it is told, with somebody who plays and records.
-struct Elsewhere {
-    device: Virtual,
-    handle: Handle,
-    play: Vec<Vec<f64>>,
-}
-
-impl Elsewhere {
-    fn new(play: &str) -> Self {
-        let surface = load_surface("hudin-2012").unwrap();
-        let truth = Unknowns { seed: SEED, ..Unknowns::default() }.truth(&surface).unwrap();
-        let device = Virtual::of_truth(&truth, &VirtualOptions::default()).unwrap();
-        Self { handle: device.handle(), device, play: read_wav(play).unwrap().channels }
-    }
-
-    /// What nine channels hear, the recording begun so many samples before the playing.
-    fn record(&mut self, at: Point, early: usize, seed: u64) -> Vec<Vec<f64>> {
-        self.handle.rest(seed);
-        self.handle.move_probe(at).unwrap();
-        let (inputs, block) = (self.device.layout().inputs.len(), self.device.layout().block);
-        let mut lines = vec![Vec::new(); inputs];
-        let mut heard = vec![0.0f32; inputs * block];
-        for first in (0..early + self.play[0].len() + 4800).step_by(block) {
-            let sample = |line: &Vec<f64>, i: usize| i.checked_sub(early).and_then(|i| line.get(i)).copied();
-            let drive = self
-                .play
-                .iter()
-                .flat_map(|line| (first..first + block).map(move |i| sample(line, i).unwrap_or(0.0) as f32));
-            self.device.exchange(&drive.collect::<Vec<_>>(), &mut heard).unwrap();
-            for (line, plane) in lines.iter_mut().zip(heard.chunks(block)) {
-                line.extend(plane.iter().map(|x| f64::from(*x)));
-            }
-        }
-        lines
-    }
-}
-
-fn bring(folder: &str, file: &str, lines: &[Vec<f64>]) {
-    write_at(folder, file, lines, 48e3);
-}
-
-fn write_at(folder: &str, file: &str, lines: &[Vec<f64>], rate: f64) {
-    let names = (0..lines.len()).map(|i| format!("c{i}")).collect();
-    write_wav(Path::new(folder).join(file), &Drive::new(rate, names, lines.to_vec()).unwrap()).unwrap();
-}
-
 fn missing(told: &Value) -> Vec<&str> {
     told["tape"]["missing"].as_array().unwrap().iter().map(|file| file.as_str().unwrap()).collect()
-}
-
-fn response(library: &str, point: usize) -> Vec<f64> {
-    let bytes = std::fs::read(format!("{library}/responses/c.{point}.0.0")).unwrap();
-    let (values, _) = bytes[..bytes.len() - 4].as_chunks::<4>();
-    values.iter().map(|bytes| f64::from(f32::from_le_bytes(*bytes))).collect()
 }
 
 #[test]
@@ -86,7 +36,8 @@ fn played_elsewhere_it_is_the_library_of_the_surface() {
     assert!(play.channels.iter().flatten().all(|x| x.abs() <= 1.0));
 
     // Then some of the recordings, each begun when it happened to be.
-    let mut elsewhere = Elsewhere::new(&format!("{folder}/play.wav"));
+    let mut elsewhere =
+        Elsewhere::new(&load_surface("hudin-2012").unwrap(), SEED, &format!("{folder}/play.wav"));
     let centre = Point::from_mm(75.0, 75.0);
     bring(&folder, files[0], &elsewhere.record(centre, 30_011, 1));
     bring(&folder, files[1], &elsewhere.record(Point::from_mm(62.0, 90.0), 12_345, 2));
@@ -106,9 +57,7 @@ fn played_elsewhere_it_is_the_library_of_the_surface() {
     json(&[&same[..], &points].concat());
     for point in 0..10 {
         let [a, b] = [&library, &direct].map(|library| response(library, point));
-        let power = |h: &[f64]| h.iter().map(|x| x * x).sum::<f64>();
-        let apart: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a - b).collect();
-        let error = (power(&apart) / power(&b)).sqrt();
+        let error = apart(&a, &b);
         assert!(error < 0.01, "point {point}: {error}");
     }
     let focus = json(&["focus", &library, "--at", "62,90", "--window-ms", "30", "-o", &scratch.join("out")]);
@@ -159,7 +108,7 @@ fn wrong(scratch: &Scratch, before: &str, good: &[Vec<f64>]) {
     assert!(run(&tape).status.success());
     std::fs::copy(format!("{before}/actuators.wav"), format!("{folder}/actuators.wav")).unwrap();
     for (i, (lines, rate, _)) in cases.iter().enumerate() {
-        write_at(&folder, &format!("point-{:03}.wav", i + 1), lines, *rate);
+        bring_at(&folder, &format!("point-{:03}.wav", i + 1), lines, *rate);
     }
     let output = run(&tape);
     let errors = String::from_utf8_lossy(&output.stderr);

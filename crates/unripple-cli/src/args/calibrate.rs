@@ -34,6 +34,9 @@ pub struct DeviceOptions {
     /// be a `reference`.
     #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
     pub tape_inputs: Vec<String>,
+    /// JACK, card, tape: drive of a sample at full scale, in A, V or N; by default the surface's limit, and levels are not known.
+    #[arg(long, value_name = "DRIVE", allow_negative_numbers = true)]
+    pub output_scale: Option<f64>,
     /// Virtual: make the true surface another than SURFACE says, by this seed: noise, gains, places, tension, damping, stray
     /// masses.
     #[arg(long, value_name = "SEED")]
@@ -70,18 +73,37 @@ pub struct CalibrateOptions {
     /// Recordings of each point, averaged; taps of each point.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub repeats: usize,
-    /// Length of an actuator's sweep, in ms.
-    #[arg(long, value_name = "MS", default_value_t = 500.0, allow_negative_numbers = true)]
-    pub sweep_ms: f64,
-    /// Length of each response that is kept, in ms.
-    #[arg(long, value_name = "MS", default_value_t = 100.0, allow_negative_numbers = true)]
-    pub response_ms: f64,
+    /// Length of an actuator's sweep, in ms; by default 500, or more as long as the surface rings.
+    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
+    pub sweep_ms: Option<f64>,
+    /// Length of each response that is kept, in ms; by default 100, or more as long as the surface rings.
+    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
+    pub response_ms: Option<f64>,
     /// Drive, as a share of the surface's limit.
     #[arg(long, value_name = "SHARE", default_value_t = 1.0, allow_negative_numbers = true)]
     pub level: f64,
     /// Name of a channel where it is not that of the actuator, sensor, probe or reference. Repeatable.
     #[arg(long, value_name = "NAME=CHANNEL")]
     pub wire: Vec<String>,
+    /// What an input at full scale stands for: m/s for the probe, the sensors' unit for actuators; below 0 where it is reversed. Without a
+    /// name it is that of all inputs. Repeatable. Without it levels are not known.
+    #[arg(long, value_name = "[NAME=]SCALE", allow_hyphen_values = true)]
+    pub input_scale: Vec<String>,
+    /// An actuator that is to be left out, since it is dead. Repeatable.
+    #[arg(long, value_name = "NAME")]
+    pub without: Vec<String>,
+    /// Time by which the probe hears later than sensors do, in ms: a vibrometer's decoder; by default it is found.
+    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
+    pub probe_delay_ms: Option<f64>,
+    /// Hold nothing against a model: for a surface that no model fits, such as a whole phone or a sheet with ribs.
+    #[arg(long)]
+    pub no_model: bool,
+    /// Tape: bring recordings of another rate to that of the surface.
+    #[arg(long)]
+    pub resample: bool,
+    /// Listen to levels only: a short take that says what is too loud or too quiet, and what to do.
+    #[arg(long)]
+    pub check_levels: bool,
     /// Go on although the wiring test finds a fault.
     #[arg(long)]
     pub any_wiring: bool,

@@ -1,29 +1,29 @@
 //! `unripple calibrate`: responses measured through a device, point by point, into a library.
 
 pub mod devices;
+mod finish;
+mod levels;
+mod live;
 mod points;
 mod report;
 mod rigs;
+mod scale;
 mod shelf;
 mod tape;
+mod verify;
 
 use crate::args::{CalibrateOptions, DeviceName, WayName};
 use crate::error::CliError;
 use crate::targets::positive;
 use crate::{input, judge, output};
-use devices::Opened;
 use points::Places;
-use report::Report;
-use shelf::Shelf;
+use scale::Scales;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
-use std::time::Instant;
 use unripple::core::{ModalResponses, Point, Responses, Surface};
 use unripple_calibrate::CalibrateError;
-use unripple_calibrate::measure::{
-    Listen, MeasureOptions, Progress, Rig, Session, TapOptions, TapSession, Way, Wires, campaign,
-};
-use unripple_devices::{Expected, WiringOptions, check_wiring};
-use unripple_store::{Library, LibraryPlan, PointState};
+use unripple_calibrate::measure::MeasureOptions;
+use unripple_store::{Library, LibraryPlan};
 
 impl From<CalibrateError> for CliError {
     fn from(error: CalibrateError) -> Self {
@@ -37,60 +37,103 @@ impl From<CalibrateError> for CliError {
     }
 }
 
+/// All that is known before anything is measured.
+pub struct Campaign<'a> {
+    pub options: &'a CalibrateOptions,
+    pub surface: &'a Surface,
+    pub model: &'a ModalResponses,
+    pub settings: MeasureOptions,
+    pub scales: Scales,
+    pub places: Places,
+}
+
 pub fn run(options: &CalibrateOptions, as_json: bool) -> Result<(), CliError> {
     let surface = input::surface(&options.surface)?;
-    let settings = settings(options)?;
+    let settings = settings(options, &surface)?;
+    let scales = Scales::of(options, &surface)?;
+    level(&settings, &scales, &surface)?;
     Library::may_be_at(&options.output)?;
     let Responses::Modal(model) = judge::model(&surface, None, &[])? else {
         return Err(CliError::Input("expected a surface, found responses at points".into()));
     };
-    if options.device.device == DeviceName::Tape {
-        return tape::run(options, &surface, &settings, &model, as_json);
+    let places = Places::default();
+    let campaign = Campaign { options, surface: &surface, model: &model, settings, scales, places };
+    match options.device.device {
+        DeviceName::Tape => tape::run(campaign, as_json),
+        _ => live::run(campaign, as_json),
     }
-    let Opened { mut rig, truth } = devices::open(&options.device, &surface)?;
-    let layout = rig.device().layout().clone();
-    let wires = Wires::by_name(&model.ports, &layout, &devices::named(&options.wire)?)?;
-    let places = points::places(options, &surface, !wires.sensors.is_empty())?;
-    let library = Library::create(&options.output, &plan(options, &surface, &model, &places, &settings))?;
-    let mut shelf = Shelf { library, probed: places.probed };
-    let began = shelf.library.in_state(PointState::Missing).len();
-    let middle = middle(&surface);
-    wiring(options, rig.as_mut(), &model, &places, middle)?;
-
-    let first = Session::new(&surface, &layout, wires.clone(), &settings)?;
-    let latency = first.find_latency(rig.as_mut(), places.points.len(), middle, &model)?;
-    let settings = MeasureOptions { latency: latency.map_or(0.0, |found| found[0]), ..settings };
-    let session = Session::new(&surface, &layout, wires.clone(), &settings)?;
-    own(&session, rig.as_mut(), &mut shelf, &places, middle)?;
-    let seconds = session.seconds();
-    let way = match options.by {
-        WayName::Probe => Way::Probe(Box::new(session)),
-        WayName::Tap => {
-            let taps = TapOptions::default();
-            Way::Tap(Box::new(TapSession::new(&surface, &layout, &wires, model, &settings, taps)?))
-        }
-    };
-    let bar = report::bar(as_json, began);
-    let start = Instant::now();
-    let mut tell = |progress: &Progress| report::tell(&bar, progress);
-    campaign(rig.as_mut(), &way, &places.points, &mut shelf, settings.again, &mut tell)?;
-    bar.finish_and_clear();
-    let report = Report::of(&shelf.library, &places, latency, truth.as_deref(), seconds, start.elapsed())?;
-    output::answer(as_json, &report, &report.text())
 }
 
-fn settings(options: &CalibrateOptions) -> Result<MeasureOptions, CliError> {
-    let ms = |value: f64, option: &str| Ok::<f64, CliError>(positive(value, option, "ms")? / 1e3);
+fn settings(options: &CalibrateOptions, surface: &Surface) -> Result<MeasureOptions, CliError> {
+    let usual = MeasureOptions::default();
+    let ms = |value: Option<f64>, usual: f64, option: &str| {
+        value.map_or(Ok::<f64, CliError>(usual), |value| Ok(positive(value, option, "ms")? / 1e3))
+    };
     if options.repeats == 0 {
         return Err(CliError::Input("--repeats: expected 1 or more, found 0".into()));
     }
+    if let Some(delay) = options.probe_delay_ms.filter(|delay| !delay.is_finite()) {
+        return Err(CliError::Input(format!("--probe-delay-ms: expected a number of ms, found {delay}")));
+    }
     Ok(MeasureOptions {
-        sweep: ms(options.sweep_ms, "--sweep-ms")?,
-        kept: ms(options.response_ms, "--response-ms")?,
+        sweep: ms(options.sweep_ms, usual.sweep, "--sweep-ms")?,
+        kept: ms(options.response_ms, usual.kept, "--response-ms")?,
         level: positive(options.level, "--level", "of the limit")?,
         repeats: options.repeats,
-        ..MeasureOptions::default()
+        probe_delay: options.probe_delay_ms.map(|ms| ms / 1e3),
+        model: !options.no_model,
+        without: without(options, surface)?,
+        ..usual
     })
+}
+
+/// Actuators that are not to be measured.
+fn without(options: &CalibrateOptions, surface: &Surface) -> Result<Vec<usize>, CliError> {
+    let names = || surface.actuators.iter().map(|actuator| actuator.name.as_str());
+    let mut found = Vec::new();
+    for name in &options.without {
+        match names().position(|other| other == name) {
+            Some(actuator) => found.push(actuator),
+            None => {
+                let names = names().collect::<Vec<_>>().join(", ");
+                return Err(CliError::Input(format!(
+                    "--without {name}: expected one of {names}, found another"
+                )));
+            }
+        }
+    }
+    found.sort_unstable();
+    found.dedup();
+    if found.len() == surface.actuators.len() {
+        return Err(CliError::Input("--without: expected an actuator that is left, found none".into()));
+    }
+    Ok(found)
+}
+
+/// Refuses a drive that is more than full scale.
+fn level(settings: &MeasureOptions, scales: &Scales, surface: &Surface) -> Result<(), CliError> {
+    let (limit, full) = (surface.emission.limit, scales.full_scale(surface));
+    if settings.level * limit <= full * (1.0 + 1e-9) {
+        return Ok(());
+    }
+    let most = full / limit;
+    Err(CliError::Input(format!(
+        "--level: expected at most {most:.3}, since --output-scale {full} is less than the surface's limit of {limit}, found {}",
+        settings.level
+    )))
+}
+
+/// Refuses responses that last longer than the surface is listened to.
+fn kept(settings: &MeasureOptions) -> Result<(), CliError> {
+    if settings.kept <= settings.ringing {
+        return Ok(());
+    }
+    let ms = |seconds: f64| (seconds * 1e6).round() / 1e3;
+    Err(CliError::Input(format!(
+        "--response-ms: expected at most {}, as long as the surface is listened to after each sweep, found {}",
+        ms(settings.ringing),
+        ms(settings.kept)
+    )))
 }
 
 fn middle(surface: &Surface) -> Point {
@@ -98,80 +141,56 @@ fn middle(surface: &Surface) -> Point {
     Point::new(width / 2.0, height / 2.0)
 }
 
-/// What the library is to hold.
-fn plan(
-    options: &CalibrateOptions,
-    surface: &Surface,
-    model: &ModalResponses,
-    places: &Places,
-    settings: &MeasureOptions,
-) -> LibraryPlan {
-    let by = format!("{:?}", options.by).to_lowercase();
-    let provenance = BTreeMap::from([
-        ("software".to_owned(), format!("unripple {}", env!("CARGO_PKG_VERSION"))),
-        ("device".to_owned(), format!("{:?}", options.device.device).to_lowercase()),
-        ("by".to_owned(), by),
-        ("probed points".to_owned(), places.probed.to_string()),
-        ("sweep s".to_owned(), settings.sweep.to_string()),
-        ("swept Hz".to_owned(), settings.swept(surface).map(|hz| hz.to_string()).join(" ")),
-        ("repeats".to_owned(), settings.repeats.to_string()),
-        ("level".to_owned(), settings.level.to_string()),
-    ]);
-    let samples = settings.samples(surface.emission.rate);
-    let known =
-        LibraryPlan::new(model.ports.clone(), places.points.clone(), model.conditions.clone(), samples);
-    LibraryPlan { surface: Some(surface.clone()), provenance, ..known }
-}
+impl Campaign<'_> {
+    /// What the library is to hold.
+    fn plan(&self) -> LibraryPlan {
+        let (options, settings, surface) = (self.options, &self.settings, self.surface);
+        let by = format!("{:?}", options.by).to_lowercase();
+        let provenance = BTreeMap::from([
+            ("software".to_owned(), format!("unripple {}", env!("CARGO_PKG_VERSION"))),
+            ("device".to_owned(), format!("{:?}", options.device.device).to_lowercase()),
+            ("by".to_owned(), by),
+            (PROBED.to_owned(), self.places.probed.to_string()),
+            ("sweep s".to_owned(), settings.sweep.to_string()),
+            ("swept Hz".to_owned(), settings.swept(surface).map(|hz| hz.to_string()).join(" ")),
+            ("repeats".to_owned(), settings.repeats.to_string()),
+            ("level".to_owned(), settings.level.to_string()),
+        ]);
+        let samples = settings.samples(surface.emission.rate);
+        let (ports, conditions) = (self.model.ports.clone(), self.model.conditions.clone());
+        let known = LibraryPlan::new(ports, self.places.points.clone(), conditions, samples);
+        LibraryPlan { surface: Some(surface.clone()), provenance, ..known }
+    }
 
-/// Tries the wires, where the device has a sensor for each actuator.
-fn wiring(
-    options: &CalibrateOptions,
-    rig: &mut dyn Rig,
-    model: &ModalResponses,
-    places: &Places,
-    middle: Point,
-) -> Result<(), CliError> {
-    let layout = rig.device().layout().clone();
-    let sensing = layout.inputs.len() >= layout.outputs.len();
-    if !sensing || layout.outputs.len() != model.ports.len() || !options.wire.is_empty() {
-        eprintln!(
-            "wiring: not tried, since channels do not correspond to actuators and their sensors by name"
-        );
-        return Ok(());
-    }
-    rig.ready(places.points.len(), middle, 1)?;
-    let try_options = WiringOptions::for_band(model.conditions.band);
-    let probe = (layout.inputs.len() > layout.outputs.len()).then_some(middle);
-    let expected = Expected::of_modes(model, probe, try_options.listen);
-    let found = check_wiring(rig.device(), &expected, &try_options).map_err(CliError::work)?;
-    let faults = found.faults();
-    if faults.is_empty() || options.any_wiring {
-        faults.iter().for_each(|fault| eprintln!("wiring: {fault}"));
-        return Ok(());
-    }
-    let faults = faults.join("; ");
-    Err(CliError::Work(format!("wiring: {faults} (mend it, or go on with --any-wiring)")))
-}
-
-/// What actuators hear of each other and of themselves, as the library's last points.
-fn own(
-    session: &Session,
-    rig: &mut dyn Rig,
-    shelf: &mut Shelf,
-    places: &Places,
-    middle: Point,
-) -> Result<(), CliError> {
-    let mut missing = shelf.library.in_state(PointState::Missing);
-    missing.retain(|point| *point >= places.probed);
-    if missing.is_empty() {
-        return Ok(());
-    }
-    let sensors = session.measure(rig, places.points.len(), middle, 2, Listen::Sensors)?;
-    for point in missing {
-        if let Some(channel) = sensors.get(point - places.probed) {
-            let fault = session.fault(channel);
-            unripple_calibrate::measure::Sink::keep(shelf, point, channel, fault.as_deref())?;
+    /// What is known of scales, for the log. By taps the model says how strong they are.
+    fn scale_told(&self) -> Value {
+        match self.options.by {
+            WayName::Probe => self.scales.told(),
+            WayName::Tap => json!({ "by": "the model, tap by tap" }),
         }
     }
-    shelf.reciprocity(&sensors)
+}
+
+/// The key of a plan's provenance that counts the points measured by a probe or by taps.
+const PROBED: &str = "probed points";
+
+/// Prints the report; a doubtful library is failed work.
+fn answer(
+    as_json: bool,
+    library: &Library,
+    report: &impl serde::Serialize,
+    text: &str,
+) -> Result<(), CliError> {
+    output::answer(as_json, report, text)?;
+    trusted(library)
+}
+
+/// An error if a library is doubtful, with all reasons.
+fn trusted(library: &Library) -> Result<(), CliError> {
+    let doubts: Vec<String> = library.doubts().iter().map(|doubt| format!("  {doubt}")).collect();
+    if doubts.is_empty() {
+        return Ok(());
+    }
+    let text = format!("{} is doubtful:\n{}", library.path().display(), doubts.join("\n"));
+    Err(CliError::Work(text))
 }

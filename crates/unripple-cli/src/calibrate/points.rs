@@ -6,6 +6,7 @@ use crate::grid;
 use unripple::core::{Point, Surface};
 
 /// A grid, points typed, and last the actuators themselves, whose own sensors hear them.
+#[derive(Clone, Debug, Default)]
 pub struct Places {
     /// All of them.
     pub points: Vec<Point>,

@@ -25,6 +25,10 @@ pub struct Report {
     reciprocity_error: Option<f64>,
     seconds_per_recording: f64,
     seconds: f64,
+    /// Why the library is not to be trusted, if it is not.
+    doubtful: Vec<String>,
+    /// What else there is to say.
+    notes: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     truth: Option<String>,
 }
@@ -86,6 +90,8 @@ impl Report {
             reciprocity_error: library.reciprocity_error()?,
             seconds_per_recording,
             seconds: taken.as_secs_f64(),
+            doubtful: library.doubts().iter().map(ToString::to_string).collect(),
+            notes: notes(library),
             truth: truth.map(str::to_owned),
         })
     }
@@ -107,11 +113,20 @@ impl Report {
         if let Some(error) = self.reciprocity_error {
             let _ = writeln!(text, "  reciprocity      {:.2} % error", error * 100.0);
         }
+        for note in &self.notes {
+            let _ = writeln!(text, "  note             {note}");
+        }
         if let Some(truth) = &self.truth {
             let _ = writeln!(text, "  not told         {truth}");
         }
         text
     }
+}
+
+/// What the log says in words, then what is not known of levels.
+fn notes(library: &Library) -> Vec<String> {
+    let said = library.log_book().values().filter_map(|entry| entry.get("said")?.as_str());
+    said.chain(library.without_scale()).map(str::to_owned).collect()
 }
 
 /// A bar on a terminal, with the time that is left; nothing elsewhere.

@@ -1,6 +1,8 @@
 //! Measured points on their way into a library.
 
+use super::scale::Scales;
 use crate::error::CliError;
+use unripple::core::{PROBE, Surface};
 use unripple::dsp::Reciprocity;
 use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{Channel, Sink};
@@ -11,17 +13,60 @@ pub struct Shelf {
     pub library: Library,
     /// Points that this campaign measures; the rest are the actuators' own.
     pub probed: usize,
+    /// What is heard at a point is multiplied by this.
+    probe: f64,
+    /// What each actuator's sensor hears, by this.
+    sensors: Vec<f64>,
+    /// Actuators that are left out: their responses are zero, since what was heard of them is noise.
+    pub without: Vec<usize>,
 }
 
 impl Shelf {
+    pub fn new(
+        library: Library,
+        probed: usize,
+        surface: &Surface,
+        scales: &Scales,
+        without: Vec<usize>,
+    ) -> Self {
+        let sensors = surface.actuators.iter().map(|actuator| scales.input(&actuator.name)).collect();
+        Self { library, probed, probe: scales.input(PROBE), sensors, without }
+    }
+
+    /// For taps, whose strength the model tells: scales do not matter.
+    pub fn by_taps(self) -> Self {
+        Self { probe: 1.0, ..self }
+    }
+
     /// Keeps how reciprocal the actuators are, from what each hears of all.
     pub fn reciprocity(&mut self, sensors: &[Channel]) -> Result<(), CliError> {
-        let count = sensors.len();
-        let flat: Vec<f64> = (0..count)
-            .flat_map(|drive| sensors.iter().flat_map(move |heard| heard.responses[drive].iter().copied()))
-            .collect();
-        let found = Reciprocity::of(&flat, count).map_err(CliError::work)?;
+        let alive: Vec<usize> = (0..sensors.len()).filter(|a| !self.without.contains(a)).collect();
+        let mut flat = Vec::new();
+        for drive in &alive {
+            for heard in &alive {
+                let scale = self.sensors[*heard];
+                flat.extend(sensors[*heard].responses[*drive].iter().map(|x| x * scale));
+            }
+        }
+        let found = Reciprocity::of(&flat, alive.len()).map_err(CliError::work)?;
         Ok(self.library.set_reciprocity_error(found.error)?)
+    }
+
+    /// A channel as it is kept.
+    fn kept(&self, number: usize, channel: &Channel) -> (Vec<f32>, Vec<Quality>) {
+        let own = number.checked_sub(self.probed);
+        let scale = own.map_or(self.probe, |actuator| self.sensors.get(actuator).copied().unwrap_or(1.0));
+        let (mut samples, mut qualities) = (Vec::new(), Vec::new());
+        for (actuator, (response, found)) in channel.responses.iter().zip(&channel.quality).enumerate() {
+            if self.without.contains(&actuator) {
+                samples.extend(std::iter::repeat_n(0.0_f32, response.len()));
+                qualities.push(Quality::UNKNOWN);
+            } else {
+                samples.extend(response.iter().map(|h| (h * scale) as f32));
+                qualities.push(quality(found));
+            }
+        }
+        (samples, qualities)
     }
 }
 
@@ -31,8 +76,7 @@ impl Sink for Shelf {
     }
 
     fn keep(&mut self, number: usize, channel: &Channel, fault: Option<&str>) -> Result<(), CalibrateError> {
-        let samples: Vec<f32> = channel.responses.iter().flatten().map(|h| *h as f32).collect();
-        let quality: Vec<Quality> = channel.quality.iter().map(quality).collect();
+        let (samples, quality) = self.kept(number, channel);
         let kept = match fault {
             None => self.library.put(number, &samples, &quality),
             Some(_) => self.library.put_bad(number, &samples, &quality),

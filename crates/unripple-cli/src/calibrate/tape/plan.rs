@@ -1,6 +1,6 @@
 //! What is to be played, and what is to be recorded of it.
 
-use crate::calibrate::points::Places;
+use super::asked::{Asked, Wanted};
 use crate::error::CliError;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -16,39 +16,40 @@ pub const PLAY: &str = "play.wav";
 /// What was planned.
 const PLAN: &str = "plan.json";
 
-/// A recording that is asked for.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Wanted {
-    /// Number of the point; that after the last stands for the actuators.
-    pub number: usize,
-    /// Number of the repeat there.
-    pub repeat: usize,
-    /// Its file's name.
-    pub file: String,
-    /// Where the probe is to be, if that matters.
-    pub at: Option<Point>,
+/// The version of the plan.
+const FORMAT: u32 = 1;
+
+/// Seconds of ringing in plans that do not say.
+const RINGING: f64 = 0.35;
+
+/// Numbers that differ by less than this share are the same, written by another version.
+const SAME: f64 = 1e-9;
+
+/// Keys that a plan may lack.
+const NEW: [&str; 1] = ["ringing_s"];
+
+/// The plan that a folder has, if it has one.
+pub fn found(folder: &Path) -> Result<Option<Value>, CliError> {
+    let file = folder.join(PLAN);
+    let wrong = |expected: &str, found: String| {
+        CliError::Work(format!("{}: expected {expected}, found {found}", file.display()))
+    };
+    let text = match std::fs::read_to_string(&file) {
+        Ok(text) => text,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+        Err(error) => return Err(CliError::Work(format!("{}: {error}", file.display()))),
+    };
+    let plan: Value = serde_json::from_str(&text)
+        .map_err(|error| wrong("a plan that `calibrate` wrote", error.to_string()))?;
+    match &plan["format"] {
+        format if *format == json!(FORMAT) => Ok(Some(plan)),
+        other => Err(wrong(&format!("a plan of format {FORMAT}"), other.to_string())),
+    }
 }
 
-/// All recordings of a calibration, in order; first that of the actuators, where anything tells of them.
-pub fn wanted(places: &Places, hears_itself: bool, repeats: usize) -> Vec<Wanted> {
-    let digits = places.probed.to_string().len().max(3);
-    let last = |repeat: usize| if repeat == 0 { String::new() } else { format!("-{}", repeat + 1) };
-    let own = (0..repeats).filter(|_| hears_itself).map(|repeat| Wanted {
-        number: places.points.len(),
-        repeat,
-        file: format!("actuators{}.wav", last(repeat)),
-        at: None,
-    });
-    let points = places.points.iter().take(places.probed).enumerate();
-    let points = points.flat_map(|(number, at)| {
-        (0..repeats).map(move |repeat| Wanted {
-            number,
-            repeat,
-            file: format!("point-{:0digits$}{}.wav", number + 1, last(repeat)),
-            at: Some(*at),
-        })
-    });
-    own.chain(points).collect()
+/// Seconds that a plan lets the surface ring after each sweep: recordings are read as they were made.
+pub fn ringing(plan: &Value) -> f64 {
+    plan["ringing_s"].as_f64().filter(|seconds| *seconds > 0.0 && *seconds < 60.0).unwrap_or(RINGING)
 }
 
 /// A rig that hears nothing, and keeps what is driven in one recording.
@@ -98,7 +99,7 @@ pub fn told(
         json!({ "file": one.file, "probe_at_m": one.at.map(|at| [at.x, at.y]), "repeat": one.repeat + 1 })
     });
     json!({
-        "format": 1,
+        "format": FORMAT,
         "surface": surface,
         "play": PLAY,
         "sample_rate_hz": layout.rate,
@@ -107,6 +108,7 @@ pub fn told(
         "outputs": layout.outputs,
         "inputs": layout.inputs,
         "sweep_s": settings.sweep,
+        "ringing_s": settings.ringing,
         "sweeps_begin_s": drive.channels().iter().map(begins).collect::<Vec<_>>(),
         "level": settings.level,
         "repeats": settings.repeats,
@@ -114,15 +116,27 @@ pub fn told(
     })
 }
 
-/// Puts what is to be played and the plan into the folder, unless they are there; another plan is refused.
-pub fn put(folder: &Path, plan: &Value, drive: &Drive) -> Result<(), CliError> {
+/// Puts what is to be played and the plan into the folder, unless they are there. A plan that has fewer points gets the new ones; one that is
+/// otherwise different is refused, with all that differs.
+pub fn put(folder: &Path, plan: &Value, drive: &Drive, before: Option<&Value>) -> Result<(), CliError> {
     let failed = |error: std::io::Error| CliError::Work(format!("{}: {error}", folder.display()));
     let (file, play) = (folder.join(PLAN), folder.join(PLAY));
     let text = serde_json::to_string_pretty(plan).map_err(CliError::work)? + "\n";
-    match std::fs::read_to_string(&file) {
-        Ok(found) if found == text => {}
-        Ok(found) => return Err(differs(&file, plan, &found)),
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+    match before {
+        Some(before) => {
+            let other = differences(plan, before);
+            if !other.is_empty() {
+                return Err(CliError::Work(format!(
+                    "{}: expected the plan of this calibration, found another:\n{}\nuse its options again, or another folder",
+                    file.display(),
+                    other.join("\n")
+                )));
+            }
+            if plan["recordings"] != before["recordings"] {
+                write_file(&file, text.as_bytes())?;
+            }
+        }
+        None => {
             std::fs::create_dir_all(folder).map_err(failed)?;
             if std::fs::read_dir(folder).map_err(failed)?.next().is_some() {
                 return Err(CliError::Work(format!(
@@ -134,7 +148,6 @@ pub fn put(folder: &Path, plan: &Value, drive: &Drive) -> Result<(), CliError> {
             // The plan first: what is to be played is written again wherever a plan is without it.
             write_file(&file, text.as_bytes())?;
         }
-        Err(error) => return Err(failed(error)),
     }
     // Whoever has played it may have moved it away.
     if !play.exists() {
@@ -143,22 +156,33 @@ pub fn put(folder: &Path, plan: &Value, drive: &Drive) -> Result<(), CliError> {
     Ok(())
 }
 
-/// Says what another plan has otherwise.
-fn differs(file: &Path, plan: &Value, found: &str) -> CliError {
-    let found: Value = serde_json::from_str(found).unwrap_or_default();
-    let keys = plan.as_object().into_iter().flatten();
-    let other = keys.map(|(key, value)| (key, value.to_string(), found.get(key).map(Value::to_string)));
-    let said =
-        other.into_iter().find(|(_, here, there)| there.as_ref() != Some(here)).map(|(key, here, there)| {
-            let short = |text: String| match text.char_indices().nth(60) {
-                Some((at, _)) => format!("{}...", &text[..at]),
-                None => text,
-            };
-            format!("`{key}` {} instead of {}", short(there.unwrap_or_else(|| "nothing".into())), short(here))
-        });
-    CliError::Work(format!(
-        "{}: expected the plan of this calibration, found {}; use its options again, or another folder",
-        file.display(),
-        said.unwrap_or_else(|| "other text".into())
-    ))
+/// What another plan has otherwise, a line for each key, recordings last.
+fn differences(plan: &Value, before: &Value) -> Vec<String> {
+    let keys = plan.as_object().into_iter().flatten().filter(|(key, _)| *key != "recordings");
+    let mut other: Vec<String> = keys
+        .filter(|(key, here)| match before.get(key.as_str()) {
+            Some(there) => !same(here, there),
+            None => !NEW.contains(&key.as_str()),
+        })
+        .map(|(key, here)| {
+            let there = before.get(key).map_or("nothing".to_owned(), Value::to_string);
+            format!("  `{key}`: {there} there, {here} asked for")
+        })
+        .collect();
+    if other.is_empty() {
+        other.extend(Asked::of(before).lost(&Asked::of(plan)));
+    }
+    other
+}
+
+/// Whether two values are the same, numbers within the last digits.
+fn same(a: &Value, b: &Value) -> bool {
+    match (a, b) {
+        (Value::Number(a), Value::Number(b)) => {
+            let (a, b) = (a.as_f64().unwrap_or(f64::NAN), b.as_f64().unwrap_or(f64::NAN));
+            (a - b).abs() <= SAME * a.abs().max(b.abs())
+        }
+        (Value::Array(a), Value::Array(b)) => a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(a, b)),
+        _ => a == b,
+    }
 }

@@ -1,13 +1,13 @@
 //! Recordings that were brought back: checked, and brought to where playing began.
 
-use super::plan::Wanted;
-use serde_json::{Value, json};
+use super::asked::Wanted;
+use super::fault::Fault;
+use super::read::{Needed, Reader};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use unripple::core::{Drive, Layout};
-use unripple::dsp::{Band, Delay, clipped, shift};
+use unripple::dsp::{Delay, shift};
 use unripple_calibrate::measure::Wires;
-use unripple_store::read_wav;
 
 /// Seconds by which a recording may end before what is played, of which the last quarter of a second is silence.
 const SHORT: f64 = 0.2;
@@ -18,42 +18,27 @@ const MARGIN: f64 = 240.0;
 /// Samples that a recording may begin after what is played, of which the first few blocks are silence.
 const AFTER: f64 = 1024.0;
 
-/// Samples at the largest magnitude, side by side, above which a channel is taken to be clipped.
-const FLAT: usize = 20;
+/// Least likeness of what sensors hear in two recordings of the same sweeps: clocks that run apart and a sheet that warms leave as much.
+const LEAST: f64 = 0.3;
 
-/// Least likeness of what sensors hear in two recordings of the same sweeps.
-const LEAST: f64 = 0.7;
+/// Below this likeness it is asked whether channels changed places; above it in another channel they did.
+const LIKE: f64 = 0.7;
 
 /// Channels that tell how late a recording is.
 const TELLING: usize = 3;
 
-/// A recording that cannot be used, and what to do.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fault {
-    pub file: String,
-    pub why: String,
-    pub mend: String,
-}
+/// Seconds by which actuators may differ on where playing began: less than sweeps are apart.
+const AGREE: f64 = 0.05;
 
-impl Fault {
-    pub fn json(&self) -> Value {
-        json!({ "file": self.file, "why": self.why, "mend": self.mend })
-    }
-}
-
-impl std::fmt::Display for Fault {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}: {}; {}", self.file, self.why, self.mend)
-    }
-}
+/// Actuators that are asked for it, at most.
+const ASKED: usize = 16;
 
 /// Reads recordings.
 #[derive(Clone, Debug)]
 pub struct Takes {
     folder: PathBuf,
-    pub layout: Layout,
+    pub reader: Reader,
     pub wires: Wires,
-    band: Band,
     /// What is played.
     pub drive: Drive,
     /// What the telling channels hear of it where it begins at time 0, give or take a latency common to all recordings.
@@ -64,8 +49,16 @@ pub struct Takes {
 
 impl Takes {
     /// Recordings in a folder, of this drive.
-    pub fn new(folder: PathBuf, layout: Layout, wires: Wires, band: Band, drive: Drive) -> Self {
-        Self { folder, layout, wires, band, drive, known: Vec::new(), late: BTreeMap::new() }
+    pub fn new(folder: PathBuf, reader: Reader, wires: Wires, drive: Drive) -> Self {
+        Self { folder, reader, wires, drive, known: Vec::new(), late: BTreeMap::new() }
+    }
+
+    pub fn layout(&self) -> &Layout {
+        &self.reader.layout
+    }
+
+    fn rate(&self) -> f64 {
+        self.reader.layout.rate
     }
 
     /// Inputs that hear the drive itself wherever the probe is: the reference, or the actuators' sensors.
@@ -76,36 +69,57 @@ impl Takes {
     /// Learns from the recording of the actuators how any other one is to be moved: its loudest telling channels are
     /// kept, moved by whole samples to a little after where the sweeps begin.
     pub fn learn(&mut self, wanted: &Wanted) -> Result<(), Fault> {
-        let lines = self.checked(wanted, &self.needed(wanted))?;
-        let power = |input: &usize| lines[*input].iter().map(|x| x * x).sum::<f64>();
-        let mut telling = self.telling();
-        telling.sort_by(|a, b| power(b).total_cmp(&power(a)));
-        telling.truncate(TELLING);
-        let delays = telling.iter().filter_map(|input| {
-            Delay::between(&lines[*input], &self.sent(*input), self.layout.rate, self.band).ok()
-        });
-        let late = median(delays.map(|delay| delay.samples).collect());
-        let late = late.ok_or_else(|| self.unlike(wanted, 0.0))?.round() - MARGIN;
+        let lines = self.lines(wanted)?;
+        let telling = loudest(&lines, self.telling());
+        let late = self.began(&lines).ok_or_else(|| self.unlike(wanted, 0.0))?.round() - MARGIN;
         self.begun(wanted, late)?;
         self.known = telling.into_iter().map(|input| (input, self.moved(&lines[input], late))).collect();
         self.late.insert(wanted.file.clone(), late);
         Ok(())
     }
 
-    /// What a telling channel hears most of: its own actuator's drive, or, of the reference, that of any.
-    fn sent(&self, input: usize) -> Vec<f64> {
-        let channels = self.drive.channels();
-        match self.wires.sensors.iter().position(|sensor| *sensor == input) {
-            Some(actuator) if self.wires.reference.is_none() => channels[self.wires.drives[actuator]].clone(),
-            _ => sum(channels),
+    /// Sample at which playing began, by what is heard of the drive.
+    fn began(&self, lines: &[Vec<f64>]) -> Option<f64> {
+        let anchor = self.heard_themselves(lines);
+        match self.wires.reference {
+            Some(reference) => self.of_reference(&lines[reference], anchor),
+            None => anchor,
         }
     }
 
-    /// A recording as the device would have heard it: lines of what is played, brought to where that begins. Channels
-    /// that nobody asks for are silent.
+    /// The same by what actuators hear of themselves: most agree, but for dead ones.
+    fn heard_themselves(&self, lines: &[Vec<f64>]) -> Option<f64> {
+        let own = |(actuator, input): (usize, &usize)| {
+            let sent = self.drive.channels().get(*self.wires.drives.get(actuator)?)?;
+            Some(self.like(&lines[*input], sent)?.samples)
+        };
+        let step = self.wires.sensors.len().div_ceil(ASKED).max(1);
+        let all: Vec<f64> = self.wires.sensors.iter().enumerate().step_by(step).filter_map(own).collect();
+        let near = |at: f64| -> Vec<f64> {
+            all.iter().copied().filter(|other| (other - at).abs() < AGREE * self.rate()).collect()
+        };
+        all.iter().map(|at| near(*at)).max_by_key(Vec::len).and_then(median)
+    }
+
+    /// The same by a reference, which hears all outputs, or one: all play the same sweep, so that only others tell which.
+    fn of_reference(&self, line: &[f64], anchor: Option<f64>) -> Option<f64> {
+        let whole = self.like(line, &sum(self.drive.channels()))?;
+        let one = |sent: &Vec<f64>| self.like(line, sent).filter(|like| like.correlation > whole.correlation);
+        let mut alone = self.drive.channels().iter().filter_map(one).map(|delay| delay.samples);
+        let nearest = match anchor {
+            Some(anchor) => alone.min_by(|a, b| (a - anchor).abs().total_cmp(&(b - anchor).abs())),
+            // Nobody else tells: the one with which all that is played is in the recording.
+            None => alone.find(|late| {
+                let left = line.len() as f64 - late;
+                *late >= -AFTER && left >= self.drive.samples() as f64 - SHORT * self.rate()
+            }),
+        };
+        nearest.or(Some(whole.samples))
+    }
+
+    /// A recording as the device would have heard it: lines of what is played, brought to where that begins.
     pub fn take(&mut self, wanted: &Wanted) -> Result<Vec<Vec<f32>>, Fault> {
-        let needed = self.needed(wanted);
-        let lines = self.checked(wanted, &needed)?;
+        let lines = self.lines(wanted)?;
         let late = match self.late.get(&wanted.file) {
             Some(late) => *late,
             None => self.late(wanted, &lines)?,
@@ -113,22 +127,19 @@ impl Takes {
         self.late.insert(wanted.file.clone(), late);
         let samples = self.drive.samples();
         let left = lines[0].len() as f64 - late;
-        if left < samples as f64 - SHORT * self.layout.rate {
-            let seconds = |count: f64| format!("{:.2} s", count.max(0.0) / self.layout.rate);
+        if left < samples as f64 - SHORT * self.rate() {
+            let seconds = |count: f64| format!("{:.2} s", count.max(0.0) / self.rate());
             let why = format!(
                 "expected {} from where play.wav begins, found {}",
                 seconds(samples as f64),
                 seconds(left)
             );
-            return Err(self.fault(wanted, why, "record until after it has ended"));
+            return Err(Fault::new(&wanted.file, why, "record until after it has ended"));
         }
         // Within a millionth of a whole number of samples, none is split.
         let late = if (late - late.round()).abs() < 1e-6 { late.round() } else { late };
         let whole = late.floor();
-        let lines = lines.iter().enumerate().map(|(input, line)| {
-            if !needed.contains(&input) {
-                return vec![0.0; samples];
-            }
+        let lines = lines.iter().map(|line| {
             let line = self.moved(line, whole);
             let line = if late > whole { shift(&line, whole - late) } else { line };
             line.into_iter().map(|x| x as f32).collect()
@@ -141,16 +152,38 @@ impl Takes {
         if self.known.is_empty() {
             return Ok(0.0);
         }
-        let delays = self
-            .known
-            .iter()
-            .map(|(input, known)| Delay::between(&lines[*input], known, self.layout.rate, self.band));
-        let delays: Vec<Delay> = delays.filter_map(Result::ok).collect();
+        let delays = self.known.iter().map(|(input, known)| self.like(&lines[*input], known));
+        let delays: Vec<Delay> = delays.flatten().collect();
         let likeness = median(delays.iter().map(|delay| delay.correlation).collect()).unwrap_or(0.0);
+        if likeness < LIKE {
+            self.in_place(wanted, lines)?;
+        }
         let late = median(delays.iter().map(|delay| delay.samples).collect());
         let late = late.filter(|_| likeness >= LEAST).ok_or_else(|| self.unlike(wanted, likeness))?;
         self.begun(wanted, late)?;
         Ok(late)
+    }
+
+    fn like(&self, line: &[f64], known: &[f64]) -> Option<Delay> {
+        Delay::between(line, known, self.rate(), self.reader.band).ok()
+    }
+
+    /// Refuses a recording in which a telling channel is another than it was.
+    fn in_place(&self, wanted: &Wanted, lines: &[Vec<f64>]) -> Result<(), Fault> {
+        for (input, known) in &self.known {
+            let likeness = |line: &Vec<f64>| self.like(line, known).map_or(0.0, |delay| delay.correlation);
+            let all: Vec<f64> = lines.iter().map(likeness).collect();
+            let Some(best) = (0..all.len()).max_by(|a, b| all[*a].total_cmp(&all[*b])) else { continue };
+            if best != *input && all[best] >= LIKE {
+                let why = format!(
+                    "expected {} to hear the sweeps as before, found what it heard in {}",
+                    self.reader.named(*input),
+                    self.reader.named(best)
+                );
+                return Err(Fault::new(&wanted.file, why, "record again, channels in the order of the plan"));
+            }
+        }
+        Ok(())
     }
 
     /// Refuses a recording that was begun too late.
@@ -158,10 +191,10 @@ impl Takes {
         if late >= -MARGIN - AFTER {
             return Ok(());
         }
-        let after = -(late + MARGIN) / self.layout.rate;
+        let after = -(late + MARGIN) / self.rate();
         let why =
             format!("expected a recording from before play.wav began, found one from {after:.3} s after");
-        Err(self.fault(wanted, why, "begin to record first, then to play"))
+        Err(Fault::new(&wanted.file, why, "begin to record first, then to play"))
     }
 
     /// So many samples as are played, from `late` on.
@@ -170,81 +203,33 @@ impl Takes {
         (0..self.drive.samples()).map(|i| at(i).copied().unwrap_or(0.0)).collect()
     }
 
-    /// Inputs that a recording is of use for.
-    fn needed(&self, wanted: &Wanted) -> Vec<usize> {
-        let own = wanted.at.is_none();
-        let mut needed = self.telling();
-        if own {
-            needed.extend(&self.wires.sensors);
-        } else {
-            needed.extend(self.wires.probe);
+    /// The channels of a recording, checked for what it is of use for: sensors may be dead, but not all of them.
+    fn lines(&self, wanted: &Wanted) -> Result<Vec<Vec<f64>>, Fault> {
+        let mut all: Vec<usize> = self.wires.reference.into_iter().collect();
+        if wanted.at.is_some() {
+            all.extend(self.wires.probe);
         }
-        needed.sort_unstable();
-        needed.dedup();
-        needed
-    }
-
-    /// The channels of a recording, if it is one of all inputs, at the rate, neither silent nor clipped.
-    fn checked(&self, wanted: &Wanted, needed: &[usize]) -> Result<Vec<Vec<f64>>, Fault> {
-        let refuse = |why: String, mend: &str| Err(self.fault(wanted, why, mend));
-        let wav = match read_wav(self.folder.join(&wanted.file)) {
-            Ok(wav) => wav,
-            Err(error) => return refuse(error.to_string(), "save it as WAV of integers or float32"),
-        };
-        let (rate, inputs) = (self.layout.rate, &self.layout.inputs);
-        if wav.rate != rate {
-            return refuse(
-                format!("expected {rate} Hz, found {} Hz", wav.rate),
-                "record at that rate, without resampling afterwards",
-            );
-        }
-        if wav.channels.len() != inputs.len() {
-            return refuse(
-                format!(
-                    "expected {} channels ({}), found {}",
-                    inputs.len(),
-                    inputs.join(", "),
-                    wav.channels.len()
-                ),
-                "record all of them into one file, in that order, or name those there are with --tape-inputs",
-            );
-        }
-        for input in needed {
-            let (line, name) = (&wav.channels[*input], &inputs[*input]);
-            let mean = line.iter().sum::<f64>() / line.len().max(1) as f64;
-            if line.iter().all(|x| (x - mean).abs() <= 1e-9) {
-                return refuse(
-                    format!("expected sound in channel {} (`{name}`), found silence", input + 1),
-                    "look at its cable and gain, and record again",
-                );
-            }
-            let flat = clipped(line, f64::INFINITY);
-            if flat > FLAT {
-                return refuse(
-                    format!(
-                        "channel {} (`{name}`) is clipped: {flat} samples at its largest value",
-                        input + 1
-                    ),
-                    "turn its gain down, and record again, all points with the same gain",
-                );
-            }
-        }
-        Ok(wav.channels)
+        let needed = Needed { all: &all, any: &self.wires.sensors };
+        self.reader.read(&self.folder, &wanted.file, &needed)
     }
 
     fn unlike(&self, wanted: &Wanted, likeness: f64) -> Fault {
         let names: Vec<&str> =
-            self.telling().iter().map(|input| self.layout.inputs[*input].as_str()).collect();
+            self.telling().iter().map(|input| self.layout().inputs[*input].as_str()).collect();
         let why = format!(
             "expected {} to hear the sweeps of play.wav, likeness {LEAST} or more, found {likeness:.2}",
             names.join(", ")
         );
-        self.fault(wanted, why, "record while play.wav plays, channels in the order of the plan")
+        Fault::new(&wanted.file, why, "record while play.wav plays, channels in the order of the plan")
     }
+}
 
-    fn fault(&self, wanted: &Wanted, why: String, mend: &str) -> Fault {
-        Fault { file: wanted.file.clone(), why, mend: mend.into() }
-    }
+/// The loudest of some channels, at most as many as are to tell.
+fn loudest(lines: &[Vec<f64>], mut inputs: Vec<usize>) -> Vec<usize> {
+    let power = |input: &usize| lines[*input].iter().map(|x| x * x).sum::<f64>();
+    inputs.sort_by(|a, b| power(b).total_cmp(&power(a)));
+    inputs.truncate(TELLING);
+    inputs
 }
 
 fn sum(channels: &[Vec<f64>]) -> Vec<f64> {

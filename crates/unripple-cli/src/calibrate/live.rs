@@ -1,0 +1,166 @@
+//! Calibration through a device that plays and listens at once.
+
+use super::devices::{self, Opened};
+use super::finish::{finish, log_run};
+use super::report::{self, Report};
+use super::shelf::Shelf;
+use super::{Campaign, levels, middle, points};
+use crate::args::WayName;
+use crate::error::CliError;
+use serde_json::Value;
+use std::time::Instant;
+use unripple::core::{Layout, Point};
+use unripple_calibrate::measure::{
+    Listen, MeasureOptions, Progress, Rig, Session, Sink, TapOptions, TapSession, Way, Wires, campaign,
+};
+use unripple_devices::{Expected, WiringOptions, WiringReport, check_wiring};
+use unripple_store::{Library, PointState};
+
+/// Measures all points that are missing, and says what the library is worth.
+pub fn run(mut known: Campaign<'_>, as_json: bool) -> Result<(), CliError> {
+    super::kept(&known.settings)?;
+    let (options, surface) = (known.options, known.surface);
+    let Opened { mut rig, truth } = devices::open(&options.device, surface)?;
+    let layout = rig.device().layout().clone();
+    let wires = Wires::by_name(&known.model.ports, &layout, &devices::named(&options.wire)?)?;
+    known.places = points::places(options, surface, !wires.sensors.is_empty())?;
+    if options.check_levels {
+        return levels::listen(&known, rig.as_mut(), &layout, &wires, as_json);
+    }
+    let library = Library::create(&options.output, &known.plan())?;
+    scales_agree(&known, &library)?;
+    let began = library.in_state(PointState::Missing).len();
+    let middle = middle(surface);
+    let dead = wiring(&known, rig.as_mut(), &layout, middle)?;
+    known.settings.without = dead;
+    let without = known.settings.without.clone();
+    let mut shelf = Shelf::new(library, known.places.probed, surface, &known.scales, without);
+
+    let places = &known.places;
+    let first = Session::new(surface, &layout, wires.clone(), &known.settings)?;
+    let latency = first.find_latency(rig.as_mut(), places.points.len(), middle, known.model)?;
+    let late = latency.map_or(0.0, |found| found[0]);
+    let settings = MeasureOptions { latency: late, ..known.settings.clone() };
+    let session = Session::new(surface, &layout, wires.clone(), &settings)?;
+    own(&known, &session, rig.as_mut(), &mut shelf, middle)?;
+    let seconds = session.seconds();
+    let way = match options.by {
+        WayName::Probe => Way::Probe(Box::new(session)),
+        WayName::Tap => {
+            shelf = shelf.by_taps();
+            let (model, taps) = (known.model.clone(), TapOptions::default());
+            Way::Tap(Box::new(TapSession::new(surface, &layout, &wires, model, &settings, taps)?))
+        }
+    };
+    let bar = report::bar(as_json, began);
+    let start = Instant::now();
+    let mut tell = |progress: &Progress| report::tell(&bar, progress);
+    campaign(rig.as_mut(), &way, &places.points, &mut shelf, settings.again, &mut tell)?;
+    bar.finish_and_clear();
+    let taken = start.elapsed();
+    finish(&known, &mut shelf, latency)?;
+    if began > 0 {
+        log_run(&known, &mut shelf.library, began, taken.as_secs_f64())?;
+    }
+    let report = Report::of(&shelf.library, places, latency, truth.as_deref(), seconds, taken)?;
+    super::answer(as_json, &shelf.library, &report, &report.text())
+}
+
+/// Refuses to mix points of two scales in one library.
+fn scales_agree(known: &Campaign<'_>, library: &Library) -> Result<(), CliError> {
+    let (here, begun) = (known.scale_told(), library.in_state(PointState::Missing).len());
+    match library.logged("scale") {
+        Some(there) if *there != here && begun < library.points().len() => {
+            let said = |value: &Value| {
+                let keys = ["input_all", "input", "output"].map(|key| format!("{key} {}", value[key]));
+                keys.join(", ")
+            };
+            Err(CliError::Work(format!(
+                "{}: expected the scales that its points were measured with ({}), found {}; use --input-scale and --output-scale as \
+                 then, or another library",
+                library.path().display(),
+                said(there),
+                said(&here)
+            )))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Tries the wires, where the device has a sensor for each actuator; returns the actuators that are left out.
+fn wiring(
+    known: &Campaign<'_>,
+    rig: &mut dyn Rig,
+    layout: &Layout,
+    middle: Point,
+) -> Result<Vec<usize>, CliError> {
+    let (options, model) = (known.options, known.model);
+    let without = known.settings.without.clone();
+    let sensing = layout.inputs.len() >= layout.outputs.len();
+    if !sensing || layout.outputs.len() != model.ports.len() || !options.wire.is_empty() {
+        eprintln!(
+            "wiring: not tried, since channels do not correspond to actuators and their sensors by name"
+        );
+        return Ok(without);
+    }
+    rig.ready(known.places.points.len(), middle, 1)?;
+    let try_options = WiringOptions::for_band(model.conditions.band);
+    let probe = (layout.inputs.len() > layout.outputs.len()).then_some(middle);
+    let expected = Expected::of_modes(model, probe, try_options.listen);
+    let found = check_wiring(rig.device(), &expected, &try_options).map_err(CliError::work)?;
+    judged(known, &found)
+}
+
+/// What to make of what the wiring test found.
+fn judged(known: &Campaign<'_>, found: &WiringReport) -> Result<Vec<usize>, CliError> {
+    let options = known.options;
+    let mut without = known.settings.without.clone();
+    let named = |name: &str| known.surface.actuators.iter().position(|actuator| actuator.name == name);
+    let silent: Vec<&str> =
+        found.outputs.iter().filter(|lead| lead.silent).map(|lead| lead.name.as_str()).collect();
+    // Where --without says so it is no news; without a model only silence can be told.
+    let known_of = |fault: &String| {
+        options.without.iter().any(|name| fault.contains(&format!("`{name}`")))
+            || (options.no_model && !fault.ends_with("is silent"))
+    };
+    let faults: Vec<String> = found.faults().into_iter().filter(|fault| !known_of(fault)).collect();
+    if faults.is_empty() || options.any_wiring {
+        faults.iter().for_each(|fault| eprintln!("wiring: {fault}"));
+        without.extend(silent.iter().filter_map(|name| named(name)));
+        without.sort_unstable();
+        without.dedup();
+        return Ok(without);
+    }
+    let news: Vec<&&str> =
+        silent.iter().filter(|name| !options.without.iter().any(|known| known == *name)).collect();
+    let dead = match news.first() {
+        Some(name) => format!(", without a dead one by --without {name}"),
+        None => String::new(),
+    };
+    let faults = faults.join("; ");
+    Err(CliError::Work(format!("wiring: {faults} (mend it, or go on with --any-wiring{dead})")))
+}
+
+/// What actuators hear of each other and of themselves, as the library's last points.
+fn own(
+    known: &Campaign<'_>,
+    session: &Session,
+    rig: &mut dyn Rig,
+    shelf: &mut Shelf,
+    middle: Point,
+) -> Result<(), CliError> {
+    let places = &known.places;
+    let mut missing = shelf.library.in_state(PointState::Missing);
+    missing.retain(|point| *point >= places.probed);
+    if missing.is_empty() {
+        return Ok(());
+    }
+    let sensors = session.measure(rig, places.points.len(), middle, 2, Listen::Sensors)?;
+    for point in missing {
+        if let Some(channel) = sensors.get(point - places.probed) {
+            let fault = session.fault(channel);
+            shelf.keep(point, channel, fault.as_deref())?;
+        }
+    }
+    shelf.reciprocity(&sensors)
+}

@@ -1,0 +1,105 @@
+//! What is said of a calibration by files: what was made, what is still to be recorded, what is wrong.
+
+use super::{Bench, Outcome, Wanted, fault::Fault, plan::PLAY};
+use crate::calibrate::{report::Report, trusted};
+use crate::error::CliError;
+use crate::output;
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// Recordings named one by one.
+const LISTED: usize = 12;
+
+impl Bench<'_> {
+    /// Says what was made, what is still to be recorded, and what is wrong.
+    pub fn answer(&self, outcome: Outcome, told: &Value, as_json: bool) -> Result<(), CliError> {
+        let missing: Vec<&Wanted> = self.wanted.iter().filter(|one| !self.there(one)).collect();
+        let surplus = self.surplus();
+        for file in &surplus {
+            eprintln!("warning: {file} in {} is not in the plan, and not used", self.folder.display());
+        }
+        let mut report = match &outcome.report {
+            Some(report) => serde_json::to_value(report).map_err(CliError::work)?,
+            None => json!({}),
+        };
+        if let Some(report) = report.as_object_mut() {
+            let faults: Vec<Value> = outcome.faults.iter().map(Fault::json).collect();
+            let files: Vec<&String> = missing.iter().map(|one| &one.file).collect();
+            let tape = json!({
+                "folder": self.folder.display().to_string(),
+                "play": told["play"],
+                "duration_s": told["duration_s"],
+                "missing": files,
+                "surplus": surplus,
+                "wrong": faults,
+            });
+            report.insert("tape".into(), tape);
+            let notes = outcome.notes.iter().map(|note| json!(note));
+            match report.get_mut("notes").and_then(Value::as_array_mut) {
+                Some(known) => known.extend(notes),
+                None => drop(report.insert("notes".into(), notes.collect())),
+            }
+        }
+        let mut text = outcome.report.as_ref().map_or_else(String::new, Report::text);
+        text += &self.wanting(&missing, told);
+        output::answer(as_json, &report, &text)?;
+        let doubtful = outcome.library.as_ref().map_or(Ok(()), trusted);
+        if outcome.faults.is_empty() {
+            return doubtful;
+        }
+        let faults: Vec<String> = outcome.faults.iter().map(|fault| format!("  {fault}")).collect();
+        let mut text = format!("{} cannot be used:\n{}", recordings(faults.len()), faults.join("\n"));
+        if let Err(doubts) = doubtful {
+            let _ = write!(text, "\n{doubts}");
+        }
+        Err(CliError::Work(text))
+    }
+
+    /// Recordings in the folder that nobody asked for.
+    fn surplus(&self) -> Vec<String> {
+        let entries = std::fs::read_dir(self.folder).into_iter().flatten().flatten();
+        let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
+        let sound = names.filter(|name| name.to_lowercase().ends_with(".wav") && name != PLAY);
+        let mut surplus: Vec<String> =
+            sound.filter(|name| self.wanted.iter().all(|one| one.file != *name)).collect();
+        surplus.sort();
+        surplus
+    }
+
+    /// What is still to be recorded, and how.
+    fn wanting(&self, missing: &[&Wanted], told: &Value) -> String {
+        if missing.is_empty() {
+            return String::new();
+        }
+        let list = |key: &str| {
+            let names = told[key].as_array().into_iter().flatten().filter_map(Value::as_str);
+            names.collect::<Vec<_>>().join(", ")
+        };
+        let full = match self.campaign.options.device.output_scale {
+            Some(full) => format!("{full} of the actuators' unit"),
+            None => "the surface's limit".into(),
+        };
+        let mut text = format!(
+            "{} to be made in {}, while play.wav plays ({:.1} s, channels {}; full scale is {full}),\n\
+             as WAV at {} Hz with the channels {}, from before it begins until after it ends:\n",
+            recordings(missing.len()),
+            self.folder.display(),
+            told["duration_s"].as_f64().unwrap_or(0.0),
+            list("outputs"),
+            told["sample_rate_hz"].as_f64().unwrap_or(0.0),
+            list("inputs"),
+        );
+        for one in missing.iter().take(LISTED) {
+            let at = one.at.map_or_else(|| "anywhere".to_owned(), |at| format!("at {at}"));
+            let _ = writeln!(text, "  {:20} the probe {at}", one.file);
+        }
+        if missing.len() > LISTED {
+            let _ = writeln!(text, "  and {} more, see plan.json", missing.len() - LISTED);
+        }
+        text + "then the same command again, now or after each\n"
+    }
+}
+
+fn recordings(count: usize) -> String {
+    if count == 1 { "1 recording".into() } else { format!("{count} recordings") }
+}

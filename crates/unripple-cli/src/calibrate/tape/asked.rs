@@ -1,0 +1,118 @@
+//! The recordings that are asked for: files by point and repeat, old ones kept when points are added.
+
+use crate::calibrate::points::Places;
+use serde_json::Value;
+use unripple::core::Point;
+
+/// Places closer than this, in metres, are the same.
+const SAME: f64 = 1e-9;
+
+/// A recording that is asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wanted {
+    /// Number of the point; that after the last stands for the actuators.
+    pub number: usize,
+    /// Number of the repeat there.
+    pub repeat: usize,
+    /// Its file's name.
+    pub file: String,
+    /// Where the probe is to be, if that matters.
+    pub at: Option<Point>,
+}
+
+/// Recordings of points as a plan has them: where the probe is to be, and how the names of its files begin.
+#[derive(Clone, Debug, Default)]
+pub struct Asked {
+    points: Vec<(Point, String)>,
+}
+
+impl Asked {
+    /// Of a plan.
+    pub fn of(plan: &Value) -> Self {
+        let recordings = plan["recordings"].as_array().into_iter().flatten();
+        let first = recordings.filter(|one| one["repeat"] == 1);
+        let point = |one: &Value| {
+            let at = one["probe_at_m"].as_array()?;
+            let at = Point::new(at.first()?.as_f64()?, at.get(1)?.as_f64()?);
+            Some((at, one["file"].as_str()?.strip_suffix(".wav")?.to_owned()))
+        };
+        Self { points: first.filter_map(point).collect() }
+    }
+
+    /// Points of this plan that another lacks, a line each.
+    pub fn lost(&self, other: &Self) -> Vec<String> {
+        let has = |(at, stem): &&(Point, String)| {
+            other.points.iter().any(|(there, name)| there.distance(*at) < SAME && name == stem)
+        };
+        let lost = self.points.iter().filter(|point| !has(point));
+        lost.map(|(at, stem)| {
+            format!(
+                "  `recordings`: {stem}.wav at {at} there, not asked for (points may be added, not left out)"
+            )
+        })
+        .collect()
+    }
+
+    /// All recordings of a calibration, in order; first that of the actuators, where anything tells of them. Points that this plan has keep
+    /// their files, new ones are counted on.
+    pub fn wanted(&self, places: &Places, hears_itself: bool, repeats: usize) -> Vec<Wanted> {
+        let last = |repeat: usize| if repeat == 0 { String::new() } else { format!("-{}", repeat + 1) };
+        let own = (0..repeats).filter(|_| hears_itself).map(|repeat| Wanted {
+            number: places.points.len(),
+            repeat,
+            file: format!("actuators{}.wav", last(repeat)),
+            at: None,
+        });
+        let digits = places.probed.to_string().len().max(3);
+        let mut known = self.points.clone();
+        let mut next = self.points.len();
+        let mut wanted: Vec<Wanted> = own.collect();
+        for (number, at) in places.points.iter().enumerate().take(places.probed) {
+            let there = known.iter().position(|(other, _)| other.distance(*at) < SAME);
+            let stem = match there {
+                Some(there) => known.swap_remove(there).1,
+                None => {
+                    next += 1;
+                    format!("point-{next:0digits$}")
+                }
+            };
+            wanted.extend((0..repeats).map(|repeat| Wanted {
+                number,
+                repeat,
+                file: format!("{stem}{}.wav", last(repeat)),
+                at: Some(*at),
+            }));
+        }
+        wanted
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn places(all: &[(f64, f64)]) -> Places {
+        let points = all.iter().map(|(x, y)| Point::from_mm(*x, *y)).collect();
+        Places { points, probed: all.len() }
+    }
+
+    #[test]
+    fn old_points_keep_their_files_and_new_ones_count_on() {
+        let files = |wanted: &[Wanted]| wanted.iter().map(|one| one.file.clone()).collect::<Vec<_>>();
+        let first = Asked::default().wanted(&places(&[(1.0, 2.0), (3.0, 4.0)]), true, 2);
+        let names = ["actuators.wav", "actuators-2.wav", "point-001.wav", "point-001-2.wav", "point-002.wav"];
+        assert_eq!(files(&first)[..5], names);
+        let recordings: Vec<Value> = first
+            .iter()
+            .map(|one| json!({ "file": one.file, "probe_at_m": one.at.map(|at| [at.x, at.y]), "repeat": one.repeat + 1 }))
+            .collect();
+        let plan = Asked::of(&json!({ "recordings": recordings }));
+        // A new point before, and one between.
+        let more = plan.wanted(&places(&[(9.0, 9.0), (3.0, 4.0), (5.0, 5.0), (1.0, 2.0)]), false, 1);
+        assert_eq!(files(&more), ["point-003.wav", "point-002.wav", "point-004.wav", "point-001.wav"]);
+        assert!(plan.lost(&plan).is_empty());
+        let lost = plan.lost(&Asked { points: plan.points[..1].to_vec() });
+        assert!(lost.len() == 1 && lost[0].contains("point-002.wav at (3.0000, 4.0000) mm"), "{lost:?}");
+    }
+}

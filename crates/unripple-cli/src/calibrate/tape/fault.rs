@@ -1,0 +1,28 @@
+//! What is wrong with a recording, and what to do.
+
+use serde_json::{Value, json};
+
+/// A recording that cannot be used, and what to do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// Its file, or all that are concerned.
+    pub file: String,
+    pub why: String,
+    pub mend: String,
+}
+
+impl Fault {
+    pub fn new(file: &str, why: impl Into<String>, mend: &str) -> Self {
+        Self { file: file.into(), why: why.into(), mend: mend.into() }
+    }
+
+    pub fn json(&self) -> Value {
+        json!({ "file": self.file, "why": self.why, "mend": self.mend })
+    }
+}
+
+impl std::fmt::Display for Fault {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}: {}; {}", self.file, self.why, self.mend)
+    }
+}

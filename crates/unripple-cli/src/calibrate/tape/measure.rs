@@ -1,0 +1,283 @@
+//! The library made of the recordings that are there.
+
+use super::asked::Wanted;
+use super::fault::Fault;
+use super::marks::Marks;
+use super::rig::{TapeRig, TapeShelf, bad};
+use super::wiring::{Tried, tried};
+use super::{Bench, Outcome};
+use crate::calibrate::finish::{finish, log_run};
+use crate::calibrate::middle;
+use crate::calibrate::report::{self, Report};
+use crate::calibrate::shelf::Shelf;
+use crate::error::CliError;
+use serde_json::{Value, json};
+use std::collections::{BTreeMap, BTreeSet};
+use std::time::{Duration, Instant};
+use unripple_calibrate::measure::{Channel, Listen, MeasureOptions, Progress, Session, Sink, Way, campaign};
+use unripple_store::{Doubt, Library, PointState};
+
+/// The check that finds wires which are not as they should be.
+const WIRING: &str = "wiring";
+
+impl Bench<'_> {
+    /// Fills the library with all that can be made of the recordings.
+    pub fn measure(&mut self, first: &Session, as_json: bool) -> Result<Outcome, CliError> {
+        let start = Instant::now();
+        let there = Some(&self.campaign.options.output).filter(|folder| Library::is_at(folder));
+        let there = there.map(Library::open).transpose()?;
+        let present = self.present();
+        let marks = Marks::of(self.folder, present.iter(), there.as_ref());
+        let mut faults = marks.copies(&self.trusted(there.as_ref(), &marks));
+        drop(there);
+        let own: Vec<Wanted> = present.iter().filter(|one| one.at.is_none()).cloned().collect();
+        faults.retain(|fault| own.iter().all(|one| one.file != fault.file) || own.len() > 1);
+        if let Some(one) = own.first() {
+            faults.extend(self.takes.learn(one).err());
+        }
+        faults.extend(own.iter().filter_map(|one| self.takes.take(one).err()));
+        if faults.iter().any(|fault| own.iter().any(|one| one.file == fault.file)) {
+            return Ok(Outcome { faults, ..Outcome::default() });
+        }
+        let mut library = self.library()?;
+        self.fall_back(&mut library, &self.made(&present, &marks))?;
+        let sound = self.sound(&present, &library, &mut faults);
+        self.good = sound.iter().map(|one| one.number).collect::<BTreeSet<_>>().into_iter().collect();
+        let all: Vec<Wanted> = own.into_iter().chain(sound).collect();
+
+        let mut rig = TapeRig::new(self.takes.clone(), all.clone())?;
+        let tried = tried(self, first, &mut rig)?;
+        self.wires(&mut library, &tried)?;
+        self.campaign.settings.without = tried.dead.clone();
+        marks.keep(&mut library)?;
+        let made = self.made(&all, &marks);
+        let mut work = Work { bench: self, rig, made, all, faults, start };
+        let (shelf, report) = work.fill(library, &tried, as_json)?;
+        let faults = std::mem::take(&mut work.faults);
+        Ok(Outcome { report: Some(report), library: Some(shelf.library), faults, notes: tried.notes })
+    }
+
+    /// Files of points that are measured, as they were then: copies of them are at fault, not they.
+    fn trusted(&self, library: Option<&Library>, marks: &Marks) -> Vec<String> {
+        let Some(library) = library else { return Vec::new() };
+        let logged = (0..library.points().len()).filter_map(|point| library.logged_point(point));
+        let files = logged.filter_map(|said| said["made"]["takes"].as_object()).flatten();
+        let same = files.filter(|(file, hash)| marks.hash(file) == hash.as_str());
+        same.map(|(file, _)| file.clone()).collect()
+    }
+
+    /// What each point is to be made of: its own recordings, those of the actuators, scales, and who is left out.
+    fn made(&self, there: &[Wanted], marks: &Marks) -> BTreeMap<usize, Value> {
+        let of = |number: usize| there.iter().filter(move |one| one.number == number);
+        let (last, scale) = (self.campaign.places.points.len(), self.campaign.scales.told());
+        let numbers: BTreeSet<usize> = there.iter().map(|one| one.number).collect();
+        let point = |number: usize| {
+            json!({
+                "takes": marks.told(of(number)),
+                "actuators": marks.told(of(last)),
+                "scale": scale,
+                "without": self.campaign.options.without,
+                "probe_delay_s": self.campaign.settings.probe_delay,
+            })
+        };
+        numbers.into_iter().filter(|number| *number != last).map(|number| (number, point(number))).collect()
+    }
+
+    /// Makes points missing whose recordings are not those that they were made of; all, if those of the actuators are not.
+    fn fall_back(&self, library: &mut Library, made: &BTreeMap<usize, Value>) -> Result<(), CliError> {
+        let measured = |point: &usize| library.state(*point) != Some(PointState::Missing);
+        let other =
+            |point: &usize| library.logged_point(*point).and_then(|said| said.get("made")) != made.get(point);
+        let mut changed: Vec<usize> = made.keys().copied().filter(measured).filter(other).collect();
+        let own = self.campaign.places.probed..library.points().len();
+        let actuators = made.values().next().map(|made| (made["actuators"].clone(), made["scale"].clone()));
+        let before = library.logged("own").map(|own| (own["actuators"].clone(), own["scale"].clone()));
+        if actuators.is_some() && before.is_some() && actuators != before {
+            changed.extend(own.filter(|point| measured(point)));
+        }
+        if !changed.is_empty() {
+            library.forget(&changed)?;
+        }
+        Ok(())
+    }
+
+    /// Recordings of points that can be read; of points that are measured, all are taken to be.
+    fn sound(&mut self, present: &[Wanted], library: &Library, faults: &mut Vec<Fault>) -> Vec<Wanted> {
+        let known: Vec<String> = faults.iter().map(|fault| fault.file.clone()).collect();
+        let mut sound = Vec::new();
+        for one in present.iter().filter(|one| one.at.is_some() && !known.contains(&one.file)) {
+            let missing = library.state(one.number) == Some(PointState::Missing);
+            match missing.then(|| self.takes.take(one)).transpose() {
+                Ok(_) => sound.push(one.clone()),
+                Err(fault) => faults.push(fault),
+            }
+        }
+        sound
+    }
+
+    /// Refuses wires that are not as they should be, or says so in the library.
+    fn wires(&self, library: &mut Library, tried: &Tried) -> Result<(), CliError> {
+        tried.notes.iter().for_each(|note| eprintln!("warning: {note}"));
+        if !tried.faults.is_empty() && !self.campaign.options.any_wiring {
+            return Err(CliError::Work(format!(
+                "wiring: {} (mend it and record again; name channels as they were recorded with --tape-inputs, or turn a reversed one with \
+                 --input-scale NAME=-1; or go on with --any-wiring)",
+                tried.faults.join("; ")
+            )));
+        }
+        tried.faults.iter().for_each(|fault| eprintln!("wiring: {fault}"));
+        let doubts = tried.faults.iter().map(|fault| Doubt::of(WIRING, fault)).collect();
+        Ok(library.set_doubts(WIRING, doubts)?)
+    }
+}
+
+/// What the recordings are made into.
+struct Work<'b, 'a> {
+    bench: &'b Bench<'a>,
+    rig: TapeRig,
+    /// What each point is made of.
+    made: BTreeMap<usize, Value>,
+    /// Recordings that are used.
+    all: Vec<Wanted>,
+    faults: Vec<Fault>,
+    start: Instant,
+}
+
+impl Work<'_, '_> {
+    fn fill(&mut self, library: Library, tried: &Tried, as_json: bool) -> Result<(Shelf, Report), CliError> {
+        let bench = self.bench;
+        let known = &bench.campaign;
+        let (last, centre) = (known.places.points.len(), middle(known.surface));
+        let dead = tried.dead.clone();
+        let mut shelf = Shelf::new(library, known.places.probed, known.surface, &known.scales, dead);
+        let unheard: Vec<usize> = tried.dead.iter().chain(&tried.deaf).copied().collect();
+        let first = self.session(&MeasureOptions { without: unheard, ..known.settings.clone() })?;
+        let latency = first.find_latency(&mut self.rig, last, centre, known.model)?;
+        let settings =
+            MeasureOptions { latency: latency.map_or(0.0, |found| found[0]), ..known.settings.clone() };
+        self.keep_own(&settings, &mut shelf, tried)?;
+        let before = shelf.missing().len();
+        self.keep_points(&settings, &mut shelf, as_json)?;
+        finish(known, &mut shelf, latency)?;
+        let (measured, taken) = (before - shelf.missing().len(), self.start.elapsed());
+        if measured > 0 {
+            log_run(known, &mut shelf.library, measured, taken.as_secs_f64())?;
+        }
+        let seconds = self.session(&settings)?.seconds();
+        let report = self.report(&shelf, latency, seconds, taken)?;
+        Ok((shelf, report))
+    }
+
+    fn report(
+        &self,
+        shelf: &Shelf,
+        latency: Option<[f64; 2]>,
+        seconds: f64,
+        taken: Duration,
+    ) -> Result<Report, CliError> {
+        Report::of(&shelf.library, &self.bench.campaign.places, latency, None, seconds, taken)
+    }
+
+    fn session(&self, settings: &MeasureOptions) -> Result<Session, CliError> {
+        let takes = &self.bench.takes;
+        Ok(Session::new(self.bench.campaign.surface, takes.layout(), takes.wires.clone(), settings)?)
+    }
+
+    /// Recordings of a point that are used; of the actuators, by the number after the last.
+    fn count(&self, number: usize) -> usize {
+        self.all.iter().filter(|one| one.number == number).count()
+    }
+
+    /// What actuators hear of each other, kept as the library's last points unless it is bad.
+    fn keep_own(
+        &mut self,
+        settings: &MeasureOptions,
+        shelf: &mut Shelf,
+        tried: &Tried,
+    ) -> Result<(), CliError> {
+        let bench = self.bench;
+        let known = &bench.campaign;
+        let (last, centre) = (known.places.points.len(), middle(known.surface));
+        let missing = shelf.library.in_state(PointState::Missing);
+        if !missing.iter().any(|point| *point >= known.places.probed) {
+            return Ok(());
+        }
+        let repeats = self.count(last).max(1);
+        let session = self.session(&MeasureOptions { repeats, ..settings.clone() })?;
+        let sensors = session.measure(&mut self.rig, last, centre, 0, Listen::Sensors)?;
+        let names = known.surface.actuators.iter().map(|actuator| &actuator.name);
+        let files: Vec<&str> =
+            self.all.iter().filter(|one| one.number == last).map(|one| one.file.as_str()).collect();
+        let said = |(actuator, (name, channel)): (usize, (&String, &Channel))| {
+            let why = session.fault(channel).filter(|_| !tried.deaf.contains(&actuator))?;
+            Some(bad(&files.join(", "), &format!("sensor of `{name}`, {why}")))
+        };
+        let faults: Vec<Fault> = names.zip(&sensors).enumerate().filter_map(said).collect();
+        if !faults.is_empty() && !known.options.any_wiring {
+            self.faults.extend(faults);
+            return Ok(());
+        }
+        for (point, channel) in (known.places.probed..).zip(&sensors) {
+            shelf.keep(point, channel, session.fault(channel).as_deref())?;
+        }
+        let made = self.made.values().next();
+        let made = made.map(|made| json!({ "actuators": made["actuators"], "scale": made["scale"] }));
+        shelf.library.log("own", made.unwrap_or(Value::Null))?;
+        shelf.reciprocity(&sensors)
+    }
+
+    /// Points, those with fewer recordings than repeats by as many as there are.
+    fn keep_points(
+        &mut self,
+        settings: &MeasureOptions,
+        shelf: &mut Shelf,
+        as_json: bool,
+    ) -> Result<(), CliError> {
+        let bench = self.bench;
+        let known = &bench.campaign;
+        let missing = shelf.missing();
+        let there: Vec<usize> = self.bench.good.iter().copied().filter(|n| missing.contains(n)).collect();
+        let bar = report::bar(as_json, there.len());
+        let counts: BTreeSet<usize> = there.iter().map(|number| self.count(*number)).collect();
+        let mut failed = Vec::new();
+        for repeats in counts {
+            let session = self.session(&MeasureOptions { repeats, ..settings.clone() })?;
+            let way = Way::Probe(Box::new(session));
+            let some = there.iter().filter(|number| self.count(**number) == repeats);
+            let some = some.filter_map(|number| Some((*number, self.made.get(number)?.clone()))).collect();
+            let mut sink = TapeShelf::new(shelf, some, known.options.any_wiring);
+            // What is not kept is told of in the end.
+            let mut tell =
+                |progress: &Progress| report::tell(&bar, &Progress { fault: None, ..progress.clone() });
+            campaign(&mut self.rig, &way, &known.places.points, &mut sink, 0, &mut tell)?;
+            sink.log()?;
+            failed.append(&mut sink.bad);
+        }
+        bar.finish_and_clear();
+        for (number, why) in failed {
+            self.name(settings, number, &why)?;
+        }
+        Ok(())
+    }
+
+    /// Names the recording of a point that is at fault: the one that is bad by itself, or all.
+    fn name(&mut self, settings: &MeasureOptions, number: usize, why: &str) -> Result<(), CliError> {
+        let files: Vec<String> =
+            self.all.iter().filter(|one| one.number == number).map(|one| one.file.clone()).collect();
+        let at = self.bench.campaign.places.points[number];
+        let mut named = Vec::new();
+        if files.len() > 1 {
+            let alone = self.session(&MeasureOptions { repeats: 1, ..settings.clone() })?;
+            for (take, file) in files.iter().enumerate() {
+                let found = alone.measure(&mut self.rig, number, at, take as u64, Listen::Probe)?;
+                let fault = found.first().and_then(|channel| alone.fault(channel));
+                named.extend(fault.map(|why| bad(file, &why)));
+            }
+        }
+        if named.is_empty() {
+            named.push(bad(&files.join(", "), why));
+        }
+        self.faults.extend(named);
+        Ok(())
+    }
+}

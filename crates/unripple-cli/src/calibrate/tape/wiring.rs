@@ -1,0 +1,242 @@
+//! The wiring test on recordings: what is dead, swapped or reversed, by what was heard of the sweeps.
+
+use super::Bench;
+use super::rig::TapeRig;
+use crate::calibrate::middle;
+use crate::error::CliError;
+use std::collections::BTreeSet;
+use unripple::core::{Layout, PROBE};
+use unripple_calibrate::measure::{Channel, Listen, Session};
+use unripple_devices::{Expected, Lead, WiringOptions, check_responses, reciprocal};
+
+/// Signal to noise, in dB, below which nothing is heard.
+const DEAF: f64 = 6.0;
+
+/// An actuator is dead that is this much quieter than the loudest, as a share, or [`QUIET`] and no more than noise.
+const DEAD: f64 = 0.01;
+const QUIET: f64 = 0.3;
+
+/// Share of the inputs that must be like the model for it to be believed.
+const BELIEVED: f64 = 0.67;
+
+/// Points that are looked at where no sensor tells.
+const LOOKED_AT: usize = 3;
+
+/// What was found of the wires.
+#[derive(Clone, Debug, Default)]
+pub struct Tried {
+    /// Actuators that nobody hears.
+    pub dead: Vec<usize>,
+    /// Actuators whose sensor hears nothing.
+    pub deaf: Vec<usize>,
+    /// Wires that are not as they should be.
+    pub faults: Vec<String>,
+    /// What to say of the rest.
+    pub notes: Vec<String>,
+}
+
+/// Tries the wires by the recording of the actuators, and that of the first point that is there.
+pub fn tried(bench: &Bench<'_>, session: &Session, rig: &mut TapeRig) -> Result<Tried, CliError> {
+    let mut tried = Tried { dead: bench.campaign.settings.without.clone(), ..Tried::default() };
+    let rows = heard(bench, session, rig)?;
+    if rows.is_empty() {
+        return Ok(tried);
+    }
+    tried.silent(bench, &rows);
+    if bench.takes.wires.sensors.is_empty() || !tried.faults.is_empty() {
+        return Ok(tried);
+    }
+    let reciprocal = tried.reciprocal(bench, session, rig, &rows)?;
+    if bench.campaign.settings.model {
+        tried.model(bench, session, rig, &rows)?;
+    }
+    if tried.faults.is_empty() {
+        tried.faults = reciprocal;
+    }
+    Ok(tried)
+}
+
+/// What all sensors heard of all actuators; without sensors, what the probe heard at some points.
+fn heard(bench: &Bench<'_>, session: &Session, rig: &mut TapeRig) -> Result<Vec<Channel>, CliError> {
+    let (last, centre) = (bench.campaign.places.points.len(), middle(bench.campaign.surface));
+    if !bench.takes.wires.sensors.is_empty() {
+        return Ok(session.measure(rig, last, centre, 0, Listen::Sensors)?);
+    }
+    let mut rows = Vec::new();
+    for number in bench.good.iter().copied().take(LOOKED_AT) {
+        rows.extend(session.measure(rig, number, bench.campaign.places.points[number], 0, Listen::Probe)?);
+    }
+    Ok(rows)
+}
+
+impl Tried {
+    /// Says who drives nothing, and whose sensor hears nothing.
+    fn silent(&mut self, bench: &Bench<'_>, rows: &[Channel]) {
+        let actuators = &bench.campaign.surface.actuators;
+        let sensing = rows.len() == actuators.len() && !bench.takes.wires.sensors.is_empty();
+        // One that hears anybody is not deaf, however many are dead.
+        let noisy = |channel: &Channel| {
+            let best = channel.quality.iter().map(|quality| quality.snr_db);
+            best.filter(|db| !db.is_nan()).fold(f64::NEG_INFINITY, f64::max) < DEAF
+        };
+        let deaf: Vec<usize> = (0..rows.len()).filter(|row| sensing && noisy(&rows[*row])).collect();
+        // Where nobody hears anything it is not wires, and told otherwise.
+        if deaf.len() == rows.len() {
+            return;
+        }
+        let hearing: Vec<Hearing<'_>> = (0..rows.len())
+            .filter(|row| !deaf.contains(row))
+            .map(|row| Hearing { itself: sensing.then_some(row), channel: &rows[row] })
+            .collect();
+        let quiet: Vec<usize> = (0..actuators.len()).filter(|drive| is_dead(&hearing, *drive)).collect();
+        self.deaf = deaf;
+        let name = |actuator: &usize| actuators[*actuator].name.as_str();
+        if 2 * quiet.len() > actuators.len() {
+            let names: Vec<&str> = quiet.iter().map(name).collect();
+            let text =
+                format!("nobody hears {}: was play.wav played with all its channels?", names.join(", "));
+            self.faults.push(text);
+            return;
+        }
+        for actuator in &quiet {
+            let (name, output) = (name(actuator), bench.takes.wires.drives[*actuator] + 1);
+            let too = if self.deaf.contains(actuator) { ", nor does its sensor hear anything" } else { "" };
+            self.notes.push(format!(
+                "actuator `{name}` is dead: nobody hears its sweep (output {output}){too}; look at its amplifier, its cable and itself. \
+                 The others go on without it"
+            ));
+        }
+        let alone: Vec<usize> =
+            self.deaf.iter().copied().filter(|actuator| !quiet.contains(actuator)).collect();
+        for actuator in alone {
+            let input = bench.takes.reader.named(bench.takes.wires.sensors[actuator]);
+            self.notes.push(format!(
+                "the sensor of `{}` hears nothing, {input}: look at its cable and gain. Its own point is left out",
+                actuators[actuator].name
+            ));
+        }
+        let all: BTreeSet<usize> = self.dead.iter().copied().chain(quiet).collect();
+        self.dead = all.into_iter().collect();
+    }
+
+    /// Actuators that drive and hear.
+    fn alive(&self, count: usize) -> Vec<usize> {
+        (0..count).filter(|a| !self.dead.contains(a) && !self.deaf.contains(a)).collect()
+    }
+
+    /// Wires that contradict reciprocity.
+    fn reciprocal(
+        &self,
+        bench: &Bench<'_>,
+        session: &Session,
+        rig: &mut TapeRig,
+        rows: &[Channel],
+    ) -> Result<Vec<String>, CliError> {
+        let alive = self.alive(rows.len());
+        let names: Vec<String> =
+            alive.iter().map(|a| bench.campaign.surface.actuators[*a].name.clone()).collect();
+        let of = |channel: &Channel, scale: f64| -> Vec<Vec<f64>> {
+            let scaled = |drive: &usize| channel.responses[*drive].iter().map(|h| h * scale).collect();
+            alive.iter().map(scaled).collect()
+        };
+        let heard: Vec<Vec<Vec<f64>>> = alive
+            .iter()
+            .zip(&names)
+            .map(|(a, name)| of(&rows[*a], bench.campaign.scales.input(name)))
+            .collect();
+        let mut spare = Vec::new();
+        if bench.takes.wires.probe.is_some() {
+            let (last, centre) = (bench.campaign.places.points.len(), middle(bench.campaign.surface));
+            let probe = session.measure(rig, last, centre, 0, Listen::Probe)?;
+            spare.extend(probe.iter().map(|channel| (PROBE.to_owned(), of(channel, 1.0))));
+        }
+        Ok(reciprocal(&names, &heard, &spare).faults)
+    }
+
+    /// Wires that contradict the model, where that is like the surface at all.
+    fn model(
+        &mut self,
+        bench: &Bench<'_>,
+        session: &Session,
+        rig: &mut TapeRig,
+        rows: &[Channel],
+    ) -> Result<(), CliError> {
+        let (model, places) = (bench.campaign.model, &bench.campaign.places);
+        let alive = self.alive(rows.len());
+        let mut channels: Vec<Channel> = alive.iter().map(|a| rows[*a].clone()).collect();
+        let mut names: Vec<String> = alive.iter().map(|a| model.ports[*a].name.clone()).collect();
+        let outputs = names.clone();
+        // With the probe, all of one point's recording, so that it may have changed places with a sensor.
+        let point = bench.good.first().copied().filter(|_| bench.takes.wires.probe.is_some());
+        if let Some(number) = point {
+            let at = places.points[number];
+            let sensors = session.measure(rig, number, at, 0, Listen::Sensors)?;
+            channels = alive.iter().map(|a| sensors[*a].clone()).collect();
+            channels.extend(session.measure(rig, number, at, 0, Listen::Probe)?);
+            names.push(PROBE.into());
+        }
+        let options = WiringOptions::for_band(model.conditions.band);
+        let at = point.map(|number| places.points[number]);
+        let all = Expected::of_modes(model, at, options.listen);
+        let inputs: Vec<usize> = alive.iter().copied().chain(at.map(|_| model.ports.len())).collect();
+        let response = |o: &usize, i: &usize| all.response(*o, *i).to_vec();
+        let row = |o: &usize| inputs.iter().map(|i| response(o, i)).collect();
+        let expected = Expected::new(alive.iter().map(row).collect())?;
+        let scaled = |(channel, name): (&Channel, &String), drive: usize| {
+            let scale = bench.campaign.scales.input(name);
+            channel.responses[drive].iter().map(|h| h * scale).collect::<Vec<f64>>()
+        };
+        let of = |drive: &usize| channels.iter().zip(&names).map(|pair| scaled(pair, *drive)).collect();
+        let heard: Vec<Vec<Vec<f64>>> = alive.iter().map(of).collect();
+        let layout = Layout { outputs, inputs: names, ..bench.takes.layout().clone() };
+        let found = check_responses(&heard, &layout, &expected, &options)?;
+        let like = found.inputs.iter().filter(|lead| !lead.unlike && !lead.silent).count();
+        if (like as f64) < BELIEVED * found.inputs.len() as f64 {
+            self.notes.push("wires: not held against the model, which the surface is too far from".into());
+            return Ok(());
+        }
+        let leads = found.outputs.iter().chain(&found.inputs).filter(|lead: &&Lead| lead.unlike);
+        let unlike: BTreeSet<String> = leads.map(|lead| lead.name.clone()).collect();
+        if !unlike.is_empty() {
+            let names = unlike.iter().cloned().collect::<Vec<_>>().join(", ");
+            self.notes.push(format!("wires: {names} unlike the model, which says nothing of them"));
+        }
+        let sure = |fault: &String| !unlike.iter().any(|name| fault.contains(&format!("`{name}`")));
+        for fault in found.faults().into_iter().filter(sure) {
+            if fault == format!("input `{PROBE}` is reversed") {
+                // Its sign is that of all responses: a focus only moves the other way.
+                self.notes.push(format!("{fault} beside the sensors: --input-scale {PROBE}=-1 turns it"));
+            } else {
+                self.faults.push(fault);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A channel, and the actuator that it belongs to, which it hears louder than others.
+struct Hearing<'a> {
+    itself: Option<usize>,
+    channel: &'a Channel,
+}
+
+/// Whether those who hear hear no more of an actuator than noise, beside the others' loudest.
+fn is_dead(hearing: &[Hearing<'_>], drive: usize) -> bool {
+    let others = hearing.iter().filter(|one| one.itself != Some(drive));
+    let share = |one: &Hearing<'_>| {
+        let power = |actuator: usize| one.channel.responses[actuator].iter().map(|h| h * h).sum::<f64>();
+        let all = (0..one.channel.responses.len()).filter(|actuator| one.itself != Some(*actuator));
+        let most = all.map(power).fold(0.0, f64::max);
+        (most > 0.0).then(|| (power(drive) / most).sqrt())
+    };
+    let noise = middle_of(others.clone().map(|one| one.channel.quality[drive].snr_db).collect());
+    let noise = noise.is_none_or(|db| db.is_nan() || db < DEAF);
+    middle_of(others.filter_map(share).collect())
+        .is_some_and(|share| share < DEAD || (noise && share < QUIET))
+}
+
+/// The median.
+fn middle_of(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_unstable_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}
