@@ -84,12 +84,18 @@ impl Case {
         let mut truth = Truth::new(&poles, &hung);
         let (frames, probe) = (drive.len() / self.channels.len(), weights(mm(100.0, 40.0)));
         let mut out = vec![0.0; (self.channels.len() + 1) * frames];
+        // Currents that coils at rest would have: sensors hear what the motion alone drives.
+        let mut still = vec![0.0; self.channels.len()];
         for frame in 0..frames {
             if frame > 0 {
                 truth.advance(1.0 / RATE, steps);
             }
             for (c, channel) in self.channels.iter().enumerate() {
                 let sample = drive[c * frames + frame] / RATE;
+                if let Some(coil) = channel.load.as_ref().and_then(|load| load.circuit) {
+                    let Circuit { resistance, inductance, .. } = coil;
+                    still[c] = still[c] * (-resistance / inductance / RATE).exp() + sample / inductance;
+                }
                 match own[c] {
                     Some(load) if channel.voltage => truth.shock(load, sample),
                     _ => truth.strike(&weights(channel.footprint.points[0].0), sample),
@@ -99,7 +105,7 @@ impl Case {
                 let seen = truth.velocity(&weights(channel.footprint.points[0].0));
                 let coil = channel.load.as_ref().and_then(|load| load.circuit).filter(|_| channel.voltage);
                 out[c * frames + frame] = match coil {
-                    Some(coil) if coil.inductance > 0.0 => -truth.current(own[c].unwrap()),
+                    Some(coil) if coil.inductance > 0.0 => still[c] - truth.current(own[c].unwrap()),
                     Some(coil) => coil.force_constant / coil.resistance * seen,
                     None => seen,
                 };

@@ -166,8 +166,10 @@ impl Acts {
 fn struck(plant: &Plant, channel: &Channel, rate: f64) -> f64 {
     let coil = channel.load.as_ref().and_then(|load| load.circuit).filter(|_| channel.voltage);
     let gain = match coil {
-        Some(coil) if coil.inductance > 0.0 => return 0.0,
-        Some(coil) => coil.force_constant / coil.resistance,
+        // Of a coil whose current is slow, hardly anything at once.
+        Some(coil) => {
+            coil.force_constant / coil.resistance * (1.0 - coil.inductance * rate / coil.resistance).max(0.0)
+        }
         None => 1.0,
     };
     let bare = Channel { gain, ..Channel::force(channel.footprint.clone()) };

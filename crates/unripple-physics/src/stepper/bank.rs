@@ -5,6 +5,9 @@ use pulp::Simd;
 /// How fast the two-step form of a mass forgets, per step: a root at -0.8.
 const MEMORY: f64 = 0.8;
 
+/// A current that is less than this (A) has died away.
+const DEAD: f64 = 1e-200;
+
 /// What of a load matters to the sheet: a mass, a damper and a spring to the ground, and perhaps a coil.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Burden {
@@ -37,8 +40,9 @@ struct Loads {
     extension: Oct,
     /// The mass's velocity, filtered, after the last step and before, in m/s.
     pace: [Oct; 2],
-    /// The current, in A.
-    current: Oct,
+    /// The current, in A: what the drive makes flow in a coil at rest, and what motion adds.
+    still: Oct,
+    driven: Oct,
     /// Work done on the loads since it was last set to zero, in J.
     work: Oct,
 }
@@ -136,11 +140,23 @@ impl Bank {
     /// Raises the current of a port's coil.
     #[inline(always)]
     pub(super) fn induce(&mut self, port: usize, current: f64) {
-        self.loads[port / OCT].current[port % OCT] += current;
+        self.loads[port / OCT].still[port % OCT] += current;
     }
 
-    pub(super) fn current(&self, port: usize) -> f64 {
-        self.loads[port / OCT].current[port % OCT]
+    /// The current that motion drives through a port's coil, against the drive's, in A.
+    #[inline(always)]
+    pub(super) fn driven(&self, port: usize) -> f64 {
+        self.loads[port / OCT].driven[port % OCT]
+    }
+
+    /// Ends currents that have died away, before they become slow to compute with.
+    pub(super) fn silence(&mut self) {
+        for current in self.loads.iter_mut().flat_map(|loads| loads.still.iter_mut().chain(&mut loads.driven))
+        {
+            if current.abs() < DEAD {
+                *current = 0.0;
+            }
+        }
     }
 
     pub(super) fn extension(&self, port: usize) -> f64 {
@@ -214,7 +230,8 @@ impl Bank {
             for i in 0..registers::<S>() {
                 let product =
                     |a: &Oct, b: &Oct, sum| simd.mul_add_e_f64s(get::<S>(a, i), get::<S>(b, i), sum);
-                let held = simd.mul_f64s(get::<S>(&loads.carry, i), get::<S>(&loads.current, i));
+                let current = simd.add_f64s(get::<S>(&loads.still, i), get::<S>(&loads.driven, i));
+                let held = simd.mul_f64s(get::<S>(&loads.carry, i), current);
                 let held = product(&loads.spring, &loads.extension, held);
                 let held = product(&loads.recall[0], &loads.pace[0], held);
                 let held = product(&loads.recall[1], &loads.pace[1], held);
@@ -242,9 +259,12 @@ impl Bank {
                 let pace = simd.negate_mul_add_e_f64s(get::<S>(&loads.memory, i), before, mean);
                 set::<S>(&mut loads.pace[1], i, before);
                 set::<S>(&mut loads.pace[0], i, pace);
-                let induced = simd.mul_f64s(get::<S>(&loads.induce, i), moved);
-                let left = simd.mul_f64s(get::<S>(&loads.fade, i), get::<S>(&loads.current, i));
-                set::<S>(&mut loads.current, i, simd.sub_f64s(left, induced));
+                let (fade, induced) =
+                    (get::<S>(&loads.fade, i), simd.mul_f64s(get::<S>(&loads.induce, i), moved));
+                let left = simd.mul_f64s(fade, get::<S>(&loads.driven, i));
+                set::<S>(&mut loads.driven, i, simd.sub_f64s(left, induced));
+                let still = simd.mul_f64s(fade, get::<S>(&loads.still, i));
+                set::<S>(&mut loads.still, i, still);
             }
         }
     }
@@ -261,7 +281,7 @@ impl Bank {
             let [now, before] = loads.pace.map(|pace| pace[lane]);
             let [a, b, c] = loads.masses.map(|mass| mass[lane]);
             loads.stiffness[lane] * loads.extension[lane] * loads.extension[lane]
-                + loads.inductance[lane] * loads.current[lane] * loads.current[lane]
+                + loads.inductance[lane] * (loads.still[lane] + loads.driven[lane]).powi(2)
                 + 2.0 * (a * now * now + b * now * before + c * before * before)
         };
         0.5 * self.loads.iter().map(|loads| (0..OCT).map(|lane| twice(loads, lane)).sum::<f64>()).sum::<f64>()
@@ -269,18 +289,19 @@ impl Bank {
 }
 
 impl Loads {
-    fn fields(&mut self) -> [&mut Oct; 18] {
+    fn fields(&mut self) -> [&mut Oct; 19] {
         let [r0, r1] = &mut self.recall;
         let [m0, m1, m2] = &mut self.masses;
         let [p0, p1] = &mut self.pace;
         let steps = [&mut self.memory, &mut self.fade, &mut self.induce, &mut self.lightness];
         let [memory, fade, induce, lightness] = steps;
         let (stiffness, inductance) = (&mut self.stiffness, &mut self.inductance);
-        let (extension, current, work) = (&mut self.extension, &mut self.current, &mut self.work);
+        let (extension, still, driven) = (&mut self.extension, &mut self.still, &mut self.driven);
+        let work = &mut self.work;
         let (spring, carry) = (&mut self.spring, &mut self.carry);
         [
             spring, r0, r1, carry, memory, fade, induce, lightness, stiffness, inductance, m0, m1, m2,
-            extension, p0, p1, current, work,
+            extension, p0, p1, still, driven, work,
         ]
     }
 }

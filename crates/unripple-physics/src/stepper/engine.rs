@@ -2,6 +2,7 @@ use super::bank::{Bank, Burden};
 use super::couplings::{Couplings, Part};
 use super::field::{Felt, Field, Probes};
 use super::lanes::{LANES, Rows, Tiles};
+use super::lead::Lead;
 use super::small::{OCT, Oct, octs};
 use super::touch::Touch;
 use super::{Channel, Plant, StepperOptions};
@@ -9,18 +10,6 @@ use crate::PhysicsError;
 use pulp::{Arch, Simd, WithSimd};
 use std::ops::Range;
 use unripple_core::{Finger, Pole};
-
-/// Where a channel leads.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Lead {
-    pub(super) port: usize,
-    /// Impulse (N·s) or current (A) per unit of drive in one sample.
-    pub(super) drive: f64,
-    /// Sensor per velocity (m/s) or current (A).
-    pub(super) sense: f64,
-    /// Whether it is the current of the port's coil that is driven and sensed.
-    pub(super) current: bool,
-}
 
 /// Modes, loads and fingers, and everything that stepping them takes.
 ///
@@ -41,8 +30,7 @@ pub(super) struct Engine {
     pub(super) impulses: Vec<f64>,
     /// Whether the impulses are still to be laid on.
     pub(super) pending: bool,
-    /// Sums of the sweep. Whether any drive strikes the sheet itself, rather than a coil's current, and how many ports
-    /// carry no load are said there.
+    /// Sums of the sweep. Whether any drive strikes the sheet itself, and how many ports carry no load are said there.
     pub(super) felt: Felt,
     /// Ports that never change; those without load come first.
     pub(super) fixed: usize,
@@ -76,10 +64,10 @@ impl Engine {
         options: &StepperOptions,
     ) -> Result<Self, PhysicsError> {
         let dt = 1.0 / (rate * options.substeps as f64);
-        let wiring = Wiring::of(plant, channels, rate)?;
+        let wiring = Wiring::of(plant, channels, rate, dt)?;
         let (fixed, fingers) = (wiring.rows.len(), options.max_fingers);
         let (ports, columns) = (fixed + fingers, fixed + 2 * fingers);
-        let striking = wiring.leads.iter().any(|lead| !lead.current);
+        let striking = wiring.leads.iter().any(Lead::strikes);
         let mut weights = Rows::zeros(fixed + 2 * fingers, plant.modes());
         wiring.rows.iter().enumerate().for_each(|(row, values)| weights.fill(row, values));
         let parts: Vec<Part> =
@@ -247,7 +235,7 @@ struct Wiring {
 }
 
 impl Wiring {
-    fn of(plant: &Plant, channels: &[Channel], rate: f64) -> Result<Self, PhysicsError> {
+    fn of(plant: &Plant, channels: &[Channel], rate: f64, dt: f64) -> Result<Self, PhysicsError> {
         channels.iter().try_for_each(Channel::check)?;
         let channels: Vec<Channel> = channels.iter().map(|channel| channel.settled(rate)).collect();
         let struck = |channel: &Channel| {
@@ -267,26 +255,9 @@ impl Wiring {
                 let (mass, damping, stiffness) = (load.mass, load.damping, load.stiffness);
                 burdens.push(Burden { mass, damping, stiffness, circuit: load.circuit });
             }
-            leads.push(Lead::of(channel, port, rate));
+            leads.push(Lead::of(channel, port, rate, dt));
         }
         rows.append(&mut loaded);
         Ok(Self { rows, plain, burdens, leads })
-    }
-}
-
-impl Lead {
-    fn of(channel: &Channel, port: usize, rate: f64) -> Self {
-        let gain = channel.gain;
-        let coil = channel.load.as_ref().and_then(|load| load.circuit).filter(|_| channel.voltage);
-        match coil {
-            None => Self { port, drive: gain / rate, sense: gain, current: false },
-            Some(coil) if coil.inductance > 0.0 => {
-                Self { port, drive: gain / (coil.inductance * rate), sense: -gain, current: true }
-            }
-            Some(coil) => {
-                let gain = gain * coil.force_constant / coil.resistance;
-                Self { port, drive: gain / rate, sense: gain, current: false }
-            }
-        }
     }
 }

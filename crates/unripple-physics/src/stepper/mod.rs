@@ -5,8 +5,9 @@
 //! Mode m of unit modal mass obeys ü + 2σu̇ + ω²u = Σ_j w_jm F_j, w_j what load j feels of the modes. At sample i
 //!
 //! 1. the drive strikes: `v_m += gain · w_m · d[i]/rate`; a voltage instead jumps the current of its coil by V/(L · rate), or
-//!    strikes with bl/R · V/rate where there is no inductance;
-//! 2. sensors and probes read the sheet, so that without loads `v[i] = Σ_j h[i-j] d[j]/rate` with `h[0]` whole, to rounding;
+//!    strikes with bl/R · V/rate where there is no inductance; where L/R is about as short as a step it does both in part;
+//! 2. sensors and probes read the sheet, so that without loads `v[i] = Σ_j h[i-j] d[j]/rate` with `h[0]` whole, to rounding; the
+//!    sensor of a coil on a voltage reads the current j that the motion alone drives, L dj/dt + R j = bl·v;
 //! 3. one sample passes. Forces F are constant over it, and under them each mode moves exactly: u⁺ = au + bv + γ w·F, v⁺ = cu + dv
 //!    + δ w·F with the propagator of [`Pole::step`](unripple_core::Pole::step).
 //!
@@ -31,6 +32,7 @@ mod engine;
 mod field;
 mod history;
 mod lanes;
+mod lead;
 mod mishaps;
 mod plant;
 mod run;

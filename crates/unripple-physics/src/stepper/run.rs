@@ -67,6 +67,7 @@ impl WithSimd for Block<'_, '_> {
             engine.samples += 1;
             if engine.samples % SILENCE == 0 {
                 engine.field.silence();
+                engine.bank.silence();
             }
         }
         engine.settle(simd, &mut planes);
@@ -135,12 +136,14 @@ impl Engine {
     fn drive(&mut self, drive: &Drive, frame: usize) {
         self.impulse.fill([0.0; OCT]);
         for (lead, channel) in self.leads.iter().zip(drive.values.chunks_exact(drive.stride)) {
-            let value = channel[drive.first + frame] * lead.drive;
-            let value = if value.is_finite() { value } else { 0.0 };
-            if lead.current {
-                self.bank.induce(lead.port, value);
-            } else {
-                self.impulse.as_flattened_mut()[lead.port] += value;
+            let value = channel[drive.first + frame];
+            let of = |factor: f64| {
+                let value = value * factor;
+                if value.is_finite() { value } else { 0.0 }
+            };
+            self.impulse.as_flattened_mut()[lead.port] += of(lead.strike);
+            if lead.jump != 0.0 {
+                self.bank.induce(lead.port, of(lead.jump));
             }
         }
     }
@@ -183,12 +186,8 @@ impl Engine {
     fn tell(&mut self, planes: &mut Planes, frame: usize) {
         let Out { stride, first } = planes.out;
         for (lead, sensor) in self.leads.iter().zip(planes.sensors.chunks_exact_mut(stride)) {
-            let felt = if lead.current {
-                self.bank.current(lead.port)
-            } else {
-                self.velocity.as_flattened()[lead.port]
-            };
-            sensor[first + frame] = lead.sense * felt;
+            let velocity = self.velocity.as_flattened()[lead.port];
+            sensor[first + frame] = lead.hears(velocity, self.bank.driven(lead.port));
         }
     }
 
