@@ -4,8 +4,8 @@ use faer::{Mat, MatRef};
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
-use unripple_core::{Point, Shapes, Surface};
-use unripple_physics::{Medium, Modes};
+use unripple_core::{Outline, Point, Shapes, Surface};
+use unripple_physics::{Entry, Footprint, Medium, Modes, Transducer, transducers};
 
 /// Half the distance over which slopes are taken, in metres: of a wave of 1000 rad/m, to 2e-7.
 const STEP: f64 = 1e-6;
@@ -25,6 +25,9 @@ pub(super) struct Basis {
     pub terms: Vec<Mat<f64>>,
     /// Half waves along x and y of each term.
     pub waves: Vec<[u32; 2]>,
+    /// The actuators, and their nominal places.
+    pub transducers: Vec<(Transducer, Point)>,
+    pub outline: Outline,
 }
 
 impl Basis {
@@ -49,7 +52,35 @@ impl Basis {
             })
             .collect();
         let squares = modes.poles().iter().map(|pole| pole.omega * pole.omega).collect();
-        Ok(Self { medium, squares, tension: &xx + &yy, skew: xx - yy, terms, waves, modes: Arc::new(modes) })
+        let places = surface.actuators.iter().map(|actuator| actuator.at);
+        Ok(Self {
+            medium,
+            squares,
+            tension: &xx + &yy,
+            skew: xx - yy,
+            terms,
+            waves,
+            modes: Arc::new(modes),
+            transducers: transducers(surface)?.into_iter().zip(places).collect(),
+            outline: surface.outline.clone(),
+        })
+    }
+
+    /// What an actuator, or a stray beyond the actuators, touches when it is at a place.
+    pub fn footprint(&self, number: usize, at: Point) -> Footprint {
+        let Some((transducer, nominal)) = self.transducers.get(number) else { return Footprint::point(at) };
+        let (dx, dy) = (at.x - nominal.x, at.y - nominal.y);
+        let moved = |(p, w): &(Point, f64)| (Point::new(p.x + dx, p.y + dy), *w);
+        Footprint { points: transducer.footprint.points.iter().map(moved).collect() }
+    }
+
+    /// Logarithms of the actuators' nominal gains, of drive and sensor alike: force per unit of drive, a coil's as of a resistance.
+    pub fn gains(&self) -> Vec<f64> {
+        let gain = |(t, _): &(Transducer, Point)| match (t.entry, t.load.as_ref().and_then(|l| l.circuit)) {
+            (Entry::Voltage, Some(coil)) => t.gain / coil.resistance,
+            _ => t.gain,
+        };
+        self.transducers.iter().map(|t| gain(t).abs().max(f64::MIN_POSITIVE).ln()).collect()
     }
 
     /// How many of the modes lie below a frequency.

@@ -1,3 +1,4 @@
+use super::following::Following;
 use super::layout::{KNOTS, Unknown, Values};
 use super::loaded::LoadedModes;
 use super::residual::Case;
@@ -7,7 +8,7 @@ use faer::Mat;
 use unripple_core::{Conditions, ModalResponses, Point, Port, Responses, Surface};
 use unripple_physics::Medium;
 
-/// The residual, above what noise explains and as a share of what was measured, from which a model is doubted.
+/// The share of what was measured that neither model nor noise explains from which a model is doubted.
 const DOUBTED: f64 = 0.1;
 
 /// How many spreads an unknown may be from what was expected.
@@ -80,8 +81,105 @@ pub struct Fitted {
     pub excess: f64,
     /// Residual over what was measured.
     pub residual: f64,
+    unexplained: f64,
     /// Whether to trust it.
     pub verdict: Verdict,
+    responses: ModalResponses,
+    beyond: ModalResponses,
+    sensors: Mat<f64>,
+    bending_shares: Vec<f64>,
+}
+
+/// What was found, with its errors.
+struct Answers<'a> {
+    case: &'a Case<'a>,
+    found: &'a Found,
+    variances: Vec<f64>,
+    /// Logarithms of nominal gains.
+    gains: Vec<f64>,
+}
+
+impl Answers<'_> {
+    fn of(&self, unknown: Unknown) -> Estimate {
+        let place = self.case.layout.unknowns().iter().position(|u| *u == unknown).unwrap_or(0);
+        let error = self.variances[place].max(0.0).sqrt() * self.case.layout.spread(unknown);
+        Estimate { value: *self.found.values.clone().of(unknown), error }
+    }
+
+    /// Of a logarithm.
+    fn ratio(&self, unknown: Unknown, by: f64) -> Estimate {
+        let Estimate { value, error } = self.of(unknown);
+        Estimate { value: by * value.exp(), error: by * value.exp() * error }
+    }
+
+    fn load(&self, p: usize) -> FittedLoad {
+        let one = Estimate { value: 1.0, error: 0.0 };
+        let own = |unknown, level: f64| match self.gains.get(p) {
+            Some(nominal) => self.ratio(unknown, (level - nominal).exp()),
+            None => one,
+        };
+        FittedLoad {
+            at: [self.of(Unknown::Place(p, 0)), self.of(Unknown::Place(p, 1))],
+            mass: self.of(Unknown::Mass(p)),
+            damping: self.of(Unknown::Resistance(p)),
+            drive: own(Unknown::Drive(p), 0.0),
+            sense: own(Unknown::Sense(p), self.found.values.level),
+        }
+    }
+
+    /// Unknowns that are farther from what was expected than such values are. Gains may be anything.
+    fn far(&self, expected: &Values) -> Vec<String> {
+        let (mut values, mut thought) = (self.found.values.clone(), expected.clone());
+        let far = |u: &Unknown| {
+            if matches!(u, Unknown::Drive(_) | Unknown::Sense(_) | Unknown::Level) {
+                return false;
+            }
+            let (value, spread) = (*values.of(*u), self.case.layout.spread(*u));
+            let negative = matches!(u, Unknown::Mass(_)) && value < -NEGATIVE * spread;
+            negative || (value - *thought.of(*u)).abs() > FAR * spread
+        };
+        let mut all = self.case.layout.unknowns();
+        let mut far = far;
+        all.retain(|u| far(u));
+        all.iter().map(|u| format!("{u:?}").to_lowercase()).collect()
+    }
+
+    /// Modes of a band (Hz) as responses, and as the sensors'.
+    fn responses(&self, band: [f64; 2], nominal: &Surface) -> Result<Modelled, CalibrateError> {
+        let values = &self.found.values;
+        let system = self.case.system(values)?;
+        let modes = LoadedModes::new(self.case.basis, &system, values, band)?;
+        let gained = |gain: &dyn Fn(usize) -> f64| {
+            Mat::from_fn(self.gains.len(), modes.poles.len(), |a, m| gain(a) * modes.weights[(a, m)])
+        };
+        let medium = Medium::of(&nominal.sheet);
+        let fitted = Medium {
+            tension: medium.tension * values.tension.exp(),
+            bending_stiffness: medium.bending_stiffness * values.bending.exp(),
+            ..medium
+        };
+        let ports = nominal.actuators.iter().zip(&values.places);
+        Ok(Modelled {
+            sensors: gained(&|a| (values.sense[a] + values.level).exp()),
+            responses: ModalResponses {
+                ports: ports.map(|(a, at)| Port { name: a.name.clone(), at: *at }).collect(),
+                input: gained(&|a| values.drive[a].exp()),
+                poles: modes.poles,
+                shapes: modes.shapes,
+                conditions: Conditions {
+                    rate: nominal.emission.rate,
+                    band: nominal.emission.band,
+                    lambda_min: fitted.lambda_min(nominal.emission.band[1]),
+                    outline: nominal.outline.clone(),
+                },
+            },
+            bending_shares: modes.bending_shares,
+        })
+    }
+}
+
+/// Modes with all that is read from them.
+struct Modelled {
     responses: ModalResponses,
     sensors: Mat<f64>,
     bending_shares: Vec<f64>,
@@ -94,76 +192,36 @@ impl Fitted {
         expected: &Values,
         nominal: &Surface,
     ) -> Result<Self, CalibrateError> {
-        let covariance = case.covariance(found)?;
-        let unknowns = case.layout.unknowns();
-        let (mut values, mut thought) = (found.values.clone(), expected.clone());
-        let mut estimate = |unknown: Unknown| {
-            let place = unknowns.iter().position(|u| *u == unknown).unwrap_or(0);
-            let error = covariance[(place, place)].max(0.0).sqrt() * case.layout.spread(unknown);
-            Estimate { value: *values.of(unknown), error }
+        let answers = Answers { case, found, variances: case.variances(found)?, gains: case.basis.gains() };
+        let Modelled { responses, sensors, bending_shares } =
+            answers.responses(nominal.emission.band, nominal)?;
+        let knot = |k: usize| {
+            let rate = answers.ratio(Unknown::Knot(k), 1.0);
+            let time = 1.0 / rate.value;
+            (KNOTS[k] * case.top, Estimate { value: time, error: time * rate.error / rate.value })
         };
-        let scaled = |e: Estimate, by: f64| Estimate {
-            value: by * e.value.exp(),
-            error: by * e.value.exp() * e.error,
-        };
-        let medium = Medium::of(&nominal.sheet);
+        let loads: Vec<FittedLoad> = (0..case.layout.loaded()).map(|p| answers.load(p)).collect();
         let actuators = case.layout.actuators;
-        let one = Estimate { value: 1.0, error: 0.0 };
-        let mut load = |p: usize| FittedLoad {
-            at: [estimate(Unknown::Place(p, 0)), estimate(Unknown::Place(p, 1))],
-            mass: estimate(Unknown::Mass(p)),
-            damping: estimate(Unknown::Resistance(p)),
-            drive: if p < actuators { scaled(estimate(Unknown::Drive(p)), 1.0) } else { one },
-            sense: if p < actuators { scaled(estimate(Unknown::Sense(p)), 1.0) } else { one },
-        };
-        let loads: Vec<FittedLoad> = (0..case.layout.loaded()).map(&mut load).collect();
-        let far = unknowns.iter().filter(|u| {
-            let (value, spread) = (*found.values.clone().of(**u), case.layout.spread(**u));
-            let negative = matches!(u, Unknown::Mass(_)) && value < -NEGATIVE * spread;
-            negative || (value - *thought.of(**u)).abs() > FAR * spread
-        });
-        let far: Vec<String> = far.map(|u| format!("{u:?}").to_lowercase()).collect();
-        let modes =
-            LoadedModes::new(case.basis, &case.system(&found.values)?, &found.values, nominal.emission.band)?;
-        let gained = |gains: &[f64]| {
-            Mat::from_fn(actuators, modes.poles.len(), |a, m| gains[a].exp() * modes.weights[(a, m)])
-        };
-        let knot =
-            |k: usize, e: Estimate| (KNOTS[k] * case.top, scaled(Estimate { value: -e.value, ..e }, 1.0));
+        let medium = Medium::of(&nominal.sheet);
         let terms = case.layout.waves.iter().enumerate();
+        let following = Following::of(&found.residual.lines);
         Ok(Self {
-            tension: scaled(estimate(Unknown::Tension), medium.tension),
-            bending_stiffness: scaled(estimate(Unknown::Bending), medium.bending_stiffness),
-            anisotropy: estimate(Unknown::Skew),
-            profile: terms.map(|(t, wave)| (*wave, estimate(Unknown::Term(t)))).collect(),
-            decay: (0..KNOTS.len()).map(|k| knot(k, estimate(Unknown::Knot(k)))).collect(),
+            tension: answers.ratio(Unknown::Tension, medium.tension),
+            bending_stiffness: answers.ratio(Unknown::Bending, medium.bending_stiffness),
+            anisotropy: answers.of(Unknown::Skew),
+            profile: terms.map(|(t, wave)| (*wave, answers.of(Unknown::Term(t)))).collect(),
+            decay: (0..KNOTS.len()).map(knot).collect(),
             actuators: loads[..actuators].to_vec(),
             strays: loads[actuators..].to_vec(),
-            late: estimate(Unknown::Late),
+            late: answers.of(Unknown::Late),
             excess: found.excess,
             residual: found.share,
-            verdict: verdict(found, &far),
-            sensors: gained(&found.values.sense),
-            bending_shares: modes.bending_shares.clone(),
-            responses: ModalResponses {
-                ports: (nominal.actuators.iter().zip(&found.values.places))
-                    .map(|(actuator, at)| Port { name: actuator.name.clone(), at: *at })
-                    .collect(),
-                input: gained(&found.values.drive),
-                poles: modes.poles,
-                shapes: modes.shapes,
-                conditions: Conditions {
-                    rate: nominal.emission.rate,
-                    band: nominal.emission.band,
-                    lambda_min: Medium {
-                        tension: medium.tension * found.values.tension.exp(),
-                        bending_stiffness: medium.bending_stiffness * found.values.bending.exp(),
-                        ..medium
-                    }
-                    .lambda_min(nominal.emission.band[1]),
-                    outline: nominal.outline.clone(),
-                },
-            },
+            unexplained: following.share,
+            verdict: verdict(found, following.share, &answers.far(expected)),
+            sensors,
+            bending_shares,
+            responses,
+            beyond: answers.responses([0.0, f64::INFINITY], nominal)?.responses,
         })
     }
 
@@ -177,6 +235,11 @@ impl Fitted {
         &self.responses
     }
 
+    /// The same with all modes that the fit worked with, those outside the band too.
+    pub(crate) fn beyond(&self) -> &ModalResponses {
+        &self.beyond
+    }
+
     /// Weights of each mode in the signal of each actuator's sensor, actuators x modes: for a [`Tracker`](crate::Tracker).
     pub fn sensors(&self) -> &Mat<f64> {
         &self.sensors
@@ -187,9 +250,10 @@ impl Fitted {
         &self.bending_shares
     }
 
-    /// Share of what was measured that neither model nor noise explains.
+    /// Share of what was measured, as amplitude, that neither model nor noise explains: what of the residual is large where the signal
+    /// is large, whatever the noise was said to be.
     pub fn unexplained(&self) -> f64 {
-        unexplained(self.residual, self.excess)
+        self.unexplained
     }
 
     /// What follows tension, over that at calibration, by this model. What the model leaves unexplained counts as its error, if it is
@@ -208,17 +272,12 @@ impl Fitted {
     }
 }
 
-/// What noise leaves of the residual's square is its share over the square of the excess.
-fn unexplained(share: f64, excess: f64) -> f64 {
-    share * (1.0 - excess.powi(-2)).max(0.0).sqrt()
-}
-
-fn verdict(found: &Found, far: &[String]) -> Verdict {
-    let unexplained = unexplained(found.share, found.excess);
+fn verdict(found: &Found, unexplained: f64, far: &[String]) -> Verdict {
     if unexplained > DOUBTED {
         let why = format!(
-            "residual of {:.1} % of what was measured, {:.1} times the noise: the surface has something that the model has not",
-            100.0 * found.share,
+            "{:.1} % of what was heard is not the model's, nor noise, in a residual of {:.1} times the noise: the surface has \
+             something that the model has not, or changed while it was measured",
+            100.0 * unexplained,
             found.excess
         );
         return Verdict::Doubtful { unexplained, why };

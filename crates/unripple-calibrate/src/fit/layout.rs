@@ -5,7 +5,7 @@ pub(super) const KNOTS: [f64; 5] = [0.0625, 0.125, 0.25, 0.5, 1.0];
 
 /// How far values are thought to be from nominal ones, one standard deviation: logarithm of tension, of bending stiffness, share
 /// of anisotropy, share of each term of the profile at one half wave, logarithm of decay rates, metres, logarithm of gains, kg,
-/// N·s/m, seconds by which responses came late.
+/// N·s/m, the logarithm of what all sensors have in common, seconds by which responses came late.
 const TENSION: f64 = 0.1;
 const BENDING: f64 = 0.1;
 const SKEW: f64 = 0.02;
@@ -16,6 +16,7 @@ const GAIN: f64 = 0.02;
 const MASS: f64 = 10e-6;
 const RESISTANCE: f64 = 2e-3;
 const STRAY: f64 = 10e-3;
+const LEVEL: f64 = 0.2;
 const LATE: f64 = 2e-5;
 
 /// What the unknowns are, and where each stands in their vector.
@@ -41,6 +42,7 @@ pub(super) enum Unknown {
     Resistance(usize),
     Drive(usize),
     Sense(usize),
+    Level,
     Late,
 }
 
@@ -60,6 +62,8 @@ pub(super) struct Values {
     pub resistances: Vec<f64>,
     pub drive: Vec<f64>,
     pub sense: Vec<f64>,
+    /// Logarithm of a gain of all sensors.
+    pub level: f64,
     /// Seconds by which responses between actuators came late.
     pub late: f64,
 }
@@ -82,7 +86,7 @@ impl Layout {
         all.extend(loaded.map(Resistance));
         all.extend((0..self.actuators).map(Drive));
         all.extend((0..self.actuators).map(Sense));
-        all.push(Late);
+        all.extend([Level, Late]);
         all
     }
 
@@ -104,12 +108,18 @@ impl Layout {
             Unknown::Mass(_) => MASS,
             Unknown::Resistance(_) => RESISTANCE,
             Unknown::Drive(_) | Unknown::Sense(_) => GAIN,
+            Unknown::Level => LEVEL,
             Unknown::Late => LATE,
         }
     }
 }
 
 impl Values {
+    /// Gain from one actuator's drive to another's sensor.
+    pub fn gain(&self, driven: usize, heard: usize) -> f64 {
+        (self.drive[driven] + self.sense[heard] + self.level).exp()
+    }
+
     /// The value of an unknown, to be read or changed.
     pub fn of(&mut self, unknown: Unknown) -> &mut f64 {
         match unknown {
@@ -124,6 +134,7 @@ impl Values {
             Unknown::Resistance(p) => &mut self.resistances[p],
             Unknown::Drive(a) => &mut self.drive[a],
             Unknown::Sense(a) => &mut self.sense[a],
+            Unknown::Level => &mut self.level,
             Unknown::Late => &mut self.late,
         }
     }

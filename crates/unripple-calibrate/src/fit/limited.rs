@@ -3,7 +3,9 @@ use super::layout::{Layout, Values};
 use super::loaded::LoadedModes;
 use super::system::System;
 use crate::CalibrateError;
-use faer::Mat;
+use faer::{Mat, c64};
+use realfft::RealFftPlanner;
+use std::f64::consts::TAU;
 use unripple_dsp::{Band, ModalSynth, shift};
 
 /// Error of the synthesis, over the sum of magnitudes.
@@ -14,21 +16,26 @@ const BEFORE: usize = 64;
 
 /// What a model says of responses between actuators, in the order of [`Pairs`](super::Pairs), from time 0 on.
 #[derive(Clone, Debug)]
-pub(super) struct Limited {
+pub(crate) struct Limited {
     /// As they are.
     pub whole: Vec<Vec<f64>>,
     /// As they are measured: limited to a band without phase, late, and without what then precedes time 0.
     pub cut: Vec<Vec<f64>>,
     /// Seconds by which they are late.
     pub late: f64,
+    /// What an impulse and its odd derivatives become on the same way: all that is measured of modes far above the band.
+    pub far: Vec<Vec<f64>>,
 }
+
+/// Derivatives of an impulse that modes far above the band make: an impulse's own sample, their compliance, inertia and what is left.
+pub(crate) const DERIVATIVES: [i32; 4] = [0, 1, 3, 5];
 
 impl Limited {
     /// The responses of some values by the first `count` nominal modes, as many samples as measured.
     ///
     /// A band with soft edges rings for the inverse of their width, forth and back. What rings back is cut off when responses are
     /// kept from time 0 on, and what is left has other spectra than the model's.
-    pub fn new(
+    pub(super) fn new(
         basis: &Basis,
         layout: &Layout,
         values: &Values,
@@ -36,12 +43,13 @@ impl Limited {
         (band, rate, samples): (Band, f64, usize),
     ) -> Result<Self, CalibrateError> {
         let system = System::new(basis, layout, values, &[], (count, top))?;
-        let modes = LoadedModes::new(basis, &system, values, [0.0, band.high[1]])?;
+        // All that are known; what stands for those that are not is too fast to be sampled.
+        let highest = system.sheet.squares.last().copied().unwrap_or(0.0).max(0.0).sqrt() / TAU;
+        let modes = LoadedModes::new(basis, &system, values, [0.0, highest.max(band.high[1])])?;
         let actuators = layout.actuators;
         let weights = Mat::from_fn(actuators * actuators, modes.poles.len(), |n, m| {
             let (driven, heard) = (n / actuators, n % actuators);
-            let gain = (values.drive[driven] + values.sense[heard]).exp();
-            gain * modes.weights[(driven, m)] * modes.weights[(heard, m)]
+            values.gain(driven, heard) * modes.weights[(driven, m)] * modes.weights[(heard, m)]
         });
         let mut all = vec![0.0; weights.nrows() * samples];
         ModalSynth::new(&modes.poles, rate, samples, ACCURACY).respond(weights.as_ref(), &mut all)?;
@@ -53,6 +61,29 @@ impl Limited {
             Ok(shift(&signal, values.late * rate).split_off(BEFORE))
         };
         let cut = whole.iter().map(cut).collect::<Result<_, CalibrateError>>()?;
-        Ok(Self { whole, cut, late: values.late })
+        let far = DERIVATIVES.map(|order| derivative(order, band, rate, samples));
+        let far = far.iter().map(|h| shift(h, values.late * rate).split_off(BEFORE)).collect();
+        Ok(Self { whole, cut, late: values.late, far })
     }
+}
+
+/// A derivative of an impulse at sample `BEFORE`, limited to a band, over a power of the band's top.
+fn derivative(order: i32, band: Band, rate: f64, samples: usize) -> Vec<f64> {
+    let size = (2 * (samples + BEFORE)).next_power_of_two();
+    let plan = RealFftPlanner::<f64>::new().plan_fft_inverse(size);
+    let mut lines = plan.make_input_vec();
+    for (k, line) in lines.iter_mut().enumerate() {
+        let hz = k as f64 * rate / size as f64;
+        let turned = c64::new(0.0, -TAU * hz * BEFORE as f64 / rate).exp();
+        *line = c64::new(0.0, hz / band.high[1]).powi(order) * turned * band.weight(hz);
+    }
+    let last = lines.len() - 1;
+    (lines[0].im, lines[last].im) = (0.0, 0.0);
+    let mut signal = plan.make_output_vec();
+    // Sizes are the plan's own, and lines 0 and last are real.
+    if plan.process(&mut lines, &mut signal).is_err() {
+        return vec![0.0; samples + BEFORE];
+    }
+    signal.truncate(samples + BEFORE);
+    signal
 }

@@ -4,7 +4,7 @@ use unripple_core::{Point, Surface};
 use unripple_dsp::Band;
 
 /// Least noise of responses over themselves: what models of a band's edges and a device's latency are good for.
-const FLOOR: f64 = 3e-3;
+const FLOOR: f64 = 1e-3;
 
 /// What was measured on a surface: responses between its actuators, taps heard by them, or both.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,7 +48,7 @@ impl Measured {
     }
 
     /// Responses from actuator to actuator, in the order of [`Pairs::responses`], whose noise is what reciprocity leaves: `h_ij` and
-    /// `h_ji` differ by gains and noise alone. The median over all pairs, 50 dB below the responses at least, as white noise that has
+    /// `h_ji` differ by gains and noise alone. The median over all pairs, 60 dB below the responses at least, as white noise that has
     /// the same density within `band` (Hz), where the signals are.
     ///
     /// # Errors

@@ -3,6 +3,7 @@
 mod basis;
 mod blend;
 mod fitted;
+mod following;
 mod forward;
 mod layout;
 mod limited;
@@ -14,8 +15,11 @@ mod run;
 mod sheet;
 mod solve;
 mod spectra;
+mod start;
 mod strays;
 mod system;
+
+pub(crate) use spectra::Spectra;
 
 pub use fitted::{Estimate, Fitted, FittedLoad, Verdict};
 pub use measured::{Measured, Pairs, Tap};

@@ -17,6 +17,10 @@ pub(super) struct Residual {
     pub data: f64,
     /// Sum of squares of what was measured, in the same units.
     pub power: f64,
+    /// Squares of residual and measurement, line by line of every response's spectrum.
+    pub lines: Vec<[f64; 2]>,
+    /// Of each row: the number of its response or tap, and of its frequency.
+    pub belongs: Vec<[usize; 2]>,
 }
 
 /// What a residual is made of.
@@ -56,8 +60,16 @@ impl Case<'_> {
         for (u, unknown) in unknowns.iter().enumerate() {
             columns.col_mut(u).iter_mut().for_each(|x| *x *= self.layout.spread(*unknown));
         }
+        let frequencies = self.spectra.frequencies.len();
+        let belongs = |(n, block): (usize, &Block)| {
+            let (rows, paired) = (block.values.len(), block.paired);
+            let line = move |row: usize| if paired { row % frequencies } else { row * frequencies / rows };
+            (0..rows).map(move |row| [n, line(row)])
+        };
         Residual {
             slopes: columns,
+            belongs: blocks.iter().enumerate().flat_map(belongs).collect(),
+            lines: blocks.iter().flat_map(|b| b.lines.iter().copied()).collect(),
             data: blocks.iter().map(|b| b.data).sum(),
             power: blocks.iter().map(|b| b.power).sum(),
             values: blocks.into_iter().flat_map(|b| b.values).collect(),
@@ -69,7 +81,7 @@ impl Case<'_> {
         columns(&self.blocks(values, answers, unknowns), unknowns.len())
     }
 
-    fn blocks(&self, values: &Values, answers: &[Answer], unknowns: &[Unknown]) -> Vec<Block> {
+    pub fn blocks(&self, values: &Values, answers: &[Answer], unknowns: &[Unknown]) -> Vec<Block> {
         let (pairs, taps) = (self.spectra.pairs.len(), self.spectra.taps.len());
         (0..pairs + taps)
             .into_par_iter()
@@ -81,14 +93,14 @@ impl Case<'_> {
             .collect()
     }
 
-    /// A response between actuators. What is the same at all frequencies, or grows with s or s³, is left out of both model and
-    /// measurement: the impulse's own sample, and the compliance and inertia of modes above the band.
+    /// A response between actuators. What modes far above the band are in it is left out of both model and measurement: the same at all
+    /// frequencies (the impulse's own sample), or growing with s, s³ and s⁵ (their compliance and inertia).
     fn pair(&self, pair: usize, values: &Values, answers: &[Answer], unknowns: &[Unknown]) -> Block {
         let actuators = self.layout.actuators;
         let (driven, heard) = (pair / actuators, pair % actuators);
-        let gain = (values.drive[driven] + values.sense[heard]).exp();
+        let gain = values.gain(driven, heard);
         let scale = 1.0 / self.spectra.pair_noise;
-        let nuisance = Nuisance::new(&self.spectra.frequencies);
+        let nuisance = Nuisance::new(&self.spectra.far);
         let column = |f: &dyn Fn(usize) -> c64| {
             let mut column: Vec<f64> = (0..answers.len()).map(|n| f(n).re * scale).collect();
             column.extend((0..answers.len()).map(|n| f(n).im * scale));
@@ -104,14 +116,20 @@ impl Case<'_> {
             Unknown::Drive(a) if *a == driven => modelled.clone(),
             Unknown::Sense(a) if *a == heard => modelled.clone(),
             Unknown::Drive(_) | Unknown::Sense(_) => vec![0.0; modelled.len()],
+            Unknown::Level => modelled.clone(),
             Unknown::Late => column(&|n| -frequencies[n] * model(n)),
             _ => column(&|n| turned[n] * answers[n].derivatives[u][(heard, driven)]),
         };
+        let values: Vec<f64> = modelled.iter().zip(&measured).map(|(a, b)| a - b).collect();
+        let count = answers.len();
+        let square = |all: &[f64], n: usize| all[n].powi(2) + all[count + n].powi(2);
         Block {
             columns: unknowns.iter().enumerate().map(slope).collect(),
-            values: modelled.iter().zip(&measured).map(|(a, b)| a - b).collect(),
-            data: modelled.len() as f64 - 3.0,
+            lines: (0..count).map(|n| [square(&values, n), square(&measured, n)]).collect(),
+            values,
+            data: (modelled.len() as f64 - self.spectra.far.len() as f64).max(0.0),
             power: measured.iter().map(|x| x * x).sum(),
+            paired: true,
         }
     }
 
@@ -126,8 +144,10 @@ impl Case<'_> {
         let mut block = Block {
             values: Vec::with_capacity(rows),
             columns: vec![Vec::with_capacity(rows); unknowns.len()],
+            lines: Vec::with_capacity(actuators * answers.len()),
             data: (2 * (actuators - 1) * answers.len()) as f64,
             power: 0.0,
+            paired: false,
         };
         for (n, answer) in answers.iter().enumerate() {
             let gains: Vec<f64> = values.sense.iter().map(|g| g.exp()).collect();
@@ -139,12 +159,13 @@ impl Case<'_> {
             block.power += measured.iter().map(|y| y.norm_sqr()).sum::<f64>();
             let residual = |a: usize| force * model[a] - measured[a];
             block.values.extend((0..actuators).flat_map(|a| [residual(a).re, residual(a).im]));
+            block.lines.extend((0..actuators).map(|a| [residual(a).norm_sqr(), measured[a].norm_sqr()]));
             for (u, unknown) in unknowns.iter().enumerate() {
                 let mut slope: Vec<c64> = match unknown {
                     Unknown::Sense(b) => {
                         (0..actuators).map(|a| if a == *b { model[a] } else { c64::new(0.0, 0.0) }).collect()
                     }
-                    Unknown::Drive(_) | Unknown::Late => vec![c64::new(0.0, 0.0); actuators],
+                    Unknown::Drive(_) | Unknown::Level | Unknown::Late => vec![c64::new(0.0, 0.0); actuators],
                     _ => (0..actuators).map(|a| answer.derivatives[u][(a, at)] * gains[a]).collect(),
                 };
                 let share = along(&slope);
@@ -157,11 +178,16 @@ impl Case<'_> {
 }
 
 /// Rows of one response or tap.
-struct Block {
-    values: Vec<f64>,
-    columns: Vec<Vec<f64>>,
+pub(super) struct Block {
+    /// Model less measurement.
+    pub values: Vec<f64>,
+    /// Derivatives, by the unknowns that were asked for.
+    pub columns: Vec<Vec<f64>>,
+    lines: Vec<[f64; 2]>,
     data: f64,
     power: f64,
+    /// Whether its rows are real parts, then imaginary ones, at all frequencies; otherwise frequency by frequency.
+    paired: bool,
 }
 
 /// The columns of all blocks below each other.
@@ -178,15 +204,13 @@ fn columns(blocks: &[Block], count: usize) -> Mat<f64> {
     all
 }
 
-/// Orthonormal columns of what is left out of responses between actuators: 1, s and s³.
+/// Orthonormal columns of what is left out of responses between actuators.
 struct Nuisance(Vec<Vec<f64>>);
 
 impl Nuisance {
-    fn new(frequencies: &[c64]) -> Self {
-        let top = frequencies.last().map_or(1.0, |s| s.norm());
+    fn new(far: &[Vec<c64>]) -> Self {
         let mut nuisance = Self(Vec::new());
-        for power in [0, 1, 3] {
-            let values: Vec<c64> = frequencies.iter().map(|s| (s / top).powi(power)).collect();
+        for values in far {
             let mut column: Vec<f64> = values.iter().map(|v| v.re).collect();
             column.extend(values.iter().map(|v| v.im));
             nuisance.remove(&mut column);

@@ -10,7 +10,7 @@ use crate::CalibrateError;
 use crate::error::require;
 use std::f64::consts::TAU;
 use unripple_core::{Decay, Point, Surface};
-use unripple_physics::Medium;
+use unripple_physics::{Medium, Transducer};
 
 /// How a model is fitted.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,22 +100,24 @@ pub fn fit(nominal: &Surface, measured: &Measured, options: &FitOptions) -> Resu
     let first =
         basis.squares.iter().find(|square| **square > 0.0).map_or(band[1], |square| square.sqrt() / TAU);
     let layout = Layout { actuators: nominal.actuators.len(), waves: basis.waves.clone(), strays: 0 };
-    let expected = nominal_values(nominal, &layout, top);
-    let mut fit =
-        Fit { nominal, measured, options, basis: &basis, layout, values: expected.clone(), expected, top };
-    let mut high = (FIRST * first).min(band[1]);
+    let expected = nominal_values(nominal, &basis, &layout, top);
+    let values = expected.clone();
+    let mut fit = Fit { nominal, measured, options, basis: &basis, layout, values, expected, top };
+    let mut high = (FIRST * first).max(FIRST * band[0]).min(band[1]);
+    fit.begin([band[0], high], high < band[1])?;
     while high < band[1] {
-        fit.widen([band[0], high], COARSE, options.reach * high)?;
+        fit.widen([band[0], high], COARSE, options.reach * high, false)?;
         high = if high * WIDER * 1.2 > band[1] { band[1] } else { high * WIDER };
     }
     for _ in 0..if limited.is_some() { AGAIN } else { 0 } {
-        fit.widen(band, FINE, options.reach * top)?;
+        fit.widen(band, FINE, options.reach * top, false)?;
     }
-    let (found, spectra, count) = fit.widen(band, FINE, options.reach * top)?;
+    let (found, spectra, count) = fit.widen(band, FINE, options.reach * top, true)?;
     Fitted::new(&fit.case(&fit.layout, &spectra, count), &found, &fit.expected, nominal)
 }
 
 /// A fit on its way.
+#[derive(Clone)]
 struct Fit<'a> {
     nominal: &'a Surface,
     measured: &'a Measured,
@@ -128,25 +130,61 @@ struct Fit<'a> {
 }
 
 impl Fit<'_> {
+    /// Looks for where to begin, by the lowest modes: each of the likeliest starts is followed for a while, and the best kept.
+    fn begin(&mut self, band: [f64; 2], more: bool) -> Result<(), CalibrateError> {
+        let modes_hz = self.options.reach * band[1];
+        let spectra = self.spectra(band, COARSE)?;
+        let starts = self.case(&self.layout, &spectra, self.basis.below(modes_hz)).starts(&self.expected)?;
+        let mut best: Option<(f64, Self)> = None;
+        for start in &starts {
+            let mut fit = self.clone();
+            // What gains are is no longer a matter of what was thought before.
+            (fit.expected.level, fit.expected.drive) = (start.level, start.drive.clone());
+            (fit.expected.sense, fit.values) = (start.sense.clone(), start.clone());
+            let mut left = f64::INFINITY;
+            if starts.len() > 1 {
+                fit.widen(band, COARSE, modes_hz, false)?;
+                let wider = if more { WIDER } else { 1.0 };
+                let modes_hz = wider * modes_hz;
+                let (found, ..) = fit.widen([band[0], wider * band[1]], COARSE, modes_hz, false)?;
+                left = found.share;
+            }
+            if best.as_ref().is_none_or(|(least, _)| left < *least) {
+                best = Some((left, fit));
+            }
+        }
+        if let Some((_, fit)) = best {
+            *self = fit;
+        }
+        Ok(())
+    }
+
+    /// What was measured in a band under a window.
+    fn spectra(&self, band: [f64; 2], alpha: f64) -> Result<Spectra, CalibrateError> {
+        let limited = self.limited()?;
+        let spectra = Spectra::of(self.measured, limited.as_ref(), band, (alpha, self.options.window));
+        match spectra.frequencies.is_empty() {
+            true => Err(CalibrateError::Count {
+                what: "frequencies of the fitted band",
+                expected: "at least 1".into(),
+                found: 0,
+            }),
+            false => Ok(spectra),
+        }
+    }
+
     /// Descends in a band under a window, with the modes below some frequency, and looks for strays.
     fn widen(
         &mut self,
         band: [f64; 2],
         alpha: f64,
         modes_hz: f64,
+        last: bool,
     ) -> Result<(Found, Spectra, usize), CalibrateError> {
-        let spectra =
-            Spectra::of(self.measured, self.limited()?.as_ref(), band, (alpha, self.options.window));
-        if spectra.frequencies.is_empty() {
-            return Err(CalibrateError::Count {
-                what: "frequencies of the fitted band",
-                expected: "at least 1".into(),
-                found: 0,
-            });
-        }
+        let spectra = self.spectra(band, alpha)?;
         let count = self.basis.below(modes_hz);
         let mut layout = self.layout.clone();
-        let mut found = self.case(&layout, &spectra, count).descend(&self.values, &self.expected)?;
+        let mut found = self.case(&layout, &spectra, count).descend(&self.values, &self.expected, last)?;
         while found.excess > SUSPECT && layout.strays < self.options.strays {
             let Some((at, mass)) =
                 self.case(&layout, &spectra, count).stray(&found, &self.nominal.outline)?
@@ -156,7 +194,7 @@ impl Fit<'_> {
             let mut more = layout.clone();
             more.strays += 1;
             let (start, expected) = (with(&found.values, at, mass), with(&self.expected, at, 0.0));
-            let next = self.case(&more, &spectra, count).descend(&start, &expected)?;
+            let next = self.case(&more, &spectra, count).descend(&start, &expected, last)?;
             if next.excess > WORTH * found.excess {
                 break;
             }
@@ -192,7 +230,7 @@ fn with(values: &Values, at: Point, mass: f64) -> Values {
     more
 }
 
-fn nominal_values(surface: &Surface, layout: &Layout, top: f64) -> Values {
+fn nominal_values(surface: &Surface, basis: &Basis, layout: &Layout, top: f64) -> Values {
     let medium = Medium::of(&surface.sheet);
     let rate = |hz: f64| match &surface.sheet.decay {
         Decay::Time(time) => 1.0 / time,
@@ -205,7 +243,16 @@ fn nominal_values(surface: &Surface, layout: &Layout, top: f64) -> Values {
             eta * medium.bending_share(medium.wavenumber(omega)) * omega / 2.0
         }
     };
-    let (actuators, loaded) = (layout.actuators, layout.loaded());
+    let coil = |t: &Transducer| t.load.as_ref().and_then(|load| load.circuit);
+    let gains = basis.gains();
+    let mass = |(t, _): &(Transducer, Point)| t.load.as_ref().map_or(0.0, |load| load.mass);
+    let resistance = |(t, _): &(Transducer, Point)| {
+        coil(t).map_or(0.0, |coil| coil.force_constant.powi(2) / coil.resistance)
+    };
+    let none = vec![0.0; layout.strays];
+    let loads = |of: &dyn Fn(&(Transducer, Point)) -> f64| {
+        basis.transducers.iter().map(of).chain(none.iter().copied()).collect()
+    };
     Values {
         tension: 0.0,
         bending: 0.0,
@@ -213,10 +260,11 @@ fn nominal_values(surface: &Surface, layout: &Layout, top: f64) -> Values {
         profile: vec![0.0; layout.waves.len()],
         knots: KNOTS.iter().map(|share| rate(share * top).ln()).collect(),
         places: surface.actuators.iter().map(|a| a.at).collect(),
-        masses: vec![0.0; loaded],
-        resistances: vec![0.0; loaded],
-        drive: vec![0.0; actuators],
-        sense: vec![0.0; actuators],
+        masses: loads(&mass),
+        resistances: loads(&resistance),
+        drive: gains.clone(),
+        sense: gains,
+        level: 0.0,
         late: 0.0,
     }
 }

@@ -1,4 +1,4 @@
-use super::limited::Limited;
+use super::limited::{DERIVATIVES, Limited};
 use super::measured::Measured;
 use faer::c64;
 use realfft::RealFftPlanner;
@@ -14,13 +14,15 @@ const SPACING: f64 = 1.0;
 /// What was measured as Laplace transforms along a line s = α + jω: spectra under a window e^{-αt}, which ends the signals
 /// without an edge and widens all lines alike.
 #[derive(Clone, Debug)]
-pub(super) struct Spectra {
+pub(crate) struct Spectra {
     /// The complex frequencies, 1/s.
     pub frequencies: Vec<c64>,
     /// Spectra of the responses between actuators, in the order of [`Pairs`](super::Pairs); empty where not measured.
     pub pairs: Vec<Vec<c64>>,
     /// Standard deviation of the noise in real and imaginary parts of those.
     pub pair_noise: f64,
+    /// What modes far above the band are in those: an impulse and its odd derivatives.
+    pub far: Vec<Vec<c64>>,
     /// Spectra of each tap at each actuator.
     pub taps: Vec<Vec<Vec<c64>>>,
     /// Places of the taps.
@@ -63,14 +65,19 @@ impl Spectra {
         let frequencies: Vec<c64> = bins.iter().map(|k| c64::new(alpha, TAU * *k as f64 * spacing)).collect();
         let pair = |(n, signal): (usize, &Vec<f64>)| {
             let mut spectrum = transform(signal);
-            if let Some(Limited { whole, cut, late }) = limited {
+            if let Some(Limited { whole, cut, late, .. }) = limited {
                 let lines = transform(&whole[n]).into_iter().zip(transform(&cut[n])).zip(&frequencies);
                 let taken = lines.map(|((whole, cut), s)| whole * (-s * *late).exp() - cut);
                 spectrum.iter_mut().zip(taken).for_each(|(y, taken)| *y += taken);
             }
             spectrum
         };
+        let top = frequencies.last().map_or(1.0, |s| s.norm());
+        let power = |order: &i32| frequencies.iter().map(|s| (s / top).powi(*order)).collect();
+        let mut far: Vec<Vec<c64>> = DERIVATIVES.iter().map(power).collect();
+        far.extend(limited.iter().flat_map(|limited| &limited.far).map(transform));
         Self {
+            far,
             pairs: measured.pairs.iter().flat_map(|p| &p.responses).enumerate().map(pair).collect(),
             pair_noise: measured.pairs.as_ref().map_or(1.0, |p| p.noise) * spread,
             taps: measured.taps.iter().map(|tap| tap.heard.iter().map(transform).collect()).collect(),

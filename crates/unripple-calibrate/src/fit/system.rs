@@ -3,7 +3,7 @@ use super::layout::{Layout, Values};
 use super::sheet::Sheet;
 use crate::CalibrateError;
 use faer::Mat;
-use unripple_core::{Point, Shapes};
+use unripple_core::Point;
 use unripple_physics::{Footprint, Medium};
 
 /// Half the distance over which slopes of shapes are taken, in metres.
@@ -49,17 +49,20 @@ impl System {
         (count, top): (usize, f64),
     ) -> Result<Self, CalibrateError> {
         let sheet = Sheet::new(basis, values, count, top)?;
-        let places: Vec<Point> = values.places.iter().chain(taps).copied().collect();
-        let read = |points: &[Point]| {
-            let all = basis.modes.at_all(points);
+        let read = |footprints: &[Footprint]| {
+            let all = Footprint::all_weights(footprints, basis.modes.as_ref());
             sheet.turn.transpose() * all.subcols(0, count).transpose()
         };
-        let shapes = read(&places);
+        let touching = |d: Point| -> Vec<Footprint> {
+            let places = values.places.iter().enumerate();
+            places.map(|(n, p)| basis.footprint(n, Point::new(p.x + d.x, p.y + d.y))).collect()
+        };
+        let mut all = touching(Point::new(0.0, 0.0));
+        all.extend(taps.iter().map(|at| Footprint::point(*at)));
+        let shapes = read(&all);
         let slopes = [Point::new(STEP, 0.0), Point::new(0.0, STEP)].map(|d| {
-            let moved = |s: f64| {
-                values.places.iter().map(|p| Point::new(p.x + s * d.x, p.y + s * d.y)).collect::<Vec<_>>()
-            };
-            (read(&moved(1.0)) - read(&moved(-1.0))) * faer::Scale(0.5 / STEP)
+            let back = Point::new(-d.x, -d.y);
+            (read(&touching(d)) - read(&touching(back))) * faer::Scale(0.5 / STEP)
         });
         let medium = Medium {
             tension: basis.medium.tension * values.tension.exp(),

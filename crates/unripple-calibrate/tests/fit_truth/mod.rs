@@ -9,6 +9,7 @@ use unripple_core::{
     Conditions, Decay, Drive, ModalResponses, Point, Port, Profile, Random, Responses, Scatterer,
     ScattererKind, Shapes, Surface,
 };
+use unripple_dsp::Band;
 use unripple_field::Field;
 use unripple_focus::{Focuser, Method, Options, Target};
 use unripple_physics::design::papers_surface;
@@ -109,6 +110,12 @@ impl Truth {
             actuator.at.x += faults.place * angle.cos();
             actuator.at.y += faults.place * angle.sin();
         }
+        Self::of(nominal, surface, faults, random)
+    }
+
+    /// A surface that is true, known as another; gains and noise are drawn.
+    pub fn of(nominal: Surface, surface: Surface, faults: &Faults, mut random: Random) -> Self {
+        let top = nominal.emission.band[1];
         let modes = Arc::new(Modes::solve(&surface, 1.4 * top, 1e-5).unwrap());
         let mut gains = || (0..8).map(|_| 1.0 + faults.gain * random.normal()).collect::<Vec<f64>>();
         let (drive, sense) = (gains(), gains());
@@ -156,6 +163,22 @@ impl Truth {
         let mut signals: Vec<Vec<f64>> = (0..64).map(|n| signal(n / 8, n % 8)).collect();
         let noise = self.noisy(&mut signals);
         Measured::pairs(rate, signals, noise)
+    }
+
+    /// The same as a calibration brings them home: limited to a band and cut at time 0, that long.
+    pub fn swept(&mut self, seconds: f64) -> Measured {
+        let rate = self.nominal.emission.rate;
+        let [from, to] = [60.0, 1.2 * self.nominal.emission.band[1]];
+        let band = Band::within(from, to);
+        let mut measured = self.pairs(seconds);
+        let Some(pairs) = &mut measured.pairs else { panic!("they are there") };
+        for response in &mut pairs.responses {
+            let mut signal = vec![0.0; 64];
+            signal.append(response);
+            band.limit(&mut signal, rate).unwrap();
+            *response = signal.split_off(64);
+        }
+        measured.limited_to(band)
     }
 
     /// Taps of unknown shape and strength, heard by all actuators.
