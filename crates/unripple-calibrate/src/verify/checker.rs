@@ -1,0 +1,135 @@
+//! A model's responses at any place, compared with measured ones frequency by frequency.
+
+use faer::{Mat, c64};
+use unripple_core::{ModalResponses, Point, Pole};
+
+/// What a model says between its actuators and any place, ready to be compared with what was heard there.
+///
+/// With w the actuators' weights, φ the shapes and μ the modes' mobilities, the model at x is Y_a(s) = Σ_m φ_m(x) w_am μ_m(s): linear
+/// in φ(x). So is its product with what was heard, and its own power is a quadratic form of φ(x): a whole sheet of places costs two
+/// products of matrices.
+#[derive(Debug)]
+pub(super) struct Checker<'a> {
+    model: &'a ModalResponses,
+    frequencies: &'a [c64],
+    /// Modes x frequencies.
+    mobilities: Mat<c64>,
+    /// Of the model's power in the shapes.
+    gram: Mat<f64>,
+}
+
+/// How alike a response and the model's are at one place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Match {
+    /// From -1 to 1: 1 for responses that differ by a gain alone.
+    pub likeness: f64,
+    /// Measured over modelled.
+    pub gain: f64,
+}
+
+impl Match {
+    /// Share of what was heard (as amplitude) that the model does not explain.
+    pub fn unexplained(self) -> f64 {
+        (1.0 - self.likeness.powi(2)).max(0.0).sqrt()
+    }
+}
+
+/// What was heard at a point, by the model's modes: modes x frequencies, and its power.
+#[derive(Debug)]
+pub(super) struct Projected {
+    crossed: Mat<c64>,
+    power: f64,
+}
+
+impl<'a> Checker<'a> {
+    /// A model at complex frequencies (1/s) on one line.
+    pub fn new(model: &'a ModalResponses, frequencies: &'a [c64]) -> Self {
+        let mobilities = mobilities(&model.poles, frequencies);
+        let modes = model.poles.len();
+        let mut both = Mat::<f64>::zeros(modes, 2 * frequencies.len());
+        for m in 0..modes {
+            for n in 0..frequencies.len() {
+                (both[(m, 2 * n)], both[(m, 2 * n + 1)]) = (mobilities[(m, n)].re, mobilities[(m, n)].im);
+            }
+        }
+        let mut gram = &both * both.transpose();
+        let driven = model.input.transpose() * &model.input;
+        for m in 0..modes {
+            for n in 0..modes {
+                gram[(m, n)] *= driven[(m, n)];
+            }
+        }
+        Self { model, frequencies, mobilities, gram }
+    }
+
+    /// The spectra `[actuator][frequency]` heard at a point by the model's modes.
+    pub fn project(&self, spectra: &[Vec<c64>]) -> Projected {
+        let (modes, count) = (self.mobilities.nrows(), self.frequencies.len());
+        let mut crossed = Mat::<c64>::zeros(modes, count);
+        for (a, spectrum) in spectra.iter().enumerate() {
+            for n in 0..count {
+                for m in 0..modes {
+                    crossed[(m, n)] += spectrum[n] * self.model.input[(a, m)];
+                }
+            }
+        }
+        for n in 0..count {
+            for m in 0..modes {
+                crossed[(m, n)] *= self.mobilities[(m, n)].conj();
+            }
+        }
+        Projected { crossed, power: spectra.iter().flatten().map(|y| y.norm_sqr()).sum() }
+    }
+
+    /// Products with the model's modes when what was heard is late by each of some times (s): modes x delays.
+    pub fn products(&self, heard: &Projected, delays: &[f64]) -> Mat<f64> {
+        let turned = Mat::from_fn(self.frequencies.len(), delays.len(), |n, d| {
+            c64::new(0.0, self.frequencies[n].im * delays[d]).exp()
+        });
+        let all = &heard.crossed * turned;
+        Mat::from_fn(all.nrows(), all.ncols(), |m, d| all[(m, d)].re)
+    }
+
+    /// Power of the model at each of some places, from their shapes (places x modes).
+    pub fn powers(&self, shapes: &Mat<f64>) -> Vec<f64> {
+        let all = shapes * &self.gram;
+        (0..shapes.nrows()).map(|p| (0..shapes.ncols()).map(|m| all[(p, m)] * shapes[(p, m)]).sum()).collect()
+    }
+
+    /// The shapes at some places, places x modes.
+    pub fn shapes(&self, places: &[Point]) -> Mat<f64> {
+        self.model.shapes.at_all(places)
+    }
+
+    /// How alike they are at one place and one delay (s).
+    pub fn at(&self, heard: &Projected, place: Point, delay: f64) -> Match {
+        self.late(heard, place, &[delay]).first().copied().unwrap_or(Match { likeness: 0.0, gain: 0.0 })
+    }
+
+    /// The same at one place and several delays.
+    pub fn late(&self, heard: &Projected, place: Point, delays: &[f64]) -> Vec<Match> {
+        let shapes = self.shapes(&[place]);
+        let power = self.powers(&shapes)[0];
+        let products = shapes * self.products(heard, delays);
+        let one = |(d, delay): (usize, &f64)| self.matched(products[(0, d)], power, heard, *delay);
+        delays.iter().enumerate().map(one).collect()
+    }
+
+    /// A match from a product and the model's power.
+    pub fn matched(&self, product: f64, power: f64, heard: &Projected, delay: f64) -> Match {
+        let alpha = self.frequencies.first().map_or(0.0, |s| s.re);
+        let both = (power * heard.power).sqrt();
+        match both > 0.0 && both.is_finite() {
+            true => Match { likeness: product / both, gain: product / power * (alpha * delay).exp() },
+            false => Match { likeness: 0.0, gain: 0.0 },
+        }
+    }
+}
+
+/// Velocity per force of each mode, modes x frequencies.
+fn mobilities(poles: &[Pole], frequencies: &[c64]) -> Mat<c64> {
+    Mat::from_fn(poles.len(), frequencies.len(), |m, n| {
+        let (pole, s) = (&poles[m], frequencies[n]);
+        s / (s * s + s * (2.0 * pole.sigma) + pole.omega * pole.omega)
+    })
+}

@@ -1,0 +1,47 @@
+//! Recordings that are one recording.
+
+use super::verdict::{Doubted, VerifyOptions};
+use unripple_core::SampledResponses;
+
+/// Two places farther apart than this share of the shortest wavelength do not answer alike.
+const APART: f64 = 0.25;
+
+/// Likeness from which two responses are one.
+const ONE: f64 = 0.999;
+
+/// Actuators compared at most, and samples of each.
+const ACTUATORS: usize = 4;
+const SAMPLES: usize = 1024;
+
+/// Points whose responses are those of another point, but for a gain.
+pub(super) fn doubts(probed: &SampledResponses, options: &VerifyOptions) -> Vec<Doubted> {
+    let (count, samples) = (probed.ports.len().min(ACTUATORS), probed.samples().min(SAMPLES));
+    let signature = |p: usize| {
+        let all = (0..count).flat_map(|a| probed.response(a, p)[..samples].iter());
+        let mut values: Vec<f32> = all.copied().collect();
+        let norm = values.iter().map(|x| x * x).sum::<f32>().sqrt();
+        values.iter_mut().for_each(|x| *x /= norm.max(f32::MIN_POSITIVE));
+        values
+    };
+    let all: Vec<Vec<f32>> = (0..probed.points.len()).map(signature).collect();
+    let far = APART * probed.conditions.lambda_min;
+    let mut doubts = Vec::new();
+    for (p, one) in all.iter().enumerate() {
+        let alike = |q: &usize| {
+            let likeness: f32 = one.iter().zip(&all[*q]).map(|(a, b)| a * b).sum();
+            f64::from(likeness.abs()) > ONE && probed.points[p].distance(probed.points[*q]) > far
+        };
+        if let Some(q) = (0..p).find(alike) {
+            doubts.push(Doubted {
+                what: format!(
+                    "points {} and {}: expected two recordings, found the same responses at both (is one file a copy of the \
+                     other? measure both again)",
+                    options.number(q),
+                    options.number(p)
+                ),
+                points: vec![q, p],
+            });
+        }
+    }
+    doubts
+}

@@ -1,0 +1,170 @@
+//! What each probed point is, held against the model.
+
+use super::checker::{Match, Projected};
+use super::quick::Quick;
+use super::sheet::{Sheet, Spot};
+use super::verdict::VerifyOptions;
+use rayon::prelude::*;
+use unripple_core::{Point, Surface};
+
+/// A response is not the model's if more than this share of it is unexplained, or so many times what is of the sensors'.
+const UNLIKE: f64 = 0.4;
+const TIMES: f64 = 2.5;
+
+/// Delays that are looked for, in s: of a probe's electronics, and of a recording that lost samples.
+const DELAYS: [f64; 2] = [-2e-3, 12e-3];
+
+/// Points that tell the common delay.
+const TELLING: usize = 24;
+
+/// A place is nobody else's if it is farther from all of them than this share of the shortest wave looked at.
+const NEAR: f64 = 0.2;
+
+/// What was found of a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Judged {
+    /// At its own place and the common delay.
+    pub own: Match,
+    /// The best place in the neighbourhood.
+    pub nearby: Spot,
+    /// Error of that place (m), along each axis.
+    pub error: f64,
+    pub kind: Kind,
+}
+
+/// What a point is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Kind {
+    /// Where it is said to be, or close by.
+    Here,
+    /// It fits another place.
+    Elsewhere(Spot, Whose),
+    /// It fits its place, but not with the others' delay.
+    Late(f64),
+    /// It fits nothing.
+    Nothing,
+}
+
+/// Whose a place is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Whose {
+    /// Another probed point's.
+    Point(usize),
+    /// An actuator's.
+    Actuator(usize),
+    /// Nobody's.
+    Nobody,
+}
+
+/// All that points are judged by.
+pub(super) struct Bench<'a> {
+    pub quick: &'a Quick,
+    pub sheet: &'a Sheet<'a>,
+    pub surface: &'a Surface,
+    pub places: &'a [Point],
+    pub options: &'a VerifyOptions,
+    /// The shortest wave looked at, in metres.
+    pub wave: f64,
+}
+
+impl Bench<'_> {
+    /// What is left unexplained of a good point at most.
+    pub fn limit(&self) -> f64 {
+        UNLIKE.max(TIMES * self.quick.fitted.unexplained()).min(0.8)
+    }
+
+    fn removed(&self, point: usize) -> f64 {
+        self.options.removed.get(point).copied().unwrap_or(0.0)
+    }
+
+    /// The delay (s) at which most points fit some place of the sheet.
+    pub fn common(&self, heard: &[Projected]) -> f64 {
+        let none = self.quick.fitted.late.value;
+        let here = |late: f64| {
+            let good = |p: &usize| {
+                let late = late - self.removed(*p);
+                self.sheet.checker.at(&heard[*p], self.places[*p], late).unexplained() < self.limit()
+            };
+            (0..heard.len()).filter(good).count()
+        };
+        let delays = self.sheet.delays(DELAYS[0], DELAYS[1]);
+        let step = heard.len().div_ceil(TELLING).max(1);
+        let tables: Vec<Vec<f64>> = (0..heard.len())
+            .step_by(step)
+            .collect::<Vec<_>>()
+            .into_par_iter()
+            .map(|p| {
+                let own: Vec<f64> = delays.iter().map(|late| late - self.removed(p)).collect();
+                self.sheet.likest(&heard[p], &own)
+            })
+            .collect();
+        let sum = |d: usize| tables.iter().map(|t| t[d]).sum::<f64>();
+        let best = (0..delays.len()).max_by(|a, b| sum(*a).total_cmp(&sum(*b))).map_or(none, |d| delays[d]);
+        let start = if 2 * here(none) > heard.len() && here(none) >= here(best) { none } else { best };
+        // Fine, by the median of what points say that fit there.
+        let mut all: Vec<f64> = (0..heard.len())
+            .into_par_iter()
+            .filter_map(|p| {
+                let late = start - self.removed(p);
+                let own = self.sheet.nearby(&heard[p], self.places[p], late, 0.1 * self.wave);
+                (own.found.unexplained() < self.limit()).then_some(own.late + self.removed(p))
+            })
+            .collect();
+        all.sort_unstable_by(f64::total_cmp);
+        match all.len() {
+            0 => start,
+            n => 0.5 * (all[(n - 1) / 2] + all[n / 2]),
+        }
+    }
+
+    /// Judges one point by a common delay.
+    pub fn judge(&self, point: usize, heard: &Projected, common: f64) -> Judged {
+        let (at, late) = (self.places[point], common - self.removed(point));
+        let own = self.sheet.checker.at(heard, at, late);
+        let nearby = self.sheet.nearby(heard, at, late, 0.1 * self.wave);
+        let judged = |kind| Judged { own, nearby, error: self.error(&nearby), kind };
+        if nearby.found.unexplained() < self.limit() && nearby.at.distance(at) < 0.5 * self.wave {
+            return judged(Kind::Here);
+        }
+        if let Some(spot) = self.sheet.anywhere(heard, late).filter(|s| s.found.unexplained() < self.limit())
+        {
+            return judged(Kind::Elsewhere(spot, self.whose(point, spot.at)));
+        }
+        let delays = self.sheet.delays(DELAYS[0] - 0.02, DELAYS[1] + 0.02);
+        let latest = self.sheet.latest(heard, at, &delays);
+        if let Some(spot) = latest.filter(|s| s.found.unexplained() < self.limit()) {
+            let spot = self.sheet.nearby(heard, at, spot.late, 0.02 * self.wave);
+            return judged(Kind::Late(spot.late - late));
+        }
+        judged(Kind::Nothing)
+    }
+
+    /// Seconds by which delays of one measurement may differ.
+    pub fn apart(&self) -> f64 {
+        0.25 / self.quick.band[1]
+    }
+
+    /// The place's error (m) by what is left unexplained: as if each mode told it once.
+    fn error(&self, spot: &Spot) -> f64 {
+        let modes = self.quick.fitted.beyond().poles.len().max(4) as f64;
+        let k = std::f64::consts::TAU / self.wave;
+        spot.found.unexplained() / k * (8.0 / modes).sqrt()
+    }
+
+    fn whose(&self, point: usize, at: Point) -> Whose {
+        let near = NEAR * self.wave;
+        let closest = |places: &mut dyn Iterator<Item = (usize, Point)>| {
+            places
+                .map(|(n, p)| (n, p.distance(at)))
+                .filter(|(_, d)| *d < near)
+                .min_by(|a, b| a.1.total_cmp(&b.1))
+        };
+        let others = &mut self.places.iter().copied().enumerate().filter(|(n, _)| *n != point);
+        let actuators = &mut self.surface.actuators.iter().map(|a| a.at).enumerate();
+        match (closest(others), closest(actuators)) {
+            (Some((n, d)), other) if other.is_none_or(|(_, e)| d <= e) => Whose::Point(n),
+            (_, Some((a, _))) => Whose::Actuator(a),
+            _ => Whose::Nobody,
+        }
+    }
+}

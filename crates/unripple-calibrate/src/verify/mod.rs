@@ -1,0 +1,146 @@
+//! Probed responses held against a model that is fitted to what the sensors heard.
+
+mod checker;
+mod copies;
+mod judge;
+mod levels;
+mod quick;
+mod sensors;
+mod sheet;
+mod verdict;
+mod words;
+
+pub use verdict::{Checked, Doubted, PointVerdict, Verified, VerifyOptions};
+
+use crate::CalibrateError;
+use crate::error::require;
+use crate::fit::{Fitted, Measured};
+use checker::Projected;
+use judge::{Bench, Judged, Kind};
+use quick::Quick;
+use rayon::prelude::*;
+use sheet::Sheet;
+use std::f64::consts::TAU;
+use unripple_core::{SampledResponses, Surface};
+use unripple_physics::Medium;
+
+/// Holds each probed response against a model at its place, its gain, sign and delay free.
+///
+/// The model is [fitted](crate::fit) to what actuators heard of each other, in the lowest modes, so that a surface file that is
+/// wrong condemns no good data; where it leaves too much of that unexplained there is none, and the answer says so. A point that does
+/// not fit its place is looked for on the whole sheet, so that exchanged recordings, a probe beside its place and a probe on an
+/// actuator's channel are told by name.
+///
+/// `measured` is what actuators heard of each other, `probed` the responses of the same actuators at the probed points.
+///
+/// # Errors
+/// [`CalibrateError::Count`] and [`CalibrateError::Range`] for measurements that do not belong together.
+///
+/// ```
+/// use unripple_calibrate::Measured;
+/// use unripple_calibrate::verify::{VerifyOptions, check};
+/// use unripple_core::{Point, Responses};
+/// use unripple_physics::{ResponseOptions, design::papers_surface, responses, sample};
+///
+/// let mut surface = papers_surface();
+/// surface.emission.band[1] = 600.0;
+/// let above = ResponseOptions { max_hz: Some(1200.0), ..ResponseOptions::default() };
+/// let Responses::Modal(modal) = responses(&surface, &above)? else { unreachable!() };
+/// let own: Vec<Point> = surface.actuators.iter().map(|a| a.at).collect();
+/// let heard = sample(&modal, &own, 4800);
+/// let signal = |n: usize| heard.response(n / 8, n % 8).iter().map(|v| f64::from(*v)).collect();
+/// let measured = Measured::pairs(48e3, (0..64).map(signal).collect(), 1e-3);
+/// // The probe stood 10 mm beside the second of two points.
+/// let said = [Point::from_mm(62.0, 90.0), Point::from_mm(100.0, 60.0)];
+/// let stood = [said[0], Point::from_mm(110.0, 60.0)];
+/// let mut probed = sample(&modal, &stood, 4800);
+/// probed.points = said.to_vec();
+/// let found = check(&surface, &measured, &probed, &VerifyOptions::default())?;
+/// assert_eq!(found.doubts.len(), 1);
+/// assert_eq!(found.doubts[0].points, [1]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn check(
+    surface: &Surface,
+    measured: &Measured,
+    probed: &SampledResponses,
+    options: &VerifyOptions,
+) -> Result<Verified, CalibrateError> {
+    together(surface, measured, probed)?;
+    let doubts = copies::doubts(probed, options);
+    if !options.model {
+        return Ok(Verified::without("it was not asked for".into(), doubts));
+    }
+    Ok(match Quick::new(surface, measured, probed, options) {
+        Ok(quick) => against(&quick, surface, probed, options, doubts),
+        Err(why) => Verified::without(why, doubts),
+    })
+}
+
+/// The same against a model that was fitted before, to what all the actuators heard.
+///
+/// # Errors
+/// Those of [`check`].
+pub fn check_by(
+    fitted: &Fitted,
+    surface: &Surface,
+    measured: &Measured,
+    probed: &SampledResponses,
+    options: &VerifyOptions,
+) -> Result<Verified, CalibrateError> {
+    together(surface, measured, probed)?;
+    let doubts = copies::doubts(probed, options);
+    Ok(match Quick::known(fitted, surface, measured, probed, options) {
+        Ok(quick) => against(&quick, surface, probed, options, doubts),
+        Err(why) => Verified::without(why, doubts),
+    })
+}
+
+/// Refuses responses of other actuators, or at another rate, than what was measured.
+fn together(surface: &Surface, measured: &Measured, probed: &SampledResponses) -> Result<(), CalibrateError> {
+    let (expected, found) = (surface.actuators.len(), probed.ports.len());
+    if expected != found {
+        let what = "actuators of the probed responses";
+        return Err(CalibrateError::Count { what, expected: expected.to_string(), found });
+    }
+    let rate = probed.conditions.rate;
+    require("sample rate of the probed responses in Hz", rate == measured.rate, "the sensors'", rate)
+}
+
+/// The check against a model.
+fn against(
+    quick: &Quick,
+    surface: &Surface,
+    probed: &SampledResponses,
+    options: &VerifyOptions,
+    mut doubts: Vec<Doubted>,
+) -> Verified {
+    let checker = quick.checker();
+    let wavenumber = Medium::of(&surface.sheet).wavenumber(TAU * quick.band[1]);
+    let sheet = Sheet::new(&checker, &surface.outline, wavenumber, quick.band[1]);
+    let wave = TAU / wavenumber;
+    let bench = Bench { quick, sheet: &sheet, surface, places: &probed.points, options, wave };
+    doubts.extend(sensors::doubts(&bench));
+    let heard: Vec<Projected> = quick.probed.par_iter().map(|spectra| checker.project(spectra)).collect();
+    let common = bench.common(&heard);
+    let judged: Vec<Judged> =
+        heard.par_iter().enumerate().map(|(p, heard)| bench.judge(p, heard, common)).collect();
+    let here: Vec<bool> = judged.iter().map(|j| j.kind == Kind::Here).collect();
+    let levels = levels::Levels::of(&judged);
+    let points: Vec<PointVerdict> =
+        (0..judged.len()).map(|p| words::verdict(&bench, &judged, &levels, p, common)).collect();
+    let mut notes = Vec::new();
+    words::gather(&bench, &points, &judged, (&mut notes, &mut doubts));
+    let delay = common - quick.fitted.late.value;
+    let told = here.iter().any(|here| *here) && delay.abs() > bench.apart();
+    if let Some(why) = words::delay(options, delay, told) {
+        doubts.push(why);
+    }
+    Verified {
+        model: Checked::Against { band: quick.band, unexplained: quick.fitted.unexplained() },
+        points,
+        probe_delay: told.then_some(delay),
+        notes,
+        doubts,
+    }
+}

@@ -1,0 +1,41 @@
+//! What sensors heard, each held against the model at its actuator's place.
+
+use super::checker::Projected;
+use super::judge::Bench;
+use super::verdict::Doubted;
+use unripple_core::Point;
+
+/// A sensor whose row is less like the model's than this is not what it is said to be.
+const UNLIKE: f64 = 0.5;
+
+/// Doubts about single sensors.
+pub(super) fn doubts(bench: &Bench) -> Vec<Doubted> {
+    let quick = bench.quick;
+    let late = quick.fitted.late.value;
+    let port = |n: usize| {
+        let [x, y] = quick.fitted.actuators[n].at.map(|c| c.value);
+        Point::new(x, y)
+    };
+    let name = |n: usize| bench.surface.actuators[quick.actuators[n]].name.clone();
+    let heard: Vec<Projected> = quick.sensed.iter().map(|row| bench.sheet.checker.project(row)).collect();
+    let mut doubts = Vec::new();
+    for (n, row) in heard.iter().enumerate() {
+        let own = bench.sheet.checker.at(row, port(n), late);
+        if own.likeness > UNLIKE {
+            continue;
+        }
+        let why = match bench.sheet.anywhere(row, late) {
+            _ if own.likeness < -UNLIKE => "is reversed".to_owned(),
+            Some(spot) if spot.found.unexplained() < bench.limit() => {
+                let near = (0..heard.len()).find(|m| port(*m).distance(spot.at) < 0.2 * bench.wave);
+                match near {
+                    Some(other) => format!("hears the place of `{}`: is its channel right?", name(other)),
+                    None => format!("hears {}, not its own place: is its channel right?", spot.at),
+                }
+            }
+            _ => "hears what no model explains".to_owned(),
+        };
+        doubts.push(Doubted { what: format!("sensor of `{}` {why}", name(n)), points: Vec::new() });
+    }
+    doubts
+}

@@ -1,0 +1,132 @@
+//! Where on the sheet, and how late, a response fits the model best.
+
+use super::checker::{Checker, Match, Projected};
+use faer::Mat;
+use std::f64::consts::TAU;
+use unripple_core::{Outline, Point};
+
+/// Places along the shortest wave looked at: likeness has fallen to 0.9 half a step from where it is best.
+const DENSE: f64 = 7.0;
+
+/// Most places along a side.
+const MOST: f64 = 90.0;
+
+/// Delays within the shortest period looked at.
+const DELAYS: f64 = 8.0;
+
+/// The finest step of a search, in metres and in periods of the highest frequency.
+const FINE: f64 = 2e-5;
+const FINE_PERIOD: f64 = 1e-3;
+
+/// Places all over a sheet, with the model's shapes and power there.
+pub(super) struct Sheet<'a> {
+    pub checker: &'a Checker<'a>,
+    outline: &'a Outline,
+    places: Vec<Point>,
+    shapes: Mat<f64>,
+    powers: Vec<f64>,
+    pitch: f64,
+    period: f64,
+}
+
+/// Where a response fits best.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Spot {
+    pub at: Point,
+    /// Seconds by which it comes late.
+    pub late: f64,
+    pub found: Match,
+}
+
+impl<'a> Sheet<'a> {
+    /// Places `DENSE` to a wave of `wavenumber` (rad/m), for frequencies up to `top_hz`.
+    pub fn new(checker: &'a Checker<'a>, outline: &'a Outline, wavenumber: f64, top_hz: f64) -> Self {
+        let pitch = TAU / wavenumber / DENSE;
+        let (width, height) = outline.extent();
+        let count = |side: f64| (side / pitch).ceil().clamp(4.0, MOST);
+        let (columns, rows) = (count(width), count(height));
+        let places: Vec<Point> = (0..(columns * rows) as usize)
+            .map(|n| ((n % columns as usize) as f64 + 0.5, (n / columns as usize) as f64 + 0.5))
+            .map(|(x, y)| Point::new(x * width / columns, y * height / rows))
+            .filter(|p| outline.contains(*p))
+            .collect();
+        let shapes = checker.shapes(&places);
+        let powers = checker.powers(&shapes);
+        Self { checker, outline, places, shapes, powers, pitch, period: 1.0 / top_hz }
+    }
+
+    /// Delays from one to another (s), fine enough for a search.
+    pub fn delays(&self, from: f64, to: f64) -> Vec<f64> {
+        let step = self.period / DELAYS;
+        let count = ((to - from) / step).ceil().max(0.0) as usize;
+        (0..=count).map(|n| from + n as f64 * step).collect()
+    }
+
+    /// For each delay the best square of the likeness over all places.
+    pub fn likest(&self, heard: &Projected, delays: &[f64]) -> Vec<f64> {
+        let products = &self.shapes * self.checker.products(heard, delays);
+        (0..delays.len())
+            .map(|d| {
+                let all = (0..self.places.len()).map(|p| {
+                    self.checker.matched(products[(p, d)], self.powers[p], heard, 0.0).likeness.powi(2)
+                });
+                all.fold(0.0, f64::max)
+            })
+            .collect()
+    }
+
+    /// The best place of the whole sheet at one delay.
+    pub fn anywhere(&self, heard: &Projected, late: f64) -> Option<Spot> {
+        let products = &self.shapes * self.checker.products(heard, &[late]);
+        let spot = |p: usize| Spot {
+            at: self.places[p],
+            late,
+            found: self.checker.matched(products[(p, 0)], self.powers[p], heard, late),
+        };
+        let best = (0..self.places.len())
+            .map(spot)
+            .max_by(|a, b| a.found.likeness.abs().total_cmp(&b.found.likeness.abs()))?;
+        Some(self.nearby(heard, best.at, late, self.pitch / 2.0))
+    }
+
+    /// The best place in the neighbourhood of one, and the best delay near one, by ever smaller steps.
+    pub fn nearby(&self, heard: &Projected, at: Point, late: f64, reach: f64) -> Spot {
+        let mut best = Spot { at, late, found: self.checker.at(heard, at, late) };
+        let (mut step, mut turn) = (reach, self.period / DELAYS);
+        while step > FINE || turn > FINE_PERIOD * self.period {
+            let mut moved = false;
+            for (x, y) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
+                let at = Point::new(best.at.x + x * step, best.at.y + y * step);
+                if self.outline.contains(at) {
+                    moved |= best.better(at, best.late, self.checker.at(heard, at, best.late));
+                }
+            }
+            let times = [best.late - turn, best.late + turn];
+            for (late, found) in times.iter().zip(self.checker.late(heard, best.at, &times)) {
+                moved |= best.better(best.at, *late, found);
+            }
+            if !moved {
+                (step, turn) = (step / 2.0, turn / 2.0);
+            }
+        }
+        best
+    }
+
+    /// The best delay of some at one place.
+    pub fn latest(&self, heard: &Projected, at: Point, delays: &[f64]) -> Option<Spot> {
+        let found = self.checker.late(heard, at, delays);
+        let spots = delays.iter().zip(found).map(|(late, found)| Spot { at, late: *late, found });
+        spots.max_by(|a, b| a.found.likeness.abs().total_cmp(&b.found.likeness.abs()))
+    }
+}
+
+impl Spot {
+    /// Takes another place and delay if it is more alike there.
+    fn better(&mut self, at: Point, late: f64, found: Match) -> bool {
+        let better = found.likeness.abs() > self.found.likeness.abs() * (1.0 + 1e-12);
+        if better {
+            *self = Self { at, late, found };
+        }
+        better
+    }
+}

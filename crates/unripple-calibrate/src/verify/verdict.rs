@@ -1,0 +1,107 @@
+//! What a check of probed points finds.
+
+use unripple_core::Point;
+
+/// How probed points are checked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VerifyOptions {
+    /// Whether they are held against a model; without one only the checks that need none are made.
+    pub model: bool,
+    /// The probe's own delay in s, if it was taken out of the responses because it is known.
+    pub probe_delay: Option<f64>,
+    /// Seconds that were taken out of each point's responses before; empty for none.
+    pub removed: Vec<f64>,
+    /// Actuators that are dead, by their index: left out.
+    pub dead: Vec<usize>,
+    /// What points are called, from 1; empty for their order.
+    pub numbers: Vec<usize>,
+    /// Modes of the band that is looked at, about.
+    pub modes: usize,
+}
+
+impl VerifyOptions {
+    /// What a point is called.
+    pub(super) fn number(&self, point: usize) -> usize {
+        self.numbers.get(point).copied().unwrap_or(point + 1)
+    }
+}
+
+impl Default for VerifyOptions {
+    fn default() -> Self {
+        Self {
+            model: true,
+            probe_delay: None,
+            removed: Vec::new(),
+            dead: Vec::new(),
+            numbers: Vec::new(),
+            modes: 60,
+        }
+    }
+}
+
+/// What was found of probed points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verified {
+    /// The model that they were held against, or why there was none.
+    pub model: Checked,
+    /// One for each probed point, in their order; empty without a model.
+    pub points: Vec<PointVerdict>,
+    /// Seconds by which all that the probe heard comes later than what sensors heard, what was taken out before included.
+    pub probe_delay: Option<f64>,
+    /// What is worth a word, and survived.
+    pub notes: Vec<String>,
+    /// What makes points, or all of the calibration, doubtful.
+    pub doubts: Vec<Doubted>,
+}
+
+impl Verified {
+    /// Where there is no model.
+    pub(super) fn without(why: String, doubts: Vec<Doubted>) -> Self {
+        Self { model: Checked::Not { why }, points: Vec::new(), probe_delay: None, notes: Vec::new(), doubts }
+    }
+}
+
+/// Whether there was a model to hold probed points against.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Checked {
+    /// One that was fitted to what sensors heard.
+    Against {
+        /// Frequencies that were compared, in Hz.
+        band: [f64; 2],
+        /// Share of what sensors heard there that it leaves unexplained.
+        unexplained: f64,
+    },
+    /// None.
+    Not {
+        /// Why not.
+        why: String,
+    },
+}
+
+/// A doubt.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Doubted {
+    /// What was found, and what to do.
+    pub what: String,
+    /// The probed points concerned, ascending from 0; empty for all of the calibration.
+    pub points: Vec<usize>,
+}
+
+/// What was found of one probed point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointVerdict {
+    /// Where it is said to be.
+    pub at: Point,
+    /// Share of what was heard there (as amplitude) that the model does not explain at that place, gain and delay free.
+    pub unexplained: f64,
+    /// Gain over the median of the points, negative if reversed.
+    pub gain: f64,
+    /// Seconds by which it comes later than the points' common delay.
+    pub late: f64,
+    /// The place nearby that fits best, where it is told apart from the one said, and what is left unexplained there.
+    pub fits: Option<(Point, f64)>,
+    /// What makes it doubtful, if anything does.
+    pub doubt: Option<String>,
+    /// What its responses are to be multiplied by, if its gain or sign is not that of the others and the rest of it is good.
+    pub correction: Option<f64>,
+}

@@ -1,0 +1,155 @@
+//! What was found of points, in words.
+
+use super::judge::{Bench, Judged, Kind, Whose};
+use super::levels::Levels;
+use super::verdict::{Doubted, PointVerdict, VerifyOptions};
+use unripple_core::Point;
+
+/// A point is doubtful that is off by this share of the band's shortest wavelength, and worth a word from that share on.
+const FAR: f64 = 0.25;
+const WORTH: f64 = 0.04;
+
+/// How many errors a place has to be off by to be told.
+const SURE: f64 = 3.0;
+
+/// The verdict on one point.
+pub(super) fn verdict(
+    bench: &Bench,
+    judged: &[Judged],
+    levels: &Levels,
+    point: usize,
+    common: f64,
+) -> PointVerdict {
+    let one = &judged[point];
+    let at = bench.places[point];
+    let lambda = bench.surface_wave();
+    let off = one.nearby.at.distance(at);
+    let told = one.kind == Kind::Here && off > SURE * one.error && off > WORTH * lambda;
+    let correction = levels.correction(one).filter(|_| one.kind == Kind::Here);
+    let doubt = match one.kind {
+        Kind::Here if off > FAR * lambda && told => Some(format!(
+            "the probe seems to have been {} of the point, at {} (put it there, or give the place it is at)",
+            away(at, one.nearby.at),
+            one.nearby.at
+        )),
+        Kind::Here if levels.common.is_none() => Some(format!(
+            "its gain is {:.2} and other points have others: expected one gain at all points (was the probe's gain \
+             changed?)",
+            one.nearby.found.gain / levels.scale
+        )),
+        Kind::Here => None,
+        Kind::Elsewhere(spot, whose) => Some(elsewhere(bench, judged, point, spot.at, whose)),
+        Kind::Late(late) => Some(format!(
+            "what the probe heard comes {:.2} ms {} than at the other points (were samples lost? record it again)",
+            1e3 * late.abs(),
+            if late > 0.0 { "later" } else { "earlier" }
+        )),
+        Kind::Nothing => Some(format!(
+            "{:.0} % of what the probe heard is not what this surface does at any place (another channel, samples lost, \
+             another clock, or a surface that has changed since: record it again)",
+            100.0 * one.own.unexplained()
+        )),
+    };
+    PointVerdict {
+        at,
+        unexplained: one.own.unexplained(),
+        gain: one.nearby.found.gain / levels.scale,
+        late: one.nearby.late - common,
+        fits: told.then_some((one.nearby.at, one.nearby.found.unexplained())),
+        doubt,
+        correction,
+    }
+}
+
+impl Bench<'_> {
+    /// The shortest wavelength of the surface's band.
+    pub fn surface_wave(&self) -> f64 {
+        unripple_physics::Medium::of(&self.surface.sheet).lambda_min(self.surface.emission.band[1])
+    }
+}
+
+/// Where a point's response belongs.
+fn elsewhere(bench: &Bench, judged: &[Judged], point: usize, at: Point, whose: Whose) -> String {
+    match whose {
+        Whose::Point(other) => match judged[other].kind {
+            Kind::Elsewhere(_, Whose::Point(back)) if back == point => format!(
+                "its recording fits point {}, and that of point {} fits it: the two are exchanged (exchange the files)",
+                bench.options.number(other),
+                bench.options.number(other)
+            ),
+            _ => format!(
+                "its recording fits point {} at {}, not its own place (is it a recording of that point? record it again)",
+                bench.options.number(other),
+                bench.places[other]
+            ),
+        },
+        Whose::Actuator(a) => format!(
+            "its recording fits the place of actuator `{}`: is the probe on its own channel?",
+            bench.surface.actuators[a].name
+        ),
+        Whose::Nobody => format!(
+            "the probe seems to have been {} of the point, at {at} (put it there, or give the place it is at)",
+            away(bench.places[point], at)
+        ),
+    }
+}
+
+/// How far and which way a place is from another: `3.1 mm to the right`.
+fn away(from: Point, to: Point) -> String {
+    let (dx, dy) = (to.x - from.x, to.y - from.y);
+    let way = match dx.abs() > dy.abs() {
+        true if dx > 0.0 => "right",
+        true => "left",
+        false if dy > 0.0 => "up",
+        false => "down",
+    };
+    let side = match way {
+        "up" => "above",
+        "down" => "below",
+        other => return format!("{:.1} mm to the {other}", 1e3 * from.distance(to)),
+    };
+    format!("{:.1} mm {side}", 1e3 * from.distance(to))
+}
+
+/// Notes and doubts of all points, alike ones together.
+pub(super) fn gather(
+    bench: &Bench,
+    points: &[PointVerdict],
+    judged: &[Judged],
+    (notes, doubts): (&mut Vec<String>, &mut Vec<Doubted>),
+) {
+    for (p, point) in points.iter().enumerate() {
+        let number = bench.options.number(p);
+        if let Some(why) = &point.doubt {
+            doubts.push(Doubted { what: format!("point {number}: {why}"), points: vec![p] });
+            continue;
+        }
+        if let Some((at, _)) = point.fits {
+            notes.push(format!(
+                "point {number}: the probe may have been {} (± {:.1} mm)",
+                away(point.at, at),
+                1e3 * judged[p].error
+            ));
+        }
+        if let Some(factor) = point.correction {
+            let sign = if factor < 0.0 { ", with the sign turned" } else { "" };
+            notes.push(format!(
+                "point {number}: its gain is {:.2} times that of the other points{sign}: corrected",
+                1.0 / factor.abs()
+            ));
+        }
+    }
+}
+
+/// A doubt about the probe's delay.
+pub(super) fn delay(options: &VerifyOptions, delay: f64, told: bool) -> Option<Doubted> {
+    let said = options.probe_delay.filter(|_| told)?;
+    Some(Doubted {
+        what: format!(
+            "the probe's delay is said to be {:.3} ms, and the model finds {:.3} ms",
+            1e3 * said,
+            1e3 * (said + delay)
+        ),
+        points: Vec::new(),
+    })
+}
