@@ -4,7 +4,7 @@ use super::asked::Wanted;
 use super::fault::Fault;
 use super::marks::Marks;
 use super::rig::{TapeRig, TapeShelf, bad};
-use super::wiring::{Tried, tried};
+use super::wiring::{Failed, Tried, tried};
 use super::{Bench, Outcome};
 use crate::calibrate::finish::{finish, log_run};
 use crate::calibrate::middle;
@@ -12,9 +12,11 @@ use crate::calibrate::report::{self, Report};
 use crate::calibrate::shelf::Shelf;
 use crate::error::CliError;
 use serde_json::{Value, json};
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::{Duration, Instant};
-use unripple_calibrate::measure::{Channel, Listen, MeasureOptions, Progress, Session, Sink, Way, campaign};
+use unripple_calibrate::CalibrateError;
+use unripple_calibrate::measure::{Channel, Listen, MeasureOptions, Session, Sink};
 use unripple_store::{Doubt, Library, PointState};
 
 /// The check that finds wires which are not as they should be.
@@ -46,7 +48,16 @@ impl Bench<'_> {
         let all: Vec<Wanted> = own.into_iter().chain(sound).collect();
 
         let mut rig = TapeRig::new(self.takes.clone(), all.clone())?;
-        let tried = tried(self, first, &mut rig)?;
+        let tried = match tried(self, first, &mut rig) {
+            Err(Failed::Recording(why)) => {
+                let files: Vec<String> =
+                    all.iter().filter(|one| one.at.is_none()).map(|one| one.file.clone()).collect();
+                faults.push(bad(&files.join(", "), &why));
+                return Ok(Outcome { faults, ..Outcome::default() });
+            }
+            Err(Failed::Other(error)) => return Err(error),
+            Ok(tried) => tried,
+        };
         self.wires(&mut library, &tried)?;
         self.campaign.settings.without = tried.dead.clone();
         marks.keep(&mut library)?;
@@ -131,6 +142,17 @@ impl Bench<'_> {
     }
 }
 
+/// What was heard, or why a recording itself is no good; other errors are nobody's recording's.
+fn heard(found: Result<Vec<Channel>, CalibrateError>) -> Result<Result<Vec<Channel>, String>, CliError> {
+    match found {
+        Ok(channels) => Ok(Ok(channels)),
+        Err(error @ (CalibrateError::Recording { .. } | CalibrateError::Dsp(_))) => {
+            Ok(Err(error.to_string()))
+        }
+        Err(error) => Err(error.into()),
+    }
+}
+
 /// What the recordings are made into.
 struct Work<'b, 'a> {
     bench: &'b Bench<'a>,
@@ -204,10 +226,16 @@ impl Work<'_, '_> {
         }
         let repeats = self.count(last).max(1);
         let session = self.session(&MeasureOptions { repeats, ..settings.clone() })?;
-        let sensors = session.measure(&mut self.rig, last, centre, 0, Listen::Sensors)?;
-        let names = known.surface.actuators.iter().map(|actuator| &actuator.name);
         let files: Vec<&str> =
             self.all.iter().filter(|one| one.number == last).map(|one| one.file.as_str()).collect();
+        let sensors = match heard(session.measure(&mut self.rig, last, centre, 0, Listen::Sensors))? {
+            Ok(sensors) => sensors,
+            Err(why) => {
+                self.faults.push(bad(&files.join(", "), &why));
+                return Ok(());
+            }
+        };
+        let names = known.surface.actuators.iter().map(|actuator| &actuator.name);
         let said = |(actuator, (name, channel)): (usize, (&String, &Channel))| {
             let why = session.fault(channel).filter(|_| !tried.deaf.contains(&actuator))?;
             Some(bad(&files.join(", "), &format!("sensor of `{name}`, {why}")))
@@ -238,21 +266,32 @@ impl Work<'_, '_> {
         let missing = shelf.missing();
         let there: Vec<usize> = self.bench.good.iter().copied().filter(|n| missing.contains(n)).collect();
         let bar = report::bar(as_json, there.len());
-        let counts: BTreeSet<usize> = there.iter().map(|number| self.count(*number)).collect();
+        let keep_bad = known.options.any_wiring;
+        let mut sink = TapeShelf::new(shelf, self.made.clone());
         let mut failed = Vec::new();
-        for repeats in counts {
-            let session = self.session(&MeasureOptions { repeats, ..settings.clone() })?;
-            let way = Way::Probe(Box::new(session));
-            let some = there.iter().filter(|number| self.count(**number) == repeats);
-            let some = some.filter_map(|number| Some((*number, self.made.get(number)?.clone()))).collect();
-            let mut sink = TapeShelf::new(shelf, some, known.options.any_wiring);
-            // What is not kept is told of in the end.
-            let mut tell =
-                |progress: &Progress| report::tell(&bar, &Progress { fault: None, ..progress.clone() });
-            campaign(&mut self.rig, &way, &known.places.points, &mut sink, 0, &mut tell)?;
-            sink.log()?;
-            failed.append(&mut sink.bad);
+        let mut sessions: BTreeMap<usize, Session> = BTreeMap::new();
+        for (done, number) in there.iter().copied().enumerate() {
+            let repeats = self.count(number);
+            if let Entry::Vacant(entry) = sessions.entry(repeats) {
+                entry.insert(self.session(&MeasureOptions { repeats, ..settings.clone() })?);
+            }
+            let session = &sessions[&repeats];
+            let at = known.places.points[number];
+            let channel = heard(session.measure(&mut self.rig, number, at, 0, Listen::Probe))?;
+            let channel = channel.map(|channels| channels.into_iter().next());
+            let fault = match &channel {
+                Ok(channel) => channel.as_ref().and_then(|channel| session.fault(channel)),
+                Err(why) => Some(why.clone()),
+            };
+            match channel {
+                Ok(Some(channel)) if fault.is_none() || keep_bad => {
+                    sink.keep(number, &channel, fault.as_deref())?;
+                }
+                _ => failed.extend(fault.map(|why| (number, why))),
+            }
+            bar.set_position(done as u64 + 1);
         }
+        sink.log()?;
         bar.finish_and_clear();
         for (number, why) in failed {
             self.name(settings, number, &why)?;
@@ -269,8 +308,11 @@ impl Work<'_, '_> {
         if files.len() > 1 {
             let alone = self.session(&MeasureOptions { repeats: 1, ..settings.clone() })?;
             for (take, file) in files.iter().enumerate() {
-                let found = alone.measure(&mut self.rig, number, at, take as u64, Listen::Probe)?;
-                let fault = found.first().and_then(|channel| alone.fault(channel));
+                let found = heard(alone.measure(&mut self.rig, number, at, take as u64, Listen::Probe))?;
+                let fault = match found {
+                    Ok(found) => found.first().and_then(|channel| alone.fault(channel)),
+                    Err(why) => Some(why),
+                };
                 named.extend(fault.map(|why| bad(file, &why)));
             }
         }

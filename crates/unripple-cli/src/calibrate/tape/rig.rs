@@ -1,9 +1,10 @@
-//! Recordings in place of a surface, and points in place of a library that keeps only good ones.
+//! Recordings in place of a surface, and points that are kept with what they were made of.
 
 use super::asked::Wanted;
 use super::fault::Fault;
 use super::takes::Takes;
 use crate::calibrate::shelf::Shelf;
+use crate::error::CliError;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use unripple::core::{Device, Point};
@@ -50,48 +51,32 @@ impl Rig for TapeRig {
 /// Points of which the log is written at once.
 const AT_ONCE: usize = 32;
 
-/// Keeps the points whose recordings are there. One that turns out bad is not kept, so that it can be recorded again, unless
-/// `keep_bad`.
+/// Keeps points, and in their log what they were made of.
 pub struct TapeShelf<'a> {
-    pub shelf: &'a mut Shelf,
-    /// Points whose recordings are there and can be read, and what they are made of.
-    pub there: BTreeMap<usize, Value>,
-    pub keep_bad: bool,
-    /// Points that turned out bad, and why.
-    pub bad: Vec<(usize, String)>,
-    /// What is to be logged of points.
+    shelf: &'a mut Shelf,
+    /// What each is made of.
     made: BTreeMap<usize, Value>,
+    /// What is still to be logged.
+    pending: BTreeMap<usize, Value>,
 }
 
 impl<'a> TapeShelf<'a> {
-    pub fn new(shelf: &'a mut Shelf, there: BTreeMap<usize, Value>, keep_bad: bool) -> Self {
-        Self { shelf, there, keep_bad, bad: Vec::new(), made: BTreeMap::new() }
+    pub fn new(shelf: &'a mut Shelf, made: BTreeMap<usize, Value>) -> Self {
+        Self { shelf, made, pending: BTreeMap::new() }
+    }
+
+    pub fn keep(&mut self, number: usize, channel: &Channel, fault: Option<&str>) -> Result<(), CliError> {
+        self.shelf.keep(number, channel, fault)?;
+        // Responses first: a point whose log was not written is measured again.
+        let made = self.made.get(&number).cloned().unwrap_or(Value::Null);
+        self.pending.insert(number, json!({ "made": made }));
+        if self.pending.len() < AT_ONCE { Ok(()) } else { self.log() }
     }
 
     /// Writes down what points were made of.
-    pub fn log(&mut self) -> Result<(), CalibrateError> {
-        let made = std::mem::take(&mut self.made);
-        let Some(number) = made.keys().next().copied() else { return Ok(()) };
-        let kept = self.shelf.library.log_points(made);
-        kept.map_err(|error| CalibrateError::Sink { number, why: error.to_string() })
-    }
-}
-
-impl Sink for TapeShelf<'_> {
-    fn missing(&self) -> Vec<usize> {
-        self.shelf.missing().into_iter().filter(|point| self.there.contains_key(point)).collect()
-    }
-
-    fn keep(&mut self, number: usize, channel: &Channel, fault: Option<&str>) -> Result<(), CalibrateError> {
-        if let Some(why) = fault.filter(|_| !self.keep_bad) {
-            self.bad.push((number, why.to_owned()));
-            return Ok(());
-        }
-        self.shelf.keep(number, channel, fault)?;
-        // Responses first: a point whose log was not written is measured again.
-        let made = self.there.get(&number).cloned().unwrap_or(Value::Null);
-        self.made.insert(number, json!({ "made": made }));
-        if self.made.len() < AT_ONCE { Ok(()) } else { self.log() }
+    pub fn log(&mut self) -> Result<(), CliError> {
+        let pending = std::mem::take(&mut self.pending);
+        if pending.is_empty() { Ok(()) } else { Ok(self.shelf.library.log_points(pending)?) }
     }
 }
 

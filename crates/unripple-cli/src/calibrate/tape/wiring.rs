@@ -6,8 +6,9 @@ use crate::calibrate::middle;
 use crate::error::CliError;
 use std::collections::BTreeSet;
 use unripple::core::{Layout, PROBE};
+use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{Channel, Listen, Session};
-use unripple_devices::{Expected, Lead, WiringOptions, check_responses, reciprocal};
+use unripple_devices::{DevicesError, Expected, Lead, WiringOptions, check_responses, reciprocal};
 
 /// Signal to noise, in dB, below which nothing is heard.
 const DEAF: f64 = 6.0;
@@ -35,8 +36,31 @@ pub struct Tried {
     pub notes: Vec<String>,
 }
 
+/// Why wires could not be tried.
+pub enum Failed {
+    /// The recording of the actuators is no good.
+    Recording(String),
+    /// Anything else.
+    Other(CliError),
+}
+
+impl From<CalibrateError> for Failed {
+    fn from(error: CalibrateError) -> Self {
+        match error {
+            CalibrateError::Recording { .. } | CalibrateError::Dsp(_) => Self::Recording(error.to_string()),
+            error => Self::Other(error.into()),
+        }
+    }
+}
+
+impl From<DevicesError> for Failed {
+    fn from(error: DevicesError) -> Self {
+        Self::Other(error.into())
+    }
+}
+
 /// Tries the wires by the recording of the actuators, and that of the first point that is there.
-pub fn tried(bench: &Bench<'_>, session: &Session, rig: &mut TapeRig) -> Result<Tried, CliError> {
+pub fn tried(bench: &Bench<'_>, session: &Session, rig: &mut TapeRig) -> Result<Tried, Failed> {
     let mut tried = Tried { dead: bench.campaign.settings.without.clone(), ..Tried::default() };
     let rows = heard(bench, session, rig)?;
     if rows.is_empty() {
@@ -57,7 +81,7 @@ pub fn tried(bench: &Bench<'_>, session: &Session, rig: &mut TapeRig) -> Result<
 }
 
 /// What all sensors heard of all actuators; without sensors, what the probe heard at some points.
-fn heard(bench: &Bench<'_>, session: &Session, rig: &mut TapeRig) -> Result<Vec<Channel>, CliError> {
+fn heard(bench: &Bench<'_>, session: &Session, rig: &mut TapeRig) -> Result<Vec<Channel>, Failed> {
     let (last, centre) = (bench.campaign.places.points.len(), middle(bench.campaign.surface));
     if !bench.takes.wires.sensors.is_empty() {
         return Ok(session.measure(rig, last, centre, 0, Listen::Sensors)?);
@@ -131,7 +155,7 @@ impl Tried {
         session: &Session,
         rig: &mut TapeRig,
         rows: &[Channel],
-    ) -> Result<Vec<String>, CliError> {
+    ) -> Result<Vec<String>, Failed> {
         let alive = self.alive(rows.len());
         let names: Vec<String> =
             alive.iter().map(|a| bench.campaign.surface.actuators[*a].name.clone()).collect();
@@ -160,7 +184,7 @@ impl Tried {
         session: &Session,
         rig: &mut TapeRig,
         rows: &[Channel],
-    ) -> Result<(), CliError> {
+    ) -> Result<(), Failed> {
         let (model, places) = (bench.campaign.model, &bench.campaign.places);
         let alive = self.alive(rows.len());
         let mut channels: Vec<Channel> = alive.iter().map(|a| rows[*a].clone()).collect();
@@ -168,11 +192,16 @@ impl Tried {
         let outputs = names.clone();
         // With the probe, all of one point's recording, so that it may have changed places with a sensor.
         let point = bench.good.first().copied().filter(|_| bench.takes.wires.probe.is_some());
-        if let Some(number) = point {
+        let both = point.map(|number| {
             let at = places.points[number];
             let sensors = session.measure(rig, number, at, 0, Listen::Sensors)?;
+            Ok::<_, CalibrateError>([sensors, session.measure(rig, number, at, 0, Listen::Probe)?])
+        });
+        // A point's recording that is no good is told of when it is measured.
+        let point = point.filter(|_| matches!(both, Some(Ok(_))));
+        if let Some(Ok([sensors, probe])) = both {
             channels = alive.iter().map(|a| sensors[*a].clone()).collect();
-            channels.extend(session.measure(rig, number, at, 0, Listen::Probe)?);
+            channels.extend(probe);
             names.push(PROBE.into());
         }
         let options = WiringOptions::for_band(model.conditions.band);
