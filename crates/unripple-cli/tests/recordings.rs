@@ -46,7 +46,7 @@ fn told(row: &Value) -> String {
         "{:6} {:27} {:>7}  {:9} wanted {:22} exit {}  {:24} {}",
         text("surface"),
         text("fault"),
-        row["strength"],
+        row["strength"].to_string(),
         text("came"),
         text("wanted"),
         row["exit"],

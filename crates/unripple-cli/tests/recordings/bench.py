@@ -141,7 +141,7 @@ class Bench:
                 shares.append(None)
                 continue
             states = [replace(case.truth, stiffer=case.truth.stiffer * float(s)) for s in case.states]
-            best = max(sheets.contrast(state, drive, at)[0] for state in states)
+            best = max(sheets.contrast(state, drive, at) for state in states)
             shares.append(best / (of_truth(against, at) if case.of_truth else self.of_clean(clean, at, against)))
         reference = "library" if clean[2] and not case.of_truth else "truth"
         return {"shares": shares, "levels": levels, "focus": says, "absent": case.absent, "reference": reference}
@@ -164,7 +164,7 @@ class Bench:
         key = tuple(at)
         if key not in known:
             drive = self.drive(folder / "library", at, sheet, folder)[0] if made else None
-            known[key] = of_truth(sheet, at) if drive is None else sheets.contrast(sheet, drive, at)[0]
+            known[key] = of_truth(sheet, at) if drive is None else sheets.contrast(sheet, drive, at)
         return known[key]
 
     def drive(self, library, at, sheet, folder):
@@ -198,4 +198,4 @@ def once(bench, case, folder):
 
 def of_truth(sheet, at):
     """Contrast of time reversal by the true responses."""
-    return sheets.contrast(sheet, sheets.reversal(sheet, at), at)[0]
+    return sheets.contrast(sheet, sheets.reversal(sheet, at), at)

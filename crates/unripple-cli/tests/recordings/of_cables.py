@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+import coils
 import sheet as sheets
 from registry import after, each, fault, probed, turned
 
@@ -130,3 +131,31 @@ def probe_delay(case, delay):
 def probe_delay_told(case, delay):
     probe_delay(case, delay)
     case.later += ["--probe-delay-ms", str(delay)]
+
+
+# Coils of the paper's resistance, with a force constant that a magnet which a film carries can have.
+COIL = coils.Kind("current", 0.6, 6.2)
+
+
+@fault("coils-held-at-current-mg", 0, 7, 30)
+def coils_current(case, mass):
+    made_of(case, replace(COIL, mass=mass * 1e-6))
+
+
+@fault("coils-held-at-voltage-mh", 0, 0.5, 1.9)
+def coils_voltage(case, inductance):
+    made_of(case, replace(COIL, held="voltage", inductance=inductance * 1e-3, mass=7e-6))
+
+
+@fault("patches-mm", 4, 6, 8)
+def patches(case, radius):
+    made_of(case, coils.Kind("moment", radius=radius * 1e-3, moment=0.01))
+    # What a patch hears is no velocity, so that nothing is to be focused there.
+    case.own = False
+
+
+def made_of(case, kind):
+    """All actuators are of a kind. The contrast is held against that of the true responses."""
+    case.sheet = case.truth = replace(case.sheet, kind=kind)
+    case.of_truth = True
+    case.own = True

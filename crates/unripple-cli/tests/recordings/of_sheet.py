@@ -105,3 +105,16 @@ def fit_after_exchange(case, kind):
 @fault("fit-clean", 0)
 def fit_clean(case, _):
     case.fit = True
+
+
+@fault("tension-throughout", 0.1, 0.25, 0.5)
+def throughout(case, percent):
+    """Evenly, from the beginning of the first take to the end of the last."""
+
+    def change(takes):
+        steps = 1.0 + 0.01 * percent * np.linspace(0.0, 1.0, len(takes) + 1)
+        for take, begin, end in zip(takes, steps, steps[1:]):
+            take.stiffer = (begin, end)
+
+    case.changes.append(change)
+    drifting(case, percent)

@@ -1,8 +1,10 @@
 """Supported rectangles: their file, their modes in closed form, what is heard of a drive, how well a drive focuses."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
+
+import coils
 
 # Modes reach so many times the top of the band: a real sheet does not end there.
 ABOVE = 2.0
@@ -36,6 +38,7 @@ class Sheet:
     stiffer: float = 1.0
     gains: tuple = ()
     uneven_decay: float = 0.1
+    kind: coils.Kind = coils.Kind()
 
     @property
     def mass(self):
@@ -62,6 +65,7 @@ class Sheet:
         text += f"sample_rate_hz = {self.rate:.3f}\nlimit = {self.limit}\n"
         for name, (x, y) in zip(self.names(), self.places()):
             text += f'[[actuator]]\nname = "{name}"\nat_mm = [{x * 1e3:.6f}, {y * 1e3:.6f}]\n'
+            text += self.kind.file()
         return text
 
     def frequencies(self, squares):
@@ -69,17 +73,23 @@ class Sheet:
         bending = self.bending * (1.0 if self.tension else self.stiffer)
         return np.sqrt(squares * (self.tension * self.stiffer + bending * squares) / self.mass)
 
-    def modes(self):
-        """Wavenumbers `[mode][axis]`, angular frequencies and decay rates of all modes, those above the band included."""
-        top = 2.0 * np.pi * ABOVE * self.band
+    def waves_between(self, low, high):
+        """Wavenumbers `[mode][axis]` and angular frequencies of the modes between two frequencies of the sheet as it was."""
         still = replace(self, stiffer=1.0)
-        counts = np.arange(1, 200)
-        waves = np.pi * np.stack(np.meshgrid(counts / self.sides[0], counts / self.sides[1], indexing="ij"), -1)
+        most = wavenumber(replace(still, band=high)) * np.array(self.sides) / np.pi
+        counts = [np.arange(1, int(count) + 1) for count in most]
+        waves = np.pi * np.stack(np.meshgrid(*(n / side for n, side in zip(counts, self.sides)), indexing="ij"), -1)
         waves = waves.reshape(-1, 2)
-        waves = waves[still.frequencies((waves**2).sum(1)) <= top]
+        omega = still.frequencies((waves**2).sum(1))
+        waves = waves[(omega > 2.0 * np.pi * low) & (omega <= 2.0 * np.pi * high)]
+        return waves, self.frequencies((waves**2).sum(1))
+
+    def modes(self):
+        """Wavenumbers, angular frequencies and decay rates of all modes, those above the band included."""
+        waves, omega = self.waves_between(0.0, ABOVE * self.band)
         # Each mode has a loss of its own, the same whenever it is asked for.
         losses = np.exp(self.uneven_decay * np.random.default_rng(5).standard_normal(len(waves)))
-        return waves, self.frequencies((waves**2).sum(1)), losses / self.decay
+        return waves, omega, losses / self.decay
 
     def shapes(self, waves, at):
         """Mode shapes `[mode][place]`, of unit modal mass."""
@@ -92,37 +102,50 @@ class Sheet:
         return np.array(self.gains or np.ones(len(self.places())))
 
 
-@dataclass
 class Heard:
-    """What a sheet makes of forces `[place][sample]`, ready to be listened to anywhere."""
+    """What a sheet makes of a drive `[actuator][sample]`, ready to be listened to anywhere."""
 
-    sheet: Sheet
-    forces: np.ndarray
-    at: np.ndarray
-    samples: int
-    motion: np.ndarray = field(init=False)
-
-    def __post_init__(self):
-        sheet = self.sheet
+    def __init__(self, sheet, drive, samples, knock=None, reach=HEARD):
+        self.sheet, self.samples = sheet, samples
         # Long enough that the end of what rings does not come round to the beginning.
-        self.size = good_size(self.samples + int(8.0 * sheet.decay * sheet.rate))
+        self.size = good_size(samples + int(8.0 * sheet.decay * sheet.rate))
         self.waves, omega, sigma = sheet.modes()
-        bins = int(HEARD * sheet.band * self.size / sheet.rate)
+        bins = min(int(reach * sheet.band * self.size / sheet.rate), self.size // 2 + 1)
         self.omegas = 2.0 * np.pi * sheet.rate / self.size * np.arange(bins)
-        spectra = np.fft.rfft(self.forces, self.size)[:, :bins]
-        shapes = sheet.shapes(self.waves, self.at)
+        spectra = np.fft.rfft(drive, self.size)[:, :bins]
+        weights = sheet.kind.weights(sheet.shapes(self.waves, sheet.places()), self.waves)
+        held = sheet.kind.held in ("force", "moment")
+        below = None if held else coils.gives_way(sheet, ABOVE * sheet.band)
         self.motion = np.empty((len(omega), bins), np.complex64)
-        for first in range(0, bins, 4096):
-            part = slice(first, first + 4096)
+        self.felt = np.empty((len(weights.T), bins), np.complex128)
+        for first in range(0, bins, 2048):
+            part = slice(first, first + 2048)
             w = self.omegas[part]
+            force = spectra[:, part]
+            if not held:
+                force, felt = coils.forces(sheet.kind, weights, omega, sigma, below, w, force)
+                force, self.felt[:, part] = force.T, felt.T * sheet.kind.sense(w)
+            pushed = weights @ force
+            if knock is not None:
+                # A force somewhere on the sheet.
+                line = np.fft.rfft(knock[1], self.size)[part]
+                pushed = pushed + sheet.shapes(self.waves, knock[0]) * line
             transfer = 1j * w / (omega[:, None] ** 2 - w**2 + 2j * sigma[:, None] * w)
-            self.motion[:, part] = transfer * (shapes @ spectra[:, part])
+            self.motion[:, part] = transfer * pushed
+        if held:
+            self.felt = weights.T.astype(np.float32) @ self.motion
 
     def velocities(self, at, late):
-        """Normal velocities `[place][sample]`, each late by so many samples, which need not be whole."""
-        shapes = self.sheet.shapes(self.waves, at).astype(np.float32)
-        turned = np.exp(-1j * np.outer(np.broadcast_to(late, len(shapes.T)) / self.sheet.rate, self.omegas))
-        return np.fft.irfft((shapes.T @ self.motion) * turned, self.size)[:, : self.samples]
+        """Normal velocities `[place][sample]`, late by so many samples, which need not be whole."""
+        return self.inverse(self.sheet.shapes(self.waves, at).astype(np.float32).T @ self.motion, late)
+
+    def sensed(self, late):
+        """What actuators hear, `[actuator][sample]`."""
+        return self.inverse(self.felt, late)
+
+    def inverse(self, spectra, late):
+        turned = np.exp(-1j * late / self.sheet.rate * self.omegas)
+        return np.fft.irfft(spectra * turned, self.size)[:, : self.samples]
 
 
 def good_size(samples):
@@ -139,25 +162,35 @@ def impulse(sheet, times):
     return np.exp(-sigma[:, None] * times) * (np.cos(turn) - sigma[:, None] / damped * np.sin(turn))
 
 
+def modes_at_last(sheet, drive):
+    """Velocity of each mode at the end of the window."""
+    last = round(sheet.window * sheet.rate)
+    played = np.zeros((len(drive), last + 1))
+    played[:, : min(last + 1, drive.shape[1])] = drive[:, : last + 1]
+    played *= sheet.driven()[:, None]
+    waves, _, _ = sheet.modes()
+    if sheet.kind.held in ("current", "voltage"):
+        heard = Heard(sheet, played, last + 1, reach=ABOVE)
+        return heard.inverse(heard.motion, 0.0)[:, last]
+    weights = sheet.kind.weights(sheet.shapes(waves, sheet.places()), waves)
+    response = impulse(sheet, (last - np.arange(last + 1)) / sheet.rate)
+    return np.einsum("ma,as,ms->m", weights, played, response, optimize=True) / sheet.rate
+
+
 def contrast(sheet, drive, target):
-    """Velocity at the target over the root mean square outside its disc, both at the end of the window, and the former.
+    """Velocity at the target over the root mean square outside its disc, both at the end of the window.
 
     The drive is `[actuator][sample]`. Disc and grid are those of the program's own definition of the contrast.
     """
     waves, _, _ = sheet.modes()
-    last = round(sheet.window * sheet.rate)
-    played = np.zeros((len(drive), last + 1))
-    played[:, : min(last + 1, drive.shape[1])] = drive[:, : last + 1]
-    forces = sheet.shapes(waves, sheet.places()) * sheet.driven()
-    response = impulse(sheet, (last - np.arange(last + 1)) / sheet.rate)
-    modes = np.einsum("ma,as,ms->m", forces, played, response, optimize=True) / sheet.rate
+    modes = modes_at_last(sheet, drive)
     shortest = 2.0 * np.pi / wavenumber(replace(sheet, stiffer=1.0))
     counts = [int(np.ceil(8.0 * side / shortest)) for side in sheet.sides]
     centres = [(np.arange(count) + 0.5) * side / count for count, side in zip(counts, sheet.sides)]
     grid = np.stack(np.meshgrid(*centres, indexing="ij"), -1).reshape(-1, 2)
     outside = grid[np.hypot(*(grid - target).T) > 4.0 / 3.0 * shortest]
     peak = float((modes @ sheet.shapes(waves, target))[0])
-    return peak / float(np.sqrt(np.mean((modes @ sheet.shapes(waves, outside)) ** 2))), peak
+    return peak / float(np.sqrt(np.mean((modes @ sheet.shapes(waves, outside)) ** 2)))
 
 
 def wavenumber(sheet):
@@ -169,14 +202,27 @@ def wavenumber(sheet):
     return np.sqrt((root - sheet.tension) / (2.0 * sheet.bending))
 
 
+def swept(sheet, hertz):
+    """The band that sweeps reach: it fades out in the fifth above the top."""
+    return np.cos(np.pi / 2.0 * np.clip((hertz / sheet.band - 1.0) / 0.2, 0.0, 1.0)) ** 2
+
+
 def reversal(sheet, target):
-    """The drive of time reversal by the true responses, in the band that sweeps reach: it fades out in the fifth above the top."""
+    """The drive of time reversal by the true responses, in the band that sweeps reach."""
     waves, omega, _ = sheet.modes()
     last = round(sheet.window * sheet.rate)
+    shapes = sheet.shapes(waves, target)[:, 0]
+    if sheet.kind.held in ("current", "voltage"):
+        lines = []
+        for line in np.eye(len(sheet.places())):
+            one = Heard(sheet, np.outer(line, np.eye(1, last + 1)[0]), last + 1, reach=ABOVE)
+            spectrum = shapes.astype(np.float32) @ one.motion * swept(sheet, one.omegas / (2.0 * np.pi))
+            lines.append(one.inverse(spectrum[None, :], 0.0)[0])
+        return np.array(lines)[:, ::-1]
     response = impulse(sheet, (last - np.arange(last + 1)) / sheet.rate)
-    above = np.clip((omega / (2.0 * np.pi * sheet.band) - 1.0) / 0.2, 0.0, 1.0)
-    heard = sheet.shapes(waves, target)[:, 0] * np.cos(np.pi / 2.0 * above) ** 2
-    return np.einsum("ma,m,ms->as", sheet.shapes(waves, sheet.places()), heard, response, optimize=True)
+    heard = shapes * swept(sheet, omega / (2.0 * np.pi))
+    weights = sheet.kind.weights(sheet.shapes(waves, sheet.places()), waves)
+    return np.einsum("ma,m,ms->as", weights, heard, response, optimize=True)
 
 
 def mm(*places):

@@ -68,13 +68,12 @@ class Recorder:
             return self.memory[key]
         sheet = replace(self.sheet, stiffer=self.sheet.stiffer * stiffer)
         samples = self.play.shape[1] + int((AFTER + self.most) * sheet.rate)
-        forces, at = self.play, sheet.places()
         if knock is not None:
             place, start, force = knock
             line = np.zeros(self.play.shape[1])
             line[start : start + len(force)] = force
-            forces, at = np.vstack([forces, line]), np.vstack([at, place])
-        found = sheets.Heard(sheet, forces, at, samples)
+            knock = place, line
+        found = sheets.Heard(sheet, self.play, samples, knock)
         if knock is None and stiffer == 1.0:
             self.memory = {key: found}
         return found
@@ -82,20 +81,19 @@ class Recorder:
     def lines(self, take):
         """All inputs of a take, `[channel][sample]`."""
         rng = np.random.default_rng(take.seed)
-        rate, own = self.sheet.rate, self.sheet.places()
+        rate = self.sheet.rate
         lead = take.lead if take.lead is not None else 0.2 * rate + rng.uniform(0.0, 0.2) * rate
         late = lead + LATENCY
         at = self.sheet.points[0] if take.at is None else take.at
-        places = np.vstack([own, at])
-        delays = np.array([late] * len(own) + [late + take.probe_late * rate])
         first, last = take.stiffer
-        states = np.linspace(first, last, STATES) if first != last else np.array([first])
-        sums = [self.heard(float(state), take.knock).velocities(places, delays) for state in states]
+        states = np.linspace(first, last, STATES) if first != last else [first]
+        found = [self.heard(float(state), take.knock) for state in states]
+        slow = late + take.probe_late * rate
+        states = [np.vstack([one.sensed(late), one.velocities(at, slow)]) for one in found]
         samples = int(late + self.play.shape[1] + AFTER * rate)
-        heard = sums[0] if len(sums) == 1 else blend(np.array(sums), late, self.play.shape[1])
+        heard = states[0] if len(states) == 1 else blend(np.array(states), late, self.play.shape[1])
         heard = heard[:, :samples]
-        sensors = heard[: len(own)][self.sensors]
-        named = dict(zip(self.sheet.names(), sensors), probe=heard[-1])
+        named = dict(zip(self.sheet.names(), heard[:-1][self.sensors]), probe=heard[-1])
         if "reference" in self.inputs:
             named["reference"] = delayed(0.3 * self.reference(), late, samples)
         lines = np.array([named[name] for name in self.inputs])
