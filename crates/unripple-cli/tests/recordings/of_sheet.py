@@ -71,6 +71,29 @@ def other_file(case, percent, thicker):
     )
 
 
+@fault("ribs-percent", 1, 3, 10)
+def ribs(case, percent):
+    """Modes as no sheet of the file's kind has them: there is nothing to hold recordings against.
+
+    With a reference: what an actuator hears of itself at first is not what it would be with ribs somewhere else.
+    """
+    case.inputs = [*case.sheet.names(), "probe", "reference"]
+    case.against = case.truth = replace(case.truth, ribs=0.01 * percent)
+    case.of_truth = True
+
+
+@fault("ribs-percent-and-no-model", 1, 3, 10)
+def ribs_and_no_model(case, percent):
+    ribs(case, percent)
+    case.later.append("--no-model")
+
+
+@fault("file-off-and-exchanged", 1, 2, 3)
+def file_off_and_exchanged(case, kind):
+    other_file(case, 5, 0.0)
+    case.changes.append(exchange(kind))
+
+
 @fault("knock-in-one-take", 0.1, 1, 10)
 def knock(case, force):
     """A tap of 2 ms beside the probe while a sweep plays; its peak in limits of the drive."""

@@ -38,6 +38,8 @@ class Sheet:
     stiffer: float = 1.0
     gains: tuple = ()
     uneven_decay: float = 0.1
+    # Share by which each mode's frequency is off, at random, neighbours mixed: a sheet with ribs, which no even sheet is like.
+    ribs: float = 0.0
     kind: coils.Kind = coils.Kind()
 
     @property
@@ -89,13 +91,22 @@ class Sheet:
         waves, omega = self.waves_between(0.0, ABOVE * self.band)
         # Each mode has a loss of its own, the same whenever it is asked for.
         losses = np.exp(self.uneven_decay * np.random.default_rng(5).standard_normal(len(waves)))
+        omega = omega * np.exp(self.ribs * np.random.default_rng(6).standard_normal(len(waves)))
         return waves, omega, losses / self.decay
 
     def shapes(self, waves, at):
         """Mode shapes `[mode][place]`, of unit modal mass."""
         at = np.atleast_2d(at)
         scale = 2.0 / np.sqrt(self.mass * self.sides[0] * self.sides[1])
-        return scale * np.sin(np.outer(waves[:, 0], at[:, 0])) * np.sin(np.outer(waves[:, 1], at[:, 1]))
+        found = scale * np.sin(np.outer(waves[:, 0], at[:, 0])) * np.sin(np.outer(waves[:, 1], at[:, 1]))
+        if self.ribs:
+            # Each with its neighbour in frequency, by an angle that leaves unit modal masses.
+            order = np.argsort((waves**2).sum(1), kind="stable")[: len(waves) // 2 * 2]
+            angles = np.random.default_rng(7).uniform(0.0, min(1.0, 20.0 * self.ribs) * np.pi / 2.0, len(order) // 2)
+            one, other = found[order[::2]], found[order[1::2]]
+            turn, side = np.cos(angles)[:, None], np.sin(angles)[:, None]
+            found[order[::2]], found[order[1::2]] = turn * one + side * other, turn * other - side * one
+        return found
 
     def driven(self):
         """Gains of the actuators, 1 where they are as they should be."""
