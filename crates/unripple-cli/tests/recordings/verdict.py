@@ -7,6 +7,8 @@ from pathlib import Path
 LEAST = 0.97
 LEVEL = 0.05
 
+FIGURES = ("  signal to noise  ", "  decay time  ", "  latency  ", "  reciprocity  ")
+
 HEAD = f"{'surface':8}{'fault':27}{'strength':>9}  {'came':9}{'wanted':22}{'exit':>4}  {'share':>28}  {'level':>16}  said"
 
 
@@ -48,7 +50,9 @@ def judged(row):
     """
     come, words = wanted(row)
     says = row.get("focus", [])
-    told = words != "-" and re.search(words, "\n".join([row["text"], *says]), re.IGNORECASE | re.DOTALL)
+    # Figures that every report has say nothing of what is wrong.
+    said = [line for line in row["text"].splitlines() if not line.startswith(FIGURES)]
+    told = words != "-" and re.search(words, "\n".join([*said, *says]), re.IGNORECASE)
     good = [share is not None and share >= LEAST for share in row.get("shares", [])]
     warned = [bool(re.search("doubt|warning", said)) for said in says]
     levels = [level is not None and abs(level - 1.0) <= LEVEL for level in row.get("levels", [])]
