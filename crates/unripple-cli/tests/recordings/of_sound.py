@@ -34,11 +34,11 @@ def lost_of_actuators(case, count):
 
 @fault("latency-jitters", 0.5, 5, 64)
 def jitter(case, samples):
-    """Between the sweeps, for all channels: each comes later or earlier by up to so many samples."""
+    """Between the sweeps, for all channels: each comes later or earlier by up to so many samples at 48 kHz."""
 
     def wander(lines, rng):
         count = lines.shape[1]
-        knots = rng.uniform(-samples, samples, 10)
+        knots = rng.uniform(-samples, samples, 10) * case.sheet.rate / 48e3
         # Steps, a hundredth of a second long.
         where = np.arange(count) / count * 10.0
         index = np.minimum(where.astype(int), 9)
