@@ -16,12 +16,12 @@ mod responses;
 mod spectrum;
 pub mod stepper;
 
-pub use actuators::{Entry, Transducer, transducers};
+pub use actuators::{Entry, Sensor, Transducer, sensed, sensors, transducers};
 pub use coupled::{Loaded, Oscillations};
 pub use design::{Design, design};
 pub use dispersion::{AIR_CELERITY, AIR_DENSITY, Medium};
 pub use error::PhysicsError;
 pub use loads::{Circuit, Footprint, Load};
 pub use modes::Modes;
-pub use responses::{ResponseOptions, response_modes, responses, responses_on, sample};
+pub use responses::{ResponseOptions, response_modes, responses, responses_on, sample, stepped_hz};
 pub use stepper::{Channel, Plant, StepperOptions, VirtualSurface};

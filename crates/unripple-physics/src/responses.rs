@@ -91,6 +91,18 @@ pub fn responses_on(
     Asked::of(surface, options)?.responses(surface, modes)
 }
 
+/// Top frequency of the modes (Hz) that a surface with its actuators is to be stepped with so that it answers as its [`responses`] do
+/// up to `max_hz`: half as much again where something hangs on it, since that feels the compliance of modes above; less than
+/// half the rate.
+///
+/// # Errors
+/// Those of [`transducers`].
+pub fn stepped_hz(surface: &Surface, max_hz: f64) -> Result<f64, PhysicsError> {
+    let loaded = transducers(surface)?.iter().filter_map(|t| t.load.as_ref()).any(Load::acts);
+    let reach = if loaded { ResponseOptions::default().reach } else { 1.0 };
+    Ok((reach * max_hz).min(0.45 * surface.emission.rate).max(max_hz))
+}
+
 /// What responses were asked for, checked.
 struct Asked {
     transducers: Vec<Transducer>,

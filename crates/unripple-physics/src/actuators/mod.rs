@@ -8,6 +8,9 @@
 mod force;
 mod moving_magnet;
 mod piezo;
+mod sensor;
+
+pub use sensor::{Sensor, sensed, sensors};
 
 use crate::modes::check;
 use crate::{Footprint, Load, PhysicsError};
@@ -23,7 +26,7 @@ pub enum Entry {
 }
 
 /// An actuator as the sheet knows it. What drives also senses: by reciprocity the same footprint and gain turn the sheet's
-/// motion into a signal.
+/// motion into a signal, that of its [`Sensor`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transducer {
     /// Where it acts.

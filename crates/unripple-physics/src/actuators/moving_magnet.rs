@@ -7,7 +7,7 @@ use unripple_core::{Actuator, ActuatorKind, CoilDrive, Outline};
 ///
 /// An amplifier that holds the current lets the coil do what it likes: force bl per ampere, and the sheet bears the mass
 /// alone. One that holds the voltage lets the sheet's motion drive a current, L di/dt + R i = V - bl·v: the coil is part of
-/// the load, and damps the sheet by (bl)²/(R + Ls).
+/// the load, and damps the sheet by (bl)²/(R + Ls). What either hears is said by [`Sensor`](super::Sensor).
 pub(super) fn transducer(actuator: &Actuator, outline: &Outline) -> Transducer {
     let ActuatorKind::MovingMagnet { force_constant, resistance, inductance, moving_mass, driven_by } =
         actuator.kind

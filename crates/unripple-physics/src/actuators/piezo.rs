@@ -7,7 +7,8 @@ use unripple_core::{Actuator, ActuatorKind, Outline};
 /// moment·∮ ∂u/∂n ds = moment·∫ ∇²u dA (Dimitriadis, Fuller and Rogers, *J. Vib. Acoust.* 113, 100, 1991). Its mass lies evenly
 /// on the disc; its stiffness is left out.
 ///
-/// A patch in its sensing role turns the same integral of the sheet's motion into charge.
+/// A patch in its sensing role turns the same integral of the sheet's motion into charge, and that of its velocity into the current
+/// that it hears ([`Sensor`](super::Sensor)).
 pub(super) fn transducer(actuator: &Actuator, outline: &Outline) -> Result<Transducer, PhysicsError> {
     let ActuatorKind::Piezo { radius, moment, mass } = actuator.kind else {
         return Ok(super::force::transducer(actuator, outline));

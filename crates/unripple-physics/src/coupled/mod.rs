@@ -118,6 +118,11 @@ impl Loaded {
         Self::new(shapes, &poles, &self.transducers, &self.loads[owned..])
     }
 
+    /// The oscillations of the sheet without its loads, and their shapes.
+    pub(crate) fn sheet(&self) -> (&[Pole], &Arc<dyn Shapes>) {
+        (&self.poles, &self.shapes)
+    }
+
     /// Whether anything hangs on the sheet.
     pub fn is_loaded(&self) -> bool {
         !self.loads.is_empty()

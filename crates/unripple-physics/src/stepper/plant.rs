@@ -1,8 +1,13 @@
+use crate::damping::decay_rate;
 use crate::modes::check;
-use crate::{Entry, Footprint, Load, Modes, PhysicsError, Transducer, transducers};
+use crate::{Entry, Footprint, Load, Loaded, Medium, Modes, PhysicsError, Transducer, transducers};
 use faer::Mat;
+use std::f64::consts::PI;
 use std::sync::Arc;
 use unripple_core::{ModalResponses, Onset, Outline, Point, Pole, Shapes, Surface};
+
+/// What is added to modes may oscillate at this share of half the rate: faster, samples would show it as something slower.
+const FASTEST: f64 = 0.9;
 
 /// A sheet as the stepper knows it: oscillations, their shapes and the rim. Cheap to clone, so that another thread can
 /// prepare footings.
@@ -24,8 +29,9 @@ pub struct Channel {
     pub gain: f64,
     /// What hangs there and moves along.
     pub load: Option<Load>,
-    /// Whether the drive is a voltage at the load's coil. The sensor then is the current that the motion drives back through
-    /// the coil (-i in A, so that responses are reciprocal); otherwise it is the sheet's velocity times the gain.
+    /// Whether the drive is a voltage at the load's coil. The sensor then is the current j that the motion alone drives through the
+    /// coil, L dj/dt + R j = bl·v (in A, without what the drive itself makes flow in the coil at rest); otherwise it is the sheet's
+    /// velocity times the gain.
     pub voltage: bool,
 }
 
@@ -70,6 +76,36 @@ impl Plant {
     pub fn of(surface: &Surface, modes: Arc<Modes>) -> Result<Self, PhysicsError> {
         let (poles, shares) = (modes.poles().to_vec(), modes.bending_shares().to_vec());
         Self::new(&poles, modes, surface.outline.clone())?.with_bending_shares(&shares)
+    }
+
+    /// All modes of a surface and, where its actuators hang something on it, what that feels of the modes above them
+    /// ([`Loaded::with_rest`]): a mass rests on what is under its contact, however few modes are known. What would oscillate too
+    /// fast for so many samples per second is left out.
+    ///
+    /// # Errors
+    /// Those of [`Plant::new`] and [`transducers`].
+    pub fn bearing(surface: &Surface, modes: Arc<Modes>, rate: f64) -> Result<Self, PhysicsError> {
+        let transducers = transducers(surface)?;
+        let bare = Self::of(surface, modes.clone())?;
+        let top = modes.poles().iter().map(|pole| pole.omega).fold(0.0, f64::max);
+        let (sheet, medium) = (&surface.sheet, Medium::of(&surface.sheet));
+        let poles = modes.poles().to_vec();
+        let loaded = Loaded::new(modes.clone(), &poles, &transducers, &[])?.with_rest(
+            medium,
+            medium.wavenumber(top),
+            sheet.thickness,
+            |omega, k| decay_rate(&sheet.decay, omega, medium.bending_share(k)),
+        )?;
+        let (poles, shapes) = loaded.sheet();
+        let added = &poles[modes.poles().len()..];
+        if added.iter().any(|pole| pole.omega > FASTEST * PI * rate) {
+            return Ok(bare);
+        }
+        let still = Medium { air_sides: 0.0, ..medium };
+        let share = |pole: &Pole| medium.bending_share(still.wavenumber(pole.omega)).clamp(0.0, 1.0);
+        let shares: Vec<f64> =
+            modes.bending_shares().iter().copied().chain(added.iter().map(share)).collect();
+        Self::new(poles, shapes.clone(), surface.outline.clone())?.with_bending_shares(&shares)
     }
 
     /// The modes of responses.

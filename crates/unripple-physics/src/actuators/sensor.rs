@@ -1,0 +1,214 @@
+//! What an actuator hears of the sheet when it listens.
+
+use super::{Entry, Transducer};
+use crate::{Circuit, Footprint};
+use faer::{Mat, c64};
+use unripple_core::{ActuatorKind, ModalResponses, Surface};
+use unripple_dsp::bessel_i0;
+
+/// Samples on either side that a derivative is made from, and the window's β: right to 1e-4 up to 0.42 of the rate.
+const HALF: usize = 32;
+const BETA: f64 = 8.0;
+
+/// An actuator in its sensing role: what the motion of the sheet, and it alone, makes at the terminals.
+///
+/// What is heard is the quantity whose product with the drive is power, so that with V = bl·v, v the velocity under the contact,
+///
+/// | driven by | hears | of a motion v | in |
+/// |---|---|---|---|
+/// | a force (N) | the velocity | v | m/s |
+/// | a coil's current (A) | the voltage of its open terminals | bl·v | V |
+/// | a coil's voltage (V) | the current j in its closed circuit, L dj/dt + R j = bl·v | bl·v/(R + Ls) | A |
+/// | a patch's voltage (V) | the current of its short circuit | moment·∮ ∂v/∂n ds | A |
+///
+/// What the drive itself makes at the terminals of a coil or patch held still, R i + L di/dt or V/(R + Ls) or C dV/dt, is no part of it: on a
+/// bench a bridge or a dummy load takes it away. With that, every pair of actuators is reciprocal, whatever their kinds: the
+/// response of b to a drive at a is that of a to one at b, and an actuator hears itself with a positive sign.
+/// (L. L. Foldy and H. Primakoff, *J. Acoust. Soc. Am.* 17, 109, 1945.)
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sensor {
+    /// Where it listens.
+    pub footprint: Footprint,
+    /// What is heard per m/s, through the footprint; with a closed circuit, the volts that drive the current.
+    pub gain: f64,
+    /// The circuit that the motion drives a current through, if its terminals are held at a voltage.
+    pub circuit: Option<Circuit>,
+    /// Unit of what is heard.
+    pub unit: &'static str,
+    /// Whether it hears the velocity of a place, as a patch does not.
+    placed: bool,
+}
+
+impl Sensor {
+    pub(super) fn of(transducer: &Transducer, kind: &ActuatorKind) -> Self {
+        let circuit = match transducer.entry {
+            Entry::Voltage => transducer.load.as_ref().and_then(|load| load.circuit),
+            Entry::Force => None,
+        };
+        let unit = match (kind, circuit) {
+            (ActuatorKind::Force, _) => "m/s",
+            (ActuatorKind::MovingMagnet { .. }, None) => "V",
+            (ActuatorKind::MovingMagnet { .. }, Some(_)) | (ActuatorKind::Piezo { .. }, _) => "A",
+        };
+        let placed = !matches!(kind, ActuatorKind::Piezo { .. });
+        Self { footprint: transducer.footprint.clone(), gain: transducer.gain, circuit, unit, placed }
+    }
+
+    /// Whether what it hears tells the velocity under its contact; a patch hears how the sheet bends.
+    pub fn tells_velocity(&self) -> bool {
+        self.placed && self.gain != 0.0
+    }
+
+    /// What is heard per m/s at the complex frequency `s` (1/s).
+    pub fn per_velocity(&self, s: c64) -> c64 {
+        self.circuit.map_or(c64::new(1.0, 0.0), |circuit| circuit.admittance(s)) * self.gain
+    }
+
+    /// What is heard of a velocity (m/s) under its contact, sample by sample: a line between samples.
+    pub fn hear(&self, velocity: &[f64], rate: f64) -> Vec<f64> {
+        let Some(Circuit { resistance, inductance, .. }) = self.circuit else {
+            return velocity.iter().map(|v| self.gain * v).collect();
+        };
+        let at_once = self.gain / resistance;
+        if inductance == 0.0 {
+            return velocity.iter().map(|v| at_once * v).collect();
+        }
+        let [left, before, now] = held(resistance / (inductance * rate));
+        let (mut current, mut last) = (0.0, 0.0);
+        let step = |v: &f64| {
+            current = left * current + at_once * (before * last + now * v);
+            last = *v;
+            current
+        };
+        velocity.iter().map(step).collect()
+    }
+
+    /// The velocity (m/s) under its contact that makes it hear this, below 0.42 of the rate; the last 32 samples of a signal that does not
+    /// end in silence are not right. `None` for a patch, which hears how the sheet bends.
+    pub fn velocity(&self, heard: &[f64], rate: f64) -> Option<Vec<f64>> {
+        if !self.tells_velocity() {
+            return None;
+        }
+        let Some(Circuit { resistance, inductance, .. }) = self.circuit else {
+            return Some(heard.iter().map(|x| x / self.gain).collect());
+        };
+        let slopes = (inductance > 0.0).then(|| derivative(heard, rate));
+        let slope = |i: usize| slopes.as_ref().map_or(0.0, |slopes| inductance * slopes[i]);
+        Some(heard.iter().enumerate().map(|(i, j)| (resistance * j + slope(i)) / self.gain).collect())
+    }
+}
+
+/// What of a current is left after a step, and what a voltage over resistance before and after it drives, by a straight line, for θ = R dt/L.
+fn held(theta: f64) -> [f64; 3] {
+    let left = (-theta).exp();
+    let mean = -(-theta).exp_m1() / theta;
+    // Their differences cancel where the current is slow.
+    let series = theta < 1e-3;
+    let now = if series { theta / 2.0 - theta * theta / 6.0 } else { 1.0 - mean };
+    let before = if series { theta / 2.0 - theta * theta / 3.0 } else { mean - left };
+    [left, before, now]
+}
+
+/// The derivative of a band-limited signal, by a windowed ideal differentiator.
+fn derivative(signal: &[f64], rate: f64) -> Vec<f64> {
+    let tap = |k: usize| {
+        let share = k as f64 / (HALF + 1) as f64;
+        let window = bessel_i0(BETA * (1.0 - share * share).sqrt()) / bessel_i0(BETA);
+        let sign = if k % 2 == 0 { -1.0 } else { 1.0 };
+        rate * sign * window / k as f64
+    };
+    let taps: Vec<f64> = (1..=HALF).map(tap).collect();
+    let at = |i: Option<usize>| i.and_then(|i| signal.get(i)).copied().unwrap_or(0.0);
+    let slope = |i: usize| -> f64 {
+        let pair = |(k, tap): (usize, &f64)| tap * (at(Some(i + k + 1)) - at(i.checked_sub(k + 1)));
+        taps.iter().enumerate().map(pair).sum()
+    };
+    (0..signal.len()).map(slope).collect()
+}
+
+/// The sensors that a surface's actuators are, in channel order.
+///
+/// # Errors
+/// Those of [`transducers`](super::transducers).
+pub fn sensors(surface: &Surface) -> Result<Vec<Sensor>, crate::PhysicsError> {
+    let all = super::transducers(surface)?;
+    Ok(all.iter().zip(&surface.actuators).map(|(t, actuator)| Sensor::of(t, &actuator.kind)).collect())
+}
+
+/// What sensors feel of each oscillation of some responses, sensors x oscillations: what they hear is, by each one's
+/// [`Sensor::hear`], the velocity that these weights make.
+pub fn sensed(sensors: &[Sensor], responses: &ModalResponses) -> Mat<f64> {
+    let footprints: Vec<Footprint> = sensors.iter().map(|sensor| sensor.footprint.clone()).collect();
+    Footprint::all_weights(&footprints, responses.shapes.as_ref())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::{PI, TAU};
+    use unripple_core::{Actuator, CoilDrive, Outline, Point, Shape};
+
+    fn sensor(kind: ActuatorKind) -> Sensor {
+        let outline = Outline::new(Shape::Rectangle { width: 0.1, height: 0.1 });
+        let at = Point::new(0.04, 0.05);
+        let actuator = Actuator { name: "a".into(), at, kind, contact_radius: 0.0 };
+        Sensor::of(&Transducer::of(&actuator, &outline).unwrap(), &kind)
+    }
+
+    fn coil(inductance: f64, driven_by: CoilDrive) -> Sensor {
+        sensor(ActuatorKind::MovingMagnet {
+            force_constant: 2.0,
+            resistance: 6.0,
+            inductance,
+            moving_mass: 1e-5,
+            driven_by,
+        })
+    }
+
+    #[test]
+    fn each_kind_hears_in_the_unit_that_its_drive_makes_power_with() {
+        let patch = sensor(ActuatorKind::Piezo { radius: 0.01, moment: 0.02, mass: 0.0 });
+        let found = [
+            sensor(ActuatorKind::Force),
+            coil(2e-3, CoilDrive::Current),
+            coil(2e-3, CoilDrive::Voltage),
+            patch.clone(),
+        ];
+        assert_eq!(found.map(|sensor| sensor.unit), ["m/s", "V", "A", "A"]);
+        assert!(patch.velocity(&[1.0], 48e3).is_none());
+    }
+
+    #[test]
+    fn a_closed_coil_hears_as_its_circuit_says_and_tells_the_motion() {
+        let rate = 48e3;
+        for inductance in [0.0, 1e-9, 1e-5, 1.3e-4, 1.9e-3] {
+            let sensor = coil(inductance, CoilDrive::Voltage);
+            for hz in [400.0, 3000.0] {
+                let tone = |i: usize| TAU * hz * i as f64 / rate;
+                let velocity: Vec<f64> = (0..4000).map(|i| tone(i).cos()).collect();
+                let heard = sensor.hear(&velocity, rate);
+                let factor = sensor.per_velocity(c64::new(0.0, TAU * hz));
+                let back = sensor.velocity(&heard, rate).unwrap();
+                for i in 2000..3900 {
+                    let exact = (factor * c64::new(0.0, tone(i)).exp()).re;
+                    // A line between samples is off by (ω dt)²/12 at most.
+                    let most = (TAU * hz / rate).powi(2) / 10.0;
+                    assert!((heard[i] - exact).abs() < most * factor.norm(), "{inductance} {hz}");
+                    assert!((back[i] - velocity[i]).abs() < 1.2 * most, "{inductance} {hz}: {i}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn derivatives_are_right_nearly_up_to_half_the_rate() {
+        for share in [0.01, 0.2, 0.42] {
+            let signal: Vec<f64> = (0..400).map(|i| (2.0 * PI * share * f64::from(i)).sin()).collect();
+            let slopes = derivative(&signal, 1.0);
+            for (i, slope) in slopes.iter().enumerate().take(350).skip(50) {
+                let exact = 2.0 * PI * share * (2.0 * PI * share * i as f64).cos();
+                assert!((slope - exact).abs() < 2e-3 * share.max(0.05), "{share}: {slope} {exact}");
+            }
+        }
+    }
+}
