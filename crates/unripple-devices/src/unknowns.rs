@@ -3,10 +3,21 @@ use crate::{DevicesError, Interface};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use unripple_core::{Decay, Point, Profile, Random, Scatterer, ScattererKind, Surface};
-use unripple_physics::{Entry, Medium, Modes, transducers};
+use unripple_physics::stepper::{Channel, Plant, StepperOptions, VirtualSurface};
+use unripple_physics::{Entry, Medium, Modes, PhysicsError, transducers};
 
 /// Nodes of the profile of tension along each side.
 const NODES: usize = 9;
+
+/// Seconds in which an actuator sweeps the band, how many of them do, and samples at once.
+const SWEPT: f64 = 0.5;
+const SOME: usize = 6;
+const BLOCK: usize = 64;
+
+/// Lowest frequency of a law of damping, as a share of the band's top, and the ratio of a node to the one before where the law is a
+/// hyperbola: a straight line between them is off by 0.1 %.
+const LOWEST: f64 = 1e-3;
+const NODES_APART: f64 = 1.1;
 
 /// What makes a true surface other than its model: none of it is in the surface file. One seed gives one truth.
 ///
@@ -154,19 +165,42 @@ impl Unknowns {
         })
     }
 
-    /// The true decay times.
+    /// The true decay times: the nominal law times the factor at each frequency, at as many of them as a straight line between asks for.
     fn damp(&self, surface: &Surface) -> Result<Vec<(f64, f64)>, DevicesError> {
         let top = surface.emission.band[1];
-        let mut table = Vec::new();
+        let mut nodes = Vec::new();
         let mut before = -1.0;
         for (share, factor) in &self.decay {
             check("share of the band in a law of damping", *share, *share > before, "ascending, from 0")?;
             check("factor of a decay time", *factor, *factor > 0.0, "a positive number")?;
             before = *share;
-            let hz = share * top;
-            table.push((hz, factor * nominal_decay(surface, hz.max(1e-3 * top))));
+            nodes.push(share * top);
         }
-        Ok(table)
+        match &surface.sheet.decay {
+            Decay::Time(_) => {}
+            Decay::Table(table) => nodes.extend(table.iter().map(|(hz, _)| *hz)),
+            Decay::LossFactor(_) => {
+                let mut hz = LOWEST * top;
+                while hz < before.max(1.0) * top {
+                    nodes.push(hz);
+                    hz *= NODES_APART;
+                }
+            }
+        }
+        nodes.sort_unstable_by(f64::total_cmp);
+        nodes.dedup();
+        let time = |hz: f64| (hz, self.factor(hz / top) * nominal_decay(surface, hz.max(LOWEST * top)));
+        Ok(nodes.into_iter().map(time).collect())
+    }
+
+    /// Factor of the decay time at a share of the band.
+    fn factor(&self, share: f64) -> f64 {
+        let after = self.decay.partition_point(|(s, _)| *s <= share);
+        match (after.checked_sub(1).and_then(|i| self.decay.get(i)), self.decay.get(after)) {
+            (Some((s0, f0)), Some((s1, f1))) => f0 + (f1 - f0) * (share - s0) / (s1 - s0),
+            (Some((_, factor)), None) | (None, Some((_, factor))) => *factor,
+            (None, None) => 1.0,
+        }
     }
 
     /// Stray masses, away from the rim and the actuators if there is room.
@@ -202,13 +236,13 @@ impl Truth {
     /// times less would take ten to thirty times as long, and the truth would be none the truer.
     pub const ACCURACY: f64 = 1e-4;
 
-    /// The true modes up to a frequency (Hz), or to the top of the band: seconds of work, so solve them once for device
+    /// The true modes up to a frequency (Hz), or as far as a virtual device needs them: seconds of work, so solve them once for device
     /// and judge.
     ///
     /// # Errors
     /// Those of [`Modes::solve`].
     pub fn modes(&self, max_hz: Option<f64>) -> Result<Arc<Modes>, DevicesError> {
-        let top = max_hz.unwrap_or(self.surface.emission.band[1]);
+        let top = crate::virtual_surface::top(&self.surface, max_hz)?;
         Ok(Arc::new(Modes::solve(&self.surface, top, Self::ACCURACY)?))
     }
 
@@ -217,18 +251,16 @@ impl Truth {
     /// The signal it is held against is what one actuator makes that sweeps the band at the drive limit L: white of variance
     /// L²/2 over the band B, of which a mode passes L²/(2B) · (w_a w_i)²/(8σ), by Parseval's theorem and ∫h² = w²/(4σ).
     /// Averaged over actuators and sensors; for the probe over places, where the mean of φ² is one over the sheet's mass.
-    /// Modes that overlap count as if they did not, coils as if they were at rest.
-    pub fn noise(&self, modes: &Modes) -> (f64, f64) {
+    /// Modes that overlap count as if they did not. Coils on a voltage, which damp the sheet, are swept one after the other.
+    pub fn noise(&self, modes: &Arc<Modes>) -> (f64, f64) {
         let surface = &self.surface;
         let Ok(actuators) = transducers(surface) else { return (0.0, 0.0) };
-        let gain = |t: &unripple_physics::Transducer| match (t.entry, t.load.as_ref().and_then(|l| l.circuit))
-        {
-            (Entry::Voltage, Some(coil)) => t.gain / coil.resistance,
-            _ => t.gain,
-        };
+        if actuators.iter().any(|t| t.entry == Entry::Voltage) {
+            return self.swept(modes).unwrap_or_default();
+        }
         let weights: Vec<Vec<f64>> = actuators
             .iter()
-            .map(|t| t.footprint.weights(modes).into_iter().map(|w| w * gain(t)).collect())
+            .map(|t| t.footprint.weights(modes.as_ref()).into_iter().map(|w| w * t.gain).collect())
             .collect();
         let count = weights.len().max(1) as f64;
         let sheet = &surface.sheet;
@@ -236,7 +268,7 @@ impl Truth {
         let [low, high] = surface.emission.band;
         let density = surface.emission.limit.powi(2) / (2.0 * (high - low));
         let (mut sensors, mut probe) = (0.0, 0.0);
-        for (m, pole) in modes.poles().iter().enumerate() {
+        for (m, pole) in modes.poles().iter().enumerate().filter(|(_, pole)| pole.omega <= TAU * high) {
             let square = weights.iter().map(|w| w[m] * w[m]).sum::<f64>() / count;
             let ring = density / (8.0 * pole.sigma.max(1e-3));
             sensors += ring * square * square;
@@ -246,8 +278,38 @@ impl Truth {
         (down * sensors.sqrt(), down * probe.sqrt())
     }
 
+    /// The same by sweeping some of the actuators.
+    fn swept(&self, modes: &Arc<Modes>) -> Result<(f64, f64), PhysicsError> {
+        let surface = &self.surface;
+        let (sheet, rate, [low, high]) = (&surface.sheet, surface.emission.rate, surface.emission.band);
+        let mass = sheet.density * sheet.thickness * surface.outline.area();
+        let plant = Plant::bearing(surface, modes.clone(), rate)?;
+        let channels = Channel::all(surface)?;
+        let count = channels.len();
+        let (blocks, frames) = ((SWEPT * rate / BLOCK as f64) as usize, BLOCK);
+        let (mut sensors, mut probe) = (0.0, 0.0);
+        let some = count.min(SOME);
+        for actuator in (0..some).map(|i| i * count / some) {
+            let mut stepped = VirtualSurface::new(&plant, &channels, rate, &StepperOptions::default())?;
+            let (mut drive, mut heard) = (vec![0.0; count * frames], vec![0.0; count * frames]);
+            for block in 0..blocks {
+                for (i, x) in drive[actuator * frames..][..frames].iter_mut().enumerate() {
+                    let t = (block * frames + i) as f64 / rate;
+                    let turns = low * t + 0.5 * (high - low) * t * t / SWEPT;
+                    *x = surface.emission.limit * (TAU * turns).sin();
+                }
+                stepped.process(frames, &drive, &mut heard, &mut [])?;
+                sensors += heard.iter().map(|x| x * x).sum::<f64>() / (count * frames) as f64;
+                probe += stepped.state().1.iter().map(|v| v * v).sum::<f64>() / mass;
+            }
+        }
+        let down = 10f64.powf(-self.snr_db / 20.0);
+        let mean = |sum: f64| down * (sum / (some * blocks).max(1) as f64).sqrt();
+        Ok((mean(sensors), mean(probe)))
+    }
+
     /// The wires of the truth, besides those of another interface.
-    pub(crate) fn interface(&self, modes: &Modes, besides: &Interface) -> Interface {
+    pub(crate) fn interface(&self, modes: &Arc<Modes>, besides: &Interface) -> Interface {
         let (sensors, probe) = self.noise(modes);
         let or = |list: &[f64], at: usize, default: f64| list.get(at).copied().unwrap_or(default);
         let count = self.surface.actuators.len();
@@ -270,7 +332,7 @@ impl Truth {
 }
 
 /// The decay time that the surface file says, in s.
-fn nominal_decay(surface: &Surface, hz: f64) -> f64 {
+pub(crate) fn nominal_decay(surface: &Surface, hz: f64) -> f64 {
     match &surface.sheet.decay {
         Decay::Time(time) => *time,
         Decay::Table(table) => {

@@ -49,6 +49,30 @@ fn nothing_unknown_is_the_surface_itself() {
     assert!(refused(Unknowns { decay: vec![(0.5, 1.0), (0.2, 1.0)], ..none }).contains("ascending"));
 }
 
+/// A plate with a loss factor rings the longer the lower the mode: a straight line from nothing to the middle of the band made it ring for
+/// ten seconds.
+#[test]
+fn another_law_of_damping_follows_the_nominal_one() {
+    let mut plate = film(2000.0);
+    plate.sheet.tension = 0.0;
+    plate.sheet.thickness = 0.012;
+    plate.sheet.decay = Decay::LossFactor(0.02);
+    let factor = |share: f64| if share < 0.3 { 1.15 - 0.5 * share } else { 1.0 - 0.375 * (share - 0.3) };
+    let Decay::Table(table) = Unknowns::default().truth(&plate).unwrap().surface.sheet.decay else {
+        panic!()
+    };
+    let at = |hz: f64| {
+        let after = table.partition_point(|(f, _)| *f <= hz);
+        let ((f0, t0), (f1, t1)) = (table[after - 1], table[after]);
+        t0 + (t1 - t0) * (hz - f0) / (f1 - f0)
+    };
+    for hz in [20.0, 55.0, 130.0, 340.0, 590.0, 900.0, 1390.0] {
+        // On a plate all is bending: τ = 2/(η ω).
+        let exact = factor(hz / 2000.0) * 2.0 / (0.02 * TAU * hz);
+        assert!((at(hz) / exact - 1.0).abs() < 2e-3, "{hz} Hz: {} s, {exact} s", at(hz));
+    }
+}
+
 /// A sweep over the band at the drive limit, heard over its length and ringing.
 fn sweep(top: f64, samples: usize) -> impl Fn(usize) -> f64 {
     let (start, end) = (50.0, top);

@@ -14,7 +14,7 @@ use unripple_core::{Device, DeviceError, Layout, PROBE, Point, State, Status, Su
 use unripple_physics::stepper::{
     Channel, Misbehaving, Mishaps, Plant, Reading, StepperOptions, VirtualSurface,
 };
-use unripple_physics::{Footprint, Modes};
+use unripple_physics::{Footprint, Modes, stepped_hz};
 use workings::Workings;
 
 /// How a virtual device is made.
@@ -30,7 +30,8 @@ pub struct VirtualOptions {
     pub interface: Interface,
     /// Where the probe is at first; in the middle of the outline's bounding box where `None`.
     pub probe: Option<Point>,
-    /// Top frequency of the modes, in Hz; the band's where `None`.
+    /// Top frequency of the modes, in Hz. Where `None` the band's, and half as much again where coils or masses hang on the
+    /// surface, which feel modes above it.
     pub max_hz: Option<f64>,
     /// Relative accuracy of the frequencies.
     pub accuracy: f64,
@@ -59,8 +60,9 @@ impl Default for VirtualOptions {
 /// A virtual surface as a device, microphone included.
 ///
 /// An output for each actuator, by its name; an input for the sensor of each, by the same names, then [`PROBE`], the normal
-/// velocity (m/s) at a place that can be moved. A sample of 1 drives with the surface's emission limit. What is heard is in
-/// the sensors' own unit, m/s for ideal forces. Time passes only in [`Device::exchange`].
+/// velocity (m/s) at a place that can be moved. A sample of 1 drives with the surface's emission limit. What is heard of an actuator
+/// is the motion alone, in its sensor's own unit ([`Sensor`](unripple_physics::Sensor)): m/s for an ideal force, V for a coil on a
+/// current, A for one on a voltage and for a patch. Time passes only in [`Device::exchange`].
 ///
 /// ```
 /// use unripple_core::*;
@@ -98,8 +100,7 @@ impl Virtual {
     /// # Errors
     /// Those of [`Modes::solve`] and [`Virtual::with_modes`].
     pub fn new(surface: &Surface, options: &VirtualOptions) -> Result<Self, DevicesError> {
-        let top = options.max_hz.unwrap_or(surface.emission.band[1]);
-        let modes = Modes::solve(surface, top, options.accuracy)?;
+        let modes = Modes::solve(surface, top(surface, options.max_hz)?, options.accuracy)?;
         Self::with_modes(surface, Arc::new(modes), options)
     }
 
@@ -120,7 +121,7 @@ impl Virtual {
             "between 1 and 1000000",
         )?;
         crate::error::check("taps at once", taps, taps <= 64.0, "at most 64")?;
-        let plant = Plant::of(surface, modes)?;
+        let plant = Plant::bearing(surface, modes, surface.emission.rate)?;
         let (width, height) = surface.outline.extent();
         let place = options.probe.unwrap_or(Point::new(width / 2.0, height / 2.0));
         let mut channels = Channel::all(surface)?;
@@ -210,6 +211,17 @@ impl Device for Virtual {
         self.status.blocks += 1;
         self.status.lost = lock(&self.workings).lost();
         Ok(())
+    }
+}
+
+/// Top frequency of a surface's modes, in Hz: that asked for, or what it takes for its band.
+///
+/// # Errors
+/// [`DevicesError::Physics`] for actuators that cannot be.
+pub(crate) fn top(surface: &Surface, asked: Option<f64>) -> Result<f64, DevicesError> {
+    match asked {
+        Some(top) => Ok(top),
+        None => Ok(stepped_hz(surface, surface.emission.band[1])?),
     }
 }
 
