@@ -1,6 +1,22 @@
+use super::WiringOptions;
 use crate::DevicesError;
 use crate::error::{check, same};
-use unripple_core::{ModalResponses, Point};
+use unripple_core::{ModalResponses, Point, Surface};
+use unripple_physics::{Sensor, sensed, sensors};
+
+/// Decay times from burst to burst, the share of a burst's frequency whose decay counts, and the longest pause, in s.
+const PAUSE: f64 = 5.0;
+const LOW: f64 = 0.3;
+const LONGEST: f64 = 10.0;
+
+impl WiringOptions {
+    /// For a surface: bursts at a fifth of its band, each when the one before has died away to less than a hundredth.
+    pub fn for_surface(surface: &Surface) -> Self {
+        let usual = Self::for_band(surface.emission.band);
+        let decay = crate::unknowns::nominal_decay(surface, LOW * usual.frequency);
+        Self { pause: (PAUSE * decay).min(LONGEST).max(usual.pause), ..usual }
+    }
+}
 
 /// What a model says that each input hears of an impulse of drive at each output.
 ///
@@ -41,27 +57,59 @@ impl Expected {
         Ok(Self { outputs, inputs, samples, data: responses.concat().concat() })
     }
 
-    /// What modes say of the sensor at each actuator, then of a probe if there is one, over some time (s).
+    /// What a surface's responses say that each actuator hears, whatever its kind ([`Sensor`]), then a probe (m/s) if there is one,
+    /// over some time (s).
     ///
-    /// Sensors are taken to be reciprocal, their weights those of the drive: true of forces, and of coils and patches whose
-    /// signal is in the unit that reciprocity asks for.
+    /// # Errors
+    /// [`DevicesError::Physics`] for actuators that cannot be, [`DevicesError::Size`] if the responses have others.
+    pub fn of(
+        surface: &Surface,
+        responses: &ModalResponses,
+        probe: Option<Point>,
+        duration: f64,
+    ) -> Result<Self, DevicesError> {
+        let sensors = sensors(surface)?;
+        same("actuators of the wiring's model", responses.ports.len(), sensors.len())?;
+        let weights = sensed(&sensors, responses);
+        let heard = (0..sensors.len()).map(|a| weights.row(a).iter().copied().collect()).collect();
+        Ok(Self::heard(responses, heard, &sensors, probe, duration))
+    }
+
+    /// The same of ideal forces and of others that hear the velocity that their drive weighs: the sensor's weights are the drive's.
     pub fn of_modes(responses: &ModalResponses, probe: Option<Point>, duration: f64) -> Self {
+        let input = &responses.input;
+        let heard = (0..input.nrows()).map(|a| input.row(a).iter().copied().collect()).collect();
+        Self::heard(responses, heard, &[], probe, duration)
+    }
+
+    /// From what each input feels of every oscillation; `sensors` make of that what is heard, those beyond their end nothing else.
+    fn heard(
+        responses: &ModalResponses,
+        mut felt: Vec<Vec<f64>>,
+        sensors: &[Sensor],
+        probe: Option<Point>,
+        duration: f64,
+    ) -> Self {
         let ModalResponses { ports, poles, input, shapes, conditions } = responses;
         let samples = (duration.clamp(0.0, 60.0) * conditions.rate).ceil() as usize;
         let outputs = ports.len();
-        let mut heard: Vec<Vec<f64>> = (0..outputs).map(|a| input.row(a).iter().copied().collect()).collect();
         if let Some(at) = probe {
             let mut row = vec![0.0; poles.len()];
             shapes.at(at, &mut row);
-            heard.push(row);
+            felt.push(row);
         }
-        let inputs = heard.len();
+        let inputs = felt.len();
         let mut data = vec![0.0; outputs * inputs * samples];
         for (m, pole) in poles.iter().enumerate() {
             let ring: Vec<f64> = (0..samples).map(|i| pole.velocity(i as f64 / conditions.rate)).collect();
             for (pair, response) in data.chunks_exact_mut(samples.max(1)).enumerate() {
-                let weight = input[(pair / inputs, m)] * heard[pair % inputs][m];
+                let weight = input[(pair / inputs, m)] * felt[pair % inputs][m];
                 response.iter_mut().zip(&ring).for_each(|(h, v)| *h += weight * v);
+            }
+        }
+        for (pair, response) in data.chunks_exact_mut(samples.max(1)).enumerate() {
+            if let Some(sensor) = sensors.get(pair % inputs) {
+                response.copy_from_slice(&sensor.hear(response, conditions.rate));
             }
         }
         Self { outputs, inputs, samples, data }

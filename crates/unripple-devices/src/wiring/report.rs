@@ -40,24 +40,76 @@ impl WiringReport {
     /// What is wrong, a sentence each: silent, swapped and reversed channels. Where an output and the input of its name have
     /// the same fault it is named once, as the actuator's.
     pub fn faults(&self) -> Vec<String> {
+        self.each().iter().map(Fault::sentence).collect()
+    }
+
+    /// The same in few lines, for people: what more than three channels have in common is said once, with how many they are of
+    /// how many, and the first names.
+    pub fn summary(&self) -> Vec<String> {
+        let each = self.each();
+        let mut lines = Vec::new();
+        for (i, fault) in each.iter().enumerate() {
+            let alike = |other: &&Fault| (other.side, &other.what) == (fault.side, &fault.what);
+            let group: Vec<&Fault> = each.iter().filter(alike).collect();
+            if group.len() <= FEW {
+                lines.push(fault.sentence());
+            } else if !each[..i].iter().any(|other| alike(&other)) {
+                let all = if fault.side == "input" { self.inputs.len() } else { self.outputs.len() };
+                lines.push(together(&group, all));
+            }
+        }
+        lines
+    }
+
+    fn each(&self) -> Vec<Fault> {
         let twin = |name: &str| self.inputs.iter().find(|input| input.name == name);
         let mut faults = Vec::new();
         for output in &self.outputs {
             let said = output.said();
             match twin(&output.name).map(Lead::said).filter(|other| *other == said) {
-                Some(_) => {
-                    faults.extend(said.iter().map(|what| format!("actuator `{}` {what}", output.name)))
-                }
+                Some(_) => faults.extend(output.faults("actuator")),
                 None => {
-                    faults.extend(said.iter().map(|what| format!("output `{}` {what}", output.name)));
-                    faults.extend(twin(&output.name).iter().flat_map(|input| input.told()));
+                    faults.extend(output.faults("output"));
+                    faults.extend(twin(&output.name).iter().flat_map(|input| input.faults("input")));
                 }
             }
         }
         let alone = |input: &&Lead| !self.outputs.iter().any(|output| output.name == input.name);
-        faults.extend(self.inputs.iter().filter(alone).flat_map(Lead::told));
+        faults.extend(self.inputs.iter().filter(alone).flat_map(|input| input.faults("input")));
         faults
     }
+}
+
+/// Channels with the same fault that are named one by one, and names that are told of more.
+const FEW: usize = 3;
+const NAMED: usize = 6;
+
+/// What is wrong with one channel.
+struct Fault {
+    side: &'static str,
+    name: String,
+    what: String,
+}
+
+impl Fault {
+    fn sentence(&self) -> String {
+        format!("{} `{}` {}", self.side, self.name, self.what)
+    }
+}
+
+/// What several channels of `all` have in common.
+fn together(group: &[&Fault], all: usize) -> String {
+    let Some(first) = group.first() else { return String::new() };
+    let what = match first.what.strip_prefix("is ") {
+        Some(rest) => format!("are {rest}"),
+        None => first.what.replacen("does ", "do ", 1),
+    };
+    let names: Vec<String> = group.iter().take(NAMED).map(|fault| format!("`{}`", fault.name)).collect();
+    let more = match group.len() - names.len() {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    format!("{} of {all} {}s {what}: {}{more}", group.len(), first.side, names.join(", "))
 }
 
 impl fmt::Display for WiringReport {
@@ -87,8 +139,8 @@ impl Lead {
         said
     }
 
-    fn told(&self) -> Vec<String> {
-        self.said().iter().map(|what| format!("input `{}` {what}", self.name)).collect()
+    fn faults(&self, side: &'static str) -> Vec<Fault> {
+        self.said().into_iter().map(|what| Fault { side, name: self.name.clone(), what }).collect()
     }
 }
 
@@ -130,5 +182,35 @@ pub(super) fn leads(
             .map(|i| lead(&layout.inputs, i, routes.inputs[i], heard[i], no_sense[i], of_inputs[i]))
             .collect(),
         latency: likeness.latency,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_many_have_in_common_is_said_once() {
+        let lead = |name: &str, silent: bool, unlike: bool| Lead {
+            name: name.into(),
+            silent,
+            reversed: false,
+            instead: None,
+            likeness: 0.3,
+            unlike,
+        };
+        let names: Vec<String> = (1..=16).map(|i| format!("a{i}")).collect();
+        let outputs: Vec<Lead> = names.iter().map(|name| lead(name, name == "a4", name != "a4")).collect();
+        let mut inputs = outputs.clone();
+        inputs.push(lead("probe", false, true));
+        let report = WiringReport { outputs, inputs, latency: 0 };
+        assert_eq!(report.faults().len(), 17);
+        let unlike = "do not answer as the model says: `a1`, `a2`, `a3`, `a5`, `a6`, `a7` and 9 more";
+        let expected = [
+            format!("15 of 16 actuators {unlike}"),
+            "actuator `a4` is silent".into(),
+            "input `probe` does not answer as the model says".into(),
+        ];
+        assert_eq!(report.summary(), expected);
     }
 }
