@@ -1,71 +1,289 @@
+use super::Hearing;
+use super::tones::{Heard, Part, Tone, tones};
 use crate::CalibrateError;
-use unripple_dsp::{Band, Delay, Gate};
+use faer::c64;
+use rayon::prelude::*;
+use std::f64::consts::TAU;
+use unripple_dsp::{Band, Delay, DspError};
+use unripple_physics::Sensor;
 
-/// Seconds after the strike in which a point answers as if the surface had no rim, whatever the tension's last per cent.
-const ALONE: f64 = 1.5e-3;
+/// Actuators that are looked at, at most.
+const ACTUATORS: usize = 12;
 
-/// Samples by which what is heard comes late: from what actuators hear of themselves (`found`) and what a model says
-/// they hear without latency, both one per actuator, `found` with `lead` samples before time 0.
+/// Tones in a part of the band with its edges, about, and the fewest that are looked for.
+const TONES: usize = 60;
+const FEWEST: usize = 8;
+
+/// Longest time in s until the beginning of a response counts as over, how much of it in terms of what it rings for, and shortest
+/// in periods.
+const PASSED: f64 = 0.025;
+const OF_RINGING: f64 = 0.8;
+const PERIODS: f64 = 2.0;
+
+/// Tones up to this ratio of frequencies say how long a part of the band rings.
+const NEAR: f64 = 1.3;
+
+/// Seconds of the model's responses whose tones are looked for, and how many of them make a cell of the band.
+const SAID: f64 = 0.2;
+const IN_CELL: usize = 8;
+
+/// Share of a period of the band's top within which the first estimate is taken to lie.
+const WITHIN: f64 = 0.45;
+
+/// Share of what cells of the band sum up to that agrees on a latency, below which there is none.
+const AGREED: f64 = 0.3;
+
+/// Samples by which what is heard comes late, from what actuators hear of each other and of themselves, `[sensor][drive][sample]` with
+/// `lead` samples before time 0; nothing of one that is left out.
 ///
-/// The median over actuators of the delay at which both correlate best, over the first 1.5 ms. It depends little on the
-/// model: what comes back from the rim comes later. The second number is the spread, as half the range of the middle half.
+/// An actuator hears each tone of the surface in step with its own drive: the sheet's velocity at a place is a sum of
+/// w² e^{-σt} (cos ωt - (σ/ω) sin ωt) whatever the sheet is, its tones above the band included. So the phases that its
+/// tones have at time 0, each followed back from when the beginning has passed, are those of a delay and nothing else; no
+/// model says where the tones are. A circuit between is known from the surface file, and taken back. Coils on a voltage damp the surface where
+/// they are, which takes tones out of step by what the model's own are, cell by cell of the band.
+///
+/// The second number is how far actuators disagree, as half the range of the middle half.
 ///
 /// # Errors
-/// [`CalibrateError::Recording`] if there is none; [`CalibrateError::Dsp`] for a band out of range, or silence.
+/// [`CalibrateError::Recording`] if there is nothing to be found; [`CalibrateError::Dsp`] for a band out of range, or silence.
 pub fn latency(
-    found: &[Vec<f64>],
-    model: &[Vec<f64>],
+    heard: &[Vec<Vec<f64>>],
+    model: &Hearing,
     lead: usize,
     rate: f64,
     band: Band,
 ) -> Result<[f64; 2], CalibrateError> {
-    let mut delays = Vec::with_capacity(found.len());
-    for (found, model) in found.iter().zip(model) {
-        // Both go through the same, so that what a band does before time 0 is alike.
-        let mut model: Vec<f64> = std::iter::repeat_n(0.0, lead).chain(model.iter().copied()).collect();
-        let mut found = found.clone();
-        band.limit(&mut model, rate)?;
-        band.limit(&mut found, rate)?;
-        gated(&mut model, lead as f64, rate);
-        // Coarse first, over all there is, then gated where it was found.
-        let coarse = Delay::between(&found, &model, rate, band)?.samples;
-        gated(&mut found, lead as f64 + coarse, rate);
-        delays.push(Delay::between(&found, &model, rate, band)?.samples);
+    let count = heard.len().min(model.actuators());
+    let alive: Vec<usize> = (0..count).filter(|a| !heard[*a].is_empty()).collect();
+    if alive.is_empty() {
+        let (what, expected) = ("actuators that hear".into(), "at least one".into());
+        return Err(CalibrateError::Recording { what, expected, found: "none".into() });
+    }
+    let chosen = alive.len().min(ACTUATORS);
+    let some: Vec<usize> = (0..chosen).map(|i| alive[i * alive.len() / chosen]).collect();
+    let chosen: Vec<Vec<Vec<f64>>> =
+        some.iter().map(|b| some.iter().map(|a| heard[*b][*a].clone()).collect()).collect();
+    let (delays, signs) = roughly(&chosen, &some, model, (lead, rate), band)?;
+    let coarse = delays[delays.len() / 2];
+    let parts = parts(model, band);
+    let found = Heard { responses: &chosen, zero: lead as f64 + coarse, rate };
+    let sensors: Vec<&Sensor> = some.iter().map(|a| &model.sensors()[*a]).collect();
+    let mut all = rung(&found, &parts, &sensors);
+    let cells = Cells::new(all.len(), band);
+    let mut said = Vec::new();
+    if !model.in_step() {
+        let responses = self::said(&chosen, &some, model, (lead, rate), band)?;
+        said = rung(&Heard { responses: &responses, zero: lead as f64, rate }, &parts, &sensors);
+        let reference = said.clone();
+        cells.lead(&mut all, &reference);
+        cells.lead(&mut said, &reference);
+    }
+    for (own, sign) in all.iter_mut().flat_map(|tone| tone.own.iter_mut().zip(&signs)) {
+        *own *= *sign;
+    }
+    let most = WITHIN * rate / band.high[0].min(rate / 2.0);
+    let of = |actuators: &[usize]| {
+        let late = delay(&all, actuators, &cells, rate, most)?;
+        // Within a cell what is out of step may go with frequency: the model's does so as well.
+        let own = if said.is_empty() { 0.0 } else { delay(&said, actuators, &cells, rate, most)? };
+        Some(late - own)
+    };
+    let whole: Vec<usize> = (0..some.len()).collect();
+    // Where too little rings to tell more, what was found first stands.
+    let Some(late) = of(&whole) else { return Ok([coarse, disagreement(&delays)]) };
+    let mut alone: Vec<f64> = whole.iter().filter_map(|a| of(&[*a])).collect();
+    alone.sort_unstable_by(f64::total_cmp);
+    Ok([coarse + late, disagreement(&alone)])
+}
+
+/// Half the range of the middle half of sorted values.
+fn disagreement(sorted: &[f64]) -> f64 {
+    let quantile = |share: f64| sorted.get(((sorted.len().max(1) - 1) as f64 * share).round() as usize);
+    quantile(0.75).zip(quantile(0.25)).map_or(0.0, |(high, low)| (high - low) / 2.0)
+}
+
+/// To a sample or so: the delays between what is heard and what the model says, ascending, at least one; and the sign of each actuator, 0 if
+/// it is silent.
+///
+/// Of what actuators hear of themselves; where coils on a voltage damp the surface, of what they hear of each other: of itself such a coil hears at
+/// first what is damped most, which no mode of the band is.
+fn roughly(
+    heard: &[Vec<Vec<f64>>],
+    some: &[usize],
+    model: &Hearing,
+    (lead, rate): (usize, f64),
+    band: Band,
+) -> Result<(Vec<f64>, Vec<f64>), CalibrateError> {
+    let (mut delays, mut signs) = (Vec::new(), vec![1.0; some.len()]);
+    let away = if model.in_step() { 0 } else { 1 };
+    for b in 0..some.len() {
+        let a = (b + away) % some.len();
+        let found = &heard[b][a];
+        let mut said = vec![0.0; lead];
+        said.extend(model.response(some[b], some[a], found.len().saturating_sub(lead)));
+        band.limit(&mut said, rate)?;
+        match Delay::between(found, &said, rate, band) {
+            Ok(delay) => {
+                delays.push(delay.samples);
+                signs[b] = if delay.inverted && model.in_step() { -1.0 } else { 1.0 };
+            }
+            // One that is silent tells nothing; others may.
+            Err(_) => signs[b] = 0.0,
+        }
     }
     delays.sort_unstable_by(f64::total_cmp);
-    let quantile = |share: f64| delays.get(((delays.len() as f64 - 1.0) * share).round() as usize).copied();
-    match (quantile(0.5), quantile(0.25), quantile(0.75)) {
-        (Some(median), Some(low), Some(high)) => Ok([median, (high - low) / 2.0]),
-        _ => Err(CalibrateError::Recording {
+    if delays.is_empty() {
+        return Err(CalibrateError::Recording {
             what: "latency".into(),
             expected: "actuators that hear themselves".into(),
-            found: "none".into(),
-        }),
+            found: "silence".into(),
+        });
+    }
+    Ok((delays, signs))
+}
+
+/// Parts of the band, each with about as many tones as can be told apart at once, and how many the model has there with its edges.
+fn parts(model: &Hearing, band: Band) -> Vec<(Part, usize)> {
+    let mut known: Vec<[f64; 2]> = model.tones().filter(|[hz, _]| *hz > 0.0).collect();
+    known.dedup_by(|a, b| (a[0] - b[0]).abs() < 1e-9 * b[0]);
+    let place = |hz: f64| known.partition_point(|tone| tone[0] < hz);
+    let top = band.high[0];
+    let lowest = known.first().map_or(0.0, |tone| tone[0]);
+    let mut low = band.low[1].max(0.8 * lowest).min(0.9 * top);
+    let mut parts = Vec::new();
+    while low < top {
+        let mut rates: Vec<f64> = known[place(low)..place(NEAR * low)].iter().map(|tone| tone[1]).collect();
+        rates.sort_unstable_by(f64::total_cmp);
+        let rate = rates.get(rates.len() / 2).copied().unwrap_or(0.0);
+        let passed = (OF_RINGING / rate).min(PASSED).max(PERIODS / low);
+        let edge = Part::new(low, top, passed).edge;
+        let last = known.get(place(low - edge) + TONES).map_or(top, |tone| tone[0]);
+        let mut high = (last - edge).max(low + edge);
+        // Rather one part a little longer than another that is short.
+        if top - high < 0.3 * (high - low) {
+            high = top;
+        }
+        let part = Part::new(low, high, passed);
+        parts.push((part, (place(high + edge) - place(low - edge)).max(FEWEST)));
+        low = high;
+    }
+    parts
+}
+
+/// The tones of all parts, in step but for what damping does to them: what a circuit does to each is taken back, and a tone of velocity
+/// that is struck at time 0 is turned into a positive number.
+fn rung(heard: &Heard, parts: &[(Part, usize)], sensors: &[&Sensor]) -> Vec<Tone> {
+    let mut all: Vec<Tone> =
+        parts.par_iter().flat_map_iter(|(part, expected)| tones(heard, part, *expected)).collect();
+    for tone in &mut all {
+        let (s, struck) = (tone.s, c64::new(1.0, tone.s.re / tone.s.im));
+        for (own, sensor) in tone.own.iter_mut().zip(sensors) {
+            // Once for the drive and once for what is heard of it.
+            let through = sensor.per_velocity(s);
+            let turn = through / through.norm().max(f64::MIN_POSITIVE);
+            *own *= struck * (turn * turn).conj();
+        }
+    }
+    all
+}
+
+/// Cells of the band, each with several tones. The tones that one damper couples are out of step with each other and yet add up
+/// to what is not: a cell's sum is what can be compared.
+#[derive(Clone, Copy)]
+struct Cells {
+    low: f64,
+    width: f64,
+    count: usize,
+}
+
+impl Cells {
+    /// For about so many tones.
+    fn new(tones: usize, band: Band) -> Self {
+        let (low, count) = (band.low[1], (tones / IN_CELL).max(1));
+        Self { low, width: (band.high[0] - low) / count as f64, count }
+    }
+
+    fn of(&self, tone: &Tone) -> usize {
+        (((tone.s.im / TAU - self.low) / self.width).max(0.0) as usize).min(self.count - 1)
+    }
+
+    /// Sums of what an actuator hears of itself, and of its magnitudes.
+    fn sums(&self, tones: &[Tone], actuator: usize) -> Vec<(c64, f64)> {
+        let mut sums = vec![(c64::new(0.0, 0.0), f64::MIN_POSITIVE); self.count];
+        for tone in tones {
+            let (sum, size) = &mut sums[self.of(tone)];
+            *sum += tone.own[actuator];
+            *size += tone.own[actuator].norm();
+        }
+        sums
+    }
+
+    /// Brings tones into step that are out of it as a model's are; the less the model's agree with each other, the less they count.
+    fn lead(&self, tones: &mut [Tone], said: &[Tone]) {
+        let actuators = tones.first().map_or(0, |tone| tone.own.len());
+        for actuator in 0..actuators {
+            let sums = self.sums(said, actuator);
+            for tone in tones.iter_mut() {
+                let (sum, size) = sums[self.of(tone)];
+                tone.own[actuator] *= sum.conj() / size;
+            }
+        }
     }
 }
 
-fn gated(signal: &mut [f64], from: f64, rate: f64) {
-    let length = ALONE * rate;
-    Gate { begin: from - length, rise: length / 2.0, end: from + length, fall: length / 2.0 }.apply(signal);
+/// What the model says that the chosen actuators hear of each other, within the band.
+fn said(
+    heard: &[Vec<Vec<f64>>],
+    some: &[usize],
+    model: &Hearing,
+    (lead, rate): (usize, f64),
+    band: Band,
+) -> Result<Vec<Vec<Vec<f64>>>, CalibrateError> {
+    let samples = heard[0][0].len().min(lead + (SAID * rate) as usize);
+    let count = some.len();
+    let one = |n: usize| {
+        let (b, a) = (n / count, n % count);
+        // What one hears of another is what that one hears of it.
+        let mut said = vec![0.0; if b <= a { lead } else { 0 }];
+        if b <= a {
+            said.extend(model.response(some[b], some[a], samples.saturating_sub(lead)));
+            band.limit(&mut said, rate)?;
+        }
+        Ok(said)
+    };
+    let upper: Vec<Vec<f64>> =
+        (0..count * count).into_par_iter().map(one).collect::<Result<_, DspError>>()?;
+    let of = |b: usize, a: usize| upper[b.min(a) * count + b.max(a)].clone();
+    Ok((0..count).map(|b| (0..count).map(|a| of(b, a)).collect()).collect())
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use unripple_dsp::shift;
-
-    #[test]
-    fn is_found_whatever_comes_back_from_the_rim() {
-        let rate = 48e3;
-        let band = Band::within(30.0, 3600.0);
-        let ring = |hz: f64, t: f64| (-t / 0.07).exp() * (std::f64::consts::TAU * hz * t).cos();
-        let made = |stretch: f64| -> Vec<f64> {
-            let sum = |t: f64| (1..150).map(|m| ring(20.0 * f64::from(m) * stretch, t)).sum::<f64>();
-            (0..4000).map(|i| if i < 200 { 0.0 } else { sum((i as f64 - 200.0) / rate) }).collect()
-        };
-        let model = made(1.0)[200..].to_vec();
-        let found = [1.003, 0.997, 1.001].map(|stretch| shift(&made(stretch), 37.37)).to_vec();
-        let [late, spread] = latency(&found, &vec![model; 3], 200, rate, band).unwrap();
-        assert!((late - 37.37).abs() < 0.05 && spread < 0.05, "{late} {spread}");
+/// The delay in samples, at most `most` either way, at which the tones that some actuators hear of themselves are most in step, if they are.
+fn delay(tones: &[Tone], actuators: &[usize], cells: &Cells, rate: f64, most: f64) -> Option<f64> {
+    let parts: Vec<(f64, c64)> = tones
+        .iter()
+        .map(|tone| {
+            let own: c64 = actuators.iter().map(|a| tone.own[*a]).sum();
+            (tone.s.im / rate, own)
+        })
+        .collect();
+    // Value and two derivatives of how much they are in step.
+    let at = |late: f64| {
+        parts.iter().fold([0.0; 3], |[value, first, second], (omega, own)| {
+            let turned = own * c64::new(0.0, omega * late).exp();
+            [value + turned.re, first - omega * turned.im, second - omega * omega * turned.re]
+        })
+    };
+    let steps = 64;
+    let grid = (-steps..=steps).map(|i| most * f64::from(i) / f64::from(steps));
+    let mut late = grid.max_by(|a, b| at(*a)[0].total_cmp(&at(*b)[0]))?;
+    for _ in 0..20 {
+        let [_, first, second] = at(late);
+        if second >= 0.0 {
+            break;
+        }
+        late -= (first / second).clamp(-most / 32.0, most / 32.0);
     }
+    let size = |a: &usize| cells.sums(tones, *a).iter().map(|(sum, _)| sum.norm()).sum::<f64>();
+    let whole: f64 = actuators.iter().map(size).sum();
+    (whole > 0.0 && at(late)[0] > AGREED * whole && late.abs() <= 1.1 * most).then_some(late)
 }

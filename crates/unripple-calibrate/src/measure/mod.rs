@@ -1,6 +1,7 @@
 //! Measuring responses through a device, with a probe on the surface or by tapping it.
 
 mod campaign;
+mod hearing;
 mod latency;
 mod options;
 mod record;
@@ -8,9 +9,11 @@ mod rig;
 mod session;
 mod tap;
 mod taps;
+mod tones;
 mod wires;
 
 pub use campaign::{Progress, Sink, Way, campaign};
+pub use hearing::Hearing;
 pub use latency::latency;
 pub use options::MeasureOptions;
 pub use record::{SILENCE, record};

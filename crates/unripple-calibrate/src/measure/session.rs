@@ -1,10 +1,9 @@
-use super::{MeasureOptions, Rig, Wires, latency, record};
+use super::{Hearing, MeasureOptions, Rig, Wires, latency, record};
 use crate::CalibrateError;
 use unripple_core::{Layout, ModalResponses, PROBE, Point, Surface};
 use unripple_dsp::{
     Average, Band, Deconvolver, Delay, Harmonics, Inversion, Outliers, Quality, Schedule, Split, Sweep,
 };
-use unripple_physics::sample;
 
 /// Longest latency that is looked for, in s.
 const LATEST: f64 = 0.25;
@@ -18,6 +17,7 @@ const LEAD: usize = 240;
 /// [`MeasureOptions::highest_order`], stay apart after one deconvolution of all.
 #[derive(Clone, Debug)]
 pub struct Session {
+    surface: Surface,
     options: MeasureOptions,
     wires: Wires,
     sweep: Sweep,
@@ -73,7 +73,17 @@ impl Session {
         let inversion =
             Inversion { band: Some(band), latency: options.latency, lead: LEAD, ..Inversion::default() };
         let plan = Deconvolver::new(schedule.stimulus(), heard, &inversion)?;
-        Ok(Self { options: options.clone(), wires, sweep, schedule, plan, drive, heard, band })
+        Ok(Self {
+            surface: surface.clone(),
+            options: options.clone(),
+            wires,
+            sweep,
+            schedule,
+            plan,
+            drive,
+            heard,
+            band,
+        })
     }
 
     /// The band in which responses are measured.
@@ -144,29 +154,35 @@ impl Session {
         }
         rig.ready(number, at, 0)?;
         let heard = record(rig.device(), &self.wires.drives, &self.drive, &inputs, self.heard)?;
-        let channels = heard
-            .iter()
-            .map(|one| self.channel(std::slice::from_ref(one), 0))
-            .collect::<Result<Vec<_>, _>>()?;
+        let mut windows = heard.iter().map(|one| self.windows(one)).collect::<Result<Vec<_>, _>>()?;
         let known = self.options.latency;
-        if let (Some(_), [reference]) = (self.wires.reference, &channels[..]) {
+        if let (Some(_), [reference]) = (self.wires.reference, &windows[..]) {
             let power = |h: &&Vec<f64>| h.iter().map(|x| x * x).sum::<f64>();
-            let loudest = reference.responses.iter().max_by(|a, b| power(a).total_cmp(&power(b)));
+            let loudest = reference.iter().max_by(|a, b| power(a).total_cmp(&power(b)));
             let found =
                 Delay::of_impulse(loudest.map_or(&[][..], Vec::as_slice), self.sweep.rate, self.band)?;
             return Ok(Some([found.samples - LEAD as f64 + known, 0.0]));
         }
-        let own = |(a, channel): (usize, &Channel)| channel.responses.get(a).cloned().unwrap_or_default();
-        let heard = |(a, _): &(usize, &Channel)| !self.options.without.contains(a);
-        let found: Vec<Vec<f64>> = channels.iter().enumerate().filter(heard).map(own).collect();
-        let places: Vec<Point> = model.ports.iter().map(|port| port.at).collect();
-        let samples = self.options.samples(self.sweep.rate);
-        let said = sample(model, &places, samples);
-        let alive = (0..places.len()).filter(|a| !self.options.without.contains(a));
-        let said: Vec<Vec<f64>> =
-            alive.map(|a| said.response(a, a).iter().map(|h| f64::from(*h)).collect()).collect();
-        let [late, spread] = latency(&found, &said, LEAD, self.sweep.rate, self.band)?;
+        // What is left out has nothing to say.
+        self.options.without.iter().filter_map(|a| windows.get_mut(*a)).for_each(Vec::clear);
+        let hearing = Hearing::of(&self.surface, model)?;
+        let [late, spread] = latency(&windows, &hearing, LEAD, self.sweep.rate, self.band)?;
         Ok(Some([late + known, spread]))
+    }
+
+    /// The responses to all actuators from what one input heard, as long as they are kept apart, with the lead.
+    fn windows(&self, heard: &[f64]) -> Result<Vec<Vec<f64>>, CalibrateError> {
+        let mut whole = vec![0.0; self.plan.size()];
+        self.plan.deconvolve(
+            &heard[..self.heard.min(heard.len())],
+            &mut whole,
+            &mut self.plan.workspace(),
+        )?;
+        let cut = |actuator: usize| {
+            let mut cut = vec![0.0; self.schedule.window()];
+            self.schedule.cut(&whole, actuator, &mut cut).map(|()| cut)
+        };
+        Ok((0..self.wires.drives.len()).map(cut).collect::<Result<Vec<_>, _>>()?)
     }
 
     /// Responses and their quality from what one input heard, repeat by repeat, without the first `from` samples of the lead.

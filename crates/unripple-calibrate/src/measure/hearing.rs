@@ -1,0 +1,80 @@
+//! What actuators hear of each other and of themselves, as a model says.
+
+use crate::CalibrateError;
+use faer::Mat;
+use unripple_core::{ModalResponses, Surface};
+use unripple_physics::{Sensor, sensed, sensors};
+
+/// A model of what a surface's actuators hear of each other, each in the unit of its [`Sensor`].
+#[derive(Clone, Debug)]
+pub struct Hearing {
+    sensors: Vec<Sensor>,
+    /// What each sensor feels of each oscillation, sensors x oscillations.
+    felt: Mat<f64>,
+    model: ModalResponses,
+}
+
+impl Hearing {
+    /// The model of a surface with these responses.
+    ///
+    /// # Errors
+    /// [`CalibrateError::Physics`] for actuators that cannot be, [`CalibrateError::Count`] if the responses have others.
+    pub fn of(surface: &Surface, model: &ModalResponses) -> Result<Self, CalibrateError> {
+        let sensors = sensors(surface)?;
+        if sensors.len() != model.ports.len() {
+            let (what, expected) = ("actuators of the model", sensors.len().to_string());
+            return Err(CalibrateError::Count { what, expected, found: model.ports.len() });
+        }
+        Ok(Self { felt: sensed(&sensors, model), sensors, model: model.clone() })
+    }
+
+    /// Number of actuators.
+    pub fn actuators(&self) -> usize {
+        self.sensors.len()
+    }
+
+    /// The actuators in their sensing role.
+    pub fn sensors(&self) -> &[Sensor] {
+        &self.sensors
+    }
+
+    /// Frequency (Hz) and decay rate (1/s) of each oscillation, frequencies ascending; one may stand there several times.
+    pub fn tones(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        self.model.poles.iter().map(|pole| [pole.omega / std::f64::consts::TAU, pole.sigma])
+    }
+
+    /// Whether an actuator hears each oscillation of its own in step with the drive: where nothing but the sheet dissipates and no circuit
+    /// comes between, as with all but coils on a voltage.
+    pub fn in_step(&self) -> bool {
+        self.sensors.iter().all(|sensor| sensor.circuit.is_none())
+    }
+
+    /// What a sensor heard, response by response, as the velocity (m/s) under its contact: what libraries hold. `None` for one that does not
+    /// hear the velocity of a place.
+    pub fn velocity(&self, sensor: usize, heard: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+        let (sensor, rate) = (self.sensors.get(sensor)?, self.model.conditions.rate);
+        heard.iter().map(|response| sensor.velocity(response, rate)).collect()
+    }
+
+    /// What a sensor hears of velocities (m/s) under its contact: the way back from a library.
+    pub fn heard(&self, sensor: usize, velocity: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+        let (sensor, rate) = (self.sensors.get(sensor)?, self.model.conditions.rate);
+        Some(velocity.iter().map(|response| sensor.hear(response, rate)).collect())
+    }
+
+    /// What a sensor hears of a unit impulse of a drive, from time 0 on.
+    pub fn response(&self, sensor: usize, drive: usize, samples: usize) -> Vec<f64> {
+        let rate = self.model.conditions.rate;
+        let mut moved = vec![0.0; samples];
+        for (m, pole) in self.model.poles.iter().enumerate() {
+            let weight = self.model.input[(drive, m)] * self.felt[(sensor, m)];
+            let step = pole.step(1.0 / rate);
+            let [mut u, mut v] = pole.kick();
+            for sum in &mut moved {
+                *sum += weight * v;
+                [u, v] = [step[0][0] * u + step[0][1] * v, step[1][0] * u + step[1][1] * v];
+            }
+        }
+        self.sensors.get(sensor).map_or(Vec::new(), |sensor| sensor.hear(&moved, rate))
+    }
+}

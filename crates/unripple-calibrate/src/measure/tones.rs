@@ -1,0 +1,196 @@
+//! The decaying tones that a surface's responses are made of, found in what is left once their beginning has passed.
+
+use faer::linalg::solvers::Solve;
+use faer::{Mat, Side, c64};
+use realfft::RealFftPlanner;
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+/// What a part of the band rings for at its soft edges, times their width in Hz: a thousandth is left.
+const RINGING: f64 = 2.5;
+
+/// Rows of the largest system solved, and the least time steps that are worth it.
+const ROWS: usize = 240;
+const FEWEST: usize = 12;
+
+/// A direction with less than this share of the power of the strongest is noise, and so is one within this factor of the weakest half.
+const LEAST: f64 = 1e-9;
+const OVER_NOISE: f64 = 20.0;
+
+/// Nepers of decay, until the beginning has passed, beyond which a tone is not followed back to it.
+const DEEPEST: f64 = 2.5;
+
+/// A part of a band, in Hz: all between `low` and `high`, with soft edges of width `edge` outside.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Part {
+    pub low: f64,
+    pub high: f64,
+    pub edge: f64,
+}
+
+impl Part {
+    /// A part whose soft edges ring for so many seconds.
+    pub fn new(low: f64, high: f64, passed: f64) -> Self {
+        Self { low, high, edge: RINGING / passed }
+    }
+
+    fn weight(&self, hz: f64) -> f64 {
+        let off = (self.low - hz).max(hz - self.high).max(0.0) / self.edge;
+        // Three derivatives are smooth, so that little rings for long.
+        if off < 1.0 { (FRAC_PI_2 * (FRAC_PI_2 * off).sin().powi(2)).cos().powi(2) } else { 0.0 }
+    }
+}
+
+/// A decaying tone Re(own · e^{st}) in what each actuator hears of itself.
+#[derive(Clone, Debug)]
+pub(super) struct Tone {
+    /// Complex frequency, in 1/s.
+    pub s: c64,
+    /// Amplitude at time 0 of what each actuator hears of itself.
+    pub own: Vec<c64>,
+}
+
+/// Responses `[sensor][drive][sample]`, as many sensors as drives, with their time 0 at a sample.
+pub(super) struct Heard<'a> {
+    pub responses: &'a [Vec<Vec<f64>>],
+    pub zero: f64,
+    pub rate: f64,
+}
+
+/// What is left of a part of the band, its lowest line at 0 Hz: sensors x drives at each instant.
+struct Baseband {
+    instants: Vec<Mat<c64>>,
+    /// Time of each instant, in s.
+    times: Vec<f64>,
+    /// Frequency that lies at 0, in Hz.
+    base: f64,
+}
+
+/// The tones within a part, `expected` being about how many there are with those at its edges.
+///
+/// Responses between several places that share their tones are a linear system's: shifted by an instant, the directions that they span
+/// turn by the tones' e^{s dt} (J.-N. Juang and R. S. Pappa, *J. Guidance* 8, 620, 1985). Tones that overlap are told apart by what
+/// the places hear of each; and where two are not, their sum is still right. Nothing is used of the beginning, which holds what is not of
+/// this band: the slow answer of everything above it.
+pub(super) fn tones(heard: &Heard, part: &Part, expected: usize) -> Vec<Tone> {
+    let count = heard.responses.len();
+    let baseband = Baseband::of(heard, part);
+    let instants = baseband.instants.len();
+    if count == 0 || instants < FEWEST {
+        return Vec::new();
+    }
+    let blocks = (3 * expected / count + 4).min(ROWS / count).clamp(2, instants / 2);
+    let Some((poles, shapes)) = directions(&baseband.instants, blocks) else { return Vec::new() };
+    let step = baseband.times[1] - baseband.times[0];
+    let passed = RINGING / part.edge;
+    let lasted = step * instants as f64;
+    let kept: Vec<(usize, c64)> = poles
+        .iter()
+        .enumerate()
+        .map(|(m, pole)| (m, pole.ln() / step))
+        .filter(|(_, s)| s.re.is_finite() && s.re * lasted < 1.0 && -s.re * passed < DEEPEST)
+        .collect();
+    let amplitudes = amplitudes(&baseband, &shapes, &kept);
+    // What was brought down to 0 Hz was so from the signals' beginning on.
+    let base = c64::new(0.0, TAU * baseband.base);
+    let turn = (base * (heard.zero / heard.rate)).exp();
+    kept.iter()
+        .zip(amplitudes)
+        .map(|((_, s), own)| Tone { s: s + base, own: own.iter().map(|x| x * turn).collect() })
+        .filter(|tone| (part.low..part.high).contains(&(tone.s.im / TAU)))
+        .collect()
+}
+
+impl Baseband {
+    fn of(heard: &Heard, part: &Part) -> Self {
+        let Heard { responses, zero, rate } = *heard;
+        let length = responses.iter().flatten().map(Vec::len).min().unwrap_or(0);
+        let size = (2 * length).next_power_of_two().max(2);
+        let line = |hz: f64| hz * size as f64 / rate;
+        let first = line((part.low - part.edge).max(0.0)).floor() as usize;
+        let lines = (line(part.high + part.edge).ceil() as usize).min(size / 2) - first.min(size / 2);
+        let spacing = size as f64 / (lines.max(1) as f64 * rate);
+        let passed = RINGING / part.edge;
+        let begin = ((zero / rate + passed) / spacing).ceil() as usize;
+        let end = ((length as f64 / rate - passed) / spacing).max(0.0) as usize;
+        let plan = RealFftPlanner::<f64>::new().plan_fft_forward(size);
+        let turns: Vec<c64> =
+            (0..lines).map(|k| c64::new(0.0, TAU * k as f64 / lines as f64).exp()).collect();
+        let weights: Vec<f64> =
+            (0..lines).map(|k| part.weight((first + k) as f64 * rate / size as f64)).collect();
+        let narrow = |signal: &Vec<f64>| -> Vec<c64> {
+            let (mut time, mut spectrum) = (plan.make_input_vec(), plan.make_output_vec());
+            time[..length].copy_from_slice(&signal[..length]);
+            // Sizes come from the plan itself.
+            let _ = plan.process(&mut time, &mut spectrum);
+            let band: Vec<c64> = weights.iter().zip(&spectrum[first..]).map(|(w, x)| x * *w).collect();
+            let at = |i: usize| -> c64 {
+                band.iter().enumerate().map(|(k, x)| x * turns[k * i % lines]).sum::<c64>() / lines as f64
+            };
+            (begin..end.max(begin)).map(at).collect()
+        };
+        let all: Vec<Vec<Vec<c64>>> =
+            responses.iter().map(|drives| drives.iter().map(narrow).collect()).collect();
+        let count = responses.len();
+        let instants =
+            (0..end.saturating_sub(begin)).map(|i| Mat::from_fn(count, count, |b, a| all[b][a][i])).collect();
+        let times = (begin..end.max(begin)).map(|i| i as f64 * spacing - zero / rate).collect();
+        Self { instants, times, base: first as f64 * rate / size as f64 }
+    }
+}
+
+/// The factors by which tones go on from instant to instant, and what each place hears of each (places x tones).
+fn directions(instants: &[Mat<c64>], blocks: usize) -> Option<(Vec<c64>, Mat<c64>)> {
+    let count = instants[0].nrows();
+    let (rows, starts) = (count * blocks, instants.len() - blocks + 1);
+    let stacked =
+        Mat::from_fn(rows, count * starts, |r, c| instants[r / count + c / count][(r % count, c % count)]);
+    let gram = &stacked * stacked.adjoint();
+    let eigen = gram.self_adjoint_eigen(Side::Lower).ok()?;
+    let powers: Vec<f64> = eigen.S().column_vector().iter().map(|x| x.re).collect();
+    let mut order: Vec<usize> = (0..rows).collect();
+    order.sort_unstable_by(|a, b| powers[*b].total_cmp(&powers[*a]));
+    let strongest = powers[order[0]];
+    let noise = powers[order[rows - rows / 4 - 1]].max(0.0);
+    let most = count * (blocks - 1) * 3 / 4;
+    let least = (LEAST * strongest).max(OVER_NOISE * noise);
+    let kept: Vec<usize> = order.into_iter().take(most).filter(|i| powers[*i] > least).collect();
+    if kept.is_empty() || strongest.is_nan() {
+        return None;
+    }
+    let span = Mat::from_fn(rows, kept.len(), |r, c| eigen.U()[(r, kept[c])]);
+    let before = span.subrows(0, rows - count);
+    let after = span.subrows(count, rows - count);
+    let turn = (before.adjoint() * before).partial_piv_lu().solve(before.adjoint() * after);
+    let eigen = turn.eigen().ok()?;
+    let poles: Vec<c64> = eigen.S().column_vector().iter().copied().collect();
+    let shapes = span.subrows(0, count) * eigen.U();
+    Some((poles, shapes))
+}
+
+/// Amplitudes at time 0 of what each actuator hears of itself, tone by tone: those that explain all instants best, given what each
+/// place hears of each tone.
+fn amplitudes(baseband: &Baseband, shapes: &Mat<c64>, tones: &[(usize, c64)]) -> Vec<Vec<c64>> {
+    let (count, tones_found) = (shapes.nrows(), tones.len());
+    let going =
+        Mat::from_fn(baseband.times.len(), tones_found, |i, m| (tones[m].1 * baseband.times[i]).exp());
+    let places = Mat::from_fn(count, tones_found, |b, m| shapes[(b, tones[m].0)]);
+    let (time, place) = (going.adjoint() * &going, places.adjoint() * &places);
+    let size = |m: usize| (time[(m, m)].re * place[(m, m)].re).max(f64::MIN_POSITIVE).sqrt();
+    let sizes: Vec<f64> = (0..tones_found).map(size).collect();
+    let normal = Mat::from_fn(tones_found, tones_found, |m, n| {
+        let ridge = if m == n { 1e-12 } else { 0.0 };
+        time[(m, n)] * place[(m, n)] / (sizes[m] * sizes[n]) + ridge
+    });
+    let mut right = Mat::<c64>::zeros(tones_found, count);
+    for (i, instant) in baseband.instants.iter().enumerate() {
+        let seen = places.adjoint() * instant;
+        for m in 0..tones_found {
+            let weight = going[(i, m)].conj() / sizes[m];
+            (0..count).for_each(|a| right[(m, a)] += weight * seen[(m, a)]);
+        }
+    }
+    let found = normal.partial_piv_lu().solve(&right);
+    // Twice, since the negative frequencies are left out.
+    let own = |m: usize| (0..count).map(|a| places[(a, m)] * found[(m, a)] * (2.0 / sizes[m])).collect();
+    (0..tones_found).map(own).collect()
+}

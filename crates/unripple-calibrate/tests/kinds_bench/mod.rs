@@ -1,0 +1,229 @@
+//! A virtual calibration of any surface, from its wires to the focus that it gives on what is true.
+
+#![allow(dead_code)]
+
+use std::sync::Arc;
+use unripple_calibrate::CalibrateError;
+use unripple_calibrate::measure::{Listen, MeasureOptions, Rig, Session, Wires};
+use unripple_core::{
+    Actuator, ActuatorKind, CoilDrive, Decay, Device, Edge, Edges, Emission, ModalResponses, Outline, Point,
+    Responses, SampledResponses, Shape, Surface,
+};
+use unripple_devices::{
+    Expected, Handle, Truth, Unknowns, Virtual, VirtualOptions, WiringOptions, check_wiring,
+};
+use unripple_dsp::Reciprocity;
+use unripple_field::Field;
+use unripple_focus::{Focuser, Method, Options, Target};
+use unripple_physics::design::papers_surface;
+use unripple_physics::{ResponseOptions, responses};
+
+/// What came of a calibration.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// What the wiring test found wrong.
+    pub faults: Vec<String>,
+    /// Latency and how far actuators disagree on it, in samples.
+    pub latency: [f64; 2],
+    /// How far what a hears of b is from what b hears of a, as a share.
+    pub reciprocity: f64,
+    /// Contrast of the measured responses' time reversal on the true surface over that of the true responses.
+    pub share: f64,
+    /// Contrast of the true responses.
+    pub contrast: f64,
+}
+
+/// The paper's film up to a frequency, its actuators of some kind.
+pub fn film(top: f64, kind: impl Fn(usize) -> ActuatorKind) -> Surface {
+    let mut film = papers_surface();
+    film.sheet.strength = None;
+    film.emission = Emission { band: [0.0, top], ..film.emission };
+    film.actuators.iter_mut().enumerate().for_each(|(i, actuator)| actuator.kind = kind(i));
+    film
+}
+
+/// A coil of 6.2 Ω.
+pub fn coil(force_constant: f64, inductance: f64, moving_mass: f64, driven_by: CoilDrive) -> ActuatorKind {
+    ActuatorKind::MovingMagnet { force_constant, resistance: 6.2, inductance, moving_mass, driven_by }
+}
+
+/// A supported pane of glass, with round patches.
+pub fn glass(top: f64, mass: f64) -> Surface {
+    let mut glass = papers_surface();
+    let sheet = &mut glass.sheet;
+    (sheet.young, sheet.density, sheet.poisson) = (69e9, 2500.0, 0.22);
+    (sheet.thickness, sheet.tension, sheet.decay) = (0.7e-3, 0.0, Decay::Time(0.03));
+    sheet.strength = None;
+    glass.outline =
+        Outline::new(Shape::Rectangle { width: 0.16, height: 0.1 }).with_edges(Edges::All(Edge::Supported));
+    glass.emission = Emission { band: [0.0, top], ..glass.emission };
+    let places = [(22.0, 18.0), (71.0, 14.0), (131.0, 25.0), (143.0, 66.0), (104.0, 84.0), (35.0, 79.0)];
+    let patch = ActuatorKind::Piezo { radius: 6e-3, moment: 0.02, mass };
+    let actuator = |(i, (x, y)): (usize, &(f64, f64))| Actuator {
+        name: format!("p{}", i + 1),
+        at: Point::from_mm(*x, *y),
+        kind: patch,
+        contact_radius: 0.0,
+    };
+    glass.actuators = places.iter().enumerate().map(actuator).collect();
+    glass
+}
+
+/// A table of 1.2 x 0.8 m of fibreboard on its rim, with exciters on a current.
+pub fn table(exciters: usize) -> Surface {
+    let mut table = papers_surface();
+    let sheet = &mut table.sheet;
+    (sheet.young, sheet.density, sheet.poisson) = (4e9, 750.0, 0.3);
+    (sheet.thickness, sheet.tension, sheet.decay) = (10e-3, 0.0, Decay::LossFactor(0.02));
+    sheet.strength = None;
+    table.outline =
+        Outline::new(Shape::Rectangle { width: 1.2, height: 0.8 }).with_edges(Edges::All(Edge::Supported));
+    table.emission = Emission { band: [0.0, 2000.0], ..table.emission };
+    let around = |i: usize| {
+        let angle = std::f64::consts::TAU * (i as f64 + 0.3 * (2.4 * i as f64).sin()) / exciters as f64;
+        Point::new(0.6 + 0.45 * angle.cos(), 0.4 + 0.28 * angle.sin())
+    };
+    let actuator = |i: usize| Actuator {
+        name: format!("e{}", i + 1),
+        at: around(i),
+        kind: coil(4.0, 0.3e-3, 2e-3, CoilDrive::Current),
+        contact_radius: 0.0125,
+    };
+    table.actuators = (0..exciters).map(actuator).collect();
+    table
+}
+
+/// Moves the probe; the surface begins anew before each recording.
+struct Hands {
+    device: Virtual,
+    handle: Handle,
+}
+
+impl Rig for Hands {
+    fn device(&mut self) -> &mut dyn Device {
+        &mut self.device
+    }
+
+    fn ready(&mut self, number: usize, at: Point, attempt: u64) -> Result<(), CalibrateError> {
+        self.handle.rest(number as u64 * 100 + attempt);
+        self.handle.move_probe(at).map_err(|error| CalibrateError::Rig { number, why: error.to_string() })
+    }
+
+    fn tap(&mut self, number: usize, _: Point, _: u64) -> Result<(), CalibrateError> {
+        Err(CalibrateError::Rig { number, why: "nobody taps".into() })
+    }
+}
+
+fn modal(surface: &Surface, max_hz: Option<f64>, accuracy: f64) -> ModalResponses {
+    match responses(surface, &ResponseOptions { max_hz, accuracy, ..Default::default() }) {
+        Ok(Responses::Modal(modal)) => modal,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// Measures a target of a surface as `calibrate` does, and focuses there by what was measured.
+pub fn calibrate(
+    surface: &Surface,
+    unknowns: Option<&Unknowns>,
+    settings: &MeasureOptions,
+    target: Point,
+    window: f64,
+) -> Found {
+    let accuracy = if unknowns.is_some() { Truth::ACCURACY } else { 1e-6 };
+    let model = modal(surface, None, accuracy);
+    let options = VirtualOptions { accuracy, ..VirtualOptions::default() };
+    let truth = unknowns.map(|unknowns| unknowns.truth(surface).unwrap());
+    let device = match &truth {
+        Some(truth) => Virtual::of_truth(truth, &options).unwrap(),
+        None => Virtual::new(surface, &options).unwrap(),
+    };
+    let handle = device.handle();
+    let mut rig = Hands { device, handle };
+    let layout = rig.device.layout().clone();
+
+    let (width, height) = surface.outline.extent();
+    let middle = Point::new(width / 2.0, height / 2.0);
+    rig.ready(1, middle, 0).unwrap();
+    let trial = WiringOptions::for_surface(surface);
+    let expected = Expected::of(surface, &model, Some(middle), trial.listen).unwrap();
+    let faults = check_wiring(&mut rig.device, &expected, &trial).unwrap().faults();
+
+    let wires = Wires::by_name(&model.ports, &layout, &[]).unwrap();
+    let first = Session::new(surface, &layout, wires.clone(), settings).unwrap();
+    let latency = first.find_latency(&mut rig, 1, middle, &model).unwrap().unwrap();
+    let settings = MeasureOptions { latency: latency[0], ..settings.clone() };
+    let session = Session::new(surface, &layout, wires, &settings).unwrap();
+    let sensors = session.measure(&mut rig, 1, middle, 2, Listen::Sensors).unwrap();
+    let count = sensors.len();
+    let flat: Vec<f64> = (0..count)
+        .flat_map(|drive| sensors.iter().flat_map(move |heard| heard.responses[drive].iter().copied()))
+        .collect();
+    let reciprocity = Reciprocity::of(&flat, count).unwrap().error;
+
+    let channel = session.measure(&mut rig, 0, target, 0, Listen::Probe).unwrap().remove(0);
+    let data = channel.responses.iter().flatten().map(|h| *h as f32).collect();
+    let samples = channel.responses[0].len();
+    let measured =
+        SampledResponses::new(model.ports.clone(), vec![target], model.conditions.clone(), samples, data);
+    let twice = (2.0 * surface.emission.band[1]).min(0.45 * surface.emission.rate);
+    let there = truth.as_ref().map_or(surface, |truth| &truth.surface);
+    let mut plant = modal(there, Some(twice), accuracy);
+    for (a, gain) in truth.iter().flat_map(|truth| truth.drive_gains.iter().enumerate()) {
+        (0..plant.poles.len()).for_each(|m| plant.input[(a, m)] *= gain);
+    }
+    let plant = Responses::Modal(plant);
+    let contrast = contrast(&Responses::Modal(modal_of(&plant, surface)), &plant, target, window);
+    let share = self::contrast(&Responses::Sampled(measured.unwrap()), &plant, target, window) / contrast;
+    Found { faults, latency, reciprocity, share, contrast }
+}
+
+/// The part of true responses that lies in the band.
+fn modal_of(plant: &Responses, surface: &Surface) -> ModalResponses {
+    let Responses::Modal(plant) = plant else { panic!() };
+    let top = std::f64::consts::TAU * surface.emission.band[1];
+    let kept: Vec<usize> = (0..plant.poles.len()).filter(|m| plant.poles[*m].omega <= top).collect();
+    let input = faer::Mat::from_fn(plant.ports.len(), kept.len(), |a, m| plant.input[(a, kept[m])]);
+    ModalResponses {
+        ports: plant.ports.clone(),
+        poles: kept.iter().map(|m| plant.poles[*m]).collect(),
+        input,
+        shapes: Arc::new(Kept { shapes: plant.shapes.clone(), kept }),
+        conditions: plant.conditions.clone(),
+    }
+}
+
+#[derive(Debug)]
+struct Kept {
+    shapes: Arc<dyn unripple_core::Shapes>,
+    kept: Vec<usize>,
+}
+
+impl unripple_core::Shapes for Kept {
+    fn modes(&self) -> usize {
+        self.kept.len()
+    }
+
+    fn at(&self, point: Point, row: &mut [f64]) {
+        let mut all = vec![0.0; self.shapes.modes()];
+        self.shapes.at(point, &mut all);
+        row.iter_mut().zip(&self.kept).for_each(|(to, m)| *to = all[*m]);
+    }
+}
+
+/// Contrast of time reversal by known responses, on a plant.
+fn contrast(known: &Responses, plant: &Responses, at: Point, window: f64) -> f64 {
+    let options = Options { method: Method::TimeReversal, window, ..Options::default() };
+    let drive = Focuser::new(known, &options).unwrap().focus(&[Target::at(at)]).unwrap().drive.as_emitted();
+    let field = Field::new(plant, &drive, 8.0).unwrap();
+    let shot = &field.snapshots(&[window]).unwrap()[0];
+    let peak = field.traces(&[at], window).unwrap()[0].velocity.last().copied().unwrap();
+    let radius = 4.0 / 3.0 * plant.conditions().lambda_min;
+    let outside: Vec<f64> = field
+        .points()
+        .iter()
+        .zip(&shot.velocity)
+        .filter(|(p, _)| p.distance(at) > radius)
+        .map(|(_, v)| f64::from(*v).powi(2))
+        .collect();
+    peak / (outside.iter().sum::<f64>() / outside.len() as f64).sqrt()
+}
