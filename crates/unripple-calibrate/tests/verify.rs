@@ -3,6 +3,7 @@
 mod heard_bench;
 
 use heard_bench::*;
+use unripple_calibrate::Measured;
 use unripple_calibrate::verify::{Checked, Verified, VerifyOptions, check};
 use unripple_core::{Point, Surface};
 
@@ -155,7 +156,7 @@ fn a_probe_on_an_actuators_channel_is_named() {
 
 #[test]
 fn the_probes_own_delay_is_found() {
-    for (surface, delay) in [(film(), 1e-3), (plate(), 0.3e-3), (panel(), 5e-3)] {
+    for (surface, delay) in [(film(), 1e-3), (plate(), 0.3e-3), (panel(), 5e-3), (film(), 0.1e-3)] {
         let points = places(&surface, 3);
         let mut truth = Truth { probe: (1.0, delay), ..Truth::of(surface.clone()) };
         let found = verified(&mut truth, &surface, &points, &points, &[1.0; 3]);
@@ -164,6 +165,44 @@ fn the_probes_own_delay_is_found() {
         let late = found.probe_delay.unwrap();
         println!("{late}");
         assert!((late - delay).abs() < 0.02 / surface.emission.band[1], "{late} {delay}");
+    }
+}
+
+/// One channel that is wrong does not spoil the model for the others, and is named.
+#[test]
+fn sensors_on_wrong_channels_are_named() {
+    let surface = film();
+    let points = places(&surface, 2);
+    let swap = |measured: &mut Measured, change: &dyn Fn(usize, usize, &[Vec<f64>]) -> Vec<f64>| {
+        let pairs = measured.pairs.as_mut().unwrap();
+        let before = pairs.responses.clone();
+        pairs.responses = (0..64).map(|n| change(n / 8, n % 8, &before)).collect();
+    };
+    type Change = dyn Fn(usize, usize, &[Vec<f64>]) -> Vec<f64>;
+    let reversed = |driven: usize, heard: usize, all: &[Vec<f64>]| {
+        let sign = if heard == 3 { -1.0 } else { 1.0 };
+        all[driven * 8 + heard].iter().map(|x| sign * x).collect()
+    };
+    let swapped = |driven: usize, heard: usize, all: &[Vec<f64>]| {
+        let from = match heard {
+            1 => 5,
+            5 => 1,
+            other => other,
+        };
+        all[driven * 8 + from].clone()
+    };
+    let cases: [(&Change, &[&str]); 2] = [
+        (&reversed, &["sensor of `a4` is reversed"]),
+        (&swapped, &["sensor of `a2` hears the place of `a6`", "sensor of `a6` hears the place of `a2`"]),
+    ];
+    for (change, words) in cases {
+        let mut truth = Truth::of(surface.clone());
+        let (mut measured, probed) = (truth.pairs(), truth.probed(&points, &points, &[1.0; 2]));
+        swap(&mut measured, change);
+        let found = check(&surface, &measured, &probed, &VerifyOptions::default()).unwrap();
+        println!("{}", said(&found));
+        assert_eq!(found.doubts.len(), words.len(), "{}", said(&found));
+        assert!(words.iter().all(|w| found.doubts.iter().any(|d| d.what.starts_with(w))), "{}", said(&found));
     }
 }
 

@@ -235,9 +235,35 @@ impl Fitted {
         &self.responses
     }
 
+    /// The same model with some of its actuators only.
+    pub(crate) fn among(&self, actuators: &[usize]) -> Self {
+        let part = |responses: &ModalResponses| ModalResponses {
+            ports: actuators.iter().map(|a| responses.ports[*a].clone()).collect(),
+            input: Mat::from_fn(actuators.len(), responses.poles.len(), |a, m| {
+                responses.input[(actuators[a], m)]
+            }),
+            ..responses.clone()
+        };
+        Self {
+            actuators: actuators.iter().map(|a| self.actuators[*a]).collect(),
+            responses: part(&self.responses),
+            beyond: part(&self.beyond),
+            ..self.clone()
+        }
+    }
+
     /// The same with all modes that the fit worked with, those outside the band too.
     pub(crate) fn beyond(&self) -> &ModalResponses {
         &self.beyond
+    }
+
+    /// The same model with all responses multiplied by a gain: in the scale of a probe that is not the sensors'.
+    #[must_use]
+    pub fn scaled(mut self, gain: f64) -> Self {
+        for responses in [&mut self.responses, &mut self.beyond] {
+            responses.input = &responses.input * faer::Scale(gain);
+        }
+        self
     }
 
     /// Weights of each mode in the signal of each actuator's sensor, actuators x modes: for a [`Tracker`](crate::Tracker).

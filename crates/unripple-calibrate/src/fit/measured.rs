@@ -91,6 +91,18 @@ impl Measured {
         Ok(Self::pairs(rate, responses, noise.max(f64::MIN_POSITIVE)))
     }
 
+    /// The same with noise that was measured as such, root mean square on each sample; no less than 60 dB below the responses between
+    /// actuators.
+    #[must_use]
+    pub fn with_noise(mut self, noise: f64) -> Self {
+        if let Some(pairs) = &mut self.pairs {
+            let all = pairs.responses.iter().flatten();
+            let (sum, count) = all.fold((0.0, 0.0), |(sum, count), x| (sum + x * x, count + 1.0));
+            pairs.noise = noise.max(FLOOR * (sum / f64::max(count, 1.0)).sqrt()).max(f64::MIN_POSITIVE);
+        }
+        self
+    }
+
     /// The same, the responses between actuators limited to a band; see [`Pairs::limited`].
     pub fn limited_to(mut self, band: Band) -> Self {
         if let Some(pairs) = &mut self.pairs {

@@ -14,6 +14,9 @@ const TIMES: f64 = 2.5;
 /// Delays that are looked for, in s: of a probe's electronics, and of a recording that lost samples.
 const DELAYS: [f64; 2] = [-2e-3, 12e-3];
 
+/// Share of a period of the band's top that a probe's delay has to be.
+const TURNED: f64 = 0.015;
+
 /// Points that tell the common delay.
 const TELLING: usize = 24;
 
@@ -139,16 +142,26 @@ impl Bench<'_> {
         judged(Kind::Nothing)
     }
 
-    /// Seconds by which delays of one measurement may differ.
-    pub fn apart(&self) -> f64 {
-        0.25 / self.quick.band[1]
+    /// The least delay (s) of a probe that is worth taking out: one that a response of so good a fit tells, and that turns the top of
+    /// the band by some degrees.
+    pub fn worth(&self, judged: &[Judged]) -> f64 {
+        let mut left: Vec<f64> = judged.iter().map(|j| j.nearby.found.unexplained()).collect();
+        left.sort_unstable_by(f64::total_cmp);
+        let median = left.get(left.len() / 2).copied().unwrap_or(1.0);
+        let turn = std::f64::consts::TAU * self.quick.band[1];
+        let told = 5.0 * median / turn * self.told();
+        told.max(TURNED / self.surface.emission.band[1])
+    }
+
+    /// What a fit tells of a place or a delay, over what one mode tells.
+    fn told(&self) -> f64 {
+        (8.0 / self.quick.fitted.beyond().poles.len().max(4) as f64).sqrt()
     }
 
     /// The place's error (m) by what is left unexplained: as if each mode told it once.
     fn error(&self, spot: &Spot) -> f64 {
-        let modes = self.quick.fitted.beyond().poles.len().max(4) as f64;
         let k = std::f64::consts::TAU / self.wave;
-        spot.found.unexplained() / k * (8.0 / modes).sqrt()
+        spot.found.unexplained() / k * self.told()
     }
 
     fn whose(&self, point: usize, at: Point) -> Whose {

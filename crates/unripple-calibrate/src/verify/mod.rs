@@ -132,7 +132,7 @@ fn against(
     let mut notes = Vec::new();
     words::gather(&bench, &points, &judged, (&mut notes, &mut doubts));
     let delay = common - quick.fitted.late.value;
-    let told = here.iter().any(|here| *here) && delay.abs() > bench.apart();
+    let told = here.iter().any(|here| *here) && delay.abs() > bench.worth(&judged);
     if let Some(why) = words::delay(options, delay, told) {
         doubts.push(why);
     }
@@ -140,6 +140,7 @@ fn against(
         model: Checked::Against { band: quick.band, unexplained: quick.fitted.unexplained() },
         points,
         probe_delay: told.then_some(delay),
+        gain: levels.common,
         notes,
         doubts,
     }

@@ -18,6 +18,10 @@ const LINES: usize = 12;
 /// Share of what sensors heard that a model may leave unexplained and still tell good points from bad ones.
 const NO_MODEL: f64 = 0.35;
 
+/// A model that leaves less than this share unexplained is a good one; one of so many sensors may be left out to get there.
+const SPOILT: f64 = 0.1;
+const MOST_ODD: usize = 3;
+
 /// An actuator that is heard with less than this share of the median power is silent.
 const SILENT: f64 = 1e-4;
 
@@ -48,23 +52,10 @@ impl Quick {
         probed: &SampledResponses,
         options: &VerifyOptions,
     ) -> Result<Self, String> {
-        let Some(pairs) = &measured.pairs else { return Err("nothing was heard by actuators".into()) };
-        let actuators = chosen(surface, measured, options);
-        if actuators.len() < FEWEST {
-            let (count, least) = (actuators.len(), FEWEST);
-            return Err(format!("only {count} actuators hear each other, {least} are needed"));
-        }
+        let actuators = chosen(surface, measured, options)?;
         let mut part = surface.clone();
         part.actuators = actuators.iter().map(|a| surface.actuators[*a].clone()).collect();
-        let all = surface.actuators.len();
-        let pair = |n: usize| {
-            let (driven, heard) = (actuators[n / actuators.len()], actuators[n % actuators.len()]);
-            pairs.responses[driven * all + heard].clone()
-        };
-        let mut heard = measured.clone();
-        if let Some(own) = &mut heard.pairs {
-            own.responses = (0..actuators.len().pow(2)).map(pair).collect();
-        }
+        let heard = among(measured, &actuators, surface.actuators.len());
         let band = band(surface, measured, options.modes)?;
         part.emission.band = band;
         let plan = FitOptions {
@@ -75,16 +66,54 @@ impl Quick {
             ..FitOptions::default()
         };
         let fitted = fit(&part, &heard, &plan).map_err(|error| error.to_string())?;
-        if fitted.unexplained() > NO_MODEL {
+        let quick = Self::of(fitted, &heard, probed, actuators, band)?;
+        let quick = match quick.fitted.unexplained() > SPOILT {
+            true => quick.without_odd_sensors(&part, &heard, &plan),
+            false => quick,
+        };
+        if quick.fitted.unexplained() > NO_MODEL {
             return Err(format!(
                 "{:.0} % of what actuators heard of each other between {:.0} and {:.0} Hz is left unexplained by the \
                  best there is",
-                100.0 * fitted.unexplained(),
+                100.0 * quick.fitted.unexplained(),
                 band[0],
                 band[1]
             ));
         }
-        Self::of(fitted, &heard, probed, actuators, band)
+        Ok(quick)
+    }
+
+    /// The model fitted without the sensors that speak against it, if without a few of them there is a good one: one channel that is
+    /// wrong spoils the model for all others.
+    fn without_odd_sensors(self, part: &Surface, heard: &Measured, plan: &FitOptions) -> Self {
+        let count = self.actuators.len();
+        let (mut heard, mut fitted) = (heard.clone(), self.fitted.clone());
+        let mut left: Vec<usize> = (0..count).collect();
+        for _ in 0..count / MOST_ODD {
+            let Some(worst) = self.worst(&fitted, part, &left) else { break };
+            left.retain(|sensor: &usize| *sensor != worst);
+            if let Some(pairs) = &mut heard.pairs {
+                (0..count).for_each(|driven| pairs.responses[driven * count + worst].clear());
+            }
+            match fit(part, &heard, plan) {
+                Ok(better) => fitted = better,
+                Err(_) => break,
+            }
+            if fitted.unexplained() < SPOILT {
+                return Self { fitted, ..self };
+            }
+        }
+        self
+    }
+
+    /// The sensor that is least like the model at its place.
+    fn worst(&self, fitted: &Fitted, part: &Surface, left: &[usize]) -> Option<usize> {
+        let checker = Checker::new(fitted.beyond(), &self.frequencies);
+        let like = |sensor: &usize| {
+            let row = checker.project(&self.sensed[*sensor]);
+            checker.at(&row, part.actuators[*sensor].at, fitted.late.value).likeness
+        };
+        left.iter().map(|sensor| (*sensor, like(sensor))).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(s, _)| s)
     }
 
     /// Of a model that was fitted to all actuators before.
@@ -95,8 +124,10 @@ impl Quick {
         probed: &SampledResponses,
         options: &VerifyOptions,
     ) -> Result<Self, String> {
+        let actuators = chosen(surface, measured, options)?;
+        let heard = among(measured, &actuators, surface.actuators.len());
         let band = band(surface, measured, options.modes)?;
-        Self::of(fitted.clone(), measured, probed, (0..surface.actuators.len()).collect(), band)
+        Self::of(fitted.among(&actuators), &heard, probed, actuators, band)
     }
 
     fn of(
@@ -121,7 +152,7 @@ impl Quick {
 }
 
 /// Some actuators that drive and hear, far from each other.
-fn chosen(surface: &Surface, measured: &Measured, options: &VerifyOptions) -> Vec<usize> {
+fn chosen(surface: &Surface, measured: &Measured, options: &VerifyOptions) -> Result<Vec<usize>, String> {
     let all = surface.actuators.len();
     let pairs = measured.pairs.iter().flat_map(|p| &p.responses);
     let powers: Vec<f64> = pairs.map(|h| h.iter().map(|x| x * x).sum()).collect();
@@ -133,8 +164,11 @@ fn chosen(surface: &Surface, measured: &Measured, options: &VerifyOptions) -> Ve
         best(&|b| a * all + b) > least && best(&|b| b * all + a) > least && !options.dead.contains(a)
     };
     let mut left: Vec<usize> = (0..all).filter(works).collect();
+    if left.len() < FEWEST {
+        return Err(format!("{} actuators hear each other, {FEWEST} are needed", left.len()));
+    }
     if left.len() <= ENOUGH {
-        return left;
+        return Ok(left);
     }
     let at = |a: usize| surface.actuators[a].at;
     let mut taken = vec![left.remove(0)];
@@ -146,7 +180,18 @@ fn chosen(surface: &Surface, measured: &Measured, options: &VerifyOptions) -> Ve
         taken.push(left.remove(next));
     }
     taken.sort_unstable();
-    taken
+    Ok(taken)
+}
+
+/// What some of all actuators heard of each other.
+fn among(measured: &Measured, actuators: &[usize], all: usize) -> Measured {
+    let mut part = measured.clone();
+    let count = actuators.len();
+    if let (Some(part), Some(pairs)) = (&mut part.pairs, &measured.pairs) {
+        let pair = |n: usize| pairs.responses[actuators[n / count] * all + actuators[n % count]].clone();
+        part.responses = (0..count * count).map(pair).collect();
+    }
+    part
 }
 
 /// The lowest frequencies that were measured whole, up to so many modes.

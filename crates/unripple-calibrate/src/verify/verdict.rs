@@ -48,6 +48,8 @@ pub struct Verified {
     pub points: Vec<PointVerdict>,
     /// Seconds by which all that the probe heard comes later than what sensors heard, what was taken out before included.
     pub probe_delay: Option<f64>,
+    /// Gain of the probe over the model, which has the sensors' scale: what most points agree on.
+    pub gain: Option<f64>,
     /// What is worth a word, and survived.
     pub notes: Vec<String>,
     /// What makes points, or all of the calibration, doubtful.
@@ -57,7 +59,14 @@ pub struct Verified {
 impl Verified {
     /// Where there is no model.
     pub(super) fn without(why: String, doubts: Vec<Doubted>) -> Self {
-        Self { model: Checked::Not { why }, points: Vec::new(), probe_delay: None, notes: Vec::new(), doubts }
+        Self {
+            model: Checked::Not { why },
+            points: Vec::new(),
+            probe_delay: None,
+            gain: None,
+            notes: Vec::new(),
+            doubts,
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use unripple_core::Point;
 
 /// A point is doubtful that is off by this share of the band's shortest wavelength, and worth a word from that share on.
 const FAR: f64 = 0.25;
-const WORTH: f64 = 0.04;
+const WORTH: f64 = 0.025;
 
 /// How many errors a place has to be off by to be told.
 const SURE: f64 = 3.0;
@@ -28,7 +28,7 @@ pub(super) fn verdict(
     let correction = levels.correction(one).filter(|_| one.kind == Kind::Here);
     let doubt = match one.kind {
         Kind::Here if off > FAR * lambda && told => Some(format!(
-            "the probe seems to have been {} of the point, at {} (put it there, or give the place it is at)",
+            "the probe seems to have been {} the point, at {} (put it there, or give the place it is at)",
             away(at, one.nearby.at),
             one.nearby.at
         )),
@@ -84,31 +84,26 @@ fn elsewhere(bench: &Bench, judged: &[Judged], point: usize, at: Point, whose: W
             ),
         },
         Whose::Actuator(a) => format!(
-            "its recording fits the place of actuator `{}`: is the probe on its own channel?",
+            "its recording fits the place of actuator `{}`: is the probe wired to its own channel?",
             bench.surface.actuators[a].name
         ),
         Whose::Nobody => format!(
-            "the probe seems to have been {} of the point, at {at} (put it there, or give the place it is at)",
+            "the probe seems to have been {} the point, at {at} (put it there, or give the place it is at)",
             away(bench.places[point], at)
         ),
     }
 }
 
-/// How far and which way a place is from another: `3.1 mm to the right`.
+/// How far and which way a place is from another: `3.1 mm to the right of`.
 fn away(from: Point, to: Point) -> String {
     let (dx, dy) = (to.x - from.x, to.y - from.y);
     let way = match dx.abs() > dy.abs() {
-        true if dx > 0.0 => "right",
-        true => "left",
-        false if dy > 0.0 => "up",
-        false => "down",
+        true if dx > 0.0 => "to the right of",
+        true => "to the left of",
+        false if dy > 0.0 => "above",
+        false => "below",
     };
-    let side = match way {
-        "up" => "above",
-        "down" => "below",
-        other => return format!("{:.1} mm to the {other}", 1e3 * from.distance(to)),
-    };
-    format!("{:.1} mm {side}", 1e3 * from.distance(to))
+    format!("{:.1} mm {way}", 1e3 * from.distance(to))
 }
 
 /// Notes and doubts of all points, alike ones together.
@@ -126,7 +121,7 @@ pub(super) fn gather(
         }
         if let Some((at, _)) = point.fits {
             notes.push(format!(
-                "point {number}: the probe may have been {} (± {:.1} mm)",
+                "point {number}: the probe may have been {} it (± {:.2} mm)",
                 away(point.at, at),
                 1e3 * judged[p].error
             ));
