@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Scratch, json, number, refused};
+use common::{Scratch, json, number, refused, run};
 use unripple::core::{ModalResponses, Point, Responses, Surface};
 use unripple::field::Field;
 use unripple::focus::{Focuser, Method, Options, Target};
@@ -76,6 +76,57 @@ fn actuators_alone_make_a_library_of_points_anywhere() {
     let focus = ["focus", &fitted, "--at", "62,90", "--window-ms", "30", "--on", &file, "-o"];
     let focus = json(&[&focus[..], &[&scratch.join("touch")]].concat());
     assert!(number(&focus, "/targets/0/contrast") > 1.0);
+}
+
+/// Two takes of a probe that were exchanged: the model is as good as ever, and is not corrected by them.
+#[test]
+fn probed_points_that_contradict_the_model_are_left_out_and_named() {
+    let scratch = Scratch::new("fit-exchanged");
+    let file = scratch.file("film.toml", film());
+    let (heard, fitted) = (scratch.join("heard"), scratch.join("fitted"));
+    let points = ["--at", "62,90", "--at", "100,60", "--at", "45,50"];
+    json(&[&["calibrate", &file, "--unknowns", "7", "-o", &heard][..], &points].concat());
+    let mut library = Library::open(&heard).unwrap();
+    let (first, second) = (library.get(0).unwrap(), library.get(1).unwrap());
+    for (point, samples) in [(0, &second), (1, &first)] {
+        let quality = library.quality(point).unwrap();
+        library.put(point, samples, &quality).unwrap();
+    }
+    drop(library);
+    let report = json(&["fit", &heard, "--at", "62,90", "-o", &fitted]);
+    println!("{report:#}");
+    assert_eq!(report["verdict"], "good");
+    let left_out: Vec<&str> =
+        report["left_out"].as_array().unwrap().iter().filter_map(|v| v.as_str()).collect();
+    assert_eq!(left_out.len(), 2, "{left_out:?}");
+    assert!(left_out[0].starts_with("point 1:") && left_out[1].starts_with("point 2:"), "{left_out:?}");
+    assert!(left_out.iter().all(|why| why.contains("exchanged")), "{left_out:?}");
+    let plant = Responses::Modal(truth(&load_surface(&file).unwrap(), 7));
+    let at = Point::from_mm(62.0, 90.0);
+    let known = Responses::Sampled(Library::open(&fitted).unwrap().responses().unwrap());
+    let contrast = |known| contrast(&plant, known, Method::TimeReversal, at);
+    assert!(contrast(&known) > 0.97 * contrast(&plant));
+}
+
+/// With stray masses that it is not allowed to find, a model is doubtful: exit 1 and no library, unless it is asked for.
+#[test]
+fn a_doubtful_fit_writes_no_library_unless_asked() {
+    let scratch = Scratch::new("fit-doubtful");
+    let file = scratch.file("film.toml", film());
+    let (heard, fitted) = (scratch.join("heard"), scratch.join("fitted"));
+    json(&["calibrate", &file, "--unknowns", "7", "-o", &heard]);
+    let fit = ["fit", &heard, "--strays", "0", "--at", "62,90", "-o", &fitted];
+    let said = |arguments: &[&str]| {
+        let output = run(arguments);
+        assert_eq!(output.status.code(), Some(1));
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    let without = said(&fit);
+    assert!(without.contains("doubtful") && without.contains("--even-if-doubtful"), "{without}");
+    assert!(!Library::is_at(&fitted));
+    assert!(said(&[&fit[..], &["--even-if-doubtful"]].concat()).contains("doubtful"));
+    let library = Library::open(&fitted).unwrap();
+    assert!(library.doubts().iter().any(|doubt| doubt.check == "fit"), "{:?}", library.doubts());
 }
 
 #[test]

@@ -19,6 +19,9 @@ pub struct FitOptions {
     /// Half waves that the tension's profile over the sheet may have; 0 for an even tension.
     #[arg(long, value_name = "N", default_value_t = 3)]
     pub profile: usize,
+    /// Write the library even if the model is doubtful; it says so then, and commands that use it warn.
+    #[arg(long, requires = "output")]
+    pub even_if_doubtful: bool,
     /// Library of the fitted model's responses, blended with what was measured at points nearby. Needs --grid-mm or --at.
     #[arg(short, long, value_name = "FITTED_LIBRARY")]
     pub output: Option<PathBuf>,

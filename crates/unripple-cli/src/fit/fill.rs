@@ -6,7 +6,7 @@ use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 use unripple::core::{Decay, Point, SampledResponses, Surface};
 use unripple_calibrate::{Fitted, Verdict};
-use unripple_store::{Library, LibraryPlan, PointState, Quality, Take};
+use unripple_store::{Doubt, Library, LibraryPlan, PointState, Quality, Take};
 
 /// Points blended and stored at once.
 const BATCH: usize = 64;
@@ -39,6 +39,13 @@ pub fn fill(
             .collect();
         library.put_all(&takes)?;
     }
+    let doubts = match &fitted.verdict {
+        Verdict::Good => Vec::new(),
+        Verdict::Doubtful { why, .. } => {
+            vec![Doubt::of("fit", format!("the fitted model is doubtful: {why}"))]
+        }
+    };
+    library.set_doubts("fit", doubts)?;
     Ok(())
 }
 

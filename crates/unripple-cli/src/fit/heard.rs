@@ -22,6 +22,10 @@ pub struct Heard {
     pub measured: Measured,
     /// The responses at all other points.
     pub probed: SampledResponses,
+    /// What the library calls those points, from 1.
+    pub numbers: Vec<usize>,
+    /// Actuators that are dead, or left out.
+    pub dead: Vec<usize>,
     /// The band that is fitted, in Hz.
     pub band: [f64; 2],
 }
@@ -44,7 +48,9 @@ impl Heard {
                 own.iter().flatten().count(),
             )));
         }
+        let dead = library.dead();
         let one = |n: usize| match own[n % count] {
+            _ if dead.contains(&(n % count)) || dead.contains(&(n / count)) => Vec::new(),
             Some(point) => all.response(n / count, point).iter().map(|v| f64::from(*v)).collect(),
             None => Vec::new(),
         };
@@ -53,16 +59,51 @@ impl Heard {
         let [from, to] = swept(library, surface)?;
         let limited = Band::within(from, to);
         let (rate, band) = (all.conditions.rate, [low.max(LOWEST * limited.low[1]), TOP * high]);
+        let numbers = numbers(library, &all);
         let measured = Measured::reciprocal(rate, responses, [from, to])?.limited_to(limited);
+        let measured = match noise(library, &all, &own, &numbers)? {
+            Some(noise) => measured.with_noise(noise),
+            None => measured,
+        };
         let others: Vec<usize> = (0..all.points.len()).filter(|p| !own.contains(&Some(*p))).collect();
         let probed = all.select(&others).map_err(CliError::work)?;
-        Ok(Self { measured, probed, band })
+        let numbers = others.iter().map(|p| numbers[*p] + 1).collect();
+        Ok(Self { measured, probed, numbers, dead, band })
     }
 
     /// Responses between actuators that there are.
     pub fn count(&self) -> usize {
         self.measured.pairs.iter().flat_map(|p| &p.responses).filter(|r| !r.is_empty()).count()
     }
+}
+
+/// The library's own numbers of the points that could be read, from 0.
+fn numbers(library: &Library, all: &SampledResponses) -> Vec<usize> {
+    let mut done = library.done().into_iter();
+    all.points.iter().filter_map(|at| done.find(|point| library.points()[*point] == *at)).collect()
+}
+
+/// Noise of what actuators hear of each other, root mean square, by the signal to noise that was measured: the median.
+fn noise(
+    library: &Library,
+    all: &SampledResponses,
+    own: &[Option<usize>],
+    numbers: &[usize],
+) -> Result<Option<f64>, CliError> {
+    let mut found = Vec::new();
+    for (sensor, point) in own.iter().enumerate() {
+        let Some(point) = *point else { continue };
+        let qualities = library.quality(numbers[point])?;
+        for (driven, quality) in qualities.iter().enumerate().filter(|(driven, _)| *driven != sensor) {
+            let response = all.response(driven, point);
+            let power = response.iter().map(|h| f64::from(*h).powi(2)).sum::<f64>() / response.len() as f64;
+            if power > 0.0 && quality.signal_to_noise_db.is_finite() {
+                found.push((power * 10f64.powf(-quality.signal_to_noise_db / 10.0)).sqrt());
+            }
+        }
+    }
+    found.sort_unstable_by(f64::total_cmp);
+    Ok(found.get(found.len() / 2).copied())
 }
 
 /// The lowest and the highest frequency that a library was measured with, in Hz: what it says, or what `calibrate` sweeps.

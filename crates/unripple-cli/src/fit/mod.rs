@@ -2,15 +2,18 @@
 
 mod fill;
 mod heard;
+mod probed;
 mod report;
 
 use crate::args::FitOptions;
 use crate::error::CliError;
 use crate::{grid, output};
+use probed::Probed;
 use report::Report;
 use std::path::Path;
 use std::time::Instant;
 use unripple::core::{Point, Surface};
+use unripple_calibrate::Verdict;
 use unripple_store::{Library, StoreError};
 
 /// Most half waves of a profile, and most strays: beyond, a fit takes hours.
@@ -52,14 +55,30 @@ pub fn run(options: &FitOptions, as_json: bool) -> Result<(), CliError> {
         ..unripple_calibrate::FitOptions::default()
     };
     let fitted = unripple_calibrate::fit(&surface, &heard.measured, &plan)?;
+    let probed = Probed::of(&fitted, &surface, &heard)?;
+    let fitted = fitted.scaled(probed.gain);
     let seconds = start.elapsed().as_secs_f64();
     let mut report = Report::of(&options.library, &surface, &fitted, seconds);
-    if let Some(folder) = &options.output {
-        fill::fill(folder, &library, &surface, &fitted, &heard.probed, &wanted)?;
+    report.left_out = probed.left_out;
+    report.notes = probed.notes;
+    let why = match &fitted.verdict {
+        Verdict::Good => None,
+        Verdict::Doubtful { why, .. } => Some(why.clone()),
+    };
+    if let Some(folder) = options.output.as_ref().filter(|_| why.is_none() || options.even_if_doubtful) {
+        fill::fill(folder, &library, &surface, &fitted, &probed.good, &wanted)?;
         report.written =
             Some(report::Written { library: folder.display().to_string(), points: wanted.len() });
     }
-    output::answer(as_json, &report, &report.text())
+    output::answer(as_json, &report, &report.text())?;
+    match (why, &options.output) {
+        (None, _) => Ok(()),
+        (Some(why), Some(folder)) if !options.even_if_doubtful => Err(CliError::Work(format!(
+            "the model is doubtful: {why}; nothing was written to {} (--even-if-doubtful writes it all the same)",
+            folder.display()
+        ))),
+        (Some(why), _) => Err(CliError::Work(format!("the model is doubtful: {why}"))),
+    }
 }
 
 /// Refuses, before minutes of work, a place where the new library cannot be.

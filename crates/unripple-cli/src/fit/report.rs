@@ -25,6 +25,11 @@ pub struct Report {
     decay: Vec<DecayTime>,
     actuators: Vec<Load>,
     strays: Vec<Load>,
+    /// Why probed points contradict the model, and are left out.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub left_out: Vec<String>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
     modes: usize,
     seconds: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -150,6 +155,8 @@ impl Report {
             strays: (fitted.strays.iter().enumerate())
                 .map(|(n, load)| Load::of(format!("stray {}", n + 1), load))
                 .collect(),
+            left_out: Vec::new(),
+            notes: Vec::new(),
             modes: fitted.modal().poles.len(),
             seconds,
             written: None,
@@ -187,6 +194,12 @@ impl Report {
         }
         for load in self.actuators.iter().chain(&self.strays) {
             let _ = writeln!(text, "{}", load.text());
+        }
+        for why in &self.left_out {
+            let _ = writeln!(text, "  left out     {why}");
+        }
+        for note in &self.notes {
+            let _ = writeln!(text, "  note         {note}");
         }
         if let Some(written) = &self.written {
             let _ = writeln!(text, "wrote {}: {} points", written.library, written.points);
