@@ -18,8 +18,8 @@ pub use integral::integral;
 pub use kernel::{bessel_i0, sinc};
 pub use measure::{
     Average, Band, CrossSpectra, Decay, Deconvolver, Delay, Gate, Harmonic, Harmonics, Inversion, Mls,
-    Outliers, Pair, Quality, Reciprocity, Schedule, Split, Stimulus, Sweep, Workspace, clipped, onset, shift,
-    snr_db,
+    Outliers, Pair, Quality, Reciprocity, Remap, Schedule, Split, Stimulus, Sweep, Workspace, band_powers,
+    clipped, onset, shift, snr_db,
 };
 pub use realfft::num_complex::Complex;
 pub use resample::resample;

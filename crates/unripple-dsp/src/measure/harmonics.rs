@@ -107,6 +107,7 @@ impl Harmonics {
         Ok(Self { linear, orders })
     }
 
+    /// The response of an order, or as many samples right `before` it.
     fn response(deconvolved: &[f64], sweep: &Sweep, split: &Split, order: usize) -> Vec<f64> {
         let lead = sweep.lead(order) * sweep.rate;
         let gap = if order > 1 { lead - sweep.lead(order - 1) * sweep.rate } else { f64::INFINITY };
@@ -128,6 +129,49 @@ impl Harmonics {
         response
     }
 
+    /// What share of the amplitude of the drive each order is, from the second, if the drive alone makes it: then its response is the
+    /// linear one's, over and above its own frequencies. `None` where it is not told from `noise`, as it is in the deconvolution (any
+    /// length), and from what rang before and dies away with an amplitude decay time (s).
+    pub fn of_drive(
+        &self,
+        deconvolved: &[f64],
+        sweep: &Sweep,
+        split: &Split,
+        noise: &[f64],
+        decay: f64,
+    ) -> Vec<Option<f64>> {
+        let band = split.band.unwrap_or(Band::within(sweep.from, sweep.to));
+        let flat = [band.low[1].max(sweep.from * EDGE), band.high[0].min(sweep.to / EDGE)];
+        let one = |harmonic: &Harmonic| {
+            let within = [flat[0] * harmonic.order as f64, flat[1]];
+            let lead = (sweep.lead(harmonic.order) * sweep.rate).ceil() as i64;
+            let gap = lead as f64 - sweep.lead(harmonic.order - 1) * sweep.rate;
+            // The end of the gap holds the beginning of the next order, which the band begins early.
+            let length = ((SHARE * gap) as usize).clamp(1, split.window);
+            let power = |first: i64| {
+                let mut signal = vec![0.0; length];
+                cut(deconvolved, first, &mut signal);
+                gated(&mut signal, split.lead);
+                power(&signal, split.window, sweep.rate, within)
+            };
+            let begin = split.start as i64;
+            let [linear, own, before] = [begin, begin - lead, begin - lead - length as i64].map(power);
+            let mut noise = noise.to_vec();
+            noise.truncate(split.window);
+            let stretch = noise.len() as f64;
+            gated(&mut noise, split.lead);
+            let noise = self::power(&noise, split.window, sweep.rate, within) * length as f64 / stretch;
+            let left = (-2.0 * length as f64 / sweep.rate / decay).exp();
+            let known = noise + left * (before - noise).max(0.0);
+            // Of powers of so many independent values each, their scatter.
+            let width = (within[1] - within[0]).max(0.0) / sweep.rate;
+            let scatter = (1.0 / (width * length as f64) + 1.0 / (width * stretch)).sqrt();
+            let told = own > known * (1.0 + SURE * scatter).max(TOLD);
+            (told && linear > 0.0).then(|| ((own - known) / linear).sqrt())
+        };
+        self.orders.iter().map(one).collect()
+    }
+
     /// Total harmonic distortion: all harmonics' power over the linear one's, as a ratio of amplitudes.
     pub fn distortion(&self) -> f64 {
         self.orders.iter().map(|harmonic| harmonic.ratio.powi(2)).sum::<f64>().sqrt()
@@ -137,6 +181,21 @@ impl Harmonics {
     pub fn distortion_db(&self) -> f64 {
         20.0 * self.distortion().log10()
     }
+}
+
+/// Power over its background from which a harmonic is one.
+const TOLD: f64 = 2.0;
+
+/// Standard deviations by which it has to stand out.
+const SURE: f64 = 6.0;
+
+/// Share of the time from one order to the next that is looked at.
+const SHARE: f64 = 0.75;
+
+/// Opens over the lead and closes over as much, so that what is cut off does not spread.
+fn gated(signal: &mut [f64], lead: usize) {
+    let (length, edge) = (signal.len() as f64, lead.min(signal.len() / 2) as f64);
+    Gate { begin: 0.0, rise: edge / 2.0, end: length, fall: edge }.apply(signal);
 }
 
 /// How far into the sweep, in frequency, its fades reach.
