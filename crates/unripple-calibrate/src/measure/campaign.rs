@@ -1,5 +1,4 @@
-use super::session::{Channel, Listen};
-use super::{Rig, Session, TapSession};
+use super::{Channel, Listen, Rig, Session, TapSession};
 use crate::CalibrateError;
 use unripple_core::Point;
 

@@ -1,8 +1,11 @@
-use super::Channel;
+use super::{Channel, Knocked};
 use crate::CalibrateError;
 use crate::error::require;
-use unripple_core::{Layout, Surface};
-use unripple_dsp::Sweep;
+use unripple_core::{Layout, ModalResponses, Surface};
+use unripple_dsp::{Quality, Sweep};
+
+/// Decay time of amplitude, in s, that the default sweep, ringing and response are for: they are 7, 5 and 1.4 times as long.
+const USUAL_DECAY: f64 = 0.07;
 
 /// How responses are measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,7 +65,44 @@ impl Default for MeasureOptions {
     }
 }
 
+/// Most repeats that anybody is advised to make.
+const MOST_REPEATS: f64 = 99.0;
+
+/// Longest response that is kept, in s.
+const MOST_KEPT: f64 = 60.0;
+
 impl MeasureOptions {
+    /// What suits a surface that is thought to be like a model: sweep, ringing and response in proportion to the slowest decay in
+    /// the band, and those of [`MeasureOptions::default`] up to 70 ms.
+    ///
+    /// The next sweep's response begins when e⁻⁵ is left of the last, and the second harmonic comes before the linear response by 1.4
+    /// decay times: both as far apart in a slow surface as in a quick one.
+    pub fn for_model(model: &ModalResponses) -> Self {
+        let usual = Self::default();
+        let times = slowest_decay(model, usual.from) / USUAL_DECAY;
+        // What differs in the last digits is the same surface, and the same plan.
+        let times = if times > 1.001 { times } else { 1.0 };
+        Self { sweep: times * usual.sweep, ringing: times * usual.ringing, kept: times * usual.kept, ..usual }
+    }
+
+    /// What is too short for a surface that is thought to be like a model, a sentence each.
+    pub fn warnings(&self, model: &ModalResponses) -> Vec<String> {
+        let suited = Self::for_model(model);
+        let decay = 1e3 * slowest_decay(model, self.from);
+        let of = [
+            ("sweep", self.sweep, suited.sweep, "harmonics lie in each other's ringing"),
+            ("pause", self.ringing, suited.ringing, "sweeps lie in each other's ringing"),
+            ("response", self.kept, suited.kept, "what rings on later is left out"),
+        ];
+        let short = of.into_iter().filter(|(_, found, wanted, _)| *found < 0.999 * wanted);
+        short
+            .map(|(what, found, wanted, why)| {
+                let [found, wanted] = [found, wanted].map(|s| 1e3 * s);
+                format!("{what}: {found:.0} ms are short for a surface that rings for {decay:.0} ms ({wanted:.0} ms would do): {why}")
+            })
+            .collect()
+    }
+
     /// The sweep for a surface on a device.
     ///
     /// # Errors
@@ -85,8 +125,8 @@ impl MeasureOptions {
         )?;
         require(
             "seconds kept of a response",
-            self.kept > 0.0 && self.kept <= self.ringing,
-            "at most those of ringing",
+            self.kept > 0.0 && self.kept <= MOST_KEPT,
+            "above 0, at most 60",
             self.kept,
         )?;
         require("repeats", self.repeats >= 1, "1 or more", self.repeats as f64)?;
@@ -109,27 +149,66 @@ impl MeasureOptions {
 
     /// Why a channel is bad, if it is: its first response that is worse than asked. `each` is what its responses are counted by.
     pub(super) fn fault(&self, channel: &Channel, each: &str) -> Option<String> {
-        channel.quality.iter().enumerate().find_map(|(index, quality)| {
+        let matters = |knock: &&Knocked| !knock.left_out && knock.share_db > -self.least_snr_db;
+        if let Some(knock) = channel.account.knocks.iter().find(matters) {
+            let hit: Vec<String> = knock.actuators.iter().map(usize::to_string).collect();
+            return Some(format!(
+                "a knock at {:.2} s (in the sweeps of {each} {})",
+                knock.at_s,
+                hit.join(", ")
+            ));
+        }
+        let one = |(index, quality): (usize, &Quality)| {
             if self.without.contains(&index) {
                 return None;
             }
             let (number, snr_db) = (index + 1, quality.snr_db);
-            if snr_db.is_nan() || snr_db < self.least_snr_db {
-                let least = self.least_snr_db;
+            let most = self.most_distortion_db;
+            if let Some(distortion) = quality.distortion_db.filter(|db| *db > most && snr_db > 0.0) {
                 return Some(format!(
-                    "{each} {number}: signal to noise {snr_db:.1} dB, expected {least:.0} or more"
+                    "{each} {number}: distortion {distortion:.1} dB, expected {most:.0} or less (is the drive clipped?)"
                 ));
             }
-            let most = self.most_distortion_db;
-            let distortion = quality.distortion_db.filter(|db| *db > most)?;
-            Some(format!(
-                "{each} {number}: distortion {distortion:.1} dB, expected {most:.0} or less (is the drive clipped?)"
-            ))
-        })
+            let least = self.least_snr_db;
+            if snr_db >= least {
+                return None;
+            }
+            Some(match snr_db > f64::NEG_INFINITY {
+                true => {
+                    format!("{each} {number}: signal to noise {snr_db:.1} dB, expected {least:.0} or more")
+                }
+                false => format!(
+                    "{each} {number}: nothing is heard of it (signal to noise below 0 dB, expected {least:.0} or more); is it \
+                     connected?"
+                ),
+            })
+        };
+        channel.quality.iter().enumerate().find_map(one)
+    }
+
+    /// Times that a place should be measured so that a channel's worst response has a signal to noise of `wanted_db`: noise falls with
+    /// their number. 0 if no number will do (99 at most).
+    pub fn repeats_for(&self, channel: &Channel, wanted_db: f64) -> usize {
+        let worst = channel.quality.iter().map(|quality| quality.snr_db).fold(f64::INFINITY, f64::min);
+        let times = self.repeats as f64 * 10f64.powf((wanted_db - worst) / 10.0);
+        if times <= MOST_REPEATS { times.ceil().max(1.0) as usize } else { 0 }
+    }
+
+    /// Samples that responses are kept apart by, at least as many as are kept of them.
+    pub(super) fn apart(&self, rate: f64) -> usize {
+        ((self.ringing * rate).round() as usize).max(self.samples(rate))
     }
 
     /// Samples kept of a response.
     pub fn samples(&self, rate: f64) -> usize {
         (self.kept * rate).round() as usize + 1
     }
+}
+
+/// Seconds in which the amplitude of the slowest mode in the band falls to 1/e, above `from` Hz; 0 without modes there.
+pub fn slowest_decay(model: &ModalResponses, from: f64) -> f64 {
+    let [low, high] = model.conditions.band.map(|hz| std::f64::consts::TAU * hz);
+    let low = low.max(std::f64::consts::TAU * from);
+    let within = model.poles.iter().filter(|pole| (low..=high).contains(&pole.omega) && pole.sigma > 0.0);
+    within.map(|pole| 1.0 / pole.sigma).fold(0.0, f64::max)
 }

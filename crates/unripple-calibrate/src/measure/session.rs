@@ -1,40 +1,40 @@
-use super::{Hearing, MeasureOptions, Rig, Wires, latency, record};
+use super::law::Law;
+use super::take::{Judge, Verdict};
+use super::{Channel, Hearing, MeasureOptions, Rig, Wires, latency, record};
 use crate::CalibrateError;
 use unripple_core::{Layout, ModalResponses, PROBE, Point, Surface};
-use unripple_dsp::{
-    Average, Band, Deconvolver, Delay, Harmonics, Inversion, Outliers, Quality, Schedule, Split, Sweep,
-};
+use unripple_dsp::{Band, Deconvolver, Delay, Inversion, Schedule, Sweep, shift};
 
 /// Longest latency that is looked for, in s.
 const LATEST: f64 = 0.25;
 
 /// Samples before time 0 that deconvolved responses begin with, for latency and noise: 5 ms at 48 kHz.
-const LEAD: usize = 240;
+pub(super) const LEAD: usize = 240;
+
+/// Sensors that tell of clock, gaps and tension, at most: more tell the same.
+const TELLING: usize = 8;
 
 /// A plan for measuring at any number of places, with all actuators driven one after the other.
 ///
 /// Sweeps overlap: the next actuator begins while the last still sounds, as soon as their responses, and harmonics up to
-/// [`MeasureOptions::highest_order`], stay apart after one deconvolution of all.
+/// [`MeasureOptions::highest_order`], stay apart after one deconvolution of all. Where actuators have sensors, these are heard
+/// in every take: what they tell of clock, gaps and tension is taken out of what is measured ([`Account`]).
 #[derive(Clone, Debug)]
 pub struct Session {
     surface: Surface,
-    options: MeasureOptions,
-    wires: Wires,
-    sweep: Sweep,
-    schedule: Schedule,
-    plan: Deconvolver,
+    pub(super) options: MeasureOptions,
+    pub(super) wires: Wires,
+    pub(super) sweep: Sweep,
+    pub(super) schedule: Schedule,
+    pub(super) plan: Deconvolver,
     drive: Vec<Vec<f64>>,
-    heard: usize,
-    band: Band,
-}
-
-/// What an input heard of every actuator.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Channel {
-    /// Responses, `[actuator][sample]` from time 0, in the input's unit per unit impulse of drive.
-    pub responses: Vec<Vec<f64>>,
-    /// How good each is.
-    pub quality: Vec<Quality>,
+    pub(super) heard: usize,
+    pub(super) band: Band,
+    pub(super) law: Law,
+    /// Numbers of the actuators whose sensors tell.
+    telling: Vec<usize>,
+    /// What these heard in the first take, `[sensor][actuator][sample]`.
+    known: Option<Vec<Vec<Vec<f64>>>>,
 }
 
 /// Who listens.
@@ -44,6 +44,12 @@ pub enum Listen {
     Probe,
     /// Each actuator's own sensor.
     Sensors,
+}
+
+/// One recording of some inputs, mended.
+pub(super) struct Take {
+    pub lines: Vec<Vec<f64>>,
+    pub verdict: Verdict,
 }
 
 impl Session {
@@ -59,7 +65,7 @@ impl Session {
         options: &MeasureOptions,
     ) -> Result<Self, CalibrateError> {
         let sweep = options.sweep(surface, layout)?;
-        let window = (options.ringing * sweep.rate).round() as usize + LEAD;
+        let window = options.apart(sweep.rate) + LEAD;
         let actuators = wires.drives.len();
         let schedule = Schedule::interleaved(&sweep, actuators, window, options.highest_order)?;
         let whole = schedule.samples();
@@ -73,9 +79,13 @@ impl Session {
         let inversion =
             Inversion { band: Some(band), latency: options.latency, lead: LEAD, ..Inversion::default() };
         let plan = Deconvolver::new(schedule.stimulus(), heard, &inversion)?;
+        let sensors = wires.sensors.len();
+        let telling = (0..sensors.min(TELLING)).map(|i| i * sensors / sensors.clamp(1, TELLING)).collect();
+        let law = Law::of(&surface.sheet, 1.1 * sweep.to);
+        let (surface, options) = (surface.clone(), options.clone());
         Ok(Self {
-            surface: surface.clone(),
-            options: options.clone(),
+            surface,
+            options,
             wires,
             sweep,
             schedule,
@@ -83,7 +93,31 @@ impl Session {
             drive,
             heard,
             band,
+            law,
+            telling,
+            known: None,
         })
+    }
+
+    /// Holds all takes to come against what the sensors heard in this one, from [`Listen::Sensors`] or out of a library: their
+    /// clock, their latency and the sheet's tension are brought to it.
+    ///
+    /// # Errors
+    /// [`CalibrateError::Count`] for another number of sensors or responses than actuators.
+    pub fn follow(&mut self, sensors: &[Channel]) -> Result<(), CalibrateError> {
+        let count = self.wires.drives.len();
+        let counts = sensors.iter().map(|channel| channel.responses.len()).chain([sensors.len()]);
+        if let Some(found) = counts.into_iter().find(|found| *found != count) {
+            let expected = count.to_string();
+            return Err(CalibrateError::Count { what: "responses between actuators", expected, found });
+        }
+        // As a library keeps them, so that a run that is taken up again finds the same.
+        let kept = |channel: &Channel| -> Vec<Vec<f64>> {
+            let rounded = |response: &Vec<f64>| response.iter().map(|h| f64::from(*h as f32)).collect();
+            channel.responses.iter().map(rounded).collect()
+        };
+        self.known = Some(self.telling.iter().map(|sensor| kept(&sensors[*sensor])).collect());
+        Ok(())
     }
 
     /// The band in which responses are measured.
@@ -104,7 +138,8 @@ impl Session {
     /// Plays the sweeps and finds the responses, of the probe or of each sensor in turn.
     ///
     /// # Errors
-    /// [`CalibrateError::Recording`] without an input for the probe; those of the rig and of [`record`].
+    /// [`CalibrateError::Recording`] without an input for the probe, for clocks too far apart, or for samples lost where nothing
+    /// tells the place; those of the rig and of [`record`].
     pub fn measure(
         &self,
         rig: &mut dyn Rig,
@@ -124,20 +159,75 @@ impl Session {
                 });
             }
         };
-        let mut repeats = vec![Vec::with_capacity(self.options.repeats); inputs.len()];
+        let mut takes = Vec::with_capacity(self.options.repeats);
         for repeat in 0..self.options.repeats as u64 {
             rig.ready(number, at, attempt * self.options.repeats as u64 + repeat)?;
-            let heard = record(rig.device(), &self.wires.drives, &self.drive, &inputs, self.heard)?;
-            repeats.iter_mut().zip(heard).for_each(|(repeats, heard)| repeats.push(heard));
+            let mut take = self.take(rig, &inputs)?;
+            if listen == Listen::Probe {
+                let delay = self.options.probe_delay.unwrap_or(0.0) * self.sweep.rate;
+                take.lines.iter_mut().filter(|_| delay != 0.0).for_each(|line| *line = shift(line, -delay));
+            }
+            takes.push(take);
         }
-        repeats.iter().map(|repeats| self.channel(repeats, LEAD)).collect()
+        (0..inputs.len()).map(|input| self.channel(&takes, input, LEAD)).collect()
+    }
+
+    /// Records some inputs, and all that tells of the take.
+    fn take(&self, rig: &mut dyn Rig, inputs: &[usize]) -> Result<Take, CalibrateError> {
+        let mut asked = inputs.to_vec();
+        let own: Vec<usize> = self.telling.iter().map(|actuator| self.wires.sensors[*actuator]).collect();
+        asked.extend(own.iter().chain(&self.wires.reference).filter(|input| !inputs.contains(input)));
+        let heard = record(rig.device(), &self.wires.drives, &self.drive, &asked, self.heard)?;
+        let line = |input: &usize| {
+            let place = asked.iter().position(|one| one == input)?;
+            heard.get(place).filter(|line| line.iter().any(|x| *x != 0.0)).map(Vec::as_slice)
+        };
+        let known = self.known.as_deref();
+        let telling: Vec<usize> = (0..own.len()).filter(|i| line(&own[*i]).is_some()).collect();
+        let mut lines: Vec<&[f64]> = telling.iter().filter_map(|i| line(&own[*i])).collect();
+        let sensors: Vec<usize> = telling.iter().map(|i| self.telling[*i]).collect();
+        let known: Option<Vec<Vec<Vec<f64>>>> =
+            known.map(|known| telling.iter().map(|i| known[*i].clone()).collect());
+        let known = known.filter(|known| !known.is_empty());
+        if lines.is_empty() {
+            lines.extend(self.wires.reference.as_ref().and_then(line));
+        }
+        let verdict = self.judge(&lines, &sensors, known.as_deref())?;
+        let mend = |line: &Vec<f64>| match verdict.mend.is_needed(line.len()) {
+            true => verdict.mend.of(line),
+            false => line.clone(),
+        };
+        Ok(Take { lines: heard.iter().take(inputs.len()).map(mend).collect(), verdict })
+    }
+
+    fn judge(
+        &self,
+        lines: &[&[f64]],
+        sensors: &[usize],
+        known: Option<&[Vec<Vec<f64>>]>,
+    ) -> Result<Verdict, CalibrateError> {
+        let judge = Judge {
+            sensors,
+            known,
+            starts: self.schedule.starts(),
+            sounding: self.schedule.stimulus().samples().len(),
+            drive: &self.drive,
+            lead: LEAD,
+            length: LEAD + self.options.samples(self.sweep.rate),
+            latency: self.options.latency,
+            rate: self.sweep.rate,
+            band: self.band,
+            law: &self.law,
+            deconvolve: &|line| self.whole(line),
+        };
+        judge.judge(lines)
     }
 
     /// Samples by which what is heard comes late, and how far actuators disagree on it: by the reference channel if there is
     /// one, otherwise by what actuators hear of themselves. See [`latency`]. `None` if there is neither.
     ///
     /// # Errors
-    /// Those of the rig, of [`record`] and of [`latency`].
+    /// Those of the rig, of [`record`] and of [`latency`]; of [`Session::measure`] for clocks and samples lost.
     pub fn find_latency(
         &self,
         rig: &mut dyn Rig,
@@ -153,8 +243,8 @@ impl Session {
             return Ok(None);
         }
         rig.ready(number, at, 0)?;
-        let heard = record(rig.device(), &self.wires.drives, &self.drive, &inputs, self.heard)?;
-        let mut windows = heard.iter().map(|one| self.windows(one)).collect::<Result<Vec<_>, _>>()?;
+        let take = self.take(rig, &inputs)?;
+        let mut windows = take.lines.iter().map(|line| self.windows(line)).collect::<Result<Vec<_>, _>>()?;
         let known = self.options.latency;
         if let (Some(_), [reference]) = (self.wires.reference, &windows[..]) {
             let power = |h: &&Vec<f64>| h.iter().map(|x| x * x).sum::<f64>();
@@ -164,7 +254,11 @@ impl Session {
             return Ok(Some([found.samples - LEAD as f64 + known, 0.0]));
         }
         // What is left out has nothing to say.
-        self.options.without.iter().filter_map(|a| windows.get_mut(*a)).for_each(Vec::clear);
+        for actuator in &self.options.without {
+            if let Some(window) = windows.get_mut(*actuator) {
+                window.clear();
+            }
+        }
         let hearing = Hearing::of(&self.surface, model)?;
         let [late, spread] = latency(&windows, &hearing, LEAD, self.sweep.rate, self.band)?;
         Ok(Some([late + known, spread]))
@@ -172,71 +266,12 @@ impl Session {
 
     /// The responses to all actuators from what one input heard, as long as they are kept apart, with the lead.
     fn windows(&self, heard: &[f64]) -> Result<Vec<Vec<f64>>, CalibrateError> {
-        let mut whole = vec![0.0; self.plan.size()];
-        self.plan.deconvolve(
-            &heard[..self.heard.min(heard.len())],
-            &mut whole,
-            &mut self.plan.workspace(),
-        )?;
+        let whole = self.whole(heard)?;
         let cut = |actuator: usize| {
             let mut cut = vec![0.0; self.schedule.window()];
             self.schedule.cut(&whole, actuator, &mut cut).map(|()| cut)
         };
         Ok((0..self.wires.drives.len()).map(cut).collect::<Result<Vec<_>, _>>()?)
-    }
-
-    /// Responses and their quality from what one input heard, repeat by repeat, without the first `from` samples of the lead.
-    fn channel(&self, repeats: &[Vec<f64>], from: usize) -> Result<Channel, CalibrateError> {
-        let size = self.plan.size();
-        let mut whole = vec![vec![0.0; size]; repeats.len()];
-        let mut workspace = self.plan.workspace();
-        for (whole, heard) in whole.iter_mut().zip(repeats) {
-            self.plan.deconvolve(&heard[..self.heard.min(heard.len())], whole, &mut workspace)?;
-        }
-        let mut channel = Channel { responses: Vec::new(), quality: Vec::new() };
-        let samples = self.options.samples(self.sweep.rate);
-        for actuator in 0..self.wires.drives.len() {
-            let (response, quality) = self.response(&whole, actuator)?;
-            channel.responses.push(response[from..].iter().take(samples + LEAD - from).copied().collect());
-            channel.quality.push(quality);
-        }
-        Ok(channel)
-    }
-
-    fn response(&self, whole: &[Vec<f64>], actuator: usize) -> Result<(Vec<f64>, Quality), CalibrateError> {
-        let window = self.schedule.window();
-        let mut cuts = vec![vec![0.0; window]; whole.len()];
-        for (cut, whole) in cuts.iter_mut().zip(whole) {
-            self.schedule.cut(whole, actuator, cut)?;
-        }
-        let rows: Vec<&[f64]> = cuts.iter().map(Vec::as_slice).collect();
-        let average = Average::of(&rows, Outliers::default())?;
-        // The last tenth of a window holds what is left when the surface has come to rest: noise.
-        let tail = &average.mean[window - window / 10..];
-        let mut quality = Quality::of(&average.mean[LEAD..], tail, self.sweep.rate)?;
-        if average.kept.iter().filter(|kept| **kept).count() > 1 {
-            quality.snr_db = average.snr_db();
-            quality.coherence = Some(average.coherence());
-        }
-        if self.options.highest_order >= 2 {
-            quality.distortion_db = Some(self.distortion_db(&whole[0], actuator)?);
-        }
-        Ok((average.mean, quality))
-    }
-
-    fn distortion_db(&self, whole: &[f64], actuator: usize) -> Result<f64, CalibrateError> {
-        let split = Split {
-            start: self.schedule.starts()[actuator],
-            lead: LEAD,
-            window: self.schedule.window(),
-            highest_order: self.options.highest_order,
-            band: Some(self.band),
-        };
-        Ok(match Harmonics::of(whole, &self.sweep, &split) {
-            Ok(harmonics) => harmonics.distortion_db(),
-            // A silent channel has no distortion to speak of; its signal to noise says the rest.
-            Err(_) => f64::NEG_INFINITY,
-        })
     }
 
     /// Why a channel is bad, if it is: its worst response against the least that is asked.

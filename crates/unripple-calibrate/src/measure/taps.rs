@@ -1,5 +1,4 @@
-use super::session::Channel;
-use super::{MeasureOptions, Rig, TapOptions, Wires, record, tapped};
+use super::{Channel, MeasureOptions, Rig, TapOptions, Wires, record, tapped};
 use crate::CalibrateError;
 use unripple_core::{Layout, ModalResponses, Point, Surface};
 use unripple_dsp::{Band, Quality, shift};
@@ -92,7 +91,7 @@ impl TapSession {
             Ok(Quality { snr_db, coherence: Some(1.0 - found.unexplained), ..own })
         });
         let quality = quality.collect::<Result<Vec<_>, CalibrateError>>()?;
-        Ok(Channel { responses: found.responses, quality })
+        Ok(Channel { responses: found.responses, quality, ..Channel::default() })
     }
 
     /// Why a channel is bad, if it is: too little signal.

@@ -1,0 +1,98 @@
+//! What a take tells of itself beside the responses.
+
+/// Samples that were lost, or repeated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lost {
+    /// How many; negative if as many were heard twice.
+    pub samples: i64,
+    /// Where, in s of what is played: not before and not after.
+    pub between_s: [f64; 2],
+    /// The last sweep that ended before, and the first that began after; from 1.
+    pub sweeps: [usize; 2],
+}
+
+/// Something that was heard and not played.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Knocked {
+    /// Where, in s of what is played.
+    pub at_s: f64,
+    /// The actuators whose sweeps it hit, from 1.
+    pub actuators: Vec<usize>,
+    /// Its energy over that of one sweep as heard, in dB.
+    pub share_db: f64,
+    /// Whether other takes of the same point stand in for the sweeps that it hit.
+    pub left_out: bool,
+}
+
+/// What the sweeps of a take tell of its clock, its gaps, the sheet's tension and what else was heard. `None` is not known:
+/// nothing that could tell was recorded.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Account {
+    /// By how much the clock of the recording is quicker than that of what is played, in millionths; taken out.
+    pub clock_ppm: Option<f64>,
+    /// Standard error of that.
+    pub clock_error_ppm: f64,
+    /// Samples by which it came late beside the first take; taken out.
+    pub late: Option<f64>,
+    /// Samples lost, put back as far as that goes.
+    pub lost: Vec<Lost>,
+    /// Tension (stiffness, of a plate without tension) beside the first take, as a share more, at the first and the last
+    /// sweep; taken out.
+    pub drift: Option<[f64; 2]>,
+    /// Whether it is stiffness that `drift` speaks of.
+    pub of_stiffness: bool,
+    /// What knocked.
+    pub knocks: Vec<Knocked>,
+    /// Largest magnitude that was heard, in the device's unit: 1 is full scale.
+    pub peak: f64,
+    /// Second and third harmonic of each actuator, as a share of the amplitude; NaN where none was told apart.
+    pub harmonics: Vec<[f64; 2]>,
+}
+
+/// Clocks closer than this, in millionths, are not worth a word.
+const SAME_PPM: f64 = 0.5;
+
+/// Neither is a change of tension below this share.
+const SAME_TENSION: f64 = 1e-4;
+
+/// Nor a delay below this many samples.
+const SAME_TIME: f64 = 0.05;
+
+impl Account {
+    /// What there is to say of it, a sentence each; nothing of what is as it should be.
+    pub fn said(&self) -> Vec<String> {
+        let mut said = Vec::new();
+        if let Some(ppm) = self.clock_ppm.filter(|ppm| ppm.abs() >= SAME_PPM) {
+            let side = if ppm > 0.0 { "fast" } else { "slow" };
+            let ppm = ppm.abs();
+            said.push(format!("the recording's clock runs {ppm:.1} millionths {side}: resampled"));
+        }
+        for lost in &self.lost {
+            let (count, what) = (lost.samples.abs(), if lost.samples > 0 { "lost" } else { "heard twice" });
+            let ([from, to], [before, after]) = (lost.between_s, lost.sweeps);
+            said.push(format!(
+                "{count} samples were {what} between {from:.3} and {to:.3} s, between sweeps {before} and {after}: what comes \
+                 after was moved back"
+            ));
+        }
+        if let Some(late) = self.late.filter(|late| late.abs() >= SAME_TIME) {
+            let side = if late > 0.0 { "later" } else { "earlier" };
+            let late = late.abs();
+            said.push(format!("it was heard {late:.2} samples {side} than the first: moved back"));
+        }
+        if let Some([first, last]) = self.drift.filter(|drift| drift.iter().any(|x| x.abs() >= SAME_TENSION))
+        {
+            let what = if self.of_stiffness { "stiffness" } else { "tension" };
+            let (first, last) = (100.0 * first, 100.0 * last);
+            said.push(format!(
+                "{what} was {first:+.2} % beside the first recording, {last:+.2} % at its end: taken out"
+            ));
+        }
+        said.extend(self.knocks.iter().map(|knock| {
+            let (at, left) =
+                (knock.at_s, if knock.left_out { ": the sweeps that it hit were left out" } else { "" });
+            format!("a knock at {at:.2} s{left}")
+        }));
+        said
+    }
+}

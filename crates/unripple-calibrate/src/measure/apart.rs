@@ -1,0 +1,221 @@
+//! How much later, and under how much more tension, some responses are than the same ones of another time.
+
+use super::law::Law;
+use realfft::num_complex::Complex;
+use std::f64::consts::TAU;
+use unripple_dsp::{Band, Remap};
+
+/// Largest change of tension that is looked for, as a share: twice what is promised, and more than any warm hand does.
+const MOST_CHANGE: f64 = 0.016;
+
+/// Radians that the end of a response turns from one change that is tried to the next.
+const TURN: f64 = 1.0;
+
+/// Largest delay in samples, either way, that is looked for: whole ones are taken out beforehand.
+const MOST_DELAY: f64 = 2.5;
+
+/// What sets two takes of the same responses apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Apart {
+    /// Samples by which the one comes later than the other.
+    pub late: f64,
+    /// Change of tension (or stiffness), as a share.
+    pub change: f64,
+    /// Their correlation once both are taken out, from -1 to 1.
+    pub likeness: f64,
+    /// Standard error of `late` and of `change`, from what is left.
+    pub errors: [f64; 2],
+}
+
+/// Pairs of responses, what was known and what was found, ready to be compared.
+pub(super) struct Pairs<'a> {
+    known: Vec<Remap>,
+    found: Vec<Vec<Complex<f64>>>,
+    law: &'a Law,
+    /// First and last frequency, in Hz.
+    band: [f64; 2],
+    /// Radians per sample and line, and of the first line.
+    turns: [f64; 2],
+    samples: usize,
+    rate: f64,
+}
+
+impl<'a> Pairs<'a> {
+    /// Of responses of equal length whose time 0 is their sample `origin`. Silent ones do not count; `None` if none is left.
+    pub fn of(
+        pairs: &[(&[f64], &[f64])],
+        origin: usize,
+        rate: f64,
+        band: Band,
+        law: &'a Law,
+    ) -> Option<Self> {
+        let within = [band.low[0], band.high[1]];
+        let samples = pairs.first()?.0.len();
+        let mut made =
+            Self { known: Vec::new(), found: Vec::new(), law, band: within, turns: [0.0; 2], samples, rate };
+        for (known, found) in pairs {
+            let [known, found] = [*known, *found].map(|signal| faded(signal, band, rate));
+            if [&known, &found].iter().any(|signal| !signal.iter().any(|x| *x != 0.0)) {
+                continue;
+            }
+            let known = Remap::new(&known, rate, origin as f64);
+            let lines = Remap::new(&found, rate, origin as f64).lines(within, |hz| [hz, 1.0]);
+            let first = known.within(within)[0];
+            let step = TAU * known.hz(1) / rate;
+            made.turns = [step * first as f64, step];
+            made.known.push(known);
+            made.found.push(normed(lines));
+        }
+        (!made.known.is_empty()).then_some(made)
+    }
+
+    /// The delay and the change under which they agree best; with `still` no change is looked for.
+    pub fn apart(&self, still: bool) -> Apart {
+        let top = TAU * self.band[1] * self.samples as f64 / self.rate;
+        let step = (2.0 * TURN / top).min(MOST_CHANGE / 4.0);
+        let count = if still { 0 } else { (MOST_CHANGE / step).ceil() as i64 };
+        let tried = (-count..=count).map(|i| {
+            let change = step * i as f64;
+            (change, self.at(change)[1])
+        });
+        let (mut best, mut most) =
+            tried.fold((0.0, f64::NEG_INFINITY), |best, (x, y)| if y > best.1 { (x, y) } else { best });
+        let mut reach = step;
+        while !still && reach > 1e-8 {
+            reach /= 2.0;
+            for change in [best - reach, best + reach] {
+                let likeness = self.at(change)[1];
+                if likeness > most {
+                    (best, most) = (change, likeness);
+                }
+            }
+        }
+        let [late, likeness] = self.at(best);
+        Apart { late, change: best, likeness, errors: self.errors(best, late, likeness, step) }
+    }
+
+    /// The delay at which they agree best under a change, and how well.
+    fn at(&self, change: f64) -> [f64; 2] {
+        let cross = self.cross(change);
+        let (mut best, mut most) = (0.0, f64::NEG_INFINITY);
+        let mut reach = 0.5;
+        let count = (MOST_DELAY / reach) as i64;
+        for i in -count..=count {
+            let late = reach * i as f64;
+            let likeness = self.read(&cross, late);
+            if likeness > most {
+                (best, most) = (late, likeness);
+            }
+        }
+        while reach > 1e-5 {
+            reach /= 2.0;
+            for late in [best - reach, best + reach] {
+                let likeness = self.read(&cross, late);
+                if likeness > most {
+                    (best, most) = (late, likeness);
+                }
+            }
+        }
+        [best, most]
+    }
+
+    /// Cross-spectrum of all pairs, each of power 1.
+    fn cross(&self, change: f64) -> Vec<Complex<f64>> {
+        let mut sum: Vec<Complex<f64>> = Vec::new();
+        for (known, found) in self.known.iter().zip(&self.found) {
+            let moved = known.lines(self.band, |hz| self.law.unchanged(hz, change));
+            let moved = normed(moved);
+            sum.resize(moved.len(), Complex::default());
+            sum.iter_mut()
+                .zip(moved)
+                .zip(found)
+                .for_each(|((sum, known), found)| *sum += found * known.conj());
+        }
+        sum
+    }
+
+    fn read(&self, cross: &[Complex<f64>], late: f64) -> f64 {
+        let mut turn = Complex::from_polar(1.0, self.turns[0] * late);
+        let step = Complex::from_polar(1.0, self.turns[1] * late);
+        let mut sum = 0.0;
+        for line in cross {
+            sum += line.re * turn.re - line.im * turn.im;
+            turn *= step;
+        }
+        sum / self.known.len() as f64
+    }
+
+    /// Standard errors, from the curvature of the likeness and what it leaves unexplained.
+    fn errors(&self, change: f64, late: f64, likeness: f64, step: f64) -> [f64; 2] {
+        let left = (1.0 - likeness * likeness).max(1e-12);
+        let width = self.band[1] - self.band[0];
+        let freedom = (2.0 * width * self.samples as f64 / self.rate * self.known.len() as f64).max(2.0);
+        let error = |fall: f64, reach: f64| {
+            let curvature = 2.0 * fall.max(1e-15) / (reach * reach);
+            (left / (likeness.max(0.1) * curvature * freedom)).sqrt()
+        };
+        let (near, cross) = (0.25 * step, self.cross(change));
+        let sides = [change - near, change + near].map(|change| self.at(change)[1]);
+        let around = [late - 0.5, late + 0.5].map(|late| self.read(&cross, late));
+        let fall = |sides: [f64; 2]| likeness - 0.5 * (sides[0] + sides[1]);
+        [error(fall(around), 0.5), error(fall(sides), near)]
+    }
+}
+
+/// A response in its band, faded at its end so that the cut there does not count.
+fn faded(signal: &[f64], band: Band, rate: f64) -> Vec<f64> {
+    let mut signal = signal.to_vec();
+    let length = signal.len() as f64;
+    let gate = unripple_dsp::Gate { begin: -1.0, rise: 1.0, end: length, fall: length / 4.0 };
+    gate.apply(&mut signal);
+    // A band out of range leaves it as it is: its lines are taken within the band anyway.
+    let _ = band.limit(&mut signal, rate);
+    signal
+}
+
+fn normed(mut lines: Vec<Complex<f64>>) -> Vec<Complex<f64>> {
+    let power: f64 = lines.iter().map(Complex::norm_sqr).sum();
+    let scale = if power > 0.0 { 1.0 / power.sqrt() } else { 0.0 };
+    lines.iter_mut().for_each(|x| *x *= scale);
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use unripple_core::Sheet;
+    use unripple_dsp::shift;
+    use unripple_physics::design::papers_surface;
+
+    fn film() -> Sheet {
+        papers_surface().sheet
+    }
+
+    /// Modes whose frequencies follow the dispersion relation, under a change of tension.
+    fn ringing(seed: u64, law: &Law, change: f64) -> Vec<f64> {
+        let hz = |m: u64| 150.0 + 2500.0 * ((m * 7919 + seed * 104_729) % 1009) as f64 / 1009.0;
+        let weight = |m: u64| ((m * 31 + seed * 17) % 13) as f64 / 6.0 - 1.0;
+        let modes: Vec<[f64; 2]> = (0..120).map(|m| [law.changed(hz(m), change)[0], weight(m)]).collect();
+        (0..4800)
+            .map(|i| {
+                let t = i as f64 / 48e3;
+                modes.iter().map(|[hz, w]| w * (-t / 0.07).exp() * (TAU * hz * t).cos()).sum()
+            })
+            .collect()
+    }
+
+    #[test]
+    fn delay_and_tension_are_told_apart() {
+        let (rate, band) = (48e3, Band::within(60.0, 3600.0));
+        let law = Law::of(&film(), 4000.0);
+        for (late, change) in [(0.0, 0.0), (0.37, 0.005), (-0.8, -0.003), (0.02, 0.01)] {
+            let known: Vec<Vec<f64>> = (1..4).map(|seed| ringing(seed, &law, 0.0)).collect();
+            let found: Vec<Vec<f64>> = (1..4).map(|seed| shift(&ringing(seed, &law, change), late)).collect();
+            let pairs: Vec<_> = known.iter().zip(&found).map(|(a, b)| (&a[..], &b[..])).collect();
+            let apart = Pairs::of(&pairs, 0, rate, band, &law).unwrap().apart(false);
+            assert!((apart.late - late).abs() < 0.02, "{late} {change}: {apart:?}");
+            assert!((apart.change - change).abs() < 2e-5, "{late} {change}: {apart:?}");
+            assert!(apart.likeness > 0.995, "{late} {change}: {apart:?}");
+        }
+    }
+}

@@ -1,0 +1,188 @@
+//! From what was heard to responses and their quality.
+
+use super::channel::{Noise, by_bands, mean_square, thirds};
+use super::knock::Sweeps;
+use super::session::{LEAD, Session, Take};
+use super::telling::around;
+use super::{Channel, Knocked};
+use crate::CalibrateError;
+use unripple_dsp::{Average, Band, Harmonics, Outliers, Quality, Remap, Split, band_powers};
+
+impl Session {
+    /// All of a deconvolution.
+    pub(super) fn whole(&self, heard: &[f64]) -> Result<Vec<f64>, CalibrateError> {
+        let mut whole = vec![0.0; self.plan.size()];
+        self.plan.deconvolve(
+            &heard[..self.heard.min(heard.len())],
+            &mut whole,
+            &mut self.plan.workspace(),
+        )?;
+        Ok(whole)
+    }
+
+    /// Responses and their quality from what one input heard, take by take, without the first `from` samples of the lead.
+    pub(super) fn channel(
+        &self,
+        takes: &[Take],
+        input: usize,
+        from: usize,
+    ) -> Result<Channel, CalibrateError> {
+        let wholes =
+            takes.iter().map(|take| self.whole(&take.lines[input])).collect::<Result<Vec<_>, _>>()?;
+        let noise =
+            wholes.first().map(|whole| Noise::of(whole, &self.sweep, LEAD, self.band)).unwrap_or_default();
+        let account = takes.first().map(|take| take.verdict.account.clone()).unwrap_or_default();
+        let mut channel = Channel { account, ..Channel::default() };
+        let loud =
+            takes.iter().flat_map(|take| &take.lines[input]).fold(0.0, |most: f64, x| most.max(x.abs()));
+        channel.account.peak = loud;
+        let hits: Vec<Vec<bool>> =
+            takes.iter().map(|take| self.knocked(&mut channel, &take.lines[input])).collect();
+        let samples = self.options.samples(self.sweep.rate);
+        for actuator in 0..self.wires.drives.len() {
+            // Takes that nothing knocked into stand in for those that something did.
+            let clean = |take: &usize| !hits[*take][actuator];
+            let some = (0..takes.len()).any(|take| clean(&take));
+            let used: Vec<usize> = (0..takes.len()).filter(|take| !some || clean(take)).collect();
+            let cuts = used.iter().map(|take| self.cut(&takes[*take], &wholes[*take], actuator));
+            let cuts = cuts.collect::<Result<Vec<_>, _>>()?;
+            let whole = &wholes[used.first().copied().unwrap_or(0)];
+            let response = self.response(&mut channel, &cuts, whole, actuator, &noise)?;
+            channel.responses.push(response[from..].iter().take(samples + LEAD - from).copied().collect());
+        }
+        let replaced = |actuator: &usize| hits.iter().any(|hits| !hits[*actuator - 1]);
+        for knock in &mut channel.account.knocks {
+            knock.left_out = knock.actuators.iter().all(replaced);
+        }
+        Ok(channel)
+    }
+
+    /// Which actuators' responses something knocked into, in what one input heard; said in the account.
+    fn knocked(&self, channel: &mut Channel, line: &[f64]) -> Vec<bool> {
+        let starts = self.schedule.starts();
+        let sweeps = Sweeps {
+            sweep: &self.sweep,
+            starts,
+            latency: self.options.latency,
+            decay: self.decay(),
+            band: self.band,
+        };
+        let rate = self.sweep.rate;
+        let mut hits = vec![false; starts.len()];
+        for knock in sweeps.knocks(line) {
+            // Deconvolved, it lies from a sweep's length before where it was, to where it has died away.
+            let until = knock.at as f64 + 2.0 * self.decay() * rate;
+            let since = knock.at as f64 - (self.sweep.sounding() + self.options.kept) * rate;
+            let hit = |start: &usize| (since..until).contains(&(*start as f64 + self.options.latency));
+            let actuators: Vec<usize> =
+                (0..starts.len()).filter(|a| hit(&starts[*a])).map(|a| a + 1).collect();
+            actuators.iter().for_each(|actuator| hits[*actuator - 1] = true);
+            let (at_s, share_db) = (knock.at as f64 / rate, 10.0 * knock.share.log10());
+            channel.account.knocks.push(Knocked { at_s, actuators, share_db, left_out: false });
+        }
+        hits
+    }
+
+    /// The response to one actuator, under the tension of the first take.
+    fn cut(&self, take: &Take, whole: &[f64], actuator: usize) -> Result<Vec<f64>, CalibrateError> {
+        let mut cut = vec![0.0; self.schedule.window()];
+        self.schedule.cut(whole, actuator, &mut cut)?;
+        let change = take.verdict.changes.as_ref().and_then(|changes| changes.get(actuator));
+        let Some([change, rate]) = change.copied() else { return Ok(cut) };
+        // Each frequency was swept at its own time.
+        let growth = self.sweep.growth();
+        let at = |hz: f64| growth * (hz.max(self.sweep.from) / self.sweep.from).ln();
+        let middle = at(felt_at(&cut, self.band, self.sweep.rate));
+        let from = |hz: f64| self.law.changed(hz, change + rate * (at(hz) - middle));
+        Ok(Remap::new(&cut, self.sweep.rate, LEAD as f64).moved([0.0, 0.5 * self.sweep.rate], from))
+    }
+
+    /// The mean of the takes' cuts, with its quality added to the channel.
+    fn response(
+        &self,
+        channel: &mut Channel,
+        cuts: &[Vec<f64>],
+        whole: &[f64],
+        actuator: usize,
+        noise: &Noise,
+    ) -> Result<Vec<f64>, CalibrateError> {
+        let kept = LEAD + self.options.samples(self.sweep.rate);
+        let rows: Vec<&[f64]> = cuts.iter().map(|cut| &cut[..kept.min(cut.len())]).collect();
+        let average = Average::of(&rows, Outliers::default())?;
+        // It dies away in all of the window.
+        let mut quality = Quality::of(&cuts[0][LEAD..], &[], self.sweep.rate)?;
+        quality.snr_db = noise.snr_db(&average.mean[LEAD..]);
+        if average.kept.iter().filter(|kept| **kept).count() > 1 {
+            quality.snr_db = average.snr_db();
+            quality.coherence = Some(average.coherence());
+        }
+        if !self.stands_out(&cuts[0], whole, actuator, noise) {
+            quality.snr_db = f64::NEG_INFINITY;
+        }
+        let harmonics = self.harmonics(whole, actuator, noise);
+        let power: f64 = harmonics.iter().flatten().map(|ratio| ratio * ratio).sum();
+        quality.distortion_db = (power > 0.0).then(|| 10.0 * power.log10());
+        let ratio = |i: usize| harmonics.get(i).copied().flatten().unwrap_or(f64::NAN);
+        channel.account.harmonics.push([ratio(0), ratio(1)]);
+        let kept: Vec<&[f64]> =
+            rows.iter().zip(&average.kept).filter(|(_, kept)| **kept).map(|(row, _)| &row[LEAD..]).collect();
+        channel.bands.push(by_bands(&kept, noise, self.band, self.sweep.rate));
+        channel.quality.push(quality);
+        Ok(average.mean)
+    }
+
+    /// Whether a response is more than what the sweeps before it left ringing.
+    fn stands_out(&self, response: &[f64], whole: &[f64], actuator: usize, noise: &Noise) -> bool {
+        let rate = self.sweep.rate;
+        let start = (self.schedule.starts()[actuator] + LEAD) as i64;
+        let [from, to] = BEFORE.map(|share| (share * self.decay() * rate) as i64);
+        let before = around(whole, start - from, usize::try_from(from - to).unwrap_or(0));
+        let ringing = mean_square(&before) - noise.power;
+        // What is left of it in the window, as an exponential decay: time 0 to the end.
+        let left = ringing.max(0.0) * (-(BEFORE[0] + BEFORE[1])).exp() * self.decay() / 2.0 * rate;
+        let all: f64 = response[LEAD..].iter().map(|x| x * x - noise.power).sum();
+        all > MORE * left
+    }
+
+    /// Amplitude decay time that the plan is made for, in s: what is left of a response when the next begins is e⁻⁵.
+    fn decay(&self) -> f64 {
+        self.options.ringing / 5.0
+    }
+
+    /// Harmonics as shares of the drive's amplitude, from the second, where they are told from noise.
+    fn harmonics(&self, whole: &[f64], actuator: usize, noise: &Noise) -> Vec<Option<f64>> {
+        if self.options.highest_order < 2 {
+            return Vec::new();
+        }
+        let split = Split {
+            start: self.schedule.starts()[actuator],
+            lead: LEAD,
+            window: self.schedule.window(),
+            highest_order: self.options.highest_order,
+            band: Some(self.band),
+        };
+        match Harmonics::of(whole, &self.sweep, &split) {
+            Ok(harmonics) => harmonics.of_drive(whole, &self.sweep, &split, &noise.early, self.decay()),
+            // A silent channel has no harmonics to speak of; its signal to noise says the rest.
+            Err(_) => Vec::new(),
+        }
+    }
+}
+
+/// Where before a response is seen what still rings, in decay times: not so close that the response's own band rings there.
+const BEFORE: [f64; 2] = [0.6, 0.4];
+
+/// Times the energy of what still rings that a response must have.
+const MORE: f64 = 3.0;
+
+/// The frequency (Hz) at whose sweeping a change of tension was felt: the mean over a response's power, in octaves, each
+/// weighted by how far its phase goes, in proportion to frequency.
+fn felt_at(response: &[f64], band: Band, rate: f64) -> f64 {
+    let thirds = thirds(band);
+    let powers = band_powers(response, rate, &thirds);
+    let (sum, weight) = thirds.iter().zip(powers).fold((0.0, 0.0), |(sum, weight), ([from, to], power)| {
+        let own = power * from * to;
+        (sum + own * 0.5 * (from * to).ln(), weight + own)
+    });
+    if weight > 0.0 { (sum / weight).exp() } else { (band.low[1] * band.high[0]).sqrt() }
+}

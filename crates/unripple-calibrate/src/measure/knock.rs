@@ -1,0 +1,136 @@
+//! Something short that is not of the drive: a knock, a door, a dropped tool.
+
+use realfft::RealFftPlanner;
+use std::f64::consts::TAU;
+use unripple_dsp::{Band, Sweep};
+
+/// Seconds of a frame: lines of 47 Hz.
+const FRAME: f64 = 0.0213;
+
+/// dB above what the sweeps explain, in half of all lines, from which a frame holds something else. White noise scatters by 1.5 dB.
+const STANDS_OUT: f64 = 8.0;
+
+/// Share of all frames above which it is not short: noise, or a surface that rings longer than it is told.
+const MOST: f64 = 0.25;
+
+/// Quantile of the power of a line over time that noise is told by, and what the mean of noise is of it.
+const QUIETEST: (f64, f64) = (0.3, 1.0 / 0.357);
+
+/// Power below which nothing counts, as a share of the most there is in any line: a knock that matters is 30 dB above it, and
+/// what a frame's window lets through from other lines is below it.
+const FLOOR: f64 = 1e-5;
+
+/// Frames without anything between two knocks.
+const APART: usize = 4;
+
+/// Something that was heard and not played.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Knock {
+    /// Where it begins, in samples.
+    pub at: usize,
+    /// Its energy over that of an average sweep, both as they were heard in the band.
+    pub share: f64,
+}
+
+/// When sweeps pass which frequency.
+pub(super) struct Sweeps<'a> {
+    pub sweep: &'a Sweep,
+    pub starts: &'a [usize],
+    /// Samples by which all that is heard comes late.
+    pub latency: f64,
+    /// Slowest amplitude decay, in s.
+    pub decay: f64,
+    pub band: Band,
+}
+
+impl Sweeps<'_> {
+    /// What was knocked in a line, in order of time: where half of all frequencies are louder than what the sweeps left of
+    /// them when they last passed.
+    pub fn knocks(&self, line: &[f64]) -> Vec<Knock> {
+        let rate = self.sweep.rate;
+        let size = ((FRAME * rate) as usize).next_multiple_of(2).max(16);
+        let powers = spectrogram(line, size);
+        let width = rate / size as f64;
+        let [first, end] = [self.band.low[1] / width, self.band.high[0] / width].map(|x| x.round() as usize);
+        let end = end.min(size / 2);
+        if powers.len() < 8 || end < first + 6 {
+            return Vec::new();
+        }
+        let expected: Vec<Vec<f64>> =
+            (first..end).map(|line| self.expected(&powers, line, width * line as f64, size)).collect();
+        let most = powers.iter().flatten().copied().fold(0.0, f64::max);
+        let over = |frame: usize| {
+            let ratio = |line: usize| {
+                let known = expected[line - first][frame] + FLOOR * most;
+                10.0 * ((powers[frame][line] + FLOOR * most) / known).log10()
+            };
+            median((first..end).map(ratio).collect())
+        };
+        let scores: Vec<f64> = (0..powers.len()).map(over).collect();
+        let usual = median(scores.clone()).max(0.0);
+        let loud: Vec<usize> = (0..scores.len()).filter(|i| scores[*i] > usual + STANDS_OUT).collect();
+        if loud.len() as f64 > MOST * scores.len() as f64 {
+            return Vec::new();
+        }
+        let within = |frame: usize| powers[frame][first..end].iter().sum::<f64>();
+        let all = (0..powers.len()).map(within).sum::<f64>() / self.starts.len().max(1) as f64;
+        let excess = |frame: &usize| {
+            let left = (first..end).map(|line| powers[*frame][line] - expected[line - first][*frame]);
+            left.map(|x| x.max(0.0)).sum::<f64>()
+        };
+        let together = loud.chunk_by(|a, b| b - a <= APART);
+        together
+            .map(|frames| Knock {
+                at: frames[0] * size / 2 + size / 4,
+                share: frames.iter().map(excess).sum::<f64>() / all.max(f64::MIN_POSITIVE),
+            })
+            .collect()
+    }
+
+    /// Power of a line that sweeps and noise explain, frame by frame.
+    fn expected(&self, powers: &[Vec<f64>], line: usize, hz: f64, size: usize) -> Vec<f64> {
+        let rate = self.sweep.rate;
+        let half = size as f64 / 2.0;
+        let passed = self.sweep.growth() * rate * (hz / self.sweep.from).max(1.0).ln() + self.latency;
+        let frame = |sample: f64| ((sample / half) as usize).min(powers.len() - 1);
+        let fall = (-2.0 * half / rate / self.decay).exp();
+        let mut sorted: Vec<f64> = powers.iter().map(|frame| frame[line]).collect();
+        sorted.sort_unstable_by(f64::total_cmp);
+        let noise = QUIETEST.1 * sorted[(QUIETEST.0 * sorted.len() as f64) as usize];
+        let mut expected = vec![noise; powers.len()];
+        for start in self.starts {
+            let at = *start as f64 + passed;
+            let [from, to] = [frame((at - 3.0 * half).max(0.0)), frame(at + 3.0 * half)];
+            let loudest = (from..=to).map(|i| powers[i][line]).fold(0.0, f64::max);
+            let mut left = loudest;
+            for (i, expected) in expected.iter_mut().enumerate().skip(from) {
+                *expected += left;
+                left *= if i >= to { fall } else { 1.0 };
+            }
+        }
+        expected
+    }
+}
+
+/// Powers of Hann-windowed frames, half of a frame apart, `[frame][line]`.
+fn spectrogram(signal: &[f64], size: usize) -> Vec<Vec<f64>> {
+    let plan = RealFftPlanner::<f64>::new().plan_fft_forward(size);
+    let (mut input, mut lines) = (plan.make_input_vec(), plan.make_output_vec());
+    let window: Vec<f64> =
+        (0..size).map(|i| 0.5 - 0.5 * (TAU * (i as f64 + 0.5) / size as f64).cos()).collect();
+    let count = (2 * signal.len() / size).saturating_sub(1);
+    (0..count)
+        .map(|frame| {
+            let from = &signal[frame * size / 2..][..size];
+            input.iter_mut().zip(from).zip(&window).for_each(|((to, x), w)| *to = x * w);
+            let done = plan.process(&mut input, &mut lines);
+            debug_assert!(done.is_ok(), "sizes come from the plan itself");
+            lines.iter().map(|x| x.norm_sqr()).collect()
+        })
+        .collect()
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_unstable_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(0.0)
+}

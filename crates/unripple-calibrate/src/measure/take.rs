@@ -1,0 +1,265 @@
+//! One recording, brought to the clock, time and tension of the first.
+
+use super::account::{Account, Lost};
+use super::apart::Apart;
+use super::law::Law;
+use super::mend::{Mend, place};
+use super::telling::Telling;
+use super::timing::{Sweep, Timing};
+use crate::CalibrateError;
+use unripple_dsp::{Band, convolve};
+
+/// Largest difference of clocks that is made up for, in millionths, with a little to spare for what 200 is measured as.
+const MOST_PPM: f64 = 203.0;
+
+/// Rounds of finding and mending: what is left after one is a hundredth of it.
+const ROUNDS: usize = 5;
+
+/// Standard errors above which a difference is one.
+const SURE: f64 = 5.0;
+
+/// Difference of clocks, in millionths, that is never told from none.
+const LEAST_PPM: f64 = 0.2;
+
+/// Change of tension that is never told from none, as a share.
+const LEAST_CHANGE: f64 = 2e-5;
+
+/// Fewest sweeps that tell of a clock, unless they are the only two and very like.
+const FEWEST: usize = 3;
+
+/// Likeness that two sweeps need when they are all there is.
+const ALIKE: f64 = 0.95;
+
+/// All that a take is judged by.
+pub(super) struct Judge<'a> {
+    /// Numbers of the actuators whose sensors tell; none where it is a reference, which hears what is sent.
+    pub sensors: &'a [usize],
+    /// What they heard in the first take, `[sensor][actuator]` from time 0; nothing in the first take itself.
+    pub known: Option<&'a [Vec<Vec<f64>>]>,
+    pub starts: &'a [usize],
+    /// Samples of a sweep that sound.
+    pub sounding: usize,
+    /// What is played.
+    pub drive: &'a [Vec<f64>],
+    pub lead: usize,
+    /// Samples of a response that are compared, lead included: without the sweeps before and after.
+    pub length: usize,
+    /// Samples by which all that is heard comes late.
+    pub latency: f64,
+    pub rate: f64,
+    pub band: Band,
+    pub law: &'a Law,
+    /// Turns what was heard into a deconvolution.
+    pub deconvolve: &'a dyn Fn(&[f64]) -> Result<Vec<f64>, CalibrateError>,
+}
+
+/// What a take was, and what is to be done about it.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Verdict {
+    pub account: Account,
+    pub mend: Mend,
+    /// Change of tension at each sweep's begin and its rate per second, where there is any.
+    pub changes: Option<Vec<[f64; 2]>>,
+}
+
+impl Judge<'_> {
+    /// Finds out what became of a take by what its sensors heard, one line each.
+    ///
+    /// # Errors
+    /// [`CalibrateError::Recording`] for clocks too far apart, and samples lost where there is nothing to tell the place.
+    pub fn judge(&self, heard: &[&[f64]]) -> Result<Verdict, CalibrateError> {
+        let mut verdict = Verdict::default();
+        if heard.is_empty() || self.starts.len() < 2 {
+            return Ok(verdict);
+        }
+        let samples = heard.iter().map(|line| line.len()).max().unwrap_or(0);
+        let mut found = Vec::new();
+        for _ in 0..ROUNDS {
+            let lines: Vec<Vec<f64>> = heard.iter().map(|line| verdict.mend.of(line)).collect();
+            found = self.sweeps(&lines)?;
+            let Some(timing) = self.timing(&found) else { break };
+            verdict.account.clock_error_ppm = 1e6 * timing.slope_error;
+            if !self.learn(&mut verdict, &timing, &lines)? {
+                break;
+            }
+            if !verdict.mend.is_needed(samples) {
+                break;
+            }
+        }
+        if !self.sensors.is_empty() {
+            self.tell(&mut verdict, &found);
+        }
+        Ok(verdict)
+    }
+
+    fn sweeps(&self, lines: &[Vec<f64>]) -> Result<Vec<Option<Apart>>, CalibrateError> {
+        let wholes = lines.iter().map(|line| (self.deconvolve)(line)).collect::<Result<Vec<_>, _>>()?;
+        let telling = Telling {
+            sensors: self.sensors,
+            wholes: &wholes,
+            starts: self.starts,
+            lead: self.lead,
+            rate: self.rate,
+            band: self.band,
+            law: self.law,
+        };
+        Ok(match self.known {
+            _ if self.sensors.is_empty() => telling.beside_the_loudest(self.length),
+            Some(known) => telling.beside(known, false),
+            None => telling.beside_each_other(self.length, false),
+        })
+    }
+
+    fn timing(&self, found: &[Option<Apart>]) -> Option<Timing> {
+        let known = found.iter().zip(self.starts).enumerate();
+        let sweeps: Vec<Sweep> = known
+            .filter_map(|(number, (apart, start))| {
+                let apart = apart.as_ref()?;
+                Some(Sweep { number, start: *start as f64, late: apart.late, error: apart.errors[0] })
+            })
+            .collect();
+        let alike = found.iter().flatten().all(|apart| apart.likeness >= ALIKE);
+        if sweeps.len() < FEWEST && !(alike && sweeps.len() == 2) {
+            return None;
+        }
+        Timing::of(&sweeps)
+    }
+
+    /// Takes in what delays tell; whether that is anything new.
+    fn learn(
+        &self,
+        verdict: &mut Verdict,
+        timing: &Timing,
+        lines: &[Vec<f64>],
+    ) -> Result<bool, CalibrateError> {
+        let mut new = false;
+        if timing.slope.abs() > (SURE * timing.slope_error).max(1e-6 * LEAST_PPM) {
+            verdict.mend.quick += timing.slope;
+            new = true;
+        }
+        let ppm = 1e6 * verdict.mend.quick;
+        if ppm.abs() > MOST_PPM {
+            return Err(CalibrateError::Recording {
+                what: "clocks of playing and recording".into(),
+                expected: "at most 200 millionths apart (one card for both, or two that are synchronised)"
+                    .into(),
+                found: format!("{ppm:+.1} millionths"),
+            });
+        }
+        verdict.account.clock_ppm = Some(ppm);
+        // Beside each other sweeps tell nothing of what is common to all.
+        if self.known.is_some() {
+            new |= timing.late.abs() >= LEAST_LATE;
+            verdict.mend.late += timing.late;
+            verdict.account.late = Some(verdict.mend.late);
+        }
+        // The place is looked for once all else is right.
+        if let Some((lost, numbers)) = timing.lost.filter(|_| !new) {
+            self.lose(verdict, lost, numbers, lines)?;
+            new = true;
+        }
+        Ok(new)
+    }
+
+    /// Finds where samples were lost, between two sweeps.
+    fn lose(
+        &self,
+        verdict: &mut Verdict,
+        lost: i64,
+        [before, after]: [usize; 2],
+        lines: &[Vec<f64>],
+    ) -> Result<(), CalibrateError> {
+        let late = self.latency.max(0.0) as usize;
+        let between = [self.starts[before], self.starts[after] + self.sounding].map(|i| i + late);
+        let said = |between: [usize; 2]| Lost {
+            samples: lost,
+            between_s: between.map(|i| i as f64 / self.rate),
+            sweeps: [before + 1, after + 1],
+        };
+        let Some(known) = self.known.filter(|_| verdict.mend.lost.is_none()) else {
+            let account = Account { lost: vec![said(between)], ..Account::default() };
+            return Err(CalibrateError::Recording {
+                what: "recording".into(),
+                expected: "all samples that were played".into(),
+                found: account.said().join("; "),
+            });
+        };
+        let lines: Vec<&[f64]> = lines.iter().map(Vec::as_slice).collect();
+        let expected: Vec<Vec<f64>> =
+            known.iter().map(|known| self.expected(known, lines[0].len())).collect();
+        let at = place(&lines, &expected, lost, between);
+        verdict.mend.lost = Some((lost, at));
+        verdict.account.lost.push(said([at, at + lost.unsigned_abs() as usize]));
+        Ok(())
+    }
+
+    /// What a sensor should hear, by what it heard of each actuator in the first take.
+    fn expected(&self, known: &[Vec<f64>], samples: usize) -> Vec<f64> {
+        let mut sum = vec![0.0; samples];
+        for (response, drive) in known.iter().zip(self.drive) {
+            let heard = convolve(drive, response);
+            sum.iter_mut().zip(heard).for_each(|(sum, x)| *sum += x / self.rate);
+        }
+        if self.latency == 0.0 { sum } else { unripple_dsp::shift(&sum, self.latency) }
+    }
+
+    /// Says what tension there was, and keeps what is to be undone.
+    fn tell(&self, verdict: &mut Verdict, found: &[Option<Apart>]) {
+        verdict.account.of_stiffness = !self.law.tension;
+        let known: Vec<(f64, Apart)> = found
+            .iter()
+            .zip(self.starts)
+            .filter_map(|(apart, start)| Some((*start as f64 / self.rate, (*apart)?)))
+            .collect();
+        if known.len() < FEWEST {
+            return;
+        }
+        let sure = |apart: &Apart| apart.change.abs() > (SURE * apart.errors[1]).max(LEAST_CHANGE);
+        let course = Course::of(&known);
+        let first_last = [0, self.starts.len() - 1].map(|i| course.at(self.starts[i] as f64 / self.rate)[0]);
+        verdict.account.drift = Some(first_last);
+        // One that stands out by chance is no drift: half of them do.
+        if 2 * known.iter().filter(|(_, apart)| sure(apart)).count() >= known.len() {
+            let at = |start: &usize| course.at(*start as f64 / self.rate);
+            verdict.changes = Some(self.starts.iter().map(at).collect());
+        } else {
+            verdict.account.drift = Some([0.0; 2]);
+        }
+    }
+}
+
+/// Delays below this many samples are not looked into again.
+const LEAST_LATE: f64 = 0.02;
+
+/// Change of tension over the time of a take: a straight line, or from sweep to sweep where that does not do.
+struct Course {
+    line: Option<[f64; 2]>,
+    known: Vec<[f64; 2]>,
+}
+
+impl Course {
+    fn of(known: &[(f64, Apart)]) -> Self {
+        let count = known.len() as f64;
+        let mean = |value: &dyn Fn(&(f64, Apart)) -> f64| known.iter().map(value).sum::<f64>() / count;
+        let [t, x] = [mean(&|(t, _)| *t), mean(&|(_, apart)| apart.change)];
+        let square = mean(&|(at, _)| (at - t).powi(2));
+        let slope =
+            if square > 0.0 { mean(&|(at, apart)| (at - t) * (apart.change - x)) / square } else { 0.0 };
+        let rest = mean(&|(at, apart)| (apart.change - x - slope * (at - t)).powi(2)).sqrt();
+        let error = mean(&|(_, apart)| apart.errors[1].powi(2)).sqrt();
+        let line = (rest <= 2.0 * error + LEAST_CHANGE).then_some([x - slope * t, slope]);
+        Self { line, known: known.iter().map(|(t, apart)| [*t, apart.change]).collect() }
+    }
+
+    /// Change at a time (s), and its rate per second.
+    fn at(&self, time: f64) -> [f64; 2] {
+        if let Some([at_0, slope]) = self.line {
+            return [at_0 + slope * time, slope];
+        }
+        let last = self.known.len() - 1;
+        let right = self.known.iter().position(|[t, _]| *t >= time).unwrap_or(last).clamp(1, last);
+        let ([a, x], [b, y]) = (self.known[right - 1], self.known[right]);
+        let slope = (y - x) / (b - a);
+        [x + slope * (time.clamp(a, b) - a), slope]
+    }
+}

@@ -1,0 +1,193 @@
+//! What the delays of the sweeps of one take say of its clock, and of samples that it lost.
+
+/// A sweep of a take: when it began, how much later it was heard than it should have been, and how sure that is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Sweep {
+    /// Its number, from 0.
+    pub number: usize,
+    /// When it began, in samples of what is played.
+    pub start: f64,
+    /// By how much it is late, in samples.
+    pub late: f64,
+    /// Standard error of that.
+    pub error: f64,
+}
+
+/// When a take was heard: `late + slope · start`, and from some sweep on `lost` samples less.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Timing {
+    /// Samples by which a sweep that begins at 0 is late.
+    pub late: f64,
+    /// Samples more for each sample of what is played: by how much the recording's clock is quick.
+    pub slope: f64,
+    /// Standard error of `slope`.
+    pub slope_error: f64,
+    /// Samples lost (negative: repeated), the last sweep before and the first after.
+    pub lost: Option<(i64, [usize; 2])>,
+    /// Root mean square of what is left, in samples, of the sweeps that count.
+    pub rest: f64,
+}
+
+/// Samples that delays may be off by for no reason of the clock's: the surface is not quite the same from take to take.
+const SLACK: f64 = 0.25;
+
+/// Least number of samples that are taken to be lost: less is told as the clock's.
+const LEAST_LOST: f64 = 1.5;
+
+/// Sweeps that sound while samples are lost, at most: their delay is neither the one nor the other.
+const SOUNDING: usize = 2;
+
+impl Timing {
+    /// The simplest that explains the sweeps: one clock, then one clock and a place where samples were lost. `None` if
+    /// nothing does, or there are fewer than two sweeps.
+    pub fn of(sweeps: &[Sweep]) -> Option<Self> {
+        let even = Self::line(sweeps)?;
+        if even.rest <= tolerance(sweeps) {
+            return Some(even);
+        }
+        let mut best: Option<(usize, Self)> = None;
+        for first in 1..sweeps.len() {
+            for hit in 0..=SOUNDING.min(sweeps.len().saturating_sub(first + 1)) {
+                let Some(stepped) = Self::stepped(sweeps, first, hit) else { continue };
+                let better = |(left, before): &(usize, Self)| {
+                    hit < *left || hit == *left && stepped.rest < before.rest
+                };
+                if stepped.rest <= tolerance(sweeps) && best.as_ref().is_none_or(better) {
+                    best = Some((hit, stepped));
+                }
+            }
+        }
+        best.map(|(_, timing)| timing)
+    }
+
+    /// A straight line through all.
+    fn line(sweeps: &[Sweep]) -> Option<Self> {
+        let fit = Fit::of(sweeps, 2, |sweep| [1.0, sweep.start, 0.0])?;
+        Some(Self { late: fit.x[0], slope: fit.x[1], slope_error: fit.errors[1], lost: None, rest: fit.rest })
+    }
+
+    /// A line with a step after `first` sweeps, the next `hit` of them left out.
+    fn stepped(sweeps: &[Sweep], first: usize, hit: usize) -> Option<Self> {
+        let kept: Vec<Sweep> = [&sweeps[..first], sweeps.get(first + hit..)?].concat();
+        let after = sweeps.get(first + hit)?;
+        let step = |sweep: &Sweep| if sweep.start >= after.start { -1.0 } else { 0.0 };
+        // Of few sweeps a slope and a step would explain anything: there the clock is taken to be right.
+        let timing = if kept.len() < FEW {
+            let fit = Fit::of(&kept, 2, |sweep| [1.0, step(sweep), 0.0])?;
+            (Self { late: fit.x[0], rest: fit.rest, ..Self::default() }, fit.x[1])
+        } else {
+            let fit = Fit::of(&kept, 3, |sweep| [1.0, step(sweep), sweep.start])?;
+            let [late, lost, slope] = fit.x;
+            (Self { late, slope, slope_error: fit.errors[2], lost: None, rest: fit.rest }, lost)
+        };
+        let (timing, lost) = timing;
+        if kept.len() < 3 || lost.abs() < LEAST_LOST || (lost - lost.round()).abs() > SLACK {
+            return None;
+        }
+        let numbers = [sweeps.get(first - 1)?.number, after.number];
+        Some(Self { lost: Some((lost.round() as i64, numbers)), ..timing })
+    }
+}
+
+/// Sweeps below which a clock is not told from a step.
+const FEW: usize = 5;
+
+/// What may be left of an explanation, in samples.
+fn tolerance(sweeps: &[Sweep]) -> f64 {
+    let errors = sweeps.iter().map(|sweep| sweep.error * sweep.error).sum::<f64>() / sweeps.len() as f64;
+    SLACK + 3.0 * errors.sqrt()
+}
+
+/// Weighted least squares of up to three unknowns.
+struct Fit {
+    x: [f64; 3],
+    errors: [f64; 3],
+    rest: f64,
+}
+
+impl Fit {
+    /// `columns` are the unknowns' coefficients, of which the first `count` matter.
+    fn of(sweeps: &[Sweep], count: usize, columns: impl Fn(&Sweep) -> [f64; 3]) -> Option<Self> {
+        if sweeps.len() < count {
+            return None;
+        }
+        let largest = (0..3).map(|c| sweeps.iter().map(|s| columns(s)[c].abs()).fold(0.0, f64::max));
+        let scale: Vec<f64> = largest.map(|x| if x > 0.0 { x } else { 1.0 }).collect();
+        let (mut normal, mut right) = ([[0.0; 3]; 3], [0.0; 3]);
+        (count..3).for_each(|i| normal[i][i] = 1.0);
+        for sweep in sweeps {
+            let row = columns(sweep);
+            let weight = 1.0 / (sweep.error.powi(2) + FLOOR * FLOOR);
+            for i in 0..count {
+                right[i] += weight * sweep.late * row[i] / scale[i];
+                (0..count).for_each(|j| normal[i][j] += weight * row[i] * row[j] / (scale[i] * scale[j]));
+            }
+        }
+        let inverse = inverted(normal)?;
+        let value = |i: usize| (0..3).map(|j| inverse[i][j] * right[j]).sum::<f64>() / scale[i];
+        let x = [value(0), value(1), value(2)];
+        let left = |s: &Sweep| s.late - columns(s).iter().zip(x).take(count).map(|(a, x)| a * x).sum::<f64>();
+        let rest = (sweeps.iter().map(|s| left(s).powi(2)).sum::<f64>() / sweeps.len() as f64).sqrt();
+        let error = |i: usize| inverse[i][i].max(0.0).sqrt() / scale[i];
+        Some(Self { x, errors: [error(0), error(1), error(2)], rest })
+    }
+}
+
+/// Samples that a delay is never surer than.
+const FLOOR: f64 = 1e-3;
+
+/// By Cramer's rule; `None` if singular.
+fn inverted(m: [[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
+    let minor = |i: usize, j: usize| {
+        let [a, b] = [(i + 1) % 3, (i + 2) % 3];
+        let [c, d] = [(j + 1) % 3, (j + 2) % 3];
+        m[a][c] * m[b][d] - m[a][d] * m[b][c]
+    };
+    let whole: f64 = (0..3).map(|j| m[0][j] * minor(0, j)).sum();
+    let size: f64 = (0..3).map(|i| m[i][i].abs().max(1e-300)).product();
+    let value = |i: usize, j: usize| minor(j, i) / whole;
+    (whole.abs() > 1e-12 * size).then(|| [0, 1, 2].map(|i| [0, 1, 2].map(|j| value(i, j))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sweeps(count: usize, late: impl Fn(usize, f64) -> f64) -> Vec<Sweep> {
+        let one = |number: usize| {
+            let start = 17_000.0 * number as f64;
+            Sweep { number, start, late: late(number, start), error: 0.01 }
+        };
+        (0..count).map(one).collect()
+    }
+
+    #[test]
+    fn a_clock_is_a_slope() {
+        let found = Timing::of(&sweeps(8, |_, start| 3.2 + 43e-6 * start)).unwrap();
+        assert!(
+            (found.slope - 43e-6).abs() < 1e-10 && (found.late - 3.2).abs() < 1e-6 && found.lost.is_none()
+        );
+        assert!(found.slope_error < 1e-6);
+    }
+
+    #[test]
+    fn lost_samples_are_a_step_whatever_the_sweeps_that_they_hit() {
+        let found = Timing::of(&sweeps(8, |n, start| match n {
+            0..3 => 20e-6 * start,
+            3 | 4 => 77.0 - 30.0 * n as f64,
+            _ => 20e-6 * start - 480.0,
+        }))
+        .unwrap();
+        assert_eq!(found.lost, Some((480, [2, 5])));
+        assert!((found.slope - 20e-6).abs() < 1e-9, "{found:?}");
+        let few = Timing::of(&sweeps(4, |n, _| if n < 2 { 1.0 } else { 65.0 })).unwrap();
+        assert_eq!(few.lost, Some((-64, [1, 2])));
+    }
+
+    #[test]
+    fn what_nothing_explains_is_not_explained() {
+        let found = Timing::of(&sweeps(8, |n, _| ((n * 37) % 11) as f64 * 9.0));
+        assert_eq!(found, None);
+        assert_eq!(Timing::of(&sweeps(1, |_, _| 0.0)), None);
+    }
+}
