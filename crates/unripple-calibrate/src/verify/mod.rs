@@ -132,7 +132,7 @@ fn against(
     let mut notes = Vec::new();
     words::gather(&bench, &points, &judged, (&mut notes, &mut doubts));
     let delay = common - quick.fitted.late.value;
-    let told = here.iter().any(|here| *here) && delay.abs() > bench.worth(&judged);
+    let told = options.probe && here.iter().any(|here| *here) && delay.abs() > bench.worth(&judged);
     if let Some(why) = words::delay(options, delay, told) {
         doubts.push(why);
     }

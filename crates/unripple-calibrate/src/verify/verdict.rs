@@ -13,6 +13,8 @@ pub struct VerifyOptions {
     pub removed: Vec<f64>,
     /// Actuators that are dead, by their index: left out.
     pub dead: Vec<usize>,
+    /// Whether a probe heard them, of one gain and one delay; taps have neither in common.
+    pub probe: bool,
     /// What points are called, from 1; empty for their order.
     pub numbers: Vec<usize>,
     /// Modes of the band that is looked at, about.
@@ -33,6 +35,7 @@ impl Default for VerifyOptions {
             probe_delay: None,
             removed: Vec::new(),
             dead: Vec::new(),
+            probe: true,
             numbers: Vec::new(),
             modes: 60,
         }

@@ -25,14 +25,14 @@ pub(super) fn verdict(
     let lambda = bench.surface_wave();
     let off = one.nearby.at.distance(at);
     let told = one.kind == Kind::Here && off > SURE * one.error && off > WORTH * lambda;
-    let correction = levels.correction(one).filter(|_| one.kind == Kind::Here);
+    let correction = levels.correction(one).filter(|_| one.kind == Kind::Here && bench.options.probe);
     let doubt = match one.kind {
         Kind::Here if off > FAR * lambda && told => Some(format!(
             "the probe seems to have been {} the point, at {} (put it there, or give the place it is at)",
             away(at, one.nearby.at),
             one.nearby.at
         )),
-        Kind::Here if levels.common.is_none() => Some(format!(
+        Kind::Here if levels.common.is_none() && bench.options.probe => Some(format!(
             "its gain is {:.2} and other points have others: expected one gain at all points (was the probe's gain \
              changed?)",
             one.nearby.found.gain / levels.scale

@@ -26,6 +26,8 @@ pub struct Heard {
     pub numbers: Vec<usize>,
     /// Actuators that are dead, or left out.
     pub dead: Vec<usize>,
+    /// Whether a probe heard them, not taps.
+    pub probe: bool,
     /// The band that is fitted, in Hz.
     pub band: [f64; 2],
 }
@@ -68,7 +70,8 @@ impl Heard {
         let others: Vec<usize> = (0..all.points.len()).filter(|p| !own.contains(&Some(*p))).collect();
         let probed = all.select(&others).map_err(CliError::work)?;
         let numbers = others.iter().map(|p| numbers[*p] + 1).collect();
-        Ok(Self { measured, probed, numbers, dead, band })
+        let probe = library.plan().provenance.get("by").is_none_or(|by| by != "tap");
+        Ok(Self { measured, probed, numbers, dead, probe, band })
     }
 
     /// Responses between actuators that there are.

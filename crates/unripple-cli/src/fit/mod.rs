@@ -7,7 +7,7 @@ mod report;
 
 use crate::args::FitOptions;
 use crate::error::CliError;
-use crate::{grid, output};
+use crate::{grid, input, output};
 use probed::Probed;
 use report::Report;
 use std::path::Path;
@@ -31,6 +31,7 @@ pub fn run(options: &FitOptions, as_json: bool) -> Result<(), CliError> {
         )));
     }
     let library = Library::open(&options.library)?;
+    let warned = input::warn(&library);
     let Some(surface) = library.plan().surface.clone() else {
         return Err(CliError::Input(format!(
             "{}: expected a library that describes its surface, found one without",
@@ -60,7 +61,7 @@ pub fn run(options: &FitOptions, as_json: bool) -> Result<(), CliError> {
     let seconds = start.elapsed().as_secs_f64();
     let mut report = Report::of(&options.library, &surface, &fitted, seconds);
     report.left_out = probed.left_out;
-    report.notes = probed.notes;
+    report.notes = warned.into_iter().map(|note| note.text).chain(probed.notes).collect();
     let why = match &fitted.verdict {
         Verdict::Good => None,
         Verdict::Doubtful { why, .. } => Some(why.clone()),

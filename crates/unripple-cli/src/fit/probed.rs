@@ -23,6 +23,7 @@ impl Probed {
         let options = VerifyOptions {
             numbers: heard.numbers.clone(),
             dead: heard.dead.clone(),
+            probe: heard.probe,
             ..VerifyOptions::default()
         };
         if heard.probed.points.is_empty() {
