@@ -40,10 +40,7 @@ impl Session {
             takes.iter().map(|take| self.knocked(&mut channel, &take.lines[input])).collect();
         let samples = self.options.samples(self.sweep.rate);
         for actuator in 0..self.wires.drives.len() {
-            // Takes that nothing knocked into stand in for those that something did.
-            let clean = |take: &usize| !hits[*take][actuator];
-            let some = (0..takes.len()).any(|take| clean(&take));
-            let used: Vec<usize> = (0..takes.len()).filter(|take| !some || clean(take)).collect();
+            let used = unhit(&hits, actuator);
             let cuts = used.iter().map(|take| self.cut(&takes[*take], &wholes[*take], actuator));
             let cuts = cuts.collect::<Result<Vec<_>, _>>()?;
             let whole = &wholes[used.first().copied().unwrap_or(0)];
@@ -167,6 +164,13 @@ impl Session {
             Err(_) => Vec::new(),
         }
     }
+}
+
+/// Takes that nothing knocked into, which stand in for those that something did; all, if there is none.
+fn unhit(hits: &[Vec<bool>], actuator: usize) -> Vec<usize> {
+    let hit = |take: &usize| hits[*take].get(actuator).copied().unwrap_or(false);
+    let clean: Vec<usize> = (0..hits.len()).filter(|take| !hit(take)).collect();
+    if clean.is_empty() { (0..hits.len()).collect() } else { clean }
 }
 
 /// Where before a response is seen what still rings, in decay times: not so close that the response's own band rings there.

@@ -30,6 +30,9 @@ const FEWEST: usize = 3;
 /// Likeness that two sweeps need when they are all there is.
 const ALIKE: f64 = 0.95;
 
+/// Turns what one input heard into responses, going round.
+type Deconvolve<'a> = dyn Fn(&[f64]) -> Result<Vec<f64>, CalibrateError> + 'a;
+
 /// All that a take is judged by.
 pub(super) struct Judge<'a> {
     /// Numbers of the actuators whose sensors tell; none where it is a reference, which hears what is sent.
@@ -50,7 +53,7 @@ pub(super) struct Judge<'a> {
     pub band: Band,
     pub law: &'a Law,
     /// Turns what was heard into a deconvolution.
-    pub deconvolve: &'a dyn Fn(&[f64]) -> Result<Vec<f64>, CalibrateError>,
+    pub deconvolve: &'a Deconvolve<'a>,
 }
 
 /// What a take was, and what is to be done about it.
