@@ -6,11 +6,11 @@ mod common;
 #[path = "common/elsewhere.rs"]
 mod elsewhere;
 
-use bench::{Bench, SEED};
-use common::{json, number};
+use bench::{Bench, FILM, SEED};
+use common::{Scratch, json, number};
 use elsewhere::{apart, bring, bring_at, response};
 use unripple::core::Point;
-use unripple_store::read_wav;
+use unripple_store::{Library, read_wav};
 
 #[test]
 fn a_take_that_changed_is_measured_again_and_a_copy_is_refused() {
@@ -236,4 +236,16 @@ fn levels_are_looked_at_before_the_long_run() {
         &library,
     ]);
     assert!(told["advice"].to_string().contains("--repeats"), "{told}");
+}
+
+#[test]
+fn responses_may_be_as_long_as_is_asked() {
+    let scratch = Scratch::new("takes-long");
+    let film = scratch.file("film.toml", FILM);
+    for (ms, samples) in [("350", 16_801), ("1000", 48_001)] {
+        let library = scratch.join(ms);
+        let told = json(&["calibrate", &film, "--at=52,47", "--response-ms", ms, "-o", &library]);
+        assert_eq!(number(&told, "/measured"), 6.0);
+        assert_eq!(Library::open(&library).unwrap().plan().samples, samples);
+    }
 }

@@ -18,7 +18,7 @@ use unripple_store::{Library, PointState};
 
 /// Measures all points that are missing, and says what the library is worth.
 pub fn run(mut known: Campaign<'_>, as_json: bool) -> Result<(), CliError> {
-    super::kept(&known.settings)?;
+    super::warn(&known.settings, known.model);
     let (options, surface) = (known.options, known.surface);
     let Opened { mut rig, truth } = devices::open(&options.device, surface)?;
     let layout = rig.device().layout().clone();
@@ -41,8 +41,11 @@ pub fn run(mut known: Campaign<'_>, as_json: bool) -> Result<(), CliError> {
     let latency = first.find_latency(rig.as_mut(), places.points.len(), middle, known.model)?;
     let late = latency.map_or(0.0, |found| found[0]);
     let settings = MeasureOptions { latency: late, ..known.settings.clone() };
-    let session = Session::new(surface, &layout, wires.clone(), &settings)?;
+    let mut session = Session::new(surface, &layout, wires.clone(), &settings)?;
     own(&known, &session, rig.as_mut(), &mut shelf, middle)?;
+    if let Some(sensors) = shelf.heard()? {
+        session.follow(&sensors)?;
+    }
     let seconds = session.seconds();
     let way = match options.by {
         WayName::Probe => Way::Probe(Box::new(session)),

@@ -49,13 +49,13 @@ pub struct Campaign<'a> {
 
 pub fn run(options: &CalibrateOptions, as_json: bool) -> Result<(), CliError> {
     let surface = input::surface(&options.surface)?;
-    let settings = settings(options, &surface)?;
     let scales = Scales::of(options, &surface)?;
-    level(&settings, &scales, &surface)?;
+    check(options, &surface, &scales)?;
     Library::may_be_at(&options.output)?;
     let Responses::Modal(model) = judge::model(&surface, None, &[])? else {
         return Err(CliError::Input("expected a surface, found responses at points".into()));
     };
+    let settings = settings(options, &surface, &model)?;
     let places = Places::default();
     let campaign = Campaign { options, surface: &surface, model: &model, settings, scales, places };
     match options.device.device {
@@ -64,8 +64,20 @@ pub fn run(options: &CalibrateOptions, as_json: bool) -> Result<(), CliError> {
     }
 }
 
-fn settings(options: &CalibrateOptions, surface: &Surface) -> Result<MeasureOptions, CliError> {
-    let usual = MeasureOptions::default();
+/// Refuses numbers that make no sense, before there is a model.
+fn check(options: &CalibrateOptions, surface: &Surface, scales: &Scales) -> Result<(), CliError> {
+    let level = positive(options.level, "--level", "of the limit")?;
+    within(level, scales, surface)?;
+    without(options, surface).map(drop)
+}
+
+/// How to measure: as asked, and else as suits what the model rings like.
+fn settings(
+    options: &CalibrateOptions,
+    surface: &Surface,
+    model: &ModalResponses,
+) -> Result<MeasureOptions, CliError> {
+    let usual = MeasureOptions::for_model(model);
     let ms = |value: Option<f64>, usual: f64, option: &str| {
         value.map_or(Ok::<f64, CliError>(usual), |value| Ok(positive(value, option, "ms")? / 1e3))
     };
@@ -111,29 +123,23 @@ fn without(options: &CalibrateOptions, surface: &Surface) -> Result<Vec<usize>, 
 }
 
 /// Refuses a drive that is more than full scale.
-fn level(settings: &MeasureOptions, scales: &Scales, surface: &Surface) -> Result<(), CliError> {
+fn within(level: f64, scales: &Scales, surface: &Surface) -> Result<(), CliError> {
+    if level > 1.0 {
+        return Err(CliError::Input(format!("--level: expected at most 1, found {level}")));
+    }
     let (limit, full) = (surface.emission.limit, scales.full_scale(surface));
-    if settings.level * limit <= full * (1.0 + 1e-9) {
+    if level * limit <= full * (1.0 + 1e-9) {
         return Ok(());
     }
     let most = full / limit;
     Err(CliError::Input(format!(
-        "--level: expected at most {most:.3}, since --output-scale {full} is less than the surface's limit of {limit}, found {}",
-        settings.level
+        "--level: expected at most {most:.3}, since --output-scale {full} is less than the surface's limit of {limit}, found {level}"
     )))
 }
 
-/// Refuses responses that last longer than the surface is listened to.
-fn kept(settings: &MeasureOptions) -> Result<(), CliError> {
-    if settings.kept <= settings.ringing {
-        return Ok(());
-    }
-    let ms = |seconds: f64| (seconds * 1e6).round() / 1e3;
-    Err(CliError::Input(format!(
-        "--response-ms: expected at most {}, as long as the surface is listened to after each sweep, found {}",
-        ms(settings.ringing),
-        ms(settings.kept)
-    )))
+/// Says what is too short for the surface.
+fn warn(settings: &MeasureOptions, model: &ModalResponses) {
+    settings.warnings(model).iter().for_each(|warning| eprintln!("warning: {warning}"));
 }
 
 fn middle(surface: &Surface) -> Point {

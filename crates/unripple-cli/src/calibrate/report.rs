@@ -1,6 +1,7 @@
 //! What a calibration found.
 
 use super::points::Places;
+use super::shelf::SAID;
 use crate::error::CliError;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
@@ -123,10 +124,36 @@ impl Report {
     }
 }
 
-/// What the log says in words, then what is not known of levels.
+/// Notes on single points that are printed: all are in the library.
+const LISTED: usize = 8;
+
+/// What the log says in words, then what takes tell of themselves, then what is not known of levels.
 fn notes(library: &Library) -> Vec<String> {
     let said = library.log_book().values().filter_map(|entry| entry.get("said")?.as_str());
-    said.chain(library.without_scale()).map(str::to_owned).collect()
+    let mut notes: Vec<String> = said.map(str::to_owned).collect();
+    let points = (0..library.points().len()).filter_map(|point| {
+        let said = library.logged_point(point)?.get(SAID)?.as_array()?;
+        let said: Vec<&str> = said.iter().filter_map(|one| one.as_str()).collect();
+        Some((point + 1, said.join("; ")))
+    });
+    let mut by_words: Vec<(String, Vec<usize>)> = Vec::new();
+    for (point, said) in points {
+        match by_words.iter_mut().find(|(words, _)| *words == said) {
+            Some((_, points)) => points.push(point),
+            None => by_words.push((said, vec![point])),
+        }
+    }
+    let more = by_words.len().saturating_sub(LISTED);
+    notes.extend(by_words.into_iter().take(LISTED).map(|(said, points)| match points[..] {
+        [point] => format!("point {point}: {said}"),
+        [first, ..] => format!("point {first} and {} more: {said}", points.len() - 1),
+        [] => said,
+    }));
+    if more > 0 {
+        notes.push(format!("{more} more notes on points are in the library's log"));
+    }
+    notes.extend(library.without_scale().map(str::to_owned));
+    notes
 }
 
 /// A bar on a terminal, with the time that is left; nothing elsewhere.

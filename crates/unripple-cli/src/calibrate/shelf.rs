@@ -2,11 +2,16 @@
 
 use super::scale::Scales;
 use crate::error::CliError;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use unripple::core::{PROBE, Surface};
 use unripple::dsp::Reciprocity;
 use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{Channel, Sink};
 use unripple_store::{Library, PointState, Quality};
+
+/// The key of a point's log under which is what its take tells of itself.
+pub const SAID: &str = "said";
 
 /// A library that is being filled.
 pub struct Shelf {
@@ -52,6 +57,23 @@ impl Shelf {
         Ok(self.library.set_reciprocity_error(found.error)?)
     }
 
+    /// What sensors heard when the library was begun, if all of them did: what later takes are held against.
+    pub fn heard(&self) -> Result<Option<Vec<Channel>>, CliError> {
+        let own: Vec<usize> = (self.probed..self.library.points().len()).collect();
+        let measured = |point: &usize| self.library.state(*point) == Some(PointState::Measured);
+        if own.is_empty() || !own.iter().all(measured) || !self.without.is_empty() {
+            return Ok(None);
+        }
+        let samples = self.library.plan().samples;
+        let channel = |(point, scale): (usize, &f64)| -> Result<Channel, CliError> {
+            let values = self.library.get(point)?;
+            let rows = values.chunks_exact(samples);
+            let rows = rows.map(|row| row.iter().map(|h| f64::from(*h) / scale).collect()).collect();
+            Ok(Channel::of_responses(rows))
+        };
+        own.into_iter().zip(&self.sensors).map(channel).collect::<Result<Vec<_>, _>>().map(Some)
+    }
+
     /// A channel as it is kept.
     fn kept(&self, number: usize, channel: &Channel) -> (Vec<f32>, Vec<Quality>) {
         let own = number.checked_sub(self.probed);
@@ -81,7 +103,18 @@ impl Sink for Shelf {
             None => self.library.put(number, &samples, &quality),
             Some(_) => self.library.put_bad(number, &samples, &quality),
         };
-        kept.map_err(|error| CalibrateError::Sink { number, why: error.to_string() })
+        let said = channel.account.said();
+        let before = self.library.logged_point(number).is_some_and(|log| log.get(SAID).is_some());
+        let logged = match said.is_empty() && !before {
+            true => Ok(()),
+            false => {
+                let said = if said.is_empty() { Value::Null } else { json!(said) };
+                self.library.log_points(BTreeMap::from([(number, json!({ SAID: said }))]))
+            }
+        };
+        let failed =
+            |error: unripple_store::StoreError| CalibrateError::Sink { number, why: error.to_string() };
+        kept.map_err(failed).and_then(|()| logged.map_err(failed))
     }
 }
 

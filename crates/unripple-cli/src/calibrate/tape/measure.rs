@@ -62,7 +62,7 @@ impl Bench<'_> {
         self.campaign.settings.without = tried.dead.clone();
         marks.keep(&mut library)?;
         let made = self.made(&all, &marks);
-        let mut work = Work { bench: self, rig, made, all, faults, start };
+        let mut work = Work { bench: self, rig, made, all, faults, known: None, start };
         let (shelf, report) = work.fill(library, &tried, as_json)?;
         let faults = std::mem::take(&mut work.faults);
         Ok(Outcome { report: Some(report), library: Some(shelf.library), faults, notes: tried.notes })
@@ -162,6 +162,8 @@ struct Work<'b, 'a> {
     /// Recordings that are used.
     all: Vec<Wanted>,
     faults: Vec<Fault>,
+    /// What sensors heard, which points' recordings are held against.
+    known: Option<Vec<Channel>>,
     start: Instant,
 }
 
@@ -178,6 +180,7 @@ impl Work<'_, '_> {
         let settings =
             MeasureOptions { latency: latency.map_or(0.0, |found| found[0]), ..known.settings.clone() };
         self.keep_own(&settings, &mut shelf, tried)?;
+        self.known = shelf.heard()?;
         let before = shelf.missing().len();
         self.keep_points(&settings, &mut shelf, as_json)?;
         finish(known, &mut shelf, latency)?;
@@ -203,6 +206,15 @@ impl Work<'_, '_> {
     fn session(&self, settings: &MeasureOptions) -> Result<Session, CliError> {
         let takes = &self.bench.takes;
         Ok(Session::new(self.bench.campaign.surface, takes.layout(), takes.wires.clone(), settings)?)
+    }
+
+    /// A session that holds takes against what sensors heard in that of the actuators.
+    fn following(&self, settings: &MeasureOptions) -> Result<Session, CliError> {
+        let mut session = self.session(settings)?;
+        if let Some(known) = &self.known {
+            session.follow(known)?;
+        }
+        Ok(session)
     }
 
     /// Recordings of a point that are used; of the actuators, by the number after the last.
@@ -273,7 +285,7 @@ impl Work<'_, '_> {
         for (done, number) in there.iter().copied().enumerate() {
             let repeats = self.count(number);
             if let Entry::Vacant(entry) = sessions.entry(repeats) {
-                entry.insert(self.session(&MeasureOptions { repeats, ..settings.clone() })?);
+                entry.insert(self.following(&MeasureOptions { repeats, ..settings.clone() })?);
             }
             let session = &sessions[&repeats];
             let at = known.places.points[number];
@@ -306,7 +318,7 @@ impl Work<'_, '_> {
         let at = self.bench.campaign.places.points[number];
         let mut named = Vec::new();
         if files.len() > 1 {
-            let alone = self.session(&MeasureOptions { repeats: 1, ..settings.clone() })?;
+            let alone = self.following(&MeasureOptions { repeats: 1, ..settings.clone() })?;
             for (take, file) in files.iter().enumerate() {
                 let found = heard(alone.measure(&mut self.rig, number, at, take as u64, Listen::Probe))?;
                 let fault = match found {

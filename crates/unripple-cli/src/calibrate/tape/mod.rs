@@ -71,9 +71,9 @@ pub fn run(mut campaign: Campaign<'_>, as_json: bool) -> Result<(), CliError> {
     // A bad recording is not better when it is read again, and one that was made is read as it was made.
     campaign.settings = MeasureOptions { again: 0, ..campaign.settings };
     if let Some(before) = &before {
-        campaign.settings.ringing = plan::ringing(before);
+        plan::apply(before, options, &mut campaign.settings);
     }
-    super::kept(&campaign.settings)?;
+    super::warn(&campaign.settings, campaign.model);
     let layout = layout(options, surface, campaign.scales.full_scale(surface))?;
     let wires = Wires::by_name(&campaign.model.ports, &layout, &devices::named(&options.wire)?)?;
     campaign.places = points::places(options, surface, !wires.sensors.is_empty())?;

@@ -1,6 +1,7 @@
 //! What is to be played, and what is to be recorded of it.
 
 use super::asked::{Asked, Wanted};
+use crate::args::CalibrateOptions;
 use crate::error::CliError;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -18,9 +19,6 @@ const PLAN: &str = "plan.json";
 
 /// The version of the plan.
 const FORMAT: u32 = 1;
-
-/// Seconds of ringing in plans that do not say.
-const RINGING: f64 = 0.35;
 
 /// Numbers that differ by less than this share are the same, written by another version.
 const SAME: f64 = 1e-9;
@@ -47,9 +45,18 @@ pub fn found(folder: &Path) -> Result<Option<Value>, CliError> {
     }
 }
 
-/// Seconds that a plan lets the surface ring after each sweep: recordings are read as they were made.
-pub fn ringing(plan: &Value) -> f64 {
-    plan["ringing_s"].as_f64().filter(|seconds| *seconds > 0.0 && *seconds < 60.0).unwrap_or(RINGING)
+/// Measures as a plan says, where nothing else is asked for: recordings are read as they were made.
+pub fn apply(plan: &Value, options: &CalibrateOptions, settings: &mut MeasureOptions) {
+    let seconds = |key: &str| plan[key].as_f64().filter(|seconds| *seconds > 0.0 && *seconds < 60.0);
+    let usual = MeasureOptions::default();
+    settings.ringing = seconds("ringing_s").unwrap_or(usual.ringing);
+    if options.sweep_ms.is_none() {
+        settings.sweep = seconds("sweep_s").unwrap_or(settings.sweep);
+    }
+    // A plan that does not say is of a time when as much was kept of every surface.
+    if options.response_ms.is_none() && seconds("ringing_s").is_none() {
+        settings.kept = usual.kept;
+    }
 }
 
 /// A rig that hears nothing, and keeps what is driven in one recording.

@@ -122,7 +122,7 @@ impl Tried {
             self.faults.push(text);
             return;
         }
-        for actuator in &quiet {
+        for actuator in quiet.iter().filter(|actuator| !self.dead.contains(actuator)) {
             let (name, output) = (name(actuator), bench.takes.wires.drives[*actuator] + 1);
             let too = if self.deaf.contains(actuator) { ", nor does its sensor hear anything" } else { "" };
             self.notes.push(format!(
