@@ -189,6 +189,7 @@ fn harmonics_are_told_by_their_order() {
             assert!(near, "order {}: {found} instead of {wanted}", order + 2);
         }
         assert_eq!(session.fault(&found), None);
+        assert!(found.account.said().iter().any(|said| said.starts_with("harmonics of the drive")));
         assert!(bench.off(&found, &session) < 0.05);
     }
 }

@@ -58,6 +58,9 @@ const SAME_TENSION: f64 = 1e-4;
 /// Nor a delay below this many samples.
 const SAME_TIME: f64 = 0.05;
 
+/// Share of the amplitude from which a harmonic is worth a word.
+const LEAST_HARMONIC: f64 = 1e-3;
+
 impl Account {
     /// What there is to say of it, a sentence each; nothing of what is as it should be.
     pub fn said(&self) -> Vec<String> {
@@ -88,11 +91,27 @@ impl Account {
                 "{what} was {first:+.2} % beside the first recording, {last:+.2} % at its end: taken out"
             ));
         }
+        said.extend(self.distorted());
         said.extend(self.knocks.iter().map(|knock| {
             let (at, left) =
                 (knock.at_s, if knock.left_out { ": the sweeps that it hit were left out" } else { "" });
             format!("a knock at {at:.2} s{left}")
         }));
         said
+    }
+
+    /// The harmonics that are worth a word, over all actuators that any was told of.
+    fn distorted(&self) -> Option<String> {
+        let rms = |order: usize| {
+            let told: Vec<f64> = self.harmonics.iter().map(|h| h[order]).filter(|h| h.is_finite()).collect();
+            let known = told.iter().map(|h| h * h).sum::<f64>() / told.len().max(1) as f64;
+            // Told of few, it is as likely the scatter of noise.
+            if 2 * told.len() >= self.harmonics.len() { known.sqrt() } else { 0.0 }
+        };
+        let [second, third] = [rms(0), rms(1)];
+        (second.max(third) >= LEAST_HARMONIC).then(|| {
+            let [second, third] = [second, third].map(|share| 100.0 * share);
+            format!("harmonics of the drive: second {second:.2} %, third {third:.2} %")
+        })
     }
 }
