@@ -28,6 +28,9 @@ const SILENT: f64 = 1e-4;
 /// Most half waves of the tension's profile.
 const PROFILE: usize = 2;
 
+/// Stray masses that are looked for where the bare sheet does not explain what was heard.
+const STRAYS: usize = 2;
+
 /// Modes that are worked with, over those of the band: what is near an actuator is felt by many.
 const REACH: f64 = 1.6;
 
@@ -68,7 +71,7 @@ impl Quick {
         let fitted = fit(&part, &heard, &plan).map_err(|error| error.to_string())?;
         let quick = Self::of(fitted, &heard, probed, actuators, band)?;
         let quick = match quick.fitted.unexplained() > SPOILT {
-            true => quick.without_odd_sensors(&part, &heard, &plan),
+            true => quick.with_strays(&part, &heard, &plan).without_odd_sensors(&part, &heard, &plan),
             false => quick,
         };
         if quick.fitted.unexplained() > NO_MODEL {
@@ -83,9 +86,20 @@ impl Quick {
         Ok(quick)
     }
 
+    /// The model with stray masses on the sheet, if that makes it a better one.
+    fn with_strays(self, part: &Surface, heard: &Measured, plan: &FitOptions) -> Self {
+        match fit(part, heard, &FitOptions { strays: STRAYS, ..plan.clone() }) {
+            Ok(fitted) if fitted.unexplained() < self.fitted.unexplained() => Self { fitted, ..self },
+            _ => self,
+        }
+    }
+
     /// The model fitted without the sensors that speak against it, if without a few of them there is a good one: one channel that is
     /// wrong spoils the model for all others.
     fn without_odd_sensors(self, part: &Surface, heard: &Measured, plan: &FitOptions) -> Self {
+        if self.fitted.unexplained() < SPOILT {
+            return self;
+        }
         let count = self.actuators.len();
         let (mut heard, mut fitted) = (heard.clone(), self.fitted.clone());
         let mut left: Vec<usize> = (0..count).collect();
