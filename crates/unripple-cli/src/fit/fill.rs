@@ -46,6 +46,12 @@ pub fn fill(
         }
     };
     library.set_doubts("fit", doubts)?;
+    // What is doubted of single points was left out; what is doubted of the whole measurement is doubted of what is fitted to it.
+    for doubt in source.doubts().iter().filter(|doubt| doubt.points.is_empty()) {
+        let same =
+            source.doubts().iter().filter(|other| other.points.is_empty() && other.check == doubt.check);
+        library.set_doubts(&doubt.check, same.cloned().collect())?;
+    }
     Ok(())
 }
 
