@@ -21,8 +21,8 @@ const BETA: f64 = 8.0;
 /// | a coil's voltage (V) | the current j in its closed circuit, L dj/dt + R j = bl·v | bl·v/(R + Ls) | A |
 /// | a patch's voltage (V) | the current of its short circuit | moment·∮ ∂v/∂n ds | A |
 ///
-/// What the drive itself makes at the terminals of a coil or patch held still, R i + L di/dt or V/(R + Ls) or C dV/dt, is no part of it: on a
-/// bench a bridge or a dummy load takes it away. With that, every pair of actuators is reciprocal, whatever their kinds: the
+/// What the drive itself makes at the terminals of a coil or patch held still, R i + L di/dt or V/(R + Ls) or C dV/dt, is no part of
+/// it: on a bench a bridge or a dummy load takes it away. With that, every pair of actuators is reciprocal, whatever their kinds: the
 /// response of b to a drive at a is that of a to one at b, and an actuator hears itself with a positive sign.
 /// (L. L. Foldy and H. Primakoff, *J. Acoust. Soc. Am.* 17, 109, 1945.)
 #[derive(Clone, Debug, PartialEq)]
@@ -98,7 +98,8 @@ impl Sensor {
     }
 }
 
-/// What of a current is left after a step, and what a voltage over resistance before and after it drives, by a straight line, for θ = R dt/L.
+/// What of a current is left after a step, and what a voltage over resistance before and after it drives, by a straight line, for
+/// θ = R dt/L.
 fn held(theta: f64) -> [f64; 3] {
     let left = (-theta).exp();
     let mean = -(-theta).exp_m1() / theta;
