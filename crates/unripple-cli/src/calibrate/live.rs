@@ -107,9 +107,9 @@ fn wiring(
         return Ok(without);
     }
     rig.ready(known.places.points.len(), middle, 1)?;
-    let try_options = WiringOptions::for_band(model.conditions.band);
+    let try_options = WiringOptions::for_surface(known.surface);
     let probe = (layout.inputs.len() > layout.outputs.len()).then_some(middle);
-    let expected = Expected::of_modes(model, probe, try_options.listen);
+    let expected = Expected::of(known.surface, model, probe, try_options.listen).map_err(CliError::input)?;
     let found = check_wiring(rig.device(), &expected, &try_options).map_err(CliError::work)?;
     judged(known, &found)
 }
@@ -140,8 +140,12 @@ fn judged(known: &Campaign<'_>, found: &WiringReport) -> Result<Vec<usize>, CliE
         Some(name) => format!(", without a dead one by --without {name}"),
         None => String::new(),
     };
-    let faults = faults.join("; ");
-    Err(CliError::Work(format!("wiring: {faults} (mend it, or go on with --any-wiring{dead})")))
+    // Few lines for many channels, unless some of them are no news.
+    let lines = if faults.len() == found.faults().len() { found.summary() } else { faults };
+    Err(CliError::Work(match &lines[..] {
+        [fault] => format!("wiring: {fault} (mend it, or go on with --any-wiring{dead})"),
+        lines => format!("wiring:\n  {}\nmend it, or go on with --any-wiring{dead}", lines.join("\n  ")),
+    }))
 }
 
 /// What actuators hear of each other and of themselves, as the library's last points.

@@ -60,15 +60,16 @@ fn wiring(device: &mut dyn Device, surface: &Surface, modal: &ModalResponses) ->
     if inputs < outputs || outputs != modal.ports.len() {
         return Check::skipped("wiring", "the device has no sensor for each actuator");
     }
-    let trial = WiringOptions::for_band(modal.conditions.band);
+    let trial = WiringOptions::for_surface(surface);
     let (width, height) = surface.outline.extent();
     let probe = (inputs > outputs).then_some(Point::new(width / 2.0, height / 2.0));
-    let expected = Expected::of_modes(modal, probe, trial.listen);
-    match check_wiring(device, &expected, &trial) {
+    let found = Expected::of(surface, modal, probe, trial.listen)
+        .and_then(|expected| check_wiring(device, &expected, &trial));
+    match found {
         Ok(found) if found.faults().is_empty() => {
             Check::good("wiring", format!("each of {outputs} actuators is heard where it should be"))
         }
-        Ok(found) => Check::failed("wiring", found.faults().join("; "), "mend the wires named here"),
+        Ok(found) => Check::failed("wiring", found.summary().join("; "), "mend the wires named here"),
         Err(error) => Check::failed("wiring", error.to_string(), "see whether the device still runs"),
     }
 }

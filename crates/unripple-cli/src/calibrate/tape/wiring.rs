@@ -206,7 +206,7 @@ impl Tried {
         }
         let options = WiringOptions::for_band(model.conditions.band);
         let at = point.map(|number| places.points[number]);
-        let all = Expected::of_modes(model, at, options.listen);
+        let all = Expected::of(bench.campaign.surface, model, at, options.listen)?;
         let inputs: Vec<usize> = alive.iter().copied().chain(at.map(|_| model.ports.len())).collect();
         let response = |o: &usize, i: &usize| all.response(*o, *i).to_vec();
         let row = |o: &usize| inputs.iter().map(|i| response(o, i)).collect();
