@@ -131,7 +131,7 @@ pub fn calibrate(
 ) -> Found {
     let accuracy = if unknowns.is_some() { Truth::ACCURACY } else { 1e-6 };
     let model = modal(surface, None, accuracy);
-    let options = VirtualOptions { accuracy, ..VirtualOptions::default() };
+    let options = VirtualOptions { accuracy, ..VirtualOptions::to_be_measured(surface).unwrap() };
     let truth = unknowns.map(|unknowns| unknowns.truth(surface).unwrap());
     let device = match &truth {
         Some(truth) => Virtual::of_truth(truth, &options).unwrap(),

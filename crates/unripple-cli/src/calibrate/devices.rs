@@ -37,7 +37,8 @@ pub fn open(options: &DeviceOptions, surface: &Surface) -> Result<Opened, CliErr
 }
 
 fn virtual_surface(options: &DeviceOptions, surface: &Surface) -> Result<Opened, CliError> {
-    let plain = VirtualOptions { accuracy: judge::accuracy(surface), ..VirtualOptions::default() };
+    let plain = VirtualOptions::to_be_measured(surface).map_err(failed)?;
+    let plain = VirtualOptions { accuracy: judge::accuracy(surface), ..plain };
     let (device, unknowns) = open::virtual_surface(options, surface, &plain).map_err(failed)?;
     let seed = unknowns.as_ref().map_or(0, |unknowns| unknowns.seed);
     Ok(Opened { rig: Box::new(VirtualRig::new(device, seed)), truth: unknowns.as_ref().map(said) })
