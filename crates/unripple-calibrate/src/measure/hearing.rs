@@ -2,7 +2,7 @@
 
 use crate::CalibrateError;
 use faer::Mat;
-use unripple_core::{ModalResponses, Surface};
+use unripple_core::{ModalResponses, Onset, Surface};
 use unripple_physics::{Sensor, sensed, sensors};
 
 /// A model of what a surface's actuators hear of each other, each in the unit of its [`Sensor`].
@@ -43,14 +43,19 @@ impl Hearing {
         self.model.poles.iter().map(|pole| [pole.omega / std::f64::consts::TAU, pole.sigma])
     }
 
-    /// Whether an actuator hears each oscillation of its own in step with the drive: where nothing but the sheet dissipates and no circuit
-    /// comes between, as with all but coils on a voltage.
+    /// Whether an actuator hears each oscillation in step with its own drive: where no circuit comes between, and damping does not couple
+    /// modes. Coils on a voltage couple them much; masses on a sheet that dissipates where they do not, a little.
     pub fn in_step(&self) -> bool {
-        self.sensors.iter().all(|sensor| sensor.circuit.is_none())
+        !self.closed() && self.model.poles.iter().all(|pole| pole.onset == Onset::Velocity)
     }
 
-    /// What a sensor heard, response by response, as the velocity (m/s) under its contact: what libraries hold. `None` for one that does not
-    /// hear the velocity of a place.
+    /// Whether any actuator is a coil on a voltage.
+    pub fn closed(&self) -> bool {
+        self.sensors.iter().any(|sensor| sensor.circuit.is_some())
+    }
+
+    /// What a sensor heard, response by response, as the velocity (m/s) under its contact: what libraries hold. `None` for one that
+    /// does not hear the velocity of a place.
     pub fn velocity(&self, sensor: usize, heard: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
         let (sensor, rate) = (self.sensors.get(sensor)?, self.model.conditions.rate);
         heard.iter().map(|response| sensor.velocity(response, rate)).collect()

@@ -23,8 +23,8 @@ const PERIODS: f64 = 2.0;
 /// Tones up to this ratio of frequencies say how long a part of the band rings.
 const NEAR: f64 = 1.3;
 
-/// Seconds of the model's responses whose tones are looked for, and how many of them make a cell of the band.
-const SAID: f64 = 0.2;
+/// Most seconds of the model's responses whose tones are looked for, and how many of them make a cell of the band.
+const SAID: f64 = 2.0;
 const IN_CELL: usize = 8;
 
 /// Share of a period of the band's top within which the first estimate is taken to lie.
@@ -39,8 +39,8 @@ const AGREED: f64 = 0.3;
 /// An actuator hears each tone of the surface in step with its own drive: the sheet's velocity at a place is a sum of
 /// w² e^{-σt} (cos ωt - (σ/ω) sin ωt) whatever the sheet is, its tones above the band included. So the phases that its
 /// tones have at time 0, each followed back from when the beginning has passed, are those of a delay and nothing else; no
-/// model says where the tones are. A circuit between is known from the surface file, and taken back. Coils on a voltage damp the surface where
-/// they are, which takes tones out of step by what the model's own are, cell by cell of the band.
+/// model says where the tones are. A circuit between is known from the surface file, and taken back. What coils on a voltage
+/// damp and what masses leave undamped takes tones out of step, by what the model's own are, cell by cell of the band.
 ///
 /// The second number is how far actuators disagree, as half the range of the middle half.
 ///
@@ -102,11 +102,11 @@ fn disagreement(sorted: &[f64]) -> f64 {
     quantile(0.75).zip(quantile(0.25)).map_or(0.0, |(high, low)| (high - low) / 2.0)
 }
 
-/// To a sample or so: the delays between what is heard and what the model says, ascending, at least one; and the sign of each actuator, 0 if
-/// it is silent.
+/// To a sample or so: the delays between what is heard and what the model says, ascending, at least one; and the sign of each
+/// actuator, 0 if it is silent.
 ///
-/// Of what actuators hear of themselves; where coils on a voltage damp the surface, of what they hear of each other: of itself such a coil hears at
-/// first what is damped most, which no mode of the band is.
+/// Of what actuators hear of themselves; where coils on a voltage damp the surface, of what they hear of each other: of itself such a
+/// coil hears at first what is damped most, which no mode of the band is.
 fn roughly(
     heard: &[Vec<Vec<f64>>],
     some: &[usize],
@@ -115,7 +115,7 @@ fn roughly(
     band: Band,
 ) -> Result<(Vec<f64>, Vec<f64>), CalibrateError> {
     let (mut delays, mut signs) = (Vec::new(), vec![1.0; some.len()]);
-    let away = if model.in_step() { 0 } else { 1 };
+    let away = usize::from(model.closed());
     for b in 0..some.len() {
         let a = (b + away) % some.len();
         let found = &heard[b][a];
@@ -125,7 +125,7 @@ fn roughly(
         match Delay::between(found, &said, rate, band) {
             Ok(delay) => {
                 delays.push(delay.samples);
-                signs[b] = if delay.inverted && model.in_step() { -1.0 } else { 1.0 };
+                signs[b] = if delay.inverted && away == 0 { -1.0 } else { 1.0 };
             }
             // One that is silent tells nothing; others may.
             Err(_) => signs[b] = 0.0,
@@ -257,7 +257,8 @@ fn said(
     Ok((0..count).map(|b| (0..count).map(|a| of(b, a)).collect()).collect())
 }
 
-/// The delay in samples, at most `most` either way, at which the tones that some actuators hear of themselves are most in step, if they are.
+/// The delay in samples, at most `most` either way, at which the tones that some actuators hear of themselves are most in step, if they
+/// are.
 fn delay(tones: &[Tone], actuators: &[usize], cells: &Cells, rate: f64, most: f64) -> Option<f64> {
     let parts: Vec<(f64, c64)> = tones
         .iter()
