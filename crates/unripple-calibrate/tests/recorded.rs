@@ -183,8 +183,8 @@ fn harmonics_are_told_by_their_order() {
             let all: Vec<f64> = found.account.harmonics.iter().map(|h| h[order].max(0.0)).collect();
             (all.iter().map(|x| x * x).sum::<f64>() / all.len() as f64).sqrt()
         };
-        for order in 0..2 {
-            let (wanted, found) = (harmonics[order], mean(order));
+        for (order, wanted) in harmonics.into_iter().enumerate() {
+            let found = mean(order);
             let near = if wanted > 0.0 { (found / wanted - 1.0).abs() < 0.35 } else { found < 0.004 };
             assert!(near, "order {}: {found} instead of {wanted}", order + 2);
         }

@@ -173,12 +173,12 @@ fn the_probes_own_delay_is_found() {
 fn sensors_on_wrong_channels_are_named() {
     let surface = film();
     let points = places(&surface, 2);
-    let swap = |measured: &mut Measured, change: &dyn Fn(usize, usize, &[Vec<f64>]) -> Vec<f64>| {
+    type Change = dyn Fn(usize, usize, &[Vec<f64>]) -> Vec<f64>;
+    let swap = |measured: &mut Measured, change: &Change| {
         let pairs = measured.pairs.as_mut().unwrap();
         let before = pairs.responses.clone();
         pairs.responses = (0..64).map(|n| change(n / 8, n % 8, &before)).collect();
     };
-    type Change = dyn Fn(usize, usize, &[Vec<f64>]) -> Vec<f64>;
     let reversed = |driven: usize, heard: usize, all: &[Vec<f64>]| {
         let sign = if heard == 3 { -1.0 } else { 1.0 };
         all[driven * 8 + heard].iter().map(|x| sign * x).collect()

@@ -152,8 +152,7 @@ fn levels_need_a_scale() {
         std::fs::write(format!("{}/{file}", bench.folder), integers(lines, full)).unwrap();
     };
     write("actuators.wav", &own);
-    for place in 0..2 {
-        let (x, y) = PLACES[place];
+    for (place, (x, y)) in PLACES.into_iter().enumerate().take(2) {
         let heard = bench.surface.record(Point::from_mm(x, y), 6_000, 2 + place as u64);
         write(&format!("point-{:03}.wav", place + 1), &heard);
     }

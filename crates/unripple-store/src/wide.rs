@@ -21,30 +21,37 @@ pub(crate) enum Format<R> {
 /// Looks at the chunks up to the format, without losing any.
 pub(crate) fn format<R: Read>(mut reader: R) -> io::Result<Format<R>> {
     let mut seen = Vec::new();
-    let take = |reader: &mut R, bytes: u64, seen: &mut Vec<u8>| -> io::Result<bool> {
-        Ok(reader.take(bytes).read_to_end(seen)? as u64 == bytes)
+    let described = described(&mut reader, &mut seen)?;
+    Ok(match described.and_then(|from| wide(&seen[from..])) {
+        Some((rate, channels)) => Format::Float64 { rate, channels, rest: reader },
+        None => Format::Other(Cursor::new(seen).chain(reader)),
+    })
+}
+
+/// Reads up to the end of the format, if there is one; where in what was seen it begins.
+fn described(reader: &mut impl Read, seen: &mut Vec<u8>) -> io::Result<Option<usize>> {
+    let mut take = |bytes: u64, seen: &mut Vec<u8>| -> io::Result<bool> {
+        Ok(reader.by_ref().take(bytes).read_to_end(seen)? as u64 == bytes)
     };
-    let whole = take(&mut reader, 12, &mut seen)? && seen.starts_with(b"RIFF") && seen[8..] == *b"WAVE";
-    while whole {
+    if !take(12, seen)? || !seen.starts_with(b"RIFF") || seen[8..] != *b"WAVE" {
+        return Ok(None);
+    }
+    loop {
         let head = seen.len();
-        if !take(&mut reader, 8, &mut seen)? || &seen[head..head + 4] == b"data" {
-            break;
+        if !take(8, seen)? || &seen[head..head + 4] == b"data" {
+            return Ok(None);
         }
         let length =
             u64::from(u32::from_le_bytes([seen[head + 4], seen[head + 5], seen[head + 6], seen[head + 7]]));
         let format = &seen[head..head + 4] == b"fmt ";
         // Chunks begin at even places.
-        if length > MOST || !take(&mut reader, length + length % 2, &mut seen)? {
-            break;
+        if length > MOST || !take(length + length % 2, seen)? {
+            return Ok(None);
         }
         if format {
-            return Ok(match wide(&seen[head + 8..]) {
-                Some((rate, channels)) => Format::Float64 { rate, channels, rest: reader },
-                None => Format::Other(Cursor::new(seen).chain(reader)),
-            });
+            return Ok(Some(head + 8));
         }
     }
-    Ok(Format::Other(Cursor::new(seen).chain(reader)))
 }
 
 /// Rate and channels, if a format is that of float64.

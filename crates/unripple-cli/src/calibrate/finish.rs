@@ -60,8 +60,11 @@ pub fn log_run(
     Ok(library.log("runs", Value::Array(runs.split_off(first)))?)
 }
 
-/// Actuators whose own points are measured and not left out, and what their sensors heard, `[sensor][drive]`.
-fn own(campaign: &Campaign<'_>, shelf: &Shelf) -> Result<(Vec<usize>, Vec<Vec<Vec<f64>>>), CliError> {
+/// Responses, `[sensor][drive]`.
+type Pairs = Vec<Vec<Vec<f64>>>;
+
+/// Actuators whose own points are measured and not left out, and what their sensors heard.
+fn own(campaign: &Campaign<'_>, shelf: &Shelf) -> Result<(Vec<usize>, Pairs), CliError> {
     let library = &shelf.library;
     let count = campaign.surface.actuators.len();
     let measured = |actuator: &usize| library.state(shelf.probed + actuator) == Some(PointState::Measured);

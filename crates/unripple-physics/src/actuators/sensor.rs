@@ -115,7 +115,7 @@ fn derivative(signal: &[f64], rate: f64) -> Vec<f64> {
     let tap = |k: usize| {
         let share = k as f64 / (HALF + 1) as f64;
         let window = bessel_i0(BETA * (1.0 - share * share).sqrt()) / bessel_i0(BETA);
-        let sign = if k % 2 == 0 { -1.0 } else { 1.0 };
+        let sign = if k.is_multiple_of(2) { -1.0 } else { 1.0 };
         rate * sign * window / k as f64
     };
     let taps: Vec<f64> = (1..=HALF).map(tap).collect();
