@@ -5,7 +5,7 @@ use super::rig::TapeRig;
 use crate::calibrate::middle;
 use crate::error::CliError;
 use std::collections::BTreeSet;
-use unripple::core::{Layout, PROBE};
+use unripple::core::{Layout, PROBE, Point};
 use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{Channel, Listen, Session};
 use unripple_devices::{DevicesError, Expected, Lead, WiringOptions, check_responses, reciprocal};
@@ -185,27 +185,11 @@ impl Tried {
         rig: &mut TapeRig,
         rows: &[Channel],
     ) -> Result<(), Failed> {
-        let (model, places) = (bench.campaign.model, &bench.campaign.places);
+        let model = bench.campaign.model;
         let alive = self.alive(rows.len());
-        let mut channels: Vec<Channel> = alive.iter().map(|a| rows[*a].clone()).collect();
-        let mut names: Vec<String> = alive.iter().map(|a| model.ports[*a].name.clone()).collect();
-        let outputs = names.clone();
-        // With the probe, all of one point's recording, so that it may have changed places with a sensor.
-        let point = bench.good.first().copied().filter(|_| bench.takes.wires.probe.is_some());
-        let both = point.map(|number| {
-            let at = places.points[number];
-            let sensors = session.measure(rig, number, at, 0, Listen::Sensors)?;
-            Ok::<_, CalibrateError>([sensors, session.measure(rig, number, at, 0, Listen::Probe)?])
-        });
-        // A point's recording that is no good is told of when it is measured.
-        let point = point.filter(|_| matches!(both, Some(Ok(_))));
-        if let Some(Ok([sensors, probe])) = both {
-            channels = alive.iter().map(|a| sensors[*a].clone()).collect();
-            channels.extend(probe);
-            names.push(PROBE.into());
-        }
+        let outputs: Vec<String> = alive.iter().map(|a| model.ports[*a].name.clone()).collect();
+        let Held { names, channels, at } = Held::of(bench, session, rig, rows, &alive);
         let options = WiringOptions::for_band(model.conditions.band);
-        let at = point.map(|number| places.points[number]);
         let all = Expected::of(bench.campaign.surface, model, at, options.listen)?;
         let inputs: Vec<usize> = alive.iter().copied().chain(at.map(|_| model.ports.len())).collect();
         let response = |o: &usize, i: &usize| all.response(*o, *i).to_vec();
@@ -240,6 +224,42 @@ impl Tried {
             }
         }
         Ok(())
+    }
+}
+
+/// Channels that are held against the model, with their names; where the probe was, if it is the last of them.
+struct Held {
+    names: Vec<String>,
+    channels: Vec<Channel>,
+    at: Option<Point>,
+}
+
+impl Held {
+    /// Sensors of some actuators; with a probe, of one point's recording, so that it may have changed places with a sensor.
+    fn of(
+        bench: &Bench<'_>,
+        session: &Session,
+        rig: &mut TapeRig,
+        rows: &[Channel],
+        alive: &[usize],
+    ) -> Self {
+        let mut names: Vec<String> =
+            alive.iter().map(|a| bench.campaign.model.ports[*a].name.clone()).collect();
+        let of = |all: &[Channel]| alive.iter().map(|a| all[*a].clone()).collect::<Vec<_>>();
+        let point = bench.good.first().copied().filter(|_| bench.takes.wires.probe.is_some());
+        let both = point.map(|number| {
+            let at = bench.campaign.places.points[number];
+            let sensors = session.measure(rig, number, at, 0, Listen::Sensors)?;
+            Ok::<_, CalibrateError>((at, sensors, session.measure(rig, number, at, 0, Listen::Probe)?))
+        });
+        match both {
+            Some(Ok((at, sensors, probe))) => {
+                names.push(PROBE.into());
+                Self { names, channels: [of(&sensors), probe].concat(), at: Some(at) }
+            }
+            // A point's recording that is no good is told of when it is measured.
+            Some(Err(_)) | None => Self { names, channels: of(rows), at: None },
+        }
     }
 }
 
