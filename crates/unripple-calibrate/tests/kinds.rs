@@ -99,6 +99,18 @@ fn unknown_surfaces_with_every_kind_calibrate() {
     assert!(wrong.is_empty(), "{wrong:?}");
 }
 
+#[test]
+fn sweeps_begin_below_the_lowest_mode() {
+    for (surface, highest) in [(table(6), 60.0), (unripple_physics::design::papers_surface(), 60.0)] {
+        let model = modal(&surface, None, 1e-4);
+        let lowest =
+            model.poles.iter().map(|pole| pole.omega / std::f64::consts::TAU).fold(f64::MAX, f64::min);
+        let from = MeasureOptions::for_model(&model).from;
+        println!("lowest mode {lowest:.1} Hz, swept from {from:.1}");
+        assert!(from <= 0.7 * lowest && from <= highest && (lowest < 100.0 || from == highest));
+    }
+}
+
 /// Its lowest modes ring for a second: the wiring test waits for them, and so do sweeps, which begin below them.
 #[test]
 fn a_table_calibrates() {

@@ -65,6 +65,12 @@ impl Default for MeasureOptions {
     }
 }
 
+/// Share of the lowest mode's frequency at which a sweep begins at the latest: what it begins with is faded in.
+const BELOW: f64 = 0.6;
+
+/// Lowest frequency that a sweep begins at by itself, in Hz: no exciter moves below.
+const LOWEST: f64 = 2.0;
+
 /// Most repeats that anybody is advised to make.
 const MOST_REPEATS: f64 = 99.0;
 
@@ -73,16 +79,18 @@ const MOST_KEPT: f64 = 60.0;
 
 impl MeasureOptions {
     /// What suits a surface that is thought to be like a model: sweep, ringing and response in proportion to the slowest decay in
-    /// the band, and those of [`MeasureOptions::default`] up to 70 ms.
+    /// the band, and those of [`MeasureOptions::default`] up to 70 ms. The sweep begins below the lowest mode, at 60 Hz at the highest.
     ///
     /// The next sweep's response begins when e⁻⁵ is left of the last, and the second harmonic comes before the linear response by 1.4
     /// decay times: both as far apart in a slow surface as in a quick one.
     pub fn for_model(model: &ModalResponses) -> Self {
         let usual = Self::default();
-        let times = slowest_decay(model, usual.from) / USUAL_DECAY;
+        let from = lowest(model).map_or(usual.from, |hz| (BELOW * hz).clamp(LOWEST, usual.from));
+        let times = slowest_decay(model, from) / USUAL_DECAY;
         // What differs in the last digits is the same surface, and the same plan.
         let times = if times > 1.001 { times } else { 1.0 };
-        Self { sweep: times * usual.sweep, ringing: times * usual.ringing, kept: times * usual.kept, ..usual }
+        let [sweep, ringing, kept] = [usual.sweep, usual.ringing, usual.kept].map(|seconds| times * seconds);
+        Self { sweep, from, ringing, kept, ..usual }
     }
 
     /// What is too short for a surface that is thought to be like a model, a sentence each.
@@ -203,6 +211,13 @@ impl MeasureOptions {
     pub fn samples(&self, rate: f64) -> usize {
         (self.kept * rate).round() as usize + 1
     }
+}
+
+/// The frequency of the lowest mode in the band, in Hz.
+fn lowest(model: &ModalResponses) -> Option<f64> {
+    let [low, high] = model.conditions.band.map(|hz| std::f64::consts::TAU * hz);
+    let within = model.poles.iter().map(|pole| pole.omega).filter(|omega| (low..=high).contains(omega));
+    within.min_by(f64::total_cmp).map(|omega| omega / std::f64::consts::TAU)
 }
 
 /// Seconds in which the amplitude of the slowest mode in the band falls to 1/e, above `from` Hz; 0 without modes there.

@@ -114,7 +114,7 @@ impl Rig for Hands {
     }
 }
 
-fn modal(surface: &Surface, max_hz: Option<f64>, accuracy: f64) -> ModalResponses {
+pub fn modal(surface: &Surface, max_hz: Option<f64>, accuracy: f64) -> ModalResponses {
     match responses(surface, &ResponseOptions { max_hz, accuracy, ..Default::default() }) {
         Ok(Responses::Modal(modal)) => modal,
         other => panic!("{other:?}"),

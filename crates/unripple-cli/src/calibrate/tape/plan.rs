@@ -24,7 +24,7 @@ const FORMAT: u32 = 1;
 const SAME: f64 = 1e-9;
 
 /// Keys that a plan may lack.
-const NEW: [&str; 1] = ["ringing_s"];
+const NEW: [&str; 2] = ["ringing_s", "sweep_from_hz"];
 
 /// The plan that a folder has, if it has one.
 pub fn found(folder: &Path) -> Result<Option<Value>, CliError> {
@@ -50,6 +50,7 @@ pub fn apply(plan: &Value, options: &CalibrateOptions, settings: &mut MeasureOpt
     let seconds = |key: &str| plan[key].as_f64().filter(|seconds| *seconds > 0.0 && *seconds < 60.0);
     let usual = MeasureOptions::default();
     settings.ringing = seconds("ringing_s").unwrap_or(usual.ringing);
+    settings.from = plan["sweep_from_hz"].as_f64().filter(|hz| *hz > 0.0).unwrap_or(usual.from);
     if options.sweep_ms.is_none() {
         settings.sweep = seconds("sweep_s").unwrap_or(settings.sweep);
     }
@@ -115,6 +116,7 @@ pub fn told(
         "outputs": layout.outputs,
         "inputs": layout.inputs,
         "sweep_s": settings.sweep,
+        "sweep_from_hz": settings.from,
         "ringing_s": settings.ringing,
         "sweeps_begin_s": drive.channels().iter().map(begins).collect::<Vec<_>>(),
         "level": settings.level,
