@@ -12,12 +12,17 @@ use unripple_store::{Library, read_wav};
 /// The key of the library's log under which marks are kept.
 const TAKES: &str = "takes";
 
+/// And under which it is said that recordings were resampled.
+const RATE: &str = "rate";
+
 /// What a file is known by.
 #[derive(Clone, Debug, PartialEq)]
 struct Mark {
     bytes: u64,
     /// When it was last written, in ns after 1970: a file of the same size and time is not read again.
     written: u64,
+    /// Samples per second; 0 in logs of before.
+    rate: f64,
     /// Of its samples, whatever kind of file holds them.
     hash: String,
 }
@@ -44,7 +49,8 @@ impl Marks {
             let bytes = about.len();
             let before = known.and_then(|known| Mark::of(known.get(file)?));
             let before = before.filter(|mark| mark.bytes == bytes && mark.written == written && written > 0);
-            if let Some(mark) = before.or_else(|| Some(Mark { bytes, written, hash: hash(folder, file)? })) {
+            let read = || hash(folder, file).map(|(rate, hash)| Mark { bytes, written, rate, hash });
+            if let Some(mark) = before.or_else(read) {
                 all.insert(file.clone(), mark);
             }
         }
@@ -75,8 +81,28 @@ impl Marks {
         faults
     }
 
-    /// Keeps all marks in a library's log, beside those of files that are gone.
+    /// Which recordings are at another rate, in words, if any are.
+    fn resampled(&self, rate: f64) -> Option<String> {
+        let other: Vec<(&String, f64)> = self
+            .all
+            .iter()
+            .map(|(file, mark)| (file, mark.rate))
+            .filter(|(_, of)| *of > 0.0 && *of != rate)
+            .collect();
+        match other[..] {
+            [] => None,
+            [(file, of)] => Some(format!("{file} is at {of} Hz: resampled to {rate} Hz")),
+            [(file, of), ..] => Some(format!(
+                "{file} ({of} Hz) and {} recordings more are at another rate: resampled to {rate} Hz",
+                other.len() - 1
+            )),
+        }
+    }
+
+    /// Keeps all marks in a library's log, beside those of files that are gone, and which recordings had to be resampled.
     pub fn keep(&self, library: &mut Library) -> Result<(), CliError> {
+        let said = self.resampled(library.plan().conditions.rate);
+        library.log(RATE, said.map_or(Value::Null, |said| json!({ "said": said })))?;
         let mut told = library.logged(TAKES).and_then(Value::as_object).cloned().unwrap_or_default();
         told.extend(self.all.iter().map(|(file, mark)| (file.clone(), mark.told())));
         Ok(library.log(TAKES, Value::Object(told))?)
@@ -93,16 +119,17 @@ impl Mark {
     fn of(told: &Value) -> Option<Self> {
         let number = |key: &str| told.get(key)?.as_u64();
         let hash = told.get("hash")?.as_str()?.to_owned();
-        Some(Self { bytes: number("bytes")?, written: number("written_ns")?, hash })
+        let rate = told.get("rate_hz").and_then(Value::as_f64).unwrap_or(0.0);
+        Some(Self { bytes: number("bytes")?, written: number("written_ns")?, rate, hash })
     }
 
     fn told(&self) -> Value {
-        json!({ "bytes": self.bytes, "written_ns": self.written, "hash": self.hash })
+        json!({ "bytes": self.bytes, "written_ns": self.written, "rate_hz": self.rate, "hash": self.hash })
     }
 }
 
-/// FNV-1a, 64 bits, of all samples, channel after channel; `None` of what cannot be read.
-fn hash(folder: &Path, file: &str) -> Option<String> {
+/// The rate, and FNV-1a, 64 bits, of all samples, channel after channel; `None` of what cannot be read.
+fn hash(folder: &Path, file: &str) -> Option<(f64, String)> {
     const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
     const PRIME: u64 = 0x0100_0000_01b3;
     let wav = read_wav(folder.join(file)).ok()?;
@@ -113,7 +140,7 @@ fn hash(folder: &Path, file: &str) -> Option<String> {
         add(channel.len() as u64);
         channel.iter().for_each(|x| add(x.to_bits()));
     }
-    Some(format!("{hash:016x}"))
+    Some((wav.rate, format!("{hash:016x}")))
 }
 
 #[cfg(test)]
@@ -122,7 +149,7 @@ mod tests {
 
     #[test]
     fn copies_are_named_and_the_known_one_is_not() {
-        let mark = |hash: &str| Mark { bytes: 1, written: 2, hash: hash.into() };
+        let mark = |hash: &str| Mark { bytes: 1, written: 2, rate: 44_100.0, hash: hash.into() };
         let all = [("a.wav", "1"), ("b.wav", "2"), ("c.wav", "1")].map(|(f, h)| (f.to_owned(), mark(h)));
         let marks = Marks { all: all.into() };
         let files = |trusted: &[&str]| {
@@ -133,5 +160,8 @@ mod tests {
         assert_eq!(files(&["a.wav", "b.wav"]), ["c.wav"]);
         assert_eq!(files(&["a.wav", "c.wav"]), ["a.wav", "c.wav"], "who is right is not known");
         assert!(marks.copies(&[])[0].why.contains("same samples as c.wav"));
+        let said = marks.resampled(48_000.0).unwrap();
+        assert_eq!(said, "a.wav (44100 Hz) and 2 recordings more are at another rate: resampled to 48000 Hz");
+        assert_eq!(marks.resampled(44_100.0), None);
     }
 }
