@@ -3,7 +3,7 @@
 use crate::between;
 use crate::error::CliError;
 use crate::judge::{self, Note};
-use serde_json::Value;
+use crate::own;
 use unripple::core::{Point, Responses, SampledResponses, Surface};
 use unripple_calibrate::Interpolation;
 use unripple_store::{Library, StoreError, load_surface};
@@ -95,7 +95,7 @@ pub fn quiet_source(name: &str) -> Result<Source, CliError> {
         )));
     }
     let (responses, damage) = library.intact()?;
-    let responses = without_own(&library, responses)?;
+    let responses = own::as_velocities(&library, &surface, responses)?;
     let (points, all) = (responses.points.len(), library.points().len());
     if points == 0 {
         return Err(CliError::Input(format!(
@@ -115,20 +115,6 @@ pub fn quiet_source(name: &str) -> Result<Source, CliError> {
     let without_scale = library.without_scale().map(str::to_owned);
     Ok(Source { surface, stored: Some(Stored { responses, told, notes, without_scale }) })
 }
-
-/// What is left when the actuators' own sensors are of another scale than the probe: figures over all points would mix both.
-fn without_own(library: &Library, responses: SampledResponses) -> Result<SampledResponses, CliError> {
-    let apart = library.logged("sensors").and_then(|said| said.get("left_out")).and_then(Value::as_bool);
-    if apart != Some(true) {
-        return Ok(responses);
-    }
-    let own = |point: &Point| responses.ports.iter().any(|port| port.at.distance(*point) < SAME);
-    let kept: Vec<usize> = (0..responses.points.len()).filter(|i| !own(&responses.points[*i])).collect();
-    if kept.is_empty() { Ok(responses) } else { responses.select(&kept).map_err(CliError::work) }
-}
-
-/// A point this near to an actuator, in metres, is the actuator's own.
-const SAME: f64 = 1e-6;
 
 /// What figures taken on a library are of, and notes on it.
 pub type Told = (String, Vec<Note>);

@@ -31,6 +31,7 @@ mod judge;
 mod modes;
 mod open;
 mod output;
+mod own;
 mod play;
 mod played;
 mod reads;

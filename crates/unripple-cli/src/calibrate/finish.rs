@@ -4,6 +4,7 @@ use super::Campaign;
 use super::shelf::Shelf;
 use super::verify;
 use crate::error::CliError;
+use crate::own;
 use serde_json::{Value, json};
 use std::time::{SystemTime, UNIX_EPOCH};
 use unripple_devices::reciprocal;
@@ -28,6 +29,8 @@ pub fn finish(campaign: &Campaign<'_>, shelf: &mut Shelf, latency: Option<[f64; 
     let dead: Vec<&str> = shelf.without.iter().map(|actuator| names[*actuator]).collect();
     shelf.library.log("dead", if dead.is_empty() { Value::Null } else { json!(dead) })?;
     shelf.library.log("scale", campaign.scale_told())?;
+    let listens = shelf.library.points().len() > shelf.probed;
+    shelf.library.log(own::KEY, if listens { own::told(campaign.surface)? } else { Value::Null })?;
     reciprocity(campaign, shelf)?;
     spread(campaign, shelf, latency)?;
     sensors(campaign, shelf)?;
@@ -148,11 +151,18 @@ fn spread(campaign: &Campaign<'_>, shelf: &mut Shelf, latency: Option<[f64; 2]>)
 
 /// Leaves the actuators' own points out of figures, where sensors are of another scale than the probe.
 fn sensors(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), CliError> {
+    let (sensing, plan) = (own::sensing(campaign.surface)?, shelf.library.plan());
     let power = |points: std::ops::Range<usize>, own: bool| -> Result<Option<f64>, CliError> {
         let (mut sum, mut count) = (0.0, 0.0);
         for point in points.filter(|point| shelf.library.state(*point) == Some(PointState::Measured)) {
             let values = shelf.library.get(point)?;
-            for (actuator, response) in values.chunks_exact(shelf.library.plan().samples).enumerate() {
+            let values = match own.then(|| &sensing[point - shelf.probed]) {
+                Some(sensor) => own::velocities(sensor, &values, plan.samples, plan.conditions.rate),
+                None => Some(values),
+            };
+            for (actuator, response) in
+                values.iter().flat_map(|rows| rows.chunks_exact(plan.samples)).enumerate()
+            {
                 // What an actuator hears of itself is louder anyway.
                 let itself = own && point - shelf.probed == actuator;
                 if !itself && !shelf.without.contains(&actuator) {

@@ -1,0 +1,78 @@
+//! The actuators' own points of a library: they hold what sensors heard, and figures take them as velocities.
+
+use crate::error::CliError;
+use serde_json::{Value, json};
+use unripple::core::{Port, SampledResponses, Surface};
+use unripple::physics::{Sensor, sensors};
+use unripple_store::{Library, PointState};
+
+/// The key of the log that says what own points hold. Without it they hold velocities.
+pub const KEY: &str = "own_points";
+
+/// A point this near to an actuator, in metres, is the actuator's own, if it is the last one there.
+const SAME: f64 = 1e-6;
+
+/// For the log of a library whose own points hold what sensors heard.
+pub fn told(surface: &Surface) -> Result<Value, CliError> {
+    let units: Vec<&str> = sensing(surface)?.iter().map(|sensor| sensor.unit).collect();
+    Ok(json!({ "hold": "what sensors heard", "units": units }))
+}
+
+/// The actuators of a surface as sensors.
+pub fn sensing(surface: &Surface) -> Result<Vec<Sensor>, CliError> {
+    sensors(surface).map_err(CliError::input)
+}
+
+/// What a sensor heard, responses one after the other, as velocities under its contact; nothing from one that does not hear a velocity.
+pub fn velocities(sensor: &Sensor, heard: &[f32], samples: usize, rate: f64) -> Option<Vec<f32>> {
+    let rows = heard.chunks_exact(samples).map(|row| {
+        let row: Vec<f64> = row.iter().map(|h| f64::from(*h)).collect();
+        sensor.velocity(&row, rate)
+    });
+    let rows: Vec<Vec<f64>> = rows.collect::<Option<_>>()?;
+    Some(rows.into_iter().flatten().map(|v| v as f32).collect())
+}
+
+/// The responses of a library as velocities at all points. Own points are left out whose sensors do not hear a velocity, as patches, or are
+/// of another scale than the probe: figures over all points would mix both.
+pub fn as_velocities(
+    library: &Library,
+    surface: &Surface,
+    responses: SampledResponses,
+) -> Result<SampledResponses, CliError> {
+    let said = |key: &str, what: &str| library.logged(key).and_then(|said| said.get(what)).is_some();
+    let apart = library.logged("sensors").and_then(|said| said.get("left_out")).and_then(Value::as_bool);
+    if apart != Some(true) && !said(KEY, "hold") {
+        return Ok(responses);
+    }
+    // They are the library's last points; another may be at the same place.
+    let first = library.points().len().saturating_sub(responses.ports.len());
+    let measured = |actuator: usize| library.state(first + actuator) == Some(PointState::Measured);
+    let place = |(actuator, port): (usize, &Port)| {
+        let last = responses.points.iter().rposition(|point| point.distance(port.at) < SAME);
+        last.filter(|_| measured(actuator))
+    };
+    let own: Vec<Option<usize>> = responses.ports.iter().enumerate().map(place).collect();
+    let (sensors, rate) = (sensing(surface)?, responses.conditions.rate);
+    let samples = responses.samples();
+    let (mut points, mut data) = (Vec::new(), Vec::new());
+    for (point, at) in responses.points.iter().enumerate() {
+        let rows = (0..responses.ports.len()).flat_map(|actuator| responses.response(actuator, point));
+        let rows: Vec<f32> = rows.copied().collect();
+        let kept = match own.iter().position(|own| *own == Some(point)) {
+            Some(_) if apart == Some(true) => None,
+            Some(actuator) => velocities(&sensors[actuator], &rows, samples, rate),
+            None => Some(rows),
+        };
+        if let Some(kept) = kept {
+            points.push(*at);
+            data.extend(kept);
+        }
+    }
+    // Libraries of own points alone have no others to mix with.
+    if points.is_empty() {
+        return Ok(responses);
+    }
+    let SampledResponses { ports, conditions, .. } = responses;
+    SampledResponses::new(ports, points, conditions, samples, data).map_err(CliError::work)
+}
