@@ -139,7 +139,7 @@ class Heard:
             pushed = weights @ force
             if knock is not None:
                 # A force somewhere on the sheet.
-                line = np.fft.rfft(knock[1], self.size)[part]
+                line = np.fft.rfft(knock[1], self.size)[:bins][part]
                 pushed = pushed + sheet.shapes(self.waves, knock[0]) * line
             transfer = 1j * w / (omega[:, None] ** 2 - w**2 + 2j * sigma[:, None] * w)
             self.motion[:, part] = transfer * pushed
