@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use unripple::core::{Layout, PROBE, Point};
 use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{Channel, Listen, Session};
-use unripple_devices::{DevicesError, Expected, Lead, WiringOptions, check_responses, reciprocal};
+use unripple_devices::{DevicesError, Expected, WiringOptions, WiringReport, check_responses, reciprocal};
 
 /// Signal to noise, in dB, below which nothing is heard.
 const DEAF: f64 = 6.0;
@@ -19,6 +19,10 @@ const QUIET: f64 = 0.3;
 
 /// Share of the inputs that must be like the model for it to be believed.
 const BELIEVED: f64 = 0.67;
+
+/// Middle frequencies of the bursts that a fault is found by, as shares of the band. A wire is wrong at all of them; where the surface is not
+/// like its model, what seems wrong differs from one to the next.
+const BURSTS: [f64; 3] = [0.2, 0.4, 0.6];
 
 /// Points that are looked at where no sensor tells.
 const LOOKED_AT: usize = 3;
@@ -202,20 +206,29 @@ impl Tried {
         let of = |drive: &usize| channels.iter().zip(&names).map(|pair| scaled(pair, *drive)).collect();
         let heard: Vec<Vec<Vec<f64>>> = alive.iter().map(of).collect();
         let layout = Layout { outputs, inputs: names, ..bench.takes.layout().clone() };
-        let found = check_responses(&heard, &layout, &expected, &options)?;
-        let like = found.inputs.iter().filter(|lead| !lead.unlike && !lead.silent).count();
-        if (like as f64) < BELIEVED * found.inputs.len() as f64 {
+        let [low, high] = model.conditions.band;
+        let found = BURSTS.map(|share| {
+            let frequency = low + share * (high - low);
+            check_responses(&heard, &layout, &expected, &WiringOptions { frequency, ..options.clone() })
+        });
+        let found = found.into_iter().collect::<Result<Vec<WiringReport>, _>>()?;
+        let believed = |report: &WiringReport| {
+            let like = report.inputs.iter().filter(|lead| !lead.unlike && !lead.silent).count();
+            like as f64 >= BELIEVED * report.inputs.len() as f64
+        };
+        if !found.iter().all(believed) {
             self.notes.push("wires: not held against the model, which the surface is too far from".into());
             return Ok(());
         }
-        let leads = found.outputs.iter().chain(&found.inputs).filter(|lead: &&Lead| lead.unlike);
-        let unlike: BTreeSet<String> = leads.map(|lead| lead.name.clone()).collect();
+        let leads = found.iter().flat_map(|report| report.outputs.iter().chain(&report.inputs));
+        let unlike: BTreeSet<String> = leads.filter(|lead| lead.unlike).map(|lead| lead.name.clone()).collect();
         if !unlike.is_empty() {
             let names = unlike.iter().cloned().collect::<Vec<_>>().join(", ");
             self.notes.push(format!("wires: {names} unlike the model, which says nothing of them"));
         }
         let sure = |fault: &String| !unlike.iter().any(|name| fault.contains(&format!("`{name}`")));
-        for fault in found.faults().into_iter().filter(sure) {
+        let everywhere = |fault: &String| found.iter().all(|report| report.faults().contains(fault));
+        for fault in found[0].faults().into_iter().filter(sure).filter(everywhere) {
             if fault == format!("input `{PROBE}` is reversed") {
                 // Its sign is that of all responses: a focus only moves the other way.
                 self.notes.push(format!("{fault} beside the sensors: --input-scale {PROBE}=-1 turns it"));
