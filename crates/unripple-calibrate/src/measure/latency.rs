@@ -27,8 +27,9 @@ const NEAR: f64 = 1.3;
 const SAID: f64 = 2.0;
 const IN_CELL: usize = 8;
 
-/// Share of a period of the band's top within which the first estimate is taken to lie.
-const WITHIN: f64 = 0.45;
+/// Share of a period of the band's top within which the first estimate is taken to lie: half a period away, what is heard looks as if
+/// its sign were turned.
+const WITHIN: f64 = 0.75;
 
 /// Share of what cells of the band sum up to that agrees on a latency, below which there is none.
 const AGREED: f64 = 0.3;
@@ -78,17 +79,20 @@ pub fn latency(
         cells.lead(&mut all, &reference);
         cells.lead(&mut said, &reference);
     }
+    let most = WITHIN * rate / band.high[0].min(rate / 2.0);
+    let whole: Vec<usize> = (0..some.len()).collect();
+    // A sensor may be reversed: each has the sign with which its own tones are most in step.
+    let sign = |a: usize| delay(&all, &[a], &cells, rate, most).map_or(signs[a], |(_, sign)| sign * signs[a].abs());
+    let signs: Vec<f64> = whole.iter().map(|a| sign(*a)).collect();
     for (own, sign) in all.iter_mut().flat_map(|tone| tone.own.iter_mut().zip(&signs)) {
         *own *= *sign;
     }
-    let most = WITHIN * rate / band.high[0].min(rate / 2.0);
     let of = |actuators: &[usize]| {
-        let late = delay(&all, actuators, &cells, rate, most)?;
+        let (late, _) = delay(&all, actuators, &cells, rate, most)?;
         // Within a cell what is out of step may go with frequency: the model's does so as well.
-        let own = if said.is_empty() { 0.0 } else { delay(&said, actuators, &cells, rate, most)? };
+        let own = if said.is_empty() { 0.0 } else { delay(&said, actuators, &cells, rate, most)?.0 };
         Some(late - own)
     };
-    let whole: Vec<usize> = (0..some.len()).collect();
     // Where too little rings to tell more, what was found first stands.
     let Some(late) = of(&whole) else { return Ok([coarse, disagreement(&delays)]) };
     let mut alone: Vec<f64> = whole.iter().filter_map(|a| of(&[*a])).collect();
@@ -258,8 +262,14 @@ fn said(
 }
 
 /// The delay in samples, at most `most` either way, at which the tones that some actuators hear of themselves are most in step, if they
-/// are.
-fn delay(tones: &[Tone], actuators: &[usize], cells: &Cells, rate: f64, most: f64) -> Option<f64> {
+/// are, and their sign.
+fn delay(
+    tones: &[Tone],
+    actuators: &[usize],
+    cells: &Cells,
+    rate: f64,
+    most: f64,
+) -> Option<(f64, f64)> {
     let parts: Vec<(f64, c64)> = tones
         .iter()
         .map(|tone| {
@@ -276,15 +286,16 @@ fn delay(tones: &[Tone], actuators: &[usize], cells: &Cells, rate: f64, most: f6
     };
     let steps = 64;
     let grid = (-steps..=steps).map(|i| most * f64::from(i) / f64::from(steps));
-    let mut late = grid.max_by(|a, b| at(*a)[0].total_cmp(&at(*b)[0]))?;
+    let mut late = grid.max_by(|a, b| at(*a)[0].abs().total_cmp(&at(*b)[0].abs()))?;
+    let sign = at(late)[0].signum();
     for _ in 0..20 {
         let [_, first, second] = at(late);
-        if second >= 0.0 {
+        if sign * second >= 0.0 {
             break;
         }
         late -= (first / second).clamp(-most / 32.0, most / 32.0);
     }
     let size = |a: &usize| cells.sums(tones, *a).iter().map(|(sum, _)| sum.norm()).sum::<f64>();
     let whole: f64 = actuators.iter().map(size).sum();
-    (whole > 0.0 && at(late)[0] > AGREED * whole && late.abs() <= 1.1 * most).then_some(late)
+    (whole > 0.0 && at(late)[0].abs() > AGREED * whole && late.abs() <= 1.1 * most).then_some((late, sign))
 }
