@@ -22,6 +22,7 @@ fn main() -> Result<(), Failure> {
         ("strip", strip()),
         ("grid", grid_of_four()),
         ("wide", wide()),
+        ("cells", cells()),
     ];
     let begun = Instant::now();
     let drawings =
@@ -352,4 +353,25 @@ fn movie() -> Movie {
         colours: Colours { title: "Velocity (mm/s)".into(), multiplier: 1e3, ..Colours::default() },
         ..Movie::default()
     }
+}
+
+/// Signal to noise of twenty points by thirds of an octave, one of them bad in a band.
+fn cells() -> Figure {
+    let mut noise = noise(5);
+    let mut values: Vec<f64> = (0..20 * 12).map(|i| 30.0 + 0.8 * f64::from(i % 12) + 3.0 * noise()).collect();
+    values[12 * 7 + 5] = 9.0;
+    values[12 * 13..12 * 14].fill(f64::NAN);
+    Figure::of(Cells {
+        edges: (0..=12).map(|third| 178.0 * 2f64.powf(f64::from(third) / 3.0)).collect(),
+        rows: (1..=20).map(|point| point.to_string()).collect(),
+        values,
+        x: Axis::log("Frequency (Hz)"),
+        label: "Point".into(),
+        colours: Colours {
+            title: "Signal to noise (dB)".into(),
+            map: ColourMap::Sequential,
+            ..Colours::default()
+        },
+        ..Cells::default()
+    })
 }

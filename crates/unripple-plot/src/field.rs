@@ -33,9 +33,9 @@ pub struct Marker {
 }
 
 /// Pixels of an embedded picture to a point: 200 to an inch, smoothed further by whoever shows it.
-const DENSITY: f64 = 200.0 / 72.0;
+pub(crate) const DENSITY: f64 = 200.0 / 72.0;
 /// Most pixels along a side of an embedded picture.
-const LONGEST: usize = 1600;
+pub(crate) const LONGEST: usize = 1600;
 
 /// Draws a field clipped to the outline, or whole where there is none.
 pub(crate) fn picture(

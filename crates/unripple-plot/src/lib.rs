@@ -1,7 +1,7 @@
 //! Figures for publication, from data alone: one drawing gives SVG text and a PNG rendered from that same text.
 //!
 //! A [`Figure`] is a grid of [`Panel`]s: [`Plot`] (curves, points, bands and annotations on axes), [`Traces`] (one above the other,
-//! as on an oscilloscope), [`Map`] (a field over the surface) and [`Strip`] (several fields, one colour bar).
+//! as on an oscilloscope), [`Map`] (a field over the surface), [`Strip`] (several fields, one colour bar) and [`Cells`] (a table in colour).
 //! A [`Movie`] makes an animated PNG of a field. Data stay in their own (SI) units; axes and colour bars multiply
 //! them for display. A value that is not finite is a gap, never an error, unless nothing else is left.
 //!
@@ -9,6 +9,7 @@
 
 mod axis;
 mod canvas;
+mod cells;
 mod colour;
 mod colourmap;
 mod colours;
@@ -38,6 +39,7 @@ mod units;
 
 pub use axis::{Axis, Scale};
 pub use canvas::Anchor;
+pub use cells::Cells;
 pub use colour::Rgb;
 pub use colourmap::ColourMap;
 pub use colours::Colours;

@@ -1,7 +1,7 @@
 use crate::axis::Ruler;
 use crate::canvas::{Canvas, Rect};
 use crate::style::Style;
-use crate::{Map, Plot, PlotError, Strip, Traces};
+use crate::{Cells, Map, Plot, PlotError, Strip, Traces};
 
 /// One cell of a figure.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,6 +14,8 @@ pub enum Panel {
     Map(Map),
     /// Several fields sharing one colour bar.
     Strip(Strip),
+    /// A table in colour.
+    Cells(Cells),
 }
 
 macro_rules! panels {
@@ -25,7 +27,7 @@ macro_rules! panels {
         }
     )*};
 }
-panels!(Plot, Traces, Map, Strip);
+panels!(Plot, Traces, Map, Strip, Cells);
 
 impl Panel {
     /// Checks the data and settles everything that decides how much room is needed, for a cell of `width` points.
@@ -38,6 +40,7 @@ impl Panel {
             Self::Plot(plot) => Box::new(crate::plot::PreparedPlot::new(plot, width, style)?),
             Self::Traces(traces) => Box::new(crate::traces::PreparedTraces::new(traces, width, style)?),
             Self::Map(map) => Box::new(crate::map::PreparedMap::new(map, width, style)?),
+            Self::Cells(cells) => Box::new(crate::cells::PreparedCells::new(cells, width, style)?),
             Self::Strip(strip) => Box::new(crate::strip::PreparedStrip::new(strip, width, style)?),
         })
     }

@@ -253,3 +253,51 @@ fn traces_keep_their_lanes_and_share_their_scale() {
     assert!(picture.near(at(1.0, 1.0), Rgb::palette(1)) && !picture.near(at(1.0, 0.5), Rgb::palette(1)));
     assert!(picture.near(at(0.0, 0.5), Rgb::palette(2)) && !picture.near(at(0.0, 1.0), Rgb::palette(2)));
 }
+
+#[test]
+fn cells_are_one_colour_each_the_first_row_at_the_top() {
+    let (rows, columns) = (6, 4);
+    let value = |row: usize, column: usize| (row * columns + column) as f64;
+    let mut values: Vec<f64> = (0..rows * columns).map(|i| value(i / columns, i % columns)).collect();
+    values[2 * columns + 1] = f64::NAN;
+    let edges: Vec<f64> = (0..=columns).map(|i| 100.0 * 2f64.powi(i as i32)).collect();
+    let cells = Cells {
+        edges: edges.clone(),
+        rows: (1..=rows).map(|row| format!("p{row}")).collect(),
+        values,
+        x: Axis::log("Frequency (Hz)").from(50.0).to(1600.0),
+        colours: Colours {
+            map: ColourMap::Sequential,
+            low: Some(0.0),
+            high: Some(20.0),
+            ..Colours::default()
+        },
+        ..Cells::default()
+    };
+    let drawing = Figure::of(cells.clone()).draw().unwrap();
+    let picture = Picture::of(&drawing);
+    for row in 0..rows {
+        for (column, left) in edges[..columns].iter().enumerate() {
+            // Near all four corners of the cell: no colour runs into the next.
+            for (a, b) in [(0.1, 0.1), (0.9, 0.1), (0.1, 0.9), (0.9, 0.9)] {
+                let at = [left * 2f64.powf(a), (rows - row) as f64 - b];
+                let found = picture.at(drawing.pixel(0, at, DPI).unwrap());
+                let expected = match (row, column) {
+                    (2, 1) => Rgb::WHITE,
+                    _ => ColourMap::Sequential.colour(value(row, column) / 20.0),
+                };
+                assert!(off(found, expected) <= 3, "{row} {column}: {found} for {expected}");
+            }
+        }
+    }
+    assert_eq!(picture.at(drawing.pixel(0, [70.0, 3.0], DPI).unwrap()), Rgb::WHITE, "beside all columns");
+    assert_eq!(drawing.tick_labels(0).unwrap()[1], ["p1", "p2", "p3", "p4", "p5", "p6"]);
+    // Of many rows some are named.
+    let many = Cells {
+        rows: (1..=240).map(|row| row.to_string()).collect(),
+        values: vec![1.0; 240 * columns],
+        ..cells
+    };
+    let names = Figure::of(many).draw().unwrap().tick_labels(0).unwrap()[1].clone();
+    assert_eq!(names[..3], ["5", "10", "15"], "{names:?}");
+}

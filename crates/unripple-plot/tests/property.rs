@@ -83,6 +83,20 @@ proptest! {
     }
 
     #[test]
+    fn any_cells_are_drawn_or_refused(
+        edges in numbers(), rows in 0usize..7, seed in prop::collection::vec(number(), 210), log in any::<bool>(),
+        height in prop::option::of(number()), high in prop::option::of(number()), name in ".{0,12}",
+    ) {
+        let mut edges = edges;
+        edges.sort_unstable_by(f64::total_cmp);
+        let values = seed[..rows * edges.len().saturating_sub(1)].to_vec();
+        let x = Axis { scale: if log { Scale::Logarithmic } else { Scale::Linear }, ..Axis::new(name.clone()) };
+        let colours = Colours { high, map: ColourMap::Sequential, ..Colours::default() };
+        let rows = vec![name.clone(); rows];
+        drawn(&Figure::of(Cells { edges, rows, values, x, label: name.clone(), colours, title: name, height_mm: height }));
+    }
+
+    #[test]
     fn ticks_are_few_nice_and_inside(low in -1e6..1e6f64, span in 1e-3..1e6f64, most in 1usize..12) {
         let ticks = nice_ticks(low, low + span, most);
         prop_assert!(ticks.len() <= most);

@@ -17,6 +17,7 @@ fn nothing_to_draw_is_refused() {
     assert!(matches!(refusal(Traces::default()), PlotError::Empty { .. }));
     assert!(matches!(refusal(Map::default()), PlotError::Empty { .. }));
     assert!(matches!(refusal(Strip::default()), PlotError::Empty { .. }));
+    assert!(matches!(refusal(Cells::default()), PlotError::Empty { .. }));
     let nan = refusal(plot(vec![0.0, 1.0], vec![f64::NAN, f64::INFINITY]));
     assert_eq!(nan.to_string(), "line `v`: expected at least one finite value, found 2 values, none finite");
 }
@@ -30,6 +31,14 @@ fn lengths_that_disagree_are_refused() {
         refusal(Map { grid, ..Map::default() }),
         PlotError::Length { expected: 4, found: 3, .. }
     ));
+    let table = |edges: [f64; 3]| Cells {
+        edges: edges.to_vec(),
+        rows: vec!["1".into(); 2],
+        values: vec![1.0; if edges[1] < edges[2] { 3 } else { 4 }],
+        ..Cells::default()
+    };
+    assert!(matches!(refusal(table([1.0, 2.0, 3.0])), PlotError::Length { expected: 4, found: 3, .. }));
+    assert!(matches!(refusal(table([1.0, 3.0, 2.0])), PlotError::Range { .. }));
     let points = Points { x: vec![0.0; 2], y: vec![0.0; 2], error: vec![[1.0; 2]], ..Points::default() };
     let points = Plot { layers: vec![points.into()], ..Plot::default() };
     assert!(matches!(refusal(points), PlotError::Length { expected: 2, found: 1, .. }));
