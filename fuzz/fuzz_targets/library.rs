@@ -28,10 +28,11 @@ fn sound(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let values: Vec<Vec<f32>> = (0..POINTS).map(samples).collect();
     let quality = [Quality::UNKNOWN; 2];
     let state = PointState::Measured;
-    let take = |(point, samples)| Take { point, samples, quality: &quality, state };
+    let take = |(point, samples)| Take { point, samples, quality: &quality, bands: &[], state };
     let takes: Vec<Take> = values.iter().map(Vec::as_slice).enumerate().map(take).collect();
     library.put_all(&takes).expect("points are stored");
-    let names = ["", "responses", "position", "state", "quality", "reciprocity_error"];
+    library.hold_bands(&[500.0, 630.0]).expect("there is room for bands");
+    let names = ["", "responses", "position", "state", "quality", "reciprocity_error", "bands"];
     let items = names.iter().flat_map(|name| fs::read_dir(folder.join(name)).into_iter().flatten().flatten());
     let mut files: Vec<PathBuf> = items.map(|item| item.path()).filter(|path| path.is_file() && !path.ends_with(".lock")).collect();
     files.sort();
@@ -92,7 +93,7 @@ fuzz_target!(|bytes: &[u8]| {
                 if let Ok(values) = library.get(point) {
                     assert!(forged || values == samples(point));
                 }
-                let _ = library.quality(point);
+                let _ = (library.quality(point), library.band_quality(point));
             }
             let _ = (library.nearest(Point::default()), library.reciprocity_error(), library.intact());
             if library.plan() == &plan() {

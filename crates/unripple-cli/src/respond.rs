@@ -103,6 +103,7 @@ fn fill(library: &mut Library, modal: &ModalResponses) -> Result<(), CliError> {
                 point: *point,
                 samples,
                 quality: &quality,
+                bands: &[],
                 state: PointState::Measured,
             })
             .collect();

@@ -87,6 +87,7 @@ fn write(folder: &Path, plan: &LibraryPlan) -> Result<(), StoreError> {
                 point: *point,
                 samples,
                 quality: &quality,
+                bands: &[],
                 state: PointState::Measured,
             })
             .collect();

@@ -52,7 +52,7 @@ pub use error::StoreError;
 pub use fault::{Fault, FileFaults};
 pub use file::{LARGEST_TEXT, check_new_file, new_file, write_file};
 pub use kept::{check_kept_wav, write_kept_wav};
-pub use library::{Damage, Doubt, Library, LibraryPlan, MAY_DIFFER, PointState, Quality, Take};
+pub use library::{BandQuality, Damage, Doubt, Library, LibraryPlan, MAY_DIFFER, PointState, Quality, Take};
 pub use listing::MARKER;
 pub use load::{load_surface, surface_files};
 pub use output::{Committed, OutputDir};

@@ -165,6 +165,7 @@ struct Told {
     done: Vec<usize>,
     values: Vec<Vec<f32>>,
     quality: String,
+    bands: String,
     reciprocity: Option<f64>,
     nearest: Option<usize>,
 }
@@ -177,6 +178,11 @@ fn told(folder: &Path) -> Result<Told, StoreError> {
         quality: format!(
             "{:?}",
             done.iter().map(|point| library.quality(*point)).collect::<Result<Vec<_>, _>>()?
+        ),
+        bands: format!(
+            "{:?} {:?}",
+            library.bands(),
+            done.iter().map(|point| library.band_quality(*point)).collect::<Result<Vec<_>, _>>()?
         ),
         reciprocity: library.reciprocity_error()?,
         nearest: library.nearest(Point::default()),
@@ -195,7 +201,7 @@ proptest! {
         let mut plan = plan(4, 2, 6);
         plan.surface = Some(unripple_store::load_surface("hudin-2012").unwrap());
         let folder = Folder::new("flips");
-        drop(filled(&folder.0, &plan));
+        filled(&folder.0, &plan).hold_bands(&[500.0, 630.0]).unwrap();
         let before = told(&folder.0).unwrap();
         let files = files(&folder.0);
         // The description is the longest of few files: half of all flips go there.

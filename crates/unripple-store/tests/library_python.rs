@@ -26,10 +26,13 @@ assert numpy.allclose(group["position"][:, 0], 1e-4 * numpy.arange(300))
 assert group["quality"][7, 1, 3] == 0.07 and numpy.isnan(group["reciprocity_error"][()])
 about = group.attrs["unripple_library"]
 assert about["sample_rate_hz"] == 48000 and [a["name"] for a in about["actuators"]] == ["a1", "a2"]
-assert sorted(name for name, _ in group.arrays()) == ["position", "quality", "reciprocity_error", "responses", "state"]
+assert sorted(name for name, _ in group.arrays()) == ["bands", "position", "quality", "reciprocity_error", "responses", "state"]
+bands = group["bands"]
+assert bands.shape == (300, 2, 3, 2) and bands.attrs["middle_hz"] == [500, 630, 800] and numpy.isnan(bands[5]).all()
 assert group["calibration"].attrs["unripple_calibration"]["log"]["latency"] == 3.5
 opened = xarray.open_zarr(sys.argv[1], consolidated=False)
 assert opened.responses.dims == ("point", "actuator", "sample") and opened.sizes["point"] == 300
+assert opened.bands.dims == ("point", "actuator", "band", "band_figure")
 assert float(opened.responses[5, 1, 2]) == responses[5, 1, 2]
 print("opened")
 "#;
@@ -46,6 +49,7 @@ fn python_opens_it() {
     let folder = Folder::new("python");
     let mut library = filled(&folder.0, &plan(300, 2, 9));
     library.log("latency", 3.5.into()).unwrap();
+    library.hold_bands(&[500.0, 630.0, 800.0]).unwrap();
     drop(library);
     let output = Command::new(python).args(["-c", SCRIPT]).arg(&folder.0).output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout);

@@ -34,6 +34,7 @@ pub fn fill(
                 point: *point,
                 samples,
                 quality: &quality,
+                bands: &[],
                 state: PointState::Measured,
             })
             .collect();

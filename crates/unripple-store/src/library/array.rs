@@ -1,3 +1,4 @@
+use super::bands::{self, Bands};
 use super::plan::LibraryPlan;
 use super::{disk, manifest};
 use crate::StoreError;
@@ -8,6 +9,9 @@ use std::path::{Path, PathBuf};
 
 /// Points whose states, or qualities, are in one chunk: few files to open, little to write again for each point.
 pub(crate) const BLOCK: usize = 256;
+
+/// Points whose qualities by bands are in one chunk, which is then about as large as one of qualities.
+const BAND_BLOCK: usize = 64;
 
 /// Bytes of a checksum behind a chunk.
 const CHECK: usize = 4;
@@ -40,6 +44,8 @@ pub(crate) struct Arrays {
     pub state: Array,
     pub quality: Array,
     pub reciprocity: Array,
+    /// Only some libraries have it.
+    pub bands: Option<Bands>,
 }
 
 impl Arrays {
@@ -85,15 +91,37 @@ impl Arrays {
             axes: &[],
             attributes: json!({}),
         };
-        Self { responses, position, state, quality, reciprocity }
+        Self { responses, position, state, quality, reciprocity, bands: None }
     }
 
-    pub fn all(&self) -> [&Array; 5] {
-        [&self.responses, &self.position, &self.state, &self.quality, &self.reciprocity]
+    pub fn all(&self) -> impl Iterator<Item = &Array> {
+        let always = [&self.responses, &self.position, &self.state, &self.quality, &self.reciprocity];
+        always.into_iter().chain(self.bands.as_ref().map(|bands| &bands.array))
+    }
+
+    /// Those of values that are NaN where they are not known.
+    pub fn known_or_not(&self) -> impl Iterator<Item = &Array> {
+        [&self.quality, &self.reciprocity].into_iter().chain(self.bands.as_ref().map(|bands| &bands.array))
     }
 }
 
 impl Array {
+    /// The name of the array of qualities by bands.
+    pub const BANDS: &str = "bands";
+
+    /// That array, for so many bands.
+    pub fn by_bands(plan: &LibraryPlan, count: usize, attributes: Value) -> Self {
+        Self {
+            name: Self::BANDS,
+            shape: vec![plan.points.len(), plan.ports.len(), count, bands::FIGURES],
+            along: BAND_BLOCK,
+            kind: Kind::F64,
+            // Not `figure`, which is of another length beside it: readers that know dimensions by name want one length for each.
+            axes: &["point", "actuator", "band", "band_figure"],
+            attributes,
+        }
+    }
+
     /// What its `zarr.json` says.
     pub fn metadata(&self) -> Value {
         let (kind, fill) = match self.kind {
@@ -168,20 +196,31 @@ impl Array {
         disk::write(&self.chunk(root, number), &[bytes, &check])
     }
 
+    /// Writes a chunk of which nothing is known.
+    pub fn write_unknown(&self, root: &Path, number: usize) -> Result<(), StoreError> {
+        let unknown = f64::NAN.to_le_bytes();
+        let bytes: Vec<u8> = unknown.into_iter().cycle().take(self.bytes()).collect();
+        self.write(root, number, &bytes)
+    }
+
     pub fn sync(&self, root: &Path) -> Result<(), StoreError> {
         disk::sync_folder(&self.folder(root))
     }
 
-    /// Makes its folder and writes its metadata.
-    pub fn describe(&self, root: &Path) -> Result<(), StoreError> {
+    pub fn make_folder(&self, root: &Path) -> Result<(), StoreError> {
         let folder = self.folder(root);
         let made = undisturbed(|| match std::fs::create_dir(&folder) {
             Err(error) if error.kind() == ErrorKind::AlreadyExists => Ok(()),
             done => done,
         });
-        made.map_err(StoreError::write(&folder))?;
+        made.map_err(StoreError::write(&folder))
+    }
+
+    /// Makes its folder and writes its metadata.
+    pub fn describe(&self, root: &Path) -> Result<(), StoreError> {
+        self.make_folder(root)?;
         let text = serde_json::to_vec_pretty(&self.metadata()).unwrap_or_default();
-        disk::write(&manifest::path(&folder), &[&text])
+        disk::write(&manifest::path(&self.folder(root)), &[&text])
     }
 
     /// Whether its metadata say what they should.

@@ -1,3 +1,4 @@
+use super::bands::{self, Bands};
 use super::{Library, PointState, manifest, record};
 use crate::StoreError;
 use std::fmt;
@@ -45,11 +46,12 @@ impl Library {
         };
         note(manifest::read(&self.root).map(drop), manifest::path(&self.root), None);
         note(record::read(&self.root).map(drop), record::path(&self.root), None);
+        note(Bands::read(&self.root, &self.plan).map(drop), bands::path(&self.root), None);
         let arrays = &self.arrays;
         for array in arrays.all() {
             note(array.check(&self.root), manifest::path(&array.folder(&self.root)), None);
         }
-        for array in [&arrays.position, &arrays.quality, &arrays.reciprocity] {
+        for array in std::iter::once(&arrays.position).chain(arrays.known_or_not()) {
             for chunk in 0..array.chunks() {
                 note(array.read(&self.root, chunk).map(drop), array.chunk(&self.root, chunk), None);
             }
@@ -65,7 +67,8 @@ impl Library {
     }
 
     /// Makes a damaged library writable again: points whose responses are lost become missing, so that they can be taken
-    /// again; states and qualities that cannot be read are written anew. Returns what was damaged.
+    /// again; states and qualities that cannot be read are written anew, and qualities by bands that nobody knows any more are
+    /// removed. Returns what was damaged.
     ///
     /// # Errors
     /// [`StoreError::Write`], or [`StoreError::Occupied`] if another process writes. The description of the whole and the
@@ -80,16 +83,21 @@ impl Library {
             // The doubt that it leaves is written down.
             self.write_record(self.record.clone())?;
         }
+        if Bands::read(&self.root, &self.plan).is_err() {
+            let file = bands::path(&self.root);
+            match &self.arrays.bands {
+                Some(known) => known.array.describe(&self.root)?,
+                None => std::fs::remove_file(&file).map_err(StoreError::write(&file))?,
+            }
+        }
         let arrays = &self.arrays;
-        let unknown = f64::NAN.to_le_bytes();
-        for array in [&arrays.quality, &arrays.reciprocity] {
+        for array in arrays.known_or_not() {
             for chunk in (0..array.chunks()).filter(|chunk| array.read(&self.root, *chunk).is_err()) {
-                let bytes: Vec<u8> = unknown.into_iter().cycle().take(array.bytes()).collect();
-                array.write(&self.root, chunk, &bytes)?;
+                array.write_unknown(&self.root, chunk)?;
             }
             array.sync(&self.root)?;
         }
-        for array in arrays.all().into_iter().filter(|array| array.check(&self.root).is_err()) {
+        for array in arrays.all().filter(|array| array.check(&self.root).is_err()) {
             array.describe(&self.root)?;
         }
         if !damage.is_empty() {

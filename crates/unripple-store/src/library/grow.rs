@@ -52,16 +52,21 @@ impl Library {
             .iter()
             .filter(|(_, old)| self.state(*old).is_some_and(|state| state != PointState::Missing))
             .collect();
+        if let Some(middles) = self.bands() {
+            to.hold_bands(middles)?;
+        }
         for some in stored.chunks(AT_ONCE) {
             let responses = some.iter().map(|(_, old)| self.get(*old)).collect::<Result<Vec<_>, _>>()?;
             let quality = some.iter().map(|(_, old)| self.quality(*old)).collect::<Result<Vec<_>, _>>()?;
+            let bands = some.iter().map(|(_, old)| self.band_quality(*old)).collect::<Result<Vec<_>, _>>()?;
             let takes: Vec<Take<'_>> = some
                 .iter()
-                .zip(responses.iter().zip(&quality))
-                .map(|((new, old), (samples, quality))| Take {
+                .zip(responses.iter().zip(quality.iter().zip(&bands)))
+                .map(|((new, old), (samples, (quality, bands)))| Take {
                     point: *new,
                     samples,
                     quality,
+                    bands: bands.as_deref().unwrap_or_default(),
                     state: self.state(*old).unwrap_or_default(),
                 })
                 .collect();

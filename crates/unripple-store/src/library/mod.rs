@@ -1,6 +1,7 @@
 //! Responses of a surface on disk: a Zarr v3 group with one chunk of float32 per point.
 
 mod array;
+mod bands;
 mod damage;
 mod disk;
 mod gather;
@@ -19,11 +20,13 @@ use crate::building::{Building, sweep};
 use crate::listing::{self, MARKER, Said};
 use crate::underway::undisturbed;
 use array::Arrays;
+use bands::Bands;
 use std::fs::{self, File};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use unripple_core::Point;
 
+pub use bands::BandQuality;
 pub use damage::Damage;
 pub use plan::{LibraryPlan, MAY_DIFFER};
 pub use put::Take;
@@ -38,7 +41,8 @@ const LOCK: &str = "state/.lock";
 ///
 /// What is in the folder: `zarr.json` with the whole plan and its checksum; `position` (metres), `state`, `quality` and
 /// `reciprocity_error` in few chunks, so that opening reads few files; `responses`, float32 in the order
-/// `[point][actuator][sample]`, one chunk per point. Every chunk ends in its crc32c.
+/// `[point][actuator][sample]`, one chunk per point. Every chunk ends in its crc32c. There may be `bands` as well, quality by thirds of
+/// an octave ([`Library::hold_bands`]).
 ///
 /// A point counts as finished once its chunk is on the medium and its state says so, in that order, each file put in place
 /// by renaming: whoever is killed, and whenever, loses no finished point, and others may read meanwhile. Only one process
@@ -166,6 +170,8 @@ impl Library {
     /// Looks again which points are finished, for a reader while another process writes.
     pub fn refresh(&mut self) {
         (self.states, self.damaged) = self.read_states();
+        // Damage is borne as that of quality is: [`Library::verify`] tells it.
+        self.arrays.bands = Bands::read(&self.root, &self.plan).ok().flatten();
         self.record = record::read_or_doubt(&self.root);
     }
 
@@ -229,7 +235,7 @@ impl Library {
             // It was finished where it was made.
             undisturbed(|| fs::remove_file(self.root.join(MARKER))).map_err(StoreError::write(&self.root))?;
         }
-        self.arrays.all().iter().for_each(|array| disk::sweep(&array.folder(&self.root)));
+        self.arrays.all().for_each(|array| disk::sweep(&array.folder(&self.root)));
         self.refresh();
         Ok(())
     }
@@ -269,13 +275,11 @@ fn make(building: &Building, plan: &LibraryPlan) -> Result<(), StoreError> {
     }
     let places = plan.points.iter().flat_map(|p| [p.x.to_le_bytes(), p.y.to_le_bytes()]);
     arrays.position.write(root, 0, &places.flatten().collect::<Vec<u8>>())?;
-    let unknown = f64::NAN.to_le_bytes();
-    arrays.reciprocity.write(root, 0, &unknown)?;
+    arrays.reciprocity.write_unknown(root, 0)?;
     let states = vec![0; arrays.state.bytes()];
-    let qualities: Vec<u8> = unknown.into_iter().cycle().take(arrays.quality.bytes()).collect();
     for block in 0..arrays.state.chunks() {
         arrays.state.write(root, block, &states)?;
-        arrays.quality.write(root, block, &qualities)?;
+        arrays.quality.write_unknown(root, block)?;
     }
     for array in arrays.all() {
         array.sync(root)?;

@@ -1,5 +1,5 @@
 use super::array::BLOCK;
-use super::{Library, PointState, Quality};
+use super::{BandQuality, Library, PointState, Quality};
 use crate::StoreError;
 use std::collections::BTreeMap;
 
@@ -12,19 +12,21 @@ pub struct Take<'a> {
     pub samples: &'a [f32],
     /// The quality of each.
     pub quality: &'a [Quality],
+    /// The quality of each by the library's bands, `[actuator][band]` ([`Library::hold_bands`]); none where it is not known.
+    pub bands: &'a [Vec<BandQuality>],
     /// [`PointState::Measured`], or [`PointState::Bad`].
     pub state: PointState,
 }
 
 impl Library {
     /// Stores the responses of one point, actuators x samples, in place of any it had. When this returns they are on the
-    /// medium.
+    /// medium. Nothing is said of bands: [`Library::put_all`] does.
     ///
     /// # Errors
     /// [`StoreError::Content`] if sizes do not fit or a sample is not finite; [`StoreError::Write`] if the folder cannot be
     /// written to: the point is then as it was; [`StoreError::Occupied`] if another process writes.
     pub fn put(&mut self, point: usize, samples: &[f32], quality: &[Quality]) -> Result<(), StoreError> {
-        self.put_all(&[Take { point, samples, quality, state: PointState::Measured }])
+        self.put_all(&[Take { point, samples, quality, bands: &[], state: PointState::Measured }])
     }
 
     /// Stores responses that are too bad to be used, so that they can be looked at.
@@ -32,7 +34,7 @@ impl Library {
     /// # Errors
     /// As [`Library::put`].
     pub fn put_bad(&mut self, point: usize, samples: &[f32], quality: &[Quality]) -> Result<(), StoreError> {
-        self.put_all(&[Take { point, samples, quality, state: PointState::Bad }])
+        self.put_all(&[Take { point, samples, quality, bands: &[], state: PointState::Bad }])
     }
 
     /// Stores the responses of many points, faster than one by one. None of them is finished before all are on the medium.
@@ -53,6 +55,7 @@ impl Library {
             self.write_qualities(*block, takes)?;
         }
         self.arrays.quality.sync(&self.root)?;
+        self.write_bands(takes)?;
         let before = self.states.clone();
         takes.iter().for_each(|take| self.states[take.point] = take.state);
         let written = self.write_states(&blocks.into_keys().collect::<Vec<_>>());
@@ -99,6 +102,7 @@ impl Library {
             format!("the quality of {ports} responses"),
             format!("that of {}", take.quality.len()),
         )?;
+        self.bands_fit(take)?;
         require(take.state != PointState::Missing, "a point measured or bad".into(), "a missing one".into())?;
         let bad = take.samples.iter().find(|x| !x.is_finite());
         require(bad.is_none(), "finite samples".into(), bad.map_or(String::new(), f32::to_string))

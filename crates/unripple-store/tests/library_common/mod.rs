@@ -58,7 +58,7 @@ pub fn filled(folder: &Path, plan: &LibraryPlan) -> Library {
     let state = PointState::Measured;
     let takes: Vec<Take<'_>> = owned
         .iter()
-        .map(|(point, samples, quality)| Take { point: *point, samples, quality, state })
+        .map(|(point, samples, quality)| Take { point: *point, samples, quality, bands: &[], state })
         .collect();
     library.put_all(&takes).unwrap();
     library
