@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 use unripple::core::{PROBE, Surface};
 use unripple::dsp::Reciprocity;
 use unripple_calibrate::CalibrateError;
-use unripple_calibrate::measure::{Channel, Sink};
-use unripple_store::{Library, PointState, Quality};
+use unripple_calibrate::measure::{self, Channel, Sink};
+use unripple_store::{BandQuality, Library, PointState, Quality, StoreError, Take};
 
 /// The key of a point's log under which is what its take tells of itself.
 pub const SAID: &str = "said";
@@ -74,6 +74,35 @@ impl Shelf {
         own.into_iter().zip(&self.sensors).map(channel).collect::<Result<Vec<_>, _>>().map(Some)
     }
 
+    /// Quality by thirds of an octave as it is kept, for which room is made; none of taps, which are not told apart by frequency.
+    fn bands(&mut self, channel: &Channel) -> Result<Vec<Vec<BandQuality>>, StoreError> {
+        let middles: Vec<f64> = channel.bands.first().into_iter().flatten().map(|band| band.hz).collect();
+        if middles.is_empty() {
+            return Ok(Vec::new());
+        }
+        self.library.hold_bands(&middles)?;
+        let row = |(actuator, row): (usize, &Vec<measure::BandQuality>)| {
+            if self.without.contains(&actuator) {
+                return vec![BandQuality::UNKNOWN; middles.len()];
+            }
+            let kept = row.iter().map(|band| BandQuality {
+                signal_to_noise_db: band.snr_db,
+                coherence: band.coherence.unwrap_or(f64::NAN),
+            });
+            kept.collect()
+        };
+        Ok(channel.bands.iter().enumerate().map(row).collect())
+    }
+
+    /// Stores a channel as a point's, bad if something is wrong with it.
+    fn store(&mut self, number: usize, channel: &Channel, bad: bool) -> Result<(), StoreError> {
+        let (samples, quality) = self.kept(number, channel);
+        let bands = self.bands(channel)?;
+        let state = if bad { PointState::Bad } else { PointState::Measured };
+        let take = Take { point: number, samples: &samples, quality: &quality, bands: &bands, state };
+        self.library.put_all(&[take])
+    }
+
     /// A channel as it is kept.
     fn kept(&self, number: usize, channel: &Channel) -> (Vec<f32>, Vec<Quality>) {
         let own = number.checked_sub(self.probed);
@@ -98,11 +127,7 @@ impl Sink for Shelf {
     }
 
     fn keep(&mut self, number: usize, channel: &Channel, fault: Option<&str>) -> Result<(), CalibrateError> {
-        let (samples, quality) = self.kept(number, channel);
-        let kept = match fault {
-            None => self.library.put(number, &samples, &quality),
-            Some(_) => self.library.put_bad(number, &samples, &quality),
-        };
+        let kept = self.store(number, channel, fault.is_some());
         let said = channel.account.said();
         let before = self.library.logged_point(number).is_some_and(|log| log.get(SAID).is_some());
         let logged = match said.is_empty() && !before {
@@ -112,8 +137,7 @@ impl Sink for Shelf {
                 self.library.log_points(BTreeMap::from([(number, json!({ SAID: said }))]))
             }
         };
-        let failed =
-            |error: unripple_store::StoreError| CalibrateError::Sink { number, why: error.to_string() };
+        let failed = |error: StoreError| CalibrateError::Sink { number, why: error.to_string() };
         kept.map_err(failed).and_then(|()| logged.map_err(failed))
     }
 }

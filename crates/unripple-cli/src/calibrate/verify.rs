@@ -9,7 +9,7 @@ use unripple::dsp::{Band, shift};
 use unripple_calibrate::Measured;
 use unripple_calibrate::measure::MeasureOptions;
 use unripple_calibrate::verify::{self, Checked, Verified, VerifyOptions};
-use unripple_store::{Doubt, Library, PointState};
+use unripple_store::{Doubt, Library, PointState, Take};
 
 /// The check that finds responses which no model of the surface makes.
 const CHECK: &str = "model";
@@ -111,12 +111,16 @@ fn correct(
             let response: Vec<f64> = probed.response(actuator, n).iter().map(|h| f64::from(*h)).collect();
             samples.extend(shift(&response, -late).iter().map(|h| (factor * h) as f32));
         }
+        // Gain and delay leave both as they are.
         let quality = library.quality(*point)?;
+        let bands = library.band_quality(*point)?.unwrap_or_default();
         // In the log first: whoever is killed in between finds a point that is doubted, not one that is shifted twice.
         let before = library.logged_point(*point).and_then(|log| log[CHECK]["times"].as_f64()).unwrap_or(1.0);
         let log = json!({ CHECK: { "delay_s": delay, "times": before * factor } });
         library.log_points(BTreeMap::from([(*point, log)]))?;
-        library.put(*point, &samples, &quality)?;
+        let state = PointState::Measured;
+        let take = Take { point: *point, samples: &samples, quality: &quality, bands: &bands, state };
+        library.put_all(&[take])?;
     }
     let said = found.probe_delay.map_or(Value::Null, |delay| {
         json!({
