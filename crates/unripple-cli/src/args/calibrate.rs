@@ -107,6 +107,10 @@ pub struct CalibrateOptions {
     /// Go on although the wiring test finds a fault.
     #[arg(long)]
     pub any_wiring: bool,
+    /// Folder for a figure, SVG and PNG: signal to noise and coherence over frequency, and which point is bad in which band. An earlier
+    /// run's folder is replaced whole, unless something else is in it.
+    #[arg(long, value_name = "DIR", conflicts_with = "check_levels")]
+    pub figure: Option<PathBuf>,
     /// The library: a new folder, or one that a run like this one was filling.
     #[arg(short, long, value_name = "LIBRARY")]
     pub output: PathBuf,

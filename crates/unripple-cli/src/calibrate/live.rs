@@ -4,7 +4,7 @@ use super::devices::{self, Opened};
 use super::finish::{finish, log_run};
 use super::report::{self, Report};
 use super::shelf::Shelf;
-use super::{Campaign, levels, middle, points};
+use super::{Campaign, figure, levels, middle, points};
 use crate::args::WayName;
 use crate::error::CliError;
 use serde_json::Value;
@@ -66,7 +66,8 @@ pub fn run(mut known: Campaign<'_>, as_json: bool) -> Result<(), CliError> {
         log_run(&known, &mut shelf.library, began, taken.as_secs_f64())?;
     }
     let report = Report::of(&shelf.library, places, latency, truth.as_deref(), seconds, taken)?;
-    super::answer(as_json, &shelf.library, &report, &report.text())
+    let drawn = figure::write(&mut known, &shelf.library);
+    super::answer(as_json, &shelf.library, &report, &report.text()).and(drawn)
 }
 
 /// Refuses to mix points of two scales in one library.

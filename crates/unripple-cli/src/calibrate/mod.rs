@@ -1,6 +1,7 @@
 //! `unripple calibrate`: responses measured through a device, point by point, into a library.
 
 pub mod devices;
+mod figure;
 mod finish;
 mod levels;
 mod live;
@@ -23,7 +24,7 @@ use std::collections::BTreeMap;
 use unripple::core::{ModalResponses, Point, Responses, Surface};
 use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::MeasureOptions;
-use unripple_store::{Library, LibraryPlan};
+use unripple_store::{Library, LibraryPlan, OutputDir};
 
 impl From<CalibrateError> for CliError {
     fn from(error: CalibrateError) -> Self {
@@ -45,6 +46,8 @@ pub struct Campaign<'a> {
     pub settings: MeasureOptions,
     pub scales: Scales,
     pub places: Places,
+    /// Where a figure is to be, if one is asked for.
+    pub figure: Option<OutputDir>,
 }
 
 pub fn run(options: &CalibrateOptions, as_json: bool) -> Result<(), CliError> {
@@ -52,12 +55,13 @@ pub fn run(options: &CalibrateOptions, as_json: bool) -> Result<(), CliError> {
     let scales = Scales::of(options, &surface)?;
     check(options, &surface, &scales)?;
     Library::may_be_at(&options.output)?;
+    let figure = figure::folder(options)?;
     let Responses::Modal(model) = judge::model(&surface, None, &[])? else {
         return Err(CliError::Input("expected a surface, found responses at points".into()));
     };
     let settings = settings(options, &surface, &model)?;
     let places = Places::default();
-    let campaign = Campaign { options, surface: &surface, model: &model, settings, scales, places };
+    let campaign = Campaign { options, surface: &surface, model: &model, settings, scales, places, figure };
     match options.device.device {
         DeviceName::Tape => tape::run(campaign, as_json),
         _ => live::run(campaign, as_json),

@@ -1,4 +1,5 @@
 //! A surface somewhere else: it is played what was written, and somebody records what it hears.
+#![allow(dead_code)] // Each test file uses its own part of this.
 
 use std::path::Path;
 use unripple::core::{Device, Drive, Point, Surface};

@@ -13,7 +13,7 @@ mod takes;
 mod wiring;
 
 use super::report::Report;
-use super::{Campaign, devices, levels, middle, points};
+use super::{Campaign, devices, figure, levels, middle, points};
 use crate::args::{CalibrateOptions, WayName};
 use crate::error::CliError;
 use asked::{Asked, Wanted};
@@ -98,7 +98,11 @@ pub fn run(mut campaign: Campaign<'_>, as_json: bool) -> Result<(), CliError> {
         return levels::look(&bench.recordings(), &bench.takes.reader.layout.inputs, as_json);
     }
     let outcome = if bench.can_begin() { bench.measure(&session, as_json)? } else { Outcome::default() };
-    bench.answer(outcome, &told, as_json)
+    let drawn = match &outcome.library {
+        Some(library) => figure::write(&mut bench.campaign, library),
+        None => Ok(()),
+    };
+    bench.answer(outcome, &told, as_json).and(drawn)
 }
 
 /// The channels that recordings are to have.
