@@ -3,7 +3,7 @@
 use super::checker::Projected;
 use super::judge::Bench;
 use super::verdict::Doubted;
-use unripple_core::Point;
+use unripple_core::{ActuatorKind, Point};
 
 /// A sensor whose row is less like the model's than this is not what it is said to be.
 const UNLIKE: f64 = 0.5;
@@ -17,9 +17,11 @@ pub(super) fn doubts(bench: &Bench) -> Vec<Doubted> {
         Point::new(x, y)
     };
     let name = |n: usize| bench.surface.actuators[quick.actuators[n]].name.clone();
+    // A patch hears how the sheet bends, which says nothing of how its place moves.
+    let listens = |n: usize| !matches!(bench.surface.actuators[quick.actuators[n]].kind, ActuatorKind::Piezo { .. });
     let heard: Vec<Projected> = quick.sensed.iter().map(|row| bench.sheet.checker.project(row)).collect();
     let mut doubts = Vec::new();
-    for (n, row) in heard.iter().enumerate() {
+    for (n, row) in heard.iter().enumerate().filter(|(n, _)| listens(*n)) {
         let own = bench.sheet.checker.at(row, port(n), late);
         if own.likeness > UNLIKE {
             continue;
