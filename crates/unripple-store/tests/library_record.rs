@@ -78,6 +78,33 @@ fn a_damaged_record_is_a_doubt_of_its_own() {
 }
 
 #[test]
+fn what_is_said_of_responses_goes_with_them() {
+    let folder = Folder::new("doubts-lost");
+    let mut library = filled(&folder.0, &plan(4, 2, 9));
+    library
+        .log_points(BTreeMap::from([
+            (1, json!({ "model": { "delay_s": 1e-3 }, "said": null })),
+            (2, json!({ "hash": "11" })),
+        ]))
+        .unwrap();
+    assert_eq!(
+        library.logged_point(1),
+        Some(&json!({ "model": { "delay_s": 1e-3 } })),
+        "nothing is kept as such"
+    );
+    library.set_doubts("model", vec![Doubt::of("model", "point 2 is wrong").at(vec![1])]).unwrap();
+    drop(library);
+    fs::write(folder.0.join("responses/c.1.0.0"), b"nothing").unwrap();
+
+    let mut library = Library::open(&folder.0).unwrap();
+    assert_eq!(library.repair().unwrap().len(), 1);
+    let read = Library::open(&folder.0).unwrap();
+    assert_eq!(read.state(1), Some(PointState::Missing));
+    assert!(read.logged_point(1).is_none() && read.doubts().is_empty(), "{:?}", read.doubts());
+    assert_eq!(read.logged_point(2), Some(&json!({ "hash": "11" })));
+}
+
+#[test]
 fn a_library_grows_and_keeps_what_it_knows() {
     let folder = Folder::new("grow");
     let small = plan(300, 2, 9);

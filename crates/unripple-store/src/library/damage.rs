@@ -67,8 +67,8 @@ impl Library {
     }
 
     /// Makes a damaged library writable again: points whose responses are lost become missing, so that they can be taken
-    /// again; states and qualities that cannot be read are written anew, and qualities by bands that nobody knows any more are
-    /// removed. Returns what was damaged.
+    /// again, and what was logged of them goes; states and qualities that cannot be read are written anew, and qualities by bands that
+    /// nobody knows any more are removed. Returns what was damaged.
     ///
     /// # Errors
     /// [`StoreError::Write`], or [`StoreError::Occupied`] if another process writes. The description of the whole and the
@@ -76,13 +76,10 @@ impl Library {
     pub fn repair(&mut self) -> Result<Vec<Damage>, StoreError> {
         self.acquire()?;
         let damage = self.verify();
-        for point in damage.iter().filter_map(|damage| damage.point) {
-            self.states[point] = PointState::Missing;
-        }
-        if record::read(&self.root).is_err() {
-            // The doubt that it leaves is written down.
-            self.write_record(self.record.clone())?;
-        }
+        let lost: Vec<usize> = damage.iter().filter_map(|damage| damage.point).collect();
+        lost.iter().for_each(|point| self.states[*point] = PointState::Missing);
+        // What was said of responses goes with them. A record that cannot be read leaves a doubt, which is written down.
+        self.forget_points(&lost)?;
         if Bands::read(&self.root, &self.plan).is_err() {
             let file = bands::path(&self.root);
             match &self.arrays.bands {

@@ -175,6 +175,7 @@ impl Library {
     }
 
     /// Keeps how points were measured. Of objects keys are replaced one by one, and removed by `null`; anything else is replaced whole.
+    /// The record is written once for all of them.
     ///
     /// # Errors
     /// As [`Library::set_doubts`]; [`StoreError::Content`] for a point beyond the last.
@@ -189,7 +190,12 @@ impl Library {
                     known.retain(|_, value| !value.is_null());
                 }
                 (_, Value::Null) => drop(record.points.remove(&point)),
-                (_, value) => drop(record.points.insert(point, value)),
+                (_, mut value) => {
+                    if let Value::Object(new) = &mut value {
+                        new.retain(|_, value| !value.is_null());
+                    }
+                    record.points.insert(point, value);
+                }
             }
         }
         self.write_record(record)
