@@ -1,9 +1,10 @@
 //! Measured points on their way into a library.
 
 use super::scale::Scales;
+use super::verify;
 use crate::error::CliError;
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use unripple::core::{PROBE, Surface};
 use unripple::dsp::Reciprocity;
 use unripple_calibrate::CalibrateError;
@@ -24,6 +25,8 @@ pub struct Shelf {
     sensors: Vec<f64>,
     /// Actuators that are left out: their responses are zero, since what was heard of them is noise.
     pub without: Vec<usize>,
+    /// Points that were kept in this run.
+    pub made: BTreeSet<usize>,
 }
 
 impl Shelf {
@@ -35,7 +38,7 @@ impl Shelf {
         without: Vec<usize>,
     ) -> Self {
         let sensors = surface.actuators.iter().map(|actuator| scales.input(&actuator.name)).collect();
-        Self { library, probed, probe: scales.input(PROBE), sensors, without }
+        Self { library, probed, probe: scales.input(PROBE), sensors, without, made: BTreeSet::new() }
     }
 
     /// For taps, whose strength the model tells: scales do not matter.
@@ -103,6 +106,25 @@ impl Shelf {
         self.library.put_all(&[take])
     }
 
+    /// Whether all that is there was measured in this run.
+    pub fn is_new(&self) -> bool {
+        let there = |point: &usize| self.library.state(*point) != Some(PointState::Missing);
+        (0..self.library.points().len()).filter(there).all(|point| self.made.contains(&point))
+    }
+
+    /// Keeps what a take tells of itself in a point's log, and forgets what was done to the responses before: first, so that no log
+    /// speaks of other responses than are there.
+    fn note(&mut self, number: usize, channel: &Channel) -> Result<(), StoreError> {
+        let said = channel.account.said();
+        let stale = |log: &Value| log.get(SAID).is_some() || log.get(verify::CHECK).is_some();
+        if said.is_empty() && !self.library.logged_point(number).is_some_and(stale) {
+            return Ok(());
+        }
+        let said = if said.is_empty() { Value::Null } else { json!(said) };
+        self.library
+            .log_points(BTreeMap::from([(number, json!({ SAID: said, (verify::CHECK): Value::Null }))]))
+    }
+
     /// A channel as it is kept.
     fn kept(&self, number: usize, channel: &Channel) -> (Vec<f32>, Vec<Quality>) {
         let own = number.checked_sub(self.probed);
@@ -127,18 +149,10 @@ impl Sink for Shelf {
     }
 
     fn keep(&mut self, number: usize, channel: &Channel, fault: Option<&str>) -> Result<(), CalibrateError> {
-        let kept = self.store(number, channel, fault.is_some());
-        let said = channel.account.said();
-        let before = self.library.logged_point(number).is_some_and(|log| log.get(SAID).is_some());
-        let logged = match said.is_empty() && !before {
-            true => Ok(()),
-            false => {
-                let said = if said.is_empty() { Value::Null } else { json!(said) };
-                self.library.log_points(BTreeMap::from([(number, json!({ SAID: said }))]))
-            }
-        };
         let failed = |error: StoreError| CalibrateError::Sink { number, why: error.to_string() };
-        kept.map_err(failed).and_then(|()| logged.map_err(failed))
+        self.note(number, channel).and_then(|()| self.store(number, channel, fault.is_some())).map_err(failed)?;
+        self.made.insert(number);
+        Ok(())
     }
 }
 
