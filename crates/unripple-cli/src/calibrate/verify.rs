@@ -11,8 +11,8 @@ use unripple_calibrate::measure::MeasureOptions;
 use unripple_calibrate::verify::{self, Checked, Verified, VerifyOptions};
 use unripple_store::{Doubt, Library, PointState, Take};
 
-/// The check that finds responses which no model of the surface makes.
-const CHECK: &str = "model";
+/// The check that finds responses which no model of the surface makes; the key of what it says, of the whole and of each point.
+pub const CHECK: &str = "model";
 
 /// What is kept of the probe's own delay.
 const PROBE: &str = "probe";
@@ -34,11 +34,12 @@ pub fn check(
         return Ok(shelf.library.set_doubts(CHECK, Vec::new())?);
     }
     let probed = probed(&shelf.library, &points, model)?;
-    let removed: Vec<f64> = points.iter().map(|p| removed(&shelf.library, *p)).collect();
+    let each = points.iter().enumerate();
+    let taken: Vec<Taken> = each.map(|(n, p)| Taken::of(&shelf.library, *p, (&probed, n))).collect();
     let options = VerifyOptions {
         model: settings.model,
         probe_delay: settings.probe_delay,
-        removed: removed.clone(),
+        removed: taken.iter().map(|taken| taken.delay).collect(),
         dead: shelf.without.clone(),
         probe: shelf.library.plan().provenance.get("by").is_none_or(|by| by != "tap"),
         numbers: points.iter().map(|p| p + 1).collect(),
@@ -46,7 +47,7 @@ pub fn check(
     };
     let heard = heard(shelf, surface, settings)?;
     let found = verify::check(surface, &heard, &probed, &options)?;
-    correct(&mut shelf.library, &points, &removed, &probed, &found)?;
+    correct(&mut shelf.library, &points, &taken, &probed, &found)?;
     say(&mut shelf.library, &points, &found)
 }
 
@@ -83,10 +84,48 @@ fn heard(shelf: &Shelf, surface: &Surface, settings: &MeasureOptions) -> Result<
     Ok(measured.limited_to(Band::within(from, to)))
 }
 
-/// Seconds that were taken out of a point before, as its log has it: what is measured again has none.
-fn removed(library: &Library, point: usize) -> f64 {
-    let kept = library.logged_point(point).and_then(|log| log[CHECK]["delay_s"].as_f64());
-    kept.unwrap_or(0.0)
+/// What was taken out of a point's responses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Taken {
+    /// A delay, in s.
+    delay: f64,
+    /// A factor.
+    times: f64,
+}
+
+impl Taken {
+    const NOTHING: Self = Self { delay: 0.0, times: 1.0 };
+
+    /// As the point's log has it, for the `n`th of those that were read. The log is written before the responses: where these are still
+    /// what it began with, whoever wrote it was stopped in between.
+    fn of(library: &Library, point: usize, (probed, n): (&SampledResponses, usize)) -> Self {
+        let Some(log) = library.logged_point(point).and_then(|log| log.get(CHECK)) else {
+            return Self::NOTHING;
+        };
+        let stopped = log["of"].as_str().is_some_and(|of| of == checksum(probed, n));
+        let log = if stopped { &log["before"] } else { log };
+        let number = |key: &str, usual: f64| log[key].as_f64().unwrap_or(usual);
+        Self { delay: number("delay_s", 0.0), times: number("times", 1.0) }
+    }
+
+    /// For the log of a point from whose responses it is taken, which are those of the `n`th now.
+    fn told(self, before: Self, (probed, n): (&SampledResponses, usize)) -> Value {
+        json!({
+            "delay_s": self.delay,
+            "times": self.times,
+            "of": checksum(probed, n),
+            "before": { "delay_s": before.delay, "times": before.times },
+        })
+    }
+}
+
+/// A checksum of the responses of one point: FNV-1a over the bits of their samples, 64 bits.
+fn checksum(probed: &SampledResponses, n: usize) -> String {
+    const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
+    const PRIME: u64 = 0x0100_0000_01b3;
+    let samples = (0..probed.ports.len()).flat_map(|actuator| probed.response(actuator, n));
+    let add = |hash: u64, x: &f32| (hash ^ u64::from(x.to_bits())).wrapping_mul(PRIME).rotate_left(23);
+    format!("{:016x}", samples.fold(OFFSET, add))
 }
 
 /// Takes delays, and gains that are not those of the others, out of the library's responses, and keeps what was done in each point's
@@ -94,32 +133,38 @@ fn removed(library: &Library, point: usize) -> f64 {
 fn correct(
     library: &mut Library,
     points: &[usize],
-    removed: &[f64],
+    taken: &[Taken],
     probed: &SampledResponses,
     found: &Verified,
 ) -> Result<(), CliError> {
-    let (rate, ports) = (probed.conditions.rate, probed.ports.len());
+    let rate = probed.conditions.rate;
+    // The log first, of all of them: it tells by the responses that are there whether they were corrected.
+    let (mut logs, mut steps) = (BTreeMap::new(), Vec::new());
     for (n, (point, verdict)) in points.iter().zip(&found.points).enumerate() {
         let factor = verdict.correction.filter(|_| verdict.doubt.is_none()).unwrap_or(1.0);
-        let delay = found.probe_delay.unwrap_or(removed[n]);
-        let late = (delay - removed[n]) * rate;
+        let delay = found.probe_delay.unwrap_or(taken[n].delay);
+        let late = (delay - taken[n].delay) * rate;
         if late.abs() <= NONE && factor == 1.0 {
             continue;
         }
-        let mut samples: Vec<f32> = Vec::with_capacity(ports * probed.samples());
-        for actuator in 0..ports {
+        let now = Taken { delay, times: taken[n].times * factor };
+        logs.insert(*point, json!({ CHECK: now.told(taken[n], (probed, n)) }));
+        steps.push((n, late, factor));
+    }
+    if !logs.is_empty() {
+        library.log_points(logs)?;
+    }
+    for (n, late, factor) in steps {
+        let mut samples: Vec<f32> = Vec::with_capacity(probed.ports.len() * probed.samples());
+        for actuator in 0..probed.ports.len() {
             let response: Vec<f64> = probed.response(actuator, n).iter().map(|h| f64::from(*h)).collect();
             samples.extend(shift(&response, -late).iter().map(|h| (factor * h) as f32));
         }
         // Gain and delay leave both as they are.
-        let quality = library.quality(*point)?;
-        let bands = library.band_quality(*point)?.unwrap_or_default();
-        // In the log first: whoever is killed in between finds a point that is doubted, not one that is shifted twice.
-        let before = library.logged_point(*point).and_then(|log| log[CHECK]["times"].as_f64()).unwrap_or(1.0);
-        let log = json!({ CHECK: { "delay_s": delay, "times": before * factor } });
-        library.log_points(BTreeMap::from([(*point, log)]))?;
+        let quality = library.quality(points[n])?;
+        let bands = library.band_quality(points[n])?.unwrap_or_default();
         let state = PointState::Measured;
-        let take = Take { point: *point, samples: &samples, quality: &quality, bands: &bands, state };
+        let take = Take { point: points[n], samples: &samples, quality: &quality, bands: &bands, state };
         library.put_all(&[take])?;
     }
     let said = found.probe_delay.map_or(Value::Null, |delay| {
