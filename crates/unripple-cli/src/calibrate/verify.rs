@@ -138,11 +138,13 @@ fn correct(
     found: &Verified,
 ) -> Result<(), CliError> {
     let rate = probed.conditions.rate;
+    let all = found.probe_delay.or_else(|| before(taken));
     // The log first, of all of them: it tells by the responses that are there whether they were corrected.
     let (mut logs, mut steps) = (BTreeMap::new(), Vec::new());
-    for (n, (point, verdict)) in points.iter().zip(&found.points).enumerate() {
-        let factor = verdict.correction.filter(|_| verdict.doubt.is_none()).unwrap_or(1.0);
-        let delay = found.probe_delay.unwrap_or(taken[n].delay);
+    for (n, point) in points.iter().enumerate() {
+        let sound = found.points.get(n).filter(|verdict| verdict.doubt.is_none());
+        let factor = sound.and_then(|verdict| verdict.correction).unwrap_or(1.0);
+        let delay = all.unwrap_or(0.0);
         let late = (delay - taken[n].delay) * rate;
         if late.abs() <= NONE && factor == 1.0 {
             continue;
@@ -167,16 +169,21 @@ fn correct(
         let take = Take { point: points[n], samples: &samples, quality: &quality, bands: &bands, state };
         library.put_all(&[take])?;
     }
-    let said = found.probe_delay.map_or(Value::Null, |delay| {
-        json!({
-            "delay_s": delay,
-            "said": format!(
-                "the probe comes {:.3} ms later than the sensors: taken out (--probe-delay-ms says what it is)",
-                1e3 * delay
-            ),
-        })
-    });
+    let said = all.map_or(Value::Null, |delay| json!({ "delay_s": delay, "said": comes(delay) }));
     Ok(library.log(PROBE, said)?)
+}
+
+/// The delay that was taken out before, in s, if any was: where nothing tells another, it is that of all points.
+fn before(taken: &[Taken]) -> Option<f64> {
+    let mut known: Vec<f64> = taken.iter().map(|taken| taken.delay).filter(|delay| *delay != 0.0).collect();
+    known.sort_unstable_by(f64::total_cmp);
+    known.get(known.len() / 2).copied()
+}
+
+/// The probe's delay (s) in words.
+fn comes(delay: f64) -> String {
+    let (ms, side) = (1e3 * delay.abs(), if delay < 0.0 { "earlier" } else { "later" });
+    format!("the probe comes {ms:.3} ms {side} than the sensors: taken out (--probe-delay-ms says what it is)")
 }
 
 /// Keeps what was found in the library.
@@ -215,4 +222,22 @@ fn say(library: &mut Library, points: &[usize], found: &Verified) -> Result<(), 
         }
     };
     Ok(library.log(CHECK, log)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_probe_that_comes_first_is_said_to() {
+        assert!(comes(-0.5e-3).starts_with("the probe comes 0.500 ms earlier than the sensors: taken out"));
+        assert!(comes(1e-3).starts_with("the probe comes 1.000 ms later than the sensors: taken out"));
+    }
+
+    #[test]
+    fn a_delay_of_before_is_that_of_all_points() {
+        let of = |delay| Taken { delay, ..Taken::NOTHING };
+        assert_eq!(before(&[Taken::NOTHING, of(1e-3), of(1e-3), Taken::NOTHING]), Some(1e-3));
+        assert_eq!(before(&[Taken::NOTHING; 3]), None);
+    }
 }
