@@ -52,6 +52,9 @@ fn about(library: &Library) -> Vec<Note> {
         let text = format!("without {}, dead or left out when it was measured", dead.join(", "));
         notes.push(Note { topic: "actuators", text });
     }
+    let unchecked = library.logged("model").filter(|log| log["checked"] == false);
+    let said = unchecked.and_then(|log| log["said"].as_str());
+    notes.extend(said.map(|said| Note { topic: "model", text: said.into() }));
     notes.extend(library.without_scale().map(|why| Note { topic: "level", text: why.into() }));
     notes
 }

@@ -8,7 +8,7 @@ mod elsewhere;
 
 use bench::{Bench, FILM, PLACES, SEED};
 use common::{Scratch, json, number, refused, run};
-use elsewhere::{apart, response};
+use elsewhere::{apart, bring, response};
 use serde_json::Value;
 use unripple::core::Point;
 use unripple_store::{Doubt, Library, read_wav};
@@ -265,4 +265,50 @@ fn doubts_are_told_by_every_command() {
     drop(library);
     let said = bench.focus(&[]).stderr;
     assert!(String::from_utf8_lossy(&said).contains("the model contradicts itself"));
+}
+
+/// The reasons for which a library is doubtful, as `calibrate` tells them.
+fn doubts(told: &Value) -> Vec<&str> {
+    told["doubtful"].as_array().unwrap().iter().map(|doubt| doubt.as_str().unwrap()).collect()
+}
+
+#[test]
+fn nothing_but_a_new_recording_takes_back_what_a_model_said() {
+    let mut bench = Bench::new("takes-exchanged", 3, &[]);
+    bench.bring_all(3);
+    let folder = bench.folder.clone();
+    let [first, second, spare] =
+        ["point-001.wav", "point-002.wav", "spare"].map(|name| format!("{folder}/{name}"));
+    for (from, to) in [(&first, &spare), (&second, &first), (&spare, &second)] {
+        std::fs::rename(from, to).unwrap();
+    }
+    let of = |told: &Value, point: usize| {
+        doubts(told).iter().any(|doubt| doubt.starts_with(&format!("point {point}: ")))
+    };
+    let (output, told, said) = bench.calibrate(3, &[]);
+    assert!(output.status.code() == Some(1) && of(&told, 1) && of(&told, 2) && !of(&told, 3), "{said}");
+
+    // The same without a model: nothing is known better.
+    let (output, told, said) = bench.calibrate(3, &["--no-model"]);
+    assert!(output.status.code() == Some(1) && of(&told, 1) && of(&told, 2), "{said}");
+    let said = String::from_utf8_lossy(&bench.focus(&[]).stderr).into_owned();
+    assert!(said.contains("doubtful: point 1: "), "{said}");
+
+    // What is recorded again is not that of before; whoever uses it is told that no model was asked.
+    let heard = bench.hear(0, 12);
+    bring(&folder, "point-001.wav", &heard);
+    let (output, told, said) = bench.calibrate(3, &["--no-model"]);
+    assert!(output.status.code() == Some(1) && !of(&told, 1) && of(&told, 2), "{said}");
+    let heard = bench.hear(1, 13);
+    bring(&folder, "point-002.wav", &heard);
+    let (output, told, said) = bench.calibrate(3, &["--no-model"]);
+    assert!(output.status.success() && doubts(&told).is_empty(), "{said}");
+    let said = String::from_utf8_lossy(&bench.focus(&[]).stderr).into_owned();
+    assert!(said.contains("not checked against a model (--no-model)") && !said.contains("doubtful"), "{said}");
+
+    // With one all is well, and nobody says otherwise when nothing is measured anew.
+    for more in [&[][..], &["--no-model"]] {
+        let (output, told, said) = bench.calibrate(3, more);
+        assert!(output.status.success() && !told["notes"].to_string().contains("not checked"), "{said}");
+    }
 }

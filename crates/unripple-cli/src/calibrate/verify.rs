@@ -8,11 +8,14 @@ use unripple::core::{ModalResponses, Point, SampledResponses, Surface};
 use unripple::dsp::{Band, shift};
 use unripple_calibrate::Measured;
 use unripple_calibrate::measure::MeasureOptions;
-use unripple_calibrate::verify::{self, Checked, Verified, VerifyOptions};
+use unripple_calibrate::verify::{self, Checked, Doubted, Verified, VerifyOptions};
 use unripple_store::{Doubt, Library, PointState, Take};
 
 /// The check that finds responses which no model of the surface makes; the key of what it says, of the whole and of each point.
 pub const CHECK: &str = "model";
+
+/// The check that finds responses which are those of another point: it needs no model.
+const COPIES: &str = "copies";
 
 /// What is kept of the probe's own delay.
 const PROBE: &str = "probe";
@@ -31,7 +34,9 @@ pub fn check(
     let measured = (0..shelf.probed).filter(|p| shelf.library.state(*p) == Some(PointState::Measured));
     let points: Vec<usize> = measured.collect();
     if points.is_empty() {
-        return Ok(shelf.library.set_doubts(CHECK, Vec::new())?);
+        let earlier = earlier(shelf);
+        shelf.library.set_doubts(COPIES, Vec::new())?;
+        return Ok(shelf.library.set_doubts(CHECK, earlier)?);
     }
     let probed = probed(&shelf.library, &points, model)?;
     let each = points.iter().enumerate();
@@ -46,9 +51,12 @@ pub fn check(
         ..VerifyOptions::default()
     };
     let heard = heard(shelf, surface, settings)?;
+    let bare = VerifyOptions { model: false, ..options.clone() };
+    let copies = verify::check(surface, &heard, &probed, &bare)?.doubts;
     let found = verify::check(surface, &heard, &probed, &options)?;
     correct(&mut shelf.library, &points, &taken, &probed, &found)?;
-    say(&mut shelf.library, &points, &found)
+    doubt(shelf, &points, &found, &copies)?;
+    say(shelf, &points, &found, settings.model)
 }
 
 /// The probed responses of some points.
@@ -183,21 +191,58 @@ fn before(taken: &[Taken]) -> Option<f64> {
 /// The probe's delay (s) in words.
 fn comes(delay: f64) -> String {
     let (ms, side) = (1e3 * delay.abs(), if delay < 0.0 { "earlier" } else { "later" });
-    format!("the probe comes {ms:.3} ms {side} than the sensors: taken out (--probe-delay-ms says what it is)")
+    format!(
+        "the probe comes {ms:.3} ms {side} than the sensors: taken out (--probe-delay-ms says what it is)"
+    )
 }
 
-/// Keeps what was found in the library.
-fn say(library: &mut Library, points: &[usize], found: &Verified) -> Result<(), CliError> {
-    let doubts = found
-        .doubts
-        .iter()
-        .map(|doubt| Doubt::of(CHECK, &doubt.what).at(doubt.points.iter().map(|p| points[*p]).collect()));
-    library.set_doubts(CHECK, doubts.collect())?;
+/// Keeps what is doubted. Without a model nothing takes back what one said before of points that are as they were.
+fn doubt(shelf: &mut Shelf, points: &[usize], found: &Verified, copies: &[Doubted]) -> Result<(), CliError> {
+    let of = |check: &str, doubt: &Doubted| {
+        Doubt::of(check, &doubt.what).at(doubt.points.iter().map(|p| points[*p]).collect())
+    };
+    let copied: Vec<Doubt> = copies.iter().map(|doubt| of(COPIES, doubt)).collect();
+    let others = found.doubts.iter().filter(|doubt| !copies.contains(doubt));
+    let mut doubts: Vec<Doubt> = others.map(|doubt| of(CHECK, doubt)).collect();
+    if matches!(found.model, Checked::Not { .. }) {
+        let said: Vec<String> = copied.iter().chain(&doubts).map(|doubt| doubt.what.clone()).collect();
+        doubts.extend(earlier(shelf).into_iter().filter(|doubt| !said.contains(&doubt.what)));
+    }
+    shelf.library.set_doubts(COPIES, copied)?;
+    Ok(shelf.library.set_doubts(CHECK, doubts)?)
+}
+
+/// What was doubted by a model of points that were not measured in this run; of all, unless what actuators hear of each other was.
+fn earlier(shelf: &Shelf) -> Vec<Doubt> {
+    let own = shelf.probed..shelf.library.points().len();
+    let anew = !own.is_empty() && own.clone().all(|point| shelf.made.contains(&point));
+    let left = |doubt: &Doubt| {
+        let others = doubt.points.iter().copied().filter(|point| !shelf.made.contains(point));
+        let others: Vec<usize> = others.collect();
+        let stays = if doubt.points.is_empty() { !anew } else { !others.is_empty() };
+        stays.then(|| doubt.clone().at(others))
+    };
+    shelf.library.doubts().iter().filter(|doubt| doubt.check == CHECK).filter_map(left).collect()
+}
+
+/// Keeps what was found in the library's log.
+fn say(shelf: &mut Shelf, points: &[usize], found: &Verified, asked: bool) -> Result<(), CliError> {
+    let library = &mut shelf.library;
     let log = match &found.model {
-        Checked::Not { why } => json!({
-            "checked": false,
-            "said": format!("not checked against a model ({why}): a recording of another place is not told from a good one"),
-        }),
+        Checked::Not { why } => {
+            // Points that a model was found for, and that are as they were, need no word.
+            let held = library.logged(CHECK).is_some_and(|log| log["checked"] == true);
+            if held && points.iter().all(|point| !shelf.made.contains(point)) {
+                return Ok(());
+            }
+            let why = if asked { why.as_str() } else { "--no-model" };
+            json!({
+                "checked": false,
+                "said": format!(
+                    "not checked against a model ({why}): a recording of another place is not told from a good one"
+                ),
+            })
+        }
         Checked::Against { band, unexplained } => {
             let mut log = json!({ "checked": true, "band_hz": band, "unexplained": unexplained });
             let each: Vec<Value> = points
