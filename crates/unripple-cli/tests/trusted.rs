@@ -10,6 +10,9 @@ use bench::{Bench, FILM, PLACES, SEED};
 use common::{Scratch, json, number, refused, run};
 use elsewhere::{apart, bring, response};
 use serde_json::Value;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Duration;
 use unripple::core::Point;
 use unripple_store::{Doubt, Library, read_wav};
 
@@ -307,8 +310,48 @@ fn nothing_but_a_new_recording_takes_back_what_a_model_said() {
     assert!(said.contains("not checked against a model (--no-model)") && !said.contains("doubtful"), "{said}");
 
     // With one all is well, and nobody says otherwise when nothing is measured anew.
-    for more in [&[][..], &["--no-model"]] {
-        let (output, told, said) = bench.calibrate(3, more);
+    for more in [vec![], vec!["--no-model"]] {
+        let (output, told, said) = bench.calibrate(3, &more);
         assert!(output.status.success() && !told["notes"].to_string().contains("not checked"), "{said}");
     }
+}
+
+#[test]
+fn whoever_is_stopped_leaves_a_library_that_says_so() {
+    let scratch = Scratch::new("trusted-stopped");
+    let (film, library) = (scratch.file("film.toml", FILM), scratch.join("film"));
+    let start = ["calibrate", &film, "--unknowns", "5", "-o", &library];
+    let places =
+        ["--at=52,47", "--at=70,38", "--at=35,55", "--at=60,60", "--at=30,30", "--at=80,50", "--at=45,70"];
+    let with = |more: &[&'static str]| [&start[..], &places, more].concat();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_unripple"))
+        .args(with(&["--without", "a3"]))
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let first = Path::new(&library).join("responses/c.0.0.0");
+    while !first.exists() && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+
+    let stopped = Library::open(&library).unwrap();
+    assert_eq!(stopped.dead(), [2]);
+    assert!(stopped.logged("scale").is_some() && stopped.logged("own_points").is_some());
+    assert!(stopped.doubts().iter().any(|doubt| doubt.check == "unfinished"), "{:?}", stopped.doubts());
+    drop(stopped);
+    let out = scratch.join("out");
+    let output = run(&["focus", &library, "--at", "52,47", "--window-ms", "30", "-o", &out]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("was not finished") && said.contains("without a3"), "{said}");
+
+    // Points that are measured otherwise do not get into it.
+    assert!(refused(&with(&[]), 1).contains("left out as when its points were measured (a3), found none"));
+    assert!(refused(&with(&["--without", "a4"]), 1).contains("(a3), found a4"));
+    let said = refused(&with(&["--without", "a3", "--probe-delay-ms", "1"]), 1);
+    assert!(said.contains("(none), found 1.000 ms"), "{said}");
+    json(&with(&["--without", "a3"]));
+    assert!(Library::open(&library).unwrap().doubts().is_empty());
 }

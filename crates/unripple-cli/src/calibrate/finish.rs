@@ -1,4 +1,4 @@
-//! What can only be said when all is measured: how far a library is to be trusted, and a log of the measurement.
+//! What a library says of its measurement: with what its points are measured, before; how far it is to be trusted, when all is there.
 
 use super::Campaign;
 use super::shelf::Shelf;
@@ -23,18 +23,42 @@ const APART: f64 = 2.0;
 /// Runs that the log holds: more says nothing more.
 const RUNS: usize = 100;
 
+/// The check that finds a measurement which was stopped.
+const UNFINISHED: &str = "unfinished";
+
+/// The key of the log for what was asked for that changes responses, beside scales.
+pub const ASKED: &str = "asked";
+
+/// There, the probe's delay that was taken out as it was recorded, in s.
+pub const PROBE_DELAY: &str = "probe_delay_s";
+
+/// Keeps in the library what its points are measured with, before they are: whoever is stopped leaves a library that says so, and that it
+/// was stopped.
+pub fn begin(campaign: &Campaign<'_>, library: &mut Library) -> Result<(), CliError> {
+    let names: Vec<&str> = campaign.surface.actuators.iter().map(|a| a.name.as_str()).collect();
+    let dead: Vec<&str> = campaign.settings.without.iter().map(|actuator| names[*actuator]).collect();
+    library.log("dead", if dead.is_empty() { Value::Null } else { json!(dead) })?;
+    library.log("scale", campaign.scale_told())?;
+    library.log(ASKED, json!({ PROBE_DELAY: campaign.settings.probe_delay }))?;
+    let listens = library.points().len() > campaign.places.probed;
+    library.log(own::KEY, if listens { own::told(campaign.surface)? } else { Value::Null })?;
+    if library.in_state(PointState::Missing).is_empty() {
+        return Ok(());
+    }
+    let stopped = Doubt::of(
+        UNFINISHED,
+        "the measurement was not finished: expected all that was measured to be checked at its end, found none; run calibrate again",
+    );
+    Ok(library.set_doubts(UNFINISHED, vec![stopped])?)
+}
+
 /// Says how far the library is to be trusted; all of it in the library itself.
 pub fn finish(campaign: &Campaign<'_>, shelf: &mut Shelf, latency: Option<[f64; 2]>) -> Result<(), CliError> {
-    let names: Vec<&str> = campaign.surface.actuators.iter().map(|a| a.name.as_str()).collect();
-    let dead: Vec<&str> = shelf.without.iter().map(|actuator| names[*actuator]).collect();
-    shelf.library.log("dead", if dead.is_empty() { Value::Null } else { json!(dead) })?;
-    shelf.library.log("scale", campaign.scale_told())?;
-    let listens = shelf.library.points().len() > shelf.probed;
-    shelf.library.log(own::KEY, if listens { own::told(campaign.surface)? } else { Value::Null })?;
     reciprocity(campaign, shelf)?;
     spread(campaign, shelf, latency)?;
     sensors(campaign, shelf)?;
-    verify::check(shelf, campaign.surface, campaign.model, &campaign.settings)
+    verify::check(shelf, campaign.surface, campaign.model, &campaign.settings)?;
+    Ok(shelf.library.set_doubts(UNFINISHED, Vec::new())?)
 }
 
 /// Adds a run to the log.

@@ -1,7 +1,7 @@
 //! Calibration through a device that plays and listens at once.
 
 use super::devices::{self, Opened};
-use super::finish::{finish, log_run};
+use super::finish::{ASKED, PROBE_DELAY, begin, finish, log_run};
 use super::report::{self, Report};
 use super::shelf::Shelf;
 use super::{Campaign, figure, levels, middle, points};
@@ -27,12 +27,14 @@ pub fn run(mut known: Campaign<'_>, as_json: bool) -> Result<(), CliError> {
     if options.check_levels {
         return levels::listen(&known, rig.as_mut(), &layout, &wires, as_json);
     }
-    let library = Library::create(&options.output, &known.plan())?;
-    scales_agree(&known, &library)?;
+    let mut library = Library::create(&options.output, &known.plan())?;
+    agree(&known, &library)?;
     let began = library.in_state(PointState::Missing).len();
     let middle = middle(surface);
     let dead = wiring(&known, rig.as_mut(), &layout, middle)?;
     known.settings.without = dead;
+    same_dead(&known, &library)?;
+    begin(&known, &mut library)?;
     let without = known.settings.without.clone();
     let mut shelf = Shelf::new(library, known.places.probed, surface, &known.scales, without);
 
@@ -70,25 +72,61 @@ pub fn run(mut known: Campaign<'_>, as_json: bool) -> Result<(), CliError> {
     super::answer(as_json, &shelf.library, &report, &report.text()).and(drawn)
 }
 
-/// Refuses to mix points of two scales in one library.
-fn scales_agree(known: &Campaign<'_>, library: &Library) -> Result<(), CliError> {
-    let (here, begun) = (known.scale_told(), library.in_state(PointState::Missing).len());
-    match library.logged("scale") {
-        Some(there) if *there != here && begun < library.points().len() => {
-            let said = |value: &Value| {
-                let keys = ["input_all", "input", "output"].map(|key| format!("{key} {}", value[key]));
-                keys.join(", ")
-            };
-            Err(CliError::Work(format!(
-                "{}: expected the scales that its points were measured with ({}), found {}; use --input-scale and --output-scale as \
-                 then, or another library",
-                library.path().display(),
-                said(there),
-                said(&here)
-            )))
-        }
-        _ => Ok(()),
+/// Whether a library has points already.
+fn is_begun(library: &Library) -> bool {
+    library.in_state(PointState::Missing).len() < library.points().len()
+}
+
+/// Refuses to mix points of two scales, or of two delays of the probe, in one library.
+fn agree(known: &Campaign<'_>, library: &Library) -> Result<(), CliError> {
+    let here = known.scale_told();
+    let other = library.logged("scale").filter(|there| is_begun(library) && **there != here);
+    if let Some(there) = other {
+        let said = |value: &Value| {
+            let keys = ["input_all", "input", "output"].map(|key| format!("{key} {}", value[key]));
+            keys.join(", ")
+        };
+        return Err(CliError::Work(format!(
+            "{}: expected the scales that its points were measured with ({}), found {}; use --input-scale and --output-scale as \
+             then, or another library",
+            library.path().display(),
+            said(there),
+            said(&here)
+        )));
     }
+    let said = |delay: Option<f64>| delay.map_or("none".to_owned(), |s| format!("{:.3} ms", 1e3 * s));
+    let there = library.logged(ASKED).map(|asked| said(asked[PROBE_DELAY].as_f64()));
+    let here = said(known.settings.probe_delay);
+    match there.filter(|there| is_begun(library) && *there != here) {
+        None => Ok(()),
+        Some(there) => Err(CliError::Work(format!(
+            "{}: expected the --probe-delay-ms that its points were measured with ({there}), found {here}; give it as then, or use \
+             another library",
+            library.path().display()
+        ))),
+    }
+}
+
+/// Refuses to mix points that were measured without other actuators in one library: what is left out is zero there.
+fn same_dead(known: &Campaign<'_>, library: &Library) -> Result<(), CliError> {
+    let (there, here) = (library.dead(), &known.settings.without);
+    if !is_begun(library) || library.logged("scale").is_none() || there == *here {
+        return Ok(());
+    }
+    let named = |dead: &[usize]| match dead {
+        [] => "none".to_owned(),
+        dead => {
+            let names = dead.iter().map(|actuator| known.surface.actuators[*actuator].name.as_str());
+            names.collect::<Vec<_>>().join(", ")
+        }
+    };
+    Err(CliError::Work(format!(
+        "{}: expected the same actuators left out as when its points were measured ({}), found {}; use --without as then, mend what \
+         broke since, or use another library",
+        library.path().display(),
+        named(&there),
+        named(here)
+    )))
 }
 
 /// Tries the wires, where the device has a sensor for each actuator; returns the actuators that are left out.

@@ -6,7 +6,7 @@ use super::marks::Marks;
 use super::rig::{TapeRig, TapeShelf, bad};
 use super::wiring::{Failed, Tried, tried};
 use super::{Bench, Outcome};
-use crate::calibrate::finish::{finish, log_run};
+use crate::calibrate::finish::{begin, finish, log_run};
 use crate::calibrate::middle;
 use crate::calibrate::report::{self, Report};
 use crate::calibrate::shelf::Shelf;
@@ -61,6 +61,7 @@ impl Bench<'_> {
         self.wires(&mut library, &tried)?;
         self.campaign.settings.without = tried.dead.clone();
         marks.keep(&mut library)?;
+        begin(&self.campaign, &mut library)?;
         let made = self.made(&all, &marks);
         let mut work = Work { bench: self, rig, made, all, faults, known: None, start };
         let (shelf, report) = work.fill(library, &tried, as_json)?;
