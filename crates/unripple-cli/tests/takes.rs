@@ -43,6 +43,27 @@ fn a_take_that_changed_is_measured_again_and_a_copy_is_refused() {
 }
 
 #[test]
+fn actuators_that_are_recorded_again_are_measured_again_without_any_point() {
+    let mut bench = Bench::new("takes-own", 0, &[]);
+    bench.bring_all(0);
+    let (output, told, said) = bench.calibrate(0, &[]);
+    assert!(output.status.success() && number(&told, "/measured") == 5.0, "{said}");
+    let first = response(&bench.library, 0);
+    assert!(bench.calibrate(0, &[]).0.status.success());
+    assert_eq!(response(&bench.library, 0), first, "the same file is not looked at again");
+
+    let again = bench.surface.record(Point::from_mm(60.0, 50.0), 9_000, 77);
+    bring(&bench.folder, "actuators.wav", &again);
+    let (output, told, said) = bench.calibrate(0, &[]);
+    assert!(output.status.success() && number(&told, "/measured") == 5.0, "{said}");
+    assert_ne!(response(&bench.library, 0), first, "another recording has other noise");
+
+    // Neither do they stay as they were when another actuator is left out.
+    let (_, _, said) = bench.calibrate(0, &["--without", "a3"]);
+    assert!(response(&bench.library, 0).chunks(4801).nth(2).unwrap().iter().all(|h| *h == 0.0), "{said}");
+}
+
+#[test]
 fn of_two_copies_from_the_beginning_both_are_refused() {
     let mut bench = Bench::new("takes-copied", 2, &[]);
     bench.bring_all(1);

@@ -42,7 +42,8 @@ impl Bench<'_> {
             return Ok(Outcome { faults, ..Outcome::default() });
         }
         let mut library = self.library()?;
-        self.fall_back(&mut library, &self.made(&present, &marks))?;
+        let made_own = self.made_own(&present, &marks);
+        self.fall_back(&mut library, &self.made(&present, &marks), made_own.as_ref())?;
         let sound = self.sound(&present, &library, &mut faults);
         self.good = sound.iter().map(|one| one.number).collect::<BTreeSet<_>>().into_iter().collect();
         let all: Vec<Wanted> = own.into_iter().chain(sound).collect();
@@ -63,7 +64,7 @@ impl Bench<'_> {
         marks.keep(&mut library)?;
         begin(&self.campaign, &mut library)?;
         let made = self.made(&all, &marks);
-        let mut work = Work { bench: self, rig, made, all, faults, known: None, start };
+        let mut work = Work { bench: self, rig, made, made_own, all, faults, known: None, start };
         let (shelf, report) = work.fill(library, &tried, as_json)?;
         let faults = std::mem::take(&mut work.faults);
         Ok(Outcome { report: Some(report), library: Some(shelf.library), faults, notes: tried.notes })
@@ -95,16 +96,37 @@ impl Bench<'_> {
         numbers.into_iter().filter(|number| *number != last).map(|number| (number, point(number))).collect()
     }
 
+    /// What the actuators' own points are to be made of, if there is anything.
+    fn made_own(&self, there: &[Wanted], marks: &Marks) -> Option<Value> {
+        let last = self.campaign.places.points.len();
+        let own: Vec<&Wanted> = there.iter().filter(|one| one.number == last).collect();
+        (!own.is_empty()).then(|| {
+            json!({
+                "actuators": marks.told(own.into_iter()),
+                "scale": self.campaign.scales.told(),
+                "without": self.campaign.options.without,
+            })
+        })
+    }
+
     /// Makes points missing whose recordings are not those that they were made of; all, if those of the actuators are not.
-    fn fall_back(&self, library: &mut Library, made: &BTreeMap<usize, Value>) -> Result<(), CliError> {
+    fn fall_back(
+        &self,
+        library: &mut Library,
+        made: &BTreeMap<usize, Value>,
+        made_own: Option<&Value>,
+    ) -> Result<(), CliError> {
         let measured = |point: &usize| library.state(*point) != Some(PointState::Missing);
         let other =
             |point: &usize| library.logged_point(*point).and_then(|said| said.get("made")) != made.get(point);
         let mut changed: Vec<usize> = made.keys().copied().filter(measured).filter(other).collect();
         let own = self.campaign.places.probed..library.points().len();
-        let actuators = made.values().next().map(|made| (made["actuators"].clone(), made["scale"].clone()));
-        let before = library.logged("own").map(|own| (own["actuators"].clone(), own["scale"].clone()));
-        if actuators.is_some() && before.is_some() && actuators != before {
+        // Libraries of before do not say who was left out.
+        let same = |there: &Value| {
+            let like = |key: &str| made_own.is_none_or(|own| own[key] == there[key]);
+            like("actuators") && like("scale") && (there["without"].is_null() || like("without"))
+        };
+        if made_own.is_some() && !library.logged("own").is_some_and(same) {
             changed.extend(own.filter(|point| measured(point)));
         }
         if !changed.is_empty() {
@@ -160,6 +182,8 @@ struct Work<'b, 'a> {
     rig: TapeRig,
     /// What each point is made of.
     made: BTreeMap<usize, Value>,
+    /// And the actuators' own points.
+    made_own: Option<Value>,
     /// Recordings that are used.
     all: Vec<Wanted>,
     faults: Vec<Fault>,
@@ -261,9 +285,7 @@ impl Work<'_, '_> {
         for (point, channel) in (known.places.probed..).zip(&sensors) {
             shelf.keep(point, channel, session.fault(channel).as_deref())?;
         }
-        let made = self.made.values().next();
-        let made = made.map(|made| json!({ "actuators": made["actuators"], "scale": made["scale"] }));
-        shelf.library.log("own", made.unwrap_or(Value::Null))?;
+        shelf.library.log("own", self.made_own.clone().unwrap_or(Value::Null))?;
         shelf.reciprocity(&sensors)
     }
 
