@@ -8,13 +8,13 @@ mod elsewhere;
 
 use bench::{Bench, FILM, PLACES, SEED};
 use common::{Scratch, json, number, refused, run};
-use elsewhere::{apart, bring, response};
+use elsewhere::{Elsewhere, apart, bring, response};
 use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 use unripple::core::Point;
-use unripple_store::{Doubt, Library, read_wav};
+use unripple_store::{Doubt, Library, parse_surface, read_wav};
 
 #[test]
 fn wires_are_tried_on_files_too() {
@@ -95,6 +95,17 @@ fn the_others_go_on_without_a_dead_actuator() {
     let peak = |line: &Vec<f64>| line.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     assert_eq!(peak(&drive.channels[2]), 0.0);
     assert!([0, 1, 3, 4].iter().all(|i| peak(&drive.channels[*i]) > 0.1));
+
+    // The rest tell of tension all the same.
+    let tighter = FILM.replace("tension_n_per_m = 200", "tension_n_per_m = 200.8");
+    let known = parse_surface(&tighter, "film.toml").unwrap();
+    let mut warm = Elsewhere::new(&known, SEED, &format!("{}/play.wav", bench.folder));
+    warm.play[2].fill(0.0);
+    let (x, y) = PLACES[1];
+    bring(&bench.folder, "point-002.wav", &warm.record(Point::from_mm(x, y), 7_000, 21));
+    let (output, told, said) = bench.calibrate(2, &[]);
+    assert!(output.status.success(), "{said}");
+    assert!(told["notes"].to_string().contains("tension was +0.4"), "{told}");
 
     // More than half of them are no dead actuators.
     bench.surface.play[0].fill(0.0);

@@ -60,21 +60,27 @@ impl Shelf {
         Ok(self.library.set_reciprocity_error(found.error)?)
     }
 
-    /// What sensors heard when the library was begun, if all of them did: what later takes are held against.
+    /// What sensors heard when the library was begun, if any was measured: what later takes are held against. Those that are dead or bad
+    /// heard nothing.
     pub fn heard(&self) -> Result<Option<Vec<Channel>>, CliError> {
-        let own: Vec<usize> = (self.probed..self.library.points().len()).collect();
-        let measured = |point: &usize| self.library.state(*point) == Some(PointState::Measured);
-        if own.is_empty() || !own.iter().all(measured) || !self.without.is_empty() {
+        let (samples, count) = (self.library.plan().samples, self.sensors.len());
+        let known = |sensor: usize| {
+            let state = self.library.state(self.probed + sensor);
+            state == Some(PointState::Measured) && !self.without.contains(&sensor)
+        };
+        if !(0..count).any(known) {
             return Ok(None);
         }
-        let samples = self.library.plan().samples;
-        let channel = |(point, scale): (usize, &f64)| -> Result<Channel, CliError> {
-            let values = self.library.get(point)?;
+        let channel = |(sensor, scale): (usize, &f64)| -> Result<Channel, CliError> {
+            if !known(sensor) {
+                return Ok(Channel::of_responses(vec![vec![0.0; samples]; count]));
+            }
+            let values = self.library.get(self.probed + sensor)?;
             let rows = values.chunks_exact(samples);
             let rows = rows.map(|row| row.iter().map(|h| f64::from(*h) / scale).collect()).collect();
             Ok(Channel::of_responses(rows))
         };
-        own.into_iter().zip(&self.sensors).map(channel).collect::<Result<Vec<_>, _>>().map(Some)
+        self.sensors.iter().enumerate().map(channel).collect::<Result<Vec<_>, _>>().map(Some)
     }
 
     /// Quality by thirds of an octave as it is kept, for which room is made; none of taps, which are not told apart by frequency.
