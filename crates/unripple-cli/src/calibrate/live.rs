@@ -4,6 +4,7 @@ use super::devices::{self, Opened};
 use super::finish::{ASKED, PROBE_DELAY, begin, finish, log_run};
 use super::report::{self, Report};
 use super::shelf::Shelf;
+use super::wires::{Asked, Found};
 use super::{Campaign, figure, levels, middle, points};
 use crate::args::WayName;
 use crate::error::CliError;
@@ -13,7 +14,7 @@ use unripple::core::{Layout, Point};
 use unripple_calibrate::measure::{
     Listen, MeasureOptions, Progress, Rig, Session, Sink, TapOptions, TapSession, Way, Wires, campaign,
 };
-use unripple_devices::{Expected, WiringOptions, WiringReport, check_wiring};
+use unripple_devices::{Expected, WiringOptions, check_wiring};
 use unripple_store::{Library, PointState};
 
 /// Measures all points that are missing, and says what the library is worth.
@@ -31,9 +32,10 @@ pub fn run(mut known: Campaign<'_>, as_json: bool) -> Result<(), CliError> {
     agree(&known, &library)?;
     let began = library.in_state(PointState::Missing).len();
     let middle = middle(surface);
-    let dead = wiring(&known, rig.as_mut(), &layout, middle)?;
-    known.settings.without = dead;
+    let wired = wiring(&known, rig.as_mut(), &layout, middle)?;
+    known.settings.without.clone_from(&wired.dead);
     same_dead(&known, &library)?;
+    wired.keep(&mut library)?;
     begin(&known, &mut library)?;
     let without = known.settings.without.clone();
     let mut shelf = Shelf::new(library, known.places.probed, surface, &known.scales, without);
@@ -129,62 +131,27 @@ fn same_dead(known: &Campaign<'_>, library: &Library) -> Result<(), CliError> {
     )))
 }
 
-/// Tries the wires, where the device has a sensor for each actuator; returns the actuators that are left out.
+/// Tries the wires, where the device has a sensor for each actuator.
 fn wiring(
     known: &Campaign<'_>,
     rig: &mut dyn Rig,
     layout: &Layout,
     middle: Point,
-) -> Result<Vec<usize>, CliError> {
+) -> Result<Found, CliError> {
     let (options, model) = (known.options, known.model);
-    let without = known.settings.without.clone();
     let sensing = layout.inputs.len() >= layout.outputs.len();
     if !sensing || layout.outputs.len() != model.ports.len() || !options.wire.is_empty() {
         eprintln!(
             "wiring: not tried, since channels do not correspond to actuators and their sensors by name"
         );
-        return Ok(without);
+        return Ok(Found { dead: known.settings.without.clone(), ..Found::default() });
     }
     rig.ready(known.places.points.len(), middle, 1)?;
     let try_options = WiringOptions::for_surface(known.surface);
     let probe = (layout.inputs.len() > layout.outputs.len()).then_some(middle);
     let expected = Expected::of(known.surface, model, probe, try_options.listen).map_err(CliError::input)?;
     let found = check_wiring(rig.device(), &expected, &try_options).map_err(CliError::work)?;
-    judged(known, &found)
-}
-
-/// What to make of what the wiring test found.
-fn judged(known: &Campaign<'_>, found: &WiringReport) -> Result<Vec<usize>, CliError> {
-    let options = known.options;
-    let mut without = known.settings.without.clone();
-    let named = |name: &str| known.surface.actuators.iter().position(|actuator| actuator.name == name);
-    let silent: Vec<&str> =
-        found.outputs.iter().filter(|lead| lead.silent).map(|lead| lead.name.as_str()).collect();
-    // Where --without says so it is no news; without a model only silence can be told.
-    let known_of = |fault: &String| {
-        options.without.iter().any(|name| fault.contains(&format!("`{name}`")))
-            || (options.no_model && !fault.ends_with("is silent"))
-    };
-    let faults: Vec<String> = found.faults().into_iter().filter(|fault| !known_of(fault)).collect();
-    if faults.is_empty() || options.any_wiring {
-        faults.iter().for_each(|fault| eprintln!("wiring: {fault}"));
-        without.extend(silent.iter().filter_map(|name| named(name)));
-        without.sort_unstable();
-        without.dedup();
-        return Ok(without);
-    }
-    let news: Vec<&&str> =
-        silent.iter().filter(|name| !options.without.iter().any(|known| known == *name)).collect();
-    let dead = match news.first() {
-        Some(name) => format!(", without a dead one by --without {name}"),
-        None => String::new(),
-    };
-    // Few lines for many channels, unless some of them are no news.
-    let lines = if faults.len() == found.faults().len() { found.summary() } else { faults };
-    Err(CliError::Work(match &lines[..] {
-        [fault] => format!("wiring: {fault} (mend it, or go on with --any-wiring{dead})"),
-        lines => format!("wiring:\n  {}\nmend it, or go on with --any-wiring{dead}", lines.join("\n  ")),
-    }))
+    Asked::of(known).judge(&found)
 }
 
 /// What actuators hear of each other and of themselves, as the library's last points.

@@ -12,6 +12,7 @@ mod scale;
 mod shelf;
 mod tape;
 mod verify;
+mod wires;
 
 use crate::args::{CalibrateOptions, DeviceName, WayName};
 use crate::error::CliError;

@@ -10,6 +10,7 @@ use crate::calibrate::finish::{begin, finish, log_run};
 use crate::calibrate::middle;
 use crate::calibrate::report::{self, Report};
 use crate::calibrate::shelf::Shelf;
+use crate::calibrate::wires::WIRING;
 use crate::error::CliError;
 use serde_json::{Value, json};
 use std::collections::btree_map::Entry;
@@ -18,9 +19,6 @@ use std::time::{Duration, Instant};
 use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{Channel, Listen, MeasureOptions, Session, Sink};
 use unripple_store::{Doubt, Library, PointState};
-
-/// The check that finds wires which are not as they should be.
-const WIRING: &str = "wiring";
 
 impl Bench<'_> {
     /// Fills the library with all that can be made of the recordings.
