@@ -366,3 +366,29 @@ fn whoever_is_stopped_leaves_a_library_that_says_so() {
     json(&with(&["--without", "a3"]));
     assert!(Library::open(&library).unwrap().doubts().is_empty());
 }
+
+#[test]
+fn a_library_without_what_actuators_hear_is_doubtful() {
+    let mut bench = Bench::new("takes-own-refused", 1, &[]);
+    bench.bring_all(1);
+    // A sensor with hardly more than noise, in the actuators' own recording alone.
+    let mut own = bench.surface.record(Point::from_mm(60.0, 50.0), 9_000, 1);
+    let peak = own[1].iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let mut state = 1_u64;
+    own[1].iter_mut().for_each(|x| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        *x += 0.7 * peak * ((state >> 11) as f64 / (1u64 << 52) as f64 - 1.0);
+    });
+    bring(&bench.folder, "actuators.wav", &own);
+    let (output, told, said) = bench.calibrate(1, &[]);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("sensor of `a2`") && number(&told, "/measured") == 1.0, "{said}");
+    assert!(doubts(&told).iter().any(|doubt| doubt.contains("own points of a1, a2, a3, a4, a5")), "{told}");
+    let output = bench.focus(&[]);
+    assert!(String::from_utf8_lossy(&output.stderr).contains("doubtful: the own points"));
+
+    // Recorded again it is good.
+    bench.bring_all(1);
+    let (output, told, said) = bench.calibrate(1, &[]);
+    assert!(output.status.success() && doubts(&told).is_empty(), "{said}");
+}

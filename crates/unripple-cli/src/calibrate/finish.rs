@@ -26,6 +26,9 @@ const RUNS: usize = 100;
 /// The check that finds a measurement which was stopped.
 const UNFINISHED: &str = "unfinished";
 
+/// The check that finds own points missing or bad.
+const OWN: &str = "own";
+
 /// The key of the log for what was asked for that changes responses, beside scales.
 pub const ASKED: &str = "asked";
 
@@ -57,6 +60,7 @@ pub fn finish(campaign: &Campaign<'_>, shelf: &mut Shelf, latency: Option<[f64; 
     reciprocity(campaign, shelf)?;
     spread(campaign, shelf, latency)?;
     sensors(campaign, shelf)?;
+    lacking(campaign, shelf)?;
     verify::check(shelf, campaign.surface, campaign.model, &campaign.settings)?;
     Ok(shelf.library.set_doubts(UNFINISHED, Vec::new())?)
 }
@@ -175,6 +179,29 @@ fn spread(campaign: &Campaign<'_>, shelf: &mut Shelf, latency: Option<[f64; 2]>)
         )
     });
     Ok(shelf.library.set_doubts(CHECK, found.into_iter().collect())?)
+}
+
+/// Doubts a library that lacks what a sensor heard of the actuators, unless it is dead.
+fn lacking(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), CliError> {
+    let lacks = |actuator: &usize| {
+        let state = shelf.library.state(shelf.probed + actuator);
+        let known = shelf.without.contains(actuator) || shelf.deaf.contains(actuator);
+        matches!(state, Some(PointState::Missing | PointState::Bad)) && !known
+    };
+    let actuators = &campaign.surface.actuators;
+    let names: Vec<&str> =
+        (0..actuators.len()).filter(lacks).map(|actuator| actuators[actuator].name.as_str()).collect();
+    let found = (!names.is_empty()).then(|| {
+        Doubt::of(
+            OWN,
+            format!(
+                "the own points of {} are missing or bad, expected those of all actuators that listen: what they hear of each other tells \
+                 whether the rest is sound; measure them again",
+                names.join(", ")
+            ),
+        )
+    });
+    Ok(shelf.library.set_doubts(OWN, found.into_iter().collect())?)
 }
 
 /// Leaves the actuators' own points out of figures, where sensors are of another scale than the probe.

@@ -25,6 +25,8 @@ pub struct Shelf {
     sensors: Vec<f64>,
     /// Actuators that are left out: their responses are zero, since what was heard of them is noise.
     pub without: Vec<usize>,
+    /// Actuators whose sensor hears nothing: their own points are not missed.
+    pub deaf: Vec<usize>,
     /// Points that were kept in this run.
     pub made: BTreeSet<usize>,
 }
@@ -38,7 +40,8 @@ impl Shelf {
         without: Vec<usize>,
     ) -> Self {
         let sensors = surface.actuators.iter().map(|actuator| scales.input(&actuator.name)).collect();
-        Self { library, probed, probe: scales.input(PROBE), sensors, without, made: BTreeSet::new() }
+        let (deaf, made) = (Vec::new(), BTreeSet::new());
+        Self { library, probed, probe: scales.input(PROBE), sensors, without, deaf, made }
     }
 
     /// For taps, whose strength the model tells: scales do not matter.

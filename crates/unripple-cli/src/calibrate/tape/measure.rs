@@ -197,6 +197,7 @@ impl Work<'_, '_> {
         let (last, centre) = (known.places.points.len(), middle(known.surface));
         let dead = tried.dead.clone();
         let mut shelf = Shelf::new(library, known.places.probed, known.surface, &known.scales, dead);
+        shelf.deaf.clone_from(&tried.deaf);
         let unheard: Vec<usize> = tried.dead.iter().chain(&tried.deaf).copied().collect();
         let first = self.session(&MeasureOptions { without: unheard, ..known.settings.clone() })?;
         let latency = first.find_latency(&mut self.rig, last, centre, known.model)?;
