@@ -392,3 +392,19 @@ fn a_library_without_what_actuators_hear_is_doubtful() {
     let (output, told, said) = bench.calibrate(1, &[]);
     assert!(output.status.success() && doubts(&told).is_empty(), "{said}");
 }
+
+#[test]
+fn a_record_that_was_lost_is_written_anew_from_the_recordings() {
+    let mut bench = Bench::new("takes-record", 1, &[]);
+    bench.bring_all(1);
+    assert!(bench.calibrate(1, &[]).0.status.success());
+    let before = response(&bench.library, 0);
+    std::fs::write(format!("{}/calibration/zarr.json", bench.library), "{").unwrap();
+    let said = String::from_utf8_lossy(&bench.focus(&[]).stderr).into_owned();
+    assert!(said.contains("doubtful: the record of its calibration cannot be read"), "{said}");
+
+    // All is measured again by the same files, so that nothing is left to be doubted.
+    let (output, told, said) = bench.calibrate(1, &[]);
+    assert!(output.status.success() && doubts(&told).is_empty(), "{said}");
+    assert!(apart(&response(&bench.library, 0), &before) < 1e-6);
+}

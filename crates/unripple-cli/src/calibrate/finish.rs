@@ -62,6 +62,7 @@ pub fn finish(campaign: &Campaign<'_>, shelf: &mut Shelf, latency: Option<[f64; 
     sensors(campaign, shelf)?;
     lacking(campaign, shelf)?;
     verify::check(shelf, campaign.surface, campaign.model, &campaign.settings)?;
+    recorded(shelf)?;
     Ok(shelf.library.set_doubts(UNFINISHED, Vec::new())?)
 }
 
@@ -179,6 +180,22 @@ fn spread(campaign: &Campaign<'_>, shelf: &mut Shelf, latency: Option<[f64; 2]>)
         )
     });
     Ok(shelf.library.set_doubts(CHECK, found.into_iter().collect())?)
+}
+
+/// Takes back the doubt of a record that could not be read, once all that is there was measured since: in this run, or as the new record
+/// says.
+fn recorded(shelf: &mut Shelf) -> Result<(), CliError> {
+    let library = &shelf.library;
+    let own = library.logged("own").is_some();
+    let since = |point: &usize| {
+        let said = library.logged_point(*point).is_some_and(|log| log.get("made").is_some());
+        shelf.made.contains(point) || said || (own && *point >= shelf.probed)
+    };
+    let there = |point: &usize| library.state(*point) != Some(PointState::Missing);
+    if !(0..library.points().len()).filter(there).all(|point| since(&point)) {
+        return Ok(());
+    }
+    Ok(shelf.library.set_doubts("record", Vec::new())?)
 }
 
 /// Doubts a library that lacks what a sensor heard of the actuators, unless it is dead.
