@@ -189,6 +189,17 @@ fn levels_need_a_scale() {
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("--peak-um: expected a library whose level"));
 
+    // Nor is anything told of levels where it is played, nor set by them.
+    let play = ["play", &bench.library, "--seconds", "0.5", "--fingers", "1"];
+    let output = run(&play);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let told = [output.stderr, output.stdout].map(|text| String::from_utf8(text).unwrap()).concat();
+    let figures: Vec<&str> = told.lines().filter(|line| !line.starts_with("warning")).collect();
+    assert!(figures.iter().all(|line| !line.contains("µm") && !line.contains("dB")), "{told}");
+    assert!(told.contains("full level the surface's limit of 1: what it moves is not known"), "{told}");
+    let played = json(&play);
+    assert!(played["full_level_db"].is_null() && played["felt"]["level_db_median"].is_null(), "{played}");
+
     // With both scales it is that of the surface itself.
     let scales = ["--input-scale".to_owned(), full.to_string(), "--output-scale".into(), "1".into()];
     let scales: Vec<&str> = scales.iter().map(String::as_str).collect();

@@ -58,6 +58,9 @@ pub struct Report {
     /// Whether what fingers feel could be told.
     #[serde(skip)]
     tells_feelings: bool,
+    /// Whether the library that was played on has no scale, so that levels mean nothing.
+    #[serde(skip)]
+    pub without_scale: bool,
 }
 
 /// What a sound server says of itself and of the sitting.
@@ -171,7 +174,7 @@ impl Report {
         let feelings = stage.feelings();
         for feeling in &feelings {
             self.felt.add(feeling);
-            line += &told(feeling);
+            line += &told(feeling, self.without_scale);
         }
         if let Some(drift) = stage.drift() {
             let explained = !drift.asks_for_calibration();
@@ -228,7 +231,7 @@ impl Report {
         self.stale = tally.stale;
         (self.late, self.refused) = (tally.late, tally.refused);
         self.lost_commands = tally.lost + conductor.desk().meters().count(Count::ReportsLost);
-        self.felt.settle();
+        self.felt.settle(self.without_scale);
         self
     }
 
@@ -239,7 +242,7 @@ impl Report {
             self.surface, self.seconds, self.touches, self.cues, self.drives_made
         );
         let _ = writeln!(text, "{}", self.window);
-        text += &self.felt.text(self.tells_feelings);
+        text += &self.felt.text(self.tells_feelings, self.without_scale);
         let columns = ["p50", "p90", "p99", "p99.9", "worst"].map(|name| format!("{name:>9}"));
         let _ = writeln!(text, "\n  {:<34}{}", "in ms", columns.concat());
         text += &self.first_sample_s.text("touch to first sample");
@@ -282,22 +285,28 @@ impl Report {
     }
 }
 
-fn told(feeling: &Feeling) -> String {
-    let level = feeling.level_db.map_or("  silent".into(), |db| format!("{db:5.1} dB"));
+fn told(feeling: &Feeling, without_scale: bool) -> String {
+    let level = match feeling.level_db {
+        Some(_) if without_scale => "level unknown".into(),
+        level => level.map_or("  silent".into(), |db| format!("{db:5.1} dB")),
+    };
     let contrast = feeling.contrast.map_or("    -".into(), |contrast| format!("{contrast:5.1}"));
     let (x, y) = (feeling.at.x * 1e3, feeling.at.y * 1e3);
     format!("  finger {} at {x:.0},{y:.0}: {level}, contrast {contrast}", feeling.finger)
 }
 
 impl Felt {
-    /// For people; `told` where a virtual surface says what is felt.
-    fn text(&self, told: bool) -> String {
+    /// For people; `told` where a virtual surface says what is felt, `without_scale` where its level means nothing.
+    fn text(&self, told: bool, without_scale: bool) -> String {
         if !told {
             return "felt: unknown, since no virtual surface plays that could tell\n".into();
         }
         let db = |value: Option<f64>| value.map_or("-".into(), |db| format!("{db:.1}"));
         let [median, most, contrast] =
             [self.level_db_median, self.level_db_most, self.contrast_median].map(db);
+        if without_scale {
+            return format!("felt: level unknown, contrast {contrast}\n");
+        }
         format!("felt: {median} dB above threshold (most {most}), contrast {contrast}\n")
     }
 
@@ -306,13 +315,15 @@ impl Felt {
         self.contrasts.extend(feeling.contrast);
     }
 
-    fn settle(&mut self) {
+    fn settle(&mut self, without_scale: bool) {
         self.levels.sort_unstable_by(f64::total_cmp);
         self.contrasts.sort_unstable_by(f64::total_cmp);
         let middle = |values: &[f64]| values.get(values.len() / 2).copied();
         self.looks = self.levels.len();
-        self.level_db_median = middle(&self.levels);
-        self.level_db_most = self.levels.last().copied();
+        if !without_scale {
+            self.level_db_median = middle(&self.levels);
+            self.level_db_most = self.levels.last().copied();
+        }
         self.contrast_median = middle(&self.contrasts);
     }
 }
