@@ -214,6 +214,33 @@ fn a_reference_may_hear_one_output_alone() {
 }
 
 #[test]
+fn without_sensors_the_take_that_is_bad_is_named_and_the_others_stay() {
+    let inputs = ["--tape-inputs", "probe,reference"];
+    let mut bench = Bench::new("takes-one-bad", 3, &inputs);
+    let play = bench.surface.play.clone();
+    let with = |lines: &[Vec<f64>], early: usize| {
+        let sent = |i: usize| -> f64 { play.iter().map(|line| line.get(i).copied().unwrap_or(0.0)).sum() };
+        let reference = |i: usize| i.checked_sub(early).map_or(0.0, sent);
+        vec![lines[5].clone(), (0..lines[5].len()).map(|i| 0.2 * reference(i)).collect()]
+    };
+    let own = with(&bench.surface.record(Point::from_mm(60.0, 50.0), 9_000, 1), 9_000);
+    bring(&bench.folder, "actuators.wav", &own);
+    for place in 0..3 {
+        let heard = with(&bench.hear(place, 2 + place as u64), 6_000 + 997 * place);
+        // The first recorder's clock is 250 millionths off.
+        let heard = match place {
+            0 => heard.iter().map(|line| interpolated(line, 1.00025)).collect(),
+            _ => heard,
+        };
+        bring(&bench.folder, &format!("point-{:03}.wav", place + 1), &heard);
+    }
+    let (output, told, said) = bench.calibrate(3, &inputs);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("  point-001.wav: ") && !said.contains("actuators.wav: "), "{said}");
+    assert_eq!(number(&told, "/measured"), 2.0, "{said}");
+}
+
+#[test]
 fn levels_are_looked_at_before_the_long_run() {
     let mut bench = Bench::new("takes-levels", 1, &[]);
     let (output, _, said) = bench.calibrate(1, &["--check-levels"]);

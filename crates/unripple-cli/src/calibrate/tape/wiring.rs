@@ -91,8 +91,16 @@ fn heard(bench: &Bench<'_>, session: &Session, rig: &mut TapeRig) -> Result<Vec<
         return Ok(session.measure(rig, last, centre, 0, Listen::Sensors)?);
     }
     let mut rows = Vec::new();
-    for number in bench.good.iter().copied().take(LOOKED_AT) {
-        rows.extend(session.measure(rig, number, bench.campaign.places.points[number], 0, Listen::Probe)?);
+    for number in bench.good.iter().copied() {
+        if rows.len() >= LOOKED_AT {
+            break;
+        }
+        match session.measure(rig, number, bench.campaign.places.points[number], 0, Listen::Probe) {
+            Ok(heard) => rows.extend(heard),
+            // A point's recording that is no good is told of when it is measured.
+            Err(CalibrateError::Recording { .. } | CalibrateError::Dsp(_)) => {}
+            Err(error) => return Err(error.into()),
+        }
     }
     Ok(rows)
 }
