@@ -264,6 +264,20 @@ fn levels_are_looked_at_before_the_long_run() {
     assert!(advice[1].contains("channel 3 (`a3`): nearly clipped: turn its gain down by 6 dB"), "{advice:?}");
     assert!(advice[2].contains("channel 4 (`a4`): clipped"), "{advice:?}");
 
+    // The probe is not needed yet, nor is anything said of it.
+    let mut own = bench.surface.record(Point::from_mm(60.0, 50.0), 9_000, 1);
+    own.iter_mut().for_each(|line| scaled(line, 0.5));
+    own[5].fill(0.0);
+    bring(&bench.folder, "actuators.wav", &own);
+    let (output, told, said) = bench.calibrate(1, &["--check-levels"]);
+    assert!(output.status.success() && told["advice"].as_array().unwrap().is_empty(), "{said} {told}");
+    let mut heard = bench.hear(0, 3);
+    heard[5].fill(0.0);
+    bring(&bench.folder, "point-001.wav", &heard);
+    let (output, _, said) = bench.calibrate(1, &["--check-levels"]);
+    assert!(output.status.code() == Some(1) && said.contains("1 channels are clipped or silent"), "{said}");
+    std::fs::remove_file(format!("{}/point-001.wav", bench.folder)).unwrap();
+
     // Through a device all sweeps are played once; nothing is kept.
     let library = bench.scratch.join("levels");
     let told =
@@ -271,18 +285,13 @@ fn levels_are_looked_at_before_the_long_run() {
     assert_eq!(told["levels"].as_array().unwrap().len(), 6);
     assert!(number(&told, "/levels/5/signal_to_noise_db") > 20.0);
     assert!(!std::path::Path::new(&library).exists());
-    let told = json(&[
-        "calibrate",
-        &bench.film,
-        "--unknowns",
-        "3",
-        "--snr-db",
-        "25",
-        "--check-levels",
-        "--at=52,47",
-        "-o",
-        &library,
-    ]);
+    // It is listened to once: how many repeats are asked for changes nothing of what is advised.
+    let loud = |repeats: &str| {
+        let start = ["calibrate", &bench.film, "--unknowns", "3", "--snr-db", "25", "--at=52,47"];
+        json(&[&start[..], &["--check-levels", "--repeats", repeats, "-o", &library]].concat())
+    };
+    let (told, again) = (loud("1"), loud("4"));
+    assert_eq!(told["advice"], again["advice"]);
     assert!(told["advice"].to_string().contains("--repeats"), "{told}");
 }
 

@@ -6,7 +6,7 @@ use crate::output;
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
-use unripple::core::Layout;
+use unripple::core::{Layout, PROBE};
 use unripple::dsp::clipped;
 use unripple_calibrate::measure::{Channel, Listen, MeasureOptions, Rig, Session, Wires};
 use unripple_store::read_wav;
@@ -47,6 +47,9 @@ struct Level {
     signal_to_noise_db: Option<f64>,
     /// What to do.
     advice: Option<String>,
+    /// Whether it has to hear anything.
+    #[serde(skip)]
+    needed: bool,
 }
 
 /// What was found of all channels.
@@ -76,10 +79,29 @@ impl Level {
             None
         };
         let name = name.to_owned();
-        Self { file: None, channel, name, peak, clipped: flat, signal_to_noise_db: None, advice }
+        Self {
+            file: None,
+            channel,
+            name,
+            peak,
+            clipped: flat,
+            signal_to_noise_db: None,
+            advice,
+            needed: true,
+        }
     }
 
-    /// Adds what its responses say, and what would help.
+    /// The same of one that may be silent.
+    fn unneeded(self) -> Self {
+        let advice = self.advice.filter(|_| self.peak > 0.0);
+        Self { advice, needed: false, ..self }
+    }
+
+    fn is_useless(&self) -> bool {
+        self.needed && (self.clipped > 0 || self.peak <= 0.0)
+    }
+
+    /// Adds what its responses say, measured with these settings, and what would help.
     fn judged(&mut self, channel: &Channel, without: &[usize], settings: &MeasureOptions) {
         let all = channel.quality.iter().enumerate().filter(|(actuator, _)| !without.contains(actuator));
         let worst = all.map(|(_, quality)| quality.snr_db).fold(f64::INFINITY, f64::min);
@@ -142,7 +164,7 @@ impl Levels {
     /// Prints all of it; clipped or silent channels are failed work.
     fn answer(self, as_json: bool) -> Result<(), CliError> {
         output::answer(as_json, &self, &self.text())?;
-        let useless = self.levels.iter().filter(|level| level.clipped > 0 || level.peak <= 0.0).count();
+        let useless = self.levels.iter().filter(|level| level.is_useless()).count();
         if useless == 0 {
             return Ok(());
         }
@@ -178,7 +200,7 @@ pub fn listen(
         .collect();
     let mut judge = |channels: Vec<Channel>, inputs: Vec<usize>| {
         for (channel, input) in channels.iter().zip(inputs) {
-            levels[input].judged(channel, &settings.without, &known.settings);
+            levels[input].judged(channel, &settings.without, &settings);
         }
     };
     if !wires.sensors.is_empty() {
@@ -190,16 +212,17 @@ pub fn listen(
     Levels::of(levels).answer(as_json)
 }
 
-/// Looks at the recordings that are there.
-pub fn look(files: &[PathBuf], inputs: &[String], as_json: bool) -> Result<(), CliError> {
+/// Looks at the recordings that are there; in those of the actuators the probe may be silent.
+pub fn look(files: &[(PathBuf, bool)], inputs: &[String], as_json: bool) -> Result<(), CliError> {
     let mut levels = Vec::new();
-    for file in files {
+    for (file, of_actuators) in files {
         let wav = read_wav(file)?;
         let name = file.file_name().map(|name| name.to_string_lossy().into_owned());
         for (input, line) in wav.channels.iter().enumerate() {
             let unknown = "not planned".to_owned();
             let known = inputs.get(input).unwrap_or(&unknown);
-            levels.push(Level { file: name.clone(), ..Level::of(known, input + 1, line, false) });
+            let level = Level { file: name.clone(), ..Level::of(known, input + 1, line, false) };
+            levels.push(if *of_actuators && known == PROBE { level.unneeded() } else { level });
         }
     }
     if levels.is_empty() {

@@ -19,7 +19,7 @@ use crate::error::CliError;
 use asked::{Asked, Wanted};
 use fault::Fault;
 use read::Reader;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use takes::Takes;
 use unripple::core::{Layout, PROBE, Surface};
 use unripple_calibrate::measure::{MeasureOptions, Session, Wires};
@@ -138,9 +138,9 @@ impl Bench<'_> {
         self.wanted.iter().filter(|one| self.there(one)).cloned().collect()
     }
 
-    /// Their files.
-    fn recordings(&self) -> Vec<std::path::PathBuf> {
-        self.present().iter().map(|one| self.folder.join(&one.file)).collect()
+    /// Their files, and whether they are of the actuators.
+    fn recordings(&self) -> Vec<(PathBuf, bool)> {
+        self.present().iter().map(|one| (self.folder.join(&one.file), one.at.is_none())).collect()
     }
 
     /// Whether there is what nothing can be read without: a recording of the actuators, where anything tells of them.
