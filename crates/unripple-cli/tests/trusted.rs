@@ -419,3 +419,18 @@ fn a_record_that_was_lost_is_written_anew_from_the_recordings() {
     assert!(output.status.success() && doubts(&told).is_empty(), "{said}");
     assert!(apart(&response(&bench.library, 0), &before) < 1e-6);
 }
+
+#[test]
+fn the_error_that_is_told_is_the_one_that_is_judged() {
+    let mut bench = Bench::new("takes-gains", 1, &[]);
+    // One sensor's gain is another: that is no error of reciprocity.
+    bench.bring_changed(1, |mut lines| {
+        lines[4].iter_mut().for_each(|x| *x *= 3.0);
+        lines
+    });
+    let (output, told, said) = bench.calibrate(1, &[]);
+    assert!(output.status.success(), "{said}");
+    let judged = Library::open(&bench.library).unwrap().logged("reciprocity").unwrap()["error"].clone();
+    assert_eq!(told["reciprocity_error"], judged);
+    assert!(number(&told, "/reciprocity_error") < 0.05);
+}

@@ -23,6 +23,7 @@ pub struct Report {
     signal_to_noise_db: Spread,
     distortion_db: Spread,
     decay_time_s: Spread,
+    /// Gains free.
     reciprocity_error: Option<f64>,
     seconds_per_recording: f64,
     seconds: f64,
@@ -88,7 +89,7 @@ impl Report {
             signal_to_noise_db: Spread::of(over(|q| q.signal_to_noise_db), |db| -db),
             distortion_db: Spread::of(over(|q| 20.0 * q.distortion.log10()), |db| db),
             decay_time_s: Spread::of(over(|q| q.decay_time), |s| -s),
-            reciprocity_error: library.reciprocity_error()?,
+            reciprocity_error: reciprocity(library)?,
             seconds_per_recording,
             seconds: taken.as_secs_f64(),
             doubtful: library.doubts().iter().map(ToString::to_string).collect(),
@@ -112,7 +113,7 @@ impl Report {
                 writeln!(text, "  latency          {late:.2} samples (actuators agree within {spread:.2})");
         }
         if let Some(error) = self.reciprocity_error {
-            let _ = writeln!(text, "  reciprocity      {:.2} % error", error * 100.0);
+            let _ = writeln!(text, "  reciprocity      {:.2} % error, gains free", error * 100.0);
         }
         for note in &self.notes {
             let _ = writeln!(text, "  note             {note}");
@@ -122,6 +123,12 @@ impl Report {
         }
         text
     }
+}
+
+/// The error that the library is judged by, gains free; where it was not judged, that of its responses as they are.
+fn reciprocity(library: &Library) -> Result<Option<f64>, CliError> {
+    let judged = library.logged("reciprocity").and_then(|log| log["error"].as_f64());
+    Ok(judged.map_or_else(|| library.reciprocity_error(), |error| Ok(Some(error)))?)
 }
 
 /// Notes on single points that are printed: all are in the library.
