@@ -7,8 +7,9 @@ mod common;
 mod elsewhere;
 
 use bench::{Bench, FILM, SEED};
-use common::{Scratch, json, number};
+use common::{Scratch, json, number, run};
 use elsewhere::{apart, bring, bring_at, response};
+use serde_json::Value;
 use unripple::core::Point;
 use unripple_store::{Library, read_wav};
 
@@ -238,6 +239,47 @@ fn without_sensors_the_take_that_is_bad_is_named_and_the_others_stay() {
     assert_eq!(output.status.code(), Some(1), "{said}");
     assert!(said.contains("  point-001.wav: ") && !said.contains("actuators.wav: "), "{said}");
     assert_eq!(number(&told, "/measured"), 2.0, "{said}");
+}
+
+#[test]
+fn a_probes_delay_is_taken_out_once_and_of_all_points() {
+    let mut bench = Bench::new("takes-delay", 2, &[]);
+    // The probe hears 1 ms later than the sensors.
+    let late = |mut lines: Vec<Vec<f64>>| {
+        lines[5].rotate_right(48);
+        lines[5][..48].fill(0.0);
+        lines
+    };
+    bench.bring_changed(2, late);
+    let (output, _, said) = bench.calibrate(2, &["--no-model"]);
+    assert!(output.status.success(), "{said}");
+    let (raw, chunk) = (response(&bench.library, 0), format!("{}/responses/c.0.0.0", bench.library));
+    let bytes = std::fs::read(&chunk).unwrap();
+    let taken_out = |told: &Value| told["notes"].to_string().contains("ms later than the sensors: taken out");
+    let (output, told, said) = bench.calibrate(2, &[]);
+    assert!(output.status.success() && taken_out(&told), "{said}");
+    let mended = response(&bench.library, 0);
+    assert!(apart(&mended, &raw) > 0.3);
+
+    // As whoever is stopped between the log and the responses leaves it: they are mended, once.
+    std::fs::write(&chunk, bytes).unwrap();
+    let (output, told, said) = bench.calibrate(2, &[]);
+    assert!(output.status.success() && taken_out(&told), "{said}");
+    assert!(apart(&response(&bench.library, 0), &mended) < 1e-3);
+    let delay = Library::open(&bench.library).unwrap().logged_point(0).unwrap()["model"]["delay_s"].clone();
+    assert!((delay.as_f64().unwrap() - 1e-3).abs() < 5e-5, "{delay}");
+
+    // A point that comes later, without a model, has lost it as well.
+    let heard = late(bench.hear(2, 4));
+    bring(&bench.folder, "point-003.wav", &heard);
+    let (output, told, said) = bench.calibrate(3, &["--no-model"]);
+    assert!(output.status.success() && taken_out(&told) && number(&told, "/measured") == 8.0, "{said}");
+    let whole = bench.scratch.join("whole");
+    let command = Bench::command(&bench.film, &bench.folder, &whole, 3, &[]);
+    let output = run(&command.iter().map(String::as_str).collect::<Vec<_>>());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let error = apart(&response(&bench.library, 2), &response(&whole, 2));
+    assert!(error < 0.02, "{error}");
 }
 
 #[test]
