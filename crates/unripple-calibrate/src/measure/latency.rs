@@ -82,7 +82,8 @@ pub fn latency(
     let most = WITHIN * rate / band.high[0].min(rate / 2.0);
     let whole: Vec<usize> = (0..some.len()).collect();
     // A sensor may be reversed: each has the sign with which its own tones are most in step.
-    let sign = |a: usize| delay(&all, &[a], &cells, rate, most).map_or(signs[a], |(_, sign)| sign * signs[a].abs());
+    let sign =
+        |a: usize| delay(&all, &[a], &cells, rate, most).map_or(signs[a], |(_, sign)| sign * signs[a].abs());
     let signs: Vec<f64> = whole.iter().map(|a| sign(*a)).collect();
     for (own, sign) in all.iter_mut().flat_map(|tone| tone.own.iter_mut().zip(&signs)) {
         *own *= *sign;
@@ -263,13 +264,7 @@ fn said(
 
 /// The delay in samples, at most `most` either way, at which the tones that some actuators hear of themselves are most in step, if they
 /// are, and their sign.
-fn delay(
-    tones: &[Tone],
-    actuators: &[usize],
-    cells: &Cells,
-    rate: f64,
-    most: f64,
-) -> Option<(f64, f64)> {
+fn delay(tones: &[Tone], actuators: &[usize], cells: &Cells, rate: f64, most: f64) -> Option<(f64, f64)> {
     let parts: Vec<(f64, c64)> = tones
         .iter()
         .map(|tone| {

@@ -18,7 +18,8 @@ pub(super) fn doubts(bench: &Bench) -> Vec<Doubted> {
     };
     let name = |n: usize| bench.surface.actuators[quick.actuators[n]].name.clone();
     // A patch hears how the sheet bends, which says nothing of how its place moves.
-    let listens = |n: usize| !matches!(bench.surface.actuators[quick.actuators[n]].kind, ActuatorKind::Piezo { .. });
+    let listens =
+        |n: usize| !matches!(bench.surface.actuators[quick.actuators[n]].kind, ActuatorKind::Piezo { .. });
     let heard: Vec<Projected> = quick.sensed.iter().map(|row| bench.sheet.checker.project(row)).collect();
     let mut doubts = Vec::new();
     for (n, row) in heard.iter().enumerate().filter(|(n, _)| listens(*n)) {

@@ -159,7 +159,9 @@ impl Sink for Shelf {
 
     fn keep(&mut self, number: usize, channel: &Channel, fault: Option<&str>) -> Result<(), CalibrateError> {
         let failed = |error: StoreError| CalibrateError::Sink { number, why: error.to_string() };
-        self.note(number, channel).and_then(|()| self.store(number, channel, fault.is_some())).map_err(failed)?;
+        self.note(number, channel)
+            .and_then(|()| self.store(number, channel, fault.is_some()))
+            .map_err(failed)?;
         self.made.insert(number);
         Ok(())
     }

@@ -217,7 +217,7 @@ impl Tried {
         let [low, high] = model.conditions.band;
         let found = BURSTS.map(|share| {
             let frequency = low + share * (high - low);
-            check_responses(&heard, &layout, &expected, &WiringOptions { frequency, ..options.clone() })
+            check_responses(&heard, &layout, &expected, &WiringOptions { frequency, ..options })
         });
         let found = found.into_iter().collect::<Result<Vec<WiringReport>, _>>()?;
         let believed = |report: &WiringReport| {
@@ -229,7 +229,8 @@ impl Tried {
             return Ok(());
         }
         let leads = found.iter().flat_map(|report| report.outputs.iter().chain(&report.inputs));
-        let unlike: BTreeSet<String> = leads.filter(|lead| lead.unlike).map(|lead| lead.name.clone()).collect();
+        let unlike: BTreeSet<String> =
+            leads.filter(|lead| lead.unlike).map(|lead| lead.name.clone()).collect();
         if !unlike.is_empty() {
             let names = unlike.iter().cloned().collect::<Vec<_>>().join(", ");
             self.notes.push(format!("wires: {names} unlike the model, which says nothing of them"));
