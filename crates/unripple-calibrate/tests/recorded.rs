@@ -4,7 +4,7 @@ mod recorded_bench;
 
 use recorded_bench::*;
 use unripple_calibrate::CalibrateError;
-use unripple_calibrate::measure::MeasureOptions;
+use unripple_calibrate::measure::{Listen, MeasureOptions};
 
 /// A film of six actuators up to 1 kHz.
 fn film() -> Bench {
@@ -109,6 +109,39 @@ fn tension_that_drifts_is_followed() {
     let off = bench.off(&found, &session);
     println!("in the first: {:?}, off by {:.2} %", found.account.drift, 100.0 * off);
     assert!(off < 0.1);
+}
+
+#[test]
+fn a_deaf_sensor_of_three_does_not_hide_a_clock() {
+    let bench = Bench::new(3, 1000.0, 0.07);
+    let deaf = Faults { ppm: 50.0, deaf: Some(1), noise_db: Some(50.0), ..Faults::default() };
+    let (_, found, session) = bench.measured(&quiet(), &Faults::default(), &deaf).unwrap();
+    let off = bench.off(&found, &session);
+    println!("found {:?}, off by {:.2} %", found.account.clock_ppm, 100.0 * off);
+    assert!((found.account.clock_ppm.unwrap() - 50.0).abs() < 1.0 && off < 0.03);
+}
+
+/// Nothing is known of what a dead actuator makes others hear, nor of what its own sensor hears: rows of zeros.
+#[test]
+fn tension_is_followed_where_one_of_eight_is_dead() {
+    let bench = Bench::new(8, 1000.0, 0.07);
+    let noisy = Faults { dead: Some(2), noise_db: Some(50.0), ..Faults::default() };
+    let drifted = Faults { tension: [0.005, 0.005], ppm: 30.0, ..noisy.clone() };
+    let mut session = bench.session(&quiet());
+    let mut rig = bench.rig(&session, &[noisy, drifted]);
+    let mut sensors = session.measure(&mut rig, 1, AT, 0, Listen::Sensors).unwrap();
+    for (number, sensor) in sensors.iter_mut().enumerate() {
+        let silent = sensor.responses.iter_mut().enumerate().filter(|(drive, _)| *drive == 2 || number == 2);
+        silent.for_each(|(_, response)| response.fill(0.0));
+    }
+    session.follow(&sensors).unwrap();
+    let found = session.measure(&mut rig, 0, AT, 0, Listen::Probe).unwrap().remove(0);
+    let truth = bench.truth(session.band(), found.responses[0].len());
+    let alive = |rows: &[Vec<f64>]| [&rows[..2], &rows[3..]].concat();
+    let off = off(&alive(&found.responses), &alive(&truth));
+    println!("{:?}, off by {:.2} %", found.account, 100.0 * off);
+    assert!(found.account.drift.unwrap().iter().all(|change| (change - 0.005).abs() < 5e-4));
+    assert!((found.account.clock_ppm.unwrap() - 30.0).abs() < 1.0 && off < 0.05);
 }
 
 #[test]
@@ -222,8 +255,7 @@ fn a_knock_is_a_knock_and_a_repeat_stands_in_for_it() {
     let options = MeasureOptions { repeats: 2, ..quiet() };
     let session = bench.session(&options);
     let mut rig = bench.rig(&session, &[knocked, fine]);
-    let listen = unripple_calibrate::measure::Listen::Probe;
-    let found = session.measure(&mut rig, 0, AT, 0, listen).unwrap().remove(0);
+    let found = session.measure(&mut rig, 0, AT, 0, Listen::Probe).unwrap().remove(0);
     assert_eq!(session.fault(&found), None);
     assert!(found.account.said().iter().any(|said| said.contains("left out")), "{:?}", found.account.said());
     let off = bench.off(&found, &session);
@@ -238,8 +270,7 @@ fn quality_is_told_by_thirds_of_an_octave() {
     let options = MeasureOptions { repeats: 3, ..quiet() };
     let session = bench.session(&options);
     let mut rig = bench.rig(&session, &[noisy]);
-    let listen = unripple_calibrate::measure::Listen::Probe;
-    let found = session.measure(&mut rig, 0, AT, 0, listen).unwrap().remove(0);
+    let found = session.measure(&mut rig, 0, AT, 0, Listen::Probe).unwrap().remove(0);
     let bands = &found.bands[0];
     println!("{bands:.1?}");
     assert!(bands.len() >= 9 && bands.windows(2).all(|pair| pair[0].hz < pair[1].hz));

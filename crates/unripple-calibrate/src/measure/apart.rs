@@ -122,18 +122,39 @@ impl<'a> Pairs<'a> {
     /// Cross-spectrum of all pairs, each of power 1.
     fn cross(&self, change: f64) -> Vec<Complex<f64>> {
         let mut sum: Vec<Complex<f64>> = Vec::new();
-        for (known, found) in self.known.iter().zip(&self.found) {
-            let moved = known.lines(self.band, |hz| self.law.unchanged(hz, change));
-            let moved = normed(moved);
-            sum.resize(moved.len(), Complex::default());
-            sum.iter_mut()
-                .zip(moved)
-                .zip(found)
-                .for_each(|((sum, known), found)| *sum += found * known.conj());
+        for pair in 0..self.known.len() {
+            let own = self.crossed(pair, change);
+            sum.resize(own.len(), Complex::default());
+            sum.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
         }
         sum
     }
 
+    /// Cross-spectrum of one pair, of power 1.
+    fn crossed(&self, pair: usize, change: f64) -> Vec<Complex<f64>> {
+        let moved = normed(self.known[pair].lines(self.band, |hz| self.law.unchanged(hz, change)));
+        moved.iter().zip(&self.found[pair]).map(|(known, found)| found * known.conj()).collect()
+    }
+
+    /// Which of the pairs, in their order without silent ones, are less alike than so when what sets all of them apart is taken out.
+    pub fn strange(&self, apart: &Apart, least: f64) -> Vec<bool> {
+        let count = self.known.len() as f64;
+        let likeness = |pair: usize| count * self.read(&self.crossed(pair, apart.change), apart.late);
+        (0..self.known.len()).map(|pair| likeness(pair) < least).collect()
+    }
+
+    /// The other pairs alone; `None` unless they are more than half of all.
+    pub fn without(mut self, strange: &[bool]) -> Option<Self> {
+        let keep = |n: usize| !strange.get(n).copied().unwrap_or(false);
+        let count = self.known.len();
+        let mut numbers = 0..;
+        self.known.retain(|_| numbers.next().is_some_and(keep));
+        let mut numbers = 0..;
+        self.found.retain(|_| numbers.next().is_some_and(keep));
+        (2 * self.known.len() > count).then_some(self)
+    }
+
+    /// Mean likeness of all pairs at a delay.
     fn read(&self, cross: &[Complex<f64>], late: f64) -> f64 {
         let mut turn = Complex::from_polar(1.0, self.turns[0] * late);
         let step = Complex::from_polar(1.0, self.turns[1] * late);

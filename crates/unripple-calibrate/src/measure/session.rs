@@ -100,7 +100,8 @@ impl Session {
     }
 
     /// Holds all takes to come against what the sensors heard in this one, from [`Listen::Sensors`] or out of a library: their
-    /// clock, their latency and the sheet's tension are brought to it.
+    /// clock, their latency and the sheet's tension are brought to it. Responses that are all zeros, of dead actuators and bad
+    /// sensors, tell nothing and are left out.
     ///
     /// # Errors
     /// [`CalibrateError::Count`] for another number of sensors or responses than actuators.
@@ -188,7 +189,9 @@ impl Session {
         let sensors: Vec<usize> = telling.iter().map(|i| self.telling[*i]).collect();
         let known: Option<Vec<Vec<Vec<f64>>>> =
             known.map(|known| telling.iter().map(|i| known[*i].clone()).collect());
-        let known = known.filter(|known| !known.is_empty());
+        // Rows of zeros are of nobody: dead actuators and bad sensors.
+        let sounds = |known: &Vec<Vec<Vec<f64>>>| known.iter().flatten().flatten().any(|h| *h != 0.0);
+        let known = known.filter(sounds);
         if lines.is_empty() {
             lines.extend(self.wires.reference.as_ref().and_then(line));
         }

@@ -117,7 +117,7 @@ impl Telling<'_> {
             let found: Vec<Vec<f64>> = known.iter().map(cut).collect();
             let pairs: Vec<(&[f64], &[f64])> =
                 known.iter().zip(&found).map(|((k, _), f)| (*k, &f[..])).collect();
-            let apart = Pairs::of(&pairs, origin, self.rate, self.band, self.law)?.apart(still);
+            let apart = agreed(Pairs::of(&pairs, origin, self.rate, self.band, self.law)?, still);
             best = Some(Apart { late: apart.late + whole as f64, ..apart });
             // Another tension moves what is coarsely seen: whole samples are taken out until none is left.
             if apart.late.abs() < 1.0 {
@@ -143,6 +143,16 @@ impl Telling<'_> {
         let best = found.max_by(|a, b| a.correlation.total_cmp(&b.correlation))?;
         (best.correlation >= COARSE).then(|| best.samples.round() as i64 - reach)
     }
+}
+
+/// What sets pairs apart: most of them, where the others have nothing in common, as what a deaf sensor heard.
+fn agreed(pairs: Pairs<'_>, still: bool) -> Apart {
+    let apart = pairs.apart(still);
+    if apart.likeness >= LEAST {
+        return apart;
+    }
+    let strange = pairs.strange(&apart, LEAST);
+    pairs.without(&strange).map_or(apart, |others| others.apart(still))
 }
 
 /// What each of `count` has, when pairs (later minus earlier number's: the first of the pair less the second) are known, each

@@ -54,6 +54,8 @@ pub struct Faults {
 
 impl Default for Faults {
     fn default() -> Self {
+    /// A sensor that hears noise alone.
+    pub deaf: Option<usize>,
         Self {
             ppm: 0.0,
             late: 0.0,
@@ -72,6 +74,7 @@ impl Default for Faults {
 
 /// The film as told, and its modes.
 pub struct Bench {
+            deaf: None,
     pub surface: Surface,
     pub model: ModalResponses,
     layout: Layout,
@@ -241,6 +244,10 @@ impl Bench {
         };
         let mut lines: Vec<Vec<f32>> = heard.into_iter().enumerate().map(one).collect();
         let longest = lines.iter().map(Vec::len).max().unwrap_or(0) + 4 * BLOCK;
+            if faults.deaf == Some(input) {
+                let mut noise = Noise(seed * 1000 + 500 + input as u64);
+                line.iter_mut().for_each(|x| *x = 1e-3 * rms * noise.gauss());
+            }
         lines.iter_mut().for_each(|line| line.resize(longest, 0.0));
         lines
     }
