@@ -169,6 +169,47 @@ fn lost_samples_are_put_back_or_named() {
 }
 
 #[test]
+fn samples_lost_at_two_places_are_named() {
+    let bench = Bench::new(8, 1000.0, 0.07);
+    let twice = Faults {
+        lost: Some((480, 30_000)),
+        lost_again: Some((300, 110_000)),
+        noise_db: Some(50.0),
+        ..Faults::default()
+    };
+    match bench.measured(&quiet(), &Faults::default(), &twice) {
+        Err(CalibrateError::Recording { what, found, .. }) => {
+            println!("{what}: {found}");
+            assert!(what.contains("sweeps") && found.contains("samples lost at several places"), "{found}");
+        }
+        other => panic!("{:?}", other.map(|(_, found, _)| found.account)),
+    }
+}
+
+/// Latency that jumps within sweeps leaves nothing to follow: sensors do not know the sweeps again.
+#[test]
+fn latency_that_jitters_is_named_or_harmless() {
+    let bench = film();
+    let fault = |jitter: f64| {
+        let faults = Faults { jitter, noise_db: Some(50.0), ..Faults::default() };
+        match bench.measured(&quiet(), &Faults::default(), &faults) {
+            Err(CalibrateError::Recording { found, .. }) => found,
+            Err(other) => panic!("{other}"),
+            Ok((_, found, session)) => {
+                println!("{jitter}: off by {:.2} %", 100.0 * bench.off(&found, &session));
+                session.fault(&found).unwrap_or_default()
+            }
+        }
+    };
+    assert_eq!(fault(0.3), "");
+    for jitter in [16.0, 64.0] {
+        let said = fault(jitter);
+        println!("{jitter}: {said}");
+        assert!(said.contains("a latency that jitters"), "{jitter}: {said}");
+    }
+}
+
+#[test]
 fn the_probes_own_delay_is_taken_out() {
     let bench = film();
     for delay in [1e-3, 0.2104e-3] {

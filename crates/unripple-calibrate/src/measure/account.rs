@@ -32,6 +32,8 @@ pub struct Account {
     pub clock_ppm: Option<f64>,
     /// Standard error of that.
     pub clock_error_ppm: f64,
+    /// Samples, root mean square, by which sweeps came early or late that neither one clock nor lost samples explain; left as it is.
+    pub scatter: Option<f64>,
     /// Samples by which it came late beside the first take; taken out.
     pub late: Option<f64>,
     /// Samples lost, put back as far as that goes.
@@ -47,6 +49,8 @@ pub struct Account {
     pub peak: f64,
     /// Second and third harmonic of each actuator, as a share of the amplitude; NaN where none was told apart.
     pub harmonics: Vec<[f64; 2]>,
+    /// Sweeps that sensors heard otherwise than in the first take, where neither noise nor a knock is why, and all sweeps; if they are many.
+    pub unlike: Option<[usize; 2]>,
 }
 
 /// Clocks closer than this, in millionths, are not worth a word.
@@ -64,6 +68,18 @@ const LEAST_HARMONIC: f64 = 1e-3;
 impl Account {
     /// What there is to say of it, a sentence each; nothing of what is as it should be.
     pub fn said(&self) -> Vec<String> {
+        let mut said = self.brought();
+        said.extend(self.distorted());
+        said.extend(self.knocks.iter().map(|knock| {
+            let (at, left) =
+                (knock.at_s, if knock.left_out { ": the sweeps that it hit were left out" } else { "" });
+            format!("a knock at {at:.2} s{left}")
+        }));
+        said
+    }
+
+    /// How a take was brought to the clock, the time and the tension of the first.
+    fn brought(&self) -> Vec<String> {
         let mut said = Vec::new();
         if let Some(ppm) = self.clock_ppm.filter(|ppm| ppm.abs() >= SAME_PPM) {
             let side = if ppm > 0.0 { "fast" } else { "slow" };
@@ -91,12 +107,12 @@ impl Account {
                 "{what} was {first:+.2} % beside the first recording, {last:+.2} % at its end: taken out"
             ));
         }
-        said.extend(self.distorted());
-        said.extend(self.knocks.iter().map(|knock| {
-            let (at, left) =
-                (knock.at_s, if knock.left_out { ": the sweeps that it hit were left out" } else { "" });
-            format!("a knock at {at:.2} s{left}")
-        }));
+        if let Some(scatter) = self.scatter {
+            said.push(format!(
+                "sweeps came {scatter:.2} samples early or late that no clock explains (latency that jitters, or a few samples lost): left \
+                 as it is"
+            ));
+        }
         said
     }
 

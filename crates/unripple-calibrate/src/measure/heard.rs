@@ -38,6 +38,7 @@ impl Session {
         channel.account.peak = loud;
         let hits: Vec<Vec<bool>> =
             takes.iter().map(|take| self.knocked(&mut channel, &take.lines[input])).collect();
+        channel.account.unlike = self.unlike(takes, &hits);
         let samples = self.options.samples(self.sweep.rate);
         for actuator in 0..self.wires.drives.len() {
             let used = unhit(&hits, actuator);
@@ -52,6 +53,16 @@ impl Session {
             knock.left_out = knock.actuators.iter().all(replaced);
         }
         Ok(channel)
+    }
+
+    /// The most sweeps of a take that sensors did not know again, those apart that something knocked into, and all sweeps; if they are many.
+    fn unlike(&self, takes: &[Take], hits: &[Vec<bool>]) -> Option<[usize; 2]> {
+        let all = self.wires.drives.len();
+        let missed = |(take, hits): (&Take, &Vec<bool>)| {
+            take.verdict.unlike.iter().filter(|sweep| !hits.get(**sweep).copied().unwrap_or(false)).count()
+        };
+        let most = takes.iter().zip(hits).map(missed).max()?;
+        (MANY * most > all).then_some([most, all])
     }
 
     /// Which actuators' responses something knocked into, in what one input heard; said in the account.
@@ -172,6 +183,9 @@ fn unhit(hits: &[Vec<bool>], actuator: usize) -> Vec<usize> {
     let clean: Vec<usize> = (0..hits.len()).filter(|take| !hit(take)).collect();
     if clean.is_empty() { (0..hits.len()).collect() } else { clean }
 }
+
+/// One sweep of so many that sensors do not know again may be a dead actuator's; more are not.
+const MANY: usize = 3;
 
 /// Where before a response is seen what still rings, in decay times: not so close that the response's own band rings there.
 const BEFORE: [f64; 2] = [0.6, 0.4];

@@ -166,6 +166,12 @@ impl MeasureOptions {
                 hit.join(", ")
             ));
         }
+        if let Some([unlike, all]) = channel.account.unlike {
+            return Some(format!(
+                "sensors heard {unlike} of {all} sweeps otherwise than in the first recording, and noise is not why (samples lost, clocks far \
+                 apart, a latency that jitters, or a surface that changed or is touched)"
+            ));
+        }
         let one = |(index, quality): (usize, &Quality)| {
             if self.without.contains(&index) {
                 return None;

@@ -1,3 +1,4 @@
+use super::channel::Noise;
 use super::law::Law;
 use super::take::{Judge, Verdict};
 use super::{Channel, Hearing, MeasureOptions, Rig, Wires, latency, record};
@@ -10,6 +11,9 @@ const LATEST: f64 = 0.25;
 
 /// Samples before time 0 that deconvolved responses begin with, for latency and noise: 5 ms at 48 kHz.
 pub(super) const LEAD: usize = 240;
+
+/// Signal over noise, in dB, of all that a sensor heard of a take, above which noise does not make it unlike itself.
+const CLEAR_DB: f64 = 15.0;
 
 /// Sensors that tell of clock, gaps and tension, at most: more tell the same.
 const TELLING: usize = 8;
@@ -222,6 +226,7 @@ impl Session {
             band: self.band,
             law: &self.law,
             deconvolve: &|line| self.whole(line),
+            clear: &|whole| Noise::of(whole, &self.sweep, LEAD, self.band).snr_db(whole) > CLEAR_DB,
         };
         judge.judge(lines)
     }

@@ -30,6 +30,10 @@ const FEWEST: usize = 3;
 /// Likeness that two sweeps need when they are all there is.
 const ALIKE: f64 = 0.95;
 
+/// What sweeps may be early or late by for no reason that is known, root mean square, as a share of the shortest period swept: it costs a
+/// focus 2 % of its height.
+const HARMLESS: f64 = 1.0 / 32.0;
+
 /// Turns what one input heard into responses, going round.
 type Deconvolve<'a> = dyn Fn(&[f64]) -> Result<Vec<f64>, CalibrateError> + 'a;
 
@@ -54,6 +58,8 @@ pub(super) struct Judge<'a> {
     pub law: &'a Law,
     /// Turns what was heard into a deconvolution.
     pub deconvolve: &'a Deconvolve<'a>,
+    /// Whether a deconvolution is far more than noise.
+    pub clear: &'a dyn Fn(&[f64]) -> bool,
 }
 
 /// What a take was, and what is to be done about it.
@@ -63,13 +69,16 @@ pub(super) struct Verdict {
     pub mend: Mend,
     /// Change of tension at each sweep's begin and its rate per second, where there is any.
     pub changes: Option<Vec<[f64; 2]>>,
+    /// Sweeps that sensors heard otherwise than in the first take, where noise is not why.
+    pub unlike: Vec<usize>,
 }
 
 impl Judge<'_> {
     /// Finds out what became of a take by what its sensors heard, one line each.
     ///
     /// # Errors
-    /// [`CalibrateError::Recording`] for clocks too far apart, and samples lost where there is nothing to tell the place.
+    /// [`CalibrateError::Recording`] for clocks too far apart, samples lost where there is nothing to tell the place, and sweeps heard
+    /// at times that neither explains.
     pub fn judge(&self, heard: &[&[f64]]) -> Result<Verdict, CalibrateError> {
         let mut verdict = Verdict::default();
         if heard.is_empty() || self.starts.len() < 2 {
@@ -80,8 +89,7 @@ impl Judge<'_> {
         for _ in 0..ROUNDS {
             let lines: Vec<Vec<f64>> = heard.iter().map(|line| verdict.mend.of(line)).collect();
             found = self.sweeps(&lines)?;
-            let Some(timing) = self.timing(&found) else { break };
-            verdict.account.clock_error_ppm = 1e6 * timing.slope_error;
+            let Some(timing) = self.timing(&mut verdict, &found)? else { break };
             if !self.learn(&mut verdict, &timing, &lines)? {
                 break;
             }
@@ -92,7 +100,30 @@ impl Judge<'_> {
         if !self.sensors.is_empty() {
             self.tell(&mut verdict, &found);
         }
+        verdict.unlike = self.unlike(&verdict, &found, heard)?;
         Ok(verdict)
+    }
+
+    /// Sweeps of actuators that sensors heard in the first take, and do not know again though they are loud enough.
+    fn unlike(
+        &self,
+        verdict: &Verdict,
+        found: &[Option<Apart>],
+        heard: &[&[f64]],
+    ) -> Result<Vec<usize>, CalibrateError> {
+        let known = self.known.filter(|_| !self.sensors.is_empty()).unwrap_or_default();
+        let sounded = |sweep: &usize| {
+            known.iter().filter_map(|rows| rows.get(*sweep)).flatten().any(|sample| *sample != 0.0)
+        };
+        let unlike: Vec<usize> = (0..found.len()).filter(|n| found[*n].is_none()).filter(sounded).collect();
+        if unlike.is_empty() {
+            return Ok(unlike);
+        }
+        let mut clear = 0;
+        for line in heard {
+            clear += usize::from((self.clear)(&(self.deconvolve)(&verdict.mend.of(line))?));
+        }
+        Ok(if 2 * clear > heard.len() { unlike } else { Vec::new() })
     }
 
     fn sweeps(&self, lines: &[Vec<f64>]) -> Result<Vec<Option<Apart>>, CalibrateError> {
@@ -113,7 +144,12 @@ impl Judge<'_> {
         })
     }
 
-    fn timing(&self, found: &[Option<Apart>]) -> Option<Timing> {
+    /// What the sweeps' delays tell; nothing of too few.
+    fn timing(
+        &self,
+        verdict: &mut Verdict,
+        found: &[Option<Apart>],
+    ) -> Result<Option<Timing>, CalibrateError> {
         let known = found.iter().zip(self.starts).enumerate();
         let sweeps: Vec<Sweep> = known
             .filter_map(|(number, (apart, start))| {
@@ -123,9 +159,30 @@ impl Judge<'_> {
             .collect();
         let alike = found.iter().flatten().all(|apart| apart.likeness >= ALIKE);
         if sweeps.len() < FEWEST && !(alike && sweeps.len() == 2) {
-            return None;
+            return Ok(None);
         }
-        Timing::of(&sweeps)
+        let explained = Timing::of(&sweeps);
+        verdict.account.scatter = None;
+        if explained.is_some() {
+            return Ok(explained);
+        }
+        let near = Timing::nearest(&sweeps);
+        let scatter = near.map_or(0.0, |near| near.rest);
+        if scatter > HARMLESS * self.rate / self.band.high[0] {
+            let lates = || sweeps.iter().map(|sweep| sweep.late);
+            let [from, to] =
+                [lates().fold(f64::INFINITY, f64::min), lates().fold(f64::NEG_INFINITY, f64::max)];
+            return Err(CalibrateError::Recording {
+                what: "times at which the sweeps were heard".into(),
+                expected: "those of one clock, with samples lost at one place at most".into(),
+                found: format!(
+                    "sweeps between {from:+.1} and {to:+.1} samples late (samples lost at several places, a clock that is not steady, or a \
+                     latency that jitters)"
+                ),
+            });
+        }
+        verdict.account.scatter = Some(scatter);
+        Ok(near)
     }
 
     /// Takes in what delays tell; whether that is anything new.
@@ -136,6 +193,9 @@ impl Judge<'_> {
         lines: &[Vec<f64>],
     ) -> Result<bool, CalibrateError> {
         let mut new = false;
+        if timing.clock {
+            verdict.account.clock_error_ppm = 1e6 * timing.slope_error;
+        }
         if timing.slope.abs() > (SURE * timing.slope_error).max(1e-6 * LEAST_PPM) {
             verdict.mend.quick += timing.slope;
             new = true;
@@ -149,7 +209,9 @@ impl Judge<'_> {
                 found: format!("{ppm:+.1} millionths"),
             });
         }
-        verdict.account.clock_ppm = Some(ppm);
+        if timing.clock {
+            verdict.account.clock_ppm = Some(ppm);
+        }
         // Beside each other sweeps tell nothing of what is common to all.
         if self.known.is_some() {
             new |= timing.late.abs() >= LEAST_LATE;

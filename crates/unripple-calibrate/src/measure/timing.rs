@@ -22,6 +22,8 @@ pub(super) struct Timing {
     pub slope: f64,
     /// Standard error of `slope`.
     pub slope_error: f64,
+    /// Whether there were enough sweeps to tell a clock; without it `slope` is 0.
+    pub clock: bool,
     /// Samples lost (negative: repeated), the last sweep before and the first after.
     pub lost: Option<(i64, [usize; 2])>,
     /// Root mean square of what is left, in samples, of the sweeps that count.
@@ -38,9 +40,13 @@ const LEAST_LOST: f64 = 1.5;
 const SOUNDING: usize = 2;
 
 impl Timing {
-    /// The simplest that explains the sweeps: one clock, then one clock and a place where samples were lost. `None` if
-    /// nothing does, or there are fewer than two sweeps.
+    /// The simplest that explains the sweeps: one clock, then one clock and a place where samples were lost. Two sweeps that are as late
+    /// as each other say so, and nothing of a clock. `None` if nothing explains them, or there are fewer than two.
     pub fn of(sweeps: &[Sweep]) -> Option<Self> {
+        if sweeps.len() < LINE {
+            let level = Self::level(sweeps)?;
+            return (level.rest <= tolerance(sweeps)).then_some(level);
+        }
         let even = Self::line(sweeps)?;
         if even.rest <= tolerance(sweeps) {
             return Some(even);
@@ -60,10 +66,24 @@ impl Timing {
         best.map(|(_, timing)| timing)
     }
 
+    /// What is nearest to sweeps that nothing explains: a line, or one delay for two. Its errors are those of what is left.
+    pub fn nearest(sweeps: &[Sweep]) -> Option<Self> {
+        let near = if sweeps.len() < LINE { Self::level(sweeps) } else { Self::line(sweeps) }?;
+        let slope_error = near.slope_error * (near.rest / error(sweeps).max(FLOOR)).max(1.0);
+        Some(Self { slope_error, ..near })
+    }
+
+    /// One delay for all, of two sweeps or more.
+    fn level(sweeps: &[Sweep]) -> Option<Self> {
+        let fit = Fit::of(sweeps, 1, |_| [1.0, 0.0, 0.0]).filter(|_| sweeps.len() > 1)?;
+        Some(Self { late: fit.x[0], rest: fit.rest, ..Self::default() })
+    }
+
     /// A straight line through all.
     fn line(sweeps: &[Sweep]) -> Option<Self> {
         let fit = Fit::of(sweeps, 2, |sweep| [1.0, sweep.start, 0.0])?;
-        Some(Self { late: fit.x[0], slope: fit.x[1], slope_error: fit.errors[1], lost: None, rest: fit.rest })
+        let ([late, slope, _], slope_error) = (fit.x, fit.errors[1]);
+        Some(Self { late, slope, slope_error, clock: true, lost: None, rest: fit.rest })
     }
 
     /// A line with a step after `first` sweeps, the next `hit` of them left out.
@@ -78,7 +98,8 @@ impl Timing {
         } else {
             let fit = Fit::of(&kept, 3, |sweep| [1.0, step(sweep), sweep.start])?;
             let [late, lost, slope] = fit.x;
-            (Self { late, slope, slope_error: fit.errors[2], lost: None, rest: fit.rest }, lost)
+            let slope_error = fit.errors[2];
+            (Self { late, slope, slope_error, clock: true, lost: None, rest: fit.rest }, lost)
         };
         let (timing, lost) = timing;
         if kept.len() < 3 || lost.abs() < LEAST_LOST || (lost - lost.round()).abs() > SLACK {
@@ -92,10 +113,17 @@ impl Timing {
 /// Sweeps below which a clock is not told from a step.
 const FEW: usize = 5;
 
+/// Sweeps below which a line says nothing: it goes through any two.
+const LINE: usize = 3;
+
 /// What may be left of an explanation, in samples.
 fn tolerance(sweeps: &[Sweep]) -> f64 {
-    let errors = sweeps.iter().map(|sweep| sweep.error * sweep.error).sum::<f64>() / sweeps.len() as f64;
-    SLACK + 3.0 * errors.sqrt()
+    SLACK + 3.0 * error(sweeps)
+}
+
+/// Root mean square of the sweeps' errors.
+fn error(sweeps: &[Sweep]) -> f64 {
+    (sweeps.iter().map(|sweep| sweep.error * sweep.error).sum::<f64>() / sweeps.len() as f64).sqrt()
 }
 
 /// Weighted least squares of up to three unknowns.
@@ -185,9 +213,23 @@ mod tests {
     }
 
     #[test]
+    fn two_sweeps_tell_no_clock() {
+        let same = Timing::of(&sweeps(2, |_, _| 3.2)).unwrap();
+        assert!((same.late - 3.2).abs() < 1e-9 && same.slope == 0.0 && !same.clock, "{same:?}");
+        // Lost samples, or a clock: nobody knows.
+        assert_eq!(Timing::of(&sweeps(2, |n, _| 3.0 * n as f64)), None);
+        assert!(Timing::of(&sweeps(3, |_, start| 43e-6 * start)).unwrap().clock);
+    }
+
+    #[test]
     fn what_nothing_explains_is_not_explained() {
         let found = Timing::of(&sweeps(8, |n, _| ((n * 37) % 11) as f64 * 9.0));
         assert_eq!(found, None);
+        let scattered = sweeps(8, |n, start| 43e-6 * start + if n % 2 == 0 { 0.4 } else { -0.4 });
+        assert_eq!(Timing::of(&scattered), None);
+        let near = Timing::nearest(&scattered).unwrap();
+        assert!((near.rest - 0.4).abs() < 0.05, "{near:?}");
+        assert!((near.slope - 43e-6).abs() < near.slope_error && near.slope_error > 1e-6, "{near:?}");
         assert_eq!(Timing::of(&sweeps(1, |_, _| 0.0)), None);
     }
 }

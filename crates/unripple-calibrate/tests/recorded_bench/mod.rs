@@ -34,6 +34,10 @@ pub struct Faults {
     pub late: f64,
     /// Samples lost (negative: repeated), and where in the recording.
     pub lost: Option<(i64, usize)>,
+    /// The same at another place, once those are lost.
+    pub lost_again: Option<(i64, usize)>,
+    /// Samples by which all that is heard comes early or late, another number ten times.
+    pub jitter: f64,
     /// Tension beside the first take, as a share: at the begin and at the end.
     pub tension: [f64; 2],
     /// Noise under the loudest sweep's rms in each channel, in dB.
@@ -50,16 +54,18 @@ pub struct Faults {
     pub clip: Option<f64>,
     /// An actuator that does nothing.
     pub dead: Option<usize>,
+    /// A sensor that hears noise alone.
+    pub deaf: Option<usize>,
 }
 
 impl Default for Faults {
     fn default() -> Self {
-    /// A sensor that hears noise alone.
-    pub deaf: Option<usize>,
         Self {
             ppm: 0.0,
             late: 0.0,
             lost: None,
+            lost_again: None,
+            jitter: 0.0,
             tension: [0.0; 2],
             noise_db: None,
             harmonics: [0.0; 2],
@@ -68,13 +74,13 @@ impl Default for Faults {
             bits: None,
             clip: None,
             dead: None,
+            deaf: None,
         }
     }
 }
 
 /// The film as told, and its modes.
 pub struct Bench {
-            deaf: None,
     pub surface: Surface,
     pub model: ModalResponses,
     layout: Layout,
@@ -219,7 +225,7 @@ impl Bench {
                     (0..line.len()).map(|i| between(&line, at(i))).collect()
                 }
             };
-            if let Some((lost, at)) = faults.lost {
+            for (lost, at) in [faults.lost, faults.lost_again].into_iter().flatten() {
                 match usize::try_from(lost) {
                     Ok(count) => drop(line.drain(at..at + count)),
                     Err(_) => {
@@ -227,13 +233,20 @@ impl Bench {
                         line.splice(at..at, again);
                     }
                 }
-                line.resize(line.len().max(1), 0.0);
+            }
+            if faults.jitter > 0.0 {
+                let late = wandering(faults.jitter, line.len());
+                line = late.iter().enumerate().map(|(i, late)| between(&line, i as f64 - late)).collect();
             }
             let rms = (line.iter().map(|x| x * x).sum::<f64>() / line.len() as f64).sqrt();
             if let Some(db) = faults.noise_db {
                 let mut noise = Noise(seed * 1000 + input as u64);
                 let level = rms * 10f64.powf(-db / 20.0);
                 line.iter_mut().for_each(|x| *x += level * noise.gauss());
+            }
+            if faults.deaf == Some(input) {
+                let mut noise = Noise(seed * 1000 + 500 + input as u64);
+                line.iter_mut().for_each(|x| *x = 1e-3 * rms * noise.gauss());
             }
             if let Some(bits) = faults.bits {
                 let peak = line.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
@@ -244,10 +257,6 @@ impl Bench {
         };
         let mut lines: Vec<Vec<f32>> = heard.into_iter().enumerate().map(one).collect();
         let longest = lines.iter().map(Vec::len).max().unwrap_or(0) + 4 * BLOCK;
-            if faults.deaf == Some(input) {
-                let mut noise = Noise(seed * 1000 + 500 + input as u64);
-                line.iter_mut().for_each(|x| *x = 1e-3 * rms * noise.gauss());
-            }
         lines.iter_mut().for_each(|line| line.resize(longest, 0.0));
         lines
     }
@@ -299,6 +308,19 @@ pub fn off(found: &[Vec<f64>], truth: &[Vec<f64>]) -> f64 {
         }
     }
     (apart / all).sqrt()
+}
+
+/// Ten delays up to so many samples early or late, each for a tenth of the time, from one to the next within 10 ms.
+fn wandering(most: f64, samples: usize) -> Vec<f64> {
+    let mut random = Noise(77);
+    let knots: Vec<f64> = (0..10).map(|_| most * (2.0 * random.uniform() - 1.0)).collect();
+    let at = |i: usize| {
+        let knot = (10 * i / samples).min(9);
+        let since = i as f64 - knot as f64 * samples as f64 / 10.0;
+        let before = knots[knot.saturating_sub(1)];
+        before + (knots[knot] - before) * (since / (0.01 * RATE)).clamp(0.0, 1.0)
+    };
+    (0..samples).map(at).collect()
 }
 
 /// Between samples by Lagrange's polynomial through twelve: signals here stay below a tenth of the rate.
