@@ -210,6 +210,19 @@ fn latency_that_jitters_is_named_or_harmless() {
 }
 
 #[test]
+fn what_happened_to_a_second_take_is_said_of_it() {
+    let bench = film();
+    let fine = Faults { noise_db: Some(50.0), ..Faults::default() };
+    let quick = Faults { ppm: 60.0, ..fine.clone() };
+    let session = bench.session(&MeasureOptions { repeats: 2, ..quiet() });
+    let mut rig = bench.rig(&session, &[fine, quick]);
+    let found = session.measure(&mut rig, 0, AT, 0, Listen::Probe).unwrap().remove(0);
+    let said = found.account.said();
+    assert!(said.iter().any(|said| said.starts_with("take 2: the recording's clock")), "{said:?}");
+    assert!(!said.iter().any(|said| said.starts_with("take 1: the recording's clock")), "{said:?}");
+}
+
+#[test]
 fn the_probes_own_delay_is_taken_out() {
     let bench = film();
     for delay in [1e-3, 0.2104e-3] {

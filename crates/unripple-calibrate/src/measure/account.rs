@@ -51,6 +51,8 @@ pub struct Account {
     pub harmonics: Vec<[f64; 2]>,
     /// Sweeps that sensors heard otherwise than in the first take, where neither noise nor a knock is why, and all sweeps; if they are many.
     pub unlike: Option<[usize; 2]>,
+    /// What further takes of the same place tell of clock, time and tension, in their order; the first is told above.
+    pub repeats: Vec<Account>,
 }
 
 /// Clocks closer than this, in millionths, are not worth a word.
@@ -69,6 +71,13 @@ impl Account {
     /// What there is to say of it, a sentence each; nothing of what is as it should be.
     pub fn said(&self) -> Vec<String> {
         let mut said = self.brought();
+        if !self.repeats.is_empty() {
+            let takes = std::iter::once(said).chain(self.repeats.iter().map(Self::brought)).enumerate();
+            let named = |(take, said): (usize, Vec<String>)| {
+                said.into_iter().map(move |what| format!("take {}: {what}", take + 1))
+            };
+            said = takes.flat_map(named).collect();
+        }
         said.extend(self.distorted());
         said.extend(self.knocks.iter().map(|knock| {
             let (at, left) =

@@ -4,7 +4,7 @@ use super::channel::{Noise, by_bands, mean_square, thirds};
 use super::knock::Sweeps;
 use super::session::{LEAD, Session, Take};
 use super::telling::around;
-use super::{Channel, Knocked};
+use super::{Account, Channel, Knocked};
 use crate::CalibrateError;
 use unripple_dsp::{Average, Band, Harmonics, Outliers, Quality, Remap, Split, band_powers};
 
@@ -31,7 +31,9 @@ impl Session {
             takes.iter().map(|take| self.whole(&take.lines[input])).collect::<Result<Vec<_>, _>>()?;
         let noise =
             wholes.first().map(|whole| Noise::of(whole, &self.sweep, LEAD, self.band)).unwrap_or_default();
-        let account = takes.first().map(|take| take.verdict.account.clone()).unwrap_or_default();
+        let mut accounts = takes.iter().map(|take| take.verdict.account.clone());
+        let account = accounts.next().unwrap_or_default();
+        let account = Account { repeats: accounts.collect(), ..account };
         let mut channel = Channel { account, ..Channel::default() };
         let loud =
             takes.iter().flat_map(|take| &take.lines[input]).fold(0.0, |most: f64, x| most.max(x.abs()));
