@@ -102,6 +102,21 @@ fn exchanged_recordings_and_copies_are_named() {
     }
 }
 
+/// Actuators on the axis are heard alike at points that mirror each other; one beside it tells them apart.
+#[test]
+fn points_that_mirror_each_other_are_no_copies() {
+    let mut surface = film();
+    for (actuator, y) in surface.actuators.iter_mut().take(4).zip([20.0, 50.0, 90.0, 120.0]) {
+        actuator.at = Point::from_mm(75.0, y);
+    }
+    let points = [Point::from_mm(40.0, 60.0), Point::from_mm(110.0, 60.0)];
+    let mut truth = Truth::of(surface.clone());
+    let (measured, probed) = (truth.pairs(), truth.probed(&points, &points, &[1.0; 2]));
+    let options = VerifyOptions { model: false, ..VerifyOptions::default() };
+    let found = check(&surface, &measured, &probed, &options).unwrap();
+    assert!(found.doubts.is_empty(), "{}", said(&found));
+}
+
 #[test]
 fn a_probe_beside_its_place_is_told_how_far() {
     let surface = film();

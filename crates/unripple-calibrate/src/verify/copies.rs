@@ -9,27 +9,33 @@ const APART: f64 = 0.25;
 /// Likeness from which two responses are one.
 const ONE: f64 = 0.999;
 
-/// Actuators compared at most, and samples of each.
+/// Actuators that are compared at first, and samples of each: the others only where these are alike.
 const ACTUATORS: usize = 4;
 const SAMPLES: usize = 1024;
 
 /// Points whose responses are those of another point, but for a gain.
 pub(super) fn doubts(probed: &SampledResponses, options: &VerifyOptions) -> Vec<Doubted> {
-    let (count, samples) = (probed.ports.len().min(ACTUATORS), probed.samples().min(SAMPLES));
-    let signature = |p: usize| {
+    let samples = probed.samples().min(SAMPLES);
+    let signature = |p: usize, count: usize| {
         let all = (0..count).flat_map(|a| probed.response(a, p)[..samples].iter());
         let mut values: Vec<f32> = all.copied().collect();
         let norm = values.iter().map(|x| x * x).sum::<f32>().sqrt();
         values.iter_mut().for_each(|x| *x /= norm.max(f32::MIN_POSITIVE));
         values
     };
-    let all: Vec<Vec<f32>> = (0..probed.points.len()).map(signature).collect();
+    let likeness = |a: &[f32], b: &[f32]| f64::from(a.iter().zip(b).map(|(a, b)| a * b).sum::<f32>().abs());
+    let all: Vec<Vec<f32>> =
+        (0..probed.points.len()).map(|p| signature(p, probed.ports.len().min(ACTUATORS))).collect();
     let far = APART * probed.conditions.lambda_min;
     let mut doubts = Vec::new();
     for (p, one) in all.iter().enumerate() {
+        // Actuators on an axis of symmetry are heard alike at points that mirror each other: all of them have to be.
+        let whole = |q: usize| {
+            let [a, b] = [p, q].map(|point| signature(point, probed.ports.len()));
+            likeness(&a, &b) > ONE
+        };
         let alike = |q: &usize| {
-            let likeness: f32 = one.iter().zip(&all[*q]).map(|(a, b)| a * b).sum();
-            f64::from(likeness.abs()) > ONE && probed.points[p].distance(probed.points[*q]) > far
+            likeness(one, &all[*q]) > ONE && probed.points[p].distance(probed.points[*q]) > far && whole(*q)
         };
         if let Some(q) = (0..p).find(alike) {
             doubts.push(Doubted {
