@@ -8,6 +8,9 @@ const ANOTHER: f64 = 0.14;
 /// How near to 1 a gain over the sensors' is, as a logarithm, that speaks for itself where points disagree evenly.
 const ONE: f64 = 0.14;
 
+/// Standard errors that a gain has to be off by to be another.
+const SURE: f64 = 3.0;
+
 /// What most points have for a gain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Levels {
@@ -50,14 +53,59 @@ impl Levels {
         Self { common, scale: common.unwrap_or(scale) }
     }
 
-    /// What a point's responses are to be multiplied by, if its gain is not the common one.
-    pub fn correction(&self, judged: &Judged) -> Option<f64> {
+    /// What a point's responses would have to be multiplied by to have the common gain, if theirs is another.
+    pub fn off(&self, judged: &Judged) -> Option<f64> {
         let gain = judged.nearby.found.gain;
         self.common.filter(|common| !same(gain, *common)).map(|common| common / gain)
+    }
+
+    /// The same where it is sure: a probe that stands a little beside its place hears another gain near a node, so that the gain at the
+    /// very place has to be that nearby; and what the model leaves unexplained, of as many actuators as drive, makes another one too.
+    pub fn correction(&self, judged: &Judged, actuators: usize) -> Option<f64> {
+        let [own, nearby] = [judged.own, judged.nearby.found];
+        let left = own.unexplained().max(nearby.unexplained());
+        let error =
+            left / (1.0 - left * left).max(f64::MIN_POSITIVE).sqrt() / (actuators.max(1) as f64).sqrt();
+        let sure = |factor: &f64| *factor < 0.0 || factor.ln().abs() > SURE * error;
+        self.off(judged).filter(|_| same(own.gain, nearby.gain)).filter(sure)
     }
 }
 
 /// Whether two gains are one.
 pub(super) fn same(a: f64, b: f64) -> bool {
     a * b > 0.0 && (a / b).ln().abs() < ANOTHER
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::checker::Match;
+    use super::super::sheet::Spot;
+    use super::*;
+    use unripple_core::Point;
+
+    /// A point that fits where it is, with its gain at its own place and nearby, and what is left unexplained.
+    fn point(own: f64, nearby: f64, unexplained: f64) -> Judged {
+        let likeness = (1.0 - unexplained * unexplained).sqrt();
+        let found = Match { likeness, gain: nearby };
+        let nearby = Spot { at: Point::new(0.0, 0.0), late: 0.0, found };
+        Judged { own: Match { likeness, gain: own }, nearby, error: 0.0, kind: Kind::Here }
+    }
+
+    #[test]
+    fn a_gain_is_corrected_only_where_it_is_sure() {
+        let mut all = vec![point(1.0, 1.0, 0.05); 4];
+        all.push(point(1.42, 1.42, 0.05));
+        let levels = Levels::of(&all);
+        let factor = levels.correction(&all[4], 8).unwrap();
+        assert!((factor * 1.42 - 1.0).abs() < 1e-9);
+        assert_eq!(levels.correction(&all[0], 8), None);
+        assert_eq!(levels.correction(&point(-1.0, -1.0, 0.3), 8), Some(-1.0));
+        // Near a node: another gain a millimetre beside it.
+        let beside = point(1.0, 1.3, 0.1);
+        assert!(levels.off(&beside).is_some() && levels.correction(&beside, 8).is_none());
+        // Of a response that the model hardly explains: 0.39 / sqrt(8) is 14 %.
+        let unsure = point(1.3, 1.3, 0.39);
+        assert!(levels.off(&unsure).is_some() && levels.correction(&unsure, 8).is_none());
+        assert!(levels.correction(&unsure, 80).is_some());
+    }
 }

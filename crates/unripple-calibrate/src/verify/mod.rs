@@ -130,7 +130,7 @@ fn against(
     let points: Vec<PointVerdict> =
         (0..judged.len()).map(|p| words::verdict(&bench, &judged, &levels, p, common)).collect();
     let mut notes = Vec::new();
-    words::gather(&bench, &points, &judged, (&mut notes, &mut doubts));
+    words::gather(&bench, &points, (&judged, &levels), (&mut notes, &mut doubts));
     let delay = common - quick.fitted.late.value;
     let told = options.probe && here.iter().any(|here| *here) && delay.abs() > bench.worth(&judged);
     if let Some(why) = words::delay(options, delay, told) {

@@ -25,7 +25,8 @@ pub(super) fn verdict(
     let lambda = bench.surface_wave();
     let off = one.nearby.at.distance(at);
     let told = one.kind == Kind::Here && off > SURE * one.error && off > WORTH * lambda;
-    let correction = levels.correction(one).filter(|_| one.kind == Kind::Here && bench.options.probe);
+    let counts = one.kind == Kind::Here && bench.options.probe;
+    let correction = levels.correction(one, bench.quick.actuators.len()).filter(|_| counts);
     let doubt = match one.kind {
         Kind::Here if off > FAR * lambda && told => Some(format!(
             "the probe seems to have been {} the point, at {} (put it there, or give the place it is at)",
@@ -110,7 +111,7 @@ fn away(from: Point, to: Point) -> String {
 pub(super) fn gather(
     bench: &Bench,
     points: &[PointVerdict],
-    judged: &[Judged],
+    (judged, levels): (&[Judged], &Levels),
     (notes, doubts): (&mut Vec<String>, &mut Vec<Doubted>),
 ) {
     for (p, point) in points.iter().enumerate() {
@@ -131,6 +132,12 @@ pub(super) fn gather(
             notes.push(format!(
                 "point {number}: its gain is {:.2} times that of the other points{sign}: corrected",
                 1.0 / factor.abs()
+            ));
+        } else if let Some(factor) = levels.off(&judged[p]).filter(|_| bench.options.probe) {
+            notes.push(format!(
+                "point {number}: its gain seems to be {:.2} times that of the other points, which its place or what the model leaves \
+                 unexplained may make as well: left as it is",
+                1.0 / factor
             ));
         }
     }
