@@ -115,6 +115,29 @@ fn the_others_go_on_without_a_dead_actuator() {
     assert!(output.status.code() == Some(1) && said.contains("nobody hears a1, a2, a3"), "{said}");
 }
 
+/// Most of it comes before it should: it was not begun late all the same.
+#[test]
+fn a_recording_that_lost_many_samples_is_not_said_to_begin_late() {
+    let mut bench = Bench::new("takes-lost", 1, &[]);
+    bench.bring_all(1);
+    let mut heard = bench.surface.record(Point::from_mm(52.0, 47.0), 300, 9);
+    for line in &mut heard {
+        line.drain(30_000..34_800);
+    }
+    bring(&bench.folder, "point-001.wav", &heard);
+    let (output, _, said) = bench.calibrate(1, &[]);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("point-001.wav") && said.contains("4800 lost between"), "{said}");
+    // One that was is.
+    let mut heard = bench.surface.record(Point::from_mm(52.0, 47.0), 300, 10);
+    for line in &mut heard {
+        line.drain(..6_000);
+    }
+    bring(&bench.folder, "point-001.wav", &heard);
+    let (_, _, said) = bench.calibrate(1, &[]);
+    assert!(said.contains("from before play.wav began"), "{said}");
+}
+
 #[test]
 fn an_actuator_is_left_out_when_asked() {
     let scratch = Scratch::new("trusted-without");

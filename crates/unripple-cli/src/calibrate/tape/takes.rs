@@ -24,6 +24,9 @@ const LEAST: f64 = 0.3;
 /// Below this likeness it is asked whether channels changed places; above it in another channel they did.
 const LIKE: f64 = 0.7;
 
+/// Pieces in which samples that were lost are looked for.
+const PIECES: usize = 8;
+
 /// Channels that tell how late a recording is.
 const TELLING: usize = 3;
 
@@ -160,8 +163,45 @@ impl Takes {
         }
         let late = median(delays.iter().map(|delay| delay.samples).collect());
         let late = late.filter(|_| likeness >= LEAST).ok_or_else(|| self.unlike(wanted, likeness))?;
-        self.begun(wanted, late)?;
-        Ok(late)
+        match self.begun(wanted, late) {
+            Ok(()) => Ok(late),
+            Err(fault) => Err(self.lost(wanted, lines, late).unwrap_or(fault)),
+        }
+    }
+
+    /// Why a recording seems to begin too late that does not: what begins it is where it should be, and most of it earlier, since samples
+    /// were lost in between.
+    fn lost(&self, wanted: &Wanted, lines: &[Vec<f64>], late: f64) -> Option<Fault> {
+        let length = self.drive.samples() / PIECES;
+        let reach = (late.abs() + MARGIN + AFTER) as usize;
+        let piece = |n: usize| {
+            let from = n * length;
+            let first = from.saturating_sub(reach);
+            let one = |(input, known): &(usize, Vec<f64>)| {
+                let (line, known) = (lines[*input].get(first..)?, &known[from..from + length]);
+                let found = self.like(&line[..line.len().min(from + length + reach - first)], known)?.samples;
+                // The likeness is that of what is there, not of all that was searched.
+                let there = line.get(usize::try_from(found.round() as i64).ok()?..)?;
+                let sum = |f: &dyn Fn(f64, f64) -> f64| {
+                    there.iter().zip(known).map(|(x, y)| f(*x, *y)).sum::<f64>()
+                };
+                let likeness = sum(&|x, y| x * y) / (sum(&|x, _| x * x) * sum(&|_, y| y * y)).sqrt();
+                Some((likeness, found + first as f64 - from as f64))
+            };
+            let best = self.known.iter().filter_map(one).max_by(|a, b| a.0.total_cmp(&b.0));
+            best.filter(|(likeness, _)| *likeness >= LIKE).map(|(_, late)| late)
+        };
+        let begin = piece(0).filter(|begin| *begin >= -MARGIN - AFTER)?;
+        let near = |at: f64| (at - late).abs() < (at - begin).abs();
+        let after = (1..PIECES).find(|n| piece(*n).is_some_and(near))?;
+        let seconds = |n: usize| (n * length) as f64 / self.rate();
+        let why = format!(
+            "expected all samples that were played, found {:.0} lost between {:.2} and {:.2} s of play.wav",
+            begin - late,
+            seconds(after.saturating_sub(2)),
+            seconds(after + 1)
+        );
+        Some(Fault::new(&wanted.file, why, "record again, without gaps"))
     }
 
     fn like(&self, line: &[f64], known: &[f64]) -> Option<Delay> {
