@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Scratch, json, number, refused, run};
-use unripple::core::{ModalResponses, Point, Responses, Surface};
+use unripple::core::{ActuatorKind, CoilDrive, ModalResponses, Point, Responses, Surface};
 use unripple::field::Field;
 use unripple::focus::{Focuser, Method, Options, Target};
 use unripple::physics::{ResponseOptions, responses};
@@ -28,6 +28,12 @@ fn truth(surface: &Surface, seed: u64) -> ModalResponses {
         modal.input.row_mut(a).iter_mut().for_each(|w| *w *= gain);
     }
     modal
+}
+
+/// A list of a report, as one text.
+fn said(report: &serde_json::Value, list: &str) -> String {
+    let lines = report[list].as_array().into_iter().flatten().filter_map(|line| line.as_str());
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 /// Peak over rms outside, on the true surface, of a drive made from some responses.
@@ -106,6 +112,38 @@ fn probed_points_that_contradict_the_model_are_left_out_and_named() {
     let known = Responses::Sampled(Library::open(&fitted).unwrap().responses().unwrap());
     let contrast = |known| contrast(&plant, known, Method::TimeReversal, at);
     assert!(contrast(&known) > 0.97 * contrast(&plant));
+}
+
+/// What the inductance of a coil on a voltage makes of what it drives and hears is no latency, and belongs to what is fitted.
+#[test]
+fn coils_on_a_voltage_are_fitted_with_their_circuits() {
+    let scratch = Scratch::new("fit-coils");
+    let mut film = load_surface(&scratch.file("plain.toml", film())).unwrap();
+    for actuator in &mut film.actuators {
+        actuator.kind = ActuatorKind::MovingMagnet {
+            force_constant: 0.1,
+            resistance: 6.2,
+            inductance: 1.9e-3,
+            moving_mass: 5e-6,
+            driven_by: CoilDrive::Voltage,
+        };
+    }
+    let file = scratch.file("film.toml", to_toml(&film));
+    let (heard, fitted) = (scratch.join("heard"), scratch.join("fitted"));
+    let measured = json(&["calibrate", &file, "--unknowns", "7", "--at", "100,60", "-o", &heard]);
+    assert!(!said(&measured, "notes").contains("later than the sensors"), "{measured:#}");
+    let report = json(&["fit", &heard, "--at", "62,90", "--at", "100,60", "-o", &fitted]);
+    println!("{report:#}");
+    assert!(report["verdict"] == "good" && number(&report, "/unexplained") < 0.01, "{report:#}");
+    assert!(!said(&report, "notes").contains("later than the sensors"), "{report:#}");
+    let plant = Responses::Modal(truth(&film, 7));
+    let known = Responses::Sampled(Library::open(&fitted).unwrap().responses().unwrap());
+    for at in [Point::from_mm(62.0, 90.0), Point::from_mm(100.0, 60.0)] {
+        let contrast = |known| contrast(&plant, known, Method::TimeReversal, at);
+        let share = contrast(&known) / contrast(&plant);
+        println!("{at}: {share:.3} of the contrast by true responses");
+        assert!(share > 0.95, "{at}: {share}");
+    }
 }
 
 /// With stray masses that it is not allowed to find, a model is doubtful: exit 1 and no library, unless it is asked for.

@@ -1,3 +1,4 @@
+use super::coil::Coil;
 use super::quadrature;
 use crate::CalibrateError;
 use faer::{Mat, MatRef};
@@ -5,7 +6,7 @@ use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use unripple_core::{Outline, Point, Shapes, Surface};
-use unripple_physics::{Entry, Footprint, Medium, Modes, Transducer, transducers};
+use unripple_physics::{Entry, Footprint, Medium, Modes, Transducer, sensors, transducers};
 
 /// Half the distance over which slopes are taken, in metres: of a wave of 1000 rad/m, to 2e-7.
 const STEP: f64 = 1e-6;
@@ -27,6 +28,8 @@ pub(super) struct Basis {
     pub waves: Vec<[u32; 2]>,
     /// The actuators, and their nominal places.
     pub transducers: Vec<(Transducer, Point)>,
+    /// Those of them that are coils on a voltage with an inductance.
+    pub coils: Vec<Option<Coil>>,
     pub outline: Outline,
 }
 
@@ -53,6 +56,8 @@ impl Basis {
             .collect();
         let squares = modes.poles().iter().map(|pole| pole.omega * pole.omega).collect();
         let places = surface.actuators.iter().map(|actuator| actuator.at);
+        let all = transducers(surface)?;
+        let coils = all.iter().zip(&sensors(surface)?).map(|(t, sensor)| Coil::of(t, sensor)).collect();
         Ok(Self {
             medium,
             squares,
@@ -61,7 +66,8 @@ impl Basis {
             terms,
             waves,
             modes: Arc::new(modes),
-            transducers: transducers(surface)?.into_iter().zip(places).collect(),
+            transducers: all.into_iter().zip(places).collect(),
+            coils,
             outline: surface.outline.clone(),
         })
     }
@@ -81,6 +87,11 @@ impl Basis {
             _ => t.gain,
         };
         self.transducers.iter().map(|t| gain(t).abs().max(f64::MIN_POSITIVE).ln()).collect()
+    }
+
+    /// The circuit of an actuator, if it is a coil on a voltage; strays have none.
+    pub fn coil(&self, number: usize) -> Option<&Coil> {
+        self.coils.get(number).and_then(Option::as_ref)
     }
 
     /// How many of the modes lie below a frequency.

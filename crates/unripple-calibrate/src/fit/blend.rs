@@ -7,6 +7,31 @@ use unripple_physics::sample;
 const REACH: f64 = 0.125;
 
 impl Fitted {
+    /// The model's responses at some points, circuits of coils included, so many samples of each.
+    ///
+    /// # Errors
+    /// [`CalibrateError::Core`] for more than can be held.
+    pub fn sampled(&self, points: &[Point], samples: usize) -> Result<SampledResponses, CalibrateError> {
+        let all = sample(self.modal(), points, samples);
+        let count = all.ports.len();
+        if !(0..count).any(|actuator| self.coil(actuator).is_some()) {
+            return Ok(all);
+        }
+        let mut data = Vec::with_capacity(points.len() * count * samples);
+        for (p, actuator) in (0..points.len()).flat_map(|p| (0..count).map(move |actuator| (p, actuator))) {
+            let row = all.response(actuator, p);
+            match self.coil(actuator) {
+                Some(coil) => {
+                    let signal: Vec<f64> = row.iter().map(|h| f64::from(*h)).collect();
+                    data.extend(coil.behind(&signal, all.conditions.rate).into_iter().map(|h| h as f32));
+                }
+                None => data.extend(row),
+            }
+        }
+        let SampledResponses { ports, points, conditions, .. } = all;
+        Ok(SampledResponses::new(ports, points, conditions, samples, data)?)
+    }
+
     /// Responses at some points: the model's, corrected by what was measured nearby.
     ///
     /// What the model misses at a measured point x is added at y with the weight e^{-|x-y|²/2ℓ²}, ℓ an eighth of the shortest
@@ -29,7 +54,7 @@ impl Fitted {
         let (rate, own) = (measured.conditions.rate, model.conditions.rate);
         crate::error::require("sample rate of measured responses in Hz", rate == own, "the model's", rate)?;
         let samples = measured.samples();
-        let (known, wanted) = (sample(model, &measured.points, samples), sample(model, points, samples));
+        let (known, wanted) = (self.sampled(&measured.points, samples)?, self.sampled(points, samples)?);
         let reach = REACH * model.conditions.lambda_min;
         let mut data = Vec::with_capacity(points.len() * expected * samples);
         for (p, point) in points.iter().enumerate() {

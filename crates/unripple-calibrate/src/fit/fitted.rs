@@ -1,3 +1,4 @@
+use super::coil::Coil;
 use super::following::Following;
 use super::layout::{KNOTS, Unknown, Values};
 use super::loaded::LoadedModes;
@@ -88,6 +89,7 @@ pub struct Fitted {
     beyond: ModalResponses,
     sensors: Mat<f64>,
     bending_shares: Vec<f64>,
+    coils: Vec<Option<Coil>>,
 }
 
 /// What was found, with its errors.
@@ -220,12 +222,14 @@ impl Fitted {
             verdict: verdict(found, following.share, &answers.far(expected)),
             sensors,
             bending_shares,
+            coils: case.basis.coils.clone(),
             responses,
             beyond: answers.responses([0.0, f64::INFINITY], nominal)?.responses,
         })
     }
 
-    /// The responses of the fitted surface, per unit of each actuator's drive, anywhere.
+    /// The responses of the fitted surface, per unit of each actuator's drive, anywhere; of coils on a voltage, as if they had no
+    /// inductance: with it they are those of [`Fitted::sampled`].
     pub fn responses(&self) -> Responses {
         Responses::Modal(self.responses.clone())
     }
@@ -246,6 +250,7 @@ impl Fitted {
         };
         Self {
             actuators: actuators.iter().map(|a| self.actuators[*a]).collect(),
+            coils: actuators.iter().map(|a| self.coils[*a].clone()).collect(),
             responses: part(&self.responses),
             beyond: part(&self.beyond),
             ..self.clone()
@@ -255,6 +260,11 @@ impl Fitted {
     /// The same with all modes that the fit worked with, those outside the band too.
     pub(crate) fn beyond(&self) -> &ModalResponses {
         &self.beyond
+    }
+
+    /// The circuit of an actuator, if it is a coil on a voltage.
+    pub(crate) fn coil(&self, actuator: usize) -> Option<&Coil> {
+        self.coils.get(actuator).and_then(Option::as_ref)
     }
 
     /// The same model with all responses multiplied by a gain: in the scale of a probe that is not the sensors'.

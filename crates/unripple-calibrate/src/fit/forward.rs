@@ -135,7 +135,8 @@ impl System {
         (0..loaded).for_each(|p| alone[(p, p)] += rest);
         let mut system = Mat::<c64>::identity(places, places);
         for p in 0..loaded {
-            let impedance = s * self.masses[p] + self.resistances[p];
+            let added = self.coils[p].as_ref().map_or(c64::new(0.0, 0.0), |coil| coil.added(s));
+            let impedance = s * self.masses[p] + self.resistances[p] + added;
             (0..places).for_each(|q| system[(p, q)] += impedance * alone[(p, q)]);
         }
         let shared = system.partial_piv_lu().inverse();

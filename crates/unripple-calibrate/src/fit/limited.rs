@@ -53,7 +53,11 @@ impl Limited {
         });
         let mut all = vec![0.0; weights.nrows() * samples];
         ModalSynth::new(&modes.poles, rate, samples, ACCURACY).respond(weights.as_ref(), &mut all)?;
-        let whole: Vec<Vec<f64>> = all.chunks(samples).map(<[f64]>::to_vec).collect();
+        let circuits = |(n, response): (usize, &[f64])| {
+            let coils = [n / actuators, n % actuators].map(|a| basis.coil(a));
+            coils.into_iter().flatten().fold(response.to_vec(), |signal, coil| coil.behind(&signal, rate))
+        };
+        let whole: Vec<Vec<f64>> = all.chunks(samples).enumerate().map(circuits).collect();
         let cut = |response: &Vec<f64>| {
             let mut signal = vec![0.0; BEFORE];
             signal.extend(response);

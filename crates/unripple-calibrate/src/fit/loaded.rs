@@ -44,7 +44,8 @@ impl Shapes for Combined {
 
 impl LoadedModes {
     /// Modes of a band (Hz): those of K with the mass 1 + Σ μ b bᵀ, what each load feels of the modes left out being one more
-    /// coordinate. Dampers count by their work in each mode, as light ones do; masses below none count as none.
+    /// coordinate. Dampers, and what inductances make of those of coils, count by their work in each mode, as light ones do; masses below
+    /// none count as none.
     pub fn new(
         basis: &Basis,
         system: &System,
@@ -92,11 +93,15 @@ impl LoadedModes {
         let near_energy = system.rest.square * system.rest.bending_share;
         let (mut poles, mut bending_shares) = (Vec::new(), Vec::new());
         for (m, square) in found[low..high].iter().enumerate() {
+            let omega = square.max(0.0).sqrt();
+            let added = |p: usize| basis.coil(p).map_or([0.0; 2], |coil| coil.in_mode(omega));
+            let damping = |p: usize| 0.5 * (values.resistances[p] + added(p)[1]) * loads[(p, m)].powi(2);
             let own: f64 = (0..modes)
                 .map(|i| system.sheet.sigmas[i] * vectors[(i, m)].powi(2))
-                .chain((0..loaded).map(|p| 0.5 * values.resistances[p] * loads[(p, m)].powi(2)))
+                .chain((0..loaded).map(damping))
                 .sum();
-            let omega = square.max(0.0).sqrt();
+            let stiffer: f64 = (0..loaded).map(|p| added(p)[0] * loads[(p, m)].powi(2)).sum();
+            let omega = (square + stiffer).max(0.0).sqrt();
             poles.push(Pole::new(omega, own.max(0.01 * decay_rate(&values.knots, omega, system.top))));
             let near: f64 = (modes..all).map(|p| vectors[(p, m)].powi(2)).sum();
             bending_shares.push(bending_share(mixing.col(m), bent.col(m), near * near_energy, *square));

@@ -2,6 +2,7 @@
 
 mod basis;
 mod blend;
+mod coil;
 mod fitted;
 mod following;
 mod forward;
@@ -19,6 +20,7 @@ mod start;
 mod strays;
 mod system;
 
+pub(crate) use coil::lag;
 pub(crate) use spectra::Spectra;
 
 pub use fitted::{Estimate, Fitted, FittedLoad, Verdict};

@@ -1,4 +1,5 @@
 use super::basis::Basis;
+use super::coil::lag;
 use super::forward::Answer;
 use super::layout::{Layout, Unknown, Values};
 use super::spectra::Spectra;
@@ -108,7 +109,9 @@ impl Case<'_> {
             column
         };
         let frequencies = &self.spectra.frequencies;
-        let turned: Vec<c64> = frequencies.iter().map(|s| gain * (-s * values.late).exp()).collect();
+        let [drives, hears] = [driven, heard].map(|n| self.basis.coil(n));
+        let turn = |s: &c64| gain * (-s * values.late).exp() * lag(drives, *s) * lag(hears, *s);
+        let turned: Vec<c64> = frequencies.iter().map(turn).collect();
         let model = |n: usize| turned[n] * answers[n].admittance[(heard, driven)];
         let measured = column(&|n| self.spectra.pairs[pair][n]);
         let modelled = column(&model);
@@ -150,7 +153,9 @@ impl Case<'_> {
             paired: false,
         };
         for (n, answer) in answers.iter().enumerate() {
-            let gains: Vec<f64> = values.sense.iter().map(|g| g.exp()).collect();
+            let s = self.spectra.frequencies[n];
+            let sensors = values.sense.iter().enumerate();
+            let gains: Vec<c64> = sensors.map(|(a, g)| lag(self.basis.coil(a), s) * g.exp()).collect();
             let model: Vec<c64> = (0..actuators).map(|a| answer.admittance[(a, at)] * gains[a]).collect();
             let power = model.iter().map(|y| y.norm_sqr()).sum::<f64>().max(f64::MIN_POSITIVE);
             let along = |x: &[c64]| model.iter().zip(x).map(|(y, x)| y.conj() * x).sum::<c64>() / power;

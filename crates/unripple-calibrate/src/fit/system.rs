@@ -1,4 +1,5 @@
 use super::basis::Basis;
+use super::coil::Coil;
 use super::layout::{Layout, Values};
 use super::sheet::Sheet;
 use crate::CalibrateError;
@@ -33,6 +34,8 @@ pub(super) struct System {
     pub rest: Rest,
     pub masses: Vec<f64>,
     pub resistances: Vec<f64>,
+    /// Circuits of those of them that have one.
+    pub coils: Vec<Option<Coil>>,
     /// The band's top, in Hz.
     pub top: f64,
     /// The tension's ratio to nominal.
@@ -79,6 +82,7 @@ impl System {
             slopes,
             masses: values.masses.clone(),
             resistances: values.resistances.clone(),
+            coils: (0..layout.loaded()).map(|n| basis.coil(n).cloned()).collect(),
             top,
             ratio: values.tension.exp(),
         })

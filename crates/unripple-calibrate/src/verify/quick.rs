@@ -2,7 +2,7 @@
 
 use super::checker::Checker;
 use super::verdict::VerifyOptions;
-use crate::fit::{FitOptions, Fitted, Measured, Spectra, fit};
+use crate::fit::{FitOptions, Fitted, Measured, Spectra, fit, lag};
 use faer::c64;
 use std::f64::consts::{PI, TAU};
 use unripple_core::{Point, SampledResponses, Surface};
@@ -152,9 +152,19 @@ impl Quick {
         band: [f64; 2],
     ) -> Result<Self, String> {
         let window = FitOptions::default().window;
-        let (frequencies, sensed, probed) = spectra(heard, probed, &actuators, (band, window));
+        let (frequencies, mut sensed, mut probed) = spectra(heard, probed, &actuators, (band, window));
         if frequencies.len() < LINES {
             return Err(format!("responses are too short to tell modes apart: {} lines", frequencies.len()));
+        }
+        // The model is that of resistances alone: what circuits of coils make of drives and of what is heard is taken out.
+        let through = |n: usize, row: &mut Vec<c64>| {
+            row.iter_mut().zip(&frequencies).for_each(|(y, s)| *y /= lag(fitted.coil(n), *s));
+        };
+        sensed.iter_mut().chain(&mut probed).for_each(|rows| {
+            rows.iter_mut().enumerate().for_each(|(driven, row)| through(driven, row));
+        });
+        for (hears, rows) in sensed.iter_mut().enumerate() {
+            rows.iter_mut().for_each(|row| through(hears, row));
         }
         Ok(Self { fitted, band, actuators, frequencies, sensed, probed })
     }

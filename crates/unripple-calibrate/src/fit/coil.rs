@@ -1,0 +1,57 @@
+//! What the circuit of a coil on a voltage is to a fit.
+
+use faer::c64;
+use unripple_physics::{Entry, Sensor, Transducer};
+
+/// A coil whose terminals are held at a voltage V: its force is bl V/(R + Ls), it hears bl v/(R + Ls) of a velocity v, and it damps with
+/// bl²/(R + Ls). All are those of its resistance alone over 1 + τs, τ = L/R: no latency, which is the same at all frequencies.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Coil {
+    sensor: Sensor,
+    /// What it hears per m/s that changes slowly.
+    slow: f64,
+    /// bl²/R, in N·s/m.
+    damping: f64,
+    /// τ, in s.
+    time: f64,
+}
+
+impl Coil {
+    /// Of an actuator and what it is as a sensor; `None` for one without an inductance that matters.
+    pub fn of(transducer: &Transducer, sensor: &Sensor) -> Option<Self> {
+        let circuit = transducer.load.as_ref()?.circuit.filter(|_| transducer.entry == Entry::Voltage)?;
+        let matters = circuit.inductance > 0.0 && transducer.gain != 0.0;
+        matters.then(|| Self {
+            sensor: sensor.clone(),
+            slow: sensor.gain / circuit.resistance,
+            damping: circuit.force_constant.powi(2) / circuit.resistance,
+            time: circuit.inductance / circuit.resistance,
+        })
+    }
+
+    /// 1/(1 + τs).
+    pub fn lag(&self, s: c64) -> c64 {
+        (s * self.time + 1.0).inv()
+    }
+
+    /// What the inductance adds to the damping of the resistance alone, in N·s/m.
+    pub fn added(&self, s: c64) -> c64 {
+        (self.lag(s) - 1.0) * self.damping
+    }
+
+    /// The same at an angular frequency as a stiffness (N/m) and a damping (N·s/m).
+    pub fn in_mode(&self, omega: f64) -> [f64; 2] {
+        let added = self.added(c64::new(0.0, omega));
+        [-omega * added.im, added.re]
+    }
+
+    /// A signal that comes through the circuit, from what comes through its resistance alone.
+    pub fn behind(&self, signal: &[f64], rate: f64) -> Vec<f64> {
+        self.sensor.hear(signal, rate).into_iter().map(|x| x / self.slow).collect()
+    }
+}
+
+/// 1/(1 + τs) of a coil; 1 where there is none.
+pub(crate) fn lag(coil: Option<&Coil>, s: c64) -> c64 {
+    coil.map_or(c64::new(1.0, 0.0), |coil| coil.lag(s))
+}
