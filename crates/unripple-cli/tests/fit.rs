@@ -36,6 +36,13 @@ fn said(report: &serde_json::Value, list: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
+/// What a run reports, whatever comes of it.
+fn reported(arguments: &[&str]) -> serde_json::Value {
+    let output = run(&[arguments, &["--json"]].concat());
+    serde_json::from_slice(&output.stdout)
+        .unwrap_or_else(|error| panic!("{arguments:?}: {error}: {}", String::from_utf8_lossy(&output.stderr)))
+}
+
 /// Peak over rms outside, on the true surface, of a drive made from some responses.
 fn contrast(plant: &Responses, known: &Responses, method: Method, at: Point) -> f64 {
     let options = Options { method, window: WINDOW, ..Options::default() };
@@ -112,6 +119,33 @@ fn probed_points_that_contradict_the_model_are_left_out_and_named() {
     let known = Responses::Sampled(Library::open(&fitted).unwrap().responses().unwrap());
     let contrast = |known| contrast(&plant, known, Method::TimeReversal, at);
     assert!(contrast(&known) > 0.97 * contrast(&plant));
+}
+
+/// Nobody can say how large what is fitted is, if nobody could of what was measured; and no model makes a dead actuator drive.
+#[test]
+fn an_unknown_scale_and_a_dead_actuator_stay_so() {
+    let scratch = Scratch::new("fit-scale");
+    let file = scratch.file("film.toml", film());
+    let (heard, fitted) = (scratch.join("heard"), scratch.join("fitted"));
+    json(&["calibrate", &file, "--unknowns", "7", "-o", &heard]);
+    let mut library = Library::open(&heard).unwrap();
+    let name = library.plan().ports[2].name.clone();
+    library.log("scale", serde_json::json!({ "unknown": "level unknown until it is told" })).unwrap();
+    library.log("dead", serde_json::json!([name])).unwrap();
+    drop(library);
+    // What cannot be heard of an actuator may be anything.
+    reported(&["fit", &heard, "--at", "62,90", "--even-if-doubtful", "-o", &fitted]);
+    let library = Library::open(&fitted).unwrap();
+    assert_eq!(library.without_scale(), Some("level unknown until it is told"));
+    assert_eq!(library.dead(), [2]);
+    let responses = library.responses().unwrap();
+    for actuator in 0..8 {
+        let drives = responses.response(actuator, 0).iter().any(|h| *h != 0.0);
+        assert_eq!(drives, actuator != 2, "actuator {}", actuator + 1);
+    }
+    drop(library);
+    let focus = ["focus", &fitted, "--at", "62,90", "--window-ms", "30", "-o", &scratch.join("touch")];
+    assert!(json(&focus).to_string().contains("level unknown until it is told"));
 }
 
 /// What the inductance of a coil on a voltage makes of what it drives and hears is no latency, and belongs to what is fitted.

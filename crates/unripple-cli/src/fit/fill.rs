@@ -1,6 +1,7 @@
 //! Responses of a fitted model, as a library.
 
 use crate::error::CliError;
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -11,7 +12,10 @@ use unripple_store::{Doubt, Library, LibraryPlan, PointState, Quality, Take};
 /// Points blended and stored at once.
 const BATCH: usize = 64;
 
-/// Writes responses at some points, blended with those probed, as long as the measured ones.
+/// What the log of a measurement says of all that is made from it: whether its scale is known, and which actuators are dead.
+const KEPT: [&str; 2] = ["scale", "dead"];
+
+/// Writes responses at some points, blended with those probed, as long as the measured ones. Dead actuators have none.
 pub fn fill(
     folder: &Path,
     source: &Library,
@@ -22,13 +26,20 @@ pub fn fill(
 ) -> Result<(), CliError> {
     let plan = plan(source, surface, fitted, probed, points);
     let mut library = Library::create(folder, &plan)?;
+    for key in KEPT {
+        library.log(key, source.logged(key).cloned().unwrap_or(Value::Null))?;
+    }
+    let dead = source.dead();
     let quality = vec![Quality::UNKNOWN; plan.ports.len()];
     for batch in library.in_state(PointState::Missing).chunks(BATCH) {
         let places: Vec<Point> = batch.iter().map(|point| points[*point]).collect();
         let blended = fitted.blend(probed, &places)?;
-        let values: Vec<Vec<f32>> = (0..batch.len())
-            .map(|p| (0..plan.ports.len()).flat_map(|port| blended.response(port, p)).copied().collect())
-            .collect();
+        let row = |port: usize, p: usize| match dead.contains(&port) {
+            true => vec![0.0; plan.samples],
+            false => blended.response(port, p).to_vec(),
+        };
+        let values: Vec<Vec<f32>> =
+            (0..batch.len()).map(|p| (0..plan.ports.len()).flat_map(|port| row(port, p)).collect()).collect();
         let takes: Vec<Take<'_>> = (batch.iter().zip(&values))
             .map(|(point, samples)| Take {
                 point: *point,
