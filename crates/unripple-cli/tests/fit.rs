@@ -148,6 +148,51 @@ fn an_unknown_scale_and_a_dead_actuator_stay_so() {
     assert!(json(&focus).to_string().contains("level unknown until it is told"));
 }
 
+/// A library whose points have the probe's own delay, as those made without a model have.
+#[test]
+fn a_late_probe_is_moved_back_before_it_corrects_the_model() {
+    let scratch = Scratch::new("fit-late");
+    let file = scratch.file("film.toml", film());
+    let (heard, fitted) = (scratch.join("heard"), scratch.join("fitted"));
+    let points = ["--at", "62,90", "--at", "100,60", "--at", "45,50"];
+    json(&[&["calibrate", &file, "--unknowns", "7", "-o", &heard][..], &points].concat());
+    let mut library = Library::open(&heard).unwrap();
+    let (before, samples) = (library.get(0).unwrap(), library.plan().samples);
+    for point in 0..3 {
+        let values = library.get(point).unwrap();
+        let late = values.chunks_exact(samples).flat_map(|row| {
+            let row: Vec<f64> = row.iter().map(|h| f64::from(*h)).collect();
+            unripple::dsp::shift(&row, 48.0)
+        });
+        let late: Vec<f32> = late.map(|h| h as f32).collect();
+        let quality = library.quality(point).unwrap();
+        library.put(point, &late, &quality).unwrap();
+    }
+    drop(library);
+    let report = json(&["fit", &heard, "--at", "62,90", "-o", &fitted]);
+    println!("{report:#}");
+    assert!(said(&report, "notes").contains("ms later than the sensors"));
+    assert!(report.get("left_out").is_none(), "{report:#}");
+    let blended = Library::open(&fitted).unwrap().get(0).unwrap();
+    let (mut off, mut all) = (0.0, 0.0);
+    for (before, now) in before.chunks_exact(samples).zip(blended.chunks_exact(samples)) {
+        // What was moved beyond the end is lost.
+        for (x, y) in before.iter().zip(now).take(samples - 100) {
+            off += f64::from(x - y).powi(2);
+            all += f64::from(*x).powi(2);
+        }
+    }
+    assert!((off / all).sqrt() < 0.15, "off by {}", (off / all).sqrt());
+
+    // Two actuators are not enough to check points by.
+    let mut library = Library::open(&heard).unwrap();
+    let names: Vec<String> = library.plan().ports[2..].iter().map(|port| port.name.clone()).collect();
+    library.log("dead", serde_json::json!(names)).unwrap();
+    drop(library);
+    let report = reported(&["fit", &heard, "--strays", "0"]);
+    assert!(said(&report, "notes").contains("not checked against the model"), "{report:#}");
+}
+
 /// What the inductance of a coil on a voltage makes of what it drives and hears is no latency, and belongs to what is fitted.
 #[test]
 fn coils_on_a_voltage_are_fitted_with_their_circuits() {
@@ -178,6 +223,25 @@ fn coils_on_a_voltage_are_fitted_with_their_circuits() {
         println!("{at}: {share:.3} of the contrast by true responses");
         assert!(share > 0.95, "{at}: {share}");
     }
+}
+
+/// What is doubted of a sensor leaves no point out.
+#[test]
+fn a_reversed_sensor_is_doubted_and_no_point_is_left_out_for_it() {
+    let scratch = Scratch::new("fit-reversed");
+    let file = scratch.file("film.toml", film());
+    let heard = scratch.join("heard");
+    json(&["calibrate", &file, "--unknowns", "7", "--at", "62,90", "-o", &heard]);
+    let mut library = Library::open(&heard).unwrap();
+    let (own, name) = (library.points().len() - 8 + 3, library.plan().ports[3].name.clone());
+    let turned: Vec<f32> = library.get(own).unwrap().iter().map(|h| -h).collect();
+    let quality = library.quality(own).unwrap();
+    library.put(own, &turned, &quality).unwrap();
+    drop(library);
+    let report = reported(&["fit", &heard, "--strays", "0"]);
+    println!("{report:#}");
+    assert!(said(&report, "doubts").contains(&format!("sensor of `{name}` is reversed")), "{report:#}");
+    assert!(!said(&report, "left_out").contains("sensor of"), "{report:#}");
 }
 
 /// With stray masses that it is not allowed to find, a model is doubtful: exit 1 and no library, unless it is asked for.

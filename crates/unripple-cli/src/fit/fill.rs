@@ -1,5 +1,6 @@
 //! Responses of a fitted model, as a library.
 
+use super::probed::Probed;
 use crate::error::CliError;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -21,10 +22,10 @@ pub fn fill(
     source: &Library,
     surface: &Surface,
     fitted: &Fitted,
-    probed: &SampledResponses,
+    probed: &Probed,
     points: &[Point],
 ) -> Result<(), CliError> {
-    let plan = plan(source, surface, fitted, probed, points);
+    let plan = plan(source, surface, fitted, &probed.good, points);
     let mut library = Library::create(folder, &plan)?;
     for key in KEPT {
         library.log(key, source.logged(key).cloned().unwrap_or(Value::Null))?;
@@ -33,7 +34,7 @@ pub fn fill(
     let quality = vec![Quality::UNKNOWN; plan.ports.len()];
     for batch in library.in_state(PointState::Missing).chunks(BATCH) {
         let places: Vec<Point> = batch.iter().map(|point| points[*point]).collect();
-        let blended = fitted.blend(probed, &places)?;
+        let blended = fitted.blend(&probed.good, &places)?;
         let row = |port: usize, p: usize| match dead.contains(&port) {
             true => vec![0.0; plan.samples],
             false => blended.response(port, p).to_vec(),
@@ -51,12 +52,10 @@ pub fn fill(
             .collect();
         library.put_all(&takes)?;
     }
-    let doubts = match &fitted.verdict {
-        Verdict::Good => Vec::new(),
-        Verdict::Doubtful { why, .. } => {
-            vec![Doubt::of("fit", format!("the fitted model is doubtful: {why}"))]
-        }
-    };
+    let mut doubts: Vec<Doubt> = probed.doubts.iter().map(|what| Doubt::of("fit", what)).collect();
+    if let Verdict::Doubtful { why, .. } = &fitted.verdict {
+        doubts.push(Doubt::of("fit", format!("the fitted model is doubtful: {why}")));
+    }
     library.set_doubts("fit", doubts)?;
     // What is doubted of single points was left out; what is doubted of the whole measurement is doubted of what is fitted to it.
     for doubt in source.doubts().iter().filter(|doubt| doubt.points.is_empty()) {

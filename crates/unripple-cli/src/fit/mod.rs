@@ -60,14 +60,15 @@ pub fn run(options: &FitOptions, as_json: bool) -> Result<(), CliError> {
     let fitted = fitted.scaled(probed.gain);
     let seconds = start.elapsed().as_secs_f64();
     let mut report = Report::of(&options.library, &surface, &fitted, seconds);
-    report.left_out = probed.left_out;
-    report.notes = warned.into_iter().map(|note| note.text).chain(probed.notes).collect();
+    report.left_out.clone_from(&probed.left_out);
+    report.doubts.clone_from(&probed.doubts);
+    report.notes = warned.into_iter().map(|note| note.text).chain(probed.notes.clone()).collect();
     let why = match &fitted.verdict {
         Verdict::Good => None,
         Verdict::Doubtful { why, .. } => Some(why.clone()),
     };
     if let Some(folder) = options.output.as_ref().filter(|_| why.is_none() || options.even_if_doubtful) {
-        fill::fill(folder, &library, &surface, &fitted, &probed.good, &wanted)?;
+        fill::fill(folder, &library, &surface, &fitted, &probed, &wanted)?;
         report.written =
             Some(report::Written { library: folder.display().to_string(), points: wanted.len() });
     }

@@ -3,15 +3,18 @@
 use super::heard::Heard;
 use crate::error::CliError;
 use unripple::core::{SampledResponses, Surface};
+use unripple::dsp::shift;
 use unripple_calibrate::Fitted;
-use unripple_calibrate::verify::{VerifyOptions, check_by};
+use unripple_calibrate::verify::{Checked, Verified, VerifyOptions, check_by};
 
 /// Probed points that a model may be corrected by.
 pub struct Probed {
-    /// Those that do not contradict it, their gains made one.
+    /// Those that do not contradict it, their gains made one and the probe's own delay taken out.
     pub good: SampledResponses,
     /// Why others are left out.
     pub left_out: Vec<String>,
+    /// What is doubted of all that was heard, for which nothing is left out.
+    pub doubts: Vec<String>,
     /// What is worth a word of those that are not.
     pub notes: Vec<String>,
     /// Gain of the probe over the sensors.
@@ -28,7 +31,8 @@ impl Probed {
         };
         if heard.probed.points.is_empty() {
             let good = heard.probed.clone();
-            return Ok(Self { good, left_out: Vec::new(), notes: Vec::new(), gain: 1.0 });
+            let (left_out, doubts, notes) = (Vec::new(), Vec::new(), Vec::new());
+            return Ok(Self { good, left_out, doubts, notes, gain: 1.0 });
         }
         let found = check_by(fitted, surface, &heard.measured, &heard.probed, &options)?;
         let doubted = |p: &usize| found.doubts.iter().any(|doubt| doubt.points.contains(p));
@@ -38,22 +42,41 @@ impl Probed {
             .iter()
             .map(|p| found.points.get(*p).and_then(|point| point.correction).unwrap_or(1.0))
             .collect();
+        let late = found.probe_delay.unwrap_or(0.0) * good.conditions.rate;
+        let notes = notes(&found);
+        let (of_all, of_points): (Vec<_>, Vec<_>) =
+            found.doubts.into_iter().partition(|doubt| doubt.points.is_empty());
         Ok(Self {
-            good: multiplied(&good, &factors)?,
-            left_out: found.doubts.into_iter().map(|doubt| doubt.what).collect(),
-            notes: found.notes,
+            good: corrected(&good, &factors, late)?,
+            left_out: of_points.into_iter().map(|doubt| doubt.what).collect(),
+            doubts: of_all.into_iter().map(|doubt| doubt.what).collect(),
+            notes,
             gain: found.gain.filter(|gain| gain.is_finite() && *gain != 0.0).unwrap_or(1.0),
         })
     }
 }
 
-/// Responses of each point times its factor.
-fn multiplied(responses: &SampledResponses, factors: &[f64]) -> Result<SampledResponses, CliError> {
+/// What is worth a word, that nothing was checked among it.
+fn notes(found: &Verified) -> Vec<String> {
+    let mut notes = found.notes.clone();
+    if let Checked::Not { why } = &found.model {
+        notes.push(format!("probed points are taken as they are, not checked against the model: {why}"));
+    }
+    if let Some(delay) = found.probe_delay {
+        notes.push(format!("the probe comes {:.3} ms later than the sensors: taken out", 1e3 * delay));
+    }
+    notes
+}
+
+/// Responses of each point times its factor, and earlier by so many samples.
+fn corrected(responses: &SampledResponses, factors: &[f64], late: f64) -> Result<SampledResponses, CliError> {
     let ports = responses.ports.len();
     let mut data = Vec::with_capacity(factors.len() * ports * responses.samples());
     for (point, factor) in factors.iter().enumerate() {
         for port in 0..ports {
-            data.extend(responses.response(port, point).iter().map(|h| h * *factor as f32));
+            let row: Vec<f64> = responses.response(port, point).iter().map(|h| f64::from(*h)).collect();
+            let row = if late == 0.0 { row } else { shift(&row, -late) };
+            data.extend(row.into_iter().map(|h| (factor * h) as f32));
         }
     }
     let SampledResponses { ports, points, conditions, .. } = responses.clone();

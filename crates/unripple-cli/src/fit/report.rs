@@ -28,6 +28,9 @@ pub struct Report {
     /// Why probed points contradict the model, and are left out.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub left_out: Vec<String>,
+    /// What is doubted of all that was heard.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub doubts: Vec<String>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
     modes: usize,
@@ -156,6 +159,7 @@ impl Report {
                 .map(|(n, load)| Load::of(format!("stray {}", n + 1), load))
                 .collect(),
             left_out: Vec::new(),
+            doubts: Vec::new(),
             notes: Vec::new(),
             modes: fitted.modal().poles.len(),
             seconds,
@@ -197,6 +201,9 @@ impl Report {
         }
         for why in &self.left_out {
             let _ = writeln!(text, "  left out     {why}");
+        }
+        for doubt in &self.doubts {
+            let _ = writeln!(text, "  doubtful     {doubt}");
         }
         for note in &self.notes {
             let _ = writeln!(text, "  note         {note}");
