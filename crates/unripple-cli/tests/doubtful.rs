@@ -120,6 +120,14 @@ fn nothing_but_a_new_recording_takes_back_what_a_model_said() {
         let (output, told, said) = bench.calibrate(3, &more);
         assert!(output.status.success() && !told["notes"].to_string().contains("not checked"), "{said}");
     }
+    // So it is with what is said of the latency.
+    let mut library = Library::open(&bench.library).unwrap();
+    library.set_doubts("latency", vec![Doubt::of("latency", "actuators disagree")]).unwrap();
+    drop(library);
+    let (output, told, said) = bench.calibrate(3, &["--no-model"]);
+    assert!(output.status.code() == Some(1) && doubts(&told) == ["actuators disagree"], "{said}");
+    let (output, told, said) = bench.calibrate(3, &[]);
+    assert!(output.status.success() && doubts(&told).is_empty(), "{said}");
 }
 
 #[test]

@@ -51,13 +51,13 @@ fn actuators_that_are_recorded_again_are_measured_again_without_any_point() {
     assert!(output.status.success() && number(&told, "/measured") == 5.0, "{said}");
     let first = response(&bench.library, 0);
     assert!(bench.calibrate(0, &[]).0.status.success());
-    assert_eq!(response(&bench.library, 0), first, "the same file is not looked at again");
+    assert!(response(&bench.library, 0) == first, "the same file is not looked at again");
 
     let again = bench.surface.record(Point::from_mm(60.0, 50.0), 9_000, 77);
     bring(&bench.folder, "actuators.wav", &again);
     let (output, told, said) = bench.calibrate(0, &[]);
     assert!(output.status.success() && number(&told, "/measured") == 5.0, "{said}");
-    assert_ne!(response(&bench.library, 0), first, "another recording has other noise");
+    assert!(response(&bench.library, 0) != first, "another recording has other noise");
 
     // Neither do they stay as they were when another actuator is left out.
     let (_, _, said) = bench.calibrate(0, &["--without", "a3"]);
@@ -265,7 +265,9 @@ fn a_probes_delay_is_taken_out_once_and_of_all_points() {
     std::fs::write(&chunk, bytes).unwrap();
     let (output, told, said) = bench.calibrate(2, &[]);
     assert!(output.status.success() && taken_out(&told), "{said}");
-    assert!(apart(&response(&bench.library, 0), &mended) < 1e-3);
+    // The delay is found again, by other noise: to the hundredth of a sample that is not worth another copy.
+    let error = apart(&response(&bench.library, 0), &mended);
+    assert!(error < 5e-3, "{error}");
     let delay = Library::open(&bench.library).unwrap().logged_point(0).unwrap()["model"]["delay_s"].clone();
     assert!((delay.as_f64().unwrap() - 1e-3).abs() < 5e-5, "{delay}");
 
@@ -280,6 +282,17 @@ fn a_probes_delay_is_taken_out_once_and_of_all_points() {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let error = apart(&response(&bench.library, 2), &response(&whole, 2));
     assert!(error < 0.02, "{error}");
+
+    // What is said of responses that are gone counts for no others.
+    let mut library = Library::open(&bench.library).unwrap();
+    library.forget(&[0]).unwrap();
+    let stale = serde_json::json!({ "model": { "delay_s": 5e-3, "times": 1.0 } });
+    library.log_points([(0, stale)].into()).unwrap();
+    drop(library);
+    let (output, told, said) = bench.calibrate(3, &["--no-model"]);
+    assert!(output.status.success() && number(&told, "/measured") == 8.0, "{said}");
+    let error = apart(&response(&bench.library, 0), &mended);
+    assert!(error < 5e-3, "{error}");
 }
 
 #[test]
