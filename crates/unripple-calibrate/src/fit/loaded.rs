@@ -93,15 +93,10 @@ impl LoadedModes {
         let near_energy = system.rest.square * system.rest.bending_share;
         let (mut poles, mut bending_shares) = (Vec::new(), Vec::new());
         for (m, square) in found[low..high].iter().enumerate() {
-            let omega = square.max(0.0).sqrt();
-            let added = |p: usize| basis.coil(p).map_or([0.0; 2], |coil| coil.in_mode(omega));
-            let damping = |p: usize| 0.5 * (values.resistances[p] + added(p)[1]) * loads[(p, m)].powi(2);
-            let own: f64 = (0..modes)
-                .map(|i| system.sheet.sigmas[i] * vectors[(i, m)].powi(2))
-                .chain((0..loaded).map(damping))
-                .sum();
-            let stiffer: f64 = (0..loaded).map(|p| added(p)[0] * loads[(p, m)].powi(2)).sum();
-            let omega = (square + stiffer).max(0.0).sqrt();
+            let [stiffness, rate] = hung(basis, values, loads.col(m), square.max(0.0).sqrt());
+            let own: f64 = (0..modes).map(|i| system.sheet.sigmas[i] * vectors[(i, m)].powi(2)).sum();
+            let own = own + rate;
+            let omega = (square + stiffness).max(0.0).sqrt();
             poles.push(Pole::new(omega, own.max(0.01 * decay_rate(&values.knots, omega, system.top))));
             let near: f64 = (modes..all).map(|p| vectors[(p, m)].powi(2)).sum();
             bending_shares.push(bending_share(mixing.col(m), bent.col(m), near * near_energy, *square));
@@ -110,6 +105,15 @@ impl LoadedModes {
         let shapes = Arc::new(Combined { base: basis.modes.clone(), mixing });
         Ok(Self { poles, bending_shares, weights, shapes })
     }
+}
+
+/// What dampers and the circuits of coils add to the stiffness of a mode of unit mass, and to its decay rate, by what it moves of each load.
+fn hung(basis: &Basis, values: &Values, loads: ColRef<'_, f64>, omega: f64) -> [f64; 2] {
+    let one = |(p, moved): (usize, &f64)| {
+        let [stiffness, damping] = basis.coil(p).map_or([0.0; 2], |coil| coil.in_mode(omega));
+        [stiffness, 0.5 * (values.resistances[p] + damping)].map(|x| x * moved.powi(2))
+    };
+    loads.iter().enumerate().map(one).fold([0.0; 2], |[a, b], [x, y]| [a + x, b + y])
 }
 
 /// Bending's share of a mode's elastic energy, from what its shape and the bending of it make, and what is close to loads.
