@@ -3,6 +3,9 @@
 /// Steps of the fit, which settles in a few.
 const STEPS: usize = 30;
 
+/// What is left in a step of one of the two that seems to be less than none.
+const LESS: f64 = 0.1;
+
 /// Noise in a residual and the share of what was measured that is left in it beside the noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Following {
@@ -38,8 +41,9 @@ impl Following {
             (noise, share) = match (a > 0.0, b > 0.0) {
                 _ if det.is_nan() || det <= 0.0 => (0.0, left / power),
                 (true, true) => (a, b),
-                (false, _) => (0.0, ry / yy),
-                (_, false) => (r / one, 0.0),
+                // Not to none at once: without one of the two, single lines that are very loud weigh so much that it never comes back.
+                (false, _) => (LESS * noise, ry / yy),
+                (_, false) => (r / one, LESS * share),
             };
         }
         Self { noise, share: share.max(0.0).sqrt() }
