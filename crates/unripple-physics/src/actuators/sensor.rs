@@ -8,7 +8,7 @@ use unripple_dsp::bessel_i0;
 
 /// Samples on either side that a derivative is made from, and the window's β: right to 1e-4 up to 0.42 of the rate.
 const HALF: usize = 32;
-const BETA: f64 = 8.0;
+const BETA: f64 = 12.0;
 
 /// An actuator in its sensing role: what the motion of the sheet, and it alone, makes at the terminals.
 ///
