@@ -50,9 +50,9 @@ use unripple_physics::Medium;
 /// let heard = sample(&modal, &own, 4800);
 /// let signal = |n: usize| heard.response(n / 8, n % 8).iter().map(|v| f64::from(*v)).collect();
 /// let measured = Measured::pairs(48e3, (0..64).map(signal).collect(), 1e-3);
-/// // The probe stood 10 mm beside the second of two points.
+/// // The probe stood 20 mm beside the second of two points.
 /// let said = [Point::from_mm(62.0, 90.0), Point::from_mm(100.0, 60.0)];
-/// let stood = [said[0], Point::from_mm(110.0, 60.0)];
+/// let stood = [said[0], Point::from_mm(120.0, 60.0)];
 /// let mut probed = sample(&modal, &stood, 4800);
 /// probed.points = said.to_vec();
 /// let found = check(&surface, &measured, &probed, &VerifyOptions::default())?;
