@@ -22,7 +22,7 @@ const TELLING: usize = 8;
 ///
 /// Sweeps overlap: the next actuator begins while the last still sounds, as soon as their responses, and harmonics up to
 /// [`MeasureOptions::highest_order`], stay apart after one deconvolution of all. Where actuators have sensors, these are heard
-/// in every take: what they tell of clock, gaps and tension is taken out of what is measured ([`Account`]).
+/// in every take: what they tell of clock, gaps and tension is taken out of what is measured ([`Account`](super::Account)).
 #[derive(Clone, Debug)]
 pub struct Session {
     surface: Surface,
