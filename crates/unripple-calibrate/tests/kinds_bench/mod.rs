@@ -2,6 +2,10 @@
 
 #![allow(dead_code)]
 
+#[path = "../contrast/mod.rs"]
+mod contrast;
+
+use contrast::contrast;
 use std::sync::Arc;
 use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{Listen, MeasureOptions, Rig, Session, Wires};
@@ -13,8 +17,7 @@ use unripple_devices::{
     Expected, Handle, Truth, Unknowns, Virtual, VirtualOptions, WiringOptions, check_wiring,
 };
 use unripple_dsp::Reciprocity;
-use unripple_field::Field;
-use unripple_focus::{Focuser, Method, Options, Target};
+use unripple_focus::Method;
 use unripple_physics::design::papers_surface;
 use unripple_physics::{ResponseOptions, responses};
 
@@ -172,8 +175,9 @@ pub fn calibrate(
         (0..plant.poles.len()).for_each(|m| plant.input[(a, m)] *= gain);
     }
     let plant = Responses::Modal(plant);
-    let contrast = contrast(&Responses::Modal(modal_of(&plant, surface)), &plant, target, window);
-    let share = self::contrast(&Responses::Sampled(measured.unwrap()), &plant, target, window) / contrast;
+    let of = |known: Responses| contrast(&known, &plant, Method::TimeReversal, target, window);
+    let contrast = of(Responses::Modal(modal_of(&plant, surface)));
+    let share = of(Responses::Sampled(measured.unwrap())) / contrast;
     Found { faults, latency, reciprocity, share, contrast }
 }
 
@@ -208,22 +212,4 @@ impl unripple_core::Shapes for Kept {
         self.shapes.at(point, &mut all);
         row.iter_mut().zip(&self.kept).for_each(|(to, m)| *to = all[*m]);
     }
-}
-
-/// Contrast of time reversal by known responses, on a plant.
-fn contrast(known: &Responses, plant: &Responses, at: Point, window: f64) -> f64 {
-    let options = Options { method: Method::TimeReversal, window, ..Options::default() };
-    let drive = Focuser::new(known, &options).unwrap().focus(&[Target::at(at)]).unwrap().drive.as_emitted();
-    let field = Field::new(plant, &drive, 8.0).unwrap();
-    let shot = &field.snapshots(&[window]).unwrap()[0];
-    let peak = field.traces(&[at], window).unwrap()[0].velocity.last().copied().unwrap();
-    let radius = 4.0 / 3.0 * plant.conditions().lambda_min;
-    let outside: Vec<f64> = field
-        .points()
-        .iter()
-        .zip(&shot.velocity)
-        .filter(|(p, _)| p.distance(at) > radius)
-        .map(|(_, v)| f64::from(*v).powi(2))
-        .collect();
-    peak / (outside.iter().sum::<f64>() / outside.len() as f64).sqrt()
 }

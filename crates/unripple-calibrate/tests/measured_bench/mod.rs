@@ -2,13 +2,15 @@
 
 #![allow(dead_code)]
 
+#[path = "../contrast/mod.rs"]
+mod contrast;
+
 use std::sync::{Arc, LazyLock};
 use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{Channel, Listen, MeasureOptions, Rig, SILENCE, Session, Wires};
 use unripple_core::{Device, ModalResponses, Point, Port, Responses, SampledResponses, Surface};
 use unripple_devices::{Handle, Tap, Truth, Unknowns, Virtual, VirtualOptions};
-use unripple_field::Field;
-use unripple_focus::{Focuser, Method, Options, Target};
+use unripple_focus::Method;
 use unripple_physics::design::papers_surface;
 use unripple_physics::{Modes, ResponseOptions, responses};
 
@@ -78,21 +80,7 @@ impl World {
 
     /// Contrast on the true surface of a focus made from some responses.
     pub fn contrast(&self, known: &Responses, method: Method, at: Point) -> f64 {
-        let options = Options { method, window: WINDOW, ..Options::default() };
-        let drive =
-            Focuser::new(known, &options).unwrap().focus(&[Target::at(at)]).unwrap().drive.as_emitted();
-        let field = Field::new(&self.plant, &drive, 8.0).unwrap();
-        let shot = &field.snapshots(&[WINDOW]).unwrap()[0];
-        let peak = field.traces(&[at], WINDOW).unwrap()[0].velocity.last().copied().unwrap();
-        let radius = 4.0 / 3.0 * self.plant.conditions().lambda_min;
-        let outside: Vec<f64> = field
-            .points()
-            .iter()
-            .zip(&shot.velocity)
-            .filter(|(p, _)| p.distance(at) > radius)
-            .map(|(_, v)| f64::from(*v).powi(2))
-            .collect();
-        peak / (outside.iter().sum::<f64>() / outside.len() as f64).sqrt()
+        contrast::contrast(known, &self.plant, method, at, WINDOW)
     }
 
     /// Share of the contrast of time reversal by the true responses.
