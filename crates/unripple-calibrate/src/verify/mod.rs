@@ -71,10 +71,8 @@ pub fn check(
     if !options.model {
         return Ok(Verified::without("it was not asked for".into(), doubts));
     }
-    Ok(match Quick::new(surface, measured, probed, options) {
-        Ok(quick) => against(&quick, surface, probed, options, doubts),
-        Err(why) => Verified::without(why, doubts),
-    })
+    let quick = Quick::new(surface, measured, probed, options);
+    Ok(judged(quick, surface, probed, options, doubts))
 }
 
 /// The same against a model that was fitted before, to what all the actuators heard.
@@ -90,10 +88,8 @@ pub fn check_by(
 ) -> Result<Verified, CalibrateError> {
     together(surface, measured, probed)?;
     let doubts = copies::doubts(probed, options);
-    Ok(match Quick::known(fitted, surface, measured, probed, options) {
-        Ok(quick) => against(&quick, surface, probed, options, doubts),
-        Err(why) => Verified::without(why, doubts),
-    })
+    let quick = Quick::known(fitted, surface, measured, probed, options);
+    Ok(judged(quick, surface, probed, options, doubts))
 }
 
 /// Refuses responses of other actuators, or at another rate, than what was measured.
@@ -105,6 +101,20 @@ fn together(surface: &Surface, measured: &Measured, probed: &SampledResponses) -
     }
     let rate = probed.conditions.rate;
     require("sample rate of the probed responses in Hz", rate == measured.rate, "the sensors'", rate)
+}
+
+/// The check against a model, or why there is none.
+fn judged(
+    quick: Result<Quick, String>,
+    surface: &Surface,
+    probed: &SampledResponses,
+    options: &VerifyOptions,
+    doubts: Vec<Doubted>,
+) -> Verified {
+    match quick {
+        Ok(quick) => against(&quick, surface, probed, options, doubts),
+        Err(why) => Verified::without(why, doubts),
+    }
 }
 
 /// The check against a model.
