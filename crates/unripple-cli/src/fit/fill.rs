@@ -52,16 +52,19 @@ pub fn fill(
             .collect();
         library.put_all(&takes)?;
     }
-    let mut doubts: Vec<Doubt> = probed.doubts.iter().map(|what| Doubt::of("fit", what)).collect();
-    if let Verdict::Doubtful { why, .. } = &fitted.verdict {
-        doubts.push(Doubt::of("fit", format!("the fitted model is doubtful: {why}")));
-    }
-    library.set_doubts("fit", doubts)?;
+    let doubtful = match &fitted.verdict {
+        Verdict::Doubtful { why, .. } => {
+            Some(Doubt::of("fit", format!("the fitted model is doubtful: {why}")))
+        }
+        Verdict::Good => None,
+    };
     // What is doubted of single points was left out; what is doubted of the whole measurement is doubted of what is fitted to it.
-    for doubt in source.doubts().iter().filter(|doubt| doubt.points.is_empty()) {
-        let same =
-            source.doubts().iter().filter(|other| other.points.is_empty() && other.check == doubt.check);
-        library.set_doubts(&doubt.check, same.cloned().collect())?;
+    let of_all = source.doubts().iter().filter(|doubt| doubt.points.is_empty()).cloned();
+    let found = probed.doubts.iter().map(|what| Doubt::of("fit", what)).chain(doubtful);
+    let mut doubts: BTreeMap<String, Vec<Doubt>> = BTreeMap::new();
+    of_all.chain(found).for_each(|doubt| doubts.entry(doubt.check.clone()).or_default().push(doubt));
+    for (check, found) in doubts {
+        library.set_doubts(&check, found)?;
     }
     Ok(())
 }
