@@ -50,7 +50,7 @@ pub use outline::{Edge, Edges, Hole, Loop, Outline};
 pub use point::Point;
 pub use pole::{Onset, Pole};
 pub use random::Random;
-pub use responses::{Conditions, ModalResponses, Port, Responses, SampledResponses, Shapes};
+pub use responses::{Conditions, FOCAL_RADIUS, ModalResponses, Port, Responses, SampledResponses, Shapes};
 pub use shape::Shape;
 pub use side::Side;
 pub use surface::{

@@ -42,6 +42,17 @@ pub struct Conditions {
     pub outline: Outline,
 }
 
+/// Radius of the focal disc over the shortest wavelength: around its target, a focus has its main lobe and the first side lobe there, and only
+/// what lies beyond counts as outside.
+pub const FOCAL_RADIUS: f64 = 4.0 / 3.0;
+
+impl Conditions {
+    /// Radius of the focal disc, in metres: [`FOCAL_RADIUS`] times the shortest wavelength.
+    pub fn focal_radius(&self) -> f64 {
+        FOCAL_RADIUS * self.lambda_min
+    }
+}
+
 /// An actuator as the responses know it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Port {

@@ -8,9 +8,6 @@ use rayon::prelude::*;
 use std::ops::Range;
 use unripple_core::{Drive, Point, Responses};
 
-/// Radius of the focal disc in shortest wavelengths.
-const FOCAL_RADIUS: f64 = 4.0 / 3.0;
-
 /// How good `drive` is at focusing on `aims` through `responses`: all figures, in velocity, in displacement and as felt.
 ///
 /// "Outside" are the points of the field farther than (4/3) λ_min from every point of every aim; the span is [0, 2T] with
@@ -44,7 +41,7 @@ impl Field<'_> {
         let traces = target_traces(&resolved, field, &spans, period);
         let peaks: Vec<Peaks> =
             resolved.iter().zip(&traces).map(|(aim, (first, t))| Peaks::of(aim, *first, t)).collect();
-        let radius = FOCAL_RADIUS * field.conditions.lambda_min;
+        let radius = field.conditions.focal_radius();
         let outside = outside(field.points(), &resolved, radius);
         let segments = segments(&spans);
         let instants: Vec<usize> =

@@ -5,9 +5,6 @@ use faer::linalg::solvers::{Llt, Solve};
 use faer::{Accum, Mat, MatRef, Par, Side};
 use unripple_core::{Conditions, Point};
 
-/// Radius of the disc around a target that does not count as outside, in shortest wavelengths.
-pub(crate) const DISC: f64 = 4.0 / 3.0;
-
 /// Share of energy in the objective that always stays, so that a drive of least velocity outside exists.
 const LEAST: f64 = 1e-9;
 
@@ -73,7 +70,7 @@ impl Objective {
         let energy = (1.0 - strength).max(LEAST) * unit;
         (0..rank).for_each(|i| whole[(i, i)] += energy);
         let factor = Llt::new(whole.as_ref(), Side::Lower).map_err(|_| FocusError::Decomposition)?;
-        let radius = if all { -1.0 } else { DISC * conditions.lambda_min };
+        let radius = if all { -1.0 } else { conditions.focal_radius() };
         Ok(Self { whole, factor, energy, cells, points: places, radius })
     }
 

@@ -1,5 +1,5 @@
 use crate::LiveError;
-use unripple_core::{Contact, Finger, Outline, Phase, Point, Surface, Touch};
+use unripple_core::{Contact, FOCAL_RADIUS, Finger, Outline, Phase, Point, Surface, Touch};
 use unripple_devices::Handle;
 use unripple_dsp::{Threshold, Weighting};
 use unripple_physics::Medium;
@@ -9,9 +9,6 @@ const STRIDE: usize = 4;
 
 /// Places beside the fingers that are looked at, along each side of the outline's bounding box.
 const ACROSS: usize = 6;
-
-/// Radius of the focal disc over the shortest wavelength, beyond which a place counts as outside.
-const DISC: f64 = 4.0 / 3.0;
 
 /// What one finger feels of a virtual surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,7 +68,7 @@ impl Feeler {
             left: vec![false; most],
             places,
             rate: surface.emission.rate / STRIDE as f64,
-            disc: DISC * Medium::of(&surface.sheet).lambda_min(surface.emission.band[1]),
+            disc: FOCAL_RADIUS * Medium::of(&surface.sheet).lambda_min(surface.emission.band[1]),
             moved: false,
         })
     }

@@ -5,7 +5,7 @@ use crate::rig::{CELLS, Cells, Instrument, PULSES};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
-use unripple::core::{Actuator, ActuatorKind, Decay, Edge, Edges, MATERIALS, Outline, Point, Shape, Surface};
+use unripple::core::{Actuator, ActuatorKind, Decay, Edge, Edges, FOCAL_RADIUS, MATERIALS, Outline, Point, Shape, Surface};
 use unripple::focus::Method;
 use unripple::physics::Medium;
 use unripple_store::{builtin_effects, to_toml};
@@ -45,7 +45,7 @@ pub fn surface(edition: &Edition, (undo, redo): (bool, bool), source: &str, libr
         "inside": inside(&surface.outline),
         "actuators": surface.actuators.iter().map(|a| actuator(a, limit)).collect::<Vec<_>>(),
         "lambda_min_mm": lambda * 1e3,
-        "focal_radius_mm": 4.0 / 3.0 * lambda * 1e3,
+        "focal_radius_mm": FOCAL_RADIUS * lambda * 1e3,
         "values": values(surface),
         "materials": MATERIALS.iter().map(|material| material.name).collect::<Vec<_>>(),
         "can_undo": undo,

@@ -24,9 +24,6 @@ pub struct Front {
 /// Cells per shortest wavelength, half as many as figures are taken on: enough for a curve.
 const CELLS: f64 = 4.0;
 
-/// Radius of what does not count as outside, in shortest wavelengths.
-const DISC: f64 = 4.0 / 3.0;
-
 const STRENGTHS: [f64; 7] = [0.0, 0.3, 0.6, 0.8, 0.9, 0.96, 0.99];
 /// Planning for several plants takes its time.
 const ROBUST: [f64; 4] = [0.0, 0.7, 0.95, 0.99];
@@ -105,7 +102,7 @@ pub fn traded(ground: &Ground<'_>, focused: &Focused) -> Result<Trade, CliError>
     let last = traces.iter().filter_map(|trace| trace.velocity.last());
     let peak = last.sum::<f64>() / traces.len() as f64;
     let shots = field.snapshots(&[instant]).map_err(CliError::input)?;
-    let radius = DISC * ground.plant.conditions().lambda_min;
+    let radius = ground.plant.conditions().focal_radius();
     let near = |p: &Point| ground.targets.iter().flat_map(|t| &t.points).any(|at| at.distance(*p) <= radius);
     let moved = shots.iter().flat_map(|shot| field.points().iter().zip(&shot.velocity));
     let (count, sum) = moved

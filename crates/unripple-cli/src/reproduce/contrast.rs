@@ -3,7 +3,7 @@ use super::{Bed, Compared, Picture, Section};
 use crate::error::CliError;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
-use unripple::core::Surface;
+use unripple::core::{FOCAL_RADIUS, Surface};
 use unripple::physics::Medium;
 use unripple::physics::design::{ACTUATORS, Cavity, closed};
 use unripple::study::{
@@ -259,7 +259,7 @@ pub fn departure(rows: &[Statistic], pick: fn(&Statistic) -> f64) -> f64 {
 fn departures(windows: &[Statistic], bands: &[Statistic], surface: &Surface) -> Vec<Compared> {
     let refined = |rows: &[Statistic]| departure(rows, |r| r.predicted);
     let narrow = bands.first().map_or(f64::NAN, |r| r.varied);
-    let disc = PI * (closed::DISC * Medium::of(&surface.sheet).lambda_min(narrow)).powi(2);
+    let disc = PI * (FOCAL_RADIUS * Medium::of(&surface.sheet).lambda_min(narrow)).powi(2);
     vec![
         Compared::new(
             "closed form from simulation, over T and N",

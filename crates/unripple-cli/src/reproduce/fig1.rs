@@ -118,7 +118,7 @@ pub(super) fn named(at: Point, name: &str) -> Marker {
 fn scene(bed: &Bed, b: &Port) -> Scene {
     let mut surface = bed.surface.clone();
     surface.actuators.clear();
-    let radius = closed::DISC * bed.responses.conditions().lambda_min;
+    let radius = bed.responses.conditions().focal_radius();
     let mut scene = Scene::new(&surface, &[], 0.0);
     let [x, y] = [bed.target.x, bed.target.y];
     scene.markers.extend([

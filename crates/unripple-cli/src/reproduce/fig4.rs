@@ -186,7 +186,7 @@ fn pulses(
         .map(|sample| sample as f64 / bed.rate)
         .collect();
     let mut shots = field.snapshots(&instants).map_err(CliError::work)?;
-    let radius = closed::DISC * bed.responses.conditions().lambda_min;
+    let radius = bed.responses.conditions().focal_radius();
     let outside: Vec<bool> =
         field.points().iter().map(|p| [e, d].iter().all(|focus| focus.at.distance(*p) > radius)).collect();
     let noise = |values: &[f32]| {

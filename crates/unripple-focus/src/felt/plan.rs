@@ -16,9 +16,6 @@ use faer::{Mat, MatRef, Par, Side};
 use std::f64::consts::{PI, TAU};
 use unripple_core::{Drive, ModalResponses, Point, Responses, window_samples};
 
-/// Radius of the focal disc in shortest wavelengths.
-const FOCAL_RADIUS: f64 = 4.0 / 3.0;
-
 /// Most coefficients of a drive, over all actuators.
 const MOST_COEFFICIENTS: usize = 8000;
 
@@ -162,7 +159,7 @@ impl<'r> FeltPlan<'r> {
     /// The control points outside all targets' discs.
     fn outside(&self, targets: &[Target]) -> Vec<usize> {
         let points: Vec<Point> = targets.iter().flat_map(|target| target.points.iter().copied()).collect();
-        self.control.outside(&points, FOCAL_RADIUS * self.responses.conditions.lambda_min)
+        self.control.outside(&points, self.responses.conditions.focal_radius())
     }
 
     fn channels(&self, coefficients: &[f64]) -> Vec<Vec<f64>> {

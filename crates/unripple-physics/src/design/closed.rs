@@ -19,9 +19,7 @@
 //! ```
 
 use std::f64::consts::{PI, TAU};
-
-/// Radius of the focal disc in shortest wavelengths.
-pub const DISC: f64 = 4.0 / 3.0;
+use unripple_core::FOCAL_RADIUS;
 
 /// τ tanh(T/τ), in s: the window that counts when ringing dies out; T when T ≪ τ, τ when T ≫ τ.
 pub fn effective_window(window: f64, decay_time: f64) -> f64 {
@@ -40,7 +38,7 @@ pub fn contrast_tr(actuators: f64, bandwidth: f64, decay_time: f64, window: f64,
 /// Contrast C of time reversal outside the focal disc: 1/C² = 1/C_TR² + e/M.
 pub fn contrast(actuators: f64, bandwidth: f64, decay_time: f64, window: f64, modes: f64) -> f64 {
     let noise = contrast_tr(actuators, bandwidth, decay_time, window, modes).powi(-2);
-    (noise + exposure(TAU * DISC) / modes).powf(-0.5)
+    (noise + exposure(TAU * FOCAL_RADIUS) / modes).powf(-0.5)
 }
 
 /// Contrast of each of `foci` equal foci made at once: their backgrounds add in power.
@@ -62,7 +60,7 @@ pub fn repeated(
 ) -> f64 {
     let q = 1.0 / (period / decay_time).tanh();
     let noise = contrast_tr(actuators, bandwidth, decay_time, window, modes).powi(-2);
-    (q * noise + exposure(TAU * DISC) / modes + (q - 1.0) / (2.0 * modes)).powf(-0.5)
+    (q * noise + exposure(TAU * FOCAL_RADIUS) / modes + (q - 1.0) / (2.0 * modes)).powf(-0.5)
 }
 
 /// What noise adds to 1/C²: r²/2NBT, r the rms of the noise over that of a response, both in the band and over T.
@@ -172,7 +170,7 @@ mod tests {
     #[test]
     fn exposure_is_the_energy_outside() {
         // ∫_x^∞ (2J_1(r)/r)² r dr against ∫_0^∞ = 2, by the midpoint rule.
-        let (start, end, steps) = (TAU * DISC, 4000.0, 400_000);
+        let (start, end, steps) = (TAU * FOCAL_RADIUS, 4000.0, 400_000);
         let width = (end - start) / f64::from(steps);
         let tail: f64 = (0..steps)
             .map(|i| start + (f64::from(i) + 0.5) * width)

@@ -9,9 +9,6 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
 use rayon::prelude::*;
 
-/// Radius of what does not count as outside, in shortest wavelengths.
-const DISC: f64 = 4.0 / 3.0;
-
 /// Points of the field read at once: their values fit a cache.
 const POINTS: usize = 128;
 
@@ -119,7 +116,7 @@ fn contrasts(
     let readout = modal.shapes.at_all(targets);
     let state = reversal::map(modal, samples) * readout.transpose();
     let largest = readout.col_iter().flat_map(|c| c.iter()).fold(0.0, |m: f64, w| m.max(w.abs()));
-    let radius = DISC * modal.conditions.lambda_min;
+    let radius = modal.conditions.focal_radius();
     let single = Mat::from_fn(state.nrows(), state.ncols(), |m, t| state[(m, t)] as f32);
     let sums =
         around.par_chunks(POINTS).map(|points| outside(modal, points, targets, single.as_ref(), radius));

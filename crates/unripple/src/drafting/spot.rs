@@ -3,9 +3,6 @@ use crate::core::{Point, Responses};
 use crate::field::Field;
 use crate::focus::{Options, Target, focus};
 
-/// Radius of what does not count as outside, in shortest wavelengths.
-const DISC: f64 = 4.0 / 3.0;
-
 /// What time reversal gives at one place, at its focal instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
@@ -28,7 +25,7 @@ pub(super) fn spot(responses: &Responses, at: Point, options: &Options) -> Resul
     let trace = field.traces(&[at], instant)?;
     let peak = trace.first().and_then(|trace| trace.velocity.last()).copied().unwrap_or(0.0);
     let shots = field.snapshots(&[instant])?;
-    let radius = DISC * responses.conditions().lambda_min;
+    let radius = responses.conditions().focal_radius();
     let values = shots.iter().flat_map(|shot| field.points().iter().zip(&shot.velocity));
     let outside = values.filter(|(point, _)| point.distance(at) > radius);
     let (count, squares) =

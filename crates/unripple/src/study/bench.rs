@@ -7,7 +7,6 @@ use unripple_core::{
     Conditions, ModalResponses, Outline, Point, Pole, Port, Responses, Shapes, Surface, window_samples,
 };
 use unripple_field::{FieldError, Grid};
-use unripple_physics::design::closed::DISC;
 use unripple_physics::{Medium, Modes, PhysicsError};
 
 /// Relative accuracy of the frequencies of the modes.
@@ -155,7 +154,7 @@ impl Bench {
 
     /// A target and its focal disc of 4/3 λ_min.
     pub fn outside(&self, target: Point) -> Outside {
-        let reach = DISC * self.conditions.lambda_min;
+        let reach = self.conditions.focal_radius();
         let within: Vec<usize> =
             (0..self.points.len()).filter(|i| self.points[*i].distance(target) <= reach).collect();
         Outside {

@@ -5,7 +5,6 @@ use std::f64::consts::{PI, TAU};
 use unripple_core::{ActuatorKind, CoilDrive, Drive, Point, Responses, Surface};
 use unripple_field::Field;
 use unripple_focus::{Options, Target, focus};
-use unripple_physics::design::closed::DISC;
 use unripple_physics::{Medium, ResponseOptions, responses};
 
 /// Permeability of vacuum μ_0, in H/m; resistivity and density of copper, in Ω·m and kg/m³; remanence of a good magnet, in T.
@@ -100,7 +99,7 @@ fn contrast(responses: &Responses, drive: &Drive, at: Point, window: f64) -> Res
     let field = Field::new(responses, drive, CELLS)?;
     let peak = field.traces(&[at], window)?[0].velocity.last().copied().unwrap_or(0.0);
     let snapshot = &field.snapshots(&[window])?[0];
-    let reach = DISC * responses.conditions().lambda_min;
+    let reach = responses.conditions().focal_radius();
     let outside: Vec<f64> = field
         .points()
         .iter()

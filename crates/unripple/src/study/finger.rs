@@ -4,7 +4,6 @@ use super::StudyError;
 use unripple_core::{Contact, Drive, Finger, Point, Responses, Surface};
 use unripple_field::{Field, Trace};
 use unripple_focus::{Options, Target, focus};
-use unripple_physics::design::closed::DISC;
 use unripple_physics::{Footprint, ResponseOptions, responses};
 
 /// Points along each side of the lattice on which noise elsewhere is taken.
@@ -123,7 +122,7 @@ fn motion(
     let cell = |i: usize| (i as f64 + 0.5) / LATTICE as f64;
     let outside: Vec<Point> = (0..LATTICE * LATTICE)
         .map(|i| Point::new(width * cell(i % LATTICE), height * cell(i / LATTICE)))
-        .filter(|p| conditions.outline.contains(*p) && p.distance(at) > DISC * conditions.lambda_min)
+        .filter(|p| conditions.outline.contains(*p) && p.distance(at) > conditions.focal_radius())
         .collect();
     let centre = field.traces(&[at], end)?.into_iter().flat_map(|t| t.velocity).collect::<Vec<f64>>();
     let elsewhere: Vec<f64> = field.traces(&outside, end)?.into_iter().flat_map(|t| t.velocity).collect();

@@ -1,7 +1,6 @@
 //! Contrast of time reversal against its window in closed form, from modal responses.
 
 use super::places::{grid, targets};
-use crate::design::closed::DISC;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par, c64};
 use unripple_core::{ModalResponses, Onset, Point, Pole};
@@ -40,7 +39,7 @@ impl Modal {
         let actuators: Vec<Point> = ports.iter().map(|port| port.at).collect();
         let points = grid(&conditions.outline, conditions.lambda_min);
         let mut targets = targets(&conditions.outline, &actuators, conditions.lambda_min);
-        let reach = DISC * conditions.lambda_min;
+        let reach = conditions.focal_radius();
         let inside = |target: &Point| -> Vec<usize> {
             (0..points.len()).filter(|i| points[*i].distance(*target) <= reach).collect()
         };
