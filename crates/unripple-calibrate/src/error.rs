@@ -1,4 +1,4 @@
-use unripple_core::{CoreError, DeviceError, Point};
+use unripple_core::{CoreError, DeviceError, OutOfRange, Point};
 use unripple_dsp::DspError;
 use unripple_physics::PhysicsError;
 
@@ -16,15 +16,8 @@ pub enum CalibrateError {
         nearest: Point,
     },
     /// A number is out of its range.
-    #[error("{what}: expected {expected}, found {found}")]
-    Range {
-        /// What the number is, with its unit.
-        what: String,
-        /// The legal values.
-        expected: &'static str,
-        /// The value.
-        found: f64,
-    },
+    #[error(transparent)]
+    Range(#[from] OutOfRange),
     /// A count is out of its range: of points, actuators or samples.
     #[error("{what}: expected {expected}, found {found}")]
     Count {
@@ -120,14 +113,4 @@ pub enum CalibrateError {
     /// The physics of the nominal surface failed.
     #[error(transparent)]
     Physics(#[from] PhysicsError),
-}
-
-/// Refuses a number unless it is `legal`.
-pub(crate) fn require(
-    what: impl Into<String>,
-    legal: bool,
-    expected: &'static str,
-    found: f64,
-) -> Result<(), CalibrateError> {
-    if legal { Ok(()) } else { Err(CalibrateError::Range { what: what.into(), expected, found }) }
 }

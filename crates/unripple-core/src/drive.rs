@@ -1,4 +1,5 @@
 use crate::CoreError;
+use crate::OutOfRange;
 
 /// What is sent: one channel of samples per actuator, in the actuator's own unit.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,7 +17,7 @@ impl Drive {
     /// [`CoreError::Range`] if the rate is not positive.
     pub fn new(rate: f64, names: Vec<String>, channels: Vec<Vec<f64>>) -> Result<Self, CoreError> {
         if !(rate.is_finite() && rate > 0.0) {
-            return Err(CoreError::Range { what: "sample rate", expected: "a positive number", found: rate });
+            return Err(CoreError::Range(OutOfRange::new("sample rate", "a positive number", rate)));
         }
         if names.len() != channels.len() {
             return Err(CoreError::Size {

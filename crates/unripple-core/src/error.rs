@@ -1,3 +1,5 @@
+use crate::OutOfRange;
+
 /// Why a core value could not be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CoreError {
@@ -24,13 +26,6 @@ pub enum CoreError {
         found: f64,
     },
     /// A value is out of its range.
-    #[error("{what}: expected {expected}, found {found}")]
-    Range {
-        /// What the value is.
-        what: &'static str,
-        /// The legal values.
-        expected: &'static str,
-        /// The value.
-        found: f64,
-    },
+    #[error(transparent)]
+    Range(#[from] OutOfRange),
 }

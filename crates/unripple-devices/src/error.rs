@@ -1,4 +1,4 @@
-use unripple_core::DeviceError;
+use unripple_core::{DeviceError, OutOfRange};
 use unripple_physics::PhysicsError;
 
 /// What goes wrong with devices, beyond a block that does not pass ([`DeviceError`]).
@@ -11,15 +11,8 @@ pub enum DevicesError {
     #[error(transparent)]
     Device(#[from] DeviceError),
     /// A value is out of its range.
-    #[error("{what}: expected {expected}, found {found}")]
-    Range {
-        /// What the value is.
-        what: &'static str,
-        /// The legal values.
-        expected: String,
-        /// The value.
-        found: f64,
-    },
+    #[error(transparent)]
+    Range(#[from] OutOfRange),
     /// Sizes do not agree.
     #[error("{what}: expected {expected}, found {found}")]
     Size {
@@ -66,14 +59,6 @@ pub enum DevicesError {
         /// How to fix it.
         fix: String,
     },
-}
-
-/// A typed error unless a value is finite and legal.
-pub(crate) fn check(what: &'static str, found: f64, legal: bool, expected: &str) -> Result<(), DevicesError> {
-    if legal && found.is_finite() {
-        return Ok(());
-    }
-    Err(DevicesError::Range { what, expected: expected.to_owned(), found })
 }
 
 /// A typed error unless two counts agree.

@@ -1,7 +1,7 @@
 use crate::DevicesError;
 use crate::delay::{Delay, HALF};
-use crate::error::{check, same};
-use unripple_core::{Layout, Random};
+use crate::error::same;
+use unripple_core::{Layout, Random, require};
 
 /// What stands between a computer and a surface: converters, amplifiers and wires. The default is perfect.
 ///
@@ -59,13 +59,13 @@ impl Converter {
                 list.resize(count, default);
             }
             same(what, list.len(), count)?;
-            list.iter().try_for_each(|value| check(what, *value, true, "finite numbers"))?;
+            list.iter().try_for_each(|value| require(what, true, "finite numbers", *value))?;
         }
         let late = interface.latency;
         let whole = late.fract() == 0.0;
         let expected = format!("a whole number of samples up to 1e7, or at least {HALF}");
         let legal = (0.0..=1e7).contains(&late) && (whole || late >= HALF as f64);
-        check("latency of an interface in samples", late, legal, &expected)?;
+        require("latency of an interface in samples", legal, expected, late)?;
         let random = Random::seeded(interface.seed);
         Ok(Self { delay: Delay::new(inputs, late), random, interface })
     }

@@ -1,8 +1,7 @@
-use crate::error::check;
 use crate::{DevicesError, Interface};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
-use unripple_core::{Decay, Point, Profile, Random, Scatterer, ScattererKind, Surface};
+use unripple_core::{Decay, OutOfRange, Point, Profile, Random, Scatterer, ScattererKind, Surface, require};
 use unripple_physics::stepper::{Channel, Plant, StepperOptions, VirtualSurface};
 use unripple_physics::{Entry, Medium, Modes, PhysicsError, transducers};
 
@@ -97,12 +96,12 @@ impl Unknowns {
     /// # Errors
     /// [`DevicesError::Range`] for shares, distances, masses or factors that cannot be.
     pub fn truth(&self, surface: &Surface) -> Result<Truth, DevicesError> {
-        check("share by which tension varies", self.tension, (0.0..1.0).contains(&self.tension), "0 to 1")?;
-        check("error of gains", self.gain, self.gain >= 0.0, "0 or more")?;
-        check("misplacement of actuators in m", self.misplacement, self.misplacement >= 0.0, "0 or more")?;
-        check("signal-to-noise in dB", self.snr_db, true, "a finite number")?;
+        require("share by which tension varies", (0.0..1.0).contains(&self.tension), "0 to 1", self.tension)?;
+        require("error of gains", self.gain >= 0.0, "0 or more", self.gain)?;
+        require("misplacement of actuators in m", self.misplacement >= 0.0, "0 or more", self.misplacement)?;
+        require("signal-to-noise in dB", true, "a finite number", self.snr_db)?;
         for mass in self.masses.iter().chain([&self.actuator_mass]) {
-            check("stray mass in kg", *mass, *mass >= 0.0, "0 or more")?;
+            require("stray mass in kg", *mass >= 0.0, "0 or more", *mass)?;
         }
         let mut random = Random::seeded(self.seed);
         let mut truth = surface.clone();
@@ -158,11 +157,11 @@ impl Unknowns {
             *value = known * (1.0 + self.tension * *value / largest);
         }
         let rows: Vec<Vec<f64>> = values.chunks(NODES).map(<[f64]>::to_vec).collect();
-        Profile::new(&rows).ok_or(DevicesError::Range {
-            what: "tension over the surface",
-            expected: "finite numbers".into(),
-            found: f64::NAN,
-        })
+        Profile::new(&rows).ok_or(DevicesError::Range(OutOfRange::new(
+            "tension over the surface",
+            "finite numbers",
+            f64::NAN,
+        )))
     }
 
     /// The true decay times: the nominal law times the factor at each frequency, at as many of them as a straight line between asks for.
@@ -171,8 +170,8 @@ impl Unknowns {
         let mut nodes = Vec::new();
         let mut before = -1.0;
         for (share, factor) in &self.decay {
-            check("share of the band in a law of damping", *share, *share > before, "ascending, from 0")?;
-            check("factor of a decay time", *factor, *factor > 0.0, "a positive number")?;
+            require("share of the band in a law of damping", *share > before, "ascending, from 0", *share)?;
+            require("factor of a decay time", *factor > 0.0, "a positive number", *factor)?;
             before = *share;
             nodes.push(share * top);
         }

@@ -1,3 +1,5 @@
+use unripple_core::OutOfRange;
+
 /// Why a signal or a plan could not be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DspError {
@@ -12,13 +14,6 @@ pub enum DspError {
         found: usize,
     },
     /// A number is out of its range.
-    #[error("{what}: expected {expected}, found {found}")]
-    Range {
-        /// What the number is, with its unit.
-        what: &'static str,
-        /// The legal values.
-        expected: String,
-        /// The value.
-        found: f64,
-    },
+    #[error(transparent)]
+    Range(#[from] OutOfRange),
 }

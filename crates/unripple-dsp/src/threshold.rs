@@ -1,4 +1,5 @@
 use crate::DspError;
+use unripple_core::OutOfRange;
 
 /// Thresholds stay between these, in metres, however far a curve is continued.
 const LEAST: f64 = 1e-20;
@@ -60,7 +61,7 @@ impl Threshold {
     pub fn new(knots: Vec<[f64; 2]>) -> Result<Self, DspError> {
         let wrong = |what, expected: &str, found| {
             let expected = expected.to_owned();
-            Err(DspError::Range { what, expected, found })
+            Err(DspError::Range(OutOfRange::new(what, expected, found)))
         };
         if knots.is_empty() {
             return wrong("knots of a threshold", "at least 1", 0.0);
@@ -140,7 +141,7 @@ mod tests {
             vec![[10.0, 2.0]],
         ] {
             let error = Threshold::new(knots.clone()).unwrap_err();
-            assert!(matches!(error, DspError::Range { .. }), "{knots:?}");
+            assert!(matches!(error, DspError::Range(_)), "{knots:?}");
             assert!(error.to_string().contains("expected"), "{error}");
         }
     }

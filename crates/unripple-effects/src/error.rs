@@ -1,16 +1,11 @@
+use unripple_core::OutOfRange;
+
 /// Why a set of effects cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum EffectsError {
     /// A value is out of its range.
-    #[error("{what}: expected {expected}, found {found}")]
-    Range {
-        /// What the value is.
-        what: &'static str,
-        /// The legal values, in SI.
-        expected: String,
-        /// The value.
-        found: f64,
-    },
+    #[error(transparent)]
+    Range(#[from] OutOfRange),
     /// There are too many or too few of something.
     #[error("{what}: expected {expected}, found {found}")]
     Size {
@@ -62,7 +57,7 @@ pub(crate) fn within(
     if (least..=greatest).contains(&found) {
         return Ok(());
     }
-    Err(EffectsError::Range { what, expected: format!("a number from {least} to {greatest}"), found })
+    Err(EffectsError::Range(OutOfRange::new(what, format!("a number from {least} to {greatest}"), found)))
 }
 
 /// A typed error unless a count is within limits.

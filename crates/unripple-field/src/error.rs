@@ -1,4 +1,4 @@
-use unripple_core::{CoreError, Point};
+use unripple_core::{CoreError, OutOfRange, Point};
 
 /// Why a field could not be computed or measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -57,15 +57,8 @@ pub enum FieldError {
         why: &'static str,
     },
     /// A number is out of its range.
-    #[error("{what}: expected {expected}, found {found}")]
-    Range {
-        /// What the number is, with its unit.
-        what: &'static str,
-        /// The legal values.
-        expected: String,
-        /// The value.
-        found: f64,
-    },
+    #[error(transparent)]
+    Range(#[from] OutOfRange),
     /// A count is out of its range: of samples, points or cells.
     #[error("{what}: expected {expected}, found {found}")]
     Count {
@@ -79,14 +72,4 @@ pub enum FieldError {
     /// A value could not be made.
     #[error(transparent)]
     Core(#[from] CoreError),
-}
-
-/// Refuses a number outside `legal`.
-pub(crate) fn require(
-    what: &'static str,
-    legal: bool,
-    expected: impl Into<String>,
-    found: f64,
-) -> Result<(), FieldError> {
-    if legal { Ok(()) } else { Err(FieldError::Range { what, expected: expected.into(), found }) }
 }

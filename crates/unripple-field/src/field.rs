@@ -1,9 +1,8 @@
-use crate::error::require;
 use crate::modal::ModalField;
 use crate::sampled::SampledField;
 use crate::source::{Quantity, Source};
 use crate::{FieldError, Grid, Trace};
-use unripple_core::{Conditions, Drive, Point, Responses};
+use unripple_core::{Conditions, Drive, Point, Responses, require};
 use unripple_dsp::Threshold;
 
 /// Values that snapshots or traces may hold in all.

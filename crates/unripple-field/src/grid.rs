@@ -1,6 +1,5 @@
 use crate::FieldError;
-use crate::error::require;
-use unripple_core::{Conditions, Point};
+use unripple_core::{Conditions, Point, require};
 
 /// Most cells of a grid.
 const MOST_CELLS: f64 = 4e6;
@@ -103,7 +102,7 @@ mod tests {
     fn refuses_grids_without_end() {
         let flat = conditions(Shape::Rectangle { width: 0.15, height: 0.15 });
         for cells in [0.0, -8.0, f64::NAN, 1e9] {
-            assert!(matches!(Grid::new(&flat, cells), Err(FieldError::Range { .. })), "{cells}");
+            assert!(matches!(Grid::new(&flat, cells), Err(FieldError::Range(_))), "{cells}");
         }
         let zero = Conditions { lambda_min: 0.0, ..flat };
         assert!(Grid::new(&zero, 8.0).is_err());

@@ -1,12 +1,11 @@
 use crate::aim::{Resolved, last_period, segments};
-use crate::error::require;
 use crate::felt::{AllFelt, decibels, felt};
 use crate::figures::{DriveFigures, Maps, Measured, TakenOn, TargetFigures};
 use crate::source::{Quantity, Survey, Trace};
 use crate::{Aim, Field, FieldError, MeasureOptions, pulse};
 use rayon::prelude::*;
 use std::ops::Range;
-use unripple_core::{Drive, Point, Responses};
+use unripple_core::{Drive, Point, Responses, require};
 
 /// How good `drive` is at focusing on `aims` through `responses`: all figures, in velocity, in displacement and as felt.
 ///

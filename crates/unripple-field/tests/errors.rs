@@ -68,7 +68,7 @@ fn periods_and_grids_without_meaning() {
     let sent = drive(&film().modal(), vec![vec![1.0; 80]; 2]);
     for period in [0.0, -1.0, f64::NAN, 0.0101] {
         let options = MeasureOptions { period: Some(period), ..Default::default() };
-        assert!(matches!(refused(&sent, &[], &options), FieldError::Range { .. }), "{period}");
+        assert!(matches!(refused(&sent, &[], &options), FieldError::Range(_)), "{period}");
     }
     let options = MeasureOptions { period: Some(0.005), ..Default::default() };
     let early = refused(&sent, &[Aim::at(Point::new(0.05, 0.05), 0.004)], &options);
@@ -78,7 +78,7 @@ fn periods_and_grids_without_meaning() {
     );
     for cells in [0.0, f64::NAN, 1e7] {
         let options = MeasureOptions { cells, ..Default::default() };
-        assert!(matches!(refused(&sent, &[], &options), FieldError::Range { .. }), "{cells}");
+        assert!(matches!(refused(&sent, &[], &options), FieldError::Range(_)), "{cells}");
     }
     let responses = film().responses();
     let field = Field::new(&responses, &sent, 8.0).unwrap();

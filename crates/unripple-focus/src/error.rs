@@ -1,4 +1,4 @@
-use unripple_core::{CoreError, Point};
+use unripple_core::{CoreError, OutOfRange, Point};
 use unripple_dsp::DspError;
 
 /// Why no drive could be made.
@@ -42,15 +42,8 @@ pub enum FocusError {
         at: Point,
     },
     /// A number is out of its range.
-    #[error("{what}: expected {expected}, found {found}")]
-    Range {
-        /// What the number is, with its unit.
-        what: String,
-        /// The legal values.
-        expected: String,
-        /// The value.
-        found: f64,
-    },
+    #[error(transparent)]
+    Range(#[from] OutOfRange),
     /// A count is out of its range: of targets, points, actuators or samples.
     #[error("{what}: expected {expected}, found {found}")]
     Count {
@@ -100,18 +93,4 @@ pub enum FocusError {
     /// The responses do not fit together.
     #[error(transparent)]
     Dsp(#[from] DspError),
-}
-
-/// Refuses a number outside `legal`.
-pub(crate) fn require(
-    what: impl Into<String>,
-    legal: bool,
-    expected: impl Into<String>,
-    found: f64,
-) -> Result<(), FocusError> {
-    if legal {
-        Ok(())
-    } else {
-        Err(FocusError::Range { what: what.into(), expected: expected.into(), found })
-    }
 }

@@ -3,7 +3,7 @@ use crate::recording::{Recorder, Recording, energy, peak};
 use crate::schedule::{self, MOST_SAMPLES, Schedule};
 use crate::settle::settle;
 use crate::{FeltPlan, FocusError, LossCorrection, Method, Options, Target, Timing, target};
-use unripple_core::{Drive, Point, Responses, window_samples};
+use unripple_core::{Drive, Point, Responses, require, window_samples};
 
 /// Decay after which the past no longer matters to a repeated drive, in nepers: to 1/1000.
 const SETTLED: f64 = 6.9;
@@ -117,7 +117,7 @@ impl<'r> Focuser<'r> {
     /// As [`focus`]; [`FocusError::Range`] for a share that is no positive number.
     pub fn focus_at(&self, targets: &[Target], share: f64) -> Result<Focused, FocusError> {
         let positive = share.is_finite() && share > 0.0;
-        crate::error::require("share of the level at the limit", positive, "a positive number", share)?;
+        require("share of the level at the limit", positive, "a positive number", share)?;
         target::check(targets, &self.responses.conditions().outline)?;
         let schedule = self.schedule(targets)?;
         let mut channels = vec![vec![0.0; schedule.length]; self.responses.ports().len()];
@@ -242,7 +242,7 @@ impl<'r> Focuser<'r> {
         let limit = self.options.limit;
         let peak = channels.iter().map(|channel| peak(channel)).fold(0.0, f64::max);
         let usable = peak.is_finite() && peak > 0.0;
-        crate::error::require("peak of the unscaled drive", usable, "a positive finite number", peak)?;
+        require("peak of the unscaled drive", usable, "a positive finite number", peak)?;
         let power = self.options.rms_limit.is_some() || self.options.total_rms.is_some();
         let shape = |d: f64| match self.options.method {
             Method::OneBit if d == 0.0 => 0.0,

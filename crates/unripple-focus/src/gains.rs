@@ -1,8 +1,8 @@
 use crate::FocusError;
-use crate::error::require;
 use crate::recording::Recording;
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
+use unripple_core::{OutOfRange, require};
 
 /// Gains of reversed responses that bring every focus to its own level, whatever they do to each other.
 ///
@@ -40,7 +40,7 @@ pub(crate) fn gains(
     let wanted = Mat::from_fn(count, 1, |k, _| levels[k] * rate);
     let unreachable = || "foci far enough apart for their levels to differ, or a larger ridge".to_owned();
     let Ok(factors) = gram.llt(Side::Lower) else {
-        return Err(FocusError::Range { what: "ridge".to_owned(), expected: unreachable(), found: ridge });
+        return Err(FocusError::Range(OutOfRange::new("ridge", unreachable(), ridge)));
     };
     let found = factors.solve(&wanted);
     let gains: Vec<f64> = (0..count).map(|k| found[(k, 0)]).collect();

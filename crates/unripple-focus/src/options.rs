@@ -1,5 +1,5 @@
-use crate::error::require;
 use crate::{FeltOptions, FocusError};
+use unripple_core::require;
 
 /// How the drive is made from the reversed responses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

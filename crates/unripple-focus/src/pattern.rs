@@ -1,7 +1,6 @@
 use crate::FocusError;
-use crate::error::require;
 use std::f64::consts::PI;
-use unripple_core::Point;
+use unripple_core::{Point, require};
 
 /// Most points that a pattern is sampled into.
 const MOST_POINTS: usize = 100_000;
@@ -164,7 +163,7 @@ impl Pattern {
 
 fn within_bounds(found: f64) -> Result<(), FocusError> {
     let expected = format!("at most {MOST_POINTS}, by a larger pitch or a smaller pattern");
-    require("points of a pattern", found <= MOST_POINTS as f64, expected, found)
+    Ok(require("points of a pattern", found <= MOST_POINTS as f64, expected, found)?)
 }
 
 /// Points along a line: every run between corners in equal steps, corners and ends included.

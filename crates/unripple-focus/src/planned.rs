@@ -3,7 +3,7 @@ use crate::objective::{Levels, Objective};
 use crate::state::{Keeps, ModalPlant, Plant, ReducedPlant, SampledPlant, State};
 use crate::{FocusError, Method, Options, Target};
 use faer::Mat;
-use unripple_core::{Onset, Point, Responses};
+use unripple_core::{Onset, Point, Responses, require};
 
 /// Accuracy of drives that modes are summed to.
 const ACCURACY: f64 = 1e-9;
@@ -154,10 +154,5 @@ fn alike(one: &Responses, other: &Responses) -> Result<(), FocusError> {
         return Err(FocusError::Count { what: "actuators of another plant", expected, found });
     }
     let [expected, found] = [one, other].map(|responses| responses.conditions().rate);
-    crate::error::require(
-        "sample rate of another plant (Hz)",
-        expected == found,
-        format!("{expected}"),
-        found,
-    )
+    Ok(require("sample rate of another plant (Hz)", expected == found, format!("{expected}"), found)?)
 }

@@ -1,9 +1,8 @@
-use crate::error::require;
 use crate::gains::gains;
 use crate::recording::{Recorder, Recording};
 use crate::settle::settle;
 use crate::{FocusError, Options, Target, level, target};
-use unripple_core::{Drive, Point, Responses, window_samples};
+use unripple_core::{Drive, Point, Responses, require, window_samples};
 
 /// Decay, in nepers, after which the past no longer matters to a level: to 1/10 000.
 const FORGOTTEN: f64 = 9.2;

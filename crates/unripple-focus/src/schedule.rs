@@ -1,5 +1,5 @@
 use crate::FocusError;
-use crate::error::require;
+use unripple_core::require;
 
 /// Most samples of a drive over all channels.
 pub(crate) const MOST_SAMPLES: usize = 50_000_000;
@@ -131,7 +131,7 @@ fn last_focus(period: usize, common: usize, length: usize, window: usize) -> usi
 
 fn at_least(length: usize, least: usize, conditions: Conditions) -> Result<(), FocusError> {
     let seconds = |samples: usize| samples as f64 / conditions.rate;
-    require("duration (s)", length >= least, format!("at least {}", seconds(least)), seconds(length))
+    Ok(require("duration (s)", length >= least, format!("at least {}", seconds(least)), seconds(length))?)
 }
 
 fn at_most(length: usize, conditions: Conditions) -> Result<(), FocusError> {
@@ -209,7 +209,7 @@ mod tests {
     #[test]
     fn refuses_the_absurd() {
         for hz in [0.0, -1.0, f64::NAN, f64::INFINITY, 501.0, 1e-9] {
-            assert!(matches!(Schedule::plan(&[Some(hz)], CONDITIONS), Err(FocusError::Range { .. })), "{hz}");
+            assert!(matches!(Schedule::plan(&[Some(hz)], CONDITIONS), Err(FocusError::Range(_))), "{hz}");
         }
         let slow = Schedule::plan(&[Some(3e-5)], CONDITIONS).unwrap_err().to_string();
         assert!(slow.contains("at most 50000000 (2 channels of 25000 s)"), "{slow}");

@@ -1,6 +1,5 @@
-use crate::error::require;
 use crate::{FocusError, Pattern, Pulse};
-use unripple_core::{Point, Responses};
+use unripple_core::{Point, Responses, require};
 
 /// A focus that moves along a path: pulses at successive places, all at one level.
 ///

@@ -1,6 +1,5 @@
 use crate::FocusError;
-use crate::error::require;
-use unripple_core::{Outline, Point};
+use unripple_core::{Outline, Point, require};
 
 /// Most points over all targets.
 const MOST_POINTS: usize = 100_000;
@@ -66,7 +65,7 @@ pub(crate) fn check(targets: &[Target], outline: &Outline) -> Result<(), FocusEr
             target.gain,
         )?;
     }
-    require("gains", targets.iter().any(|t| t.gain != 0.0), "at least one that is not 0", 0.0)
+    Ok(require("gains", targets.iter().any(|t| t.gain != 0.0), "at least one that is not 0", 0.0)?)
 }
 
 #[cfg(test)]

@@ -1,3 +1,5 @@
+use unripple_core::OutOfRange;
+
 /// Why the physics of a surface could not be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -13,15 +15,8 @@ pub enum PhysicsError {
         found: String,
     },
     /// A value is out of its range.
-    #[error("{what}: expected {expected}, found {found}")]
-    Range {
-        /// What the value is.
-        what: String,
-        /// The legal values, the nearest among them.
-        expected: String,
-        /// The value.
-        found: f64,
-    },
+    #[error(transparent)]
+    Range(#[from] OutOfRange),
     /// The problem is too large for the memory it is allowed.
     #[error(
         "modes up to {max_hz} Hz: expected at most {limit_gib:.1} GiB, found {needed_gib:.1} GiB for {unknowns} unknowns; about {nearest_hz:.0} Hz fits"

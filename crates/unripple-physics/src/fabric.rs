@@ -1,8 +1,7 @@
 //! What a sheet is made of, place by place.
 
 use crate::PhysicsError;
-use crate::modes::check;
-use unripple_core::{Grain, Point, Profile, Scatterer, ScattererKind, Surface};
+use unripple_core::{Grain, Point, Profile, Scatterer, ScattererKind, Surface, require};
 
 /// What a sheet is at one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,13 +70,13 @@ impl Fabric {
         let (sheet, uneven) = (&surface.sheet, &surface.sheet.uneven);
         let range = |profile: &Option<Profile>, plain: f64| profile.as_ref().map_or(plain, |p| p.range().0);
         let (thinnest, slackest) = (range(&uneven.thickness, 1.0), range(&uneven.tension, 1.0));
-        check("thickness in m", sheet.thickness, sheet.thickness > 0.0, POSITIVE)?;
-        check("least factor of the thickness", thinnest, thinnest > 0.0, POSITIVE)?;
-        check("tension in N/m", sheet.tension, sheet.tension >= 0.0, NOT_NEGATIVE)?;
-        check("least factor of the tension", slackest, slackest >= 0.0, NOT_NEGATIVE)?;
+        require("thickness in m", sheet.thickness > 0.0, POSITIVE, sheet.thickness)?;
+        require("least factor of the thickness", thinnest > 0.0, POSITIVE, thinnest)?;
+        require("tension in N/m", sheet.tension >= 0.0, NOT_NEGATIVE, sheet.tension)?;
+        require("least factor of the tension", slackest >= 0.0, NOT_NEGATIVE, slackest)?;
         let mass = sheet.density * sheet.thickness;
         let lightest = mass * thinnest + range(&uneven.added_mass, 0.0);
-        check("least mass per area in kg/m²", lightest, lightest > 0.0, POSITIVE)?;
+        require("least mass per area in kg/m²", lightest > 0.0, POSITIVE, lightest)?;
         let moduli = moduli(sheet.young, sheet.poisson, uneven.grain)?;
         let layer = Layer { moduli, thickness: sheet.thickness };
         let nominal = Local { mass, tension: sheet.tension, bending: layer.bending() };
@@ -98,13 +97,13 @@ impl Fabric {
     fn fix(&mut self, scatterer: &Scatterer) -> Result<(), PhysicsError> {
         match scatterer.kind {
             ScattererKind::Mass(mass) => {
-                check("point mass in kg", mass, mass >= 0.0, NOT_NEGATIVE)?;
+                require("point mass in kg", mass >= 0.0, NOT_NEGATIVE, mass)?;
                 self.masses.push((scatterer.at, mass));
             }
             ScattererKind::Disc { radius, thickness, young, density, poisson } => {
-                check("radius of a disc in m", radius, radius > 0.0, POSITIVE)?;
-                check("thickness of a disc in m", thickness, thickness > 0.0, POSITIVE)?;
-                check("density of a disc in kg/m³", density, density >= 0.0, NOT_NEGATIVE)?;
+                require("radius of a disc in m", radius > 0.0, POSITIVE, radius)?;
+                require("thickness of a disc in m", thickness > 0.0, POSITIVE, thickness)?;
+                require("density of a disc in kg/m³", density >= 0.0, NOT_NEGATIVE, density)?;
                 let layer = Layer { moduli: moduli(young, poisson, None)?, thickness };
                 self.discs.push(Disc { at: scatterer.at, radius, mass: density * thickness, layer });
             }
@@ -182,18 +181,23 @@ impl Layer {
 /// Plane-stress moduli, turned to the grain's direction: Q11 = E1/(1 - ν12 ν21), Q12 = ν12 Q22, Q66 = G, and ν21 = ν12 E2/E1
 /// (Jones, *Mechanics of Composite Materials*, 1999, section 2.6).
 fn moduli(young: f64, poisson: f64, grain: Option<Grain>) -> Result<[f64; 6], PhysicsError> {
-    check("Young's modulus in Pa", young, young >= 0.0, NOT_NEGATIVE)?;
+    require("Young's modulus in Pa", young >= 0.0, NOT_NEGATIVE, young)?;
     let Some(grain) = grain else {
-        check("Poisson's ratio", poisson, poisson > -1.0 && poisson <= 0.5, POISSON)?;
+        require("Poisson's ratio", poisson > -1.0 && poisson <= 0.5, POISSON, poisson)?;
         let q = young / (1.0 - poisson * poisson);
         return Ok([q, poisson * q, 0.0, q, 0.0, young / (2.0 * (1.0 + poisson))]);
     };
-    check("Young's modulus along the grain in Pa", young, young > 0.0, POSITIVE)?;
-    check("Young's modulus across the grain in Pa", grain.young_across, grain.young_across > 0.0, POSITIVE)?;
-    check("shear modulus in Pa", grain.shear, grain.shear > 0.0, POSITIVE)?;
-    check("direction of the grain in rad", grain.direction, true, "a finite number")?;
+    require("Young's modulus along the grain in Pa", young > 0.0, POSITIVE, young)?;
+    require(
+        "Young's modulus across the grain in Pa",
+        grain.young_across > 0.0,
+        POSITIVE,
+        grain.young_across,
+    )?;
+    require("shear modulus in Pa", grain.shear > 0.0, POSITIVE, grain.shear)?;
+    require("direction of the grain in rad", true, "a finite number", grain.direction)?;
     let product = poisson * poisson * grain.young_across / young;
-    check("ν12 ν21 of a sheet with a grain", product, product < 1.0, "less than 1")?;
+    require("ν12 ν21 of a sheet with a grain", product < 1.0, "less than 1", product)?;
     let (q11, q22) = (young / (1.0 - product), grain.young_across / (1.0 - product));
     Ok(turned([q11, poisson * q22, 0.0, q22, 0.0, grain.shear], grain.direction))
 }

@@ -1,5 +1,5 @@
 use crate::damping::decay_rate;
-use crate::modes::{Modes, check};
+use crate::modes::Modes;
 use crate::{Footprint, Load, Loaded, Medium, PhysicsError, Transducer, transducers};
 use faer::{Mat, MatRef};
 use rayon::prelude::*;
@@ -7,6 +7,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use unripple_core::{
     Conditions, Contact, ModalResponses, Point, Pole, Port, Responses, SampledResponses, Shapes, Surface,
+    require,
 };
 use unripple_dsp::ModalSynth;
 
@@ -116,20 +117,20 @@ impl Asked {
     fn of(surface: &Surface, options: &ResponseOptions) -> Result<Self, PhysicsError> {
         let emission = &surface.emission;
         let [low, high] = emission.band;
-        check("sample rate in Hz", emission.rate, emission.rate > 0.0, "a positive number")?;
-        check("bottom of the band in Hz", low, low >= 0.0 && low < high, "0 or more, below the top")?;
-        check(
+        require("sample rate in Hz", emission.rate > 0.0, "a positive number", emission.rate)?;
+        require("bottom of the band in Hz", low >= 0.0 && low < high, "0 or more, below the top", low)?;
+        require(
             "top of the band in Hz",
-            high,
             high > low && high < emission.rate / 2.0,
             "less than half the sample rate",
+            high,
         )?;
         let transducers = transducers(surface)?;
         let fingers = fingers(surface, &options.contacts)?;
         let max_hz = options.max_hz.unwrap_or(high);
-        check("top frequency of the modes in Hz", max_hz, max_hz >= high, "at least the top of the band")?;
+        require("top frequency of the modes in Hz", max_hz >= high, "at least the top of the band", max_hz)?;
         let reach = options.reach;
-        check("reach of the modes that loads feel", reach, reach >= DYNAMIC, "at least 1.1")?;
+        require("reach of the modes that loads feel", reach >= DYNAMIC, "at least 1.1", reach)?;
         Ok(Self { transducers, fingers, max_hz, reach, accuracy: options.accuracy })
     }
 
@@ -200,7 +201,7 @@ fn fingers(surface: &Surface, contacts: &[Contact]) -> Result<Vec<Load>, Physics
             });
         }
         let radius = contact.finger.contact_radius;
-        check("contact radius of a finger in m", radius, radius >= 0.0, "0 or more")?;
+        require("contact radius of a finger in m", radius >= 0.0, "0 or more", radius)?;
         let load = Load::finger(contact, &surface.outline);
         load.check()?;
         Ok(load)

@@ -1,16 +1,11 @@
+use unripple_core::{OutOfRange, require};
+
 /// What cannot be prepared or set up.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PlayerError {
     /// A value is out of its range.
-    #[error("{what}: expected {expected}, found {found}")]
-    Range {
-        /// What the value is.
-        what: &'static str,
-        /// The legal values.
-        expected: String,
-        /// The value.
-        found: f64,
-    },
+    #[error(transparent)]
+    Range(#[from] OutOfRange),
     /// Sizes do not agree.
     #[error("{what}: expected {expected}, found {found}")]
     Size {
@@ -40,17 +35,9 @@ pub enum PlayerError {
 /// Largest magnitude of a sample that is taken: products of two still are far within float32.
 pub(crate) const HUGE: f32 = 1e12;
 
-/// A typed error unless a value is finite and legal.
-pub(crate) fn check(what: &'static str, found: f64, legal: bool, expected: &str) -> Result<(), PlayerError> {
-    if legal && found.is_finite() {
-        return Ok(());
-    }
-    Err(PlayerError::Range { what, expected: expected.to_owned(), found })
-}
-
 /// A typed error unless a count is within its bounds.
 pub(crate) fn count(what: &'static str, found: usize, least: usize, most: usize) -> Result<(), PlayerError> {
-    check(what, found as f64, (least..=most).contains(&found), &format!("{least} to {most}"))
+    Ok(require(what, (least..=most).contains(&found), format!("{least} to {most}"), found as f64)?)
 }
 
 /// A typed error unless two counts agree.

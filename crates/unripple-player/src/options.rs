@@ -1,5 +1,6 @@
 use crate::PlayerError;
-use crate::error::{check, count, same};
+use crate::error::{count, same};
+use unripple_core::require;
 
 /// What a player is made for; all of it is allocated once.
 #[derive(Clone, Debug, PartialEq)]
@@ -111,7 +112,7 @@ impl Options {
     pub fn check(&self) -> Result<(), PlayerError> {
         count("outputs", self.outputs, 1, 4096)?;
         count("samples of a block", self.block, 8, 8192)?;
-        check("sample rate", self.rate, self.rate > 0.0, "a positive number")?;
+        require("sample rate", self.rate > 0.0, "a positive number", self.rate)?;
         count("voices", self.voices, 1, MOST)?;
         count("copies", self.copies, 1, MOST)?;
         count("samples of the longest drive", self.longest, 1, 1 << 24)?;
@@ -128,10 +129,10 @@ impl Options {
 impl Limit {
     fn check(&self) -> Result<(), PlayerError> {
         let peak = f64::from(self.peak as f32);
-        check("peak limit", self.peak, peak > 0.0 && peak <= 1e12, "above 0, at most 1e12")?;
+        require("peak limit", peak > 0.0 && peak <= 1e12, "above 0, at most 1e12", self.peak)?;
         for running in [self.rms, self.thermal].into_iter().flatten() {
-            check("rms limit", running.level, running.level > 0.0, "a positive number")?;
-            check("time of an rms limit", running.seconds, running.seconds > 0.0, "seconds above 0")?;
+            require("rms limit", running.level > 0.0, "a positive number", running.level)?;
+            require("time of an rms limit", running.seconds > 0.0, "seconds above 0", running.seconds)?;
         }
         Ok(())
     }
@@ -144,6 +145,6 @@ impl WaveOptions {
         count("samples of an input's ring", self.feed, 1, 1 << 24)?;
         count("waveforms", self.sounds, 1, MOST)?;
         let legal = self.band_top_hz > 0.0 && self.band_top_hz <= rate / 2.0;
-        check("top of the band", self.band_top_hz, legal, "above 0, at most half the sample rate")
+        Ok(require("top of the band", legal, "above 0, at most half the sample rate", self.band_top_hz)?)
     }
 }

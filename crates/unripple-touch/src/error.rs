@@ -1,3 +1,5 @@
+use unripple_core::OutOfRange;
+
 /// What goes wrong when a source of touches is opened. Once open, a source counts what it refuses: see [`Counts`](crate::Counts).
 #[derive(Debug, thiserror::Error)]
 pub enum TouchError {
@@ -12,15 +14,8 @@ pub enum TouchError {
         fix: &'static str,
     },
     /// A value is out of its range.
-    #[error("{what}: expected {expected}, found {found}")]
-    Range {
-        /// What the value is.
-        what: &'static str,
-        /// The legal values.
-        expected: &'static str,
-        /// The value.
-        found: f64,
-    },
+    #[error(transparent)]
+    Range(#[from] OutOfRange),
     /// A line of a recording is not what it should be.
     #[error("line {line}: {what}")]
     Line {
@@ -43,17 +38,4 @@ impl TouchError {
     pub(crate) fn io(what: impl Into<String>, error: std::io::Error, fix: &'static str) -> Self {
         Self::Io { what: what.into(), error, fix }
     }
-}
-
-/// A typed error unless a value is finite and legal.
-pub(crate) fn check(
-    what: &'static str,
-    found: f64,
-    legal: bool,
-    expected: &'static str,
-) -> Result<(), TouchError> {
-    if legal && found.is_finite() {
-        return Ok(());
-    }
-    Err(TouchError::Range { what, expected, found })
 }

@@ -1,5 +1,5 @@
-use crate::error::{TouchError, check};
-use unripple_core::{Outline, Point};
+use crate::error::TouchError;
+use unripple_core::{Outline, Point, require};
 
 /// Where the corners of a sensor lie on the surface.
 ///
@@ -48,10 +48,10 @@ impl Mapping {
 
     pub(crate) fn check(&self) -> Result<(), TouchError> {
         let (width, height) = self.size;
-        check("width of the sensor, m", width, width > 0.0, "more than 0")?;
-        check("height of the sensor, m", height, height > 0.0, "more than 0")?;
-        check("left edge of the sensor, m", self.offset.x, true, "a finite number")?;
-        check("lower edge of the sensor, m", self.offset.y, true, "a finite number")
+        require("width of the sensor, m", width > 0.0, "more than 0", width)?;
+        require("height of the sensor, m", height > 0.0, "more than 0", height)?;
+        require("left edge of the sensor, m", true, "a finite number", self.offset.x)?;
+        Ok(require("lower edge of the sensor, m", true, "a finite number", self.offset.y)?)
     }
 }
 

@@ -1,6 +1,6 @@
-use crate::error::{TouchError, check};
+use crate::error::TouchError;
 use crate::mapping::Mapping;
-use unripple_core::Outline;
+use unripple_core::{Outline, require};
 
 /// What a source of touches must know, and how much it takes.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,18 +30,18 @@ impl Options {
     /// A typed error for the first value that cannot be.
     pub fn check(&self) -> Result<(), TouchError> {
         self.mapping.check()?;
-        check("time-out, s", self.timeout, (0.05..=3600.0).contains(&self.timeout), "0.05 to 3600")?;
+        require("time-out, s", (0.05..=3600.0).contains(&self.timeout), "0.05 to 3600", self.timeout)?;
         let counted = |n: usize| (1..=1024).contains(&n);
-        check("fingers at once", self.most as f64, counted(self.most), "1 to 1024")?;
+        require("fingers at once", counted(self.most), "1 to 1024", self.most as f64)?;
         let each = self.most_per_sender;
-        check("fingers at once from one sender", each as f64, counted(each), "1 to 1024")?;
+        require("fingers at once from one sender", counted(each), "1 to 1024", each as f64)?;
         let force = self.full_force.unwrap_or(1.0);
-        check(
+        Ok(require(
             "force of full pressure, N",
-            force,
             force > 0.0 && force <= MOST_FORCE,
             "more than 0, at most 100",
-        )
+            force,
+        )?)
     }
 }
 

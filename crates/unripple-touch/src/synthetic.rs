@@ -1,7 +1,6 @@
-use crate::error::check;
 use crate::{Counts, Heard, Source, TouchError};
 use std::f64::consts::{PI, TAU};
-use unripple_core::{Outline, Phase, Point, Random, Touch};
+use unripple_core::{OutOfRange, Outline, Phase, Point, Random, Touch, require};
 
 /// Places looked at to find one on the surface.
 const TRIALS: usize = 1000;
@@ -82,15 +81,15 @@ impl Synthetic {
     /// Fingers on a surface.
     pub fn new(surface: &Outline, options: SyntheticOptions) -> Result<Self, TouchError> {
         let SyntheticOptions { fingers, seed, margin, rate, speed } = options;
-        check("synthetic fingers", fingers as f64, (1..=64).contains(&fingers), "1 to 64")?;
-        check("margin of synthetic fingers, m", margin, margin >= 0.0, "at least 0")?;
-        check("rate of synthetic fingers, Hz", rate, (1.0..=10e3).contains(&rate), "1 to 10000")?;
-        check("least speed of synthetic fingers, m/s", speed.0, speed.0 >= 0.0, "at least 0")?;
-        check(
+        require("synthetic fingers", (1..=64).contains(&fingers), "1 to 64", fingers as f64)?;
+        require("margin of synthetic fingers, m", margin >= 0.0, "at least 0", margin)?;
+        require("rate of synthetic fingers, Hz", (1.0..=10e3).contains(&rate), "1 to 10000", rate)?;
+        require("least speed of synthetic fingers, m/s", speed.0 >= 0.0, "at least 0", speed.0)?;
+        require(
             "most speed of synthetic fingers, m/s",
-            speed.1,
             speed.1 >= speed.0,
             "at least the least speed",
+            speed.1,
         )?;
         let hands = (0..fingers as u64).map(|i| Hand::new(seed, i, rate)).collect();
         let surface = surface.clone();
@@ -98,11 +97,11 @@ impl Synthetic {
         let all = Self { surface, options, hands, start, step: 0, given: 0, counts };
         if all.place(&mut Random::seeded(seed)).is_none() {
             let expected = "a margin that leaves room on the surface";
-            return Err(TouchError::Range {
-                what: "margin of synthetic fingers, m",
+            return Err(TouchError::Range(OutOfRange::new(
+                "margin of synthetic fingers, m",
                 expected,
-                found: margin,
-            });
+                margin,
+            )));
         }
         Ok(all)
     }

@@ -5,7 +5,9 @@ use crate::rig::{CELLS, Cells, Instrument, PULSES};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
-use unripple::core::{Actuator, ActuatorKind, Decay, Edge, Edges, FOCAL_RADIUS, MATERIALS, Outline, Point, Shape, Surface};
+use unripple::core::{
+    Actuator, ActuatorKind, Decay, Edge, Edges, FOCAL_RADIUS, MATERIALS, Outline, Point, Shape, Surface,
+};
 use unripple::focus::Method;
 use unripple::physics::Medium;
 use unripple_store::{builtin_effects, to_toml};

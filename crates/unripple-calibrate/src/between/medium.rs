@@ -2,8 +2,8 @@ use super::bessel::Bessel;
 use super::options::BetweenOptions;
 use super::spectra::Spectra;
 use crate::CalibrateError;
-use crate::error::require;
 use std::f64::consts::TAU;
+use unripple_core::require;
 
 /// Stray waves have any wavenumber up to this multiple of the one told.
 const STRAY: f64 = 1.5;

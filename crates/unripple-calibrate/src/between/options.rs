@@ -1,5 +1,5 @@
 use crate::CalibrateError;
-use crate::error::require;
+use unripple_core::require;
 
 /// How responses between the points are made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -73,6 +73,6 @@ impl BetweenOptions {
         require("share of stray waves", share(self.stray), "0 to 1", self.stray)?;
         require("top over the band's", (1.0..=10.0).contains(&self.top), "1 to 10", self.top)?;
         let most = self.most as f64;
-        require("points solved together", (4..=5000).contains(&self.most), "4 to 5000", most)
+        Ok(require("points solved together", (4..=5000).contains(&self.most), "4 to 5000", most)?)
     }
 }

@@ -4,7 +4,7 @@ use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use std::f64::consts::PI;
 use std::sync::Arc;
-use unripple_core::SampledResponses;
+use unripple_core::{SampledResponses, require};
 
 /// Turns responses into real spectra and back.
 ///
@@ -141,7 +141,7 @@ fn mean_square(responses: &SampledResponses) -> Result<f64, CalibrateError> {
         .collect();
     if let Some(row) = squares.iter().position(|square| !square.is_finite()) {
         let what = format!("response of point {} to actuator {}", row / actuators + 1, row % actuators + 1);
-        crate::error::require(what, false, "finite samples", squares[row])?;
+        require(what, false, "finite samples", squares[row])?;
     }
     Ok(squares.iter().sum::<f64>() / (squares.len() * responses.samples()) as f64)
 }
@@ -159,11 +159,11 @@ fn check(responses: &SampledResponses) -> Result<(), CalibrateError> {
     }
     if let Some(index) = responses.points.iter().position(|point| !point.is_finite()) {
         let found = responses.points[index].x + responses.points[index].y;
-        crate::error::require(format!("point {} (m)", index + 1), false, "finite coordinates", found)?;
+        require(format!("point {} (m)", index + 1), false, "finite coordinates", found)?;
     }
     let (rate, band) = (responses.conditions.rate, responses.conditions.band);
     let positive = |x: f64| x.is_finite() && x > 0.0;
-    crate::error::require("sample rate (Hz)", positive(rate), "a positive number", rate)?;
+    require("sample rate (Hz)", positive(rate), "a positive number", rate)?;
     let below = positive(band[1]) && band[1] <= rate / 2.0;
-    crate::error::require("top of the band (Hz)", below, "more than 0, at most half the sample rate", band[1])
+    Ok(require("top of the band (Hz)", below, "more than 0, at most half the sample rate", band[1])?)
 }

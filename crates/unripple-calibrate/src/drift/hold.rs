@@ -1,6 +1,5 @@
 use crate::CalibrateError;
-use crate::error::require;
-use unripple_core::{ModalResponses, Point};
+use unripple_core::{ModalResponses, Point, require};
 use unripple_physics::sample;
 
 /// Holds the peak of a focus at one level while tension changes.

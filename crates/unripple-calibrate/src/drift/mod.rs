@@ -12,7 +12,7 @@ pub use tracker::Tracker;
 pub use warp::Warp;
 
 use crate::CalibrateError;
-use crate::error::require;
+use unripple_core::require;
 
 /// How tension is followed.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,7 +49,7 @@ impl Tracking {
         for (what, value) in positive {
             require(what, value > 0.0 && value.is_finite(), "a positive number", value)?;
         }
-        require("error of the model", (0.0..1.0).contains(&self.model), "between 0 and 1", self.model)
+        Ok(require("error of the model", (0.0..1.0).contains(&self.model), "between 0 and 1", self.model)?)
     }
 }
 

@@ -1,9 +1,8 @@
 use crate::CalibrateError;
-use crate::error::require;
 use faer::Mat;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
-use unripple_core::{ModalResponses, Outline, Point};
+use unripple_core::{ModalResponses, Outline, Point, require};
 use unripple_dsp::{Threshold, Weighting};
 
 /// Points looked at for each shortest wavelength.

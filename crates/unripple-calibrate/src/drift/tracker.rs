@@ -2,9 +2,8 @@ use super::run::{Course, Instants, Motion, Sheet};
 use super::warp::warped;
 use super::{Drift, Tracking};
 use crate::CalibrateError;
-use crate::error::require;
 use faer::Mat;
-use unripple_core::ModalResponses;
+use unripple_core::{ModalResponses, require};
 
 /// Tension's change by which slopes are taken.
 const SMALL: f64 = 1e-5;

@@ -1,6 +1,6 @@
 use super::Fitted;
 use crate::CalibrateError;
-use unripple_core::{Point, SampledResponses};
+use unripple_core::{Point, SampledResponses, require};
 use unripple_physics::sample;
 
 /// Reach of a measured point's correction, in shortest wavelengths: half of what a standing wave keeps its sign over.
@@ -52,7 +52,7 @@ impl Fitted {
             return Err(CalibrateError::Count { what: "actuators of measured responses", expected, found });
         }
         let (rate, own) = (measured.conditions.rate, model.conditions.rate);
-        crate::error::require("sample rate of measured responses in Hz", rate == own, "the model's", rate)?;
+        require("sample rate of measured responses in Hz", rate == own, "the model's", rate)?;
         let samples = measured.samples();
         let (known, wanted) = (self.sampled(&measured.points, samples)?, self.sampled(points, samples)?);
         let reach = REACH * model.conditions.lambda_min;

@@ -1,6 +1,5 @@
 use crate::CalibrateError;
-use crate::error::require;
-use unripple_core::{Point, Surface};
+use unripple_core::{Point, Surface, require};
 use unripple_dsp::Band;
 
 /// Least noise of responses over themselves: what models of a band's edges and a device's latency are good for.
@@ -162,6 +161,6 @@ impl Measured {
     }
 }
 
-fn positive(what: &str, found: f64) -> Result<(), CalibrateError> {
-    require(what, found > 0.0 && found.is_finite(), "a positive number", found)
+fn positive(what: &'static str, found: f64) -> Result<(), CalibrateError> {
+    Ok(require(what, found > 0.0 && found.is_finite(), "a positive number", found)?)
 }

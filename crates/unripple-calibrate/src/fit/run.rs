@@ -7,9 +7,8 @@ use super::residual::Case;
 use super::solve::Found;
 use super::spectra::Spectra;
 use crate::CalibrateError;
-use crate::error::require;
 use std::f64::consts::TAU;
-use unripple_core::{Decay, Point, Surface};
+use unripple_core::{Decay, Point, Surface, require};
 use unripple_physics::{Medium, Transducer};
 
 /// How a model is fitted.

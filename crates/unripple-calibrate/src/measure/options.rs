@@ -1,7 +1,6 @@
 use super::{Channel, Knocked};
 use crate::CalibrateError;
-use crate::error::require;
-use unripple_core::{Layout, ModalResponses, Surface};
+use unripple_core::{Layout, ModalResponses, Surface, require};
 use unripple_dsp::{Quality, Sweep};
 
 /// Decay time of amplitude, in s, that the default sweep, ringing and response are for: they are 7, 5 and 1.4 times as long.

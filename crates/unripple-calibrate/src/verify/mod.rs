@@ -13,7 +13,6 @@ mod words;
 pub use verdict::{Checked, Doubted, PointVerdict, Verified, VerifyOptions};
 
 use crate::CalibrateError;
-use crate::error::require;
 use crate::fit::{Fitted, Measured};
 use checker::Projected;
 use judge::{Bench, Judged, Kind};
@@ -21,7 +20,7 @@ use quick::Quick;
 use rayon::prelude::*;
 use sheet::Sheet;
 use std::f64::consts::TAU;
-use unripple_core::{SampledResponses, Surface};
+use unripple_core::{SampledResponses, Surface, require};
 use unripple_physics::Medium;
 
 /// Holds each probed response against a model at its place, its gain, sign and delay free.
@@ -100,7 +99,7 @@ fn together(surface: &Surface, measured: &Measured, probed: &SampledResponses) -
         return Err(CalibrateError::Count { what, expected: expected.to_string(), found });
     }
     let rate = probed.conditions.rate;
-    require("sample rate of the probed responses in Hz", rate == measured.rate, "the sensors'", rate)
+    Ok(require("sample rate of the probed responses in Hz", rate == measured.rate, "the sensors'", rate)?)
 }
 
 /// The check against a model, or why there is none.

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use std::f64::consts::PI;
 use unripple::core::{FOCAL_RADIUS, Surface};
 use unripple::physics::Medium;
-use unripple::physics::design::{ACTUATORS, Cavity, closed};
+use unripple::physics::design::{ACTUATORS, Cavity};
 use unripple::study::{
     self, Bench, CELLS, Sampling, StudyError, against_band, against_noise, against_window,
 };

@@ -2,11 +2,11 @@ use super::crossing::{Events, crossing};
 use super::ferry::{Ferry, Manners};
 use super::streams::{self, Running, Side};
 use crate::DevicesError;
-use crate::error::{check, same};
+use crate::error::same;
 use cpal::traits::StreamTrait;
 use std::sync::Arc;
 use std::time::Duration;
-use unripple_core::{Device, DeviceError, Layout, Status};
+use unripple_core::{Device, DeviceError, Layout, Status, require};
 
 /// Frames that the rings hold at least, should the card take many at once.
 const ROOM: usize = 65_536;
@@ -104,14 +104,14 @@ impl Card {
     /// options that cannot be.
     pub fn open(options: &CardOptions) -> Result<Self, DevicesError> {
         let (block, lead) = (options.block as f64, options.lead as f64);
-        check("samples of a block", block, (1.0..=65_536.0).contains(&block), "1 to 65536")?;
-        check("blocks of lead", lead, (1.0..=1000.0).contains(&lead), "1 to 1000")?;
+        require("samples of a block", (1.0..=65_536.0).contains(&block), "1 to 65536", block)?;
+        require("blocks of lead", (1.0..=1000.0).contains(&lead), "1 to 1000", lead)?;
         let legal = (1e-3..=3600.0).contains(&options.patience);
-        check("patience with a card in s", options.patience, legal, "0.001 to 3600")?;
+        require("patience with a card in s", legal, "0.001 to 3600", options.patience)?;
         let (scale, rate) = (options.full_scale, options.rate);
-        check("full scale of the drive", scale, scale > 0.0, "a positive number")?;
+        require("full scale of the drive", scale > 0.0, "a positive number", scale)?;
         let whole = rate.fract() == 0.0 && (1.0..=1e6).contains(&rate);
-        check("samples per second of a card", rate, whole, "a whole number, 1 to 1000000")?;
+        require("samples per second of a card", whole, "a whole number, 1 to 1000000", rate)?;
         same("outputs of a card", options.outputs.len().min(1), 1)?;
 
         let events = Arc::new(Events::default());

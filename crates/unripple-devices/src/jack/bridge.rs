@@ -2,7 +2,7 @@ use super::library::{Client, Cycle, Process};
 use crate::DevicesError;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
-use unripple_core::Device;
+use unripple_core::{Device, require};
 
 /// A device run as a client of a JACK server: what a virtual surface is to others, as a sound card with the surface on it would
 /// be. For tests, and for trying things.
@@ -39,7 +39,7 @@ impl Bridge {
         crate::error::same("samples of a block, against the server's period", layout.block, client.period())?;
         let rate = client.rate();
         let expected = format!("{rate}, the server's");
-        crate::error::check("sample rate in Hz", layout.rate, layout.rate == rate, &expected)?;
+        require("sample rate in Hz", layout.rate == rate, expected, layout.rate)?;
         layout.outputs.iter().try_for_each(|name| client.add(&format!("in_{name}"), true))?;
         layout.inputs.iter().try_for_each(|name| client.add(&format!("out_{name}"), false))?;
         let faults = Arc::new(AtomicU64::new(0));

@@ -3,11 +3,10 @@ use super::library::Client;
 use super::links::{Links, OWN, wires};
 use super::watch::{Pace, Watch};
 use crate::DevicesError;
-use crate::error::check;
 use std::sync::atomic::Ordering;
 use std::thread::ThreadId;
 use std::time::{Duration, Instant};
-use unripple_core::{Device, DeviceError, Layout, Server, State, Status, TEND, Work};
+use unripple_core::{Device, DeviceError, Layout, Server, State, Status, TEND, Work, require};
 
 /// Frames that the rings hold at least, should the server's period grow.
 const ROOM: usize = 32768;
@@ -114,11 +113,11 @@ impl Jack {
     /// [`DevicesError::Channels`] for fewer ports than channels; [`DevicesError::Range`] for options that cannot be.
     pub fn open(options: &JackOptions) -> Result<Self, DevicesError> {
         let lead = options.lead as f64;
-        check("blocks of lead", lead, (1.0..=1000.0).contains(&lead), "1 to 1000")?;
+        require("blocks of lead", (1.0..=1000.0).contains(&lead), "1 to 1000", lead)?;
         let legal = (1e-3..=3600.0).contains(&options.patience);
-        check("patience with a server in s", options.patience, legal, "0.001 to 3600")?;
+        require("patience with a server in s", legal, "0.001 to 3600", options.patience)?;
         let scale = options.full_scale;
-        check("full scale of the drive", scale, scale > 0.0, "a positive number")?;
+        require("full scale of the drive", scale > 0.0, "a positive number", scale)?;
         let mut client = Client::open(&options.client, options.server.as_deref())?;
         let wires = wires(&client, options)?;
         options.outputs.iter().try_for_each(|name| client.add(&format!("out_{name}"), false))?;

@@ -1,9 +1,8 @@
 use super::lock;
 use super::workings::Workings;
-use crate::error::check;
 use crate::{DevicesError, Tap};
 use std::sync::{Arc, Mutex};
-use unripple_core::{Contact, Point};
+use unripple_core::{Contact, Point, require};
 use unripple_physics::stepper::{FingerMotion, History, Plant};
 
 /// Reaches a virtual surface while its device is in other hands: moves the probe, taps, and puts fingers on it. What it
@@ -55,7 +54,7 @@ impl Handle {
     pub fn move_watched(&self, places: &[Point]) -> Result<(), DevicesError> {
         let mut workings = lock(&self.workings);
         let (most, found) = (workings.watch.places(), places.len());
-        check("places that are watched", found as f64, found == most, &format!("{most}, as before"))?;
+        require("places that are watched", found == most, format!("{most}, as before"), found as f64)?;
         workings.move_watched(places)
     }
 
@@ -90,7 +89,7 @@ impl Handle {
     /// [`DevicesError::Taps`] if more taps would fall into one block than the device was made for, [`DevicesError::Range`]
     /// for a time that is negative or beyond a day, [`DevicesError::Physics`] for a place that is not finite.
     pub fn tap(&self, tap: &Tap, at: Point, after: f64) -> Result<(), DevicesError> {
-        check("time until a tap in s", after, (0.0..=86_400.0).contains(&after), "between 0 and 86400")?;
+        require("time until a tap in s", (0.0..=86_400.0).contains(&after), "between 0 and 86400", after)?;
         let mut workings = lock(&self.workings);
         let surface = workings.surface.surface();
         let footing = surface.plant().footing(at, 0.0)?;

@@ -10,7 +10,7 @@ use crate::interface::Converter;
 use crate::{DevicesError, Interface, Truth};
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::{Duration, Instant};
-use unripple_core::{Device, DeviceError, Layout, PROBE, Point, State, Status, Surface};
+use unripple_core::{Device, DeviceError, Layout, PROBE, Point, State, Status, Surface, require};
 use unripple_physics::stepper::{
     Channel, Misbehaving, Mishaps, Plant, Reading, StepperOptions, VirtualSurface,
 };
@@ -132,13 +132,8 @@ impl Virtual {
         options: &VirtualOptions,
     ) -> Result<Self, DevicesError> {
         let (block, taps) = (options.block as f64, options.taps as f64);
-        crate::error::check(
-            "samples of a block",
-            block,
-            (1.0..=1e6).contains(&block),
-            "between 1 and 1000000",
-        )?;
-        crate::error::check("taps at once", taps, taps <= 64.0, "at most 64")?;
+        require("samples of a block", (1.0..=1e6).contains(&block), "between 1 and 1000000", block)?;
+        require("taps at once", taps <= 64.0, "at most 64", taps)?;
         let plant = Plant::bearing(surface, modes, surface.emission.rate)?;
         let (width, height) = surface.outline.extent();
         let place = options.probe.unwrap_or(Point::new(width / 2.0, height / 2.0));

@@ -1,7 +1,7 @@
 use super::WiringOptions;
 use crate::DevicesError;
-use crate::error::{check, same};
-use unripple_core::{ModalResponses, Point, Surface};
+use crate::error::same;
+use unripple_core::{ModalResponses, Point, Surface, require};
 use unripple_physics::{Sensor, sensed, sensors};
 
 /// Decay times from burst to burst, the share of a burst's frequency whose decay counts, and the longest pause, in s.
@@ -49,9 +49,9 @@ impl Expected {
             same("inputs in a row of expected responses", row.len(), inputs)?;
             for response in row {
                 same("samples of an expected response", response.len(), samples)?;
-                response
-                    .iter()
-                    .try_for_each(|h| check("sample of an expected response", *h, true, "a finite number"))?;
+                for h in response {
+                    require("sample of an expected response", true, "a finite number", *h)?;
+                }
             }
         }
         Ok(Self { outputs, inputs, samples, data: responses.concat().concat() })

@@ -11,11 +11,11 @@ pub use reciprocal::{Reciprocal, reciprocal};
 pub use report::{Lead, WiringReport};
 
 use crate::DevicesError;
-use crate::error::{check, same};
+use crate::error::same;
 use likeness::{Likeness, Routes, routes, signs};
 use report::leads;
 use take::{Takes, record};
-use unripple_core::{Device, Layout};
+use unripple_core::{Device, Layout, require};
 
 /// How wires are tried.
 ///
@@ -63,19 +63,19 @@ impl WiringOptions {
 
     fn check(&self, rate: f64) -> Result<(), DevicesError> {
         let in_band = self.frequency > 0.0 && self.frequency < rate / 2.0;
-        check("frequency of a burst in Hz", self.frequency, in_band, "positive, below half the rate")?;
-        check("periods of a burst", self.cycles, (0.5..=100.0).contains(&self.cycles), "0.5 to 100")?;
-        check("level of a burst", self.level, self.level > 0.0 && self.level <= 1.0, "above 0, at most 1")?;
+        require("frequency of a burst in Hz", in_band, "positive, below half the rate", self.frequency)?;
+        require("periods of a burst", (0.5..=100.0).contains(&self.cycles), "0.5 to 100", self.cycles)?;
+        require("level of a burst", self.level > 0.0 && self.level <= 1.0, "above 0, at most 1", self.level)?;
         for (what, time) in [
             ("time to listen in s", self.listen),
             ("longest latency in s", self.max_latency),
             ("pause in s", self.pause),
         ] {
-            check(what, time, (0.0..=10.0).contains(&time), "0 to 10")?;
+            require(what, (0.0..=10.0).contains(&time), "0 to 10", time)?;
         }
-        check("time to listen in samples", self.listen * rate, self.listen * rate >= 2.0, "2 or more")?;
+        require("time to listen in samples", self.listen * rate >= 2.0, "2 or more", self.listen * rate)?;
         let least = self.least_likeness;
-        check("least likeness", least, (0.0..=1.0).contains(&least), "0 to 1")
+        Ok(require("least likeness", (0.0..=1.0).contains(&least), "0 to 1", least)?)
     }
 }
 

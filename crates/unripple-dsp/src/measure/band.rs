@@ -1,6 +1,7 @@
 use super::transform::Transform;
 use crate::DspError;
 use std::f64::consts::FRAC_PI_2;
+use unripple_core::OutOfRange;
 
 /// A band of frequencies with soft edges: nothing below `low[0]` and above `high[1]`, all between `low[1]` and
 /// `high[0]`, and squared sines between. In Hz.
@@ -73,11 +74,11 @@ impl Band {
         let edges = [0.0, self.low[0], self.low[1], self.high[0], self.high[1]];
         match edges.windows(2).find(|pair| pair[0].is_nan() || pair[1].is_nan() || pair[1] < pair[0]) {
             None => Ok(()),
-            Some(pair) => Err(DspError::Range {
-                what: "edge of a band in Hz",
-                expected: format!("at least the edge before it, {}", pair[0]),
-                found: pair[1],
-            }),
+            Some(pair) => Err(DspError::Range(OutOfRange::new(
+                "edge of a band in Hz",
+                format!("at least the edge before it, {}", pair[0]),
+                pair[1],
+            ))),
         }
     }
 }

@@ -5,6 +5,7 @@ use crate::DspError;
 use rayon::prelude::*;
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
+use unripple_core::OutOfRange;
 
 /// How responses are made of what was heard.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,7 +95,7 @@ impl Deconvolver {
             [("regularisation", inversion.regularisation), ("latency in samples", inversion.latency.abs())]
         {
             if !(found >= 0.0 && found.is_finite()) {
-                return Err(DspError::Range { what, expected: "finite, not negative".into(), found });
+                return Err(DspError::Range(OutOfRange::new(what, "finite, not negative", found)));
             }
         }
         let weights: Vec<f64> = (0..lines.len()).map(|line| band.weight(plan.hz(line, rate))).collect();

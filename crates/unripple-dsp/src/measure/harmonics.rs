@@ -2,6 +2,7 @@ use super::cut::cut;
 use super::transform::Transform;
 use super::{Band, Gate, Sweep, positive, same, shift};
 use crate::DspError;
+use unripple_core::OutOfRange;
 
 /// How the harmonics of a sweep are told apart in a whole deconvolution.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,11 +86,11 @@ impl Harmonics {
         let flat = [band.low[1].max(sweep.from * EDGE), band.high[0].min(sweep.to / EDGE)];
         let most = (flat[1] / flat[0]).ceil() - 1.0;
         if split.highest_order < 2 || split.highest_order as f64 > most {
-            return Err(DspError::Range {
-                what: "highest order of harmonics",
-                expected: format!("2 to {most}"),
-                found: split.highest_order as f64,
-            });
+            return Err(DspError::Range(OutOfRange::new(
+                "highest order of harmonics",
+                format!("2 to {most}"),
+                split.highest_order as f64,
+            )));
         }
         let response = |order: usize| Self::response(deconvolved, sweep, split, order);
         let power =

@@ -1,5 +1,6 @@
 use super::{Stimulus, positive};
 use crate::DspError;
+use unripple_core::OutOfRange;
 
 /// A maximum-length sequence: 2^order − 1 values of ±1 whose circular autocorrelation is −1 but at lag 0.
 ///
@@ -52,7 +53,7 @@ impl Mls {
             return Ok(Self { order });
         }
         let found = f64::from(order);
-        Err(DspError::Range { what: "order of a maximum-length sequence", expected: "2 to 20".into(), found })
+        Err(DspError::Range(OutOfRange::new("order of a maximum-length sequence", "2 to 20", found)))
     }
 
     /// The shortest sequence of at least so many samples.

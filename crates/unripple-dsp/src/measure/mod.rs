@@ -38,6 +38,7 @@ pub use stimulus::Stimulus;
 pub use sweep::Sweep;
 
 use crate::DspError;
+use unripple_core::OutOfRange;
 
 /// # Errors
 /// [`DspError::Range`] if a number is not positive and finite.
@@ -45,7 +46,7 @@ fn positive(what: &'static str, found: f64) -> Result<(), DspError> {
     if found > 0.0 && found.is_finite() {
         return Ok(());
     }
-    Err(DspError::Range { what, expected: "positive and finite".into(), found })
+    Err(DspError::Range(OutOfRange::new(what, "positive and finite", found)))
 }
 
 /// # Errors

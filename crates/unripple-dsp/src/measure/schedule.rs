@@ -1,6 +1,7 @@
 use super::cut::cut;
 use super::{Stimulus, Sweep, same};
 use crate::DspError;
+use unripple_core::OutOfRange;
 
 /// When each actuator plays, so that one deconvolution of all that was heard holds every actuator's response apart.
 ///
@@ -31,8 +32,8 @@ impl Schedule {
     /// [`DspError::Size`] without actuators or with a window of 0; [`DspError::Range`] for a periodic stimulus.
     pub fn sequential(stimulus: Stimulus, actuators: usize, window: usize) -> Result<Self, DspError> {
         if stimulus.periodic {
-            let expected = "a stimulus that ends".into();
-            return Err(DspError::Range { what: "periods of the stimulus", expected, found: f64::INFINITY });
+            let expected = "a stimulus that ends";
+            return Err(DspError::Range(OutOfRange::new("periods of the stimulus", expected, f64::INFINITY)));
         }
         let step = stimulus.samples.len() + window;
         Self::made(stimulus, (0..actuators).map(|a| a * step).collect(), window)
@@ -58,11 +59,11 @@ impl Schedule {
         let stimulus = sweep.stimulus()?;
         let most = (sweep.to / sweep.from).floor();
         if highest_order == 0 || highest_order as f64 > most {
-            return Err(DspError::Range {
-                what: "highest order of harmonics",
-                expected: format!("1 to {most}"),
-                found: highest_order as f64,
-            });
+            return Err(DspError::Range(OutOfRange::new(
+                "highest order of harmonics",
+                format!("1 to {most}"),
+                highest_order as f64,
+            )));
         }
         // A start that makes an earlier response meet a harmonic lies this far behind it: between the two, exclusively.
         let forbidden: Vec<[usize; 2]> = (2..=highest_order)
@@ -84,8 +85,8 @@ impl Schedule {
     /// stimulus that is not periodic.
     pub fn simultaneous(stimulus: Stimulus, actuators: usize) -> Result<Self, DspError> {
         if !stimulus.periodic {
-            let expected = "a stimulus that goes round".into();
-            return Err(DspError::Range { what: "periods of the stimulus", expected, found: 1.0 });
+            let expected = "a stimulus that goes round";
+            return Err(DspError::Range(OutOfRange::new("periods of the stimulus", expected, 1.0)));
         }
         let window = stimulus.samples.len() / actuators.max(1);
         Self::made(stimulus, (0..actuators).map(|a| a * window).collect(), window)

@@ -1,6 +1,7 @@
 use super::transform::Transform;
 use super::{Band, positive};
 use crate::DspError;
+use unripple_core::OutOfRange;
 
 /// What is played, or the force that was recorded: samples whose spectrum is known.
 ///
@@ -32,7 +33,7 @@ impl Stimulus {
             return Err(DspError::Size { what: "samples of a stimulus", expected: 1, found: 0 });
         }
         if let Some(found) = samples.iter().copied().find(|x| !x.is_finite()) {
-            return Err(DspError::Range { what: "sample of a stimulus", expected: "finite".into(), found });
+            return Err(DspError::Range(OutOfRange::new("sample of a stimulus", "finite", found)));
         }
         Ok(Self { samples, rate, band: Band::ALL, periodic: false })
     }

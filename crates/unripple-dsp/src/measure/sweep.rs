@@ -1,6 +1,7 @@
 use super::{Band, Stimulus, positive};
 use crate::DspError;
 use std::f64::consts::{PI, TAU};
+use unripple_core::OutOfRange;
 
 /// An exponential sine sweep: its frequency rises by the same factor in the same time, so that the m-th harmonic of
 /// the sweep is the sweep itself, earlier by a time that depends on m alone ([`Sweep::lead`]).
@@ -102,7 +103,7 @@ impl Sweep {
             if found > low && found < high {
                 return Ok(());
             }
-            Err(DspError::Range { what, expected: format!("between {low} and {high}"), found })
+            Err(DspError::Range(OutOfRange::new(what, format!("between {low} and {high}"), found)))
         };
         within("begin of a sweep in Hz", self.from, 0.0, self.to)?;
         within("end of a sweep in Hz", self.to, self.from, self.rate / 2.0)?;
@@ -113,7 +114,7 @@ impl Sweep {
             ("seconds of silence", self.silence, MOST_SECONDS),
         ] {
             if !(found >= 0.0 && found <= most) {
-                return Err(DspError::Range { what, expected: format!("from 0 to {most}"), found });
+                return Err(DspError::Range(OutOfRange::new(what, format!("from 0 to {most}"), found)));
             }
         }
         Ok(())

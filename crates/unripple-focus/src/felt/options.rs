@@ -1,5 +1,5 @@
 use crate::FocusError;
-use crate::error::require;
+use unripple_core::require;
 use unripple_dsp::Threshold;
 
 /// What a drive that is felt at the targets only should weigh against what.
@@ -53,6 +53,6 @@ impl FeltOptions {
         }
         require("weight of the worst spot", (0.0..=1.0).contains(&self.worst), "0 to 1", self.worst)?;
         let economy = (1e-6..=1e6).contains(&self.economy);
-        require("economy", economy, "1e-6 to 1e6", self.economy)
+        Ok(require("economy", economy, "1e-6 to 1e6", self.economy)?)
     }
 }

@@ -6,7 +6,6 @@ use super::reduced::Reduced;
 use super::solve::{Held, Programme};
 use super::splines::Splines;
 use super::watch::Watch;
-use crate::error::require;
 use crate::recording::{energy, peak};
 use crate::schedule::MOST_SAMPLES;
 use crate::{FocusError, Focused, Method, Target, Timing, target};
@@ -14,7 +13,7 @@ use faer::linalg::solvers::Llt;
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Mat, MatRef, Par, Side};
 use std::f64::consts::{PI, TAU};
-use unripple_core::{Drive, ModalResponses, Point, Responses, window_samples};
+use unripple_core::{Drive, ModalResponses, OutOfRange, Point, Responses, require, window_samples};
 
 /// Most coefficients of a drive, over all actuators.
 const MOST_COEFFICIENTS: usize = 8000;
@@ -170,8 +169,8 @@ impl<'r> FeltPlan<'r> {
     fn felt_at(&self, index: usize, target: &Target) -> Result<Vec<f64>, FocusError> {
         if let Some(hz) = target.rate_hz {
             let what = format!("repetition of target {} (Hz)", index + 1);
-            return require(what, false, "none, what is felt is designed to come once", hz)
-                .map(|()| Vec::new());
+            let none = "none, what is felt is designed to come once";
+            return Err(OutOfRange::new(what, none, hz).into());
         }
         let shapes = self.heard.at_all(&target.points);
         let mean = |m: usize| {
@@ -269,10 +268,12 @@ fn factor(
         }
     }
     let found = Llt::new(form.as_ref(), Side::Lower);
-    let factor = found.map_err(|_| FocusError::Range {
-        what: "economy".to_owned(),
-        expected: "more, so that the drive is determined".to_owned(),
-        found: options.economy,
+    let factor = found.map_err(|_| {
+        FocusError::Range(OutOfRange::new(
+            "economy",
+            "more, so that the drive is determined",
+            options.economy,
+        ))
     })?;
     Ok(factor.L().to_owned())
 }

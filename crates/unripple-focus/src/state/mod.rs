@@ -11,7 +11,7 @@ pub(crate) use sampled::SampledPlant;
 use crate::FocusError;
 use faer::{Mat, MatRef, Side};
 use std::borrow::Cow;
-use unripple_core::Point;
+use unripple_core::{Point, require};
 
 /// Directions of the drive that move the surface less than this share of the strongest are left alone, in energy.
 const FAINT: f64 = 1e-13;
@@ -135,7 +135,7 @@ impl<'r> State<'r> {
         }
         let energy = (0..total).map(|i| gram[(i, i)]).sum::<f64>();
         let finite = energy.is_finite() && energy > 0.0;
-        crate::error::require("energy of the responses", finite, "a positive finite number", energy)?;
+        require("energy of the responses", finite, "a positive finite number", energy)?;
         let eigen = gram.self_adjoint_eigen(Side::Lower).map_err(|_| FocusError::Decomposition)?;
         let (vectors, values) = (eigen.U(), eigen.S().column_vector());
         let most = values[total - 1];

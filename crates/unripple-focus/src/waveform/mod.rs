@@ -6,14 +6,13 @@ mod signal;
 mod solve;
 mod transfer;
 
-use crate::error::require;
 use crate::{FocusError, Target, level, target};
 pub use signal::{burst, click, resampled, sine};
 
 use asked::Asked;
 use plan::Plan;
 use transfer::Transfer;
-use unripple_core::{Drive, Point, Responses};
+use unripple_core::{Drive, Point, Responses, require};
 
 /// A waveform that a target is to follow.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,7 +95,7 @@ impl PlayOptions {
             require(what, (1e-12..=1e12).contains(&x), "1e-12 to 1e12", x)?;
         }
         self.lead.iter().try_for_each(|lead| {
-            require("lead of a waveform (s)", lead.is_finite() && *lead >= 0.0, "0 or more", *lead)
+            Ok(require("lead of a waveform (s)", lead.is_finite() && *lead >= 0.0, "0 or more", *lead)?)
         })
     }
 }

@@ -1,10 +1,9 @@
 use super::{PlayOptions, Waveform};
 use crate::FocusError;
-use crate::error::require;
 use crate::settle::settle;
 use std::f64::consts::PI;
 use std::ops::Range;
-use unripple_core::{Responses, window_samples};
+use unripple_core::{Responses, require, window_samples};
 use unripple_dsp::Convolver;
 
 /// Decay, in nepers, after which what wraps round the transform no longer matters: to 1/10 000.

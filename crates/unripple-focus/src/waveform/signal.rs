@@ -1,6 +1,6 @@
 use crate::FocusError;
-use crate::error::require;
 use std::f64::consts::{PI, TAU};
+use unripple_core::require;
 
 /// Most samples of a waveform that is made here.
 const MOST_SAMPLES: f64 = 1e7;
@@ -117,7 +117,7 @@ mod tests {
         let click = click(2e-3, 3.0, 48e3).unwrap();
         assert!(click.iter().fold(0.0, |m: f64, x| m.max(*x)) > 2.99 && click[0] < 0.01);
         for bad in [sine(0.0, 1.0, 1.0, 48e3), sine(30e3, 1.0, 1.0, 48e3), sine(80.0, f64::NAN, 1.0, 48e3)] {
-            assert!(matches!(bad, Err(FocusError::Range { .. })));
+            assert!(matches!(bad, Err(FocusError::Range(_))));
         }
     }
 }

@@ -12,9 +12,8 @@ mod sensor;
 
 pub use sensor::{Sensor, sensed, sensors};
 
-use crate::modes::check;
 use crate::{Footprint, Load, PhysicsError};
-use unripple_core::{Actuator, ActuatorKind, Outline, Surface};
+use unripple_core::{Actuator, ActuatorKind, Outline, Surface, require};
 
 /// How a drive gets into the sheet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,13 +56,13 @@ impl Transducer {
             });
         }
         let radius = actuator.contact_radius;
-        check("contact radius of an actuator in m", radius, radius >= 0.0, "0 or more")?;
+        require("contact radius of an actuator in m", radius >= 0.0, "0 or more", radius)?;
         let transducer = match actuator.kind {
             ActuatorKind::Force => force::transducer(actuator, outline),
             ActuatorKind::MovingMagnet { .. } => moving_magnet::transducer(actuator, outline),
             ActuatorKind::Piezo { .. } => piezo::transducer(actuator, outline)?,
         };
-        check("force of an actuator per unit of drive", transducer.gain, true, "a finite number")?;
+        require("force of an actuator per unit of drive", true, "a finite number", transducer.gain)?;
         transducer.load.iter().try_for_each(Load::check)?;
         Ok(transducer)
     }

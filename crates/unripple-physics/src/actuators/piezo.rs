@@ -1,7 +1,6 @@
 use super::{Entry, Transducer, place};
-use crate::modes::check;
 use crate::{Footprint, Load, PhysicsError};
-use unripple_core::{Actuator, ActuatorKind, Outline};
+use unripple_core::{Actuator, ActuatorKind, Outline, require};
 
 /// A round piezo patch, thin beside the sheet: a line moment of some N/V along its rim, which does the work
 /// moment·∮ ∂u/∂n ds = moment·∫ ∇²u dA (Dimitriadis, Fuller and Rogers, *J. Vib. Acoust.* 113, 100, 1991). Its mass lies evenly
@@ -13,7 +12,7 @@ pub(super) fn transducer(actuator: &Actuator, outline: &Outline) -> Result<Trans
     let ActuatorKind::Piezo { radius, moment, mass } = actuator.kind else {
         return Ok(super::force::transducer(actuator, outline));
     };
-    check("radius of a piezo patch in m", radius, radius > 0.0, "a positive finite number")?;
+    require("radius of a piezo patch in m", radius > 0.0, "a positive finite number", radius)?;
     let to_rim = outline
         .loops()
         .iter()

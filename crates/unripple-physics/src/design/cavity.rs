@@ -1,8 +1,8 @@
-use super::closed::{DISC, exposure};
+use super::closed::exposure;
 use crate::Medium;
 use crate::damping::decay_rate;
 use std::f64::consts::{PI, TAU};
-use unripple_core::{Outline, Shape, Surface};
+use unripple_core::{FOCAL_RADIUS, Outline, Shape, Surface};
 
 /// Frequencies that a band is divided into.
 const BINS: usize = 400;
@@ -103,7 +103,7 @@ impl Cavity {
             })
             .collect();
         let scatter = if matches!(surface.outline.shape, Shape::Rectangle { .. }) { 1.25 } else { 2.0 };
-        Self { bins, scatter, exposure: exposure(TAU * DISC), bandwidth: top_hz - low_hz }
+        Self { bins, scatter, exposure: exposure(TAU * FOCAL_RADIUS), bandwidth: top_hz - low_hz }
     }
 
     /// The same with the modes scaled to an exact count.

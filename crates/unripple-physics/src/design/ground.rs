@@ -3,7 +3,7 @@ use super::paper::WAVELENGTH;
 use super::{Cavity, Recommended, Windows};
 use crate::{Medium, Modes, PhysicsError};
 use std::f64::consts::{PI, TAU};
-use unripple_core::Surface;
+use unripple_core::{OutOfRange, Surface};
 
 /// Relative accuracy of the frequencies that are counted.
 const ACCURACY: f64 = 1e-4;
@@ -41,11 +41,11 @@ impl<'a> Ground<'a> {
         let first = counted.as_ref().ok().and_then(|(_, first)| *first);
         let first_mode_hz = first.unwrap_or_else(|| medium.omega(first_wavenumber(surface)) / TAU);
         if by_law.modes() < 1.0 || matches!(counted, Ok((0, _))) {
-            return Err(PhysicsError::Range {
-                what: "top of the band, in Hz".into(),
-                expected: format!("more than the first mode, at about {first_mode_hz:.1} Hz"),
-                found: top,
-            });
+            return Err(PhysicsError::Range(OutOfRange::new(
+                "top of the band, in Hz",
+                format!("more than the first mode, at about {first_mode_hz:.1} Hz"),
+                top,
+            )));
         }
         let scale = counted.as_ref().map_or(1.0, |(count, _)| *count as f64 / by_law.modes());
         let modes = scale * by_law.modes();
@@ -100,18 +100,14 @@ impl<'a> Ground<'a> {
 fn check(surface: &Surface) -> Result<(), PhysicsError> {
     let [low, top] = surface.emission.band;
     if !(low >= 0.0 && top > low && top.is_finite()) {
-        return Err(PhysicsError::Range {
-            what: "top of the band, in Hz".into(),
-            expected: format!("a number above its bottom of {low}"),
-            found: top,
-        });
+        return Err(PhysicsError::Range(OutOfRange::new(
+            "top of the band, in Hz",
+            format!("a number above its bottom of {low}"),
+            top,
+        )));
     }
     if surface.actuators.is_empty() {
-        return Err(PhysicsError::Range {
-            what: "actuators".into(),
-            expected: "at least 1".into(),
-            found: 0.0,
-        });
+        return Err(PhysicsError::Range(OutOfRange::new("actuators", "at least 1", 0.0)));
     }
     Ok(())
 }

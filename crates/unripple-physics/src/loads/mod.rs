@@ -5,9 +5,8 @@ mod footprint;
 pub use footprint::Footprint;
 
 use crate::PhysicsError;
-use crate::modes::check;
 use faer::c64;
-use unripple_core::{Contact, Outline};
+use unripple_core::{Contact, Outline, require};
 
 /// From this R/L on, in 1/s, a coil's current follows its voltage at once; at 3 kHz that is an error of 2e-5 of its share.
 const AT_ONCE: f64 = 1e9;
@@ -88,13 +87,13 @@ impl Load {
     /// [`PhysicsError::Range`] unless its values are those of a passive thing.
     pub(crate) fn check(&self) -> Result<(), PhysicsError> {
         let none = "0 or more";
-        check("mass of a load in kg", self.mass, self.mass >= 0.0, none)?;
-        check("damping of a load in N·s/m", self.damping, self.damping >= 0.0, none)?;
-        check("stiffness of a load in N/m", self.stiffness, self.stiffness >= 0.0, none)?;
+        require("mass of a load in kg", self.mass >= 0.0, none, self.mass)?;
+        require("damping of a load in N·s/m", self.damping >= 0.0, none, self.damping)?;
+        require("stiffness of a load in N/m", self.stiffness >= 0.0, none, self.stiffness)?;
         let Some(Circuit { force_constant, resistance, inductance }) = self.circuit else { return Ok(()) };
-        check("force constant of a coil in N/A", force_constant, true, "a finite number")?;
-        check("resistance of a coil in Ω", resistance, resistance > 0.0, "a positive finite number")?;
-        check("inductance of a coil in H", inductance, inductance >= 0.0, none)
+        require("force constant of a coil in N/A", true, "a finite number", force_constant)?;
+        require("resistance of a coil in Ω", resistance > 0.0, "a positive finite number", resistance)?;
+        Ok(require("inductance of a coil in H", inductance >= 0.0, none, inductance)?)
     }
 }
 

@@ -6,7 +6,7 @@ use super::tree::Bounds;
 use super::{Mesh, field::Field, field::GROWTH};
 use crate::PhysicsError;
 use std::f64::consts::PI;
-use unripple_core::{Edge, Outline, Point};
+use unripple_core::{Edge, OutOfRange, Outline, Point};
 
 /// Halvings of a cell after which its middle speaks for it.
 const DEEPEST: u32 = 60;
@@ -44,11 +44,11 @@ pub(super) fn check_count(rims: &Rims, area: f64, sizing: &Sizing) -> Result<(),
     if count <= MOST {
         return Ok(());
     }
-    Err(PhysicsError::Range {
-        what: "edge lengths of a mesh, by the vertices they take".to_owned(),
-        expected: format!("at most {MOST:e}"),
-        found: count,
-    })
+    Err(PhysicsError::Range(OutOfRange::new(
+        "edge lengths of a mesh, by the vertices they take",
+        format!("at most {MOST:e}"),
+        count,
+    )))
 }
 
 /// The vertices that a sizing asks for, without what curves, corners and narrow places need.

@@ -1,7 +1,6 @@
 use super::corner::{Corner, smallest_edge};
 use crate::PhysicsError;
-use crate::modes::check;
-use unripple_core::Point;
+use unripple_core::{Point, require};
 
 /// How long the edges of a mesh should be.
 #[derive(Clone, Debug)]
@@ -37,17 +36,23 @@ impl Sizing {
 
     /// A typed error unless all lengths are positive.
     pub(super) fn check(&self) -> Result<(), PhysicsError> {
-        let positive = |what: &str, value: f64| check(what, value, value > 0.0, "a positive finite number");
+        let positive =
+            |what: &'static str, value: f64| require(what, value > 0.0, "a positive finite number", value);
         positive("edge length of a mesh in m", self.size)?;
         self.edge_size.map_or(Ok(()), |size| positive("edge length along rims in m", size))?;
         for (place, reach, edge) in &self.near {
-            check("place of short edges in m", place.x + place.y, place.is_finite(), "a place on the sheet")?;
-            check("reach of short edges in m", *reach, *reach >= 0.0, "0 or more")?;
+            require(
+                "place of short edges in m",
+                place.is_finite(),
+                "a place on the sheet",
+                place.x + place.y,
+            )?;
+            require("reach of short edges in m", *reach >= 0.0, "0 or more", *reach)?;
             positive("edge length near a place in m", *edge)?;
         }
         let corner = |edge: &f64| {
             if *edge > 0.0 { Ok(()) } else { positive("edge length at a corner in m", *edge) }
         };
-        self.corners.iter().try_for_each(corner)
+        Ok(self.corners.iter().try_for_each(corner)?)
     }
 }

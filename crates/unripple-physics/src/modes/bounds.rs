@@ -1,7 +1,7 @@
 use crate::damping::decay_rate;
 use crate::{Medium, PhysicsError};
 use std::f64::consts::TAU;
-use unripple_core::{Decay, Surface};
+use unripple_core::{Decay, Surface, require};
 
 /// What modes are asked of any sheet, and how accurately.
 #[derive(Clone, Copy, Debug)]
@@ -27,26 +27,26 @@ impl Bounds {
         let sheet = &surface.sheet;
         let medium = Medium::of(sheet);
         let positive = "a positive finite number";
-        check("top frequency in Hz", max_hz, max_hz > 0.0, positive)?;
-        check("mass per area in kg/m²", medium.areal_density, medium.areal_density > 0.0, positive)?;
-        check("tension in N/m", medium.tension, medium.tension >= 0.0, "0 or more")?;
+        require("top frequency in Hz", max_hz > 0.0, positive, max_hz)?;
+        require("mass per area in kg/m²", medium.areal_density > 0.0, positive, medium.areal_density)?;
+        require("tension in N/m", medium.tension >= 0.0, "0 or more", medium.tension)?;
         let poisson = sheet.poisson;
-        check("Poisson's ratio", poisson, poisson > -1.0 && poisson <= 0.5, "more than -1, at most 0.5")?;
-        check(
+        require("Poisson's ratio", poisson > -1.0 && poisson <= 0.5, "more than -1, at most 0.5", poisson)?;
+        require(
             "bending stiffness in N·m",
-            medium.bending_stiffness,
             medium.bending_stiffness >= 0.0,
             "0 or more",
+            medium.bending_stiffness,
         )?;
         let stiff = medium.tension + medium.bending_stiffness;
-        check("tension and bending stiffness together", stiff, stiff > 0.0, "more than 0")?;
-        check("accuracy", accuracy, (1e-12..=0.1).contains(&accuracy), "between 1e-12 and 0.1")?;
+        require("tension and bending stiffness together", stiff > 0.0, "more than 0", stiff)?;
+        require("accuracy", (1e-12..=0.1).contains(&accuracy), "between 1e-12 and 0.1", accuracy)?;
         let k_top = medium.wavenumber(TAU * max_hz);
-        check(
+        require(
             "top frequency in Hz",
-            max_hz,
             k_top.is_finite() && k_top > 0.0,
             "a frequency that waves can have",
+            max_hz,
         )?;
         Ok(Self { medium, poisson, max_hz, k_top, accuracy })
     }
@@ -85,12 +85,4 @@ impl Bounds {
         };
         decay_rate(decay, omega, bending_share) + radiated
     }
-}
-
-/// A typed error unless `legal` and finite.
-pub(crate) fn check(what: &str, found: f64, legal: bool, expected: &str) -> Result<(), PhysicsError> {
-    if legal && found.is_finite() {
-        return Ok(());
-    }
-    Err(PhysicsError::Range { what: what.to_owned(), expected: expected.to_owned(), found })
 }

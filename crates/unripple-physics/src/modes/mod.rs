@@ -13,7 +13,6 @@ use rectangle::Problem;
 use std::f64::consts::TAU;
 use unripple_core::{Point, Pole, Shapes, Surface};
 
-pub(crate) use bounds::check;
 pub(crate) use eigen::{Method, symmetric};
 pub(crate) use legendre::gauss;
 

@@ -1,5 +1,5 @@
 use crate::PhysicsError;
-use crate::modes::check;
+use unripple_core::require;
 
 /// The states of the modes that a surface has gone through lately, one after every so many samples.
 ///
@@ -22,9 +22,9 @@ pub struct History {
 
 impl History {
     pub(super) fn new(modes: usize, stride: usize, most: usize, now: u64) -> Result<Self, PhysicsError> {
-        check("samples from one state to the next", stride as f64, stride > 0, "at least 1")?;
+        require("samples from one state to the next", stride > 0, "at least 1", stride as f64)?;
         let room = (1..=1 << 20).contains(&most);
-        check("states to be remembered", most as f64, room, "between 1 and 1048576")?;
+        require("states to be remembered", room, "between 1 and 1048576", most as f64)?;
         let zeros = vec![0.0; modes * most];
         let velocity = zeros.clone();
         Ok(Self { modes, stride, most, wait: stride, newest: now, count: 0, displacement: zeros, velocity })

@@ -1,7 +1,6 @@
 use super::surface::VirtualSurface;
 use crate::PhysicsError;
-use crate::modes::check;
-use unripple_core::Random;
+use unripple_core::{Random, require};
 
 /// What goes wrong on request, as it does between a computer and a real surface. The default is nothing.
 ///
@@ -71,17 +70,17 @@ impl Misbehaving {
         let known = mishaps.swapped.iter().flat_map(|(a, b)| [*a, *b]).chain(mishaps.dead.iter().copied());
         for channel in known {
             let expected = format!("less than {channels}, the number of channels");
-            check("channel of a mishap", channel as f64, channel < channels, &expected)?;
+            require("channel of a mishap", channel < channels, expected, channel as f64)?;
         }
-        check("noise of the sensors", mishaps.noise, mishaps.noise >= 0.0, "0 or more")?;
+        require("noise of the sensors", mishaps.noise >= 0.0, "0 or more", mishaps.noise)?;
         let clip = mishaps.clip.unwrap_or(0.0);
-        check("clipping of the drive", clip, clip >= 0.0, "0 or more")?;
+        require("clipping of the drive", clip >= 0.0, "0 or more", clip)?;
         let dropped = mishaps.dropped;
-        check("probability of losing a block", dropped, (0.0..=1.0).contains(&dropped), "between 0 and 1")?;
+        require("probability of losing a block", (0.0..=1.0).contains(&dropped), "between 0 and 1", dropped)?;
         let mut before = f64::NEG_INFINITY;
         for (time, factor) in &mishaps.tension {
-            check("time of a change of tension in s", *time, *time > before, "later than the one before")?;
-            check("tension as a share of the nominal one", *factor, *factor >= 0.0, "0 or more")?;
+            require("time of a change of tension in s", *time > before, "later than the one before", *time)?;
+            require("tension as a share of the nominal one", *factor >= 0.0, "0 or more", *factor)?;
             before = *time;
         }
         let late = vec![0.0; channels * mishaps.latency];
@@ -106,11 +105,11 @@ impl Misbehaving {
     /// [`PhysicsError::Range`] for more of them than channels, or if a mishap happens to one.
     pub fn with_spare(self, spare: usize) -> Result<Self, PhysicsError> {
         let channels = self.surface.channels();
-        check("spare channels", spare as f64, spare <= channels, &format!("at most {channels}"))?;
+        require("spare channels", spare <= channels, format!("at most {channels}"), spare as f64)?;
         let pairs = self.mishaps.swapped.iter().flat_map(|(a, b)| [*a, *b]);
         for channel in pairs.chain(self.mishaps.dead.iter().copied()) {
             let expected = format!("less than {}, the channels with wires", channels - spare);
-            check("channel of a mishap", channel as f64, channel < channels - spare, &expected)?;
+            require("channel of a mishap", channel < channels - spare, expected, channel as f64)?;
         }
         Ok(Self { spare, ..self })
     }
@@ -146,7 +145,7 @@ impl Misbehaving {
         super::surface::size("sensors", sensors.len(), channels * frames, true)?;
         if frames > self.most {
             let expected = format!("at most {}", self.most);
-            check("samples of a block", frames as f64, false, &expected)?;
+            require("samples of a block", false, expected, frames as f64)?;
         }
         let lost = self.random.uniform() < self.mishaps.dropped;
         self.lost += usize::from(lost);

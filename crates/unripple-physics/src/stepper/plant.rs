@@ -1,10 +1,9 @@
 use crate::damping::decay_rate;
-use crate::modes::check;
 use crate::{Entry, Footprint, Load, Loaded, Medium, Modes, PhysicsError, Transducer, transducers};
 use faer::Mat;
 use std::f64::consts::PI;
 use std::sync::Arc;
-use unripple_core::{ModalResponses, Onset, Outline, Point, Pole, Shapes, Surface};
+use unripple_core::{ModalResponses, Onset, Outline, Point, Pole, Shapes, Surface, require};
 
 /// What is added to modes may oscillate at this share of half the rate: faster, samples would show it as something slower.
 const FASTEST: f64 = 0.9;
@@ -49,10 +48,10 @@ impl Plant {
     /// [`PhysicsError::Unsupported`] for oscillations that an impulse moves rather than strikes.
     pub fn new(poles: &[Pole], shapes: Arc<dyn Shapes>, outline: Outline) -> Result<Self, PhysicsError> {
         let (count, found) = (poles.len() as f64, shapes.modes() as f64);
-        check("shapes of the modes", found, found == count, &format!("{count}, one for each pole"))?;
+        require("shapes of the modes", found == count, format!("{count}, one for each pole"), found)?;
         for pole in poles {
-            check("frequency of a mode in rad/s", pole.omega, pole.omega >= 0.0, "0 or more")?;
-            check("decay rate of a mode in 1/s", pole.sigma, pole.sigma >= 0.0, "0 or more")?;
+            require("frequency of a mode in rad/s", pole.omega >= 0.0, "0 or more", pole.omega)?;
+            require("decay rate of a mode in 1/s", pole.sigma >= 0.0, "0 or more", pole.sigma)?;
             if pole.onset != Onset::Velocity {
                 return Err(PhysicsError::Unsupported {
                     what: "modes to step through time",
@@ -122,9 +121,9 @@ impl Plant {
     /// [`PhysicsError::Range`] for shares that cannot be, or another number of them than modes.
     pub fn with_bending_shares(self, shares: &[f64]) -> Result<Self, PhysicsError> {
         let (found, count) = (shares.len() as f64, self.poles.len() as f64);
-        check("bending shares of the modes", found, found == count, &format!("{count}, one for each pole"))?;
+        require("bending shares of the modes", found == count, format!("{count}, one for each pole"), found)?;
         for share in shares {
-            check("bending share of a mode", *share, (0.0..=1.0).contains(share), "between 0 and 1")?;
+            require("bending share of a mode", (0.0..=1.0).contains(share), "between 0 and 1", *share)?;
         }
         Ok(Self { bending_shares: shares.into(), ..self })
     }
@@ -135,9 +134,9 @@ impl Plant {
     /// # Errors
     /// [`PhysicsError::Range`] if the place or the radius is not finite, or the radius negative.
     pub fn footing(&self, at: Point, radius: f64) -> Result<Footing, PhysicsError> {
-        check("x of a contact in m", at.x, true, "a finite number")?;
-        check("y of a contact in m", at.y, true, "a finite number")?;
-        check("radius of a contact in m", radius, radius >= 0.0, "0 or more")?;
+        require("x of a contact in m", true, "a finite number", at.x)?;
+        require("y of a contact in m", true, "a finite number", at.y)?;
+        require("radius of a contact in m", radius >= 0.0, "0 or more", radius)?;
         let at = if self.outline.contains(at) { at } else { self.outline.nearest(at) };
         Ok(Footing { weights: self.weights(&Footprint::disc(at, radius, &self.outline))? })
     }
@@ -155,7 +154,7 @@ impl Plant {
     pub(super) fn weights(&self, footprint: &Footprint) -> Result<Vec<f64>, PhysicsError> {
         let weights = footprint.weights(&*self.shapes);
         for weight in &weights {
-            check("weight of a mode in 1/√kg", *weight, true, "a finite number")?;
+            require("weight of a mode in 1/√kg", true, "a finite number", *weight)?;
         }
         Ok(weights)
     }
@@ -198,22 +197,22 @@ impl Channel {
     }
 
     pub(super) fn check(&self) -> Result<(), PhysicsError> {
-        check("gain of a channel", self.gain, true, "a finite number")?;
+        require("gain of a channel", true, "a finite number", self.gain)?;
         if let Some(load) = &self.load {
-            check("mass of a load in kg", load.mass, load.mass >= 0.0, "0 or more")?;
-            check("damping of a load in N·s/m", load.damping, load.damping >= 0.0, "0 or more")?;
-            check("stiffness of a load in N/m", load.stiffness, load.stiffness >= 0.0, "0 or more")?;
+            require("mass of a load in kg", load.mass >= 0.0, "0 or more", load.mass)?;
+            require("damping of a load in N·s/m", load.damping >= 0.0, "0 or more", load.damping)?;
+            require("stiffness of a load in N/m", load.stiffness >= 0.0, "0 or more", load.stiffness)?;
         }
         match self.load.as_ref().and_then(|load| load.circuit) {
             Some(coil) => {
-                check("force constant of a coil in N/A", coil.force_constant, true, "a finite number")?;
-                check(
+                require("force constant of a coil in N/A", true, "a finite number", coil.force_constant)?;
+                require(
                     "resistance of a coil in Ω",
-                    coil.resistance,
                     coil.resistance > 0.0,
                     "a positive number",
+                    coil.resistance,
                 )?;
-                check("inductance of a coil in H", coil.inductance, coil.inductance >= 0.0, "0 or more")
+                Ok(require("inductance of a coil in H", coil.inductance >= 0.0, "0 or more", coil.inductance)?)
             }
             None if self.voltage => Err(PhysicsError::Unsupported {
                 what: "load of a channel driven by a voltage",

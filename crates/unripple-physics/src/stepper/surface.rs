@@ -3,10 +3,9 @@ use super::field::Probes;
 use super::history::History;
 use super::plant::{Channel, Footing, Plant};
 use super::run::{Block, Drive, Out, Planes};
-use crate::modes::check;
 use crate::{Modes, PhysicsError};
 use std::sync::Arc;
-use unripple_core::{Contact, Finger, Point, Pole, Surface};
+use unripple_core::{Contact, Finger, Point, Pole, Surface, require};
 
 /// How a virtual surface is stepped.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,12 +82,12 @@ impl VirtualSurface {
         rate: f64,
         options: &StepperOptions,
     ) -> Result<Self, PhysicsError> {
-        check("sample rate in Hz", rate, rate > 0.0, "a positive number")?;
-        check("time a finger takes to come in s", options.fade, options.fade >= 0.0, "0 or more")?;
-        check("time a finger takes to move in s", options.glide, options.glide >= 0.0, "0 or more")?;
+        require("sample rate in Hz", rate > 0.0, "a positive number", rate)?;
+        require("time a finger takes to come in s", options.fade >= 0.0, "0 or more", options.fade)?;
+        require("time a finger takes to move in s", options.glide >= 0.0, "0 or more", options.glide)?;
         let (steps, fingers) = (options.substeps as f64, options.max_fingers as f64);
-        check("steps per sample", steps, (1.0..=1e6).contains(&steps), "between 1 and 1000000")?;
-        check("fingers at once", fingers, fingers <= 64.0, "at most 64")?;
+        require("steps per sample", (1.0..=1e6).contains(&steps), "between 1 and 1000000", steps)?;
+        require("fingers at once", fingers <= 64.0, "at most 64", fingers)?;
         let engine = Engine::new(plant, channels, rate, options)?;
         Ok(Self { engine, plant: plant.clone(), rate, tension: 1.0, last: 0, history: None })
     }
@@ -147,7 +146,7 @@ impl VirtualSurface {
         let count = self.probes();
         let row = |(probe, at): &(usize, Point)| {
             let expected = format!("less than {count}, the number of probes");
-            check("probe to be moved", *probe as f64, *probe < count, &expected)?;
+            require("probe to be moved", *probe < count, expected, *probe as f64)?;
             Ok((*probe, self.plant.footing(*at, 0.0)?))
         };
         let rows = moved.iter().map(row).collect::<Result<Vec<_>, PhysicsError>>()?;
@@ -166,7 +165,7 @@ impl VirtualSurface {
         let lead = self.engine.leads.get(channel).copied();
         let Some(lead) = lead else {
             let expected = format!("less than {}, the number of channels", self.channels());
-            return check("channel to be moved", channel as f64, false, &expected);
+            return Ok(require("channel to be moved", false, expected, channel as f64)?);
         };
         if lead.port >= self.engine.felt.plain {
             return Err(PhysicsError::Unsupported {
@@ -251,9 +250,9 @@ impl VirtualSurface {
     /// # Errors
     /// Those of [`VirtualSurface::touch`].
     pub fn touch_on(&mut self, id: u64, finger: &Finger, footing: &Footing) -> Result<(), PhysicsError> {
-        check("mass of a finger in kg", finger.mass, finger.mass >= 0.0, "0 or more")?;
-        check("damping of a finger in N·s/m", finger.damping, finger.damping >= 0.0, "0 or more")?;
-        check("stiffness of a finger in N/m", finger.stiffness, finger.stiffness >= 0.0, "0 or more")?;
+        require("mass of a finger in kg", finger.mass >= 0.0, "0 or more", finger.mass)?;
+        require("damping of a finger in N·s/m", finger.damping >= 0.0, "0 or more", finger.damping)?;
+        require("stiffness of a finger in N/m", finger.stiffness >= 0.0, "0 or more", finger.stiffness)?;
         self.check_footing(footing)?;
         if self.find(id).is_some() {
             return Err(PhysicsError::Unsupported {
@@ -267,7 +266,7 @@ impl VirtualSurface {
         }
         let found = self.engine.touches.len();
         let expected = format!("at most {found}, those that are being lifted included");
-        check("fingers at once", found as f64 + 1.0, false, &expected)
+        Ok(require("fingers at once", false, expected, found as f64 + 1.0)?)
     }
 
     /// Moves a finger within [`StepperOptions::glide`]: its contact fades from where it is felt to the new place. Allocates;
@@ -331,7 +330,7 @@ impl VirtualSurface {
     /// # Errors
     /// [`PhysicsError::Range`] unless the factor is 0 or more.
     pub fn set_tension(&mut self, factor: f64) -> Result<(), PhysicsError> {
-        check("tension as a share of the nominal one", factor, factor >= 0.0, "0 or more")?;
+        require("tension as a share of the nominal one", factor >= 0.0, "0 or more", factor)?;
         if factor != self.tension {
             let changed = |(pole, share): (&Pole, &f64)| Pole {
                 omega: pole.omega * (1.0 + (factor - 1.0) * (1.0 - share)).max(0.0).sqrt(),
@@ -372,7 +371,7 @@ impl VirtualSurface {
         if found == modes {
             return Ok(());
         }
-        check("modes of a footing", found as f64, false, &format!("{modes}, those of the sheet"))
+        Ok(require("modes of a footing", false, format!("{modes}, those of the sheet"), found as f64)?)
     }
 
     fn find(&self, id: u64) -> Option<usize> {
@@ -394,5 +393,5 @@ pub(super) fn size(what: &str, found: usize, expected: usize, or_none: bool) -> 
         return Ok(());
     }
     let or_none = if or_none { " or 0" } else { "" };
-    check(&format!("values of the {what}"), found as f64, false, &format!("{expected}{or_none}"))
+    Ok(require(format!("values of the {what}"), false, format!("{expected}{or_none}"), found as f64)?)
 }

@@ -1,9 +1,9 @@
 use super::slots::{Event, Report, Slots};
-use crate::error::check;
 use crate::{Counts, Fingers, Heard, Key, Options, Source, TouchError};
 use std::io;
 #[cfg(unix)]
 use std::os::fd::BorrowedFd;
+use unripple_core::require;
 
 /// Batches of events read in one poll.
 const BATCHES: usize = 16;
@@ -30,7 +30,7 @@ impl Axis {
 
     fn check(self, what: &'static str) -> Result<(), TouchError> {
         let span = f64::from(self.maximum) - f64::from(self.minimum);
-        check(what, span, span > 0.0, "more than 0")
+        Ok(require(what, span > 0.0, "more than 0", span)?)
     }
 }
 

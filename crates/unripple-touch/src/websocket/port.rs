@@ -1,11 +1,11 @@
 use super::connection::{Connection, Gone};
-use crate::error::check;
 use crate::{Counts, Fingers, Heard, Options, Source, TouchError};
 use std::io::ErrorKind;
 use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
 #[cfg(unix)]
 use std::os::fd::{AsFd, BorrowedFd};
 use std::sync::Arc;
+use unripple_core::require;
 
 /// How often clients are looked after, to be pinged and dropped, in s.
 const LOOK: f64 = 0.1;
@@ -70,8 +70,8 @@ impl WebSocketPort {
         let fix = "another program may listen there: stop it, or choose another port";
         let error = |error| TouchError::io(format!("listening at TCP {address}"), error, fix);
         let WebSocketOptions { origins, most, silence } = sockets;
-        check("connections at once", most as f64, (1..=256).contains(&most), "1 to 256")?;
-        check("silence of a client, s", silence, (0.1..=3600.0).contains(&silence), "0.1 to 3600")?;
+        require("connections at once", (1..=256).contains(&most), "1 to 256", most as f64)?;
+        require("silence of a client, s", (0.1..=3600.0).contains(&silence), "0.1 to 3600", silence)?;
         let fingers = Fingers::new(options)?;
         let listener = TcpListener::bind(address).map_err(error)?;
         listener.set_nonblocking(true).map_err(error)?;

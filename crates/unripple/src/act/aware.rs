@@ -2,6 +2,7 @@ use super::{ActError, Note, model};
 use crate::core::{Contact, Drive, Responses, Surface};
 use crate::field::Field;
 use crate::focus::{Focused, Focuser, Options, Target, focus};
+use unripple_core::OutOfRange;
 
 /// What a drive is made for: a surface under fingers, and others that it may turn into.
 #[derive(Clone, Debug, Default)]
@@ -29,7 +30,7 @@ impl Aware {
         if let Some(share) = tension {
             if !(share > 0.0 && share < 0.5) {
                 let (what, expected) = ("change of tension, as a share", "a number above 0 and below 0.5");
-                return Err(ActError::Range { what, expected, found: share });
+                return Err(ActError::Range(OutOfRange::new(what, expected, share)));
             }
             for factor in [1.0 - share, 1.0 + share] {
                 let mut other = surface.clone();

@@ -1,6 +1,7 @@
 use crate::field::FieldError;
 use crate::focus::FocusError;
 use crate::physics::PhysicsError;
+use unripple_core::OutOfRange;
 
 /// Why an act of focusing could not be carried out or judged.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -26,15 +27,8 @@ pub enum ActError {
         found: String,
     },
     /// A number is out of its range.
-    #[error("{what}: expected {expected}, found {found}")]
-    Range {
-        /// What the number is, with its unit.
-        what: &'static str,
-        /// The legal values.
-        expected: &'static str,
-        /// The value.
-        found: f64,
-    },
+    #[error(transparent)]
+    Range(#[from] OutOfRange),
     /// No wave fits into so short a time.
     #[error(
         "expected at least {:.4} ms, one period at the top of the band ({top} Hz): nothing shorter carries a wave, found {:.4} ms",

@@ -8,6 +8,7 @@ use crate::field::Grid;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
 use rayon::prelude::*;
+use unripple_core::OutOfRange;
 
 /// Points of the field read at once: their values fit a cache.
 const POINTS: usize = 128;
@@ -91,7 +92,7 @@ pub fn contrast_map(responses: &Responses, options: &MapOptions) -> Result<Contr
 }
 
 fn check(what: &'static str, legal: bool, expected: &'static str, found: f64) -> Result<(), ActError> {
-    if legal { Ok(()) } else { Err(ActError::Range { what, expected, found }) }
+    if legal { Ok(()) } else { Err(ActError::Range(OutOfRange::new(what, expected, found))) }
 }
 
 /// So many cells along the longer side, nearly square ones.

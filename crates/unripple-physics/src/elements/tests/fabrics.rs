@@ -137,7 +137,7 @@ fn values_that_cannot_be_are_refused() {
     let refused = |change: &dyn Fn(&mut Sheet)| {
         let mut sheet = surface(1.0, 1.0, 2.0, 0.3);
         change(&mut sheet.sheet);
-        matches!(Fabric::of(&sheet), Err(PhysicsError::Range { .. }))
+        matches!(Fabric::of(&sheet), Err(PhysicsError::Range(_)))
     };
     let of = |f: f64| Profile::new(&[vec![1.0, f]]);
     let at = Point::new(0.5, 0.5);

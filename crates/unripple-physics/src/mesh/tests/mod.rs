@@ -182,7 +182,7 @@ fn lengths_that_cannot_be_are_refused() {
     let outline = Outline::new(Shape::Rectangle { width: 0.2, height: 0.1 });
     for size in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-9] {
         let refused = Mesh::new(&outline, &Sizing::even(size));
-        assert!(matches!(refused, Err(crate::PhysicsError::Range { .. })), "{size}");
+        assert!(matches!(refused, Err(crate::PhysicsError::Range(_))), "{size}");
     }
     let count = Mesh::estimate(&outline, &Sizing::even(1e-8)).unwrap() as f64;
     assert!((count / (0.02 / (0.75_f64.sqrt() * 1e-16)) - 1.0).abs() < 1e-3);

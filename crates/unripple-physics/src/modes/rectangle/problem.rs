@@ -1,6 +1,6 @@
-use super::super::bounds::{Bounds, check};
+use super::super::bounds::Bounds;
 use crate::PhysicsError;
-use unripple_core::{Edge, Shape, Surface};
+use unripple_core::{Edge, Shape, Surface, require};
 
 /// What modes are asked of a rectangle: its sides, how they are held, and up to where.
 #[derive(Debug)]
@@ -19,8 +19,8 @@ impl Problem {
     pub(crate) fn of(surface: &Surface, bounds: Bounds) -> Result<Option<Self>, PhysicsError> {
         let Shape::Rectangle { width, height } = surface.outline.shape else { return Ok(None) };
         let positive = "a positive finite number";
-        check("width", width, width > 0.0, positive)?;
-        check("height", height, height > 0.0, positive)?;
+        require("width", width > 0.0, positive, width)?;
+        require("height", height > 0.0, positive, height)?;
         let edge = |side| surface.outline.edge(side);
         let edges = [[edge(3), edge(1)], [edge(0), edge(2)]];
         let springs = edges.as_flattened().iter().any(|e| matches!(e, Edge::Elastic { .. }));

@@ -1,0 +1,46 @@
+//! A number that is refused because it is out of its range.
+
+use std::borrow::Cow;
+
+/// A number is out of its range.
+///
+/// ```
+/// use unripple_core::require;
+///
+/// let error = require("window (s)", false, "a positive number", -0.03).unwrap_err();
+/// assert_eq!(error.to_string(), "window (s): expected a positive number, found -0.03");
+/// ```
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{what}: expected {expected}, found {found}")]
+pub struct OutOfRange {
+    /// What the number is, with its unit.
+    pub what: Cow<'static, str>,
+    /// The legal values.
+    pub expected: Cow<'static, str>,
+    /// The value.
+    pub found: f64,
+}
+
+impl OutOfRange {
+    /// A number that is not among the legal values.
+    pub fn new(
+        what: impl Into<Cow<'static, str>>,
+        expected: impl Into<Cow<'static, str>>,
+        found: f64,
+    ) -> Self {
+        Self { what: what.into(), expected: expected.into(), found }
+    }
+}
+
+/// Refuses a number unless it is `legal` and finite.
+///
+/// # Errors
+/// [`OutOfRange`], with what was expected and what was found.
+pub fn require(
+    what: impl Into<Cow<'static, str>>,
+    legal: bool,
+    expected: impl Into<Cow<'static, str>>,
+    found: f64,
+) -> Result<(), OutOfRange> {
+    if legal && found.is_finite() { Ok(()) } else { Err(OutOfRange::new(what, expected, found)) }
+}
