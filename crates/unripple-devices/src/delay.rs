@@ -1,4 +1,4 @@
-use std::f64::consts::PI;
+use unripple_dsp::{kaiser, sinc};
 
 /// Half the length of the interpolator, in samples: the least delay that is not whole.
 pub(crate) const HALF: usize = 24;
@@ -47,24 +47,13 @@ impl Delay {
 
 /// The windowed sinc at a distance in samples.
 fn kernel(x: f64) -> f64 {
-    let sinc = if x == 0.0 { 1.0 } else { (PI * x).sin() / (PI * x) };
-    let edge = 1.0 - (x / HALF as f64).powi(2);
-    if edge <= 0.0 { 0.0 } else { sinc * bessel(10.0 * edge.sqrt()) / bessel(10.0) }
-}
-
-/// I0, by its series.
-fn bessel(x: f64) -> f64 {
-    let (mut term, mut sum) = (1.0, 1.0);
-    for k in 1..60 {
-        term *= (x / 2.0 / f64::from(k)).powi(2);
-        sum += term;
-    }
-    sum
+    sinc(x) * kaiser(x / HALF as f64, 10.0)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::PI;
 
     #[test]
     fn tones_come_late_by_what_was_asked() {

@@ -1,3 +1,6 @@
+//! Weights that interpolate between samples.
+
+use crate::special::{kaiser, sinc};
 use faer::Mat;
 use std::f64::consts::PI;
 use unripple_core::Pole;
@@ -72,30 +75,6 @@ impl Kernel {
     }
 }
 
-/// sin(πt)/(πt), and 1 at 0 (Shannon, *Communication in the presence of noise*, 1949, theorem 1): what interpolates samples
-/// one apart.
-pub fn sinc(t: f64) -> f64 {
-    if t.abs() < 1e-9 { 1.0 } else { (PI * t).sin() / (PI * t) }
-}
-
-/// The Kaiser window at `u` of its half-width, 1 at the middle.
-pub(crate) fn kaiser(u: f64, beta: f64) -> f64 {
-    if u.abs() > 1.0 { 0.0 } else { bessel_i0(beta * (1.0 - u * u).sqrt()) / bessel_i0(beta) }
-}
-
-/// The modified Bessel function I_0, by its power series (Abramowitz and Stegun, *Handbook of Mathematical Functions*, 9.6.12): the profile
-/// of the Kaiser window.
-pub fn bessel_i0(x: f64) -> f64 {
-    let quarter = x * x / 4.0;
-    let (mut term, mut sum, mut k) = (1.0, 1.0, 1.0);
-    while term > sum * 1e-17 {
-        term *= quarter / (k * k);
-        sum += term;
-        k += 1.0;
-    }
-    sum
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -129,12 +108,5 @@ mod tests {
             let error = (found - exact(phase as f64 / 1e3)).abs();
             assert!(error <= kernel.error(pole, 1e3), "{phase}: {error}");
         }
-    }
-
-    #[test]
-    fn knows_the_bessel_function() {
-        // Abramowitz and Stegun, table 9.8.
-        assert!((bessel_i0(1.0) - 1.266_065_877_752_008_4).abs() < 1e-15);
-        assert!((bessel_i0(5.0) / 27.239_871_823_604_44 - 1.0).abs() < 1e-14);
     }
 }

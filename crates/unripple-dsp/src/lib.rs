@@ -7,6 +7,7 @@ mod interpolate;
 mod kernel;
 mod measure;
 mod resample;
+mod special;
 mod spectrum;
 mod synth;
 mod threshold;
@@ -15,7 +16,6 @@ mod weighting;
 pub use convolve::{Convolver, convolve};
 pub use error::DspError;
 pub use integral::integral;
-pub use kernel::{bessel_i0, sinc};
 pub use measure::{
     Average, Band, CrossSpectra, Decay, Deconvolver, Delay, Gate, Harmonic, Harmonics, Inversion, Mls,
     Outliers, Pair, Quality, Reciprocity, Remap, Schedule, Split, Stimulus, Sweep, Workspace, band_powers,
@@ -23,6 +23,7 @@ pub use measure::{
 };
 pub use realfft::num_complex::Complex;
 pub use resample::resample;
+pub use special::{bessel_i0, bessel_j, kaiser, sinc};
 pub use spectrum::{band_energies, share_above};
 pub use synth::ModalSynth;
 pub use threshold::Threshold;

@@ -1,6 +1,6 @@
 //! A signal at other instants than those at which it was sampled: another rate, or another clock.
 
-use crate::kernel::{kaiser, sinc};
+use crate::{kaiser, sinc};
 
 /// Zeros of the sinc to each side. With [`BETA`] the transition is 5 % of the rate wide, to each side of half the rate.
 const ZEROS: usize = 48;

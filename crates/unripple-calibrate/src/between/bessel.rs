@@ -1,4 +1,6 @@
-use std::f64::consts::PI;
+//! Tables of the Bessel functions that covariances of isotropic fields are made of.
+
+use unripple_dsp::bessel_j;
 
 /// Nodes per unit of argument: cubics between them are off by 3e-9.
 const DENSITY: f64 = 32.0;
@@ -38,25 +40,10 @@ impl Bessel {
 }
 
 fn node(x: f64) -> [[f64; 2]; 2] {
-    let [j0, j1] = integrals(x);
+    let [j0, j1] = [bessel_j(0, x), bessel_j(1, x)];
     let (disc, slope) =
         if x > 1e-3 { (2.0 * j1 / x, 2.0 * (j0 - 2.0 * j1 / x) / x) } else { (1.0 - x * x / 8.0, -x / 4.0) };
     [[j0, -j1 / DENSITY], [disc, slope / DENSITY]]
-}
-
-/// J0 and J1, by the trapezoidal rule on Bessel's integral, J_n(x) = 1/π ∫ cos(nθ - x sin θ) dθ over 0 … π (Abramowitz and
-/// Stegun, eq. 9.1.21), which converges faster than any power once there are more steps than x.
-fn integrals(x: f64) -> [f64; 2] {
-    let steps = 40 + x.abs() as usize;
-    let mut sums = [0.0; 2];
-    // The whole circle, of which the integrals are half: a periodic function has no ends to weigh.
-    for i in 0..2 * steps {
-        let angle = PI * i as f64 / steps as f64;
-        let phase = x * angle.sin();
-        sums[0] += phase.cos();
-        sums[1] += (angle - phase).cos();
-    }
-    sums.map(|sum| sum / (2 * steps) as f64)
 }
 
 #[cfg(test)]
@@ -83,7 +70,7 @@ mod tests {
         let bessel = Bessel::up_to(60.0);
         for i in 0..1000 {
             let x = 0.05991 * f64::from(i);
-            let [j0, j1] = integrals(x);
+            let [j0, j1] = [bessel_j(0, x), bessel_j(1, x)];
             assert!((bessel.ring(x) - j0).abs() < 4e-9, "{x}");
             assert!(x < 0.01 || (bessel.disc(x) - 2.0 * j1 / x).abs() < 4e-9, "{x}");
         }

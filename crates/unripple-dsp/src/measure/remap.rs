@@ -1,7 +1,7 @@
 //! Signals whose frequencies are moved, each by its own share.
 
 use super::transform::Transform;
-use crate::{bessel_i0, sinc};
+use crate::{kaiser, sinc};
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
@@ -20,8 +20,7 @@ const FINE: usize = 1024;
 static KERNEL: LazyLock<Vec<f64>> = LazyLock::new(|| {
     let value = |i: usize| {
         let away = i as f64 / FINE as f64;
-        let inside = 1.0 - (away / HALF as f64).powi(2);
-        if inside > 0.0 { sinc(away) * bessel_i0(BETA * inside.sqrt()) / bessel_i0(BETA) } else { 0.0 }
+        sinc(away) * kaiser(away / HALF as f64, BETA)
     };
     (0..=HALF * FINE + 1).map(value).collect()
 });

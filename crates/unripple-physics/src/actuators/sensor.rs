@@ -4,7 +4,7 @@ use super::{Entry, Transducer};
 use crate::{Circuit, Footprint};
 use faer::{Mat, c64};
 use unripple_core::{ActuatorKind, ModalResponses, Surface};
-use unripple_dsp::bessel_i0;
+use unripple_dsp::kaiser;
 
 /// Samples on either side that a derivative is made from, and the window's β: right to 1e-4 up to 0.42 of the rate.
 const HALF: usize = 32;
@@ -114,7 +114,7 @@ fn held(theta: f64) -> [f64; 3] {
 fn derivative(signal: &[f64], rate: f64) -> Vec<f64> {
     let tap = |k: usize| {
         let share = k as f64 / (HALF + 1) as f64;
-        let window = bessel_i0(BETA * (1.0 - share * share).sqrt()) / bessel_i0(BETA);
+        let window = kaiser(share, BETA);
         let sign = if k.is_multiple_of(2) { -1.0 } else { 1.0 };
         rate * sign * window / k as f64
     };

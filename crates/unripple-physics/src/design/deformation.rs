@@ -131,7 +131,7 @@ mod tests {
             .map(|x| {
                 // d/dx 2J_1(x)/x = -2J_2(x)/x, with J_2 by its asymptote where it holds.
                 let j2 = if x < 30.0 {
-                    super::super::closed::bessel(2, x)
+                    unripple_dsp::bessel_j(2, x)
                 } else {
                     let (c, s) = ((x - 1.25 * PI).cos(), (x - 1.25 * PI).sin());
                     (2.0 / (PI * x)).sqrt() * (c - 15.0 / (8.0 * x) * s)

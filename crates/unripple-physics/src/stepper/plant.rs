@@ -212,7 +212,12 @@ impl Channel {
                     "a positive number",
                     coil.resistance,
                 )?;
-                Ok(require("inductance of a coil in H", coil.inductance >= 0.0, "0 or more", coil.inductance)?)
+                Ok(require(
+                    "inductance of a coil in H",
+                    coil.inductance >= 0.0,
+                    "0 or more",
+                    coil.inductance,
+                )?)
             }
             None if self.voltage => Err(PhysicsError::Unsupported {
                 what: "load of a channel driven by a voltage",
