@@ -26,6 +26,18 @@ pub struct Focused {
     pub shaped: bool,
 }
 
+impl Focused {
+    /// When each target is in focus, in seconds from the first sample of the drive.
+    pub fn instants(&self) -> impl Iterator<Item = f64> + '_ {
+        self.timing.iter().map(|timing| timing.instant as f64 / self.drive.rate())
+    }
+
+    /// When the first target is in focus, in seconds; 0 without targets.
+    pub fn instant(&self) -> f64 {
+        self.instants().next().unwrap_or(0.0)
+    }
+}
+
 /// A plan that turns targets into drives: what does not depend on the targets is computed once.
 #[derive(Debug)]
 pub struct Focuser<'r> {

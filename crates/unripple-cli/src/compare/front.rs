@@ -2,7 +2,6 @@ use super::Ground;
 use super::row::{self, Row};
 use crate::error::CliError;
 use serde::Serialize;
-use unripple::core::Point;
 use unripple::field::Field;
 use unripple::focus::{Focused, Focuser, Method, Options};
 
@@ -95,19 +94,10 @@ fn trade(ground: &Ground<'_>, options: &Options) -> Result<Trade, CliError> {
 /// What a drive trades at the first target and its focal instant.
 pub fn traded(ground: &Ground<'_>, focused: &Focused) -> Result<Trade, CliError> {
     let drive = focused.drive.clone().as_emitted();
-    let instant = focused.timing.first().map_or(0.0, |timing| timing.instant as f64 / drive.rate());
     let field = Field::new(ground.plant, &drive, CELLS).map_err(CliError::input)?;
-    let target = &ground.targets[0];
-    let traces = field.traces(&target.points, instant).map_err(CliError::input)?;
-    let last = traces.iter().filter_map(|trace| trace.velocity.last());
-    let peak = last.sum::<f64>() / traces.len() as f64;
-    let shots = field.snapshots(&[instant]).map_err(CliError::input)?;
-    let radius = ground.plant.conditions().focal_radius();
-    let near = |p: &Point| ground.targets.iter().flat_map(|t| &t.points).any(|at| at.distance(*p) <= radius);
-    let moved = shots.iter().flat_map(|shot| field.points().iter().zip(&shot.velocity));
-    let (count, sum) = moved
-        .filter(|(p, _)| !near(p))
-        .fold((0, 0.0), |(count, sum), (_, v)| (count + 1, sum + f64::from(*v).powi(2)));
-    let rms = (sum / f64::from(count.max(1))).sqrt();
-    Ok([peak.abs() / rms, drive.energy() / (peak * peak), peak.abs()])
+    let places: Vec<_> = ground.targets.iter().flat_map(|target| target.points.iter().copied()).collect();
+    let found =
+        field.at_instant(focused.instant(), &ground.targets[0].points, &places).map_err(CliError::input)?;
+    let peak = found.velocity.abs();
+    Ok([peak / found.rms_outside, drive.energy() / (peak * peak), peak])
 }

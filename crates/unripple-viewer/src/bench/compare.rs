@@ -29,8 +29,7 @@ impl Bench {
             let level = Level::default();
             let act = Act { surface, responses: &responses, targets: &targets, options: &options, level };
             let acted = act.run().map_err(text)?;
-            let instant = acted.focused.timing.first().map_or(0, |timing| timing.instant);
-            focus = instant as f64 / acted.drive.rate();
+            focus = acted.focused.instant();
             used = acted.focused.points.iter().flatten().copied().collect();
             panes.push(
                 json!({ "method": method.name(), "report": acted.report(surface, &options), "focus_s": focus }),

@@ -71,8 +71,7 @@ impl Aware {
         let peak = |responses: &Responses, drive: &Drive, focused: &Focused| -> Result<f64, ActError> {
             let field = Field::new(responses, drive, 1.0)?;
             let points = targets.first().map_or(&[][..], |target| &target.points);
-            let instant = focused.timing.first().map_or(0.0, |t| t.instant as f64 / drive.rate());
-            let traces = field.traces(points, instant)?;
+            let traces = field.traces(points, focused.instant())?;
             let sum: f64 = traces.iter().filter_map(|trace| trace.velocity.last()).sum();
             Ok((sum / traces.len().max(1) as f64).abs())
         };

@@ -47,10 +47,8 @@ impl Aimed {
     fn of(act: &Act<'_>, focused: &Focused) -> Self {
         let rate = focused.drive.rate();
         let seconds = |samples: usize| samples as f64 / rate;
-        let timed = act.targets.iter().zip(&focused.timing);
-        let aims = timed
-            .map(|(target, timing)| Aim { points: target.points.clone(), instant: seconds(timing.instant) })
-            .collect();
+        let timed = act.targets.iter().zip(focused.instants());
+        let aims = timed.map(|(target, instant)| Aim { points: target.points.clone(), instant }).collect();
         let last = focused.timing.iter().map(|timing| timing.instant).max().unwrap_or(0);
         let until = match focused.period {
             Some(_) => seconds(focused.drive.samples().saturating_sub(1)),

@@ -2,7 +2,7 @@
 
 use super::StudyError;
 use std::f64::consts::{PI, TAU};
-use unripple_core::{ActuatorKind, CoilDrive, Drive, Point, Responses, Surface};
+use unripple_core::{ActuatorKind, CoilDrive, Point, Responses, Surface};
 use unripple_field::Field;
 use unripple_focus::{Options, Target, focus};
 use unripple_physics::{Medium, ResponseOptions, responses};
@@ -88,27 +88,15 @@ pub fn coils(
         let responses = responses(&fitted, &ResponseOptions::default())?;
         let options = Options { window, limit: coils.drive_for_one_newton(), ..Options::default() };
         let drive = focus(&responses, &[Target::at(at)], &options)?.drive;
-        let (peak_velocity_m_s, contrast) = contrast(&responses, &drive, at, window)?;
-        Ok(Coiled { coils: *coils, decay_time_s: median_decay(&responses), contrast, peak_velocity_m_s })
+        let found = Field::new(&responses, &drive, CELLS)?.at_instant(window, &[at], &[at])?;
+        Ok(Coiled {
+            coils: *coils,
+            decay_time_s: median_decay(&responses),
+            contrast: found.contrast().unwrap_or(f64::NAN),
+            peak_velocity_m_s: found.velocity,
+        })
     };
     kinds.iter().map(row).collect()
-}
-
-/// Velocity at the focus at the focal instant, and its ratio to the rms outside the focal disc.
-fn contrast(responses: &Responses, drive: &Drive, at: Point, window: f64) -> Result<(f64, f64), StudyError> {
-    let field = Field::new(responses, drive, CELLS)?;
-    let peak = field.traces(&[at], window)?[0].velocity.last().copied().unwrap_or(0.0);
-    let snapshot = &field.snapshots(&[window])?[0];
-    let reach = responses.conditions().focal_radius();
-    let outside: Vec<f64> = field
-        .points()
-        .iter()
-        .zip(&snapshot.velocity)
-        .filter(|(p, _)| p.distance(at) > reach)
-        .map(|(_, v)| f64::from(*v).powi(2))
-        .collect();
-    let rms = (outside.iter().sum::<f64>() / outside.len().max(1) as f64).sqrt();
-    Ok((peak, peak / rms))
 }
 
 /// Median of 1/σ over the distinct oscillations that swing.
