@@ -200,7 +200,7 @@ fn combine(points: &[Point; 4], weights: [f64; 4]) -> Point {
 }
 
 /// The integral of `f` from `from` over `width` by Gauss's rule of four points.
-fn gauss(f: impl Fn(f64) -> f64, from: f64, width: f64) -> f64 {
+pub(crate) fn gauss(f: impl Fn(f64) -> f64, from: f64, width: f64) -> f64 {
     const RULE: [(f64, f64); 2] = [
         (0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
         (0.861_136_311_594_052_6, 0.347_854_845_137_453_86),

@@ -1,4 +1,6 @@
-use unripple_core::OutOfRange;
+//! Why the physics of a surface could not be computed.
+
+use unripple_core::{OutOfRange, OutlineFault};
 
 /// Why the physics of a surface could not be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -59,4 +61,13 @@ pub enum PhysicsError {
         /// What went wrong.
         found: String,
     },
+}
+
+impl From<Vec<OutlineFault>> for PhysicsError {
+    /// The first of them.
+    fn from(faults: Vec<OutlineFault>) -> Self {
+        let (expected, found) =
+            faults.first().map_or(("a sheet", String::new()), |fault| (fault.expected(), fault.found()));
+        Self::Outline { expected, found }
+    }
 }

@@ -6,10 +6,8 @@ mod emission;
 mod grain;
 mod hole;
 mod material;
-mod meet;
 mod outline;
 mod path;
-mod piece;
 mod piezo;
 mod place;
 mod polygon;
@@ -117,7 +115,7 @@ fn holes(root: &Section, rim: &Rim, fetch: &Fetch, faults: &mut Faults) -> (Vec<
     });
     let (cuts, whole) = hole::read(root, fetch, faults);
     let cuts: Vec<Cut> = drawn.chain(cuts).collect();
-    let good = apart::check(rim.shape.as_ref(), &cuts, faults);
+    let Some(good) = apart::check(rim, &cuts, faults) else { return (Vec::new(), false) };
     let sound = whole && good.iter().all(|good| *good);
     let kept = cuts.into_iter().zip(good).filter(|(_, good)| *good);
     (kept.map(|(cut, _)| cut.hole).collect(), sound)

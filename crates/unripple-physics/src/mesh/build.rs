@@ -5,11 +5,10 @@ use super::front::Front;
 use super::region::Region;
 use super::relax::{relax, widen};
 use super::rim::{Cut, cut};
-use super::rims::Rims;
 use super::sizing::Sizing;
-use super::vector::{circumcircle, cross, doubled, middle, minus, norm};
 use super::{Mesh, MeshEdge, Span, Triangle, Vertex};
 use crate::PhysicsError;
+use unripple_core::plane::{Rims, circumcircle, cross, doubled, middle, minus, norm};
 use unripple_core::{Outline, Point};
 
 /// A circle through a triangle's vertices wider than this share of the edge length has room for another vertex.

@@ -1,7 +1,7 @@
-use super::rims::Rims;
 use super::williams::exponent;
 use crate::PhysicsError;
 use std::f64::consts::PI;
+use unripple_core::plane::Rims;
 use unripple_core::{Edge, Outline};
 
 /// Edges are never made shorter than this share of the local size.

@@ -1,11 +1,10 @@
 use super::region::Region;
 use super::rim::cut;
-use super::rims::Rims;
 use super::sizing::Sizing;
-use super::tree::Bounds;
 use super::{Mesh, field::Field, field::GROWTH};
 use crate::PhysicsError;
 use std::f64::consts::PI;
+use unripple_core::plane::{Bounds, Rims};
 use unripple_core::{Edge, OutOfRange, Outline, Point};
 
 /// Halvings of a cell after which its middle speaks for it.

@@ -1,5 +1,5 @@
-use super::tree::{Bounds, Node, Tree};
 use unripple_core::Point;
+use unripple_core::plane::{Bounds, Node, Tree};
 
 /// Where edges of some length are wanted.
 #[derive(Clone, Copy, Debug)]

@@ -5,12 +5,11 @@ use super::cells::{Cells, Near, Quick};
 use super::field::Field;
 use super::region::Region;
 use super::rim::{Cut, fan};
-use super::rims::Rims;
-use super::vector::{along, middle, minus, norm, turned};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::f64::consts::{FRAC_PI_2, PI};
 use unripple_core::Point;
+use unripple_core::plane::{Rims, along, doubled, middle, minus, norm, turned};
 
 /// A vertex nearer than this share of the edge length is taken for the one wanted.
 const SAME: f64 = 0.72;
@@ -143,7 +142,7 @@ impl<'a> Front<'a> {
                 Err(_) => continue,
             };
             let [a, b, c] = [pair[0], pair[1], third].map(|i| self.cloud.points[i]);
-            if super::vector::doubled(a, b, c) > 0.0 {
+            if doubled(a, b, c) > 0.0 {
                 self.wait([pair[0], third]);
                 self.wait([third, pair[1]]);
             }

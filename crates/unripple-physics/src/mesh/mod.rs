@@ -2,22 +2,17 @@
 
 mod build;
 mod cells;
-mod check;
 mod corner;
 mod delaunay;
 mod estimate;
 mod field;
 mod front;
-mod piece;
 mod region;
 mod relax;
 mod rim;
-mod rims;
 mod sizing;
 #[cfg(test)]
 mod tests;
-mod tree;
-mod vector;
 mod williams;
 
 use unripple_core::{Edge, Point, Side};

@@ -1,6 +1,5 @@
-use super::tree::{Bounds, Node, Tree};
-use super::vector::doubled;
 use unripple_core::Point;
+use unripple_core::plane::{Bounds, Node, Tree, doubled};
 
 /// What lies within closed polygons.
 #[derive(Clone, Debug)]

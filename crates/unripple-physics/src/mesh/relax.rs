@@ -2,9 +2,9 @@
 
 use super::field::Field;
 use super::front::Cloud;
-use super::vector::{along, minus, norm, sharpness, turned};
 use std::f64::consts::PI;
 use unripple_core::Point;
+use unripple_core::plane::{along, middle, minus, norm, sharpness, turned};
 
 /// A triangle less sharp than this (the cotangent of its least angle, 34°) may lose some of it to its neighbours.
 const FAIR: f64 = 1.46;
@@ -63,7 +63,7 @@ pub(super) fn relax(cloud: &mut Cloud, triangles: &[[usize; 3]], field: &Field, 
             }
             let mean = Point::new(sum.x / star.len() as f64, sum.y / star.len() as f64);
             let before = stars.sharpness(v, p, &cloud.points);
-            let better = [mean, super::vector::middle(p, mean)]
+            let better = [mean, middle(p, mean)]
                 .into_iter()
                 .find(|q| stars.sharpness(v, *q, &cloud.points) <= before.max(FAIR));
             if let Some(q) = better {

@@ -1,9 +1,8 @@
 use super::field::{Field, Source};
-use super::rims::Rims;
 use super::sizing::Sizing;
-use super::vector::{norm, turned};
 use super::{Span, Vertex};
 use std::f64::consts::{FRAC_PI_2, PI};
+use unripple_core::plane::{Rims, norm, turned};
 use unripple_core::{Edge, Point};
 
 /// Most that a rim's edge turns, in radians: a small hole gets at least 14 edges.

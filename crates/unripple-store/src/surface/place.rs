@@ -1,8 +1,8 @@
 use super::bounds::Bounds;
-use super::piece::Piece;
 use super::range::of;
 use super::reader::{Entry, Faults, Section};
-use unripple_core::{Outline, Point, Shape};
+use unripple_core::plane::{Piece, from_segment, pieces};
+use unripple_core::{Outline, Point, Shape, Side};
 
 /// Step of the coordinates suggested to people, in metres.
 const STEP: f64 = 1e-6;
@@ -15,6 +15,7 @@ const STRAIGHT: f64 = 1e-14;
 /// A closed curve that tells quickly what is inside.
 struct Fence {
     shape: Shape,
+    sides: Vec<Side>,
     bounds: Bounds,
     pieces: Vec<Piece>,
 }
@@ -32,7 +33,8 @@ impl Fence {
         let sides = shape.sides();
         Self {
             bounds: Bounds::of_sides(&sides),
-            pieces: sides.iter().flat_map(Piece::of_side).collect(),
+            pieces: sides.iter().enumerate().flat_map(|(i, side)| pieces(side, i)).collect(),
+            sides,
             shape,
         }
     }
@@ -44,13 +46,14 @@ impl Fence {
         }
         let mut inside = false;
         let mut left: Vec<Piece> = Vec::new();
-        for piece in self.pieces.iter().filter(|piece| piece.may_matter_to(p, ON)) {
+        for piece in self.pieces.iter().filter(|piece| may_matter(piece, p)) {
             left.push(*piece);
             while let Some(piece) = left.pop() {
-                if piece.distance_from(p) > piece.sag + ON {
-                    inside ^= piece.crosses_ray_from(p);
-                } else if piece.sag > STRAIGHT {
-                    left.extend(piece.halves());
+                let [from, to] = piece.ends;
+                if from_segment(p, from, to) > piece.sagitta + ON {
+                    inside ^= crosses_ray(piece.ends, p);
+                } else if piece.sagitta > STRAIGHT {
+                    left.extend(piece.halves(&self.sides[piece.side]));
                 } else {
                     return Where::On;
                 }
@@ -58,6 +61,17 @@ impl Fence {
         }
         if inside { Where::Inside } else { Where::Outside }
     }
+}
+
+/// Whether a piece may cross the ray that runs from a point to the right, or come near the point.
+fn may_matter(piece: &Piece, p: Point) -> bool {
+    let ([a, b], reach) = (piece.ends, piece.sagitta + ON);
+    p.y <= a.y.max(b.y) + reach && p.y >= a.y.min(b.y) - reach && p.x <= a.x.max(b.x) + reach
+}
+
+/// Whether a chord crosses the ray that runs from a point to the right.
+fn crosses_ray([a, b]: [Point; 2], p: Point) -> bool {
+    (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) * (b.x - a.x) / (b.y - a.y)
 }
 
 /// The sheet as far as the file is without fault, to tell which places are on it.

@@ -1,6 +1,6 @@
 use super::bounds::Bounds;
-use super::meet::{self, Meeting};
 use crate::decimal;
+use unripple_core::plane::{self, Met};
 use unripple_core::{Edge, Edges, Point, Shape, Side};
 
 /// Most sides of a closed curve.
@@ -98,12 +98,12 @@ impl Ring {
             let i = if self.turned { count - 1 - i } else { i };
             ends.partition_point(|end| *end <= i)
         };
-        let found = match meet::within(&self.sides)? {
-            Meeting::Pair(i, j) => match (listed(i).min(listed(j)), listed(i).max(listed(j))) {
-                (i, j) if i == j => format!("side {i} that crosses or touches itself"),
-                (i, j) => format!("sides {i} and {j} that cross or touch"),
+        let found = match plane::within(&self.sides)? {
+            Met::Sides([i, j], at) => match (listed(i).min(listed(j)), listed(i).max(listed(j))) {
+                (i, j) if i == j => format!("side {i} that crosses or touches itself at {}", place(at)),
+                (i, j) => format!("sides {i} and {j} that cross or touch at {}", place(at)),
             },
-            Meeting::TooMany => "sides that lie along each other in too many places to compare".into(),
+            Met::TooMany => "sides that lie along each other in too many places to compare".into(),
         };
         Some((found, format!("{what} that does not meet itself")))
     }
@@ -133,4 +133,9 @@ pub(super) fn off_corner(bounds: &Bounds, what: &str, each: &str) -> Option<Comp
 /// Metres as millimetres to the nanometre, for messages.
 pub(super) fn millimetres(metres: f64) -> String {
     decimal::text((metres * 1e9).round() / 1e6, 0)
+}
+
+/// A place as a file has it, for messages.
+pub(super) fn place(at: Point) -> String {
+    format!("[{}, {}] mm", millimetres(at.x), millimetres(at.y))
 }

@@ -178,7 +178,16 @@ fn polygons() {
         ),
         (
             "[[0, 0], [100, 0], [100, 90], [60, -0.0], [0, 80]]",
-            "expected a polygon that does not meet itself, found sides 0 and 2 that cross or touch",
+            "expected a polygon that does not meet itself, found sides 0 and 2 that cross or touch at [60, 0] mm",
+        ),
+        // A corner sharper, and a slot narrower, than triangles can follow.
+        (
+            "[[0, 0], [100, 0], [100, 60], [60, 60], [60, 0.3]]",
+            "expected a polygon that does not meet itself, found sides 0 and 4 that cross or touch at [0, 0] mm",
+        ),
+        (
+            "[[0, 0], [100, 0], [100, 60], [50.000004, 60], [50.000002, 10], [50, 60], [0, 60]]",
+            "expected a polygon that does not meet itself, found sides 3 and 4 that cross or touch at [50.000002, 10] mm",
         ),
         (
             "[[10, 5], [100, 5], [100, 80]]",

@@ -303,7 +303,7 @@ fn many_holes() {
     assert_eq!((list.len(), list[0].found.as_str()), (1, "257 holes"));
     assert_eq!((list[0].expected.as_str(), list[0].nearest.as_deref()), ("at most 256 holes", Some("256")));
     let saw: String =
-        (0..4000).map(|i| format!("[{}, {}],", 0.001 * f64::from(i), f64::from(i % 2))).collect();
+        (0..4000).map(|i| format!("[{}, {}],", 0.001 * f64::from(i), 0.05 * f64::from(i % 2))).collect();
     let saws: String = (0..5)
         .map(|i| format!("[[hole]]\npolygon_mm = [[4, 50], [0, 50], {saw}]\nat_mm = [{}, 20]\n", 20 + 10 * i))
         .collect();

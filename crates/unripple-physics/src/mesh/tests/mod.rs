@@ -3,10 +3,10 @@
 mod random;
 mod sheets;
 
-use super::vector::{cross, doubled, minus, sharpness};
 use super::*;
 use sheets::{named, sheets};
 use std::collections::HashMap;
+use unripple_core::plane::{cross, doubled, minus, sharpness};
 use unripple_core::{Hole, Outline, Shape};
 
 /// The area of a mesh with its curved edges: straight triangles, and what lies between chords and curves.

@@ -1,71 +1,124 @@
-use super::piece::{Piece, pieces};
+//! Rims in pieces, and the distances between them.
+
+use super::faults::OutlineFault;
+use super::piece::Piece;
 use super::tree::{Bounds, Node, Tree};
 use super::vector::{along, angle, cross, minus, norm};
-use crate::PhysicsError;
+use crate::{Edge, Outline, Point, Side};
 use std::f64::consts::PI;
 use std::ops::Range;
-use unripple_core::{Edge, Outline, Point, Side};
-
-/// How far apart sides may end and start that are to meet, as a share of the extent.
-const OPEN: f64 = 1e-9;
 
 /// All rims of an outline: closed, apart from each other, the sheet to their left.
 #[derive(Clone, Debug)]
-pub(super) struct Rims {
+pub struct Rims {
     /// All sides and how they are held, rim by rim.
-    pub(super) sides: Vec<(Side, Edge)>,
+    pub sides: Vec<(Side, Edge)>,
     /// The sides of each rim, the outer one first.
-    pub(super) loops: Vec<Range<usize>>,
+    pub loops: Vec<Range<usize>>,
+    /// The rim of each side.
+    rims: Vec<usize>,
     /// The angle of the sheet where each side starts, 0 to 2π.
-    pub(super) angles: Vec<f64>,
+    pub angles: Vec<f64>,
     /// The sides cut into pieces.
-    pub(super) pieces: Vec<Piece>,
+    pub pieces: Vec<Piece>,
+    /// The first piece of each side.
+    firsts: Vec<usize>,
     /// The boxes of the pieces.
-    pub(super) tree: Tree,
+    pub tree: Tree,
     /// The longer side of the bounding box, in metres.
-    pub(super) extent: f64,
+    pub extent: f64,
 }
 
 impl Rims {
     /// The rims of an outline.
     ///
     /// # Errors
-    /// [`PhysicsError::Outline`] if they do not bound a sheet.
-    pub(super) fn new(outline: &Outline) -> Result<Self, PhysicsError> {
+    /// All faults of an outline that bounds no sheet: of broken or open rims these alone.
+    pub fn new(outline: &Outline) -> Result<Self, Vec<OutlineFault>> {
         let (mut sides, mut loops) = (Vec::new(), Vec::new());
         for rim in outline.loops() {
             loops.push(sides.len()..sides.len() + rim.sides.len());
             sides.extend(rim.sides);
         }
-        check_sides(&sides, &loops)?;
-        let pieces: Vec<Piece> =
-            sides.iter().enumerate().flat_map(|(i, (side, _))| pieces(side, i)).collect();
+        super::check::sides(&sides, &loops)?;
+        let rims = Self::of(sides, loops);
+        super::check::rims(&rims)?;
+        Ok(rims)
+    }
+
+    /// Rims of sound sides, whether or not they bound a sheet.
+    pub(super) fn of(sides: Vec<(Side, Edge)>, loops: Vec<Range<usize>>) -> Self {
+        let rims: Vec<usize> =
+            loops.iter().enumerate().flat_map(|(rim, sides)| sides.clone().map(move |_| rim)).collect();
+        let mut pieces: Vec<Piece> = Vec::new();
+        let mut firsts = Vec::with_capacity(sides.len());
+        for (i, (side, _)) in sides.iter().enumerate() {
+            firsts.push(pieces.len());
+            pieces.extend(super::piece::pieces(side, i));
+        }
         let boxes: Vec<(Bounds, f64)> = pieces.iter().map(|piece| (piece.bounds(0.0), 0.0)).collect();
         let all = pieces.iter().flat_map(|piece| piece.ends).collect::<Vec<_>>();
         let bounds = Bounds::around(&all, 0.0);
         let extent = (bounds.high.x - bounds.low.x).max(bounds.high.y - bounds.low.y);
         let tree = Tree::new(&boxes);
-        let mut rims = Self { sides, loops, angles: Vec::new(), pieces, tree, extent };
-        rims.angles = (0..rims.sides.len()).map(|i| rims.angle(i)).collect();
-        rims.check_closed()?;
-        super::check::check(&rims)?;
-        Ok(rims)
+        let mut found = Self { sides, loops, rims, angles: Vec::new(), pieces, firsts, tree, extent };
+        found.angles = (0..found.sides.len()).map(|i| found.angle(i)).collect();
+        found
     }
 
-    fn rim_of(&self, side: usize) -> Range<usize> {
-        self.loops.iter().find(|rim| rim.contains(&side)).cloned().unwrap_or(0..0)
+    /// The rim of a side.
+    pub fn rim_of(&self, side: usize) -> usize {
+        self.rims.get(side).copied().unwrap_or(0)
     }
 
     /// The side that follows on the same rim.
-    pub(super) fn next(&self, side: usize) -> usize {
-        let rim = self.rim_of(side);
+    pub fn next(&self, side: usize) -> usize {
+        let rim = &self.loops[self.rim_of(side)];
         if side + 1 < rim.end { side + 1 } else { rim.start }
     }
 
     /// The side before on the same rim.
-    pub(super) fn previous(&self, side: usize) -> usize {
-        let rim = self.rim_of(side);
+    pub fn previous(&self, side: usize) -> usize {
+        let rim = &self.loops[self.rim_of(side)];
         if side > rim.start { side - 1 } else { rim.end - 1 }
+    }
+
+    /// The piece that follows on the same rim.
+    pub(super) fn following(&self, piece: usize) -> usize {
+        let side = self.pieces[piece].side;
+        match self.pieces.get(piece + 1) {
+            Some(next) if next.side == side => piece + 1,
+            _ => self.firsts[self.next(side)],
+        }
+    }
+
+    /// Whether `other` starts where `one` ends.
+    pub(super) fn follows(&self, one: &Piece, other: &Piece) -> bool {
+        let inner = one.side == other.side && one.span[1] == other.span[0];
+        inner || (one.span[1] == 1.0 && other.span[0] == 0.0 && self.next(one.side) == other.side)
+    }
+
+    /// Signed area within a rim, in m², positive anticlockwise.
+    pub(super) fn area(&self, rim: usize) -> f64 {
+        let origin = self.sides[self.loops[rim].start].0.at(0.0);
+        let piece = |piece: &Piece| {
+            let [a, b] = piece.ends.map(|p| minus(p, origin));
+            piece.doubled_area(&self.sides[piece.side].0) + a.x * b.y - a.y * b.x
+        };
+        0.5 * self.of_rim(rim).map(piece).sum::<f64>()
+    }
+
+    /// How often a rim runs anticlockwise around a point that is not on it.
+    pub(super) fn winding(&self, rim: usize, p: Point) -> i64 {
+        let angle: f64 = self.of_rim(rim).map(|piece| piece.seen_from(p, &self.sides[piece.side].0)).sum();
+        (angle / (2.0 * PI)).round() as i64
+    }
+
+    /// The pieces of one rim.
+    fn of_rim(&self, rim: usize) -> impl Iterator<Item = &Piece> {
+        let sides = self.loops[rim].clone();
+        let piece = |side: usize| self.firsts.get(side).copied().unwrap_or(self.pieces.len());
+        self.pieces[piece(sides.start)..piece(sides.end)].iter()
     }
 
     fn angle(&self, side: usize) -> f64 {
@@ -73,22 +126,9 @@ impl Rims {
         PI - angle(before, tangent(&self.sides[side].0, 0.0))
     }
 
-    fn check_closed(&self) -> Result<(), PhysicsError> {
-        for (i, (side, _)) in self.sides.iter().enumerate() {
-            let (end, start) = (self.sides[self.previous(i)].0.at(1.0), side.at(0.0));
-            if end.distance(start) > OPEN * self.extent {
-                return Err(PhysicsError::Outline {
-                    expected: "sides that meet end to end",
-                    found: format!("a side that ends at {end} before one that starts at {start}"),
-                });
-            }
-        }
-        Ok(())
-    }
-
     /// How far it is across the sheet from a place on a side along a direction, up to `most`; infinite if farther. What
     /// the narrowing of the sheet towards a corner of the side lets expect does not count.
-    pub(super) fn gap(&self, side: usize, t: f64, direction: Point, most: f64) -> f64 {
+    pub fn gap(&self, side: usize, t: f64, direction: Point, most: f64) -> f64 {
         let from = self.sides[side].0.at(t);
         let beam = Bounds::around(&[from, along(from, direction, most)], 0.0);
         let mut found = f64::INFINITY;
@@ -125,37 +165,10 @@ impl Rims {
 }
 
 /// Direction of travel at a parameter, also where the derivative vanishes.
-pub(super) fn tangent(side: &Side, t: f64) -> Point {
+pub fn tangent(side: &Side, t: f64) -> Point {
     let d = side.derivative(t);
     if norm(d) > 1e-9 * side.length() {
         return d;
     }
     minus(side.at((t + 1e-3).min(1.0)), side.at((t - 1e-3).max(0.0)))
-}
-
-fn check_sides(sides: &[(Side, Edge)], loops: &[Range<usize>]) -> Result<(), PhysicsError> {
-    let fault = |expected, found| Err(PhysicsError::Outline { expected, found });
-    if loops.iter().any(Range::is_empty) {
-        return fault("rims of at least one side", "a rim without sides".to_owned());
-    }
-    for (i, (side, _)) in sides.iter().enumerate() {
-        let whole = match side {
-            Side::Line { from, to } => from.is_finite() && to.is_finite(),
-            Side::Arc { centre, radius, start, sweep } => {
-                centre.is_finite()
-                    && radius.is_finite()
-                    && *radius > 0.0
-                    && start.is_finite()
-                    && sweep.is_finite()
-            }
-            Side::Cubic(p) => p.iter().all(|p| p.is_finite()),
-        };
-        if !whole {
-            return fault("finite coordinates and positive radii", format!("side {i}, {side:?}"));
-        }
-        if side.length() <= 0.0 {
-            return fault("sides that have a length", format!("a side without length at {}", side.at(0.0)));
-        }
-    }
-    Ok(())
 }

@@ -1,18 +1,22 @@
-use unripple_core::Point;
+//! Boxes, and a tree of them for searches.
+
+use crate::Point;
 
 /// Items in a leaf.
 const LEAF: usize = 4;
 
 /// A box with sides along the axes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bounds {
-    pub(super) low: Point,
-    pub(super) high: Point,
+pub struct Bounds {
+    /// The corner of least coordinates.
+    pub low: Point,
+    /// The corner of greatest coordinates.
+    pub high: Point,
 }
 
 impl Bounds {
     /// The box around some points, widened by a margin.
-    pub(super) fn around(points: &[Point], margin: f64) -> Self {
+    pub fn around(points: &[Point], margin: f64) -> Self {
         let mut bounds = Self {
             low: Point::new(f64::INFINITY, f64::INFINITY),
             high: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
@@ -29,12 +33,12 @@ impl Bounds {
     }
 
     /// Its centre.
-    pub(super) fn centre(&self) -> Point {
+    pub fn centre(&self) -> Point {
         Point::new(0.5 * (self.low.x + self.high.x), 0.5 * (self.low.y + self.high.y))
     }
 
     /// Whether two boxes share a point.
-    pub(super) fn meets(&self, other: &Self) -> bool {
+    pub fn meets(&self, other: &Self) -> bool {
         self.low.x <= other.high.x
             && other.low.x <= self.high.x
             && self.low.y <= other.high.y
@@ -42,14 +46,14 @@ impl Bounds {
     }
 
     /// Distance from another box; 0 if they meet.
-    pub(super) fn apart(&self, other: &Self) -> f64 {
+    pub fn apart(&self, other: &Self) -> f64 {
         let x = (self.low.x - other.high.x).max(other.low.x - self.high.x).max(0.0);
         let y = (self.low.y - other.high.y).max(other.low.y - self.high.y).max(0.0);
         (x * x + y * y).sqrt()
     }
 
     /// Distance from a point; 0 inside.
-    pub(super) fn distance(&self, p: Point) -> f64 {
+    pub fn distance(&self, p: Point) -> f64 {
         let x = (self.low.x - p.x).max(p.x - self.high.x).max(0.0);
         let y = (self.low.y - p.y).max(p.y - self.high.y).max(0.0);
         (x * x + y * y).sqrt()
@@ -58,9 +62,11 @@ impl Bounds {
 
 /// A branch: the box of all its items, the least of their weights, and where the next branch beside it starts.
 #[derive(Clone, Debug)]
-pub(super) struct Node {
-    pub(super) bounds: Bounds,
-    pub(super) least: f64,
+pub struct Node {
+    /// The box of all its items.
+    pub bounds: Bounds,
+    /// The least of their weights.
+    pub least: f64,
     items: [usize; 2],
     leaf: bool,
     after: usize,
@@ -68,14 +74,14 @@ pub(super) struct Node {
 
 /// A tree of boxes, each with a weight, for searches that leave out what is too far.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Tree {
+pub struct Tree {
     nodes: Vec<Node>,
     order: Vec<usize>,
 }
 
 impl Tree {
     /// A tree of boxes and weights.
-    pub(super) fn new(items: &[(Bounds, f64)]) -> Self {
+    pub fn new(items: &[(Bounds, f64)]) -> Self {
         let mut tree = Self { nodes: Vec::new(), order: (0..items.len()).collect() };
         if !items.is_empty() {
             tree.grow(items, 0, items.len());
@@ -103,7 +109,7 @@ impl Tree {
     }
 
     /// Shows `item` all items of the branches that `open` lets through.
-    pub(super) fn search<S>(
+    pub fn search<S>(
         &self,
         state: &mut S,
         open: impl Fn(&S, &Node) -> bool,

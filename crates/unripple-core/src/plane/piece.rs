@@ -1,7 +1,10 @@
+//! Sides cut into short pieces.
+
 use super::tree::Bounds;
 use super::vector::{angle, cross, from_segment, minus, norm};
+use crate::side::gauss;
+use crate::{Point, Side};
 use std::f64::consts::PI;
-use unripple_core::{Point, Side};
 
 /// Most that a piece turns, in radians.
 const TURN: f64 = 0.1;
@@ -10,22 +13,22 @@ const DEEPEST: u32 = 24;
 
 /// A short piece of a side, told apart from its chord by no more than `sagitta`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Piece {
+pub struct Piece {
     /// Which side, counted through all rims.
-    pub(super) side: usize,
+    pub side: usize,
     /// Parameters at both ends.
-    pub(super) span: [f64; 2],
+    pub span: [f64; 2],
     /// Both ends.
-    pub(super) ends: [Point; 2],
+    pub ends: [Point; 2],
     /// Greatest distance from the chord (a bound of it), in metres.
-    pub(super) sagitta: f64,
+    pub sagitta: f64,
     /// By how much the tangent turns (a bound of it), in radians.
-    pub(super) turn: f64,
+    pub turn: f64,
 }
 
 impl Piece {
     /// The piece of a side between two parameters.
-    pub(super) fn new(side: &Side, index: usize, span: [f64; 2]) -> Self {
+    pub fn new(side: &Side, index: usize, span: [f64; 2]) -> Self {
         let ends = span.map(|t| side.at(t));
         let (sagitta, turn) = match *side {
             Side::Line { .. } => (0.0, 0.0),
@@ -39,18 +42,18 @@ impl Piece {
     }
 
     /// Its two halves.
-    pub(super) fn halves(&self, side: &Side) -> [Self; 2] {
+    pub fn halves(&self, side: &Side) -> [Self; 2] {
         let half = 0.5 * (self.span[0] + self.span[1]);
         [[self.span[0], half], [half, self.span[1]]].map(|span| Self::new(side, self.side, span))
     }
 
     /// A box that holds it.
-    pub(super) fn bounds(&self, margin: f64) -> Bounds {
+    pub fn bounds(&self, margin: f64) -> Bounds {
         Bounds::around(&self.ends, self.sagitta + margin)
     }
 
     /// How often it winds around a point, as the angle that it is seen under (rad).
-    pub(super) fn seen_from(&self, p: Point, side: &Side) -> f64 {
+    pub fn seen_from(&self, p: Point, side: &Side) -> f64 {
         let [a, b] = self.ends;
         if self.sagitta > 0.0 && self.span[1] - self.span[0] > 1e-12 && from_segment(p, a, b) <= self.sagitta
         {
@@ -60,13 +63,9 @@ impl Piece {
     }
 
     /// ∫ x dy - y dx along it, x and y from its start: four Gauss points, exact for a cubic.
-    pub(super) fn doubled_area(&self, side: &Side) -> f64 {
+    pub fn doubled_area(&self, side: &Side) -> f64 {
         let [from, to] = self.span;
-        let swept = |x: f64| {
-            let t = 0.5 * (from + to) + 0.5 * (to - from) * x;
-            cross(minus(side.at(t), self.ends[0]), side.derivative(t))
-        };
-        0.5 * (to - from) * crate::modes::gauss(4).into_iter().map(|(x, w)| w * swept(x)).sum::<f64>()
+        gauss(|t| cross(minus(side.at(t), self.ends[0]), side.derivative(t)), from, to - from)
     }
 }
 
@@ -87,7 +86,7 @@ fn hull(side: &Side, span: [f64; 2], ends: [Point; 2]) -> (f64, f64) {
 }
 
 /// A side cut into pieces that turn little.
-pub(super) fn pieces(side: &Side, index: usize) -> Vec<Piece> {
+pub fn pieces(side: &Side, index: usize) -> Vec<Piece> {
     match *side {
         Side::Line { .. } => vec![Piece::new(side, index, [0.0, 1.0])],
         Side::Arc { sweep, .. } => {

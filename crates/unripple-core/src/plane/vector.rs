@@ -1,62 +1,62 @@
 //! Plane vectors.
 
-use unripple_core::Point;
+use crate::Point;
 
 /// a - b.
-pub(super) fn minus(a: Point, b: Point) -> Point {
+pub fn minus(a: Point, b: Point) -> Point {
     Point::new(a.x - b.x, a.y - b.y)
 }
 
 /// a + s·b.
-pub(super) fn along(a: Point, b: Point, s: f64) -> Point {
+pub fn along(a: Point, b: Point, s: f64) -> Point {
     Point::new(a.x + s * b.x, a.y + s * b.y)
 }
 
 /// The middle between two points.
-pub(super) fn middle(a: Point, b: Point) -> Point {
+pub fn middle(a: Point, b: Point) -> Point {
     Point::new(0.5 * (a.x + b.x), 0.5 * (a.y + b.y))
 }
 
 /// a·b.
-pub(super) fn dot(a: Point, b: Point) -> f64 {
+pub fn dot(a: Point, b: Point) -> f64 {
     a.x * b.x + a.y * b.y
 }
 
 /// a × b.
-pub(super) fn cross(a: Point, b: Point) -> f64 {
+pub fn cross(a: Point, b: Point) -> f64 {
     a.x * b.y - a.y * b.x
 }
 
 /// Length of a vector.
-pub(super) fn norm(a: Point) -> f64 {
+pub fn norm(a: Point) -> f64 {
     dot(a, a).sqrt()
 }
 
 /// A vector turned anticlockwise by an angle (rad).
-pub(super) fn turned(a: Point, angle: f64) -> Point {
+pub fn turned(a: Point, angle: f64) -> Point {
     let (s, c) = angle.sin_cos();
     Point::new(a.x * c - a.y * s, a.x * s + a.y * c)
 }
 
 /// The angle from `a` to `b`, anticlockwise, -π to π.
-pub(super) fn angle(a: Point, b: Point) -> f64 {
+pub fn angle(a: Point, b: Point) -> f64 {
     cross(a, b).atan2(dot(a, b))
 }
 
 /// Twice the signed area of a triangle, positive anticlockwise.
-pub(super) fn doubled(a: Point, b: Point, c: Point) -> f64 {
+pub fn doubled(a: Point, b: Point, c: Point) -> f64 {
     cross(minus(b, a), minus(c, a))
 }
 
 /// Distance from `p` to the segment from `a` to `b`.
-pub(super) fn from_segment(p: Point, a: Point, b: Point) -> f64 {
+pub fn from_segment(p: Point, a: Point, b: Point) -> f64 {
     let (ab, ap) = (minus(b, a), minus(p, a));
     let t = (dot(ap, ab) / dot(ab, ab).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
     norm(along(ap, ab, -t))
 }
 
 /// Distance between two segments; 0 where they cross.
-pub(super) fn between_segments([a, b]: [Point; 2], [c, d]: [Point; 2]) -> f64 {
+pub fn between_segments([a, b]: [Point; 2], [c, d]: [Point; 2]) -> f64 {
     let apart = |p: f64, q: f64| (p > 0.0 && q > 0.0) || (p < 0.0 && q < 0.0);
     let cross = !apart(doubled(a, b, c), doubled(a, b, d)) && !apart(doubled(c, d, a), doubled(c, d, b));
     let nearest = from_segment(a, c, d)
@@ -69,7 +69,7 @@ pub(super) fn between_segments([a, b]: [Point; 2], [c, d]: [Point; 2]) -> f64 {
 }
 
 /// The circle through three points: centre and radius. Infinite where they are on a line.
-pub(super) fn circumcircle(a: Point, b: Point, c: Point) -> (Point, f64) {
+pub fn circumcircle(a: Point, b: Point, c: Point) -> (Point, f64) {
     let (u, v) = (minus(b, a), minus(c, a));
     let (uu, vv, d) = (dot(u, u), dot(v, v), 2.0 * cross(u, v));
     let offset = Point::new((v.y * uu - u.y * vv) / d, (u.x * vv - v.x * uu) / d);
@@ -77,7 +77,7 @@ pub(super) fn circumcircle(a: Point, b: Point, c: Point) -> (Point, f64) {
 }
 
 /// Cotangent of the least angle of a triangle; infinite if it is clockwise.
-pub(super) fn sharpness([a, b, c]: [Point; 3]) -> f64 {
+pub fn sharpness([a, b, c]: [Point; 3]) -> f64 {
     let (ab, bc, ca) = (minus(b, a), minus(c, b), minus(a, c));
     let area = cross(ab, bc);
     let least = dot(ab, ca).min(dot(bc, ab)).min(dot(ca, bc));

@@ -1,0 +1,146 @@
+//! Why an outline bounds no sheet.
+
+use crate::Point;
+
+/// Why an outline bounds no sheet. Rims are counted with the outer one as 0 and hole i as i + 1, sides within their rim in the order of
+/// [`Outline::loops`](crate::Outline::loops).
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("expected {}, found {}", self.expected(), self.found())]
+pub enum OutlineFault {
+    /// A rim has no sides.
+    Empty {
+        /// Which.
+        rim: usize,
+    },
+    /// A side has a coordinate that is not finite, or a radius that is not positive.
+    Unbounded {
+        /// Of which rim.
+        rim: usize,
+        /// Which side.
+        side: usize,
+    },
+    /// A side has no length.
+    Pointlike {
+        /// Of which rim.
+        rim: usize,
+        /// Which side.
+        side: usize,
+        /// Where it is.
+        at: Point,
+    },
+    /// A side does not start where the one before it ends.
+    Open {
+        /// Of which rim.
+        rim: usize,
+        /// Which side.
+        side: usize,
+        /// Where the one before it ends.
+        end: Point,
+        /// Where it starts.
+        start: Point,
+    },
+    /// Sides touch, cross or run back over each other.
+    Meeting {
+        /// Of which rims, the first in the order above first.
+        rims: [usize; 2],
+        /// Which sides.
+        sides: [usize; 2],
+        /// Where.
+        at: Point,
+    },
+    /// A rim encloses no area.
+    Flat {
+        /// Which.
+        rim: usize,
+        /// What it encloses, in m².
+        area: f64,
+        /// Where it starts.
+        at: Point,
+    },
+    /// The sides of a rim are listed clockwise.
+    Clockwise {
+        /// Which.
+        rim: usize,
+        /// Where it starts.
+        at: Point,
+    },
+    /// A hole lies outside the outer rim.
+    Outside {
+        /// Which rim.
+        rim: usize,
+        /// Where it starts.
+        at: Point,
+    },
+    /// A hole lies within another.
+    Nested {
+        /// Which rim.
+        rim: usize,
+        /// Within which.
+        within: usize,
+        /// Where it starts.
+        at: Point,
+    },
+    /// Sides lie along each other in too many places to compare.
+    TooMany,
+}
+
+impl OutlineFault {
+    /// What an outline has to be.
+    pub fn expected(&self) -> &'static str {
+        match self {
+            Self::Empty { .. } => "rims of at least one side",
+            Self::Unbounded { .. } => "finite coordinates and positive radii",
+            Self::Pointlike { .. } => "sides that have a length",
+            Self::Open { .. } => "sides that meet end to end",
+            Self::Meeting { .. } | Self::TooMany => {
+                "rims that neither cross nor touch themselves or each other"
+            }
+            Self::Flat { .. } => "rims that enclose an area",
+            Self::Clockwise { .. } => "sides listed anticlockwise",
+            Self::Outside { .. } | Self::Nested { .. } => "holes within the sheet, none within another",
+        }
+    }
+
+    /// What was found, and where.
+    pub fn found(&self) -> String {
+        match self {
+            Self::Empty { rim } => format!("{} without sides", name(*rim)),
+            Self::Unbounded { rim, side } => format!("side {side} of {} without them", name(*rim)),
+            Self::Pointlike { rim, at, .. } => format!("a side without length of {} at {at}", name(*rim)),
+            Self::Open { rim, end, start, .. } => {
+                format!("a side that ends at {end} before one that starts at {start}, on {}", name(*rim))
+            }
+            Self::Meeting { rims: [one, other], at, .. } => match (one, other) {
+                (0, 0) => format!("an outer rim that meets itself at {at}"),
+                (0, _) => format!("a hole that meets the outer rim at {at}"),
+                (one, other) if one == other => format!("a hole whose rim meets itself at {at}"),
+                _ => format!("holes that meet at {at}"),
+            },
+            Self::Flat { rim, area, at } => format!("{} through {at} of {:e} mm²", name(*rim), area * 1e6),
+            Self::Clockwise { rim, at } => format!("{} through {at} that runs clockwise", name(*rim)),
+            Self::Outside { at, .. } => format!("a hole through {at}, outside the outer rim"),
+            Self::Nested { at, .. } => format!("a hole through {at}, within another"),
+            Self::TooMany => "sides that lie along each other in too many places to compare".to_owned(),
+        }
+    }
+
+    /// The rim at fault: of two that meet, the later one. Nothing if it is all of them.
+    pub fn rim(&self) -> Option<usize> {
+        match *self {
+            Self::Empty { rim }
+            | Self::Unbounded { rim, .. }
+            | Self::Pointlike { rim, .. }
+            | Self::Open { rim, .. }
+            | Self::Flat { rim, .. }
+            | Self::Clockwise { rim, .. }
+            | Self::Outside { rim, .. }
+            | Self::Nested { rim, .. } => Some(rim),
+            Self::Meeting { rims: [_, later], .. } => Some(later),
+            Self::TooMany => None,
+        }
+    }
+}
+
+fn name(rim: usize) -> &'static str {
+    if rim == 0 { "an outer rim" } else { "a hole" }
+}

@@ -1,0 +1,19 @@
+//! Geometry in the plane: vectors, boxes, pieces of curves, and whether rims bound a sheet.
+
+mod check;
+mod faults;
+mod meeting;
+mod piece;
+mod rims;
+mod tree;
+mod vector;
+
+pub use faults::OutlineFault;
+pub use meeting::{Met, within};
+pub use piece::{Piece, pieces};
+pub use rims::{Rims, tangent};
+pub use tree::{Bounds, Node, Tree};
+pub use vector::{
+    along, angle, between_segments, circumcircle, cross, dot, doubled, from_segment, middle, minus, norm,
+    sharpness, turned,
+};
