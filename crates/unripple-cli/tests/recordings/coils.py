@@ -78,8 +78,9 @@ def forces(kind, weights, omega, sigma, below, w, drives):
     return force[:, :, 0], (admittance @ force)[:, :, 0]
 
 
-def gives_way(sheet, top):
-    """Compliance `[actuator][actuator]` of the modes between two frequencies, and the next term."""
+def gives_way(sheet, top, at=None):
+    """Compliance `[place][actuator]` of the modes between two frequencies, and the next term; places are the actuators' own by default."""
     waves, omega = sheet.waves_between(top, STIFF * sheet.band)
     weights = sheet.kind.weights(sheet.shapes(waves, sheet.places()), waves)
-    return [(weights.T / omega**power) @ weights for power in (2, 4)]
+    there = weights if at is None else sheet.shapes(waves, at)
+    return [(there.T / omega**power) @ weights for power in (2, 4)]

@@ -1,6 +1,7 @@
 """Supported rectangles: their file, their modes in closed form, what is heard of a drive, how well a drive focuses."""
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -129,6 +130,8 @@ class Heard:
         below = None if held else coils.gives_way(sheet, ABOVE * sheet.band)
         self.motion = np.empty((len(omega), bins), np.complex64)
         self.felt = np.empty((len(weights.T), bins), np.complex128)
+        # Forces of coils, once and thrice derived: what gives way under them moves with these.
+        self.pressed = None if held else np.empty((2, len(weights.T), bins), np.complex128)
         for first in range(0, bins, 2048):
             part = slice(first, first + 2048)
             w = self.omegas[part]
@@ -136,6 +139,7 @@ class Heard:
             if not held:
                 force, felt = coils.forces(sheet.kind, weights, omega, sigma, below, w, force)
                 force, self.felt[:, part] = force.T, felt.T * sheet.kind.sense(w)
+                self.pressed[:, :, part] = 1j * w * force, 1j * w**3 * force
             pushed = weights @ force
             if knock is not None:
                 # A force somewhere on the sheet.
@@ -148,7 +152,14 @@ class Heard:
 
     def velocities(self, at, late):
         """Normal velocities `[place][sample]`, late by so many samples, which need not be whole."""
-        return self.inverse(self.sheet.shapes(self.waves, at).astype(np.float32).T @ self.motion, late)
+        return self.inverse(self.moved(at), late)
+
+    def moved(self, at):
+        """Spectra of the normal velocities `[place][frequency]`: an actuator's own place moves as its sensor hears."""
+        found = self.sheet.shapes(self.waves, at).astype(np.float32).T @ self.motion
+        if self.pressed is None:
+            return found
+        return found + sum(map(np.matmul, coils.gives_way(self.sheet, ABOVE * self.sheet.band, at), self.pressed))
 
     def sensed(self, late):
         """What actuators hear, `[actuator][sample]`."""
@@ -173,8 +184,8 @@ def impulse(sheet, times):
     return np.exp(-sigma[:, None] * times) * (np.cos(turn) - sigma[:, None] / damped * np.sin(turn))
 
 
-def modes_at_last(sheet, drive):
-    """Velocity of each mode at the end of the window."""
+def state_at_last(sheet, drive):
+    """The end of the window: a function from places to normal velocities."""
     last = round(sheet.window * sheet.rate)
     played = np.zeros((len(drive), last + 1))
     played[:, : min(last + 1, drive.shape[1])] = drive[:, : last + 1]
@@ -182,10 +193,14 @@ def modes_at_last(sheet, drive):
     waves, _, _ = sheet.modes()
     if sheet.kind.held in ("current", "voltage"):
         heard = Heard(sheet, played, last + 1, reach=ABOVE)
-        return heard.inverse(heard.motion, 0.0)[:, last]
+        modes = heard.inverse(heard.motion, 0.0)[:, last]
+        pressed = [heard.inverse(lines, 0.0)[:, last] for lines in heard.pressed]
+        below = partial(coils.gives_way, sheet, ABOVE * sheet.band)
+        return lambda at: modes @ sheet.shapes(waves, at) + sum(map(np.matmul, below(at), pressed))
     weights = sheet.kind.weights(sheet.shapes(waves, sheet.places()), waves)
     response = impulse(sheet, (last - np.arange(last + 1)) / sheet.rate)
-    return np.einsum("ma,as,ms->m", weights, played, response, optimize=True) / sheet.rate
+    modes = np.einsum("ma,as,ms->m", weights, played, response, optimize=True) / sheet.rate
+    return lambda at: modes @ sheet.shapes(waves, at)
 
 
 def contrast(sheet, drive, target):
@@ -193,15 +208,13 @@ def contrast(sheet, drive, target):
 
     The drive is `[actuator][sample]`. Disc and grid are those of the program's own definition of the contrast.
     """
-    waves, _, _ = sheet.modes()
-    modes = modes_at_last(sheet, drive)
+    state = state_at_last(sheet, drive)
     shortest = 2.0 * np.pi / wavenumber(replace(sheet, stiffer=1.0))
     counts = [int(np.ceil(8.0 * side / shortest)) for side in sheet.sides]
     centres = [(np.arange(count) + 0.5) * side / count for count, side in zip(counts, sheet.sides)]
     grid = np.stack(np.meshgrid(*centres, indexing="ij"), -1).reshape(-1, 2)
     outside = grid[np.hypot(*(grid - target).T) > 4.0 / 3.0 * shortest]
-    peak = float((modes @ sheet.shapes(waves, target))[0])
-    return peak / float(np.sqrt(np.mean((modes @ sheet.shapes(waves, outside)) ** 2)))
+    return float(state(target)[0]) / float(np.sqrt(np.mean(state(outside) ** 2)))
 
 
 def wavenumber(sheet):
@@ -220,16 +233,15 @@ def swept(sheet, hertz):
 
 def reversal(sheet, target):
     """The drive of time reversal by the true responses, in the band that sweeps reach."""
-    waves, omega, _ = sheet.modes()
     last = round(sheet.window * sheet.rate)
-    shapes = sheet.shapes(waves, target)[:, 0]
     if sheet.kind.held in ("current", "voltage"):
         lines = []
         for line in np.eye(len(sheet.places())):
             one = Heard(sheet, np.outer(line, np.eye(1, last + 1)[0]), last + 1, reach=ABOVE)
-            spectrum = shapes.astype(np.float32) @ one.motion * swept(sheet, one.omegas / (2.0 * np.pi))
-            lines.append(one.inverse(spectrum[None, :], 0.0)[0])
+            lines.append(one.inverse(one.moved(target) * swept(sheet, one.omegas / (2.0 * np.pi)), 0.0)[0])
         return np.array(lines)[:, ::-1]
+    waves, omega, _ = sheet.modes()
+    shapes = sheet.shapes(waves, target)[:, 0]
     response = impulse(sheet, (last - np.arange(last + 1)) / sheet.rate)
     heard = shapes * swept(sheet, omega / (2.0 * np.pi))
     weights = sheet.kind.weights(sheet.shapes(waves, sheet.places()), waves)
