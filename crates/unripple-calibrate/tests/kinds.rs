@@ -81,6 +81,25 @@ fn every_kind_calibrates_right() {
     assert!(wrong.is_empty(), "{wrong:?}");
 }
 
+/// What a coil heard, turned into velocities, is what a probe hears where the coil is, its own sweep included: that response is loudest where
+/// what precedes time 0 was cut away.
+///
+/// Coils have mass here: one without, and little inductance, moves at once with each sample of the virtual drive, and the probe hears
+/// images of the band that the coil's current hardly has.
+#[test]
+fn coils_tell_the_velocity_of_their_own_places() {
+    let mut wrong = Vec::new();
+    for inductance in [0.0, 0.5e-3, 1.9e-3] {
+        let surface = film(1000.0, |_| coil(0.6, inductance, 7e-6, CoilDrive::Voltage));
+        let [own, others] = at_an_actuator(&surface, 2);
+        println!("{:4.1} mH: off by {own:.4} itself, {others:.4} of others", 1e3 * inductance);
+        if own > 0.02 || others > 0.02 {
+            wrong.push(inductance);
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:?}");
+}
+
 /// Surfaces that are not as they are told.
 #[test]
 fn unknown_surfaces_with_every_kind_calibrate() {

@@ -4,7 +4,8 @@ use crate::error::CliError;
 use serde_json::{Value, json};
 use unripple::core::{Port, SampledResponses, Surface};
 use unripple::physics::{Sensor, sensors};
-use unripple_store::{Library, PointState};
+use unripple_calibrate::measure::MeasureOptions;
+use unripple_store::{Library, LibraryPlan, PointState};
 
 /// The key of the log that says what own points hold. Without it they hold velocities.
 pub const KEY: &str = "own_points";
@@ -24,12 +25,12 @@ pub fn sensing(surface: &Surface) -> Result<Vec<Sensor>, CliError> {
 }
 
 /// What a sensor heard, responses one after the other, as velocities under its contact; nothing from one that does not hear a velocity.
-pub fn velocities(sensor: &Sensor, heard: &[f32], samples: usize, rate: f64) -> Option<Vec<f32>> {
-    let rows = heard.chunks_exact(samples).map(|row| {
-        let row: Vec<f64> = row.iter().map(|h| f64::from(*h)).collect();
-        sensor.velocity(&row, rate)
-    });
-    let rows: Vec<Vec<f64>> = rows.collect::<Option<_>>()?;
+pub fn velocities(sensor: &Sensor, heard: &[f32], plan: &LibraryPlan, surface: &Surface) -> Option<Vec<f32>> {
+    let rows = heard.chunks_exact(plan.samples);
+    let rows: Vec<Vec<f64>> = rows.map(|row| row.iter().map(|h| f64::from(*h)).collect()).collect();
+    // Responses reach as far as the sweeps do.
+    let [_, top] = MeasureOptions::default().swept(surface);
+    let rows = sensor.velocities(&rows, plan.conditions.rate, top)?;
     Some(rows.into_iter().flatten().map(|v| v as f32).collect())
 }
 
@@ -53,7 +54,7 @@ pub fn as_velocities(
         last.filter(|_| measured(actuator))
     };
     let own: Vec<Option<usize>> = responses.ports.iter().enumerate().map(place).collect();
-    let (sensors, rate) = (sensing(surface)?, responses.conditions.rate);
+    let sensors = sensing(surface)?;
     let samples = responses.samples();
     let (mut points, mut data) = (Vec::new(), Vec::new());
     for (point, at) in responses.points.iter().enumerate() {
@@ -61,7 +62,7 @@ pub fn as_velocities(
         let rows: Vec<f32> = rows.copied().collect();
         let kept = match own.iter().position(|own| *own == Some(point)) {
             Some(_) if apart == Some(true) => None,
-            Some(actuator) => velocities(&sensors[actuator], &rows, samples, rate),
+            Some(actuator) => velocities(&sensors[actuator], &rows, library.plan(), surface),
             None => Some(rows),
         };
         if let Some(kept) = kept {

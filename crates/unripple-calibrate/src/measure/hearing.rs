@@ -54,19 +54,6 @@ impl Hearing {
         self.sensors.iter().any(|sensor| sensor.circuit.is_some())
     }
 
-    /// What a sensor heard, response by response, as the velocity (m/s) under its contact: what libraries hold. `None` for one that
-    /// does not hear the velocity of a place.
-    pub fn velocity(&self, sensor: usize, heard: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
-        let (sensor, rate) = (self.sensors.get(sensor)?, self.model.conditions.rate);
-        heard.iter().map(|response| sensor.velocity(response, rate)).collect()
-    }
-
-    /// What a sensor hears of velocities (m/s) under its contact: the way back from a library.
-    pub fn heard(&self, sensor: usize, velocity: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
-        let (sensor, rate) = (self.sensors.get(sensor)?, self.model.conditions.rate);
-        Some(velocity.iter().map(|response| sensor.hear(response, rate)).collect())
-    }
-
     /// What a sensor hears of a unit impulse of a drive, from time 0 on.
     pub fn response(&self, sensor: usize, drive: usize, samples: usize) -> Vec<f64> {
         let rate = self.model.conditions.rate;

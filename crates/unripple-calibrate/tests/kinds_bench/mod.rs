@@ -19,7 +19,7 @@ use unripple_devices::{
 use unripple_dsp::Reciprocity;
 use unripple_focus::Method;
 use unripple_physics::design::papers_surface;
-use unripple_physics::{ResponseOptions, responses};
+use unripple_physics::{ResponseOptions, responses, sensors};
 
 /// What came of a calibration.
 #[derive(Clone, Debug)]
@@ -142,7 +142,6 @@ pub fn calibrate(
     };
     let handle = device.handle();
     let mut rig = Hands { device, handle };
-    let layout = rig.device.layout().clone();
 
     let (width, height) = surface.outline.extent();
     let middle = Point::new(width / 2.0, height / 2.0);
@@ -151,11 +150,7 @@ pub fn calibrate(
     let expected = Expected::of(surface, &model, Some(middle), trial.listen).unwrap();
     let faults = check_wiring(&mut rig.device, &expected, &trial).unwrap().faults();
 
-    let wires = Wires::by_name(&model.ports, &layout, &[]).unwrap();
-    let first = Session::new(surface, &layout, wires.clone(), settings).unwrap();
-    let latency = first.find_latency(&mut rig, 1, middle, &model).unwrap().unwrap();
-    let settings = MeasureOptions { latency: latency[0], ..settings.clone() };
-    let session = Session::new(surface, &layout, wires, &settings).unwrap();
+    let (latency, session) = in_time(&mut rig, surface, settings, &model, middle);
     let sensors = session.measure(&mut rig, 1, middle, 2, Listen::Sensors).unwrap();
     let count = sensors.len();
     let flat: Vec<f64> = (0..count)
@@ -179,6 +174,46 @@ pub fn calibrate(
     let contrast = of(Responses::Modal(modal_of(&plant, surface)));
     let share = of(Responses::Sampled(measured.unwrap())) / contrast;
     Found { faults, latency, reciprocity, share, contrast }
+}
+
+/// A session that knows the latency, and the latency.
+fn in_time(
+    rig: &mut Hands,
+    surface: &Surface,
+    settings: &MeasureOptions,
+    model: &ModalResponses,
+    at: Point,
+) -> ([f64; 2], Session) {
+    let layout = rig.device.layout().clone();
+    let wires = Wires::by_name(&model.ports, &layout, &[]).unwrap();
+    let first = Session::new(surface, &layout, wires.clone(), settings).unwrap();
+    let latency = first.find_latency(rig, 1, at, model).unwrap().unwrap();
+    let settings = MeasureOptions { latency: latency[0], ..settings.clone() };
+    (latency, Session::new(surface, &layout, wires, &settings).unwrap())
+}
+
+/// Velocities under an actuator's contact, as told by what it heard and as a probe hears them at the same place: the share by which they
+/// differ, of the response to the actuator's own drive and of that to the others' where they differ most.
+pub fn at_an_actuator(surface: &Surface, actuator: usize) -> [f64; 2] {
+    let (settings, model) = (MeasureOptions::default(), modal(surface, None, 1e-6));
+    let device = Virtual::new(surface, &VirtualOptions::to_be_measured(surface).unwrap()).unwrap();
+    let handle = device.handle();
+    let mut rig = Hands { device, handle };
+    let at = surface.actuators[actuator].at;
+    let (_, session) = in_time(&mut rig, surface, &settings, &model, at);
+    let heard = session.measure(&mut rig, 1, at, 2, Listen::Sensors).unwrap().swap_remove(actuator);
+    let probed = session.measure(&mut rig, 0, at, 0, Listen::Probe).unwrap().remove(0);
+    let [_, top] = settings.swept(surface);
+    let sensor = &sensors(surface).unwrap()[actuator];
+    let told = sensor.velocities(&heard.responses, surface.emission.rate, top).unwrap();
+    let apart = |drive: usize| {
+        let power =
+            |one: &[f64], other: &[f64]| -> f64 { one.iter().zip(other).map(|(x, y)| (x - y).powi(2)).sum() };
+        let (told, probed) = (&told[drive], &probed.responses[drive]);
+        (power(told, probed) / power(probed, &vec![0.0; probed.len()])).sqrt()
+    };
+    let others = (0..told.len()).filter(|drive| *drive != actuator);
+    [apart(actuator), others.map(apart).fold(0.0, f64::max)]
 }
 
 /// The part of true responses that lies in the band.

@@ -229,7 +229,7 @@ fn sensors(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), CliError> {
         for point in points.filter(|point| shelf.library.state(*point) == Some(PointState::Measured)) {
             let values = shelf.library.get(point)?;
             let values = match own.then(|| &sensing[point - shelf.probed]) {
-                Some(sensor) => own::velocities(sensor, &values, plan.samples, plan.conditions.rate),
+                Some(sensor) => own::velocities(sensor, &values, plan, campaign.surface),
                 None => Some(values),
             };
             for (actuator, response) in

@@ -5,6 +5,7 @@
 //! [`ActuatorKind`](unripple_core::ActuatorKind), a file here with a function `transducer` like those of the others, and an
 //! arm in [`Transducer::of`]. Nothing else needs to know.
 
+mod derivative;
 mod force;
 mod moving_magnet;
 mod piezo;
