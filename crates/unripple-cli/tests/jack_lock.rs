@@ -71,6 +71,18 @@ fn ctrl_c_does_not_leave_jack_locked() {
 }
 
 #[test]
+fn a_call_that_is_late_is_not_cut_short() {
+    // Longer than a program waits before it goes on without JACK, as on a machine where others take nearly all of the time.
+    let scratch = Scratch::new("late");
+    let output = joining(&scratch, 7_000).wait_with_output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+    assert!(
+        !Path::new(&scratch.join("lock")).exists(),
+        "the program ended while JACK was locked, and left it so"
+    );
+}
+
+#[test]
 fn a_library_that_never_returns_is_not_waited_for() {
     let scratch = Scratch::new("never");
     let mut child = joining(&scratch, 3_600_000);

@@ -8,6 +8,7 @@
 #![allow(unsafe_code)]
 
 mod api;
+mod caller;
 mod closing;
 mod door;
 mod joining;

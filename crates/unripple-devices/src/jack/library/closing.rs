@@ -2,7 +2,7 @@
 
 use super::Context;
 use super::api::{Api, RawClient};
-use super::door::{DOOR, PATIENCE};
+use super::door::{PATIENCE, Passage};
 use super::roll;
 use crate::jack::events::Events;
 use std::sync::atomic::Ordering;
@@ -41,7 +41,7 @@ impl Closing {
 
 impl Drop for Closing {
     fn drop(&mut self) {
-        let _door = DOOR.lock();
+        let _passage = Passage::wait();
         if !roll::leave(self.raw) {
             // The library may have deleted it, or may not; its callbacks keep what they have.
             std::mem::forget(self.events.clone());

@@ -2,7 +2,7 @@
 //! returns.
 
 use super::api::{Api, RawClient};
-use super::door::{DOOR, PATIENCE, door};
+use super::door::{PATIENCE, Passage, door};
 use super::roll;
 use crate::DevicesError;
 use std::sync::mpsc;
@@ -45,10 +45,10 @@ pub(super) fn join(
     while roll::in_danger() && start.elapsed() < PATIENCE {
         std::thread::sleep(Duration::from_millis(1));
     }
-    drop(door()?);
+    door()?;
     let (tell, told) = mpsc::channel();
     let call = move || {
-        let _door = DOOR.lock();
+        let _passage = Passage::wait();
         let opened = (!roll::in_danger()).then(|| {
             let raw = open();
             if !raw.is_null() {

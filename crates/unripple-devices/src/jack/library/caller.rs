@@ -1,0 +1,32 @@
+//! Whether a thread of this program makes progress, as the kernel counts it.
+
+use std::path::PathBuf;
+
+/// A thread, by its folder in Linux's `/proc`.
+pub(super) struct Caller(PathBuf);
+
+/// What a thread has done so far.
+#[derive(PartialEq)]
+pub(super) struct Activity {
+    /// It would run if it were given a processor.
+    pub(super) waits_for_a_processor: bool,
+    /// Times on a processor and in the queue for one, in nanoseconds, and how often it was given one.
+    scheduled: String,
+}
+
+impl Caller {
+    /// The thread that asks. Nothing where the kernel does not tell.
+    pub(super) fn this_thread() -> Option<Self> {
+        let folder = PathBuf::from("/proc").join(std::fs::read_link("/proc/thread-self").ok()?);
+        folder.join("schedstat").exists().then_some(Self(folder))
+    }
+
+    /// What the thread has done so far; nothing of one that has ended.
+    pub(super) fn activity(&self) -> Option<Activity> {
+        let stat = std::fs::read_to_string(self.0.join("stat")).ok()?;
+        // The state stands behind the name, which may hold brackets itself.
+        let waits_for_a_processor = stat.rsplit_once(") ").is_some_and(|(_, rest)| rest.starts_with('R'));
+        let scheduled = std::fs::read_to_string(self.0.join("schedstat")).ok()?;
+        Some(Activity { waits_for_a_processor, scheduled })
+    }
+}
