@@ -94,6 +94,7 @@ fn exchanged_recordings_and_copies_are_named() {
         let options = VerifyOptions { model, ..VerifyOptions::default() };
         let found = check(&surface, &measured, &twice, &options).unwrap();
         println!("{}", said(&found));
+        assert!(found.copies.len() == 1 && found.doubts.contains(&found.copies[0]), "{:?}", found.copies);
         assert!(
             found.doubts.iter().any(|d| d.what.contains("copy") && d.points == [0, 1]),
             "{}",

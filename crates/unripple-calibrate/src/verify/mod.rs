@@ -66,12 +66,12 @@ pub fn check(
     options: &VerifyOptions,
 ) -> Result<Verified, CalibrateError> {
     together(surface, measured, probed)?;
-    let doubts = copies::doubts(probed, options);
+    let copies = copies::doubts(probed, options);
     if !options.model {
-        return Ok(Verified::without("it was not asked for".into(), doubts));
+        return Ok(Verified::without("it was not asked for".into(), copies));
     }
     let quick = Quick::new(surface, measured, probed, options);
-    Ok(judged(quick, surface, probed, options, doubts))
+    Ok(judged(quick, surface, probed, options, copies))
 }
 
 /// The same against a model that was fitted before, to what all the actuators heard.
@@ -86,9 +86,9 @@ pub fn check_by(
     options: &VerifyOptions,
 ) -> Result<Verified, CalibrateError> {
     together(surface, measured, probed)?;
-    let doubts = copies::doubts(probed, options);
+    let copies = copies::doubts(probed, options);
     let quick = Quick::known(fitted, surface, measured, probed, options);
-    Ok(judged(quick, surface, probed, options, doubts))
+    Ok(judged(quick, surface, probed, options, copies))
 }
 
 /// Refuses responses of other actuators, or at another rate, than what was measured.
@@ -108,11 +108,11 @@ fn judged(
     surface: &Surface,
     probed: &SampledResponses,
     options: &VerifyOptions,
-    doubts: Vec<Doubted>,
+    copies: Vec<Doubted>,
 ) -> Verified {
     match quick {
-        Ok(quick) => against(&quick, surface, probed, options, doubts),
-        Err(why) => Verified::without(why, doubts),
+        Ok(quick) => against(&quick, surface, probed, options, copies),
+        Err(why) => Verified::without(why, copies),
     }
 }
 
@@ -122,13 +122,14 @@ fn against(
     surface: &Surface,
     probed: &SampledResponses,
     options: &VerifyOptions,
-    mut doubts: Vec<Doubted>,
+    copies: Vec<Doubted>,
 ) -> Verified {
     let checker = quick.checker();
     let wavenumber = Medium::of(&surface.sheet).wavenumber(TAU * quick.band[1]);
     let sheet = Sheet::new(&checker, &surface.outline, wavenumber, quick.band[1]);
     let wave = TAU / wavenumber;
     let bench = Bench { quick, sheet: &sheet, surface, places: &probed.points, options, wave };
+    let mut doubts = copies.clone();
     doubts.extend(sensors::doubts(&bench));
     let heard: Vec<Projected> = quick.probed.par_iter().map(|spectra| checker.project(spectra)).collect();
     let common = bench.common(&heard);
@@ -151,6 +152,7 @@ fn against(
         probe_delay: told.then_some(delay),
         gain: levels.common,
         notes,
+        copies,
         doubts,
     }
 }

@@ -55,20 +55,23 @@ pub struct Verified {
     pub gain: Option<f64>,
     /// What is worth a word, and survived.
     pub notes: Vec<String>,
-    /// What makes points, or all of the calibration, doubtful.
+    /// Those of the doubts that need no model: points whose responses are those of another.
+    pub copies: Vec<Doubted>,
+    /// What makes points, or all of the calibration, doubtful, copies first.
     pub doubts: Vec<Doubted>,
 }
 
 impl Verified {
     /// Where there is no model.
-    pub(super) fn without(why: String, doubts: Vec<Doubted>) -> Self {
+    pub(super) fn without(why: String, copies: Vec<Doubted>) -> Self {
         Self {
             model: Checked::Not { why },
             points: Vec::new(),
             probe_delay: None,
             gain: None,
             notes: Vec::new(),
-            doubts,
+            doubts: copies.clone(),
+            copies,
         }
     }
 }

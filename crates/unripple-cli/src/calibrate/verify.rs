@@ -51,11 +51,9 @@ pub fn check(
         ..VerifyOptions::default()
     };
     let heard = heard(shelf, surface, settings)?;
-    let bare = VerifyOptions { model: false, ..options.clone() };
-    let copies = verify::check(surface, &heard, &probed, &bare)?.doubts;
     let found = verify::check(surface, &heard, &probed, &options)?;
     correct(&mut shelf.library, &points, &taken, &probed, &found)?;
-    doubt(shelf, &points, &found, &copies)?;
+    doubt(shelf, &points, &found)?;
     say(shelf, &points, &found, settings.model)
 }
 
@@ -197,12 +195,12 @@ fn comes(delay: f64) -> String {
 }
 
 /// Keeps what is doubted. Without a model nothing takes back what one said before of points that are as they were.
-fn doubt(shelf: &mut Shelf, points: &[usize], found: &Verified, copies: &[Doubted]) -> Result<(), CliError> {
+fn doubt(shelf: &mut Shelf, points: &[usize], found: &Verified) -> Result<(), CliError> {
     let of = |check: &str, doubt: &Doubted| {
         Doubt::of(check, &doubt.what).at(doubt.points.iter().map(|p| points[*p]).collect())
     };
-    let copied: Vec<Doubt> = copies.iter().map(|doubt| of(COPIES, doubt)).collect();
-    let others = found.doubts.iter().filter(|doubt| !copies.contains(doubt));
+    let copied: Vec<Doubt> = found.copies.iter().map(|doubt| of(COPIES, doubt)).collect();
+    let others = found.doubts.iter().filter(|doubt| !found.copies.contains(doubt));
     let mut doubts: Vec<Doubt> = others.map(|doubt| of(CHECK, doubt)).collect();
     if matches!(found.model, Checked::Not { .. }) {
         let said: Vec<String> = copied.iter().chain(&doubts).map(|doubt| doubt.what.clone()).collect();
