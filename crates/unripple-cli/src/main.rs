@@ -28,6 +28,7 @@ mod grid;
 mod input;
 mod interrupt;
 mod judge;
+mod late;
 mod modes;
 mod open;
 mod output;

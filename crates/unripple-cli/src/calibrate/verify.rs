@@ -2,6 +2,7 @@
 
 use super::shelf::Shelf;
 use crate::error::CliError;
+use crate::late::comes;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use unripple::core::{ModalResponses, Point, SampledResponses, Surface};
@@ -175,7 +176,8 @@ fn correct(
         let take = Take { point: points[n], samples: &samples, quality: &quality, bands: &bands, state };
         library.put_all(&[take])?;
     }
-    let said = all.map_or(Value::Null, |delay| json!({ "delay_s": delay, "said": comes(delay) }));
+    let said = |delay| format!("{} (--probe-delay-ms says what it is)", comes(delay));
+    let said = all.map_or(Value::Null, |delay| json!({ "delay_s": delay, "said": said(delay) }));
     Ok(library.log(PROBE, said)?)
 }
 
@@ -184,14 +186,6 @@ fn before(taken: &[Taken]) -> Option<f64> {
     let mut known: Vec<f64> = taken.iter().map(|taken| taken.delay).filter(|delay| *delay != 0.0).collect();
     known.sort_unstable_by(f64::total_cmp);
     known.get(known.len() / 2).copied()
-}
-
-/// The probe's delay (s) in words.
-fn comes(delay: f64) -> String {
-    let (ms, side) = (1e3 * delay.abs(), if delay < 0.0 { "earlier" } else { "later" });
-    format!(
-        "the probe comes {ms:.3} ms {side} than the sensors: taken out (--probe-delay-ms says what it is)"
-    )
 }
 
 /// Keeps what is doubted. Without a model nothing takes back what one said before of points that are as they were.
@@ -270,12 +264,6 @@ fn say(shelf: &mut Shelf, points: &[usize], found: &Verified, asked: bool) -> Re
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_probe_that_comes_first_is_said_to() {
-        assert!(comes(-0.5e-3).starts_with("the probe comes 0.500 ms earlier than the sensors: taken out"));
-        assert!(comes(1e-3).starts_with("the probe comes 1.000 ms later than the sensors: taken out"));
-    }
 
     #[test]
     fn a_delay_of_before_is_that_of_all_points() {

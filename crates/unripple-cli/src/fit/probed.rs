@@ -2,6 +2,7 @@
 
 use super::heard::Heard;
 use crate::error::CliError;
+use crate::late::comes;
 use unripple::core::{SampledResponses, Surface};
 use unripple::dsp::shift;
 use unripple_calibrate::Fitted;
@@ -63,7 +64,7 @@ fn notes(found: &Verified) -> Vec<String> {
         notes.push(format!("probed points are taken as they are, not checked against the model: {why}"));
     }
     if let Some(delay) = found.probe_delay {
-        notes.push(format!("the probe comes {:.3} ms later than the sensors: taken out", 1e3 * delay));
+        notes.push(comes(delay));
     }
     notes
 }
@@ -81,4 +82,23 @@ fn corrected(responses: &SampledResponses, factors: &[f64], late: f64) -> Result
     }
     let SampledResponses { ports, points, conditions, .. } = responses.clone();
     SampledResponses::new(ports, points, conditions, responses.samples(), data).map_err(CliError::work)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_probe_that_comes_first_is_not_said_to_come_later() {
+        let found = Verified {
+            model: Checked::Against { band: [100.0, 1000.0], unexplained: 0.01 },
+            points: Vec::new(),
+            probe_delay: Some(-0.5e-3),
+            gain: None,
+            notes: Vec::new(),
+            copies: Vec::new(),
+            doubts: Vec::new(),
+        };
+        assert_eq!(notes(&found), ["the probe comes 0.500 ms earlier than the sensors: taken out"]);
+    }
 }
