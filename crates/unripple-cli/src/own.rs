@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use unripple::core::{Port, SampledResponses, Surface};
 use unripple::physics::{Sensor, sensors};
 use unripple_calibrate::measure::MeasureOptions;
-use unripple_store::{Library, LibraryPlan, PointState};
+use unripple_store::{Library, LibraryPlan, PointState, Quality};
 
 /// The key of the log that says what own points hold. Without it they hold velocities.
 pub const KEY: &str = "own_points";
@@ -17,6 +17,12 @@ const SAME: f64 = 1e-6;
 pub fn told(surface: &Surface) -> Result<Value, CliError> {
     let units: Vec<&str> = sensing(surface)?.iter().map(|sensor| sensor.unit).collect();
     Ok(json!({ "hold": "what sensors heard", "units": units }))
+}
+
+/// Noise over signal, as a ratio of amplitudes; nothing where it is not known.
+pub fn noise(quality: &Quality) -> Option<f64> {
+    let db = quality.signal_to_noise_db;
+    db.is_finite().then(|| 10f64.powf(-db / 20.0))
 }
 
 /// The actuators of a surface as sensors.
@@ -76,4 +82,18 @@ pub fn as_velocities(
     }
     let SampledResponses { ports, conditions, .. } = responses;
     SampledResponses::new(ports, points, conditions, samples, data).map_err(CliError::work)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn noise_is_a_share_of_the_signal() {
+        let at = |signal_to_noise_db| noise(&Quality { signal_to_noise_db, ..Quality::UNKNOWN });
+        assert!(at(20.0).is_some_and(|share| (share - 0.1).abs() < 1e-15));
+        assert!(at(-20.0).is_some_and(|share| (share - 10.0).abs() < 1e-12));
+        // Of nothing there is no share.
+        assert_eq!((at(f64::NAN), at(f64::NEG_INFINITY)), (None, None));
+    }
 }

@@ -148,13 +148,10 @@ fn noise(shelf: &Shelf, alive: &[usize]) -> Result<f64, CliError> {
     let (mut sum, mut count) = (0.0, 0.0);
     for sensor in alive {
         let qualities = shelf.library.quality(shelf.probed + sensor)?;
-        for db in
-            alive.iter().filter(|drive| *drive != sensor).map(|drive| qualities[*drive].signal_to_noise_db)
-        {
-            if db.is_finite() {
-                sum += 10f64.powf(-db / 10.0);
-                count += 1.0;
-            }
+        let others = alive.iter().filter(|drive| *drive != sensor);
+        for noise in others.filter_map(|drive| own::noise(&qualities[*drive])) {
+            sum += noise.powi(2);
+            count += 1.0;
         }
     }
     Ok(if count > 0.0 { (2.0_f64 * sum / count).sqrt() } else { 0.0 })

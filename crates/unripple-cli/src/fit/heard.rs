@@ -1,6 +1,7 @@
 //! What a library says of its actuators and of the points of its surface.
 
 use crate::error::CliError;
+use crate::own;
 use unripple::core::{SampledResponses, Surface};
 use unripple::dsp::Band;
 use unripple_calibrate::Measured;
@@ -100,9 +101,7 @@ fn noise(
         for (driven, quality) in qualities.iter().enumerate().filter(|(driven, _)| *driven != sensor) {
             let response = all.response(driven, point);
             let power = response.iter().map(|h| f64::from(*h).powi(2)).sum::<f64>() / response.len() as f64;
-            if power > 0.0 && quality.signal_to_noise_db.is_finite() {
-                found.push((power * 10f64.powf(-quality.signal_to_noise_db / 10.0)).sqrt());
-            }
+            found.extend(own::noise(quality).filter(|_| power > 0.0).map(|noise| power.sqrt() * noise));
         }
     }
     found.sort_unstable_by(f64::total_cmp);
