@@ -1,5 +1,7 @@
 use super::Fitted;
+use super::limited::through;
 use crate::CalibrateError;
+use rayon::prelude::*;
 use unripple_core::{Point, SampledResponses, require};
 use unripple_physics::sample;
 
@@ -7,29 +9,35 @@ use unripple_physics::sample;
 const REACH: f64 = 0.125;
 
 impl Fitted {
-    /// The model's responses at some points, circuits of coils included, so many samples of each.
+    /// The model's responses at some points as they would be measured, circuits of coils included, so many samples of each.
+    ///
+    /// A measurement that is limited to a band reaches beyond the surface's own, and so do these.
     ///
     /// # Errors
     /// [`CalibrateError::Core`] for more than can be held.
     pub fn sampled(&self, points: &[Point], samples: usize) -> Result<SampledResponses, CalibrateError> {
-        let all = sample(self.modal(), points, samples);
-        let count = all.ports.len();
-        if !(0..count).any(|actuator| self.coil(actuator).is_some()) {
+        let reached = self.reached();
+        let all = sample(reached.map_or(self.modal(), |reached| &reached.responses), points, samples);
+        let (count, rate) = (all.ports.len(), all.conditions.rate);
+        let coiled = (0..count).any(|actuator| self.coil(actuator).is_some());
+        if reached.is_none() && !coiled {
             return Ok(all);
         }
-        let mut data = Vec::with_capacity(points.len() * count * samples);
-        for (p, actuator) in (0..points.len()).flat_map(|p| (0..count).map(move |actuator| (p, actuator))) {
-            let row = all.response(actuator, p);
-            match self.coil(actuator) {
-                Some(coil) => {
-                    let signal: Vec<f64> = row.iter().map(|h| f64::from(*h)).collect();
-                    data.extend(coil.behind(&signal, all.conditions.rate).into_iter().map(|h| h as f32));
-                }
-                None => data.extend(row),
-            }
-        }
+        let one = |n: usize| {
+            let (actuator, p) = (n % count, n / count);
+            let signal: Vec<f64> = all.response(actuator, p).iter().map(|h| f64::from(*h)).collect();
+            let signal =
+                self.coil(actuator).map_or_else(|| signal.clone(), |coil| coil.behind(&signal, rate));
+            let signal = match reached {
+                Some(reached) => through(reached.band, &signal, rate, 0.0)?,
+                None => signal,
+            };
+            Ok(signal.into_iter().map(|h| h as f32).collect())
+        };
+        let rows = (0..points.len() * count).into_par_iter().map(one);
+        let rows = rows.collect::<Result<Vec<Vec<f32>>, CalibrateError>>()?;
         let SampledResponses { ports, points, conditions, .. } = all;
-        Ok(SampledResponses::new(ports, points, conditions, samples, data)?)
+        Ok(SampledResponses::new(ports, points, conditions, samples, rows.concat())?)
     }
 
     /// Responses at some points: the model's, corrected by what was measured nearby.

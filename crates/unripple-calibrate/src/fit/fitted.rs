@@ -2,11 +2,13 @@ use super::coil::Coil;
 use super::following::Following;
 use super::layout::{KNOTS, Unknown, Values};
 use super::loaded::LoadedModes;
+use super::reached::Reached;
 use super::residual::Case;
 use super::solve::Found;
 use crate::{CalibrateError, Tracker, Tracking};
 use faer::Mat;
 use unripple_core::{Conditions, ModalResponses, Point, Port, Responses, Surface};
+use unripple_dsp::Band;
 use unripple_physics::Medium;
 
 /// The share of what was measured that neither model nor noise explains from which a model is doubted.
@@ -87,6 +89,8 @@ pub struct Fitted {
     pub verdict: Verdict,
     responses: ModalResponses,
     beyond: ModalResponses,
+    /// Beyond the surface's band as far as the measurement's, where that has one.
+    reached: Option<Reached>,
     sensors: Mat<f64>,
     bending_shares: Vec<f64>,
     coils: Vec<Option<Coil>>,
@@ -192,7 +196,7 @@ impl Fitted {
         case: &Case,
         found: &Found,
         expected: &Values,
-        nominal: &Surface,
+        (nominal, limited): (&Surface, Option<Band>),
     ) -> Result<Self, CalibrateError> {
         let answers = Answers { case, found, variances: case.variances(found)?, gains: case.basis.gains() };
         let Modelled { responses, sensors, bending_shares } =
@@ -207,6 +211,7 @@ impl Fitted {
         let medium = Medium::of(&nominal.sheet);
         let terms = case.layout.waves.iter().enumerate();
         let following = Following::of(&found.residual.lines);
+        let beyond = answers.responses([0.0, f64::INFINITY], nominal)?.responses;
         Ok(Self {
             tension: answers.ratio(Unknown::Tension, medium.tension),
             bending_stiffness: answers.ratio(Unknown::Bending, medium.bending_stiffness),
@@ -223,8 +228,9 @@ impl Fitted {
             sensors,
             bending_shares,
             coils: case.basis.coils.clone(),
+            reached: limited.map(|band| Reached::of(&beyond, band)),
             responses,
-            beyond: answers.responses([0.0, f64::INFINITY], nominal)?.responses,
+            beyond,
         })
     }
 
@@ -253,6 +259,7 @@ impl Fitted {
             coils: actuators.iter().map(|a| self.coils[*a].clone()).collect(),
             responses: part(&self.responses),
             beyond: part(&self.beyond),
+            reached: self.reached.as_ref().map(|reached| reached.with(part)),
             ..self.clone()
         }
     }
@@ -260,6 +267,11 @@ impl Fitted {
     /// The same with all modes that the fit worked with, those outside the band too.
     pub(crate) fn beyond(&self) -> &ModalResponses {
         &self.beyond
+    }
+
+    /// The model through the measurement's band, where that has one.
+    pub(super) fn reached(&self) -> Option<&Reached> {
+        self.reached.as_ref()
     }
 
     /// The circuit of an actuator, if it is a coil on a voltage.
@@ -270,7 +282,8 @@ impl Fitted {
     /// The same model with all responses multiplied by a gain: in the scale of a probe that is not the sensors'.
     #[must_use]
     pub fn scaled(mut self, gain: f64) -> Self {
-        for responses in [&mut self.responses, &mut self.beyond] {
+        let reached = self.reached.as_mut().map(|reached| &mut reached.responses);
+        for responses in [&mut self.responses, &mut self.beyond].into_iter().chain(reached) {
             responses.input = &responses.input * faer::Scale(gain);
         }
         self

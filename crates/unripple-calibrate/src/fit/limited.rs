@@ -58,17 +58,25 @@ impl Limited {
             coils.into_iter().flatten().fold(response.to_vec(), |signal, coil| coil.behind(&signal, rate))
         };
         let whole: Vec<Vec<f64>> = all.chunks(samples).enumerate().map(circuits).collect();
-        let cut = |response: &Vec<f64>| {
-            let mut signal = vec![0.0; BEFORE];
-            signal.extend(response);
-            band.limit(&mut signal, rate)?;
-            Ok(shift(&signal, values.late * rate).split_off(BEFORE))
-        };
-        let cut = whole.iter().map(cut).collect::<Result<_, CalibrateError>>()?;
+        let cut = whole.iter().map(|response| through(band, response, rate, values.late));
+        let cut = cut.collect::<Result<_, CalibrateError>>()?;
         let far = DERIVATIVES.map(|order| derivative(order, band, rate, samples));
         let far = far.iter().map(|h| shift(h, values.late * rate).split_off(BEFORE)).collect();
         Ok(Self { whole, cut, late: values.late, far })
     }
+}
+
+/// A response as it is measured: limited to a band without phase, late by so many seconds, and without what then precedes time 0.
+pub(super) fn through(
+    band: Band,
+    response: &[f64],
+    rate: f64,
+    late: f64,
+) -> Result<Vec<f64>, CalibrateError> {
+    let mut signal = vec![0.0; BEFORE];
+    signal.extend(response);
+    band.limit(&mut signal, rate)?;
+    Ok(shift(&signal, late * rate).split_off(BEFORE))
 }
 
 /// A derivative of an impulse at sample `BEFORE`, limited to a band, over a power of the band's top.

@@ -11,6 +11,7 @@ mod limited;
 mod loaded;
 mod measured;
 mod quadrature;
+mod reached;
 mod residual;
 mod run;
 mod sheet;

@@ -112,7 +112,7 @@ pub fn fit(nominal: &Surface, measured: &Measured, options: &FitOptions) -> Resu
         fit.widen(band, FINE, options.reach * top, false)?;
     }
     let (found, spectra, count) = fit.widen(band, FINE, options.reach * top, true)?;
-    Fitted::new(&fit.case(&fit.layout, &spectra, count), &found, &fit.expected, nominal)
+    Fitted::new(&fit.case(&fit.layout, &spectra, count), &found, &fit.expected, (nominal, limited))
 }
 
 /// A fit on its way.

@@ -125,6 +125,13 @@ def fit_after_exchange(case, kind):
     case.changes.append(exchange(kind))
 
 
+@fault("fit-after-exchange-unheeded", 1, 2, 3)
+def fit_after_exchange_unheeded(case, kind):
+    """The library is made without a model, so that the fit is the first to see it."""
+    fit_after_exchange(case, kind)
+    case.later.append("--no-model")
+
+
 @fault("fit-clean", 0)
 def fit_clean(case, _):
     case.fit = True
