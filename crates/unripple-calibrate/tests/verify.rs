@@ -122,7 +122,8 @@ fn points_that_mirror_each_other_are_no_copies() {
 fn a_probe_beside_its_place_is_told_how_far() {
     let surface = film();
     let points = places(&surface, 3);
-    for (off, doubtful) in [(10e-3, true), (3e-3, false), (1.5e-3, false)] {
+    // A fifth of a wave is less than far, and most of what is heard there is not what the place does.
+    for (off, doubtful) in [(10e-3, true), (5e-3, true), (3e-3, false), (1.5e-3, false)] {
         let mut stood = points.clone();
         stood[1].x += off;
         let found = verified(&mut Truth::of(surface.clone()), &surface, &points, &stood, &[1.0; 3]);

@@ -27,8 +27,10 @@ pub(super) fn verdict(
     let told = one.kind == Kind::Here && off > SURE * one.error && off > WORTH * lambda;
     let counts = one.kind == Kind::Here && bench.options.probe;
     let correction = levels.correction(one, bench.quick.actuators.len()).filter(|_| counts);
+    // Beside its place it is worth nothing there from some share of a wave on: what is left unexplained tells as well.
+    let beside = off > FAR * lambda || one.own.unexplained() > bench.limit();
     let doubt = match one.kind {
-        Kind::Here if off > FAR * lambda && told => Some(format!(
+        Kind::Here if beside && told => Some(format!(
             "the probe seems to have been {} the point, at {} (put it there, or give the place it is at)",
             away(at, one.nearby.at),
             one.nearby.at
