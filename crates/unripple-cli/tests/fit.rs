@@ -8,7 +8,7 @@ use unripple::field::Field;
 use unripple::focus::{Focuser, Method, Options, Target};
 use unripple::physics::{ResponseOptions, responses};
 use unripple_devices::Unknowns;
-use unripple_store::{Library, load_surface, to_toml};
+use unripple_store::{Doubt, Library, load_surface, to_toml};
 
 const WINDOW: f64 = 0.030;
 
@@ -251,6 +251,14 @@ fn a_doubtful_fit_writes_no_library_unless_asked() {
     let file = scratch.file("film.toml", film());
     let (heard, fitted) = (scratch.join("heard"), scratch.join("fitted"));
     json(&["calibrate", &file, "--unknowns", "7", "-o", &heard]);
+    // What was doubted before, by checks of another name and of the fit's own; what is doubted of a point goes with the point.
+    let of_all = [("reciprocity", "both ways differ"), ("fit", "an earlier fit was doubtful")];
+    let mut library = Library::open(&heard).unwrap();
+    for (check, what) in of_all {
+        let of_point = Doubt::of(check, "a point is doubtful").at(vec![0]);
+        library.set_doubts(check, vec![Doubt::of(check, what), of_point]).unwrap();
+    }
+    drop(library);
     let fit = ["fit", &heard, "--strays", "0", "--at", "62,90", "-o", &fitted];
     let said = |arguments: &[&str]| {
         let output = run(arguments);
@@ -262,7 +270,12 @@ fn a_doubtful_fit_writes_no_library_unless_asked() {
     assert!(!Library::is_at(&fitted));
     assert!(said(&[&fit[..], &["--even-if-doubtful"]].concat()).contains("doubtful"));
     let library = Library::open(&fitted).unwrap();
-    assert!(library.doubts().iter().any(|doubt| doubt.check == "fit"), "{:?}", library.doubts());
+    let kept: Vec<(&str, &str)> =
+        library.doubts().iter().map(|doubt| (doubt.check.as_str(), doubt.what.as_str())).collect();
+    assert!(of_all.iter().all(|doubt| kept.contains(doubt)), "{kept:?}");
+    let own =
+        |(check, what): &&(&str, &str)| *check == "fit" && what.contains("the fitted model is doubtful");
+    assert!(kept.iter().filter(own).count() == 1 && kept.len() == 3, "{kept:?}");
 }
 
 #[test]
