@@ -6,6 +6,7 @@ use common::{Scratch, json, number, refused};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Duration;
+use unripple_store::{Library, LibraryPlan, load_surface, to_toml};
 
 const POINTS: [&str; 4] = ["--at=62,90", "--at=67,85", "--at=57,95", "--at=100,60"];
 
@@ -51,6 +52,39 @@ fn killed_and_taken_up_again_is_the_same_library() {
     assert_eq!(focus["taken_on"], "library");
     let other = [&calibration(&whole)[..], &["--at=20,20"]].concat();
     assert!(refused(&other, 1).contains("points: 12 instead of 13"));
+}
+
+/// A library that was swept from 60 Hz on, as all once were, of a film whose lowest mode lies where sweeps begin below by now.
+#[test]
+fn a_library_is_gone_on_with_by_the_sweep_that_it_was_begun_with() {
+    let scratch = Scratch::new("calibrate-before");
+    let mut film = load_surface("hudin-2012").unwrap();
+    (film.sheet.tension, film.emission.band[1]) = (60.0, 700.0);
+    let file = scratch.file("film.toml", to_toml(&film));
+    let (whole, begun, silent) = (scratch.join("whole"), scratch.join("begun"), scratch.join("silent"));
+    let into = |library| ["calibrate", &file, "--unknowns", "3", "-o", library, "--at=62,90"];
+    json(&into(&whole));
+    let plan = Library::open(&whole).unwrap().plan().clone();
+    let from = |plan: &LibraryPlan| {
+        plan.provenance["swept Hz"].split_whitespace().next().and_then(|hz| hz.parse::<f64>().ok()).unwrap()
+    };
+    assert!(from(&plan) < 55.0, "{}", from(&plan));
+
+    let mut before = plan.clone();
+    before.provenance.insert("swept Hz".into(), "60 840".into());
+    drop(Library::create(&begun, &before).unwrap());
+    json(&into(&begun));
+    let library = Library::open(&begun).unwrap();
+    assert_eq!(from(library.plan()), 60.0);
+    let runs = library.logged("runs").unwrap().as_array().unwrap();
+    assert_eq!(runs.last().unwrap()["swept_hz"][0], 60.0);
+
+    // Before that, nothing was said of it.
+    let mut before = plan;
+    before.provenance.remove("swept Hz");
+    drop(Library::create(&silent, &before).unwrap());
+    let said = refused(&into(&silent), 1);
+    assert!(said.contains("`swept Hz`") && said.contains("into another library"), "{said}");
 }
 
 #[test]

@@ -5,7 +5,7 @@ use super::finish::{ASKED, PROBE_DELAY, begin, finish, log_run};
 use super::report::{self, Report};
 use super::shelf::Shelf;
 use super::wires::{Asked, Found};
-use super::{Campaign, figure, levels, middle, points};
+use super::{Campaign, before, figure, levels, middle, points};
 use crate::args::WayName;
 use crate::error::CliError;
 use serde_json::Value;
@@ -19,8 +19,9 @@ use unripple_store::{Library, PointState};
 
 /// Measures all points that are missing, and says what the library is worth.
 pub fn run(mut known: Campaign<'_>, as_json: bool) -> Result<(), CliError> {
-    super::warn(&known.settings, known.model);
     let (options, surface) = (known.options, known.surface);
+    before::apply(options, surface, &mut known.settings)?;
+    super::warn(&known.settings, known.model);
     let Opened { mut rig, truth } = devices::open(&options.device, surface)?;
     let layout = rig.device().layout().clone();
     let wires = Wires::by_name(&known.model.ports, &layout, &devices::named(&options.wire)?)?;

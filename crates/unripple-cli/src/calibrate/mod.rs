@@ -1,5 +1,6 @@
 //! `unripple calibrate`: responses measured through a device, point by point, into a library.
 
+pub mod before;
 pub mod devices;
 mod figure;
 mod finish;
@@ -162,8 +163,8 @@ impl Campaign<'_> {
             ("device".to_owned(), format!("{:?}", options.device.device).to_lowercase()),
             ("by".to_owned(), by),
             (PROBED.to_owned(), self.places.probed.to_string()),
-            ("sweep s".to_owned(), settings.sweep.to_string()),
-            ("swept Hz".to_owned(), settings.swept(surface).map(|hz| hz.to_string()).join(" ")),
+            (before::SWEEP.to_owned(), settings.sweep.to_string()),
+            (before::SWEPT.to_owned(), settings.swept(surface).map(|hz| hz.to_string()).join(" ")),
             ("repeats".to_owned(), settings.repeats.to_string()),
             ("level".to_owned(), settings.level.to_string()),
         ]);

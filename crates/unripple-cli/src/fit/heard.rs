@@ -1,5 +1,6 @@
 //! What a library says of its actuators and of the points of its surface.
 
+use crate::calibrate::before::SWEPT;
 use crate::error::CliError;
 use crate::own;
 use unripple::core::{SampledResponses, Surface};
@@ -110,14 +111,14 @@ fn noise(
 
 /// The lowest and the highest frequency that a library was measured with, in Hz: what it says, or what `calibrate` sweeps.
 fn swept(library: &Library, surface: &Surface) -> Result<[f64; 2], CliError> {
-    let Some(text) = library.plan().provenance.get("swept Hz") else {
+    let Some(text) = library.plan().provenance.get(SWEPT) else {
         return Ok(MeasureOptions::default().swept(surface));
     };
     let hz: Vec<f64> = text.split_whitespace().filter_map(|word| word.parse().ok()).collect();
     match hz[..] {
         [from, to] if from > 0.0 && from.is_finite() && to > 1.8 * from && to.is_finite() => Ok([from, to]),
         _ => Err(CliError::Input(format!(
-            "{}: expected `swept Hz` as the lowest and the highest frequency, found `{text}`",
+            "{}: expected `{SWEPT}` as the lowest and the highest frequency, found `{text}`",
             library.path().display()
         ))),
     }
