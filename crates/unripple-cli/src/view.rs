@@ -38,8 +38,10 @@ pub fn run(options: &ViewOptions, as_json: bool) -> Result<(), CliError> {
     let source = input::source(&options.surface)?;
     let respond = respond(&options.surface, &source);
     let ip = options.listen.unwrap_or(IpAddr::V4(Ipv4Addr::LOCALHOST));
+    let without_scale = source.without_scale();
     let view = View {
         surface: source.surface,
+        without_scale,
         stored: source.stored.map(|stored| Arc::new(stored.responses)),
         respond,
         source: options.surface.clone(),

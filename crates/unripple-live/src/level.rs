@@ -15,6 +15,8 @@ pub struct Level {
     /// Displacement at a focus, in m, of a full pulse and at the surface's own limit.
     moved: [f64; 2],
     limit: f64,
+    /// Whether it is known what responses mean.
+    scaled: bool,
 }
 
 impl Level {
@@ -32,10 +34,18 @@ impl Level {
         let most = trace.iter().fold(0.0, |m: f64, u| m.max(u.abs()));
         let share = if limited { None } else { Self::linear(surface, maker, &made)? };
         let Some(share) = share.filter(|share| *share < 1.0) else {
-            return Ok(Self { full: None, moved: [most, most], limit });
+            return Ok(Self { full: None, moved: [most, most], limit, scaled: true });
         };
         let felt_db = 20.0 * (share * pulse_felt(&made, &trace)).log10();
-        Ok(Self { full: Some(Full { place, felt_db }), moved: [share * most, most], limit })
+        Ok(Self { full: Some(Full { place, felt_db }), moved: [share * most, most], limit, scaled: true })
+    }
+
+    /// The level by responses of unknown scale: how far anything moves is not known, so that nothing but the limit sets one.
+    ///
+    /// # Errors
+    /// Those of [`Level::of`].
+    pub fn without_scale(surface: &Surface, maker: &Maker) -> Result<Self, LiveError> {
+        Ok(Self { scaled: false, ..Self::of(surface, maker, true)? })
     }
 
     /// The share of a drive at the limit that linear theory allows; `None` where that is not known.
@@ -52,6 +62,9 @@ impl fmt::Display for Level {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [used, own] = self.moved.map(|u| u * 1e6);
         match self.full {
+            _ if !self.scaled => {
+                write!(f, "full level the surface's limit of {}: what it moves is not known", self.limit)
+            }
             Some(full) => write!(
                 f,
                 "full level {:.0} dB above the threshold of touch, a pulse of {used:.1} µm; the surface's limit of {} would move it \

@@ -75,6 +75,7 @@ fn view() -> View {
     View {
         surface: papers_surface(),
         stored: None,
+        without_scale: None,
         respond: None,
         source: "hudin-2012".into(),
         method: Method::TimeReversal,

@@ -68,7 +68,7 @@ impl Studio {
             editions: editions.clone(),
         };
         let workshop = Workshop::new(board.clone(), outlets, &instrument, told);
-        let known = (view.source.clone(), view.respond.clone());
+        let known = (view.source.clone(), view.respond.clone(), view.without_scale.clone());
         let worker = Bench::new(board.clone(), rig.clone(), measured.clone(), known, pending);
         let stage = Rig::new(board.clone(), instrument);
         let playing = Mutex::new(Some(thread("surface", move || stage.run(orders))?));

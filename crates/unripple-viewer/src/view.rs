@@ -26,6 +26,8 @@ pub struct View {
     pub surface: Surface,
     /// Its responses, where they were measured.
     pub stored: Option<Arc<SampledResponses>>,
+    /// Why nobody knows what those mean, if nobody does.
+    pub without_scale: Option<String>,
     /// The same at any places, as the command line has them.
     pub respond: Option<Responder>,
     /// What the surface is called on the command line.
@@ -82,6 +84,7 @@ impl View {
         Spec {
             surface: self.surface.clone(),
             stored: self.stored.clone(),
+            without_scale: self.without_scale.is_some(),
             method: self.method,
             effect: PULSES.into(),
             window: None,

@@ -118,6 +118,7 @@ impl Workshop {
         self.edited = true;
         // Responses that were measured are of the surface as it was.
         self.spec.stored = None;
+        self.spec.without_scale = false;
         if settled {
             self.spec.surface = self.draft.surface().clone();
             self.stale = true;
@@ -163,8 +164,10 @@ impl Workshop {
             }
             Err(error) => {
                 // What cannot be played is not what the next change starts from; the surface stays as it was drawn.
-                let Spec { surface, stored, .. } = std::mem::replace(&mut self.spec, self.played.clone());
+                let Spec { surface, stored, without_scale, .. } =
+                    std::mem::replace(&mut self.spec, self.played.clone());
                 (self.spec.surface, self.spec.stored) = (surface, stored);
+                self.spec.without_scale = without_scale;
                 let text = error.to_string();
                 self.board.tell("notice", &serde_json::json!({ "is": "notice", "text": text }));
             }

@@ -56,8 +56,10 @@ pub fn run(options: &PlayOptions, as_json: bool) -> Result<(), CliError> {
     settings.focus.method = options.method.method();
     let asked = options.window_ms.is_some();
     let maker = maker(&surface, &responses, &settings).map_err(|error| of_window(error, asked))?;
-    // How far anything moves is not known without a scale: then nothing but the limit sets a level.
-    let level = Level::of(&surface, &maker, options.full_limit || without_scale)?;
+    let level = match without_scale {
+        true => Level::without_scale(&surface, &maker)?,
+        false => Level::of(&surface, &maker, options.full_limit)?,
+    };
     settings.full = level.full;
     let (touches, sources) = Touches::open(&options.touch, &surface)?;
     let Opened { device, feeler, latency } = open::open(options, &surface)?;
@@ -73,8 +75,7 @@ pub fn run(options: &PlayOptions, as_json: bool) -> Result<(), CliError> {
         let (follower, ping) = follower(&surface, &responses, &settings, latency)?;
         engine = engine.with_follower(follower, &ping)?;
     }
-    for line in [window.to_string(), full_level(&surface, &level, without_scale)].iter().chain(&touches.told)
-    {
+    for line in [window.to_string(), level.to_string()].iter().chain(&touches.told) {
         eprintln!("{line}");
     }
     let mut report = Report::new(&surface, &window, &level);
@@ -91,17 +92,6 @@ pub fn run(options: &PlayOptions, as_json: bool) -> Result<(), CliError> {
     session.touches.finish()?;
     let report = session.report.finish(&mut engine);
     output::answer(as_json, &report, &report.text())
-}
-
-/// What a full level is, in words.
-fn full_level(surface: &Surface, level: &Level, without_scale: bool) -> String {
-    match without_scale {
-        true => format!(
-            "full level the surface's limit of {}: what it moves is not known",
-            surface.emission.limit
-        ),
-        false => level.to_string(),
-    }
 }
 
 /// What makes drives: of a library, at places between its points.

@@ -26,13 +26,13 @@ impl Bench {
         let (mut focus, mut used) = (0.0, Vec::<Point>::new());
         for method in methods {
             let options = options(surface, method, window);
-            let level = Level::default();
+            let level = if self.unscaled(of).is_some() { Level::Limit } else { Level::default() };
             let act = Act { surface, responses: &responses, targets: &targets, options: &options, level };
             let acted = act.run().map_err(text)?;
             focus = acted.focused.instant();
             used = acted.focused.points.iter().flatten().copied().collect();
             panes.push(
-                json!({ "method": method.name(), "report": acted.report(surface, &options), "focus_s": focus }),
+                json!({ "method": method.name(), "report": self.known_of(acted.report(surface, &options), of), "focus_s": focus }),
             );
             drives.push(acted.drive);
         }

@@ -26,10 +26,20 @@ impl Bench {
         let (window, note) = self.window(of, &responses, asked);
         let options = options(surface, method, window);
         let targets: Vec<Target> = places.into_iter().map(Target::at).collect();
-        let level = given(measure.peak_um).map_or_else(Level::default, |um| Level::Peak(um * 1e-6));
+        let unscaled = self.unscaled(of);
+        let level = match (given(measure.peak_um), unscaled) {
+            (Some(_), Some(why)) => {
+                return Err(format!(
+                    "peak in µm: expected a library whose level is known, found one without: {why}"
+                ));
+            }
+            (Some(um), None) => Level::Peak(um * 1e-6),
+            (None, Some(_)) => Level::Limit,
+            (None, None) => Level::default(),
+        };
         let act = Act { surface, responses: &responses, targets: &targets, options: &options, level };
         let acted = act.run().map_err(text)?;
-        let mut report = acted.report(surface, &options);
+        let mut report = self.known_of(acted.report(surface, &options), of);
         report.notes.extend(note);
         let value = serde_json::to_value(&report).map_err(|error| error.to_string())?;
         let message = json!({
@@ -38,7 +48,8 @@ impl Bench {
             "edit": of.edit,
             "command": command(self.source(of), measure, method),
             "report": value,
-            "traces": traces(&acted),
+            // What moves is drawn in µm.
+            "traces": if self.unscaled(of).is_some() { Vec::new() } else { traces(&acted) },
             "spectrum": spectrum(&acted, surface.emission.band[1]),
             "drive": drive(&acted.drive, surface),
             "seconds": began.elapsed().as_secs_f64(),

@@ -15,7 +15,7 @@ use queue::Queue;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender};
 use std::sync::{Arc, Mutex};
-use unripple::act::{self, ActError, Note};
+use unripple::act::{self, ActError, Note, Report};
 use unripple::core::{Point, Responses, Surface};
 use unripple::drafting::Draft;
 use unripple::focus::{Method, Options};
@@ -62,6 +62,8 @@ pub struct Bench {
     /// What the surface is called on the command line, and the responses of a library: both of the surface before any edit.
     source: String,
     stored: Option<Responder>,
+    /// Why nobody knows what those responses mean, if nobody does.
+    without_scale: Option<String>,
     /// The surface that was worked on last, by its edit.
     draft: Option<(u64, Arc<Draft>)>,
     /// Where the last act was.
@@ -77,11 +79,11 @@ impl Bench {
         board: Arc<Board>,
         rig: Sender<Order>,
         measured: Arc<Mutex<Option<Measured>>>,
-        (source, stored): (String, Option<Responder>),
+        (source, stored, without_scale): (String, Option<Responder>, Option<String>),
         pending: Arc<AtomicUsize>,
     ) -> Self {
         let (draft, place, waiting) = (None, None, Queue::default());
-        Self { board, rig, measured, source, stored, draft, place, waiting, pending }
+        Self { board, rig, measured, source, stored, without_scale, draft, place, waiting, pending }
     }
 
     /// Works until nobody asks any more. Of surfaces only the newest is computed.
@@ -122,6 +124,16 @@ impl Bench {
     /// What a surface is called on the command line.
     fn source(&self, of: &Edition) -> &str {
         if of.edit == 0 { &self.source } else { SAVED }
+    }
+
+    /// Why lengths and velocities on a surface mean nothing, if they do not.
+    fn unscaled(&self, of: &Edition) -> Option<&str> {
+        self.without_scale.as_deref().filter(|_| of.edit == 0)
+    }
+
+    /// A report without what nobody knows.
+    fn known_of(&self, report: Report, of: &Edition) -> Report {
+        if self.unscaled(of).is_some() { report.without_scale() } else { report }
     }
 
     /// The modes of a surface, and what stands on them.

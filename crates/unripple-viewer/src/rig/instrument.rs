@@ -48,6 +48,8 @@ pub struct Spec {
     pub surface: Surface,
     /// Its responses, where they were measured.
     pub stored: Option<Arc<SampledResponses>>,
+    /// Whether nobody knows what those mean.
+    pub without_scale: bool,
     /// How drives are made.
     pub method: Method,
     /// What a touch sets off: [`PULSES`] or a built-in effect.
@@ -103,7 +105,10 @@ impl Instrument {
         let mut options = LiveOptions::new(surface, window.seconds);
         options.focus.method = spec.method;
         let maker = maker(&spec, accuracy, &options)?;
-        let level = Level::of(surface, &maker, false)?;
+        let level = match spec.without_scale {
+            true => Level::without_scale(surface, &maker)?,
+            false => Level::of(surface, &maker, false)?,
+        };
         options.full = level.full;
 
         let stepper = StepperOptions { max_fingers: BORNE, ..StepperOptions::default() };

@@ -11,6 +11,7 @@ fn spec() -> Spec {
     Spec {
         surface,
         stored: None,
+        without_scale: false,
         method: Method::TimeReversal,
         effect: PULSES.into(),
         window: None,
@@ -80,4 +81,13 @@ fn a_surface_that_is_played_otherwise_is_seen_while_time_stands_still() {
     let head = rig.head();
     rig.pass(0.1);
     assert_eq!(rig.head(), head);
+}
+
+#[test]
+fn without_a_scale_the_limit_alone_sets_the_level() {
+    let known = Instrument::build(spec()).unwrap();
+    assert!(known.level.full.is_some() && known.level.to_string().contains("threshold of touch"));
+    let unknown = Instrument::build(Spec { without_scale: true, ..spec() }).unwrap();
+    assert!(unknown.level.full.is_none());
+    assert!(unknown.level.to_string().ends_with("what it moves is not known"), "{}", unknown.level);
 }

@@ -31,6 +31,7 @@ impl Served {
         let mut view = View {
             surface,
             stored: None,
+            without_scale: None,
             respond: None,
             source: "small".into(),
             method: Method::TimeReversal,
