@@ -201,7 +201,7 @@ fn kind() -> impl Strategy<Value = ActuatorKind> {
 
 prop_compose! {
     fn surface()(
-        outline in outline(),
+        outline in outline().prop_filter("corners that triangles can follow", |outline| outline.faults().is_empty()),
         sheet in sheet(),
         name in "[A-Za-z][a-z\"\\\\'é]{0,10}",
         rate in 100.0..1e7_f64,
