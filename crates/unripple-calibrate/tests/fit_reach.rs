@@ -16,7 +16,7 @@ fn a_fitted_model_reaches_as_far_as_what_it_was_fitted_to() {
     let points = places(&surface, 4);
     let known = truth.probed(&points, &points, &[1.0; 4]);
     let model = fitted.sampled(&points, known.samples()).unwrap();
-    for point in 0..points.len() {
+    for (point, at) in points.iter().enumerate() {
         let (mut off, mut all) = (0.0, 0.0);
         for actuator in 0..8 {
             let pairs = known.response(actuator, point).iter().zip(model.response(actuator, point));
@@ -26,7 +26,7 @@ fn a_fitted_model_reaches_as_far_as_what_it_was_fitted_to() {
             }
         }
         let share = (off / all).sqrt();
-        println!("{}: {:.1} % is missed", points[point], 100.0 * share);
-        assert!(share < 0.05, "{}: {share}", points[point]);
+        println!("{at}: {:.1} % is missed", 100.0 * share);
+        assert!(share < 0.05, "{at}: {share}");
     }
 }

@@ -36,7 +36,8 @@ pub enum Met {
 
 /// The first sides of a closed curve that meet where they should not, a joint where they fold back before others.
 pub fn within(sides: &[Side]) -> Option<Met> {
-    let rims = Rims::of(sides.iter().map(|side| (*side, crate::Edge::Free)).collect(), vec![0..sides.len()]);
+    let all = sides.iter().map(|side| (*side, crate::Edge::Free)).collect();
+    let rims = Rims::of(all, std::iter::once(0..sides.len()).collect());
     match meetings(&rims) {
         Ok(found) => found.into_values().next().map(|(sides, at)| Met::Sides(sides, at)),
         Err(Endless) => Some(Met::TooMany),
