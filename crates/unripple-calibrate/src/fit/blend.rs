@@ -1,3 +1,5 @@
+//! Responses of a fitted model at points, corrected by what was measured nearby.
+
 use super::Fitted;
 use super::limited::through;
 use crate::CalibrateError;

@@ -1,3 +1,5 @@
+//! What is known of a surface from the actuators alone.
+
 use super::coil::Coil;
 use super::following::Following;
 use super::layout::{KNOTS, Unknown, Values};

@@ -1,3 +1,5 @@
+//! A fitted model through the band of the measurement that it was fitted to.
+
 use faer::Mat;
 use std::f64::consts::TAU;
 use std::sync::Arc;
