@@ -293,6 +293,45 @@ fn a_client_that_the_server_calls_no_more_is_lost() {
     assert!(device.dismiss().is_some());
 }
 
+/// Takes longer over its third cycle than a client takes to leave.
+struct Slow {
+    cycles: u32,
+    begun: mpsc::Sender<()>,
+    /// Counts those that are over.
+    over: Arc<AtomicU64>,
+}
+
+impl Work for Slow {
+    fn cycle(&mut self, _: &mut dyn Cycle) {
+        self.cycles += 1;
+        if self.cycles == 3 {
+            // Whoever asks is there until the device is gone.
+            let _ = self.begun.send(());
+            thread::sleep(Duration::from_millis(300));
+            self.over.fetch_add(1, Ordering::Relaxed);
+        }
+    }
+}
+
+/// JACK cancels the thread of a client that leaves: in the middle of our code, that ended the whole program.
+#[test]
+fn a_client_that_leaves_within_a_cycle_ends_the_cycle_first() {
+    let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let Some(server) = Server::start(PERIOD) else {
+        return skip(common::server::NONE);
+    };
+    drop(bridge(&server).unwrap());
+    for _ in 0..3 {
+        let over = Arc::new(AtomicU64::new(0));
+        let mut device = Jack::open(&options(&server, Links::None)).unwrap();
+        let (begun, begins) = mpsc::channel();
+        assert!(device.employ(Box::new(Slow { cycles: 0, begun, over: over.clone() })).is_ok());
+        begins.recv_timeout(Duration::from_secs(20)).unwrap();
+        drop(device);
+        assert_eq!(over.load(Ordering::Relaxed), 1);
+    }
+}
+
 /// JACK 2 deletes all clients of a program when one joins after a server was gone; who leaves with one of them later crashes.
 #[test]
 fn nobody_joins_before_the_clients_of_a_server_that_is_gone_have_left() {

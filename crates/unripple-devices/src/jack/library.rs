@@ -3,8 +3,8 @@
 //!
 //! What makes them sound: the library stays loaded for ever; a client's raw pointer lives from [`Client::open`] until
 //! [`Closing`] closes it, before the context of the callbacks is freed; the process callback alone touches the context's
-//! process part, on one thread at a time, as JACK promises; strings that JACK gives are copied at once; panics do not cross
-//! the interface.
+//! process part, on one thread at a time, as JACK promises, and that thread does not end within it; strings that JACK gives are copied at
+//! once; panics do not cross the interface.
 #![allow(unsafe_code)]
 
 mod api;
@@ -13,6 +13,7 @@ mod closing;
 mod door;
 mod joining;
 mod roll;
+mod uncancelled;
 
 use super::events::{Events, Side};
 use crate::DevicesError;
@@ -26,6 +27,7 @@ use std::ptr;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
+use uncancelled::uncancelled;
 
 const NO_START_SERVER: c_uint = 0x01;
 const SERVER_NAME: c_uint = 0x04;
@@ -355,19 +357,21 @@ impl Drop for Client {
     }
 }
 
-unsafe extern "C" fn on_process(frames: u32, arg: Arg) -> c_int {
-    let context = arg.cast::<Context>();
-    // SAFETY: JACK calls this on one thread, between activation and closing; no other code reaches `process` meanwhile, and
-    // the other fields are only read.
-    let (process, mut cycle, events) = unsafe {
-        let process = &mut *ptr::addr_of_mut!((*context).process);
-        let (api, raw) = (*ptr::addr_of!((*context).api), *ptr::addr_of!((*context).raw));
-        let (inputs, outputs) = (&*ptr::addr_of!((*context).inputs), &*ptr::addr_of!((*context).outputs));
-        (process, Cycle { api, raw, frames, inputs, outputs }, &*ptr::addr_of!((*context).events))
-    };
-    let done = catch_unwind(AssertUnwindSafe(|| process.cycle(&mut cycle)));
-    events.cycles.fetch_add(1, Ordering::Release);
-    c_int::from(done.is_err())
+unsafe extern "C-unwind" fn on_process(frames: u32, arg: Arg) -> c_int {
+    uncancelled(|| {
+        let context = arg.cast::<Context>();
+        // SAFETY: JACK calls this on one thread, between activation and closing; no other code reaches `process` meanwhile, and
+        // the other fields are only read.
+        let (process, mut cycle, events) = unsafe {
+            let process = &mut *ptr::addr_of_mut!((*context).process);
+            let (api, raw) = (*ptr::addr_of!((*context).api), *ptr::addr_of!((*context).raw));
+            let (inputs, outputs) = (&*ptr::addr_of!((*context).inputs), &*ptr::addr_of!((*context).outputs));
+            (process, Cycle { api, raw, frames, inputs, outputs }, &*ptr::addr_of!((*context).events))
+        };
+        let done = catch_unwind(AssertUnwindSafe(|| process.cycle(&mut cycle)));
+        events.cycles.fetch_add(1, Ordering::Release);
+        c_int::from(done.is_err())
+    })
 }
 
 /// What other callbacks may touch: the events alone, which are atomics. The context's other parts are the process callback's.
@@ -387,8 +391,10 @@ unsafe extern "C" fn on_freewheel(starting: c_int, arg: Arg) {
     unsafe { events(arg) }.freewheeling.store(starting != 0, Ordering::Release);
 }
 
-unsafe extern "C" fn on_shutdown(arg: Arg) {
-    roll::server_gone();
-    // SAFETY: the events are shared until the client is closed, and are atomics.
-    unsafe { &*arg.cast::<Events>() }.gone.store(true, Ordering::Release);
+unsafe extern "C-unwind" fn on_shutdown(arg: Arg) {
+    uncancelled(|| {
+        roll::server_gone();
+        // SAFETY: the events are shared until the client is closed, and are atomics.
+        unsafe { &*arg.cast::<Events>() }.gone.store(true, Ordering::Release);
+    });
 }

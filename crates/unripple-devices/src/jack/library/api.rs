@@ -50,10 +50,10 @@ functions! {
     get_client_name: fn(*mut RawClient) -> *const c_char;
     port_register: fn(*mut RawClient, *const c_char, *const c_char, c_ulong, c_ulong) -> *mut RawPort;
     port_get_buffer: fn(*mut RawPort, u32) -> *mut c_void;
-    set_process_callback: fn(*mut RawClient, unsafe extern "C" fn(u32, Arg) -> c_int, Arg) -> c_int;
+    set_process_callback: fn(*mut RawClient, unsafe extern "C-unwind" fn(u32, Arg) -> c_int, Arg) -> c_int;
     set_xrun_callback: fn(*mut RawClient, unsafe extern "C" fn(Arg) -> c_int, Arg) -> c_int;
     set_freewheel_callback: fn(*mut RawClient, unsafe extern "C" fn(c_int, Arg), Arg) -> c_int;
-    on_shutdown: fn(*mut RawClient, unsafe extern "C" fn(Arg), Arg);
+    on_shutdown: fn(*mut RawClient, unsafe extern "C-unwind" fn(Arg), Arg);
     set_freewheel: fn(*mut RawClient, c_int) -> c_int;
     is_realtime: fn(*mut RawClient) -> c_int;
     client_real_time_priority: fn(*mut RawClient) -> c_int;
