@@ -17,8 +17,9 @@ const FLOORS: &[(&str, u8)] = &[
     ("unripple-calibrate", 3),
     ("unripple", 4),
     ("unripple-live", 4),
-    ("unripple-viewer", 5),
-    ("unripple-cli", 6),
+    ("unripple-tasks", 5),
+    ("unripple-viewer", 6),
+    ("unripple-cli", 7),
 ];
 
 fn floor(name: &str) -> Option<u8> {

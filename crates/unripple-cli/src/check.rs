@@ -3,30 +3,15 @@
 use crate::args::CheckOptions;
 use crate::error::CliError;
 use crate::output;
-use serde_json::json;
-use unripple_store::{StoreError, load_surface};
+use crate::progress::Terminal;
+use unripple_tasks::check::{self, Ask};
 
 pub fn run(options: &CheckOptions, as_json: bool) -> Result<(), CliError> {
-    match load_surface(&options.surface) {
-        Ok(surface) => {
-            let report = json!({ "surface": options.surface, "ok": true, "faults": [] });
-            let (name, count) = (&surface.name, surface.actuators.len());
-            output::answer(
-                as_json,
-                &report,
-                &format!("{}: no faults (\"{name}\", {count} actuators)", options.surface),
-            )
-        }
-        Err(StoreError::Surface(faults)) if as_json => {
-            let report = json!({
-                "surface": options.surface,
-                "ok": false,
-                "faults": faults.faults(),
-                "omitted": faults.omitted(),
-            });
-            output::answer(true, &report, "")?;
-            Err(CliError::Faults(Box::new(faults)))
-        }
-        Err(error) => Err(error.into()),
+    let mut report = check::run(&Ask { surface: (&options.surface).into() }, &mut Terminal::default())?;
+    // Faults are shown on standard error, with the lines that they are about.
+    let faults = report.file.take();
+    if as_json || faults.is_none() {
+        output::report(as_json, &report)?;
     }
+    faults.map_or(Ok(()), |faults| Err(CliError::Faults(faults)))
 }

@@ -2,11 +2,11 @@
 
 use crate::args::DesignOptions;
 use crate::error::CliError;
-use crate::{input, output};
-use unripple::physics::design;
+use crate::output;
+use crate::progress::Terminal;
+use unripple_tasks::design::{self, Ask};
 
 pub fn run(options: &DesignOptions, as_json: bool) -> Result<(), CliError> {
-    let surface = input::surface(&options.surface)?;
-    let design = design(&surface).map_err(CliError::input)?;
-    output::answer(as_json, &design, &design.to_string())
+    let ask = Ask { surface: (&options.surface).into() };
+    output::report(as_json, &design::run(&ask, &mut Terminal::default())?)
 }

@@ -1,8 +1,10 @@
 //! What goes wrong, and the exit status it gives: 1 the work failed, 2 bad usage or bad input.
 
+use crate::options;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 use std::process::ExitCode;
 use unripple::act::{ActError, LevelKind};
+use unripple_tasks::TaskError;
 
 /// Why a command did not do its work.
 #[derive(Debug)]
@@ -27,6 +29,21 @@ impl From<ActError> for CliError {
             }
             error if error.is_failed_work() => Self::work(error),
             error => Self::input(error),
+        }
+    }
+}
+
+impl From<TaskError> for CliError {
+    fn from(error: TaskError) -> Self {
+        match error {
+            TaskError::Ask { field, expected, found } => {
+                let expected = options::spoken(&expected);
+                Self::Input(format!("{}: expected {expected}, found {found}", options::option(field)))
+            }
+            TaskError::Input(text) => Self::Input(options::spoken(&text)),
+            TaskError::Faults(faults) => Self::Faults(faults),
+            TaskError::Work(text) => Self::Work(options::spoken(&text)),
+            TaskError::Cancelled => Self::Work("stopped before it was done".into()),
         }
     }
 }

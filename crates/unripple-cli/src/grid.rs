@@ -1,72 +1,12 @@
-//! The points of a library: a square grid over a surface, and places typed.
+//! The points of a library, as typed.
 
 use crate::error::CliError;
 use crate::targets::{place, positive};
 use unripple::core::{Outline, Point};
+pub use unripple_tasks::grid::points;
 
-/// Most points of a grid.
-const MOST: f64 = 1e6;
-
-/// The multiples of `pitch` (m) along both axes that lie inside an outline, at least a quarter of the pitch from its rim:
-/// row by row from the bottom.
-pub fn points(outline: &Outline, pitch: f64) -> Result<Vec<Point>, CliError> {
-    let (width, height) = outline.extent();
-    let (columns, rows) = ((width / pitch).ceil(), (height / pitch).ceil());
-    let refuse = |found: String| {
-        CliError::Input(format!(
-            "--grid-mm {}: expected a grid of 1 to {MOST} points, found {found}",
-            pitch * 1e3
-        ))
-    };
-    if columns * rows > MOST {
-        return Err(refuse(format!("{columns} x {rows}")));
-    }
-    let margin = pitch / 4.0;
-    let well_inside = |p: &Point| {
-        let around = [(margin, 0.0), (-margin, 0.0), (0.0, margin), (0.0, -margin), (0.0, 0.0)];
-        around.iter().all(|(dx, dy)| outline.contains(Point::new(p.x + dx, p.y + dy)))
-    };
-    let (columns, rows) = (columns as usize, rows as usize);
-    let all = (0..=rows).flat_map(|row| (0..=columns).map(move |column| (column, row)));
-    let found: Vec<Point> = all
-        .map(|(column, row)| Point::new(column as f64 * pitch, row as f64 * pitch))
-        .filter(well_inside)
-        .collect();
-    if found.is_empty() { Err(refuse("none inside the rim".into())) } else { Ok(found) }
-}
-
-/// A grid of some pitch (mm), if one was asked for, then places typed as `X,Y`: those of `--grid-mm` and `--at`.
 pub fn places(outline: &Outline, grid_mm: Option<f64>, at: &[String]) -> Result<Vec<Point>, CliError> {
-    let mut found = match grid_mm {
-        Some(pitch) => points(outline, positive(pitch, "--grid-mm", "mm")? / 1e3)?,
-        None => Vec::new(),
-    };
-    for text in at {
-        let at = place(text, "--at")?;
-        if !outline.contains(at) {
-            return Err(CliError::Input(format!(
-                "--at {text}: expected a point on the surface, found one beyond its edge"
-            )));
-        }
-        found.push(at);
-    }
-    Ok(found)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use unripple::core::Shape;
-
-    #[test]
-    fn a_square_has_all_but_its_rim() {
-        let film = Outline::new(Shape::Rectangle { width: 0.15, height: 0.15 });
-        let grid = points(&film, 7.5e-3).unwrap();
-        assert_eq!(grid.len(), 19 * 19);
-        assert!(grid[0].distance(Point::from_mm(7.5, 7.5)) < 1e-12);
-        assert!(grid[360].distance(Point::from_mm(142.5, 142.5)) < 1e-12);
-        for pitch in [0.2, 1e-6] {
-            assert!(points(&film, pitch).is_err());
-        }
-    }
+    let pitch = grid_mm.map(|mm| positive(mm, "--grid-mm", "mm").map(|mm| mm / 1e3)).transpose()?;
+    let places = at.iter().map(|text| place(text, "--at").map(|at| [at.x, at.y]));
+    Ok(unripple_tasks::grid::places(outline, pitch, &places.collect::<Result<Vec<_>, _>>()?)?)
 }

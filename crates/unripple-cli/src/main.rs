@@ -10,7 +10,6 @@ macro_rules! eprintln {
 
 mod args;
 mod aware;
-mod between;
 mod calibrate;
 mod check;
 mod compare;
@@ -20,7 +19,6 @@ mod doctor;
 mod error;
 mod export;
 mod field;
-mod figures;
 mod fingers;
 mod fit;
 mod focus;
@@ -28,13 +26,13 @@ mod grid;
 mod input;
 mod interrupt;
 mod judge;
-mod late;
 mod modes;
 mod open;
+mod options;
 mod output;
-mod own;
 mod play;
 mod played;
+mod progress;
 mod reads;
 mod reproduce;
 mod respond;
@@ -46,6 +44,7 @@ use args::{Arguments, Command};
 use clap::Parser;
 use error::CliError;
 use std::process::ExitCode;
+use unripple_tasks::{figures, late, own};
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();

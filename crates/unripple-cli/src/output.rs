@@ -3,6 +3,7 @@
 use crate::error::CliError;
 use serde::Serialize;
 use std::io::Write;
+use unripple_tasks::Report;
 
 /// Prints `report` as one JSON object, or `text`.
 ///
@@ -14,6 +15,12 @@ pub fn answer(as_json: bool, report: &impl Serialize, text: &str) -> Result<(), 
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(CliError::work(error)),
         _ => Ok(()),
     }
+}
+
+/// Prints the report of a task, and fails if the task counts as failed.
+pub fn report(as_json: bool, report: &impl Report) -> Result<(), CliError> {
+    answer(as_json, report, &report.text())?;
+    report.failure().map_or(Ok(()), |why| Err(CliError::Work(why)))
 }
 
 /// A report as indented JSON.

@@ -71,12 +71,12 @@ pub fn run(options: &ViewOptions, as_json: bool) -> Result<(), CliError> {
 }
 
 /// Responses of a library at places that pages ask for, as `focus` has them.
-fn respond(name: &str, source: &input::Source) -> Option<Responder> {
+fn respond(name: &str, source: &unripple_tasks::Source) -> Option<Responder> {
     source.stored.as_ref()?;
     let name = name.to_owned();
     Some(Arc::new(move |places| {
-        let answered =
-            input::quiet_source(&name).and_then(|source| source.respond(places, Interpolation::default()));
+        let answered = input::quiet_source(&name)
+            .and_then(|source| Ok(source.respond(places, Interpolation::default())?));
         answered.map(|(_, responses, _)| responses).map_err(|error| error.to_string())
     }))
 }

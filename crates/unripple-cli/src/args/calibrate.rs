@@ -1,6 +1,7 @@
 use super::{DeviceName, WayName};
 use clap::Args;
 use std::path::PathBuf;
+use unripple_tasks::DeviceAsk;
 
 /// The device, and what is virtual about it.
 #[derive(Clone, Debug, Args)]
@@ -47,6 +48,24 @@ pub struct DeviceOptions {
 }
 
 impl DeviceOptions {
+    /// The same in SI units.
+    pub fn ask(&self) -> DeviceAsk {
+        DeviceAsk {
+            device: self.device.kind(),
+            jack_client: self.jack_client.clone(),
+            jack_server: self.jack_server.clone(),
+            freewheel: self.freewheel,
+            card: self.card.clone(),
+            capture_card: self.capture_card.clone(),
+            card_block: self.card_block,
+            tape: self.tape.clone(),
+            tape_inputs: self.tape_inputs.clone(),
+            output_scale: self.output_scale,
+            unknowns: self.unknowns,
+            snr_db: self.snr_db,
+        }
+    }
+
     /// Whether it has a clock of its own that nobody can stop.
     pub fn is_real(&self) -> bool {
         self.device != DeviceName::Virtual && !self.freewheel

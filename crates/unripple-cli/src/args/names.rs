@@ -15,6 +15,17 @@ pub enum DeviceName {
 }
 
 impl DeviceName {
+    /// What it stands for.
+    pub fn kind(self) -> unripple_tasks::DeviceKind {
+        use unripple_tasks::DeviceKind;
+        match self {
+            Self::Virtual => DeviceKind::Virtual,
+            Self::Jack => DeviceKind::Jack,
+            Self::Card => DeviceKind::Card,
+            Self::Tape => DeviceKind::Tape,
+        }
+    }
+
     /// Its name on the command line.
     pub fn name(self) -> &'static str {
         match self {

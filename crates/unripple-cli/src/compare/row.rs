@@ -1,11 +1,11 @@
 use super::Ground;
 use super::front::traded;
 use crate::error::CliError;
-use crate::judge::{CELLS, Note};
+use crate::judge::CELLS;
 use serde::Serialize;
 use std::fmt::Write;
 use std::time::Instant;
-use unripple::act::{Act, Level, Strength};
+use unripple::act::{Act, Level, Note, Strength};
 use unripple::field::{DriveFigures, Field, Measured, TargetFigures};
 use unripple::focus::{Focuser, Method, Options};
 

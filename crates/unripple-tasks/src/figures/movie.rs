@@ -1,6 +1,6 @@
 use super::Scene;
 use super::maps::{drawn, scale};
-use crate::error::CliError;
+use crate::TaskError;
 use unripple::field::Field;
 use unripple_plot::{ColourMap, Movie, Shot};
 
@@ -10,11 +10,11 @@ pub fn movie(
     scene: &Scene,
     [from, to]: [f64; 2],
     frames: usize,
-) -> Result<Option<Vec<u8>>, CliError> {
+) -> Result<Option<Vec<u8>>, TaskError> {
     let Some(cells) = field.grid().cloned() else { return Ok(None) };
     let step = (to - from) / (frames.max(2) - 1) as f64;
     let instants: Vec<f64> = (0..frames).map(|i| from + i as f64 * step).collect();
-    let snapshots = field.snapshots(&instants).map_err(CliError::input)?;
+    let snapshots = field.snapshots(&instants).map_err(TaskError::input)?;
     let shots = snapshots.iter().map(|s| {
         let caption = format!("t = {:.2} ms", s.instant * 1e3);
         Shot { grid: drawn(&cells, &s.displacement), caption }

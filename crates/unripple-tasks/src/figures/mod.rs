@@ -10,18 +10,12 @@ pub use maps::{Scene, drawn, felt, peaks, snapshots};
 pub use movie::movie;
 pub use traces::traces;
 
-use crate::error::CliError;
-use unripple_plot::{Figure, PRINT_DPI, PlotError, pngs};
+use crate::TaskError;
+use unripple_plot::{Figure, PRINT_DPI, pngs};
 use unripple_store::OutputDir;
 
-impl From<PlotError> for CliError {
-    fn from(error: PlotError) -> Self {
-        Self::work(error)
-    }
-}
-
 /// Writes each figure as NAME.svg and NAME.png; returns the file names.
-pub fn write(out: &OutputDir, figures: &[(&str, Figure)]) -> Result<Vec<String>, CliError> {
+pub fn write(out: &OutputDir, figures: &[(&str, Figure)]) -> Result<Vec<String>, TaskError> {
     let drawings = figures.iter().map(|(_, figure)| figure.draw()).collect::<Result<Vec<_>, _>>()?;
     let pictures = pngs(&drawings, PRINT_DPI)?;
     let mut names = Vec::new();

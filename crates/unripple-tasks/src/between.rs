@@ -1,7 +1,7 @@
 //! Targets between the points of a library.
 
-use crate::error::CliError;
-use crate::judge::Note;
+use crate::TaskError;
+use unripple::act::Note;
 use unripple::core::{Point, SampledResponses, Surface};
 use unripple::physics::Medium;
 use unripple_calibrate::{Between, BetweenOptions, Interpolation};
@@ -18,7 +18,7 @@ pub fn completed(
     surface: &Surface,
     places: &[Point],
     way: Interpolation,
-) -> Result<(SampledResponses, Vec<Note>), CliError> {
+) -> Result<(SampledResponses, Vec<Note>), TaskError> {
     let known = |place: &Point| stored.points.iter().any(|point| point.distance(*place) < SAME);
     let new: Vec<Point> = places.iter().copied().filter(|place| !known(place)).collect();
     if new.is_empty() || way == Interpolation::Nearest {
@@ -28,31 +28,31 @@ pub fn completed(
     let medium = Medium::of(&surface.sheet).with_air(surface.sheet.air);
     let options = BetweenOptions { interpolation: way, ..BetweenOptions::default() };
     let between =
-        Between::plan(&witnesses, |omega| medium.wavenumber(omega), &options).map_err(CliError::input)?;
-    let made = between.onto(&new).map_err(CliError::input)?;
+        Between::plan(&witnesses, |omega| medium.wavenumber(omega), &options).map_err(TaskError::input)?;
+    let made = between.onto(&new).map_err(TaskError::input)?;
     let worst = new
         .iter()
-        .try_fold(0.0, |worst: f64, place| Ok::<_, CliError>(worst.max(error(&between, *place)?)))?;
+        .try_fold(0.0, |worst: f64, place| Ok::<_, TaskError>(worst.max(error(&between, *place)?)))?;
     let lies = if new.len() == 1 { format!("{} lies", new[0]) } else { format!("{} places lie", new.len()) };
     let text = format!(
         "{lies} between the points: responses there are interpolated ({}), off by about {:.1} %",
         way.name(),
         worst * 100.0
     );
-    Ok((stored.joined(made).map_err(CliError::work)?, vec![Note { topic: "library", text }]))
+    Ok((stored.joined(made).map_err(TaskError::work)?, vec![Note { topic: "library", text }]))
 }
 
-fn error(between: &Between, place: Point) -> Result<f64, CliError> {
-    Ok(between.error(place).map_err(CliError::input)?.relative)
+fn error(between: &Between, place: Point) -> Result<f64, TaskError> {
+    Ok(between.error(place).map_err(TaskError::input)?.relative)
 }
 
 /// The stored points around some places, but for those at actuators: near these there is more than waves.
-fn witnesses(stored: &SampledResponses, places: &[Point]) -> Result<SampledResponses, CliError> {
+fn witnesses(stored: &SampledResponses, places: &[Point]) -> Result<SampledResponses, TaskError> {
     let reach = REACH * stored.conditions.lambda_min;
     let free = |point: &Point| stored.ports.iter().all(|port| port.at.distance(*point) > SAME);
     let near = |point: &Point| places.iter().any(|place| place.distance(*point) <= reach);
     let all: Vec<usize> = (0..stored.points.len()).filter(|i| free(&stored.points[*i])).collect();
     let close: Vec<usize> = all.iter().copied().filter(|i| near(&stored.points[*i])).collect();
     let chosen = if close.len() < 4 { all } else { close };
-    stored.select(&chosen).map_err(CliError::work)
+    stored.select(&chosen).map_err(TaskError::work)
 }

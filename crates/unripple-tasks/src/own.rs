@@ -1,6 +1,6 @@
 //! The actuators' own points of a library: they hold what sensors heard, and figures take them as velocities.
 
-use crate::error::CliError;
+use crate::TaskError;
 use serde_json::{Value, json};
 use unripple::core::{Port, SampledResponses, Surface};
 use unripple::physics::{Sensor, sensors};
@@ -14,7 +14,7 @@ pub const KEY: &str = "own_points";
 const SAME: f64 = 1e-6;
 
 /// For the log of a library whose own points hold what sensors heard.
-pub fn told(surface: &Surface) -> Result<Value, CliError> {
+pub fn told(surface: &Surface) -> Result<Value, TaskError> {
     let units: Vec<&str> = sensing(surface)?.iter().map(|sensor| sensor.unit).collect();
     Ok(json!({ "hold": "what sensors heard", "units": units }))
 }
@@ -26,8 +26,8 @@ pub fn noise(quality: &Quality) -> Option<f64> {
 }
 
 /// The actuators of a surface as sensors.
-pub fn sensing(surface: &Surface) -> Result<Vec<Sensor>, CliError> {
-    sensors(surface).map_err(CliError::input)
+pub fn sensing(surface: &Surface) -> Result<Vec<Sensor>, TaskError> {
+    sensors(surface).map_err(TaskError::input)
 }
 
 /// What a sensor heard, responses one after the other, as velocities under its contact; nothing from one that does not hear a velocity.
@@ -46,7 +46,7 @@ pub fn as_velocities(
     library: &Library,
     surface: &Surface,
     responses: SampledResponses,
-) -> Result<SampledResponses, CliError> {
+) -> Result<SampledResponses, TaskError> {
     let said = |key: &str, what: &str| library.logged(key).and_then(|said| said.get(what)).is_some();
     let apart = library.logged("sensors").and_then(|said| said.get("left_out")).and_then(Value::as_bool);
     if apart != Some(true) && !said(KEY, "hold") {
@@ -81,7 +81,7 @@ pub fn as_velocities(
         return Ok(responses);
     }
     let SampledResponses { ports, conditions, .. } = responses;
-    SampledResponses::new(ports, points, conditions, samples, data).map_err(CliError::work)
+    SampledResponses::new(ports, points, conditions, samples, data).map_err(TaskError::work)
 }
 
 #[cfg(test)]

@@ -1,0 +1,48 @@
+//! Fields of asks by the options that give them.
+
+/// Fields whose option is not merely `--` and the name with hyphens: those in other units, and those named otherwise.
+const OTHERWISE: &[(&str, &str)] = &[
+    ("top_hz", "--max-hz"),
+    ("pitch_m", "--grid-mm"),
+    ("points_m", "--at"),
+    ("peak_m", "--peak-um"),
+    ("window_s", "--window-ms"),
+    ("length_s", "--length-ms"),
+];
+
+/// The option that gives a field, or the options of several.
+pub fn option(field: &str) -> String {
+    let one = |name: &str| match OTHERWISE.iter().find(|(field, _)| *field == name) {
+        Some((_, option)) => (*option).to_owned(),
+        None => format!("--{}", name.replace('_', "-")),
+    };
+    field.split(", ").map(one).collect::<Vec<_>>().join(", ")
+}
+
+/// A text that names fields in backticks, naming options instead.
+pub fn spoken(text: &str) -> String {
+    let mut parts = text.split('`').enumerate();
+    let known = |name: &str| OTHERWISE.iter().any(|(field, _)| *field == name);
+    let mut spoken = String::new();
+    for (i, part) in parts.by_ref() {
+        match i % 2 {
+            0 => spoken.push_str(part),
+            _ if known(part) => spoken.push_str(&option(part)),
+            _ => spoken.push_str(&format!("`{part}`")),
+        }
+    }
+    spoken
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fields_are_said_as_options() {
+        assert_eq!(option("peak_m"), "--peak-um");
+        assert_eq!(option("full_limit"), "--full-limit");
+        assert_eq!(option("author, organization"), "--author, --organization");
+        assert_eq!(spoken("`points_m` beside it, not `a1`"), "--at beside it, not `a1`");
+    }
+}

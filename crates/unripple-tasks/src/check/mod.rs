@@ -1,0 +1,9 @@
+//! `check`: all faults of a surface file.
+
+mod ask;
+mod report;
+mod run;
+
+pub use ask::Ask;
+pub use report::Report;
+pub use run::run;

@@ -1,0 +1,40 @@
+//! What `check` found.
+
+use serde::Serialize;
+use unripple_store::{Fault, FileFaults};
+
+/// All faults of a surface file.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// The surface as it was named.
+    pub surface: String,
+    /// Whether there is none.
+    pub ok: bool,
+    /// Each fault with line and column, in the file's order; at most a hundred.
+    pub faults: Vec<Fault>,
+    /// How many more there are; nothing of a file without faults.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub omitted: Option<usize>,
+    /// The faults with the lines they are about, for people.
+    #[serde(skip)]
+    pub file: Option<Box<FileFaults>>,
+    /// The surface's own name and its number of actuators, where there is no fault.
+    #[serde(skip)]
+    pub named: Option<(String, usize)>,
+}
+
+impl crate::Report for Report {
+    fn text(&self) -> String {
+        match (&self.named, &self.file) {
+            (Some((name, count)), _) => {
+                format!("{}: no faults (\"{name}\", {count} actuators)", self.surface)
+            }
+            (None, Some(faults)) => format!("{faults:#}"),
+            (None, None) => String::new(),
+        }
+    }
+
+    fn failure(&self) -> Option<String> {
+        self.file.as_ref().map(|faults| faults.to_string())
+    }
+}

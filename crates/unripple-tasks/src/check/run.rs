@@ -1,0 +1,28 @@
+//! Reading a surface file for its faults.
+
+use super::{Ask, Report};
+use crate::{Progress, TaskError, go_on};
+
+/// Looks for all faults of a surface file. A file with faults is no error: they are what was asked for.
+///
+/// # Errors
+/// [`TaskError::Input`] if there is no surface of that name, or its file cannot be read.
+pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    go_on(progress)?;
+    let surface = ask.surface.to_string();
+    match ask.surface.load() {
+        Ok(found) => {
+            let named = Some((found.name, found.actuators.len()));
+            Ok(Report { surface, ok: true, faults: Vec::new(), omitted: None, file: None, named })
+        }
+        Err(TaskError::Faults(file)) => Ok(Report {
+            surface,
+            ok: false,
+            faults: file.faults().to_vec(),
+            omitted: Some(file.omitted()),
+            file: Some(file),
+            named: None,
+        }),
+        Err(error) => Err(error),
+    }
+}

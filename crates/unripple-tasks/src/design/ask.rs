@@ -1,0 +1,12 @@
+//! What `design` is asked.
+
+use crate::SurfaceAsk;
+use serde::{Deserialize, Serialize};
+
+/// Whose tradeoffs are wanted.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Ask {
+    /// A surface file, or the name of a built-in surface.
+    pub surface: SurfaceAsk,
+}

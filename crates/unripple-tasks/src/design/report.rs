@@ -1,0 +1,9 @@
+//! What `design` says.
+
+pub use unripple::physics::design::Design as Report;
+
+impl crate::Report for Report {
+    fn text(&self) -> String {
+        self.to_string()
+    }
+}

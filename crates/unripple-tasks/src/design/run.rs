@@ -1,0 +1,14 @@
+//! The tradeoffs of a surface.
+
+use super::{Ask, Report};
+use crate::{Progress, TaskError, go_on};
+
+/// Celerities, modes, window, predicted contrast, spot, power at the finger.
+///
+/// # Errors
+/// Those of [`SurfaceAsk::load`](crate::SurfaceAsk::load); [`TaskError::Input`] of what has no closed form.
+pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    let surface = ask.surface.load()?;
+    go_on(progress)?;
+    unripple::physics::design(&surface).map_err(TaskError::input)
+}

@@ -1,0 +1,116 @@
+//! Why a task was not done.
+
+use unripple::act::{ActError, LevelKind};
+use unripple_calibrate::CalibrateError;
+use unripple_live::LiveError;
+use unripple_plot::PlotError;
+use unripple_store::{FileFaults, StoreError};
+use unripple_touch::TouchError;
+
+/// Why a task was not done.
+#[derive(Debug, thiserror::Error)]
+pub enum TaskError {
+    /// A field of the ask, or fields together, make no sense.
+    #[error("{field}: expected {expected}, found {found}")]
+    Ask {
+        /// The field, or fields separated by commas.
+        field: &'static str,
+        /// What could be there.
+        expected: String,
+        /// What is there.
+        found: String,
+    },
+    /// What was given, such as a file, makes no sense.
+    #[error("{0}")]
+    Input(String),
+    /// A file has faults that can be pointed at.
+    #[error("{0:#}")]
+    Faults(Box<FileFaults>),
+    /// The work could not be done.
+    #[error("{0}")]
+    Work(String),
+    /// Nobody waits for it any more.
+    #[error("cancelled")]
+    Cancelled,
+}
+
+impl TaskError {
+    /// A field of an ask that makes no sense.
+    pub fn ask(field: &'static str, expected: impl Into<String>, found: impl std::fmt::Display) -> Self {
+        Self::Ask { field, expected: expected.into(), found: found.to_string() }
+    }
+
+    /// Bad input, in words.
+    pub fn input(error: impl std::fmt::Display) -> Self {
+        Self::Input(error.to_string())
+    }
+
+    /// Failed work, in words.
+    pub fn work(error: impl std::fmt::Display) -> Self {
+        Self::Work(error.to_string())
+    }
+
+    /// Whether what was given is at fault, rather than the work.
+    pub fn is_bad_input(&self) -> bool {
+        matches!(self, Self::Ask { .. } | Self::Input(_) | Self::Faults(_))
+    }
+}
+
+impl From<ActError> for TaskError {
+    fn from(error: ActError) -> Self {
+        match error {
+            ActError::Level { what, expected, found } => {
+                let field = match what {
+                    LevelKind::Peak => "peak_m",
+                    LevelKind::Felt => "felt_db",
+                };
+                Self::ask(field, expected.to_string(), found)
+            }
+            error if error.is_failed_work() => Self::work(error),
+            error => Self::input(error),
+        }
+    }
+}
+
+impl From<StoreError> for TaskError {
+    fn from(error: StoreError) -> Self {
+        match error {
+            StoreError::Surface(faults) => Self::Faults(Box::new(faults)),
+            error if error.is_bad_input() => Self::input(error),
+            error => Self::work(error),
+        }
+    }
+}
+
+impl From<CalibrateError> for TaskError {
+    fn from(error: CalibrateError) -> Self {
+        match error {
+            CalibrateError::Device(_)
+            | CalibrateError::Gap { .. }
+            | CalibrateError::Rig { .. }
+            | CalibrateError::Sink { .. } => Self::work(error),
+            error => Self::input(error),
+        }
+    }
+}
+
+impl From<LiveError> for TaskError {
+    fn from(error: LiveError) -> Self {
+        match error {
+            LiveError::Device(_) | LiveError::Gone { .. } => Self::work(error),
+            error => Self::input(error),
+        }
+    }
+}
+
+impl From<TouchError> for TaskError {
+    fn from(error: TouchError) -> Self {
+        Self::input(error)
+    }
+}
+
+impl From<PlotError> for TaskError {
+    fn from(error: PlotError) -> Self {
+        Self::work(error)
+    }
+}

@@ -1,0 +1,47 @@
+//! What can be done with Unripple, each task as a plain question and a report.
+//!
+//! One folder a verb. In each, `Ask` is a plain struct in SI units, with defaults and serde; `run` does the work, tells a
+//! [`Progress`] how far it is and looks there whether it is still wanted; `Report` is what came of it, with serde and as text. The
+//! command line, the page and other languages call the same functions, and `--json` is the report.
+//!
+//! ```
+//! use unripple_tasks::{Silent, modes};
+//!
+//! let ask = modes::Ask { surface: "hudin-2012".into(), top_hz: Some(500.0), ..modes::Ask::default() };
+//! let report = modes::run(&ask, &mut Silent)?;
+//! assert_eq!(report.frequencies_hz.len(), report.count);
+//! assert!(report.text().starts_with("Hudin"));
+//! # Ok::<(), unripple_tasks::TaskError>(())
+//! ```
+
+mod apart;
+pub mod between;
+pub mod check;
+pub mod design;
+pub mod device;
+mod error;
+pub mod figures;
+pub mod fingers;
+pub mod folder;
+pub mod grid;
+pub mod judge;
+pub mod late;
+pub mod modes;
+mod names;
+mod numbers;
+pub mod own;
+mod place;
+mod progress;
+mod report;
+pub mod source;
+mod surface;
+
+pub use apart::apart;
+pub use device::{DeviceAsk, DeviceKind};
+pub use error::TaskError;
+pub use names::{interpolation, method};
+pub use place::{Place, point};
+pub use progress::{Progress, Silent, go_on};
+pub use report::Report;
+pub use source::Source;
+pub use surface::SurfaceAsk;

@@ -1,0 +1,22 @@
+//! What `modes` is asked.
+
+use crate::SurfaceAsk;
+use serde::{Deserialize, Serialize};
+
+/// Which modes are wanted, and how accurate.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Ask {
+    /// A surface file, or the name of a built-in surface.
+    pub surface: SurfaceAsk,
+    /// Highest frequency, in Hz; by default the top of the surface's band.
+    pub top_hz: Option<f64>,
+    /// Relative accuracy of the frequencies.
+    pub accuracy: f64,
+}
+
+impl Default for Ask {
+    fn default() -> Self {
+        Self { surface: SurfaceAsk::default(), top_hz: None, accuracy: 1e-6 }
+    }
+}

@@ -1,0 +1,9 @@
+//! `modes`: frequencies and decay times.
+
+mod ask;
+mod report;
+mod run;
+
+pub use ask::Ask;
+pub use report::Report;
+pub use run::run;

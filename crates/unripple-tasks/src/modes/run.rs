@@ -1,0 +1,29 @@
+//! Modal analysis of a surface.
+
+use super::{Ask, Report};
+use crate::numbers::above_zero;
+use crate::{Progress, TaskError, go_on};
+use unripple::physics::Modes;
+
+/// The modes of a surface up to a frequency.
+///
+/// # Errors
+/// Those of [`SurfaceAsk::load`](crate::SurfaceAsk::load); [`TaskError::Ask`] if the frequency is not above 0; [`TaskError::Input`] where
+/// modes cannot be had.
+pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    let surface = ask.surface.load()?;
+    let top = above_zero(ask.top_hz.unwrap_or(surface.emission.band[1]), "top_hz", "Hz")?;
+    go_on(progress)?;
+    progress.stage("modes");
+    let modes = Modes::solve(&surface, top, ask.accuracy).map_err(TaskError::input)?;
+    let (frequencies, decays) = (modes.frequencies_hz(), modes.decay_times());
+    Ok(Report {
+        surface: surface.name.clone(),
+        max_hz: top,
+        count: frequencies.len(),
+        frequencies_hz: frequencies.to_vec(),
+        decay_times_s: decays.iter().map(|t| t.is_finite().then_some(*t)).collect(),
+        bending_shares: modes.bending_shares().to_vec(),
+        relative_error: modes.error(),
+    })
+}

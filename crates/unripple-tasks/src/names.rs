@@ -1,0 +1,57 @@
+//! Names of the library's choices, as asks write them.
+
+/// Methods of focusing by their names.
+pub mod method {
+    use serde::{Deserialize, Deserializer, Serializer, de::Error};
+    use unripple::focus::Method;
+
+    /// Writes the name.
+    ///
+    /// # Errors
+    /// Those of the serializer.
+    pub fn serialize<S: Serializer>(method: &Method, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(method.name())
+    }
+
+    /// Reads a name.
+    ///
+    /// # Errors
+    /// If no method has it.
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Method, D::Error> {
+        let name = String::deserialize(from)?;
+        let found = Method::ALL.into_iter().find(|method| method.name() == name);
+        found.ok_or_else(|| {
+            let names = Method::ALL.map(Method::name).join(", ");
+            D::Error::custom(format!("expected one of {names}, found `{name}`"))
+        })
+    }
+}
+
+/// Ways to stand in for a place between the points of a library, by their names.
+pub mod interpolation {
+    use serde::{Deserialize, Deserializer, Serializer, de::Error};
+    use unripple_calibrate::Interpolation;
+
+    const ALL: [Interpolation; 3] = [Interpolation::Nearest, Interpolation::Linear, Interpolation::Kernel];
+
+    /// Writes the name.
+    ///
+    /// # Errors
+    /// Those of the serializer.
+    pub fn serialize<S: Serializer>(way: &Interpolation, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(way.name())
+    }
+
+    /// Reads a name.
+    ///
+    /// # Errors
+    /// If there is none of it.
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Interpolation, D::Error> {
+        let name = String::deserialize(from)?;
+        let found = ALL.into_iter().find(|way| way.name() == name);
+        found.ok_or_else(|| {
+            let names = ALL.map(Interpolation::name).join(", ");
+            D::Error::custom(format!("expected one of {names}, found `{name}`"))
+        })
+    }
+}

@@ -1,0 +1,165 @@
+//! A surface or a library of responses, as tasks take either.
+
+use crate::{Progress, SurfaceAsk, TaskError, between, judge, own};
+use unripple::act::Note;
+use unripple::core::{Point, Responses, SampledResponses, Surface};
+use unripple_calibrate::Interpolation;
+use unripple_store::Library;
+
+/// What a command works on.
+pub struct Source {
+    /// The surface; of a library, the one it was made for.
+    pub surface: Surface,
+    /// Its responses, where they are stored.
+    pub stored: Option<Stored>,
+}
+
+/// Responses from a library.
+pub struct Stored {
+    /// Those of the finished points that can be read.
+    pub responses: SampledResponses,
+    /// What figures taken on them are of.
+    pub told: String,
+    /// What is wrong with it.
+    pub notes: Vec<Note>,
+    /// Why its levels mean nothing, if they do not.
+    pub without_scale: Option<String>,
+}
+
+/// What is wrong with a library as a whole, as notes: why it is not to be trusted, what was left out, what is not known of it.
+fn about(library: &Library) -> Vec<Note> {
+    let mut notes: Vec<Note> =
+        library.doubts().iter().map(|doubt| Note { topic: "doubtful", text: doubt.to_string() }).collect();
+    let dead: Vec<&str> = library.dead().iter().map(|i| library.plan().ports[*i].name.as_str()).collect();
+    if !dead.is_empty() {
+        let text = format!("without {}, dead or left out when it was measured", dead.join(", "));
+        notes.push(Note { topic: "actuators", text });
+    }
+    let unchecked = library.logged("model").filter(|log| log["checked"] == false);
+    let said = unchecked.and_then(|log| log["said"].as_str());
+    notes.extend(said.map(|said| Note { topic: "model", text: said.into() }));
+    notes.extend(library.without_scale().map(|why| Note { topic: "level", text: why.into() }));
+    notes
+}
+
+/// Warns of a library: why it is not to be trusted, what was left out, what is not known of it. Returns the same as notes.
+pub fn warn(library: &Library, progress: &mut dyn Progress) -> Vec<Note> {
+    let notes = about(library);
+    for note in &notes {
+        let what = if note.topic == "doubtful" { "doubtful: " } else { "" };
+        progress.tell(&format!("warning: {}: {what}{}", library.path().display(), note.text));
+    }
+    notes
+}
+
+/// A surface by name, file or text, or a library by its folder; what is wrong with that is told.
+///
+/// # Errors
+/// Those of [`SurfaceAsk::load`]; [`TaskError::Input`] of a library that does not describe its surface or has no finished point.
+pub fn open(ask: &SurfaceAsk, progress: &mut dyn Progress) -> Result<Source, TaskError> {
+    if let SurfaceAsk::Name(name) = ask
+        && Library::is_at(name)
+    {
+        warn(&Library::open(name)?, progress);
+    }
+    open_again(ask)
+}
+
+/// The same without a word, for whoever asks again and again.
+///
+/// # Errors
+/// Those of [`open`].
+pub fn open_again(ask: &SurfaceAsk) -> Result<Source, TaskError> {
+    match ask {
+        SurfaceAsk::Name(name) if Library::is_at(name) => library(name),
+        _ => Ok(Source { surface: ask.load()?, stored: None }),
+    }
+}
+
+/// A library by its folder.
+fn library(name: &str) -> Result<Source, TaskError> {
+    let library = Library::open(name)?;
+    let Some(surface) = library.plan().surface.clone() else {
+        return Err(TaskError::Input(format!(
+            "{name}: expected a library that describes its surface, found one without"
+        )));
+    };
+    let names = |list: Vec<&String>| list.into_iter().cloned().collect::<Vec<_>>().join(", ");
+    let (ports, actuators) = (&library.plan().ports, &surface.actuators);
+    let expected = names(actuators.iter().map(|a| &a.name).collect());
+    let found = names(ports.iter().map(|p| &p.name).collect());
+    if expected != found {
+        return Err(TaskError::Input(format!(
+            "{name}: expected responses of {expected}, found those of {found}"
+        )));
+    }
+    let (responses, damage) = library.intact()?;
+    let responses = own::as_velocities(&library, &surface, responses)?;
+    let (points, all) = (responses.points.len(), library.points().len());
+    if points == 0 {
+        return Err(TaskError::Input(format!(
+            "{name}: expected a library with finished points, found 0 of {all}"
+        )));
+    }
+    let note = |text| Note { topic: "library", text };
+    let mut notes = about(&library);
+    notes.extend(damage.iter().take(LISTED).map(|damage| note(format!("damaged, and left out: {damage}"))));
+    if damage.len() > LISTED {
+        notes.push(note(format!("{} files more are damaged", damage.len() - LISTED)));
+    }
+    if points < all {
+        notes.push(note(format!("{points} of {all} points are finished and sound")));
+    }
+    let told = format!("the {points} points of {name}");
+    let without_scale = library.without_scale().map(str::to_owned);
+    Ok(Source { surface, stored: Some(Stored { responses, told, notes, without_scale }) })
+}
+
+/// What figures taken on a library are of, and notes on it.
+pub type Told = (String, Vec<Note>);
+
+/// Damaged files named one by one.
+const LISTED: usize = 5;
+
+impl Source {
+    /// Its shortest wavelength, where responses are stored.
+    pub fn lambda_min(&self) -> Option<f64> {
+        self.stored.as_ref().map(|stored| stored.responses.conditions.lambda_min)
+    }
+
+    /// Why lengths and velocities taken on it mean nothing, if they do not.
+    pub fn without_scale(&self) -> Option<String> {
+        self.stored.as_ref().and_then(|stored| stored.without_scale.clone())
+    }
+
+    /// The surface, its responses within the band, and, of a library, what to say of them. A library's are made complete at
+    /// `places`.
+    pub fn respond(
+        self,
+        places: &[Point],
+        way: Interpolation,
+    ) -> Result<(Surface, Responses, Option<Told>), TaskError> {
+        match self.stored {
+            Some(Stored { responses, told, mut notes, .. }) => {
+                let (responses, more) = between::completed(responses, &self.surface, places, way)?;
+                notes.extend(more);
+                Ok((self.surface, Responses::Sampled(responses), Some((told, notes))))
+            }
+            None => {
+                let responses = judge::model(&self.surface, None, &[])?;
+                Ok((self.surface, responses, None))
+            }
+        }
+    }
+
+    /// Refuses, for a library, fields that need a model. Each is a name and whether it was given.
+    ///
+    /// # Errors
+    /// [`TaskError::Ask`] that names the first of them.
+    pub fn allows(&self, fields: &[(&'static str, bool)]) -> Result<(), TaskError> {
+        let given = fields.iter().find(|(_, given)| *given && self.stored.is_some());
+        given.map_or(Ok(()), |(name, _)| {
+            Err(TaskError::ask(name, "a surface, whose modes it needs", "a library"))
+        })
+    }
+}

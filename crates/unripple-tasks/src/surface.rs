@@ -1,0 +1,62 @@
+//! A surface as an ask gives it.
+
+use crate::TaskError;
+use serde::{Deserialize, Serialize};
+use unripple::core::Surface;
+use unripple_store::{load_surface, parse_surface};
+
+/// A surface: by the name of a built-in surface or file, or as the text of a surface file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum SurfaceAsk {
+    /// The name of a built-in surface, or the path of a surface file; for tasks that take one, of a library.
+    Name(String),
+    /// The text of a surface file.
+    Text {
+        /// The text.
+        toml: String,
+    },
+}
+
+impl Default for SurfaceAsk {
+    /// The paper's own surface.
+    fn default() -> Self {
+        Self::Name("hudin-2012".into())
+    }
+}
+
+impl From<&str> for SurfaceAsk {
+    fn from(name: &str) -> Self {
+        Self::Name(name.into())
+    }
+}
+
+impl From<&String> for SurfaceAsk {
+    fn from(name: &String) -> Self {
+        Self::Name(name.clone())
+    }
+}
+
+impl std::fmt::Display for SurfaceAsk {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Name(name) => f.write_str(name),
+            Self::Text { .. } => f.write_str("the surface's text"),
+        }
+    }
+}
+
+impl SurfaceAsk {
+    /// The surface.
+    ///
+    /// # Errors
+    /// [`TaskError::Faults`] with all faults of the file or text; [`TaskError::Input`] if there is none of that name.
+    pub fn load(&self) -> Result<Surface, TaskError> {
+        match self {
+            Self::Name(name) => Ok(load_surface(name)?),
+            Self::Text { toml } => {
+                parse_surface(toml, "surface").map_err(|faults| TaskError::Faults(Box::new(faults)))
+            }
+        }
+    }
+}
