@@ -4,6 +4,7 @@ use std::path::Path;
 
 const FLOORS: &[(&str, u8)] = &[
     ("unripple-core", 0),
+    ("unripple-linalg", 0),
     ("unripple-dsp", 1),
     ("unripple-physics", 2),
     ("unripple-focus", 2),

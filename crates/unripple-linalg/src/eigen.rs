@@ -1,0 +1,112 @@
+//! Eigenvalues and eigenvectors.
+
+use faer::diag::Diag;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::evd::{
+    ComputeEigenvectors, SelfAdjointEvdParams, evd_cplx, evd_real, evd_scratch, self_adjoint_evd,
+    self_adjoint_evd_scratch,
+};
+use faer::traits::ComplexField;
+use faer::{Auto, Mat, MatRef, Par, c64};
+
+/// Eigenvalues, ascending, and orthonormal eigenvectors, column by column, of a symmetric or Hermitian n x n matrix given by its lower
+/// triangle, by divide and conquer; `None` if the iteration does not converge, as where entries are not finite.
+///
+/// Vectors may be off by 1e-5 where eigenvalues differ by orders of magnitude; see [`exact_symmetric`].
+pub fn symmetric<T: ComplexField>(matrix: MatRef<'_, T>) -> Option<(Vec<T::Real>, Mat<T>)> {
+    decomposed(matrix, Auto::<T>::auto())
+}
+
+/// The same by QR iteration, to machine precision of the largest eigenvalue.
+pub fn exact_symmetric<T: ComplexField>(matrix: MatRef<'_, T>) -> Option<(Vec<T::Real>, Mat<T>)> {
+    let mut params: SelfAdjointEvdParams = Auto::<T>::auto();
+    params.recursion_threshold = usize::MAX;
+    decomposed(matrix, params)
+}
+
+fn decomposed<T: ComplexField>(
+    matrix: MatRef<'_, T>,
+    params: SelfAdjointEvdParams,
+) -> Option<(Vec<T::Real>, Mat<T>)> {
+    let n = matrix.nrows();
+    let (mut values, mut vectors) = (Diag::<T>::zeros(n), Mat::zeros(n, n));
+    let needed = self_adjoint_evd_scratch::<T>(n, ComputeEigenvectors::Yes, Par::Seq, params.into());
+    let mut buffer = MemBuffer::try_new(needed).ok()?;
+    let (to, stack) = (Some(vectors.as_mut()), MemStack::new(&mut buffer));
+    self_adjoint_evd(matrix, values.as_mut(), to, Par::Seq, stack, params.into()).ok()?;
+    Some((values.column_vector().iter().map(T::real_part_impl).collect(), vectors))
+}
+
+/// The eigenvalues of a matrix of any kind, in no order, and an eigenvector in each column.
+#[derive(Clone, Debug)]
+pub struct General {
+    /// The eigenvalues.
+    pub values: Vec<c64>,
+    /// Their right eigenvectors.
+    pub vectors: Mat<c64>,
+}
+
+/// Numbers whose matrices [`general`] decomposes: f64 and c64.
+pub trait Entry: ComplexField {
+    /// The decomposition on one thread.
+    #[doc(hidden)]
+    fn decompose(matrix: MatRef<'_, Self>) -> Option<General>;
+}
+
+/// The eigenvalues and right eigenvectors of an n x n matrix; `None` if the iteration does not converge, as where entries are not finite.
+pub fn general<T: Entry>(matrix: MatRef<'_, T>) -> Option<General> {
+    T::decompose(matrix)
+}
+
+fn scratch<T: ComplexField>(n: usize) -> Option<MemBuffer> {
+    let (left, right) = (ComputeEigenvectors::No, ComputeEigenvectors::Yes);
+    MemBuffer::try_new(evd_scratch::<T>(n, left, right, Par::Seq, Default::default())).ok()
+}
+
+impl Entry for c64 {
+    fn decompose(matrix: MatRef<'_, Self>) -> Option<General> {
+        let n = matrix.nrows();
+        let (mut values, mut vectors) = (Diag::<c64>::zeros(n), Mat::zeros(n, n));
+        let mut buffer = scratch::<c64>(n)?;
+        let stack = MemStack::new(&mut buffer);
+        let to = Some(vectors.as_mut());
+        evd_cplx(matrix, values.as_mut(), None, to, Par::Seq, stack, Default::default()).ok()?;
+        Some(General { values: values.column_vector().iter().copied().collect(), vectors })
+    }
+}
+
+impl Entry for f64 {
+    fn decompose(matrix: MatRef<'_, Self>) -> Option<General> {
+        let n = matrix.nrows();
+        let (mut re, mut im) = (Diag::<f64>::zeros(n), Diag::<f64>::zeros(n));
+        let mut real = Mat::zeros(n, n);
+        let mut buffer = scratch::<f64>(n)?;
+        let (stack, to) = (MemStack::new(&mut buffer), Some(real.as_mut()));
+        evd_real(matrix, re.as_mut(), im.as_mut(), None, to, Par::Seq, stack, Default::default()).ok()?;
+        let pairs = re.column_vector().iter().zip(im.column_vector().iter());
+        let values: Vec<c64> = pairs.map(|(re, im)| c64::new(*re, *im)).collect();
+        Some(General { vectors: joined(&values, real.as_ref()), values })
+    }
+}
+
+/// Complex eigenvectors from real ones: of a complex pair, whose first has the positive imaginary part, the first column holds the real
+/// part and the second the imaginary one.
+fn joined(values: &[c64], real: MatRef<'_, f64>) -> Mat<c64> {
+    let n = values.len();
+    let mut vectors = Mat::zeros(n, n);
+    let at = |i: usize, j: usize| real[(i, j)];
+    let mut j = 0;
+    while j < n {
+        if values[j].im == 0.0 {
+            (0..n).for_each(|i| vectors[(i, j)] = c64::new(at(i, j), 0.0));
+            j += 1;
+            continue;
+        }
+        for i in 0..n {
+            vectors[(i, j)] = c64::new(at(i, j), at(i, j + 1));
+            vectors[(i, j + 1)] = c64::new(at(i, j), -at(i, j + 1));
+        }
+        j += 2;
+    }
+    vectors
+}
