@@ -4,6 +4,7 @@ use crate::source::{Passage, Tally, Weighed};
 use faer::Mat;
 use rayon::prelude::*;
 use std::ops::Range;
+use unripple_linalg::product;
 
 /// Values of weighed modes that are held at once.
 const HELD: usize = 1 << 25;
@@ -60,7 +61,7 @@ impl<'a> Feeling<'a> {
             self.field.for_chunks(&mut read, |weights, (tally, values)| {
                 let own = Mat::from_fn(weights.nrows(), kept.len(), |p, m| weights[(p, kept[m])]);
                 add_to(tally, own.as_ref(), states.as_ref());
-                *values = own * &then;
+                *values = product(own.as_ref(), then.as_ref());
             });
             for (column, instant) in instants.into_iter().enumerate() {
                 snapshots[instant] =

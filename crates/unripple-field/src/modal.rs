@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::OnceLock;
 use unripple_core::{Drive, ModalResponses, Point};
+use unripple_linalg::product;
 
 /// Most samples from the start of a drive.
 const MOST_SAMPLES: usize = 20_000_000;
@@ -102,7 +103,7 @@ impl<'a> ModalField<'a> {
             if column % 2 == 0 { state.velocity[m] as f32 } else { state.displacement[m] as f32 }
         });
         let mut read = vec![Mat::<f32>::zeros(0, 0); self.points.len().div_ceil(POINTS)];
-        self.for_chunks(&mut read, |weights, own| *own = weights * &both);
+        self.for_chunks(&mut read, |weights, own| *own = product(weights.as_ref(), both.as_ref()));
         let column = |c: usize| read.iter().flat_map(|chunk| chunk.col_as_slice(c)).copied().collect();
         (0..states.len()).map(|i| [column(2 * i), column(2 * i + 1)]).collect()
     }
@@ -140,7 +141,8 @@ impl Source for ModalField<'_> {
         while motion.next() < range.end {
             let count = (range.end - motion.next()).min(self.samples_at_once());
             let [velocity, displacement] = states::<f64>(&mut motion, count, self.modes(), |x| x);
-            let (velocity, displacement) = (&weights * velocity, &weights * displacement);
+            let [velocity, displacement] =
+                [velocity, displacement].map(|states| product(weights.as_ref(), states.as_ref()));
             for (row, trace) in traces.iter_mut().enumerate() {
                 trace.velocity.extend((0..count).map(|i| velocity[(row, i)]));
                 trace.displacement.extend((0..count).map(|i| displacement[(row, i)]));

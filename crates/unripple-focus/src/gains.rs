@@ -1,8 +1,8 @@
 use crate::FocusError;
 use crate::recording::Recording;
-use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 use unripple_core::{OutOfRange, require};
+use unripple_linalg::solve_cholesky;
 
 /// Gains of reversed responses that bring every focus to its own level, whatever they do to each other.
 ///
@@ -37,12 +37,12 @@ pub(crate) fn gains(
     }
     let mean = (0..count).map(|k| gram[(k, k)]).sum::<f64>() / count.max(1) as f64;
     (0..count).for_each(|k| gram[(k, k)] += ridge * mean);
-    let wanted = Mat::from_fn(count, 1, |k, _| levels[k] * rate);
+    let mut found = Mat::from_fn(count, 1, |k, _| levels[k] * rate);
     let unreachable = || "foci far enough apart for their levels to differ, or a larger ridge".to_owned();
     let Ok(factors) = gram.llt(Side::Lower) else {
         return Err(FocusError::Range(OutOfRange::new("ridge", unreachable(), ridge)));
     };
-    let found = factors.solve(&wanted);
+    solve_cholesky(&factors, found.as_mut());
     let gains: Vec<f64> = (0..count).map(|k| found[(k, 0)]).collect();
     require("ridge", gains.iter().all(|c| c.is_finite()), unreachable(), ridge)?;
     Ok(gains)

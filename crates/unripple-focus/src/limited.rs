@@ -1,8 +1,9 @@
 use crate::FocusError;
 use crate::objective::{Levels, read};
 use crate::state::State;
-use faer::linalg::solvers::{PartialPivLu, Solve};
+use faer::linalg::solvers::PartialPivLu;
 use faer::{Mat, MatRef};
+use unripple_linalg::{product, solve_lu};
 
 /// Steps of Newton's method.
 const STEPS: usize = 80;
@@ -118,7 +119,7 @@ impl Limits {
     /// The level that one-bit drives reach, all targets together: the smallest multiple of the levels wanted.
     fn highest(&self, map: &Mat<f64>, levels: &Levels) -> f64 {
         let wanted = Mat::from_fn(levels.wanted.len(), 1, |k, _| levels.wanted[k]);
-        let together = map.transpose() * (&levels.readout * wanted);
+        let together = map.transpose() * product(levels.readout.as_ref(), wanted.as_ref());
         let hard: Vec<f64> = together.col_as_slice(0).iter().map(|d| self.peak * d.signum()).collect();
         let fit = self.scale(&hard).min(1.0);
         let reached = read(
@@ -167,9 +168,10 @@ impl Limits {
 impl Program<'_> {
     fn solve(&self, free: Mat<f64>) -> Result<Vec<f64>, FocusError> {
         // Without limits `ε d = Wᵀ(P μ - B η)` at η = W d.
-        let force = &free * faer::Scale(self.energy) + &self.matrix * &free;
+        let force = &free * faer::Scale(self.energy) + product(self.matrix.as_ref(), free.as_ref());
         let gram = self.levels.readout.transpose() * &self.levels.readout;
-        let mu = PartialPivLu::new(gram.as_ref()).solve(self.levels.readout.transpose() * force);
+        let mut mu = product(self.levels.readout.transpose(), force.as_ref());
+        solve_lu(&PartialPivLu::new(gram.as_ref()), mu.as_mut());
         let mut dual = free.col_as_slice(0).to_vec();
         dual.extend_from_slice(mu.col_as_slice(0));
         let mut trial = self.at(dual);
@@ -202,8 +204,8 @@ impl Program<'_> {
         let (eta, mu) = dual.split_at(rank);
         let mu = MatRef::from_column_major_slice(mu, mu.len(), 1);
         let eta = MatRef::from_column_major_slice(eta, rank, 1);
-        let omega = &self.matrix * eta;
-        let push = &self.levels.readout * mu - &omega;
+        let omega = product(self.matrix.as_ref(), eta);
+        let push = product(self.levels.readout.as_ref(), mu) - &omega;
         let forced = self.map.transpose() * &push;
         let mut drive = forced.col_as_slice(0).to_vec();
         let mut slopes = vec![0.0; drive.len()];
@@ -215,7 +217,7 @@ impl Program<'_> {
                 *to = if d.abs() < peak { slope } else { 0.0 };
             }
         }
-        let state = &self.map * MatRef::from_column_major_slice(&drive, drive.len(), 1);
+        let state = product(self.map.as_ref(), MatRef::from_column_major_slice(&drive, drive.len(), 1));
         let cost = -0.5 * (eta.transpose() * &omega)[(0, 0)];
         let energy: f64 = 0.5 * self.energy * drive.iter().map(|d| d * d).sum::<f64>();
         let work: f64 = (push.transpose() * &state)[(0, 0)];
@@ -230,7 +232,8 @@ impl Program<'_> {
         let missed = read(self.levels.readout.as_ref(), trial.state.as_ref());
         let missed =
             missed.iter().zip(&self.wanted).zip(mu).map(|((got, wanted), mu)| (mu * (got - wanted)).abs());
-        let cost = 0.5 * (trial.state.transpose() * (&self.matrix * &trial.state))[(0, 0)]
+        let cost = 0.5
+            * (trial.state.transpose() * product(self.matrix.as_ref(), trial.state.as_ref()))[(0, 0)]
             + 0.5 * self.energy * trial.drive.iter().map(|d| d * d).sum::<f64>();
         ((cost - trial.value).abs() + missed.sum::<f64>()) / cost
     }
@@ -240,7 +243,7 @@ impl Program<'_> {
         let (rank, count) = (self.matrix.nrows(), self.wanted.len());
         let slope = self.slope(trial);
         let readout = &self.levels.readout;
-        let (costs, levels) = (&slope * &self.matrix, &slope * readout);
+        let (costs, levels) = (&slope * &self.matrix, product(slope.as_ref(), readout.as_ref()));
         let (read_costs, read_levels) = (readout.transpose() * &costs, readout.transpose() * &levels);
         let system = Mat::from_fn(rank + count, rank + count, |i, j| match (i < rank, j < rank) {
             (true, true) => f64::from(i == j) + costs[(i, j)],
@@ -249,11 +252,12 @@ impl Program<'_> {
             (false, false) => read_levels[(i - rank, j - rank)],
         });
         let got = read(readout.as_ref(), trial.state.as_ref());
-        let right = Mat::from_fn(rank + count, 1, |i, _| match i < rank {
+        let mut step = Mat::from_fn(rank + count, 1, |i, _| match i < rank {
             true => trial.state[(i, 0)] - trial.dual[i],
             false => self.wanted[i - rank] - got[i - rank],
         });
-        PartialPivLu::new(system.as_ref()).solve(right).col_as_slice(0).to_vec()
+        solve_lu(&PartialPivLu::new(system.as_ref()), step.as_mut());
+        step.col_as_slice(0).to_vec()
     }
 
     /// `W D Wᵀ`, D the slopes of the samples.

@@ -1,9 +1,10 @@
 use crate::FocusError;
 use crate::state::State;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
-use faer::linalg::solvers::{Llt, Solve};
+use faer::linalg::solvers::Llt;
 use faer::{Accum, Mat, MatRef, Par, Side};
 use unripple_core::{Conditions, Point};
+use unripple_linalg::{product, solve_cholesky};
 
 /// Share of energy in the objective that always stays, so that a drive of least velocity outside exists.
 const LEAST: f64 = 1e-9;
@@ -107,11 +108,11 @@ impl Objective {
     pub fn least(&self, levels: &Levels) -> Result<Mat<f64>, FocusError> {
         let mut solved = levels.readout.clone();
         if self.radius < 0.0 {
-            self.factor.solve_in_place(solved.as_mut());
+            solve_cholesky(&self.factor, solved.as_mut());
         } else {
             let matrix = self.around(&levels.points);
             let factor = Llt::new(matrix.as_ref(), Side::Lower).map_err(|_| FocusError::Decomposition)?;
-            factor.solve_in_place(solved.as_mut());
+            solve_cholesky(&factor, solved.as_mut());
         }
         level(solved, levels)
     }
@@ -130,8 +131,8 @@ fn level(states: Mat<f64>, levels: &Levels) -> Result<Mat<f64>, FocusError> {
     }
     let factor = Llt::new(system.as_ref(), Side::Lower).map_err(|_| FocusError::Decomposition)?;
     let mut factors = Mat::from_fn(count, 1, |k, _| levels.wanted[k]);
-    factor.solve_in_place(factors.as_mut());
-    Ok(states * factors)
+    solve_cholesky(&factor, factors.as_mut());
+    Ok(product(states.as_ref(), factors.as_ref()))
 }
 
 /// `Pᵀ y`.

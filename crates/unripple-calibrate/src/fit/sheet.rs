@@ -1,8 +1,9 @@
 use super::basis::Basis;
 use super::layout::{Values, around};
 use crate::CalibrateError;
-use faer::{Mat, Side};
+use faer::Mat;
 use std::f64::consts::TAU;
+use unripple_linalg::symmetric;
 
 /// The sheet of some values, without what hangs on it: its modes as combinations of the nominal ones.
 #[derive(Clone, Debug)]
@@ -52,10 +53,10 @@ pub(super) fn eigen(matrix: &Mat<f64>) -> Result<(Vec<f64>, Mat<f64>), Calibrate
         expected: "positive eigenvalues",
         found,
     };
-    let eigen = matrix.self_adjoint_eigen(Side::Lower).map_err(|e| failed(format!("{e:?}")))?;
-    let values: Vec<f64> = eigen.S().column_vector().iter().copied().collect();
+    let no_end = || failed("an iteration that does not converge".into());
+    let (values, vectors) = symmetric(matrix.as_ref()).ok_or_else(no_end)?;
     match values.iter().all(|v| v.is_finite()) {
-        true => Ok((values, eigen.U().to_owned())),
+        true => Ok((values, vectors)),
         false => Err(failed("values that are not finite".into())),
     }
 }

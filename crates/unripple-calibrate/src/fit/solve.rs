@@ -1,9 +1,10 @@
 use super::layout::Values;
 use super::residual::{Case, Residual};
 use crate::CalibrateError;
-use faer::linalg::solvers::{DenseSolveCore, Solve};
+use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, Side};
 use unripple_core::Point;
+use unripple_linalg::solve_cholesky;
 
 /// Steps of one descent, and what share of the cost its change is when it ends: on the way, and in the end, where it is far less than
 /// what a standard error more would cost.
@@ -169,7 +170,9 @@ impl Case<'_> {
 pub(super) fn solve(system: &Mat<f64>, right: &Mat<f64>, damping: f64) -> Result<Mat<f64>, CalibrateError> {
     let mut damped = system.clone();
     (0..damped.nrows()).for_each(|i| damped[(i, i)] *= 1.0 + damping);
-    Ok(damped.llt(Side::Lower).map_err(|_| singular())?.solve(right))
+    let mut found = right.clone();
+    solve_cholesky(&damped.llt(Side::Lower).map_err(|_| singular())?, found.as_mut());
+    Ok(found)
 }
 
 fn singular() -> CalibrateError {

@@ -5,6 +5,7 @@ use super::solve::{Found, solve};
 use crate::CalibrateError;
 use faer::Mat;
 use unripple_core::{Outline, Point};
+use unripple_linalg::product;
 
 /// Masses that are tried at every place, in kg.
 const TRIED: [f64; 3] = [3e-6, 10e-6, 30e-6];
@@ -35,7 +36,7 @@ impl Case<'_> {
                 let answers: Vec<Answer> = looks.iter().map(|look| look.with(mass)).collect();
                 let signatures = self.columns(&found.values, &answers, &vec![Unknown::Mass(0); batch.len()]);
                 let known = slopes.transpose() * &signatures * faer::Scale(1.0 / excess.powi(2));
-                let explained = slopes * solve(&normal, &known, 0.0)?;
+                let explained = product(slopes.as_ref(), solve(&normal, &known, 0.0)?.as_ref());
                 let along = signatures.transpose() * &left;
                 for (n, place) in batch.iter().enumerate() {
                     let column = signatures.col(n);

@@ -1,7 +1,8 @@
 use crate::CalibrateError;
-use faer::linalg::solvers::{Llt, Solve};
+use faer::linalg::solvers::Llt;
 use faer::{Mat, Side};
 use unripple_dsp::{Band, Deconvolver, Inversion, Stimulus};
+use unripple_linalg::{product, solve_cholesky};
 
 /// What is known of taps beforehand.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -147,8 +148,10 @@ fn force(
         found: "one at rest".into(),
     };
     let factor = Llt::new(normal.as_ref(), Side::Lower).map_err(|_| unsolvable())?;
-    let found = factor.solve(design.transpose() * &sound);
-    let left = (&sound - &design * &found).squared_norm_l2() / sound.squared_norm_l2().max(f64::MIN_POSITIVE);
+    let mut found = product(design.transpose(), sound.as_ref());
+    solve_cholesky(&factor, found.as_mut());
+    let left = (&sound - product(design.as_ref(), found.as_ref())).squared_norm_l2()
+        / sound.squared_norm_l2().max(f64::MIN_POSITIVE);
     let mut force = vec![0.0; span + 2 * step];
     for k in 0..knots {
         hat.iter().enumerate().for_each(|(j, f)| force[k * step + j] += f * found[(k, 0)]);

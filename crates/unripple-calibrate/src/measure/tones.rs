@@ -1,9 +1,9 @@
 //! The decaying tones that a surface's responses are made of, found in what is left once their beginning has passed.
 
-use faer::linalg::solvers::Solve;
-use faer::{Mat, Side, c64};
+use faer::{Mat, c64};
 use realfft::RealFftPlanner;
 use std::f64::consts::{FRAC_PI_2, TAU};
+use unripple_linalg::{General, general, product, solve_lu, symmetric};
 
 /// What a part of the band rings for at its soft edges, times their width in Hz: a thousandth is left.
 const RINGING: f64 = 2.5;
@@ -145,8 +145,7 @@ fn directions(instants: &[Mat<c64>], blocks: usize) -> Option<(Vec<c64>, Mat<c64
     let stacked =
         Mat::from_fn(rows, count * starts, |r, c| instants[r / count + c / count][(r % count, c % count)]);
     let gram = &stacked * stacked.adjoint();
-    let eigen = gram.self_adjoint_eigen(Side::Lower).ok()?;
-    let powers: Vec<f64> = eigen.S().column_vector().iter().map(|x| x.re).collect();
+    let (powers, directions) = symmetric(gram.as_ref())?;
     let mut order: Vec<usize> = (0..rows).collect();
     order.sort_unstable_by(|a, b| powers[*b].total_cmp(&powers[*a]));
     let strongest = powers[order[0]];
@@ -157,13 +156,13 @@ fn directions(instants: &[Mat<c64>], blocks: usize) -> Option<(Vec<c64>, Mat<c64
     if kept.is_empty() || strongest.is_nan() {
         return None;
     }
-    let span = Mat::from_fn(rows, kept.len(), |r, c| eigen.U()[(r, kept[c])]);
+    let span = Mat::from_fn(rows, kept.len(), |r, c| directions[(r, kept[c])]);
     let before = span.subrows(0, rows - count);
     let after = span.subrows(count, rows - count);
-    let turn = (before.adjoint() * before).partial_piv_lu().solve(before.adjoint() * after);
-    let eigen = turn.eigen().ok()?;
-    let poles: Vec<c64> = eigen.S().column_vector().iter().copied().collect();
-    let shapes = span.subrows(0, count) * eigen.U();
+    let mut turn = before.adjoint() * after;
+    solve_lu(&(before.adjoint() * before).partial_piv_lu(), turn.as_mut());
+    let General { values: poles, vectors } = general(turn.as_ref())?;
+    let shapes = product(span.subrows(0, count), vectors.as_ref());
     Some((poles, shapes))
 }
 
@@ -189,7 +188,8 @@ fn amplitudes(baseband: &Baseband, shapes: &Mat<c64>, tones: &[(usize, c64)]) ->
             (0..count).for_each(|a| right[(m, a)] += weight * seen[(m, a)]);
         }
     }
-    let found = normal.partial_piv_lu().solve(&right);
+    let mut found = right;
+    solve_lu(&normal.partial_piv_lu(), found.as_mut());
     // Twice, since the negative frequencies are left out.
     let own = |m: usize| (0..count).map(|a| places[(a, m)] * found[(m, a)] * (2.0 / sizes[m])).collect();
     (0..tones_found).map(own).collect()

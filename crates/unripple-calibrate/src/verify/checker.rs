@@ -2,6 +2,7 @@
 
 use faer::{Mat, c64};
 use unripple_core::{ModalResponses, Point, Pole};
+use unripple_linalg::product;
 
 /// What a model says between its actuators and any place, ready to be compared with what was heard there.
 ///
@@ -86,7 +87,7 @@ impl<'a> Checker<'a> {
         let turned = Mat::from_fn(self.frequencies.len(), delays.len(), |n, d| {
             c64::new(0.0, self.frequencies[n].im * delays[d]).exp()
         });
-        let all = &heard.crossed * turned;
+        let all = product(heard.crossed.as_ref(), turned.as_ref());
         Mat::from_fn(all.nrows(), all.ncols(), |m, d| all[(m, d)].re)
     }
 

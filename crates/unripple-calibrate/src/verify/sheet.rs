@@ -4,6 +4,7 @@ use super::checker::{Checker, Match, Projected};
 use faer::Mat;
 use std::f64::consts::TAU;
 use unripple_core::{Outline, Point};
+use unripple_linalg::product;
 
 /// Places along the shortest wave looked at: likeness has fallen to 0.9 half a step from where it is best.
 const DENSE: f64 = 7.0;
@@ -64,7 +65,7 @@ impl<'a> Sheet<'a> {
 
     /// For each delay the best square of the likeness over all places.
     pub fn likest(&self, heard: &Projected, delays: &[f64]) -> Vec<f64> {
-        let products = &self.shapes * self.checker.products(heard, delays);
+        let products = product(self.shapes.as_ref(), self.checker.products(heard, delays).as_ref());
         (0..delays.len())
             .map(|d| {
                 let all = (0..self.places.len()).map(|p| {
@@ -77,7 +78,7 @@ impl<'a> Sheet<'a> {
 
     /// The best place of the whole sheet at one delay.
     pub fn anywhere(&self, heard: &Projected, late: f64) -> Option<Spot> {
-        let products = &self.shapes * self.checker.products(heard, &[late]);
+        let products = product(self.shapes.as_ref(), self.checker.products(heard, &[late]).as_ref());
         let spot = |p: usize| Spot {
             at: self.places[p],
             late,

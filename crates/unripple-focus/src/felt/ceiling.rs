@@ -1,5 +1,6 @@
-use faer::linalg::solvers::{Llt, Solve};
+use faer::linalg::solvers::Llt;
 use faer::{Mat, Side};
+use unripple_linalg::solve_cholesky;
 
 /// Slopes below this share of the largest count as zero.
 const LEVEL: f64 = 1e-9;
@@ -45,7 +46,8 @@ impl<F: Fn(usize, usize) -> f64> Descent<'_, F> {
             let free = &self.free;
             let form = Mat::from_fn(free.len(), free.len(), |i, j| (self.form)(free[i], free[j]));
             let Ok(factor) = Llt::new(form.as_ref(), Side::Lower) else { return };
-            let optimum = factor.solve(Mat::from_fn(free.len(), 1, |i, _| self.slope[free[i]]));
+            let mut optimum = Mat::from_fn(free.len(), 1, |i, _| self.slope[free[i]]);
+            solve_cholesky(&factor, optimum.as_mut());
             let low = (0..free.len()).filter(|i| optimum[(*i, 0)] <= 0.0);
             let reach = |i: usize| {
                 let from = self.value[free[i]];

@@ -10,10 +10,10 @@ use crate::recording::{energy, peak};
 use crate::schedule::MOST_SAMPLES;
 use crate::{FocusError, Focused, Method, Target, Timing, target};
 use faer::linalg::solvers::Llt;
-use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
-use faer::{Mat, MatRef, Par, Side};
+use faer::{Mat, MatRef, Side};
 use std::f64::consts::{PI, TAU};
 use unripple_core::{Drive, ModalResponses, OutOfRange, Point, Responses, require, window_samples};
+use unripple_linalg::{product, solve_lower};
 
 /// Most coefficients of a drive, over all actuators.
 const MOST_COEFFICIENTS: usize = 8000;
@@ -180,7 +180,7 @@ impl<'r> FeltPlan<'r> {
         if mean.col_as_slice(0)[..self.heard.kept].iter().all(|w| w.abs() <= REST * self.usual) {
             return Err(FocusError::Still { target: index, at: target.points[0] });
         }
-        Ok((&self.level * mean).col_as_slice(0).to_vec())
+        Ok(product(self.level.as_ref(), mean.as_ref()).col_as_slice(0).to_vec())
     }
 
     /// Brings the drive to the limits: its peak to `limit`, then its largest rms down to `rms_limit`.
@@ -292,7 +292,7 @@ fn level(actuation: &Actuation<'_>, factor: MatRef<'_, f64>, focal: usize) -> Ma
             .enumerate()
             .for_each(|(i, x)| *x = weight(i) * motion[(0, i % splines)]);
     }
-    solve_lower_triangular_in_place(factor, level.as_mut(), Par::rayon(0));
+    solve_lower(factor, level.as_mut());
     level
 }
 

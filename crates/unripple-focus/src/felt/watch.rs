@@ -1,7 +1,7 @@
 use super::background::Actuation;
 use super::control::Control;
-use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, Mat, MatRef, Par, linalg::matmul::matmul};
+use unripple_linalg::solve_lower;
 
 /// Of neighbouring maxima of one sign, only the largest is taken at once: within this many periods of the top of what is
 /// felt, and this many points of the coarse lattice.
@@ -57,7 +57,7 @@ impl Watch {
             let mut read = Mat::from_fn(factor.nrows(), modes, |i, m| {
                 actuation.input[(i / splines, m)] * motions[m][(t, i % splines)]
             });
-            solve_lower_triangular_in_place(factor, read.as_mut(), Par::rayon(0));
+            solve_lower(factor, read.as_mut());
             (0..modes).for_each(|m| rows.extend(read.col_as_slice(m).iter().map(|x| *x as f32)));
         }
         let single = |m: &Mat<f64>| -> Vec<f32> {

@@ -9,9 +9,10 @@ pub(crate) use reduced::ReducedPlant;
 pub(crate) use sampled::SampledPlant;
 
 use crate::FocusError;
-use faer::{Mat, MatRef, Side};
+use faer::{Mat, MatRef};
 use std::borrow::Cow;
 use unripple_core::{Point, require};
+use unripple_linalg::{product, symmetric};
 
 /// Directions of the drive that move the surface less than this share of the strongest are left alone, in energy.
 const FAINT: f64 = 1e-13;
@@ -136,8 +137,7 @@ impl<'r> State<'r> {
         let energy = (0..total).map(|i| gram[(i, i)]).sum::<f64>();
         let finite = energy.is_finite() && energy > 0.0;
         require("energy of the responses", finite, "a positive finite number", energy)?;
-        let eigen = gram.self_adjoint_eigen(Side::Lower).map_err(|_| FocusError::Decomposition)?;
-        let (vectors, values) = (eigen.U(), eigen.S().column_vector());
+        let (values, vectors) = symmetric(gram.as_ref()).ok_or(FocusError::Decomposition)?;
         let most = values[total - 1];
         let first = (0..total).position(|i| values[i] > FAINT * most).ok_or(FocusError::Decomposition)?;
         let energies: Vec<f64> = (first..total).map(|i| values[i]).collect();
@@ -187,7 +187,7 @@ impl<'r> State<'r> {
     /// # Errors
     /// [`FocusError::Dsp`] if the plants do not fit together.
     pub fn emit(&self, y: MatRef<'_, f64>) -> Result<Vec<f64>, FocusError> {
-        let z = &self.back * y;
+        let z = product(self.back.as_ref(), y);
         let z = z.col_as_slice(0);
         let mut channels = vec![0.0; self.channels * self.length];
         let mut first = 0;

@@ -1,8 +1,9 @@
 use super::modal::{lattice, ringing, steady};
 use crate::FocusError;
 use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatRef, Par, Side};
+use faer::{Accum, Mat, MatRef, Par};
 use unripple_core::{ModalResponses, Point};
+use unripple_linalg::{product, symmetric};
 
 /// Shapes that add less than this share of the strongest to the surface, in energy, are the others' combinations.
 const ALIKE: f64 = 1e-12;
@@ -33,9 +34,8 @@ impl<'r> ReducedPlant<'r> {
     ) -> Result<Self, FocusError> {
         let shapes = responses.shapes.at_all(&lattice(responses));
         let gram = shapes.transpose() * &shapes;
-        let eigen = gram.self_adjoint_eigen(Side::Lower).map_err(|_| FocusError::Decomposition)?;
-        let (vectors, values) = (eigen.U(), eigen.S().column_vector());
-        let count = values.nrows();
+        let (values, vectors) = symmetric(gram.as_ref()).ok_or(FocusError::Decomposition)?;
+        let count = values.len();
         let most = values[count - 1];
         let first = (0..count).position(|i| values[i] > ALIKE * most).ok_or(FocusError::Decomposition)?;
         let basis = vectors.subcols(first, count - first).to_owned();
@@ -65,12 +65,12 @@ impl<'r> ReducedPlant<'r> {
 
     /// Adds the drive of the weights z of shapes.
     pub fn emit(&self, z: &[f64], channels: &mut [f64]) {
-        let made = &self.map * MatRef::from_column_major_slice(z, z.len(), 1);
+        let made = product(self.map.as_ref(), MatRef::from_column_major_slice(z, z.len(), 1));
         channels.iter_mut().zip(made.col_as_slice(0)).for_each(|(d, made)| *d += made);
     }
 
     pub fn readout(&self, points: &[Point]) -> Mat<f64> {
-        self.basis.transpose() * self.responses.shapes.at_all(points).transpose()
+        product(self.basis.transpose(), self.responses.shapes.at_all(points).transpose())
     }
 
     pub fn cells(&self) -> (Mat<f64>, Vec<Point>) {

@@ -2,6 +2,7 @@ use crate::FocusError;
 use crate::recording::{SampledRecorder, locate};
 use faer::{Mat, MatRef};
 use unripple_core::{Point, SampledResponses};
+use unripple_linalg::product;
 
 /// Most values of responses that are held at once.
 const MOST_VALUES: usize = 1 << 27;
@@ -46,7 +47,7 @@ impl<'r> SampledPlant<'r> {
 
     /// Adds the drive of the weights z of points.
     pub fn emit(&self, z: &[f64], channels: &mut [f64]) {
-        let made = &self.map * MatRef::from_column_major_slice(z, z.len(), 1);
+        let made = product(self.map.as_ref(), MatRef::from_column_major_slice(z, z.len(), 1));
         channels.iter_mut().zip(made.col_as_slice(0)).for_each(|(d, made)| *d += made);
     }
 

@@ -7,6 +7,7 @@ use faer::Mat;
 use std::f64::consts::TAU;
 use unripple_core::{ModalResponses, Point, Pole, Responses, SampledResponses};
 use unripple_dsp::{Complex, integral};
+use unripple_linalg::product;
 
 /// Modes times lines of the block that is summed at once.
 const AT_ONCE: usize = 1 << 20;
@@ -109,7 +110,7 @@ fn fill_modal(
                 ringing[1][(m, line)] = value.im;
             }
         }
-        let [re, im] = ringing.map(|part| &weights * part);
+        let [re, im] = ringing.map(|part| product(weights.as_ref(), part.as_ref()));
         for (i, value) in values.iter_mut().enumerate() {
             let (line, row) = (i / per_line, i % per_line);
             *value = Complex::new(re[(row, line)], im[(row, line)]);

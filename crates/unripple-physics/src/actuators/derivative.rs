@@ -1,8 +1,8 @@
 //! The derivative of a signal that is limited to a band and cut at its ends.
 
-use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 use unripple_dsp::kaiser;
+use unripple_linalg::{solve_cholesky, solve_lu};
 
 /// Samples on either side that a derivative is made from, and the window's β: right to 1e-4 up to 0.42 of the rate.
 const HALF: usize = 32;
@@ -74,11 +74,11 @@ fn taps(before: usize, after: usize, top: f64) -> Vec<f64> {
     let matrix = Mat::from_fn(count, count, |j, k| {
         even(place(j) - place(k)) + if j == k { OUTSIDE * top } else { 0.0 }
     });
-    let wanted = Mat::from_fn(count, 1, |j, _| odd(place(j)));
-    let found = match matrix.llt(Side::Lower) {
-        Ok(factor) => factor.solve(&wanted),
-        Err(_) => matrix.partial_piv_lu().solve(&wanted),
-    };
+    let mut found = Mat::from_fn(count, 1, |j, _| odd(place(j)));
+    match matrix.llt(Side::Lower) {
+        Ok(factor) => solve_cholesky(&factor, found.as_mut()),
+        Err(_) => solve_lu(&matrix.partial_piv_lu(), found.as_mut()),
+    }
     found.col(0).iter().copied().collect()
 }
 

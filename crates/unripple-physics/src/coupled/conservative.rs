@@ -1,7 +1,8 @@
 use super::active::Active;
 use crate::modes::{Method, symmetric};
 use crate::{Load, PhysicsError};
-use faer::{Mat, Par};
+use faer::Mat;
+use unripple_linalg::singular;
 
 /// Rigid motion is given a restoring force at this share of the highest frequency, so that displacement is known from the
 /// state: far below anything that is heard or felt.
@@ -30,8 +31,7 @@ impl Conservative {
         let unweighted = lightened(active, loads).ok_or_else(failed)?;
         let springs = weighted(&active.felt, loads, |load| load.stiffness);
         let stiffness = &unweighted * (&active.stiffness + springs) * &unweighted;
-        let (squares, vectors) =
-            symmetric(stiffness.as_ref(), Method::Exact, Par::rayon(0)).ok_or_else(failed)?;
+        let (squares, vectors) = symmetric(stiffness.as_ref(), Method::Exact).ok_or_else(failed)?;
         let top = squares.last().map_or(0.0, |square| square.max(0.0).sqrt());
         let shapes = unweighted * vectors;
         let dampers = weighted(&active.felt, loads, |load| load.damping + load.direct_coil_damping());
@@ -55,10 +55,9 @@ fn lightened(active: &Active, loads: &[Load]) -> Option<Mat<f64>> {
     }
     let weights =
         Mat::from_fn(count, heavy.len(), |i, j| active.felt[(heavy[j], i)] * loads[heavy[j]].mass.sqrt());
-    let svd = weights.thin_svd().ok()?;
-    let masses = svd.S().column_vector();
-    let factors: Vec<f64> = masses.iter().map(|s| 1.0 / (1.0 + s * s).sqrt() - 1.0).collect();
-    let directions = svd.U();
+    let svd = singular(weights.as_ref())?;
+    let factors: Vec<f64> = svd.values.iter().map(|s| 1.0 / (1.0 + s * s).sqrt() - 1.0).collect();
+    let directions = &svd.left;
     let scaled = Mat::from_fn(count, factors.len(), |i, j| directions[(i, j)] * factors[j]);
     root += &scaled * directions.transpose();
     Some(root)

@@ -1,8 +1,9 @@
 use super::remainder::{Profile, Remainder};
 use crate::{Footprint, Load, Medium};
-use faer::{Mat, Side};
+use faer::Mat;
 use std::sync::Arc;
 use unripple_core::{Point, Pole, Shapes};
+use unripple_linalg::symmetric;
 
 /// A combination whose inertia is less than this share of the largest is one that others make too.
 const ALIKE: f64 = 1e-9;
@@ -103,14 +104,12 @@ fn contact(footprint: &Footprint, finest: f64) -> (Point, f64) {
 
 /// Squared frequencies and mass-normalised combinations of a stiffness and a mass matrix.
 fn pencil(stiffness: &Mat<f64>, mass: &Mat<f64>) -> Option<(Vec<f64>, Mat<f64>)> {
-    let inertia = mass.self_adjoint_eigen(Side::Lower).ok()?;
-    let values = inertia.S().column_vector();
+    let (values, vectors) = symmetric(mass.as_ref())?;
     let most = values.iter().copied().fold(0.0, f64::max);
-    let kept: Vec<usize> = (0..values.nrows()).filter(|i| values[*i] > ALIKE * most).collect();
+    let kept: Vec<usize> = (0..values.len()).filter(|i| values[*i] > ALIKE * most).collect();
     let normal =
-        Mat::from_fn(mass.nrows(), kept.len(), |j, i| inertia.U()[(j, kept[i])] / values[kept[i]].sqrt());
+        Mat::from_fn(mass.nrows(), kept.len(), |j, i| vectors[(j, kept[i])] / values[kept[i]].sqrt());
     let reduced = normal.transpose() * stiffness * &normal;
-    let modes = reduced.self_adjoint_eigen(Side::Lower).ok()?;
-    let squares: Vec<f64> = modes.S().column_vector().iter().copied().collect();
-    squares.iter().all(|square| *square > 0.0 && square.is_finite()).then(|| (squares, normal * modes.U()))
+    let (squares, modes) = symmetric(reduced.as_ref())?;
+    squares.iter().all(|square| *square > 0.0 && square.is_finite()).then(|| (squares, normal * modes))
 }

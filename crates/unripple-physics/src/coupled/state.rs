@@ -3,6 +3,7 @@ use crate::loads::Circuit;
 use crate::{Load, PhysicsError};
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, MatRef, c64};
+use unripple_linalg::{General, general};
 
 /// Damping off the diagonal that is less than this share of the largest on it does not couple.
 const PROPORTIONAL: f64 = 1e-13;
@@ -55,13 +56,11 @@ pub(super) fn roots(
     let coils: Vec<(usize, Circuit)> =
         loads.iter().enumerate().filter_map(|(j, load)| Some((j, load.inductive_coil()?))).collect();
     let matrix = matrix(modes, &coils);
-    let eigen = matrix.eigen().map_err(|_| failed())?;
-    let right = eigen.U();
+    let General { values, vectors: right } = general(matrix.as_ref()).ok_or_else(failed)?;
     let left = right.partial_piv_lu().inverse();
-    let values = eigen.S().column_vector();
     let root = |k: usize| Root {
         s: values[k],
-        shape: displacement(modes, right, k, values[k]),
+        shape: displacement(modes, right.as_ref(), k, values[k]),
         input: inputs(modes.omegas.len(), &coils, drives, left.as_ref(), k),
     };
     Ok((0..matrix.nrows()).filter(|k| values[*k].im >= 0.0).map(root).collect())

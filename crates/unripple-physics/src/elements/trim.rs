@@ -10,8 +10,8 @@
 use super::border::Border;
 use super::monomials::{COUNT, EXPONENTS, Frame, HIGHEST, place};
 use faer::Mat;
-use faer::linalg::solvers::Solve;
 use unripple_core::{Edge, Point};
+use unripple_linalg::solve_lu;
 
 /// Points of a curve at which u vanishes, by their parameter from -1 to 1: zeros to the weight (1 - x²)³.
 const VALUES: [f64; 2] = [-1.0 / 3.0, 1.0 / 3.0];
@@ -69,8 +69,8 @@ pub(crate) fn trim(
     let size = bubbles.len();
     let of_bubbles = Mat::from_fn(size, size, |i, j| dot(&conditions[i], &|m| bubbles[j][m]));
     basis.resize(COUNT * unknowns, 0.0);
-    let left = Mat::from_fn(size, unknowns, |i, u| dot(&conditions[i], &|m| basis[m * unknowns + u]));
-    let taken = of_bubbles.partial_piv_lu().solve(&left);
+    let mut taken = Mat::from_fn(size, unknowns, |i, u| dot(&conditions[i], &|m| basis[m * unknowns + u]));
+    solve_lu(&of_bubbles.partial_piv_lu(), taken.as_mut());
     for (m, row) in basis.chunks_exact_mut(unknowns).enumerate() {
         for (u, b) in row.iter_mut().enumerate() {
             *b -= bubbles.iter().enumerate().map(|(j, bubble)| bubble[m] * taken[(j, u)]).sum::<f64>();

@@ -1,10 +1,6 @@
-use faer::diag::Diag;
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::evd::{
-    ComputeEigenvectors, SelfAdjointEvdParams, self_adjoint_evd, self_adjoint_evd_scratch,
-};
-use faer::linalg::matmul::matmul;
-use faer::{Accum, Auto, Mat, MatRef, Par};
+//! Symmetric eigenvalue problems, and matrices of nearly orthonormal columns.
+
+use faer::{Accum, Mat, MatRef, Par, linalg::matmul::matmul};
 
 /// How a symmetric matrix is decomposed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,26 +13,11 @@ pub(crate) enum Method {
 
 /// Eigenvalues, ascending, and orthonormal eigenvectors of a symmetric matrix given by its lower triangle; `None` if
 /// the iteration does not converge.
-pub(crate) fn symmetric(matrix: MatRef<f64>, method: Method, par: Par) -> Option<(Vec<f64>, Mat<f64>)> {
-    let n = matrix.nrows();
-    let mut values = Diag::<f64>::zeros(n);
-    let mut vectors = Mat::zeros(n, n);
-    let mut params: SelfAdjointEvdParams = Auto::<f64>::auto();
-    if method == Method::Exact {
-        params.recursion_threshold = usize::MAX;
+pub(crate) fn symmetric(matrix: MatRef<f64>, method: Method) -> Option<(Vec<f64>, Mat<f64>)> {
+    match method {
+        Method::Fast => unripple_linalg::symmetric(matrix),
+        Method::Exact => unripple_linalg::exact_symmetric(matrix),
     }
-    let needed = self_adjoint_evd_scratch::<f64>(n, ComputeEigenvectors::Yes, par, params.into());
-    let mut buffer = MemBuffer::try_new(needed).ok()?;
-    self_adjoint_evd(
-        matrix,
-        values.as_mut(),
-        Some(vectors.as_mut()),
-        par,
-        MemStack::new(&mut buffer),
-        params.into(),
-    )
-    .ok()?;
-    Some((values.column_vector().iter().copied().collect(), vectors))
 }
 
 /// The product of two matrices.

@@ -31,8 +31,7 @@ pub(super) fn all(pencil: &Pencil, top: f64) -> Result<Piece, SpectrumError> {
     solve_lower_triangular_in_place(stiff.L(), ratio.as_mut(), Par::Seq);
     let inverse = product(ratio.transpose(), ratio.as_ref(), Par::Seq);
     let missed = |found| SpectrumError::Missed { top: bound.shift, expected: bound.below, found };
-    let (inverses, vectors) =
-        symmetric(inverse.as_ref(), Method::Exact, Par::Seq).ok_or_else(|| missed(0))?;
+    let (inverses, vectors) = symmetric(inverse.as_ref(), Method::Exact).ok_or_else(|| missed(0))?;
     let value = |i: usize| 1.0 / inverses[n - 1 - i] - shift;
     let found = (0..n).take_while(|i| value(*i) < bound.shift).count();
     if found != bound.below {

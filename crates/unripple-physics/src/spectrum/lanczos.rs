@@ -5,7 +5,7 @@ use super::pencil::Pencil;
 use super::solve::solve;
 use super::square::{Square, Triangle, identity, product, transposed};
 use crate::modes::eigen::{Method, symmetric};
-use faer::{Mat, Par};
+use faer::Mat;
 use unripple_core::Random;
 
 /// Ratio of the smallest to the largest pivot of a panel's Gram matrix, its columns scaled to one, below which rounding
@@ -184,7 +184,7 @@ impl<'a> Lanczos<'a> {
                 }
             }
         }
-        let (inverses, vectors) = symmetric(between.as_ref(), Method::Exact, Par::Seq)?;
+        let (inverses, vectors) = symmetric(between.as_ref(), Method::Exact)?;
         let last = self.below.last()?;
         let residuals = vectors.col_iter().zip(&inverses).map(|(vector, inverse)| {
             let end = vector.subrows(count - LANES, LANES);

@@ -9,6 +9,7 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
 use rayon::prelude::*;
 use unripple_core::OutOfRange;
+use unripple_linalg::product;
 
 /// Points of the field read at once: their values fit a cache.
 const POINTS: usize = 128;
@@ -115,7 +116,7 @@ fn contrasts(
     samples: usize,
 ) -> Vec<Option<f64>> {
     let readout = modal.shapes.at_all(targets);
-    let state = reversal::map(modal, samples) * readout.transpose();
+    let state = product(reversal::map(modal, samples).as_ref(), readout.transpose());
     let largest = readout.col_iter().flat_map(|c| c.iter()).fold(0.0, |m: f64, w| m.max(w.abs()));
     let radius = modal.conditions.focal_radius();
     let single = Mat::from_fn(state.nrows(), state.ncols(), |m, t| state[(m, t)] as f32);

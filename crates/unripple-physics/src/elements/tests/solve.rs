@@ -3,7 +3,7 @@
 use crate::elements::{Forms, Space};
 use crate::fabric::Fabric;
 use crate::modes::{Method, symmetric};
-use faer::{Mat, Par, Side};
+use faer::{Mat, Side};
 use unripple_core::*;
 
 /// A sheet of unit mass per area with a bending stiffness and a tension on a square outline of some size.
@@ -47,7 +47,7 @@ pub(super) fn modes(forms: &Forms, shift: f64) -> (Vec<f64>, Mat<f64>) {
     lower.solve_lower_triangular_in_place(&mut left);
     let mut both = left.transpose().to_owned();
     lower.solve_lower_triangular_in_place(&mut both);
-    let (values, mut vectors) = symmetric(both.as_ref(), Method::Fast, Par::Seq).unwrap();
+    let (values, mut vectors) = symmetric(both.as_ref(), Method::Fast).unwrap();
     lower.transpose().solve_upper_triangular_in_place(&mut vectors);
     let squares: Vec<f64> = values.iter().rev().map(|v| 1.0 / v - shift).collect();
     let shapes = Mat::from_fn(n, n, |i, m| vectors[(i, n - 1 - m)] / values[n - 1 - m].sqrt());

@@ -3,8 +3,9 @@ use super::line::Class;
 use super::plate::Plate;
 use super::product::{Product, Symmetry};
 use faer::linalg::matmul::matmul;
-use faer::linalg::solvers::{DenseSolveCore, Llt, Solve};
+use faer::linalg::solvers::{DenseSolveCore, Llt};
 use faer::{Accum, Mat, Par, Side};
+use unripple_linalg::solve_cholesky;
 
 /// How far above the top's ω², relatively, modes are still computed, so that what is left out keeps clear of it.
 const ABOVE: f64 = 0.3;
@@ -97,7 +98,7 @@ fn lowest(energy: &Mat<f64>, top: f64, par: Par) -> Option<(Vec<f64>, Mat<f64>)>
     let mut shifted = energy.clone();
     (0..n).for_each(|i| shifted[(i, i)] += top);
     let inverse = -Llt::new(shifted.as_ref(), Side::Lower).ok()?.inverse();
-    let (values, vectors) = symmetric(inverse.as_ref(), Method::Fast, par)?;
+    let (values, vectors) = symmetric(inverse.as_ref(), Method::Fast)?;
     let kept = values.partition_point(|v| -1.0 / v - top <= top * (1.0 + ABOVE));
     let mut vectors = vectors.subcols(0, kept).to_owned();
     for _ in 0..SWEEPS {
@@ -109,7 +110,7 @@ fn lowest(energy: &Mat<f64>, top: f64, par: Par) -> Option<(Vec<f64>, Mat<f64>)>
     }
     let forces = product(energy.as_ref(), vectors.as_ref(), par);
     let between = product(vectors.transpose(), forces.as_ref(), par);
-    let (values, rotation) = symmetric(between.as_ref(), Method::Exact, par)?;
+    let (values, rotation) = symmetric(between.as_ref(), Method::Exact)?;
     Some((values, product(vectors.as_ref(), rotation.as_ref(), par)))
 }
 
@@ -141,7 +142,8 @@ fn missing(
     let mut force = Mat::zeros(all, squares.len());
     let rest = force.as_mut().subrows_mut(n, further.len());
     matmul(rest, Accum::Replace, plate.stiffness(further, products), coefficients, 1.0, par);
-    let response = factor.solve(&force);
+    let mut response = force.clone();
+    solve_cholesky(&factor, response.as_mut());
     let inside = squares.partition_point(|square| *square <= top);
     (0..inside)
         .map(|m| {

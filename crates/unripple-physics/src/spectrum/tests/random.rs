@@ -14,7 +14,7 @@ fn dense(stiffness: &Sparse, mass: &Sparse) -> Vec<f64> {
     solve_lower_triangular_in_place(factor.L(), ratio.as_mut(), Par::Seq);
     let mut turned = ratio.transpose().to_owned();
     solve_lower_triangular_in_place(factor.L(), turned.as_mut(), Par::Seq);
-    symmetric(turned.as_ref(), Method::Exact, Par::Seq).expect("eigenvalues").0
+    symmetric(turned.as_ref(), Method::Exact).expect("eigenvalues").0
 }
 
 /// K = ΣbbᵀS and M = 1 + Σccᵀ over random sparse b and c, with units that differ by unknown.
