@@ -182,6 +182,26 @@ impl Outline {
             .unwrap_or(on_rim)
     }
 
+    /// Distance of a point from the nearest rim, that of the sheet or of a hole, in metres.
+    pub fn to_rim(&self, p: Point) -> f64 {
+        let sides = self.loops().into_iter().flat_map(|rim| rim.sides);
+        sides.map(|(side, _)| side.at(side.nearest(p)).distance(p)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Whether a disc around a point of the sheet, its radius in metres, keeps within the rims; it may touch them.
+    ///
+    /// ```
+    /// use unripple_core::{Outline, Point, Shape};
+    ///
+    /// let sheet = Outline::new(Shape::Rectangle { width: 0.15, height: 0.10 });
+    /// let at = Point::from_mm(12.0, 31.0);
+    /// assert!(sheet.holds_disc(at, 0.012) && !sheet.holds_disc(at, 0.0121));
+    /// ```
+    pub fn holds_disc(&self, centre: Point, radius: f64) -> bool {
+        // Rounding of millimetres in a file is no fault.
+        self.to_rim(centre) >= radius * (1.0 - 1e-9)
+    }
+
     /// Area of the sheet S, holes taken out, in m².
     pub fn area(&self) -> f64 {
         self.shape.area() - self.holes.iter().map(|hole| hole.shape().area()).sum::<f64>()

@@ -246,5 +246,12 @@ fn a_server_that_stands_still_does_not_hold_up_the_end() {
         server.stand_still(false);
         ended
     });
+    // Whoever is on the way out has left before the server ends: where both happen at once, JACK 2 breaks its database for good.
+    drop(join(&JackOptions {
+        server: Some(server.name.clone()),
+        outputs: names(),
+        links: Links::None,
+        ..JackOptions::default()
+    }));
     assert!(ended, "the end of a play waits for a server that stands still");
 }

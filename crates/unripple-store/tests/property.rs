@@ -217,8 +217,17 @@ prop_compose! {
             outline.nearest(there)
         };
         let actuators = actuators.into_iter().enumerate().map(|(i, (x, y, kind, pad))| {
+            let at = place(x, y);
+            // A patch lies on the sheet whole; where there is no room for one, a force acts.
+            let kind = match kind {
+                ActuatorKind::Piezo { radius, moment, mass } => match radius.min(0.99 * outline.to_rim(at)) {
+                    radius if radius >= 1e-4 => ActuatorKind::Piezo { radius, moment, mass },
+                    _ => ActuatorKind::Force,
+                },
+                kind => kind,
+            };
             let contact_radius = if matches!(kind, ActuatorKind::Piezo { .. }) || i % 2 == 0 { 0.0 } else { pad };
-            Actuator { name: format!("{name}{i}"), at: place(x, y), kind, contact_radius }
+            Actuator { name: format!("{name}{i}"), at, kind, contact_radius }
         }).collect();
         let mut sheet = sheet;
         sheet.uneven.scatterers =

@@ -13,13 +13,8 @@ pub(super) fn transducer(actuator: &Actuator, outline: &Outline) -> Result<Trans
         return Ok(super::force::transducer(actuator, outline));
     };
     require("radius of a piezo patch in m", radius > 0.0, "a positive finite number", radius)?;
-    let to_rim = outline
-        .loops()
-        .iter()
-        .flat_map(|rim| &rim.sides)
-        .map(|(side, _)| side.at(side.nearest(actuator.at)).distance(actuator.at))
-        .fold(f64::INFINITY, f64::min);
-    if to_rim < radius * (1.0 - 1e-9) {
+    if !outline.holds_disc(actuator.at, radius) {
+        let to_rim = outline.to_rim(actuator.at);
         return Err(PhysicsError::Unsupported {
             what: "place of a piezo patch",
             expected: "a disc inside the outline",

@@ -1,4 +1,4 @@
-use super::piezo::{self, PIEZO_KEYS};
+use super::piezo::{self, PIEZO_KEYS, Spot};
 use super::place::Ground;
 use super::range::of;
 use super::reader::{Faults, Section};
@@ -82,7 +82,10 @@ fn one(
     let kind = match kind {
         Kind::Force => Some(ActuatorKind::Force),
         Kind::MovingMagnet => magnet(section, faults),
-        Kind::Piezo => piezo::read(section, at.and_then(base.thickness), faults),
+        Kind::Piezo => {
+            let to_rim = at.zip(base.ground).map(|(at, ground)| ground.to_rim(at));
+            piezo::read(section, &Spot { thickness: at.and_then(base.thickness), to_rim }, faults)
+        }
     };
     Some(Actuator { name: name?, at: at?, kind: kind?, contact_radius: pad? })
 }

@@ -18,16 +18,45 @@ const PATCH_KEYS: [&str; 3] = ["d31_pm_per_v", "patch_young_gpa", "patch_thickne
 /// Poisson's ratio of a patch.
 const PATCH_POISSON: f64 = 0.3;
 
-/// A piezo patch on a sheet as thick as `thickness` metres there; `None` where that is at fault.
-pub(super) fn read(section: &Section, thickness: Option<f64>, faults: &mut Faults) -> Option<ActuatorKind> {
+/// What is known of the sheet where a patch is; nothing of what is at fault.
+pub(super) struct Spot {
+    /// Thickness there, in metres.
+    pub thickness: Option<f64>,
+    /// Distance from the nearest rim, in metres.
+    pub to_rim: Option<f64>,
+}
+
+/// A piezo patch on a sheet, all of it.
+pub(super) fn read(section: &Section, spot: &Spot, faults: &mut Faults) -> Option<ActuatorKind> {
     let radius = section.number(PIEZO_KEYS[0], &of::PATCH_RADIUS, faults);
+    let fits = radius.is_none() || within(section, radius, spot.to_rim, faults);
     let patch_thickness = match section.get("patch_thickness_mm") {
         Some(entry) => entry.number(&of::PATCH_THICKNESS, faults).map(Some),
         None => Some(None),
     };
-    let moment = moment(section, thickness, patch_thickness, faults);
+    let moment = moment(section, spot.thickness, patch_thickness, faults);
     let mass = mass(section, radius, patch_thickness, faults);
-    Some(ActuatorKind::Piezo { radius: radius?, moment: moment?, mass: mass? })
+    fits.then_some(ActuatorKind::Piezo { radius: radius?, moment: moment?, mass: mass? })
+}
+
+/// Whether a patch keeps within the rims, or a fault: its moment acts along the whole of its own rim.
+fn within(section: &Section, radius: Option<f64>, to_rim: Option<f64>, faults: &mut Faults) -> bool {
+    let (Some(radius), Some(to_rim)) = (radius, to_rim) else { return true };
+    if to_rim >= radius * (1.0 - 1e-9) {
+        return true;
+    }
+    let Some(entry) = section.get(PIEZO_KEYS[0]) else { return false };
+    let most = (to_rim * 1e7).floor() / 1e4;
+    let found = format!("{} mm, which reaches beyond the rim", radius * 1e3);
+    let near = (most >= of::PATCH_RADIUS.least).then(|| most.to_string());
+    faults.add(
+        &entry.key,
+        entry.span,
+        found,
+        format!("at most {most} mm, the distance from the nearest rim"),
+        near,
+    );
+    false
 }
 
 /// Moment per length of rim and volt.

@@ -92,6 +92,11 @@ impl Ground {
         self.outline.extent()
     }
 
+    /// Distance of a place from the nearest rim, in metres.
+    pub fn to_rim(&self, p: Point) -> f64 {
+        self.outline.to_rim(p)
+    }
+
     fn within_rim(&self, p: Point) -> bool {
         match self.rim.place(p) {
             Where::Inside => true,

@@ -181,3 +181,14 @@ fn patches() {
     let thin = GOOD.replace("0.125", "-1").replace("kind = \"force\"", &format!("kind = \"piezo\"\n{whole}"));
     assert_eq!(faults(&thin).len(), 1);
 }
+
+#[test]
+fn patches_across_the_rim() {
+    let whole = |radius: &str| format!("radius_mm = {radius}\nmoment_n_per_v = 1");
+    let said = "at most 12 mm, the distance from the nearest rim, found 12.5 mm, which reaches beyond the rim (nearest: 12)";
+    let across = patch(&whole("12.5"));
+    assert!(across.starts_with("actuator[0].radius_mm: ") && across.ends_with(said), "{across}");
+    assert!(
+        faults(&GOOD.replace("kind = \"force\"", &format!("kind = \"piezo\"\n{}", whole("12")))).is_empty()
+    );
+}
