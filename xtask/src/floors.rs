@@ -19,6 +19,7 @@ const FLOORS: &[(&str, u8)] = &[
     ("unripple", 4),
     ("unripple-live", 4),
     ("unripple-tasks", 5),
+    ("unripple-paper", 6),
     ("unripple-viewer", 6),
     ("unripple-cli", 7),
 ];

@@ -10,7 +10,7 @@ use common::{Outcome, peers, surface};
 use std::hint::black_box;
 use unripple::core::{Outline, Shape, Surface};
 use unripple::physics::{Modes, PhysicsError};
-use unripple::study::cavities;
+use unripple_paper::study::cavities;
 
 /// Modes asked for.
 const COUNT: usize = 300;

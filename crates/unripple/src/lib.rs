@@ -33,7 +33,6 @@ pub use unripple_physics as physics;
 pub mod act;
 pub mod contrast_map;
 pub mod drafting;
-pub mod study;
 mod touch;
 
 pub use touch::{Touch, touch};

@@ -1,13 +1,13 @@
 //! Contrast and size of simulated foci against closed forms.
 
 use std::sync::LazyLock;
-use unripple::study::{
-    Bench, CELLS, Compared, Replay, Sampling, against_band, against_noise, against_period, against_window,
-    size,
-};
 use unripple_core::{Decay, Edge, Edges, Outline, Shape, Surface};
 use unripple_field::{Aim, MeasureOptions, measure};
 use unripple_focus::{Options, Target, focus};
+use unripple_paper::study::{
+    Bench, CELLS, Compared, Replay, Sampling, against_band, against_noise, against_period, against_window,
+    size,
+};
 use unripple_physics::design::{ACTUATORS, WINDOWS, papers_surface};
 
 static PAPER: LazyLock<Bench> = LazyLock::new(|| Bench::of(&papers_surface(), CELLS).unwrap());

@@ -6,7 +6,7 @@ mod bench;
 use bench::*;
 use unripple::focus::{Method, Options, Target};
 use unripple::physics::design::papers_surface;
-use unripple::study::Random;
+use unripple_paper::study::Random;
 
 /// `√(M/e)`, e = J0² + J1² at the disc's radius: the contrast of a band-limited delta.
 const DELTA: f64 = 63.4;

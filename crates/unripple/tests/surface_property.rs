@@ -108,7 +108,7 @@ proptest! {
     #[test]
     fn fields_are_linear(surface in surface(), at in place(), gain in -3.0..3.0, seed in any::<u64>()) {
         let (at, responses) = (on(&surface, at), modelled(&surface));
-        let mut random = unripple::study::Random::seeded(seed);
+        let mut random = unripple_paper::study::Random::seeded(seed);
         let names: Vec<String> = surface.actuators.iter().map(|a| a.name.clone()).collect();
         let mut noise = || names.iter().map(|_| (0..200).map(|_| random.normal()).collect()).collect::<Vec<Vec<f64>>>();
         let (p, q) = (noise(), noise());

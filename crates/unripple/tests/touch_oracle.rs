@@ -1,7 +1,7 @@
 //! Truth: a finger and coils on the paper's surface.
 
-use unripple::study::{Coils, coils, credibility, finger};
 use unripple_core::{CoilDrive, Point};
+use unripple_paper::study::{Coils, coils, credibility, finger};
 use unripple_physics::Medium;
 use unripple_physics::design::papers_surface;
 

@@ -6,7 +6,7 @@ use unripple::field::{Field, Trace, Wanted};
 use unripple::focus::{PlayOptions, Played, Waveform, play};
 use unripple::physics::design::papers_surface;
 use unripple::physics::{ResponseOptions, responses};
-use unripple::study::Random;
+use unripple_paper::study::Random;
 
 const LEVEL: f64 = 1e-6;
 const TONES: [f64; 2] = [250.0, 80.0];

@@ -4,8 +4,8 @@
 mod window_common;
 
 use rayon::prelude::*;
-use unripple::study::{Bench, CELLS};
 use unripple_core::{Point, Surface};
+use unripple_paper::study::{Bench, CELLS};
 use unripple_physics::design::{Cavity, Windows};
 use window_common::{LOSS_FACTORS, drum, film, glass, panel, table, targets, with_loss};
 

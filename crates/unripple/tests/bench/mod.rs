@@ -7,7 +7,7 @@ use unripple::field::{Aim, Field, Measured};
 use unripple::focus::{Focuser, Method, Options, Target};
 use unripple::physics::design::papers_surface;
 use unripple::physics::{ResponseOptions, responses};
-use unripple::study::Random;
+use unripple_paper::study::Random;
 
 pub const WINDOW: f64 = 0.030;
 

@@ -1,14 +1,14 @@
 //! The reversed recording, played.
 
 use super::{C, FORCE, IMPULSE, Recording, cells, curve, driven_at, first, largest, place, rms, strip};
-use crate::error::CliError;
-use crate::figures::Scene;
-use crate::judge::CELLS;
 use crate::reproduce::Bed;
 use unripple::core::{Drive, ModalResponses, Port, window_samples};
 use unripple::field::{self, Aim, Field, Snapshot, TargetFigures, Trace};
 use unripple::focus::{Options, Target, focus};
 use unripple_plot::{Axis, Figure, Ink, Rule, Traces, prefixed};
+use unripple_tasks::TaskError;
+use unripple_tasks::figures::Scene;
+use unripple_tasks::judge::CELLS;
 
 /// Share of the peak at which the colours of the converging wave saturate.
 const SATURATED: f64 = 0.6;
@@ -40,27 +40,27 @@ impl Refocus {
         modal: &ModalResponses,
         b: &Port,
         recording: &Recording,
-    ) -> Result<Self, CliError> {
+    ) -> Result<Self, TaskError> {
         let responses = driven_at(modal, b.clone());
         let cropped = recording.cropped(bed);
         let scale = FORCE / largest(cropped);
         let reversed: Vec<f64> = cropped.iter().rev().map(|v| v * scale).collect();
         let drive =
-            Drive::new(bed.rate, vec![b.name.clone()], vec![reversed]).map_err(CliError::work)?.as_emitted();
+            Drive::new(bed.rate, vec![b.name.clone()], vec![reversed]).map_err(TaskError::work)?.as_emitted();
 
         let options = Options { window: bed.window, limit: FORCE, ..Options::default() };
-        let other = focus(&responses, &[Target::at(bed.target)], &options).map_err(CliError::work)?.drive;
+        let other = focus(&responses, &[Target::at(bed.target)], &options).map_err(TaskError::work)?.drive;
         let pairs = drive.channels().iter().flatten().zip(other.channels().iter().flatten());
         let mismatch = pairs.fold(0.0, |m: f64, (a, b)| m.max((a - b).abs())) / other.peak();
 
-        let field = Field::new(&responses, &drive, CELLS).map_err(CliError::work)?;
+        let field = Field::new(&responses, &drive, CELLS).map_err(TaskError::work)?;
         let instants = CONVERGING.map(|t| bed.window + t);
-        let shots = field.snapshots(&instants).map_err(CliError::work)?;
+        let shots = field.snapshots(&instants).map_err(TaskError::work)?;
         let mut traces =
-            field.traces(&[bed.target, C], 2.0 * bed.window).map_err(CliError::work)?.into_iter();
+            field.traces(&[bed.target, C], 2.0 * bed.window).map_err(TaskError::work)?.into_iter();
         let (at_a, at_c) = (traces.next().unwrap_or_default(), traces.next().unwrap_or_default());
         let aim = Aim::at(bed.target, bed.window);
-        let figures = first(field.measure(&[aim], None).map_err(CliError::work)?.targets)?;
+        let figures = first(field.measure(&[aim], None).map_err(TaskError::work)?.targets)?;
         let squares: f64 = cropped.iter().map(|v| (v / IMPULSE).powi(2)).sum();
         let predicted = squares * scale * IMPULSE / bed.rate;
         let cells = cells(&field)?;

@@ -7,15 +7,15 @@ pub use triangle::triangle;
 use super::bed::Bed;
 use super::fig1::{FORCE, actuator, cells, driven_at, first, modal, place};
 use super::section::{Compared, Picture, Section};
-use crate::error::CliError;
-use crate::figures::{Scene, drawn};
-use crate::judge::CELLS;
 use serde_json::{Value, json};
 use unripple::core::{ModalResponses, Pole, Responses, window_samples};
 use unripple::field::{self, Aim, Field, Snapshot, TargetFigures};
 use unripple::focus::{Focused, Options, Target, focus};
 use unripple::physics::design::closed;
 use unripple_plot::{Along, Axis, Colours, Figure, Ink, Legend, Line, Plot, Rule, Traces, prefixed};
+use unripple_tasks::TaskError;
+use unripple_tasks::figures::{Scene, drawn};
+use unripple_tasks::judge::CELLS;
 
 /// Which actuator is the only one.
 const ACTUATOR: usize = 0;
@@ -43,7 +43,7 @@ struct Alone {
 
 impl Alone {
     /// Focuses on the bed's target through a surface with decay `factor` times as long, and follows the tail.
-    fn make(bed: &Bed, modal: &ModalResponses, factor: f64) -> Result<Self, CliError> {
+    fn make(bed: &Bed, modal: &ModalResponses, factor: f64) -> Result<Self, TaskError> {
         let slower = |pole: &Pole| Pole { sigma: pole.sigma / factor, ..*pole };
         let poles: Vec<Pole> = modal.poles.iter().map(slower).collect();
         let tau = 1.0 / poles.iter().map(|pole| pole.sigma).fold(f64::INFINITY, f64::min);
@@ -51,9 +51,10 @@ impl Alone {
         let responses = driven_at(&ringing, actuator(modal, ACTUATOR)?);
         let focused = focused(bed, &responses, Target::at(bed.target))?;
         let drive = focused.drive.as_emitted();
-        let field = Field::new(&responses, &drive, CELLS).map_err(CliError::work)?;
-        let mut measured = field.measure(&[Aim::at(bed.target, bed.window)], None).map_err(CliError::work)?;
-        let traces = field.traces(&[bed.target], bed.window + FOLLOWED).map_err(CliError::work)?;
+        let field = Field::new(&responses, &drive, CELLS).map_err(TaskError::work)?;
+        let mut measured =
+            field.measure(&[Aim::at(bed.target, bed.window)], None).map_err(TaskError::work)?;
+        let traces = field.traces(&[bed.target], bed.window + FOLLOWED).map_err(TaskError::work)?;
         let trace = traces.into_iter().next().map(|trace| trace.velocity).unwrap_or_default();
         let shot = snapshot(&mut measured.maps.at_peak)?;
         Ok(Self { tau, trace, figures: first(measured.targets)?, shot, cells: cells(&field)? })
@@ -87,20 +88,20 @@ impl Alone {
     }
 }
 
-fn snapshot(shots: &mut Vec<Snapshot>) -> Result<Snapshot, CliError> {
+fn snapshot(shots: &mut Vec<Snapshot>) -> Result<Snapshot, TaskError> {
     if shots.is_empty() {
-        return Err(CliError::Work("no field was measured at the focus".into()));
+        return Err(TaskError::Work("no field was measured at the focus".into()));
     }
     Ok(shots.swap_remove(0))
 }
 
-fn focused(bed: &Bed, responses: &Responses, target: Target) -> Result<Focused, CliError> {
+fn focused(bed: &Bed, responses: &Responses, target: Target) -> Result<Focused, TaskError> {
     let options = Options { window: bed.window, limit: FORCE, ..Options::default() };
-    focus(responses, &[target], &options).map_err(CliError::work)
+    focus(responses, &[target], &options).map_err(TaskError::work)
 }
 
 /// Fig. 2a: a good focus in short time, a long tail of noise.
-pub fn one_actuator(bed: &Bed) -> Result<Section, CliError> {
+pub fn one_actuator(bed: &Bed) -> Result<Section, TaskError> {
     let modal = modal(&bed.responses)?;
     let papers = Alone::make(bed, modal, 1.0)?;
     let ringing = Alone::make(bed, modal, LONGER)?;
@@ -130,7 +131,7 @@ pub fn one_actuator(bed: &Bed) -> Result<Section, CliError> {
     })
 }
 
-fn focus_and_tail(bed: &Bed, modal: &ModalResponses, films: [&Alone; 2]) -> Result<Figure, CliError> {
+fn focus_and_tail(bed: &Bed, modal: &ModalResponses, films: [&Alone; 2]) -> Result<Figure, TaskError> {
     let [_, ringing] = films;
     let only = actuator(modal, ACTUATOR)?;
     let mut surface = bed.surface.clone();
@@ -202,7 +203,7 @@ fn alone_caption(
     modal: &ModalResponses,
     papers: &Alone,
     ringing: &Alone,
-) -> Result<String, CliError> {
+) -> Result<String, TaskError> {
     let only = actuator(modal, ACTUATOR)?;
     Ok(format!(
         "Fig. 2a. One actuator, {} at {} (square), focusing on {} (cross) with a force of {:.0} mN at most. (a) Velocity \

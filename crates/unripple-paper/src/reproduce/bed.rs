@@ -1,6 +1,6 @@
-use crate::error::CliError;
-use crate::{input, judge};
 use unripple::core::{Point, Responses, Surface};
+use unripple_tasks::TaskError;
+use unripple_tasks::judge;
 
 /// The paper's surface, ready for its experiments to be done again.
 #[derive(Debug)]
@@ -19,8 +19,8 @@ pub struct Bed {
 
 impl Bed {
     /// The built-in surface `hudin-2012`.
-    pub fn new() -> Result<Self, CliError> {
-        let surface = input::surface("hudin-2012")?;
+    pub fn new() -> Result<Self, TaskError> {
+        let surface = unripple_store::load_surface("hudin-2012")?;
         let responses = judge::model(&surface, None, &[])?;
         let rate = surface.emission.rate;
         Ok(Self { surface, responses, rate, window: 0.030, target: Point::from_mm(62.0, 90.0) })

@@ -1,9 +1,9 @@
 use super::section::row;
 use super::{Bed, Compared, Picture, Section};
-use crate::error::CliError;
+use crate::study::{Touched, finger};
 use serde_json::json;
-use unripple::study::{Touched, finger};
 use unripple_plot::{Along, Axis, Figure, Ink, Layer, Line, Mark, Plot, Points, Rule};
+use unripple_tasks::TaskError;
 
 /// Radii of the contact, in metres.
 const RADII: [f64; 6] = [3e-3, 4e-3, 5e-3, 6e-3, 7e-3, 8e-3];
@@ -12,7 +12,7 @@ const RADII: [f64; 6] = [3e-3, 4e-3, 5e-3, 6e-3, 7e-3, 8e-3];
 const PAPERS: f64 = 5.0;
 
 /// Section 4: what a finger does to the focus under it and to the noise, against the size of the contact.
-pub fn section(bed: &Bed) -> Result<Section, CliError> {
+pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let rows = finger(&bed.surface, bed.target, &RADII, bed.window)?;
     let (unaware, aware): (Vec<&Touched>, Vec<&Touched>) = rows.iter().partition(|r| !r.known);
     Ok(Section {

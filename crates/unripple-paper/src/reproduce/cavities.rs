@@ -1,11 +1,11 @@
 use super::contrast::{Statistic, statistics};
 use super::section::row;
 use super::{Bed, Compared, Picture, Section};
-use crate::error::CliError;
+use crate::study::{Bench, CELLS, against_window, cavities};
 use serde_json::json;
 use unripple::core::{Outline, Surface};
-use unripple::study::{Bench, CELLS, against_window, cavities};
 use unripple_plot::{Axis, Figure, Ink, Layer, Line, Mark, Plot, Points};
+use unripple_tasks::TaskError;
 
 /// Windows simulated, in seconds; the bed's is among them.
 const WINDOWS: [f64; 6] = [0.005, 0.010, 0.020, 0.030, 0.060, 0.150];
@@ -20,7 +20,7 @@ struct Cavity {
 }
 
 impl Cavity {
-    fn of(bed: &Bed, name: &'static str, outline: Outline, placements: usize) -> Result<Self, CliError> {
+    fn of(bed: &Bed, name: &'static str, outline: Outline, placements: usize) -> Result<Self, TaskError> {
         let surface = Surface { outline, ..bed.surface.clone() };
         let bench = Bench::of(&surface, CELLS)?;
         let rows = statistics(placements, |s| Ok(against_window(&bench, &surface, &WINDOWS, &ACTUATORS, s)))?;
@@ -37,7 +37,7 @@ impl Cavity {
 }
 
 /// Section 2: what the outline does, on one area of the same film.
-pub fn section(bed: &Bed, placements: usize) -> Result<Section, CliError> {
+pub fn section(bed: &Bed, placements: usize) -> Result<Section, TaskError> {
     let all = cavities(bed.surface.outline.area())
         .into_iter()
         .map(|(name, outline)| Cavity::of(bed, name, outline, placements))

@@ -1,10 +1,10 @@
 use super::{Bed, Compared, Picture, Section};
-use crate::error::CliError;
 use serde_json::json;
 use std::f64::consts::TAU;
 use unripple::core::Finger;
 use unripple::physics::design::{Scattering, Strip, film_strip, glass_strip, table1};
 use unripple_plot::{Axis, Dash, Figure, Ink, Layer, Line, Plot, Rule};
+use unripple_tasks::TaskError;
 
 /// Frequencies shown, in Hz.
 const RANGE: [f64; 2] = [10.0, 1e5];
@@ -14,7 +14,7 @@ const STEPS: usize = 400;
 const DISPLACEMENT: f64 = 10e-6;
 
 /// Fig. 3: what becomes of a wave that meets a finger.
-pub fn section(bed: &Bed) -> Result<Section, CliError> {
+pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let finger = Finger::default();
     let strips = [("glass 1 mm", glass_strip()), ("BoPET 0.125 mm, 2 N", film_strip())];
     let marks: Vec<f64> = table1().iter().map(|touch| touch.frequency_hz).collect();

@@ -1,10 +1,10 @@
 use super::section::row;
 use super::{Bed, Compared, Section};
-use crate::error::CliError;
 use serde_json::json;
 use std::f64::consts::TAU;
 use unripple::core::{Air, Surface};
 use unripple::physics::{Design, Medium, Modes, design};
+use unripple_tasks::TaskError;
 
 /// Highest frequency that the first mode is looked for below, in Hz.
 const LOW: f64 = 300.0;
@@ -14,9 +14,9 @@ const ACCURACY: f64 = 1e-6;
 const PRINTED_TENSION: f64 = 30.0;
 
 /// Section 4: the numbers printed for the paper's membrane, and the paper's slips.
-pub fn section(bed: &Bed) -> Result<Section, CliError> {
+pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let surface = &bed.surface;
-    let design = design(surface).map_err(CliError::input)?;
+    let design = design(surface).map_err(TaskError::input)?;
     let firsts = [Air::None, Air::OneSide, Air::BothSides].map(|air| {
         let mut aired = surface.clone();
         aired.sheet.air = air;
@@ -39,10 +39,10 @@ pub fn section(bed: &Bed) -> Result<Section, CliError> {
     })
 }
 
-fn first_mode(surface: &Surface) -> Result<f64, CliError> {
-    let modes = Modes::solve(surface, LOW, ACCURACY).map_err(CliError::input)?;
+fn first_mode(surface: &Surface) -> Result<f64, TaskError> {
+    let modes = Modes::solve(surface, LOW, ACCURACY).map_err(TaskError::input)?;
     let first = modes.frequencies_hz().first().copied();
-    first.ok_or_else(|| CliError::Work(format!("no mode below {LOW} Hz")))
+    first.ok_or_else(|| TaskError::Work(format!("no mode below {LOW} Hz")))
 }
 
 fn waves(surface: &Surface, design: &Design) -> Vec<Compared> {

@@ -6,14 +6,14 @@ use self::figures::{closely, closely_caption, overview, overview_caption};
 use super::bed::Bed;
 use super::fig1::{cells, closed_contrast, largest, modal, rms};
 use super::section::{Compared, Picture, Section};
-use crate::error::CliError;
-use crate::judge::CELLS;
 use serde::Serialize;
 use serde_json::json;
 use unripple::core::{Drive, Point, window_samples};
 use unripple::field::{self, Field, Snapshot, Trace};
 use unripple::focus::{Focused, Focuser, Options, Target};
 use unripple::physics::design::closed;
+use unripple_tasks::TaskError;
+use unripple_tasks::judge::CELLS;
 
 /// Repetition rates at E and D, in Hz.
 const RATES: [f64; 2] = [5.0, 2.0];
@@ -116,18 +116,18 @@ fn mean(values: &[f64]) -> f64 {
 }
 
 impl Repeated {
-    fn make(bed: &Bed) -> Result<Self, CliError> {
+    fn make(bed: &Bed) -> Result<Self, TaskError> {
         let options = Options {
             window: bed.window,
             limit: bed.surface.emission.limit,
             duration: Some(bed.window + LASTS),
             ..Options::default()
         };
-        let focuser = Focuser::new(&bed.responses, &options).map_err(CliError::work)?;
+        let focuser = Focuser::new(&bed.responses, &options).map_err(TaskError::work)?;
         let (focused, rounds) = levelled(bed, &focuser)?;
         let period = focused.period.map_or(f64::NAN, |samples| samples as f64 / bed.rate);
         let drive = focused.drive;
-        let field = Field::new(&bed.responses, &drive, CELLS).map_err(CliError::work)?;
+        let field = Field::new(&bed.responses, &drive, CELLS).map_err(TaskError::work)?;
         let points = tracked(bed, &field)?;
         let (pulses, shot) = pulses(bed, &field, &points, period)?;
         let cells = cells(&field)?;
@@ -150,10 +150,10 @@ fn places(bed: &Bed) -> Vec<(&'static str, Point, Option<f64>)> {
     foci.into_iter().chain(OTHERS.map(|(name, at)| (name, at, None))).collect()
 }
 
-fn tracked(bed: &Bed, field: &Field) -> Result<Vec<Tracked>, CliError> {
+fn tracked(bed: &Bed, field: &Field) -> Result<Vec<Tracked>, TaskError> {
     let places = places(bed);
     let points: Vec<Point> = places.iter().map(|(_, at, _)| *at).collect();
-    let traces: Vec<Trace> = field.traces(&points, bed.window + LASTS).map_err(CliError::work)?;
+    let traces: Vec<Trace> = field.traces(&points, bed.window + LASTS).map_err(TaskError::work)?;
     let pairs = places.into_iter().zip(traces);
     Ok(pairs
         .map(|((name, at, hz), trace)| Tracked {
@@ -172,8 +172,8 @@ fn pulses(
     field: &Field,
     points: &[Tracked],
     period: f64,
-) -> Result<(Vec<Pulse>, Snapshot), CliError> {
-    let [e, d, ..] = points else { return Err(CliError::Work("expected two foci".into())) };
+) -> Result<(Vec<Pulse>, Snapshot), TaskError> {
+    let [e, d, ..] = points else { return Err(TaskError::Work("expected two foci".into())) };
     let common = window_samples(bed.window + period, bed.rate);
     let after = |hz: f64| common + window_samples(1.0 / hz, bed.rate);
     let asked =
@@ -185,7 +185,7 @@ fn pulses(
         .chain(extremes)
         .map(|sample| sample as f64 / bed.rate)
         .collect();
-    let mut shots = field.snapshots(&instants).map_err(CliError::work)?;
+    let mut shots = field.snapshots(&instants).map_err(TaskError::work)?;
     let radius = bed.responses.conditions().focal_radius();
     let outside: Vec<bool> =
         field.points().iter().map(|p| [e, d].iter().all(|focus| focus.at.distance(*p) > radius)).collect();
@@ -205,15 +205,15 @@ fn pulses(
 }
 
 /// The drive whose pulses at both foci have the paper's height on average: gain and level found from the emitted drive.
-fn levelled(bed: &Bed, focuser: &Focuser) -> Result<(Focused, usize), CliError> {
+fn levelled(bed: &Bed, focuser: &Focuser) -> Result<(Focused, usize), TaskError> {
     let (mut gain, mut round) = (1.0, 0);
     loop {
         round += 1;
         let targets =
             [Target::at(bed.target).repeated(RATES[0]), Target::at(D).with_gain(gain).repeated(RATES[1])];
-        let mut focused = focuser.focus(&targets).map_err(CliError::work)?;
-        let heights = |drive: &Drive| -> Result<Vec<f64>, CliError> {
-            let field = Field::new(&bed.responses, drive, CELLS).map_err(CliError::work)?;
+        let mut focused = focuser.focus(&targets).map_err(TaskError::work)?;
+        let heights = |drive: &Drive| -> Result<Vec<f64>, TaskError> {
+            let field = Field::new(&bed.responses, drive, CELLS).map_err(TaskError::work)?;
             let points = tracked(bed, &field)?;
             Ok(points.iter().filter(|p| p.hz.is_some()).map(|p| mean(&p.pulses(bed))).collect())
         };
@@ -227,7 +227,7 @@ fn levelled(bed: &Bed, focuser: &Focuser) -> Result<(Focused, usize), CliError> 
 }
 
 /// Fig. 4: pulses at E five times and at D twice a second, and what is left elsewhere.
-pub fn section(bed: &Bed) -> Result<Section, CliError> {
+pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let repeated = Repeated::make(bed)?;
     let point = |p: &Tracked| {
         let noise = p.noise(bed);
@@ -290,7 +290,7 @@ fn table(bed: &Bed, repeated: &Repeated) -> Vec<Vec<String>> {
     std::iter::once(headings).chain(repeated.points.iter().map(row)).collect()
 }
 
-fn compared(bed: &Bed, repeated: &Repeated) -> Result<Vec<Compared>, CliError> {
+fn compared(bed: &Bed, repeated: &Repeated) -> Result<Vec<Compared>, TaskError> {
     let heights: Vec<String> =
         repeated.foci().map(|p| format!("{} in {}", um(mean(&p.pulses(bed))), p.name)).collect();
     let noise = |points: &mut dyn Iterator<Item = &Tracked>| {

@@ -1,9 +1,6 @@
 //! Fig. 2b: a triangle.
 
 use super::{focused, ratio};
-use crate::error::CliError;
-use crate::figures::{Scene, drawn};
-use crate::judge::CELLS;
 use crate::reproduce::fig1::{FORCE, cells, first, largest};
 use crate::reproduce::{Bed, Compared, Picture, Section};
 use serde_json::json;
@@ -14,6 +11,9 @@ use unripple_plot::{
     Along, Axis, ColourMap, Colours, Dash, Figure, Ink, Legend, Line, Map, Marker, Plot, Rule, Span, Symbol,
     prefixed,
 };
+use unripple_tasks::TaskError;
+use unripple_tasks::figures::{Scene, drawn};
+use unripple_tasks::judge::CELLS;
 
 /// Centre and side of the triangle.
 const CENTRE: Point = Point::new(0.075, 0.070);
@@ -33,16 +33,16 @@ struct Drawn {
 }
 
 impl Drawn {
-    fn make(bed: &Bed) -> Result<Self, CliError> {
+    fn make(bed: &Bed) -> Result<Self, TaskError> {
         let pitch = Pattern::pitch(bed.responses.conditions().lambda_min);
-        let points = Pattern::triangle(CENTRE, SIDE).sample(pitch).map_err(CliError::work)?;
+        let points = Pattern::triangle(CENTRE, SIDE).sample(pitch).map_err(TaskError::work)?;
         let drive = focused(bed, &bed.responses, Target::of(points.clone()))?.drive.as_emitted();
-        let field = Field::new(&bed.responses, &drive, CELLS).map_err(CliError::work)?;
+        let field = Field::new(&bed.responses, &drive, CELLS).map_err(TaskError::work)?;
         let aim = Aim { points: points.clone(), instant: bed.window };
-        let mut measured = field.measure(&[aim], None).map_err(CliError::work)?;
+        let mut measured = field.measure(&[aim], None).map_err(TaskError::work)?;
         let figures = first(std::mem::take(&mut measured.targets))?;
-        let fine = Pattern::triangle(CENTRE, SIDE).sample(FINE).map_err(CliError::work)?;
-        let traces = field.traces(&fine, bed.window).map_err(CliError::work)?;
+        let fine = Pattern::triangle(CENTRE, SIDE).sample(FINE).map_err(TaskError::work)?;
+        let traces = field.traces(&fine, bed.window).map_err(TaskError::work)?;
         let along =
             traces.iter().map(|trace: &Trace| trace.velocity.last().copied().unwrap_or(0.0)).collect();
         Ok(Self { points, measured, figures, along, cells: cells(&field)? })
@@ -64,7 +64,7 @@ impl Drawn {
 }
 
 /// Fig. 2b: a triangle from eight impulse responses.
-pub fn triangle(bed: &Bed) -> Result<Section, CliError> {
+pub fn triangle(bed: &Bed) -> Result<Section, TaskError> {
     let drawn = Drawn::make(bed)?;
     let figures = vec![
         Picture::still("fig2b", triangle_maps(bed, &drawn)?, triangle_caption(bed, &drawn)),
@@ -114,12 +114,12 @@ pub fn triangle(bed: &Bed) -> Result<Section, CliError> {
     })
 }
 
-fn triangle_maps(bed: &Bed, figure: &Drawn) -> Result<Figure, CliError> {
+fn triangle_maps(bed: &Bed, figure: &Drawn) -> Result<Figure, TaskError> {
     let mut scene = Scene::new(&bed.surface, &[], 0.0);
-    let dots = Pattern::triangle(CENTRE, SIDE).sample(3e-3).map_err(CliError::work)?;
+    let dots = Pattern::triangle(CENTRE, SIDE).sample(3e-3).map_err(TaskError::work)?;
     let dot = |p: &Point| Marker { at: [p.x, p.y], symbol: Symbol::Circle(2e-4), name: String::new() };
     scene.markers.extend(dots.iter().map(dot));
-    let missing = || CliError::Work("no field was measured at the focus".into());
+    let missing = || TaskError::Work("no field was measured at the focus".into());
     let v = figure.measured.maps.at_peak.first().ok_or_else(missing)?;
     let u = figure.measured.maps.at_displacement_peak.first().ok_or_else(missing)?;
     let map = |values: &[f32], name: &str, unit: &str, title: String| -> Map {

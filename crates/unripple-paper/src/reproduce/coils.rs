@@ -1,10 +1,10 @@
 use super::section::{row, three};
 use super::{Bed, Compared, Section};
-use crate::error::CliError;
+use crate::study::{Coiled, Coils, Credibility, coils, credibility};
 use serde_json::json;
 use unripple::core::CoilDrive;
 use unripple::physics::Medium;
-use unripple::study::{Coiled, Coils, Credibility, coils, credibility};
+use unripple_tasks::TaskError;
 
 /// Radius of the contact of a magnet, in metres.
 const CONTACT: f64 = 0.75e-3;
@@ -19,7 +19,7 @@ const MAGNET_MASS: f64 = 7e-6;
 const HZ: f64 = 1000.0;
 
 /// Section 4: coils as they are, held at a current or at a voltage.
-pub fn section(bed: &Bed) -> Result<Section, CliError> {
+pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let kinds = kinds();
     let parts: Vec<Coils> = kinds.iter().map(|(_, coils)| *coils).collect();
     let rows = coils(&bed.surface, &parts, CONTACT, (bed.target, bed.window))?;

@@ -1,13 +1,13 @@
 //! Figures of two repeated foci.
 
 use super::{AMPLITUDE, LASTS, RATES, Repeated, STEADY, Tracked, steady};
-use crate::figures::{Scene, drawn};
 use crate::reproduce::Bed;
 use crate::reproduce::fig1::{named, place};
 use unripple::core::window_samples;
 use unripple_plot::{
     Axis, Colours, Dash, Figure, Grid, Ink, Layer, Legend, Line, Plot, Rgb, Rule, Traces, prefixed,
 };
+use unripple_tasks::figures::{Scene, drawn};
 
 /// Part of the traces shown closely, in seconds on either side of a focus.
 const CLOSE: f64 = 5e-3;

@@ -1,11 +1,11 @@
 use super::contrast::{Statistic, curve, departure, of, series, statistics};
 use super::{Bed, Compared, Picture, Section};
-use crate::error::CliError;
+use crate::study::{self, Bench, CELLS, Sampling, against_period};
 use serde_json::json;
 use unripple::core::{Decay, Surface};
 use unripple::physics::design::{Cavity, closed};
-use unripple::study::{self, Bench, CELLS, Sampling, against_period};
 use unripple_plot::{Axis, Dash, Figure, Ink, Layer, Line, Mark, Plot};
+use unripple_tasks::TaskError;
 
 /// Periods simulated, as multiples of the surface's decay time.
 const PERIODS: [f64; 9] = [0.25, 0.35, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0];
@@ -20,7 +20,7 @@ struct Case {
 }
 
 /// Section 3.2: what repetition costs, with the surface's decay time and with the one that the paper aims for.
-pub fn section(bed: &Bed, placements: usize) -> Result<Section, CliError> {
+pub fn section(bed: &Bed, placements: usize) -> Result<Section, TaskError> {
     let own = &bed.surface;
     let actuators = own.actuators.len();
     let short = bed.window / actuators as f64;
@@ -61,7 +61,7 @@ pub fn section(bed: &Bed, placements: usize) -> Result<Section, CliError> {
     })
 }
 
-fn case<F>(surface: &Surface, decay_time: f64, study: F, placements: usize) -> Result<Case, CliError>
+fn case<F>(surface: &Surface, decay_time: f64, study: F, placements: usize) -> Result<Case, TaskError>
 where
     F: Fn(&Surface, &Bench, &Sampling) -> Vec<study::Compared>,
 {

@@ -5,9 +5,6 @@ mod refocus;
 use self::refocus::Refocus;
 use super::bed::Bed;
 use super::section::{Compared, Picture, Section};
-use crate::error::CliError;
-use crate::figures::{Scene, drawn};
-use crate::judge::CELLS;
 use serde_json::json;
 use unripple::core::{Conditions, Decay, Drive, ModalResponses, Point, Port, Responses, window_samples};
 use unripple::field::{self, Aim, Field, Snapshot, TargetFigures};
@@ -16,6 +13,9 @@ use unripple::physics::design::closed;
 use unripple_plot::{
     Axis, Colours, Figure, Ink, Legend, Line, Marker, Plot, Rule, Shot, Span, Strip, Symbol, prefixed,
 };
+use unripple_tasks::TaskError;
+use unripple_tasks::figures::{Scene, drawn};
+use unripple_tasks::judge::CELLS;
 
 /// The impulse at A, in N·s.
 const IMPULSE: f64 = 1e-6;
@@ -36,7 +36,7 @@ const RECORDED: f64 = 2.5;
 const SPREADING: [f64; 6] = [0.3e-3, 0.7e-3, 1.2e-3, 2.0e-3, 6.0e-3, 30.0e-3];
 
 /// Records, crops, reverses and refocuses with one actuator, and puts the contrast beside that of all.
-pub fn section(bed: &Bed) -> Result<Section, CliError> {
+pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let modal = modal(&bed.responses)?;
     let b = actuator(modal, ACTUATOR)?;
     let recording = Recording::make(bed, modal, b.at)?;
@@ -72,19 +72,20 @@ pub fn section(bed: &Bed) -> Result<Section, CliError> {
 }
 
 /// The modal responses.
-pub(super) fn modal(responses: &Responses) -> Result<&ModalResponses, CliError> {
+pub(super) fn modal(responses: &Responses) -> Result<&ModalResponses, TaskError> {
     match responses {
         Responses::Modal(modal) => Ok(modal),
         Responses::Sampled(_) => {
-            Err(CliError::Work("the paper's figures need modes, found sampled responses".into()))
+            Err(TaskError::Work("the paper's figures need modes, found sampled responses".into()))
         }
     }
 }
 
 /// One of the actuators.
-pub(super) fn actuator(modal: &ModalResponses, index: usize) -> Result<Port, CliError> {
-    let missing =
-        || CliError::Work(format!("actuators: expected at least {}, found {}", index + 1, modal.ports.len()));
+pub(super) fn actuator(modal: &ModalResponses, index: usize) -> Result<Port, TaskError> {
+    let missing = || {
+        TaskError::Work(format!("actuators: expected at least {}, found {}", index + 1, modal.ports.len()))
+    };
     modal.ports.get(index).cloned().ok_or_else(missing)
 }
 
@@ -95,8 +96,8 @@ pub(super) fn driven_at(modal: &ModalResponses, port: Port) -> Responses {
 }
 
 /// The grid of a field made from modes.
-pub(super) fn cells(field: &Field) -> Result<field::Grid, CliError> {
-    field.grid().cloned().ok_or_else(|| CliError::Work("the field has no grid to draw".into()))
+pub(super) fn cells(field: &Field) -> Result<field::Grid, TaskError> {
+    field.grid().cloned().ok_or_else(|| TaskError::Work("the field has no grid to draw".into()))
 }
 
 /// Root mean square of some values; 0 without any.
@@ -177,14 +178,14 @@ struct Recording {
 }
 
 impl Recording {
-    fn make(bed: &Bed, modal: &ModalResponses, b: Point) -> Result<Self, CliError> {
+    fn make(bed: &Bed, modal: &ModalResponses, b: Point) -> Result<Self, TaskError> {
         let name = "A";
         let struck = driven_at(modal, Port { name: name.into(), at: bed.target });
         let blow = Drive::new(bed.rate, vec![name.into()], vec![vec![IMPULSE * bed.rate]])
-            .map_err(CliError::work)?;
-        let field = Field::new(&struck, &blow, CELLS).map_err(CliError::work)?;
-        let shots = field.snapshots(&SPREADING).map_err(CliError::work)?;
-        let traces = field.traces(&[b], RECORDED * bed.window).map_err(CliError::work)?;
+            .map_err(TaskError::work)?;
+        let field = Field::new(&struck, &blow, CELLS).map_err(TaskError::work)?;
+        let shots = field.snapshots(&SPREADING).map_err(TaskError::work)?;
+        let traces = field.traces(&[b], RECORDED * bed.window).map_err(TaskError::work)?;
         let at_b = traces.into_iter().next().map(|trace| trace.velocity).unwrap_or_default();
         Ok(Self { cells: cells(&field)?, shots, at_b })
     }
@@ -232,17 +233,17 @@ pub(super) fn place(at: Point) -> String {
 }
 
 /// The only target's figures.
-pub(super) fn first(targets: Vec<TargetFigures>) -> Result<TargetFigures, CliError> {
-    targets.into_iter().next().ok_or_else(|| CliError::Work("no target was measured".into()))
+pub(super) fn first(targets: Vec<TargetFigures>) -> Result<TargetFigures, TaskError> {
+    targets.into_iter().next().ok_or_else(|| TaskError::Work("no target was measured".into()))
 }
 
 /// Contrast at A with every actuator.
-fn contrast_of_all(bed: &Bed) -> Result<f64, CliError> {
+fn contrast_of_all(bed: &Bed) -> Result<f64, TaskError> {
     let options = Options { window: bed.window, limit: FORCE, ..Options::default() };
-    let focused = focus(&bed.responses, &[Target::at(bed.target)], &options).map_err(CliError::work)?;
+    let focused = focus(&bed.responses, &[Target::at(bed.target)], &options).map_err(TaskError::work)?;
     let drive = focused.drive.as_emitted();
-    let field = Field::new(&bed.responses, &drive, CELLS).map_err(CliError::work)?;
-    let measured = field.measure(&[Aim::at(bed.target, bed.window)], None).map_err(CliError::work)?;
+    let field = Field::new(&bed.responses, &drive, CELLS).map_err(TaskError::work)?;
+    let measured = field.measure(&[Aim::at(bed.target, bed.window)], None).map_err(TaskError::work)?;
     Ok(first(measured.targets)?.contrast.unwrap_or(f64::NAN))
 }
 

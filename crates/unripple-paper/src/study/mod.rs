@@ -5,7 +5,7 @@
 //! space and time. Actuators are ideal point forces, whatever the surface's own are.
 //!
 //! ```
-//! use unripple::study::*;
+//! use unripple_paper::study::*;
 //!
 //! let surface = unripple_physics::design::papers_surface();
 //! let bench = Bench::of(&surface, CELLS)?;

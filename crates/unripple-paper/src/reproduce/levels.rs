@@ -1,7 +1,5 @@
 use super::section::{row, three};
 use super::{Bed, Compared, Picture, Section};
-use crate::error::CliError;
-use crate::judge;
 use serde::Serialize;
 use serde_json::json;
 use std::f64::consts::{PI, TAU};
@@ -10,6 +8,8 @@ use unripple::field::{Aim, Field, Measured};
 use unripple::focus::{Method, Options, Target, focus};
 use unripple::physics::design::{Deformation, Strip, deformation};
 use unripple_plot::{Along, Axis, Dash, Figure, Ink, Layer, Line, Plot, Rgb, Rule, prefixed};
+use unripple_tasks::TaskError;
+use unripple_tasks::judge;
 
 /// The paper's two amplitudes, in metres: what it measured, and what it says scaling up could reach.
 const LEVELS: [f64; 2] = [40e-6, 200e-6];
@@ -42,7 +42,7 @@ struct Level {
 }
 
 /// The 40 µm and 200 µm cases of section 4: force, power, strain and whether linear theory holds.
-pub fn section(bed: &Bed) -> Result<Section, CliError> {
+pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let played = [Method::TimeReversal, Method::OneBit].map(|method| play(bed, method));
     let [reversed, one_bit] = played;
     let played = [reversed?, one_bit?];
@@ -63,15 +63,15 @@ pub fn section(bed: &Bed) -> Result<Section, CliError> {
     })
 }
 
-fn play(bed: &Bed, method: Method) -> Result<Played, CliError> {
+fn play(bed: &Bed, method: Method) -> Result<Played, TaskError> {
     let options =
         Options { method, window: bed.window, limit: bed.surface.emission.limit, ..Options::default() };
-    let focused = focus(&bed.responses, &[Target::at(bed.target)], &options).map_err(CliError::input)?;
+    let focused = focus(&bed.responses, &[Target::at(bed.target)], &options).map_err(TaskError::input)?;
     let drive = focused.drive.as_emitted();
-    let field = Field::new(&bed.responses, &drive, judge::CELLS).map_err(CliError::input)?;
-    let measured = field.measure(&[Aim::at(bed.target, bed.window)], None).map_err(CliError::input)?;
+    let field = Field::new(&bed.responses, &drive, judge::CELLS).map_err(TaskError::input)?;
+    let measured = field.measure(&[Aim::at(bed.target, bed.window)], None).map_err(TaskError::input)?;
     let places: Vec<Point> = bed.surface.actuators.iter().map(|a| a.at).collect();
-    let traces = field.traces(&places, bed.window).map_err(CliError::input)?;
+    let traces = field.traces(&places, bed.window).map_err(TaskError::input)?;
     let given = |(force, trace): (&Vec<f64>, &unripple::field::Trace)| -> f64 {
         force.iter().zip(&trace.velocity).map(|(f, v)| f * v).sum()
     };

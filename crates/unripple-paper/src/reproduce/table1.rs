@@ -1,17 +1,17 @@
 use super::section::{row, three};
 use super::{Bed, Compared, Section};
-use crate::error::CliError;
 use std::f64::consts::TAU;
 use unripple::core::Finger;
 use unripple::physics::design::{Touch, glass_strip, table1};
+use unripple_tasks::TaskError;
 
 /// Displacement of the finger, in metres.
 const DISPLACEMENT: f64 = 10e-6;
 
 /// Table 1: the power that moves a fingertip by 10 µm, through glass and through film.
-pub fn section(_: &Bed) -> Result<Section, CliError> {
+pub fn section(_: &Bed) -> Result<Section, TaskError> {
     let touches = table1();
-    let data = serde_json::to_value(&touches).map_err(CliError::work)?;
+    let data = serde_json::to_value(&touches).map_err(TaskError::work)?;
     Ok(Section {
         title: "Table 1: power to move a fingertip".into(),
         text: text(&touches),

@@ -1,15 +1,13 @@
 use super::section::row;
 use super::{Bed, Compared, Picture, Section};
-use crate::error::CliError;
+use crate::study::{self, Bench, CELLS, Sampling, StudyError, against_band, against_noise, against_window};
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 use unripple::core::{FOCAL_RADIUS, Surface};
 use unripple::physics::Medium;
 use unripple::physics::design::{ACTUATORS, Cavity};
-use unripple::study::{
-    self, Bench, CELLS, Sampling, StudyError, against_band, against_noise, against_window,
-};
 use unripple_plot::{Axis, Dash, Figure, Ink, Layer, Line, Mark, Plot, Points, Rgb, Rule};
+use unripple_tasks::TaskError;
 
 /// Windows simulated, in seconds.
 const WINDOWS: [f64; 8] = [0.005, 0.0075, 0.0125, 0.020, 0.030, 0.050, 0.085, 0.150];
@@ -39,14 +37,14 @@ pub struct Statistic {
     pub plain: f64,
 }
 
-impl From<StudyError> for CliError {
+impl From<StudyError> for TaskError {
     fn from(error: StudyError) -> Self {
         Self::work(error)
     }
 }
 
 /// Repeats a study over groups of placements, each with a seed of its own, and joins the groups' means.
-pub fn statistics<F>(placements: usize, study: F) -> Result<Vec<Statistic>, CliError>
+pub fn statistics<F>(placements: usize, study: F) -> Result<Vec<Statistic>, TaskError>
 where
     F: Fn(&Sampling) -> Result<Vec<study::Compared>, StudyError>,
 {
@@ -76,7 +74,7 @@ where
 }
 
 /// Section 3.1: contrast against window, actuators, bandwidth and noise, simulated and by closed form.
-pub fn section(bed: &Bed, placements: usize) -> Result<Section, CliError> {
+pub fn section(bed: &Bed, placements: usize) -> Result<Section, TaskError> {
     let surface = &bed.surface;
     let bench = Bench::of(surface, CELLS)?;
     let kept = (surface.actuators.len(), bed.window);

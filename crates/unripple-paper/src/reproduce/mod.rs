@@ -1,0 +1,26 @@
+//! `reproduce`: the paper's table and figures beside ours, as one page.
+
+mod ask;
+mod bed;
+mod cavities;
+mod coils;
+mod contrast;
+mod fig1;
+mod fig2;
+mod fig3;
+mod fig4;
+mod finger;
+mod levels;
+mod numbers;
+mod page;
+mod repetition;
+mod report;
+mod run;
+mod section;
+mod table1;
+
+pub use ask::Ask;
+pub(crate) use bed::Bed;
+pub use report::{ComparedReport, FigureReport, Report, SectionReport};
+pub use run::run;
+pub(crate) use section::{Compared, Picture, Section};

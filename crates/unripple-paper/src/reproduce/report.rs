@@ -1,0 +1,83 @@
+//! What `reproduce` found.
+
+use super::{Compared, Picture, Section};
+use serde::Serialize;
+use serde_json::Value;
+use std::fmt::Write;
+
+pub use super::section::Compared as ComparedReport;
+
+/// The paper beside ours.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// Placements averaged in the statistics of contrast.
+    pub placements: usize,
+    /// One for each figure, table or section of the paper, in its order.
+    pub sections: Vec<SectionReport>,
+}
+
+/// One part of the page.
+#[derive(Clone, Debug, Serialize)]
+pub struct SectionReport {
+    /// What of the paper it is about.
+    pub title: String,
+    /// Paragraphs, in plain words.
+    pub text: Vec<String>,
+    /// Numbers of the paper beside ours.
+    pub compared: Vec<Compared>,
+    /// A table of ours: headings first.
+    pub table: Vec<Vec<String>>,
+    /// Its figures.
+    pub figures: Vec<FigureReport>,
+    /// Its numbers, SI units; `null` for none.
+    pub data: Value,
+}
+
+/// A figure of the page.
+#[derive(Clone, Debug, Serialize)]
+pub struct FigureReport {
+    /// Its files, the one to show first.
+    pub files: Vec<String>,
+    /// What it shows.
+    pub caption: String,
+    /// What to say of it to readers who cannot see it.
+    pub description: String,
+}
+
+impl FigureReport {
+    fn of(picture: &Picture) -> Self {
+        Self {
+            files: picture.files(),
+            caption: picture.caption.clone(),
+            description: picture.alternative().to_owned(),
+        }
+    }
+}
+
+impl Report {
+    /// Of all sections.
+    pub(super) fn of(sections: &[Section], placements: usize) -> Self {
+        let section = |section: &Section| SectionReport {
+            title: section.title.clone(),
+            text: section.text.clone(),
+            compared: section.compared.clone(),
+            table: section.table.clone(),
+            figures: section.figures.iter().map(FigureReport::of).collect(),
+            data: section.data.clone(),
+        };
+        Self { placements, sections: sections.iter().map(section).collect() }
+    }
+}
+
+impl unripple_tasks::Report for Report {
+    fn text(&self) -> String {
+        let mut text = String::new();
+        for section in &self.sections {
+            let _ = writeln!(text, "{}", section.title);
+            for Compared { what, paper, here, .. } in &section.compared {
+                let _ = writeln!(text, "  {what}: paper {paper}, here {here}");
+            }
+        }
+        text
+    }
+}

@@ -1,0 +1,72 @@
+//! The paper's experiments, one after the other.
+
+use super::{
+    Ask, Bed, Report, Section, cavities, coils, contrast, fig1, fig2, fig3, fig4, finger, levels, numbers,
+    page, repetition, table1,
+};
+use unripple_store::OutputDir;
+use unripple_tasks::{Progress, TaskError, figures, folder, go_on};
+
+/// Fewest placements whose mean has a spread.
+const FEWEST: usize = 2;
+
+/// Does the paper's figures, table and numbers again, and writes them as one page if a folder is given.
+///
+/// # Errors
+/// [`TaskError::Ask`] of fewer than two placements; those of writing the folder; [`TaskError::Cancelled`].
+pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    if ask.placements < FEWEST {
+        return Err(TaskError::ask("placements", format!("at least {FEWEST}"), ask.placements));
+    }
+    let out = ask.output.as_ref().map(OutputDir::create).transpose()?;
+    let sections = sections(ask.placements, progress)?;
+    let report = Report::of(&sections, ask.placements);
+    if let Some(out) = out {
+        let pages = [
+            ("index.html", page::html(&sections)),
+            ("reproduce.md", page::markdown(&sections)),
+            ("reproduce.json", folder::json(&report)?),
+        ];
+        for (name, text) in &pages {
+            out.write(name, text.as_bytes())?;
+        }
+        let pictures = sections.into_iter().flat_map(|section| section.figures);
+        let drawn: Vec<_> = pictures.map(|picture| (picture.name, picture.figure)).collect();
+        figures::write(&out, &drawn)?;
+        folder::finish(out, progress)?;
+    }
+    Ok(report)
+}
+
+/// Makes one section.
+type Maker = fn(&Bed, usize) -> Result<Section, TaskError>;
+
+/// Every section in the paper's order.
+fn sections(placements: usize, progress: &mut dyn Progress) -> Result<Vec<Section>, TaskError> {
+    let makers: [(&str, Maker); 13] = [
+        ("Fig. 1", |bed, _| fig1::section(bed)),
+        ("Fig. 2a", |bed, _| fig2::one_actuator(bed)),
+        ("Fig. 2b", |bed, _| fig2::triangle(bed)),
+        ("section 2", cavities::section),
+        ("section 3.1", contrast::section),
+        ("section 3.2", repetition::section),
+        ("Fig. 3", |bed, _| fig3::section(bed)),
+        ("Table 1", |bed, _| table1::section(bed)),
+        ("section 4", |bed, _| numbers::section(bed)),
+        ("finger", |bed, _| finger::section(bed)),
+        ("coils", |bed, _| coils::section(bed)),
+        ("Fig. 4", |bed, _| fig4::section(bed)),
+        ("40 µm and 200 µm", |bed, _| levels::section(bed)),
+    ];
+    go_on(progress)?;
+    progress.stage("modes of the surface");
+    let bed = Bed::new()?;
+    let mut sections = Vec::new();
+    for (done, (name, maker)) in makers.iter().enumerate() {
+        go_on(progress)?;
+        progress.stage(name);
+        progress.done(done as f64 / makers.len() as f64);
+        sections.push(maker(&bed, placements)?);
+    }
+    Ok(sections)
+}
