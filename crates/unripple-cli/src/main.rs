@@ -9,7 +9,6 @@ macro_rules! eprintln {
 }
 
 mod args;
-mod aware;
 mod calibrate;
 mod check;
 mod compare;
@@ -31,9 +30,7 @@ mod open;
 mod options;
 mod output;
 mod play;
-mod played;
 mod progress;
-mod reads;
 mod reproduce;
 mod respond;
 mod targets;

@@ -8,6 +8,28 @@ const OTHERWISE: &[(&str, &str)] = &[
     ("peak_m", "--peak-um"),
     ("window_s", "--window-ms"),
     ("length_s", "--length-ms"),
+    ("output", "-o"),
+    ("format", "--format"),
+    ("points, shapes", "targets"),
+    ("points", "--at"),
+    ("shapes", "--shape"),
+    ("waveforms", "--waveform"),
+    ("instants_s", "--at-ms"),
+    ("fingers_m", "--finger"),
+    ("fingers_m without on", "--finger without --on"),
+    ("judge_hz without on", "--judge-hz without --on"),
+    ("method robust", "--method robust"),
+    ("method felt", "--method felt"),
+    ("losses uniform", "--losses uniform"),
+    ("losses", "--losses"),
+    ("bear_tension", "--bear-tension-percent"),
+    ("bear_fingers_m", "--bear-finger"),
+    ("duration_s", "--duration-ms"),
+    ("period_s", "--period-ms"),
+    ("movie_s", "--movie-ms"),
+    ("speed_m_s", "--speed-mm-s"),
+    ("level_m_s", "--level-mm-s"),
+    ("waveforms and path", "--waveform and --path"),
 ];
 
 /// The option that gives a field, or the options of several.
@@ -16,6 +38,9 @@ pub fn option(field: &str) -> String {
         Some((_, option)) => (*option).to_owned(),
         None => format!("--{}", name.replace('_', "-")),
     };
+    if let Some((_, option)) = OTHERWISE.iter().find(|(known, _)| *known == field) {
+        return (*option).to_owned();
+    }
     field.split(", ").map(one).collect::<Vec<_>>().join(", ")
 }
 

@@ -2,13 +2,9 @@
 
 use crate::args::TargetOptions;
 use crate::error::CliError;
-use unripple::act::{self, Level};
-use unripple::core::{Conditions, Point};
-use unripple::focus::{Line, Pattern, Target};
-use unripple_store::Drawing;
-
-/// How closely the curves of an SVG shape are followed, in metres.
-const TOLERANCE: f64 = 0.05e-3;
+use unripple::core::Point;
+use unripple_tasks::Place;
+use unripple_tasks::target::{LevelAsk, PointAsk, ShapeAsk};
 
 /// Numbers separated by commas, between `least` and `most` of them.
 pub fn numbers(
@@ -47,33 +43,14 @@ pub fn positive(value: f64, option: &str, unit: &str) -> Result<f64, CliError> {
     }
 }
 
-/// How loud a drive is to be.
-pub fn level(options: &TargetOptions) -> Result<Level, CliError> {
+/// How strong a drive is to be.
+pub fn level(options: &TargetOptions) -> Result<LevelAsk, CliError> {
     Ok(match (options.felt_db, options.peak_um, options.full_limit) {
-        (Some(db), ..) => Level::Felt(db),
-        (None, Some(um), _) => Level::Peak(positive(um, "--peak-um", "µm")? / 1e6),
-        (None, None, true) => Level::Limit,
-        (None, None, false) => Level::default(),
+        (Some(db), ..) => LevelAsk::FeltDb(db),
+        (None, Some(um), _) => LevelAsk::PeakM(positive(um, "--peak-um", "µm")? / 1e6),
+        (None, None, true) => LevelAsk::Limit,
+        (None, None, false) => LevelAsk::Linear,
     })
-}
-
-/// The same on responses of which nobody knows the scale, if there is a reason `why`: as loud as the limit allows, and no level that is asked
-/// for by its size.
-pub fn level_on(options: &TargetOptions, why: Option<&str>) -> Result<Level, CliError> {
-    match (level(options)?, why) {
-        (level, None) => Ok(level),
-        (Level::Linear | Level::Limit, Some(_)) => Ok(Level::Limit),
-        (Level::Peak(_) | Level::Felt(_), Some(why)) => {
-            let option = if options.peak_um.is_some() { "--peak-um" } else { "--felt-db" };
-            let text = format!("{option}: expected a library whose level is known, found one without: {why}");
-            Err(CliError::Input(text))
-        }
-    }
-}
-
-/// Refuses a time that no wave of the band fits into, naming the option that makes it longer.
-pub fn carries(conditions: &Conditions, seconds: f64, option: &str) -> Result<(), CliError> {
-    act::carries(conditions, seconds).map_err(|error| CliError::Work(format!("{option}: {error}")))
 }
 
 /// An error, and if it is about a window that nobody `asked` for, the option that gives another.
@@ -94,84 +71,66 @@ pub fn seconds(ms: Option<f64>, option: &str) -> Result<Option<f64>, CliError> {
     ms.map(|ms| Ok(positive(ms, option, "ms")? / 1e3)).transpose()
 }
 
-/// All targets asked for: points first, then shapes, each in the order typed.
-pub fn all(options: &TargetOptions, lambda_min: f64) -> Result<Vec<Target>, CliError> {
-    let mut targets = options.at.iter().map(|text| point(text)).collect::<Result<Vec<_>, _>>()?;
-    for text in &options.shape {
-        let points = pattern(text, "--shape")?
-            .sample(Pattern::pitch(lambda_min))
-            .map_err(|error| CliError::Input(format!("--shape {text}: {error}")))?;
-        targets.push(Target::of(points));
-    }
-    if targets.is_empty() {
-        return Err(CliError::Input("targets: expected --at X,Y or --shape SHAPE, found none".into()));
-    }
-    Ok(targets)
+/// The points asked for, in the order typed.
+pub fn points(options: &TargetOptions) -> Result<Vec<PointAsk>, CliError> {
+    options.at.iter().map(|text| point(text)).collect()
 }
 
-fn point(text: &str) -> Result<Target, CliError> {
+/// The shapes asked for, in the order typed.
+pub fn shapes(options: &TargetOptions) -> Result<Vec<ShapeAsk>, CliError> {
+    options.shape.iter().map(|text| shape(text, "--shape")).collect()
+}
+
+fn point(text: &str) -> Result<PointAsk, CliError> {
     let values = numbers(text, "--at", "X,Y[,GAIN[,HZ]] in mm and Hz", 2, 4)?;
-    let mut target = Target::at(Point::from_mm(values[0], values[1]));
-    if let Some(gain) = values.get(2) {
-        target = target.with_gain(*gain);
-    }
-    if let Some(rate) = values.get(3) {
-        target = target.repeated(positive(*rate, &format!("--at {text}: rate"), "Hz")?);
-    }
-    Ok(target)
+    let gain = values.get(2).copied().unwrap_or(1.0);
+    let rate = values.get(3).map(|rate| positive(*rate, &format!("--at {text}: rate"), "Hz"));
+    Ok(PointAsk { at_m: [values[0] / 1e3, values[1] / 1e3], gain, rate_hz: rate.transpose()? })
 }
 
 /// `triangle:X,Y,SIZE` and `circle:X,Y,R` are outlines; an SVG file says by itself what is filled and what is stroked.
-pub fn pattern(text: &str, option: &str) -> Result<Pattern, CliError> {
+pub fn shape(text: &str, option: &str) -> Result<ShapeAsk, CliError> {
     let form = |rest: &str, name: &str| {
         let values = numbers(rest, &format!("{option} {name}"), "X,Y and a size in mm", 3, 3)?;
         let size = positive(values[2], &format!("{option} {text}: size"), "mm")?;
-        Ok((Point::from_mm(values[0], values[1]), size / 1e3))
+        Ok::<_, CliError>(([values[0] / 1e3, values[1] / 1e3], size / 1e3))
     };
     if let Some(rest) = text.strip_prefix("triangle:") {
-        form(rest, "triangle:").map(|(centre, side)| Pattern::triangle(centre, side))
+        form(rest, "triangle:").map(|(centre_m, side_m)| ShapeAsk::Triangle { centre_m, side_m })
     } else if let Some(rest) = text.strip_prefix("circle:") {
-        form(rest, "circle:").map(|(centre, radius)| Pattern::circle(centre, radius))
+        form(rest, "circle:").map(|(centre_m, radius_m)| ShapeAsk::Circle { centre_m, radius_m })
     } else {
-        drawn(text, option)
+        Ok(ShapeAsk::Svg { file: text.into() })
     }
 }
 
-fn drawn(file: &str, option: &str) -> Result<Pattern, CliError> {
-    let drawing = Drawing::read(file, TOLERANCE)?;
-    let filled = drawing.shapes.iter().any(|shape| shape.fill.is_some());
-    let meant = drawing.shapes.iter().filter(|shape| shape.fill.is_some() == filled);
-    let lines: Vec<Line> = meant
-        .flat_map(|shape| &shape.polylines)
-        .map(|line| Line { points: line.points.clone(), closed: line.closed })
-        .collect();
-    if lines.is_empty() {
-        return Err(CliError::Input(format!(
-            "{option} {file}: expected a filled or stroked path, found none"
-        )));
-    }
-    Ok(Pattern { lines, filled })
+/// Places typed as `X,Y` in mm.
+pub fn places(typed: &[String], option: &str) -> Result<Vec<Place>, CliError> {
+    typed.iter().map(|text| place(text, option).map(|at| [at.x, at.y])).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn options(at: &[&str], shape: &[&str]) -> TargetOptions {
-        let owned = |list: &[&str]| list.iter().map(|s| (*s).to_owned()).collect();
-        TargetOptions { at: owned(at), shape: owned(shape), ..TargetOptions::default() }
-    }
-
     #[test]
     fn points_come_with_gain_and_rate() {
-        let targets = all(&options(&["62,90,-0.5,5", "10,20"], &["circle:75,75,20"]), 0.0146).unwrap();
-        assert_eq!((targets[0].gain, targets[0].rate_hz), (-0.5, Some(5.0)));
-        assert_eq!((targets[1].gain, targets[1].rate_hz), (1.0, None));
-        let rim = Point::from_mm(75.0, 75.0);
-        assert!(targets[2].points.iter().all(|p| (p.distance(rim) - 0.02).abs() < 1e-5));
-        assert!(all(&options(&[], &[]), 0.0146).is_err());
-        for bad in ["triangle:1,2", "circle:1,2,-3", "no-such-file.svg"] {
-            assert!(all(&options(&[], &[bad]), 0.0146).is_err(), "{bad}");
+        let owned = |list: &[&str]| list.iter().map(|s| (*s).to_owned()).collect();
+        let options = TargetOptions {
+            at: owned(&["62,90,-0.5,5", "10,20"]),
+            shape: owned(&["circle:75,75,20", "arrow.svg"]),
+            ..TargetOptions::default()
+        };
+        let found = points(&options).unwrap();
+        assert_eq!((found[0].gain, found[0].rate_hz), (-0.5, Some(5.0)));
+        assert_eq!((found[1].gain, found[1].rate_hz), (1.0, None));
+        let drawn = [
+            ShapeAsk::Circle { centre_m: [0.075, 0.075], radius_m: 0.02 },
+            ShapeAsk::Svg { file: "arrow.svg".into() },
+        ];
+        assert_eq!(shapes(&options).unwrap(), drawn);
+        for bad in ["triangle:1,2", "circle:1,2,-3"] {
+            assert!(shape(bad, "--shape").is_err(), "{bad}");
         }
     }
 

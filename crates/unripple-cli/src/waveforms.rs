@@ -3,10 +3,8 @@
 use crate::args::{FocusOptions, TargetOptions};
 use crate::error::CliError;
 use crate::targets::{self, numbers, place, positive};
-use unripple::core::Point;
-use unripple::focus::waveform::{burst, click, resampled, sine};
-use unripple::focus::{Line, Pattern, Stroke, Waveform};
-use unripple_store::read_wav;
+use unripple_tasks::target::{LineAsk, ShapeAsk};
+use unripple_tasks::waveform::{SoundAsk, WaveformAsk};
 
 /// Level of a waveform if none is typed, in metres.
 const LEVEL: f64 = 1e-6;
@@ -52,16 +50,11 @@ pub fn check(options: &FocusOptions) -> Result<(), CliError> {
 }
 
 /// `X,Y,sine:HZ,MS[,UM]`, `X,Y,burst:HZ,CYCLES[,UM]`, `X,Y,click:MS[,UM]` or `X,Y,FILE.wav[,UM]`.
-pub fn waveforms(options: &TargetOptions, rate: f64) -> Result<Vec<Waveform>, CliError> {
-    options.waveform.iter().map(|text| waveform(text, rate)).collect()
+pub fn waveforms(options: &TargetOptions) -> Result<Vec<WaveformAsk>, CliError> {
+    options.waveform.iter().map(|text| waveform(text)).collect()
 }
 
-/// The points of silence.
-pub fn silent(options: &TargetOptions) -> Result<Vec<Point>, CliError> {
-    options.silent.iter().map(|text| place(text, "--silent")).collect()
-}
-
-fn waveform(text: &str, rate: f64) -> Result<Waveform, CliError> {
+fn waveform(text: &str) -> Result<WaveformAsk, CliError> {
     let parts: Vec<&str> = text.splitn(3, ',').collect();
     let &[x, y, what] = &parts[..] else {
         let form = "X,Y and sine:HZ,MS, burst:HZ,CYCLES, click:MS or a WAV file";
@@ -74,39 +67,25 @@ fn waveform(text: &str, rate: f64) -> Result<Waveform, CliError> {
         Some(um) => Ok(positive(*um, "--waveform: level", "µm")? * 1e-6),
         None => Ok::<f64, CliError>(LEVEL),
     };
-    let samples = if let Some(rest) = named("sine") {
+    let (sound, level_m) = if let Some(rest) = named("sine") {
         let n = numbers(rest, &format!("{option}sine:"), "HZ,MS[,UM]", 2, 3)?;
-        sine(n[0], n[1] / 1e3, level(n.get(2))?, rate)
+        (SoundAsk::Sine { hz: n[0], length_s: n[1] / 1e3 }, level(n.get(2))?)
     } else if let Some(rest) = named("burst") {
         let n = numbers(rest, &format!("{option}burst:"), "HZ,CYCLES[,UM]", 2, 3)?;
-        burst(n[0], n[1], level(n.get(2))?, rate)
+        (SoundAsk::Burst { hz: n[0], cycles: n[1] }, level(n.get(2))?)
     } else if let Some(rest) = named("click") {
         let n = numbers(rest, &format!("{option}click:"), "MS[,UM]", 1, 2)?;
-        click(n[0] / 1e3, level(n.get(1))?, rate)
+        (SoundAsk::Click { length_s: n[0] / 1e3 }, level(n.get(1))?)
     } else {
         let typed = what.rsplit_once(',').and_then(|(file, um)| Some((file, um.trim().parse::<f64>().ok()?)));
         let (file, um) = typed.map_or((what, None), |(file, um)| (file, Some(um)));
-        return Ok(Waveform::at(at, recorded(file, level(um.as_ref())?, rate)?));
+        (SoundAsk::Wav { file: file.into() }, level(um.as_ref())?)
     };
-    Ok(Waveform::at(at, samples.map_err(|error| CliError::Input(format!("--waveform {text}: {error}")))?))
+    Ok(WaveformAsk { at_m: [at.x, at.y], sound, level_m })
 }
 
-/// The first channel of a recording, its largest sample brought to `level`.
-fn recorded(file: &str, level: f64, rate: f64) -> Result<Vec<f64>, CliError> {
-    let wav = read_wav(file)?;
-    let first = wav.channels.first().map_or(&[][..], |channel| channel);
-    let mut samples = resampled(first, wav.rate, rate).map_err(CliError::input)?;
-    let peak = samples.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-    if peak == 0.0 {
-        return Err(CliError::Input(format!("--waveform: {file}: expected a sound, found silence")));
-    }
-    samples.iter_mut().for_each(|x| *x *= level / peak);
-    Ok(samples)
-}
-
-/// The stroke of `--path`, if there is one.
-pub fn stroke(options: &TargetOptions) -> Result<Option<Stroke>, CliError> {
-    let Some(text) = &options.path else { return Ok(None) };
+/// The path of a stroke, how fast it is and how strong (m/s), of `--path`.
+pub fn stroke(options: &TargetOptions, text: &str) -> Result<(ShapeAsk, f64, f64), CliError> {
     let Some(speed) = options.speed_mm_s else {
         return Err(CliError::Input("--path: expected --speed-mm-s V beside it, found none".into()));
     };
@@ -115,17 +94,16 @@ pub fn stroke(options: &TargetOptions) -> Result<Option<Stroke>, CliError> {
         Some(v) => positive(v, "--level-mm-s", "mm/s")? / 1e3,
         None => STROKE,
     };
-    Ok(Some(Stroke { level, ..Stroke::along(path(text)?, speed) }))
+    Ok((path(text)?, speed, level))
 }
 
-fn path(text: &str) -> Result<Pattern, CliError> {
+fn path(text: &str) -> Result<ShapeAsk, CliError> {
     let Some(rest) = text.strip_prefix("line:") else {
-        let drawn = targets::pattern(text, "--path")?;
-        return Ok(Pattern { filled: false, ..drawn });
+        return targets::shape(text, "--path");
     };
     let mm = numbers(rest, "--path line:", "X1,Y1,X2,Y2 in mm", 4, 4)?;
-    let points = vec![Point::from_mm(mm[0], mm[1]), Point::from_mm(mm[2], mm[3])];
-    Ok(Pattern { lines: vec![Line { points, closed: false }], filled: false })
+    let points_m = vec![[mm[0] / 1e3, mm[1] / 1e3], [mm[2] / 1e3, mm[3] / 1e3]];
+    Ok(ShapeAsk::Lines { lines: vec![LineAsk { points_m, closed: false }], filled: false })
 }
 
 #[cfg(test)]
@@ -133,7 +111,7 @@ mod tests {
     use super::*;
 
     fn refusal(text: &str) -> String {
-        match waveform(text, 48e3) {
+        match waveform(text) {
             Err(CliError::Input(text)) => text,
             other => panic!("{text}: {other:?}"),
         }
@@ -141,32 +119,28 @@ mod tests {
 
     #[test]
     fn waveforms_are_a_place_and_a_sound() {
-        let tone = waveform("45,60,sine:250,1000,5", 48e3).unwrap();
-        assert_eq!((tone.points[0], tone.samples.len()), (Point::from_mm(45.0, 60.0), 48_000));
-        let peak = tone.samples.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-        assert!((peak - 5e-6).abs() < 1e-8);
-        assert_eq!(waveform("1,2,click:2", 48e3).unwrap().samples.len(), 96);
-        assert_eq!(waveform("1,2,burst:250,5", 48e3).unwrap().samples.len(), 960);
+        let tone = waveform("45,60,sine:250,1000,5").unwrap();
+        assert_eq!((tone.at_m, tone.level_m), ([0.045, 0.06], 5.0 * 1e-6));
+        assert_eq!(tone.sound, SoundAsk::Sine { hz: 250.0, length_s: 1.0 });
+        assert_eq!(waveform("1,2,click:2").unwrap().sound, SoundAsk::Click { length_s: 0.002 });
+        assert_eq!(waveform("1,2,burst:250,5").unwrap().sound, SoundAsk::Burst { hz: 250.0, cycles: 5.0 });
+        assert_eq!(waveform("1,2,a.wav,3").unwrap().sound, SoundAsk::Wav { file: "a.wav".into() });
         assert!(refusal("1,2").contains("expected X,Y and sine:HZ,MS"));
         assert!(refusal("1,a,click:2").contains("`a`"));
         assert!(refusal("1,2,sine:250").contains("HZ,MS[,UM]"));
         assert!(refusal("1,2,sine:250,1000,-1").contains("above 0 µm"));
-        assert!(refusal("1,2,sine:99000,1000").contains("below 24000"));
     }
 
     #[test]
     fn paths_are_lines_circles_and_drawings() {
-        let of = |path: &str, speed| TargetOptions {
-            path: Some(path.into()),
-            speed_mm_s: speed,
-            ..TargetOptions::default()
+        let of = |path: &str, speed| {
+            stroke(&TargetOptions { speed_mm_s: speed, ..TargetOptions::default() }, path)
         };
-        let line = stroke(&of("line:40,75,110,75", Some(100.0))).unwrap().unwrap();
-        assert!((line.duration() - 0.7).abs() < 1e-12 && line.level == 0.01);
-        let round = stroke(&of("circle:75,75,10", Some(100.0))).unwrap().unwrap();
-        assert!((round.duration() - 0.628).abs() < 1e-3);
-        assert!(stroke(&of("line:40,75,110,75", None)).is_err());
-        assert!(stroke(&of("line:40,75,110", Some(100.0))).is_err());
-        assert!(stroke(&TargetOptions::default()).unwrap().is_none());
+        let (line, speed, level) = of("line:40,75,110,75", Some(100.0)).unwrap();
+        assert!(matches!(line, ShapeAsk::Lines { .. }) && speed == 0.1 && level == 0.01);
+        let (round, ..) = of("circle:75,75,10", Some(100.0)).unwrap();
+        assert_eq!(round, ShapeAsk::Circle { centre_m: [0.075, 0.075], radius_m: 0.01 });
+        assert!(of("line:40,75,110,75", None).is_err());
+        assert!(of("line:40,75,110", Some(100.0)).is_err());
     }
 }

@@ -5,6 +5,11 @@ use std::path::PathBuf;
 use unripple::core::Surface;
 use unripple_devices::{DevicesError, JackOptions, Links, Unknowns, Virtual, VirtualOptions};
 
+/// What a build without sound cards says of them.
+#[cfg(not(feature = "cards"))]
+pub const HOW_TO_GET_CARDS: &str = "build it with `cargo install --path crates/unripple-cli --features cards` (Debian: \
+                                    libasound2-dev, pkg-config), or go through JACK or PipeWire";
+
 /// Where drives go and what is heard comes from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

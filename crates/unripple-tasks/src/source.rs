@@ -1,10 +1,11 @@
 //! A surface or a library of responses, as tasks take either.
 
 use crate::{Progress, SurfaceAsk, TaskError, between, judge, own};
+use std::path::PathBuf;
 use unripple::act::Note;
 use unripple::core::{Point, Responses, SampledResponses, Surface};
 use unripple_calibrate::Interpolation;
-use unripple_store::Library;
+use unripple_store::{Library, surface_files};
 
 /// What a command works on.
 pub struct Source {
@@ -113,6 +114,15 @@ fn library(name: &str) -> Result<Source, TaskError> {
     let told = format!("the {points} points of {name}");
     let without_scale = library.without_scale().map(str::to_owned);
     Ok(Source { surface, stored: Some(Stored { responses, told, notes, without_scale }) })
+}
+
+/// The files that are read for a surface or a library.
+pub fn reads(ask: &SurfaceAsk) -> Vec<PathBuf> {
+    match ask {
+        SurfaceAsk::Name(name) if Library::is_at(name) => vec![name.into()],
+        SurfaceAsk::Name(name) => surface_files(name),
+        SurfaceAsk::Text { .. } => Vec::new(),
+    }
 }
 
 /// What figures taken on a library are of, and notes on it.

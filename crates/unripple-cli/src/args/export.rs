@@ -10,6 +10,17 @@ pub enum FormatName {
     Sofa,
 }
 
+impl FormatName {
+    /// What it stands for.
+    pub fn format(self) -> unripple_tasks::export::Format {
+        use unripple_tasks::export::Format;
+        match self {
+            Self::Wav => Format::Wav,
+            Self::Sofa => Format::Sofa,
+        }
+    }
+}
+
 /// Options of `export`.
 #[derive(Debug, Args)]
 pub struct ExportOptions {

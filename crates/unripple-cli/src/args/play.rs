@@ -49,6 +49,13 @@ pub struct PlayOptions {
 }
 
 impl PlayOptions {
+    /// Files and folders that are read, which no output may take the place of.
+    pub fn reads(&self) -> Vec<PathBuf> {
+        let sessions = self.touch.session.iter().chain(&self.touch.screen).cloned();
+        let surface = unripple_tasks::source::reads(&(&self.surface).into());
+        surface.into_iter().chain(unripple_store::effect_files(&self.effect)).chain(sessions).collect()
+    }
+
     /// What makes a sitting go by the clock on the wall, as typed; `None` where it goes as fast as it can.
     pub fn clock(&self) -> Option<String> {
         let device = || format!("--device {}", self.device.device.name());

@@ -4,8 +4,7 @@ use super::Campaign;
 use crate::args::CalibrateOptions;
 use crate::error::CliError;
 use crate::figures;
-use crate::focus::finish;
-use crate::reads::source;
+use crate::progress::Terminal;
 use unripple_plot::{
     Along, Axis, Cells, ColourMap, Colours, Figure, Ink, Layer, Legend, Line, Panel, Plot, Rule,
 };
@@ -29,7 +28,8 @@ pub fn folder(options: &CalibrateOptions) -> Result<Option<OutputDir>, CliError>
             place.display()
         )));
     }
-    let reads = source(&options.surface).into_iter().chain([options.output.clone()]);
+    let reads =
+        unripple_tasks::source::reads(&(&options.surface).into()).into_iter().chain([options.output.clone()]);
     let reads: Vec<_> = reads.chain(options.device.tape.clone()).collect();
     Ok(Some(OutputDir::create_beside(place, &reads)?))
 }
@@ -39,7 +39,7 @@ pub fn write(campaign: &mut Campaign<'_>, library: &Library) -> Result<(), CliEr
     let Some(out) = campaign.figure.take() else { return Ok(()) };
     let known = Known::of(library, campaign.places.probed)?;
     figures::write(&out, &[("bands", known.figure(campaign.settings.least_snr_db))])?;
-    finish(out)
+    Ok(unripple_tasks::folder::finish(out, &mut Terminal::default())?)
 }
 
 /// Quality by bands, `[point][actuator][band]`.

@@ -7,7 +7,6 @@ mod touches;
 
 use crate::args::PlayOptions;
 use crate::error::CliError;
-use crate::reads::Reads;
 use crate::targets::{of_window, positive, seconds};
 use crate::{input, interrupt, judge, output};
 use open::Opened;

@@ -2,7 +2,6 @@
 
 use crate::args::{DeviceName, PlayOptions};
 use crate::error::CliError;
-use crate::reads::Reads;
 use std::fs;
 use std::path::{Path, PathBuf};
 use unripple_store::{check_kept_wav, check_new_file};

@@ -1,16 +1,20 @@
-use super::Ground;
+//! What turning a method's knob gives.
+
 use super::row::{self, Row};
-use crate::error::CliError;
+use super::run::Ground;
+use crate::{Progress, TaskError, go_on};
 use serde::Serialize;
 use unripple::field::Field;
 use unripple::focus::{Focused, Focuser, Method, Options};
 
 /// What turning a method's knob gives, point by point.
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Front {
+    /// Its name.
     pub method: &'static str,
     /// `strength` or `push`.
     pub knob: &'static str,
+    /// Its values.
     pub at: Vec<f64>,
     /// Contrast at the first target and its focal instant.
     pub contrast: Vec<f64>,
@@ -31,12 +35,13 @@ const ECONOMIES: [[f64; 2]; 5] = [[0.01, 0.04], [0.06, 0.04], [0.2, 0.05], [0.5,
 const PUSHES: [f64; 6] = [0.1, 0.3, 0.5, 0.7, 0.85, 0.95];
 
 /// Contrast, energy per squared peak, peak.
-pub type Trade = [f64; 3];
+type Trade = [f64; 3];
 
 /// What is felt elsewhere against the drive that it takes: one row per weight of energy, the first that of time reversal.
-pub fn felt(ground: &Ground<'_>) -> Result<Vec<Row>, CliError> {
+pub(super) fn felt(ground: &Ground<'_>, progress: &mut dyn Progress) -> Result<Vec<Row>, TaskError> {
     let mut rows = vec![row::with(ground, ground.options)?];
     for [economy, worst] in ECONOMIES {
+        go_on(progress)?;
         rows.push(row::with(
             ground,
             &Options { method: Method::Felt, economy, worst, ..ground.options.clone() },
@@ -47,14 +52,15 @@ pub fn felt(ground: &Ground<'_>) -> Result<Vec<Row>, CliError> {
 }
 
 /// The fronts of all methods that have a knob.
-pub fn all(ground: &Ground<'_>) -> Result<Vec<Front>, CliError> {
+pub(super) fn all(ground: &Ground<'_>, progress: &mut dyn Progress) -> Result<Vec<Front>, TaskError> {
+    progress.stage("what the methods' knobs trade");
     let reversal = trade(ground, ground.options)?;
-    let strong = |method, values: &[f64]| front(ground, reversal, method, "strength", values);
+    let strong = |method, values: &[f64]| front(ground, reversal, method, "strength", values, progress);
     Ok(vec![
         strong(Method::Inverse, &STRENGTHS)?,
         strong(Method::Concentrate, &STRENGTHS)?,
         strong(Method::Robust, &ROBUST)?,
-        front(ground, reversal, Method::Limited, "push", &PUSHES)?,
+        front(ground, reversal, Method::Limited, "push", &PUSHES, progress)?,
     ])
 }
 
@@ -64,8 +70,10 @@ fn front(
     method: Method,
     knob: &'static str,
     values: &[f64],
-) -> Result<Front, CliError> {
+    progress: &dyn Progress,
+) -> Result<Front, TaskError> {
     let found = values.iter().map(|value| {
+        go_on(progress)?;
         let mut options = Options { method, ..ground.options.clone() };
         match method {
             Method::Limited => options.push = *value,
@@ -73,7 +81,7 @@ fn front(
         }
         trade(ground, &options)
     });
-    let found = found.collect::<Result<Vec<Trade>, CliError>>()?;
+    let found = found.collect::<Result<Vec<Trade>, TaskError>>()?;
     let of = |i: usize, unit: f64| found.iter().map(|trade| trade[i] / unit).collect();
     Ok(Front {
         method: method.name(),
@@ -85,19 +93,19 @@ fn front(
     })
 }
 
-fn trade(ground: &Ground<'_>, options: &Options) -> Result<Trade, CliError> {
-    let focuser = Focuser::new(ground.known, options).map_err(CliError::input)?;
-    let focused = focuser.focus(ground.targets).map_err(CliError::input)?;
+fn trade(ground: &Ground<'_>, options: &Options) -> Result<Trade, TaskError> {
+    let focuser = Focuser::new(ground.known, options).map_err(TaskError::input)?;
+    let focused = focuser.focus(ground.targets).map_err(TaskError::input)?;
     traded(ground, &focused)
 }
 
 /// What a drive trades at the first target and its focal instant.
-pub fn traded(ground: &Ground<'_>, focused: &Focused) -> Result<Trade, CliError> {
+pub(super) fn traded(ground: &Ground<'_>, focused: &Focused) -> Result<Trade, TaskError> {
     let drive = focused.drive.clone().as_emitted();
-    let field = Field::new(ground.plant, &drive, CELLS).map_err(CliError::input)?;
+    let field = Field::new(ground.plant, &drive, CELLS).map_err(TaskError::input)?;
     let places: Vec<_> = ground.targets.iter().flat_map(|target| target.points.iter().copied()).collect();
     let found =
-        field.at_instant(focused.instant(), &ground.targets[0].points, &places).map_err(CliError::input)?;
+        field.at_instant(focused.instant(), &ground.targets[0].points, &places).map_err(TaskError::input)?;
     let peak = found.velocity.abs();
     Ok([peak / found.rms_outside, drive.energy() / (peak * peak), peak])
 }

@@ -1,3 +1,5 @@
+//! The figure of a comparison.
+
 use super::front::Front;
 use super::row::Row;
 use unripple::field::TargetFigures;

@@ -1,6 +1,8 @@
-use super::Ground;
+//! One method of a comparison, and the table of all.
+
 use super::front::traded;
-use crate::error::CliError;
+use super::run::Ground;
+use crate::TaskError;
 use crate::judge::CELLS;
 use serde::Serialize;
 use std::fmt::Write;
@@ -10,45 +12,51 @@ use unripple::field::{DriveFigures, Field, Measured, TargetFigures};
 use unripple::focus::{Focuser, Method, Options};
 
 /// What one method does, as emitted at the level asked for, or at its limit where that is beyond.
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Row {
+    /// Its name.
     pub method: &'static str,
-    /// Seconds to plan for the surface, and for the drive of these targets after that.
+    /// Seconds to plan for the surface.
     pub plan_s: f64,
+    /// Seconds for the drive of these targets after that.
     pub drive_s: f64,
     /// Energy that the peak velocity of the first target takes, over that of time reversal.
     pub energy_for_peak: f64,
     /// Rms of the drive that the felt level of the first target takes, over that of time reversal, in dB.
     pub drive_for_level_db: f64,
-    /// Peak velocity of the first target at the drive limit, over that of time reversal, and the contrast there.
+    /// Peak velocity of the first target at the drive limit, over that of time reversal.
     pub peak_at_limit: f64,
+    /// Contrast at the drive limit.
     pub contrast_at_limit: f64,
+    /// What was found at the targets.
     pub targets: Vec<TargetFigures>,
+    /// Figures of the drive.
     pub drive: DriveFigures,
     /// How strong the drive is beside its limits.
     pub level: Strength,
+    /// What is to be said of it.
     pub notes: Vec<Note>,
 }
 
 /// Makes and judges the drive of one method.
-pub fn judge(ground: &Ground<'_>, method: Method) -> Result<Row, CliError> {
+pub fn judge(ground: &Ground<'_>, method: Method) -> Result<Row, TaskError> {
     with(ground, &Options { method, ..ground.options.clone() })
 }
 
 /// Makes and judges the drive of some options.
-pub fn with(ground: &Ground<'_>, options: &Options) -> Result<Row, CliError> {
+pub fn with(ground: &Ground<'_>, options: &Options) -> Result<Row, TaskError> {
     let start = Instant::now();
-    let focuser = Focuser::new(ground.known, options).map_err(CliError::input)?;
+    let focuser = Focuser::new(ground.known, options).map_err(TaskError::input)?;
     let plan_s = start.elapsed().as_secs_f64();
     let start = Instant::now();
-    let focused = focuser.focus(ground.targets).map_err(CliError::input)?;
+    let focused = focuser.focus(ground.targets).map_err(TaskError::input)?;
     let drive_s = start.elapsed().as_secs_f64();
     let [contrast_at_limit, _, peak_at_limit] = traded(ground, &focused)?;
     let Ground { surface, plant: responses, targets, level, .. } = *ground;
     let act = Act { surface, responses, targets, options, level };
     let sent = act.send_at_most(&focuser, focused)?;
-    let field = Field::new(responses, &sent.drive, CELLS).map_err(CliError::input)?;
-    let Measured { targets, drive, .. } = field.measure(&sent.aims, sent.period).map_err(CliError::input)?;
+    let field = Field::new(responses, &sent.drive, CELLS).map_err(TaskError::input)?;
+    let Measured { targets, drive, .. } = field.measure(&sent.aims, sent.period).map_err(TaskError::input)?;
     Ok(Row {
         method: options.method.name(),
         plan_s,

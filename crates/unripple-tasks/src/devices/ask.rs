@@ -1,0 +1,11 @@
+//! What `devices` is asked.
+
+use serde::{Deserialize, Serialize};
+
+/// Where to look.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Ask {
+    /// Name of the JACK server to look at; by default the default one.
+    pub server: Option<String>,
+}

@@ -1,0 +1,14 @@
+//! Looking for devices.
+
+use super::{Ask, Report};
+use crate::{Progress, TaskError, go_on};
+use unripple_devices::list;
+
+/// Lists what drives can be played through: the virtual surface, files, a sound server, cards.
+///
+/// # Errors
+/// [`TaskError::Cancelled`].
+pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    go_on(progress)?;
+    Ok(Report::of(&list(ask.server.as_deref())))
+}

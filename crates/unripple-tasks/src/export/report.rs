@@ -1,0 +1,50 @@
+//! What `export` wrote.
+
+use serde::Serialize;
+use unripple::act::Note;
+
+/// A library as it was written.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// The program.
+    pub program: &'static str,
+    /// Its version.
+    pub version: &'static str,
+    /// The task.
+    pub command: &'static str,
+    /// The library as it was named.
+    pub library: String,
+    /// `wav` or `sofa`.
+    pub format: &'static str,
+    /// Where it is.
+    pub output: String,
+    /// Points that were written.
+    pub points: usize,
+    /// Points that were not, for whatever reason.
+    pub points_left_out: usize,
+    /// Those of them that are bad.
+    pub points_bad: usize,
+    /// How many actuators drive.
+    pub actuators: usize,
+    /// Samples of each response.
+    pub samples: usize,
+    /// Their rate, in Hz.
+    pub sample_rate_hz: f64,
+    /// What is to be said of the library.
+    pub notes: Vec<Note>,
+}
+
+impl crate::Report for Report {
+    fn text(&self) -> String {
+        let left = match self.points_left_out {
+            0 => String::new(),
+            left => {
+                format!(" ({left} left out: {} bad, {} missing)", self.points_bad, left - self.points_bad)
+            }
+        };
+        format!(
+            "{}: {} points of {} actuators, {} samples at {} Hz{left}\nwrote {}\n",
+            self.library, self.points, self.actuators, self.samples, self.sample_rate_hz, self.output
+        )
+    }
+}

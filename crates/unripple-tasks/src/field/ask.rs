@@ -1,0 +1,85 @@
+//! What `field` is asked.
+
+use crate::{Place, SurfaceAsk, names, source};
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+use unripple_calibrate::Interpolation;
+
+/// A drive.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum DriveAsk {
+    /// A WAV file with one channel per actuator, in the actuators' units.
+    File(PathBuf),
+    /// Samples.
+    Samples {
+        /// One list per actuator, in the actuators' units.
+        channels: Vec<Vec<f64>>,
+        /// Their rate, in Hz.
+        rate_hz: f64,
+    },
+}
+
+impl Default for DriveAsk {
+    fn default() -> Self {
+        Self::File("drive.wav".into())
+    }
+}
+
+/// Which drive on which surface, and where and when that is measured.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Ask {
+    /// A surface file, the name of a built-in surface, or a library of responses.
+    pub surface: SurfaceAsk,
+    /// The drive.
+    pub drive: DriveAsk,
+    /// Where to measure, in m; by default where the field is strongest.
+    pub points_m: Vec<Place>,
+    /// When to measure, in s; by default at each place's own peak. Once for all, or once per point.
+    pub instants_s: Vec<f64>,
+    /// Fingers that rest on the surface, in m, as the surface file describes fingers.
+    pub fingers_m: Vec<Place>,
+    /// Period of a repeated drive, in s: figures are then those of the last full period.
+    pub period_s: Option<f64>,
+    /// Measure on modes up to this frequency, in Hz; by default those of the band.
+    pub judge_hz: Option<f64>,
+    /// Folder for the report, snapshot, map of peaks and animation; without it only figures in numbers are made.
+    pub output: Option<PathBuf>,
+    /// Start and end of the animation in s; by default the last 6 ms before the instant and 3 ms after.
+    pub movie_s: Option<[f64; 2]>,
+    /// Frames of the animation; 0 for none.
+    pub frames: usize,
+    /// What stands for a place between the points of a library.
+    #[serde(with = "names::interpolation")]
+    pub between: Interpolation,
+}
+
+impl Default for Ask {
+    fn default() -> Self {
+        Self {
+            surface: SurfaceAsk::default(),
+            drive: DriveAsk::default(),
+            points_m: Vec::new(),
+            instants_s: Vec::new(),
+            fingers_m: Vec::new(),
+            period_s: None,
+            judge_hz: None,
+            output: None,
+            movie_s: None,
+            frames: 60,
+            between: Interpolation::default(),
+        }
+    }
+}
+
+impl Ask {
+    /// Files and folders that are read, which no output may take the place of.
+    pub fn reads(&self) -> Vec<PathBuf> {
+        let drive = match &self.drive {
+            DriveAsk::File(file) => Some(file.clone()),
+            DriveAsk::Samples { .. } => None,
+        };
+        source::reads(&self.surface).into_iter().chain(drive).collect()
+    }
+}

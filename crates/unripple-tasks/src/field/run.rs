@@ -1,0 +1,152 @@
+//! The field of a drive, measured.
+
+use super::{Ask, DriveAsk, Report, write};
+use crate::judge::{self, CELLS};
+use crate::numbers::above_zero;
+use crate::{Progress, TaskError, fingers, go_on, point, source};
+use unripple::act::{self, Judged};
+use unripple::core::{Drive, Point, Responses, Surface};
+use unripple::field::{Aim, Field};
+use unripple_store::{OutputDir, read_wav};
+
+/// What a field was found to be, for whoever wants more than its report.
+#[derive(Debug)]
+pub struct Made {
+    /// The report.
+    pub report: Report,
+    /// The drive.
+    pub drive: Drive,
+    /// Figures, traces and maps.
+    pub judged: Judged,
+    /// Where and when it was measured.
+    pub aims: Vec<Aim>,
+    /// The surface.
+    pub surface: Surface,
+    /// Its responses: a [`Field`] of them and the drive tells the rest.
+    pub responses: Responses,
+    /// Whether lengths and velocities are known.
+    pub scaled: bool,
+}
+
+/// Measures what a drive does to a surface, and writes that to a folder if one is given.
+///
+/// # Errors
+/// [`TaskError::Ask`] of numbers that make no sense; those of reading and writing files; [`TaskError::Cancelled`].
+pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    let out = ask.output.as_ref().map(|place| OutputDir::create_beside(place, &ask.reads())).transpose()?;
+    let mut made = make(ask, progress)?;
+    if let Some(out) = out {
+        write::write(ask, out, &mut made, progress)?;
+    }
+    Ok(made.report)
+}
+
+/// The same without a folder, with all that was found.
+///
+/// # Errors
+/// Those of [`run()`], but for those of writing.
+pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
+    let source = source::open(&ask.surface, progress)?;
+    source.allows(&[("fingers_m", !ask.fingers_m.is_empty()), ("judge_hz", ask.judge_hz.is_some())])?;
+    let drive = drive(&ask.drive, &source.surface)?;
+    let contacts = fingers::contacts(&ask.fingers_m, "fingers_m", &source.surface)?;
+    let places: Vec<Point> = ask.points_m.iter().map(point).collect();
+    let unscaled = source.without_scale().is_some();
+    go_on(progress)?;
+    progress.stage("responses");
+    let (surface, responses, stored) = match source.stored {
+        Some(_) => source.respond(&places, ask.between)?,
+        None => {
+            let responses = judge::model(&source.surface, ask.judge_hz, &contacts)?;
+            (source.surface, responses, None)
+        }
+    };
+    let period = ask.period_s.map(|period| above_zero(period, "period_s", "s")).transpose()?;
+    go_on(progress)?;
+    progress.stage("field");
+    let field = Field::new(&responses, &drive, CELLS).map_err(TaskError::input)?;
+    let aims = aims(ask, places, &field, &drive, period)?;
+    let last = aims.iter().map(|aim| aim.instant).fold(0.0, f64::max);
+    let until = if period.is_some() { drive.duration() - 1.0 / drive.rate() } else { 2.0 * last };
+    let judged = judge::judge(&surface, &field, &aims, period, until, progress)?;
+    drop(field);
+
+    let mut report = Report::new("field", &surface, &drive, &judged);
+    report.period_s = period;
+    if let Some((told, notes)) = stored {
+        report.notes.extend(notes);
+        report.judged_on = Some(told);
+    }
+    if !contacts.is_empty() {
+        let without = judge::model(&surface, ask.judge_hz, &[])?;
+        report.fingers = act::felt(&contacts, &surface, [&responses, &without], &drive, until)?;
+    }
+    if unscaled {
+        report = report.without_scale();
+    }
+    Ok(Made { report, drive, judged, aims, surface, responses, scaled: !unscaled })
+}
+
+fn drive(ask: &DriveAsk, surface: &Surface) -> Result<Drive, TaskError> {
+    let names: Vec<String> = surface.actuators.iter().map(|a| a.name.clone()).collect();
+    match ask {
+        DriveAsk::File(file) => Ok(read_wav(file)?.into_drive(&names, &file.display().to_string())?),
+        DriveAsk::Samples { channels, rate_hz } => {
+            Drive::new(*rate_hz, names, channels.clone()).map_err(TaskError::input)
+        }
+    }
+}
+
+/// Where and when to measure: as asked, or at the strongest place and at each place's own peak.
+fn aims(
+    ask: &Ask,
+    mut points: Vec<Point>,
+    field: &Field,
+    drive: &Drive,
+    period: Option<f64>,
+) -> Result<Vec<Aim>, TaskError> {
+    if points.is_empty() {
+        points.push(strongest(field, drive, period)?);
+    }
+    let instants = match (ask.instants_s.as_slice(), points.len()) {
+        ([], _) => own_peaks(field, drive, period, &points)?,
+        ([one], n) => vec![*one; n],
+        (many, n) if many.len() == n => many.to_vec(),
+        (many, n) => {
+            return Err(TaskError::ask(
+                "instants_s",
+                format!("one, or one per `points_m` ({n})"),
+                many.len(),
+            ));
+        }
+    };
+    Ok(points.into_iter().zip(instants).map(|(point, instant)| Aim::at(point, instant)).collect())
+}
+
+/// The place whose velocity is largest while the drive lasts.
+fn strongest(field: &Field, drive: &Drive, period: Option<f64>) -> Result<Point, TaskError> {
+    let last =
+        Aim::at(field.points().first().copied().unwrap_or_default(), drive.duration() - 1.0 / drive.rate());
+    let maps = field.measure(&[last], period).map_err(TaskError::input)?.maps;
+    let peaks = maps.peak_velocity.iter().zip(&maps.points);
+    let best = peaks.max_by(|a, b| a.0.total_cmp(b.0)).map(|(_, point)| *point);
+    best.ok_or_else(|| TaskError::Input("the surface has no point to measure at".into()))
+}
+
+/// When the velocity of each place is largest while the drive lasts, or in its last full period.
+fn own_peaks(
+    field: &Field,
+    drive: &Drive,
+    period: Option<f64>,
+    points: &[Point],
+) -> Result<Vec<f64>, TaskError> {
+    let end = drive.duration() - 1.0 / drive.rate();
+    let first =
+        period.map_or(0, |period| ((drive.duration() - period).max(0.0) * drive.rate()).round() as usize);
+    let traces = field.traces(points, end).map_err(TaskError::input)?;
+    let largest = |values: &[f64]| {
+        let tail = values.iter().enumerate().skip(first);
+        tail.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).map_or(0, |(i, _)| i)
+    };
+    Ok(traces.iter().map(|trace| largest(&trace.velocity) as f64 / drive.rate()).collect())
+}

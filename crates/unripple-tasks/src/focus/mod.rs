@@ -1,0 +1,10 @@
+//! `focus`: a drive that focuses on points and shapes, its report and its figures.
+
+mod ask;
+mod report;
+mod run;
+mod write;
+
+pub use ask::{Ask, Losses};
+pub use report::Report;
+pub use run::{Made, make, run};

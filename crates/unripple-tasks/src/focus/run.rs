@@ -1,0 +1,187 @@
+//! A drive that focuses, and what it was found to do.
+
+use super::{Ask, Losses, Report, write};
+use crate::numbers::above_zero;
+use crate::target::targets;
+use crate::window::{carries, of_window};
+use crate::{Progress, TaskError, fingers, folder, go_on, judge, source};
+use unripple::act::{self, Act, Aware, Judged, Note, chosen_window};
+use unripple::core::{Decay, Drive, Responses, Surface};
+use unripple::focus::{Focused, LossCorrection, Method, Options};
+use unripple::physics::Medium;
+use unripple_store::OutputDir;
+
+/// What came of a focus, for whoever wants more than its report.
+#[derive(Debug)]
+pub struct Made {
+    /// The report.
+    pub report: Report,
+    /// The drive as it is emitted: float32 samples in the actuators' unit.
+    pub drive: Drive,
+    /// What the drive was found to do, with traces at the targets and maps.
+    pub judged: Judged,
+    /// The drive before its last scaling, and its timing.
+    pub focused: Focused,
+    /// The surface that it was judged on.
+    pub surface: Surface,
+    /// The responses that the drive was made from.
+    pub responses: Responses,
+    /// Whether lengths and velocities are known.
+    pub scaled: bool,
+}
+
+/// A drive that focuses on points and shapes, judged, and written to a folder if one is given.
+///
+/// ```
+/// use unripple_tasks::target::PointAsk;
+/// use unripple_tasks::{Silent, focus};
+///
+/// let ask = focus::Ask { points: vec![PointAsk::at(0.062, 0.09)], ..focus::Ask::default() };
+/// let report = focus::run(&ask, &mut Silent)?;
+/// assert!(report.targets[0].contrast.is_some_and(|contrast| contrast > 20.0));
+/// # Ok::<(), unripple_tasks::TaskError>(())
+/// ```
+///
+/// # Errors
+/// [`TaskError::Ask`] of what makes no sense; those of reading surfaces and drawings and of writing the folder; those of the methods;
+/// [`TaskError::Cancelled`].
+pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    let out = ask.output.as_ref().map(|place| OutputDir::create_beside(place, &ask.reads())).transpose()?;
+    let mut made = make(ask, progress)?;
+    if let Some(out) = out {
+        write::write(&out, &mut made)?;
+        folder::finish(out, progress)?;
+    }
+    Ok(made.report)
+}
+
+/// The same without a folder, with all that came of it.
+///
+/// # Errors
+/// Those of [`run()`], but for those of writing.
+pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
+    let source = source::open(&ask.surface, progress)?;
+    source.allows(&needing_modes(ask))?;
+    let plant = ask.on.as_ref().map(|on| on.load()).transpose()?;
+    go_on(progress)?;
+    let unscaled = source.without_scale().filter(|_| plant.is_none());
+    let known = source.lambda_min();
+    let lambda_min = known
+        .unwrap_or_else(|| Medium::of(&source.surface.sheet).lambda_min(source.surface.emission.band[1]));
+    let targets = targets(&ask.points, &ask.shapes, lambda_min)?;
+    let places: Vec<_> = targets.iter().flat_map(|target| target.points.iter().copied()).collect();
+    progress.stage("responses");
+    let (surface, responses, stored) = source.respond(&places, ask.between)?;
+    let asked = ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
+    let chosen = asked.is_none().then(|| chosen_window(&surface, &responses));
+    let window = asked.or(chosen.as_ref().map(|chosen| chosen.seconds)).unwrap_or_default();
+    carries(responses.conditions(), window, "window_s")?;
+    let settings = settings(ask, &surface, window)?;
+    let aware = aware(ask, &surface)?;
+    go_on(progress)?;
+    progress.stage("drive");
+    let focuser = aware.focuser(&responses, &settings)?;
+    let focused = focuser.focus(&targets).map_err(act::ActError::from);
+    let focused = focused.map_err(|error| of_window(error.into(), asked.is_some()))?;
+    let restored = aware.note(&responses, &targets, &settings, &focused)?;
+    go_on(progress)?;
+
+    let judged_surface = plant.as_ref().unwrap_or(&surface);
+    let other = plant.is_some() || ask.judge_hz.is_some();
+    let free = other.then(|| judge::model(judged_surface, ask.judge_hz, &[])).transpose()?;
+    let free = free.as_ref().unwrap_or(&responses);
+    let contacts = fingers::contacts(&ask.fingers_m, "fingers_m", judged_surface)?;
+    let touched = !contacts.is_empty();
+    let under = touched.then(|| judge::model(judged_surface, ask.judge_hz, &contacts)).transpose()?;
+    let judging = under.as_ref().unwrap_or(free);
+    let level = ask.level.level_on(unscaled.as_deref())?;
+    let act =
+        Act { surface: judged_surface, responses: judging, targets: &targets, options: &settings, level };
+    let sent = act.send(&focuser, focused)?;
+    let judged = judge::seen(sent.until, progress, || act.judge(&sent))?;
+    let (focused, drive) = (sent.focused, sent.drive);
+    let mut report = Report::of_focus(&surface, &focused, settings.window, &drive, &judged);
+    report.level = Some(sent.strength);
+    report.fingers = act::felt(&contacts, judged_surface, [judging, free], &drive, judged.until)?;
+    report.notes.extend(chosen.map(|chosen| Note { topic: "window", text: chosen.text() }));
+    report.notes.extend(restored);
+    report.judged_on = other.then(|| judged_on(judged_surface, ask.judge_hz));
+    if let Some((told, notes)) = stored {
+        report.notes.extend(notes.into_iter().chain(act::nearby(&focused, &targets)));
+        report.judged_on.get_or_insert(told);
+    }
+    if unscaled.is_some() {
+        report = report.without_scale();
+    }
+    let surface = judged_surface.clone();
+    drop(focuser);
+    Ok(Made { report, drive, judged, focused, surface, responses, scaled: unscaled.is_none() })
+}
+
+/// Fields that a library cannot serve, and whether they were given.
+fn needing_modes(ask: &Ask) -> [(&'static str, bool); 7] {
+    let on_surface = ask.on.is_some();
+    [
+        ("finger_aware", ask.finger_aware),
+        ("bear_tension", ask.bear_tension.is_some()),
+        ("bear_fingers_m", !ask.bear_fingers_m.is_empty()),
+        ("judge_hz without on", ask.judge_hz.is_some() && !on_surface),
+        ("fingers_m without on", !ask.fingers_m.is_empty() && !on_surface),
+        ("method robust", ask.method == Method::Robust),
+        ("method felt", ask.method == Method::Felt),
+    ]
+}
+
+fn settings(ask: &Ask, surface: &Surface, window: f64) -> Result<Options, TaskError> {
+    let loss = match (ask.losses, &surface.sheet.decay) {
+        (Losses::None, _) => LossCorrection::None,
+        (Losses::PerMode, _) => LossCorrection::PerMode,
+        (Losses::Uniform, Decay::Time(tau)) => LossCorrection::Uniform(*tau),
+        (Losses::Uniform, _) => {
+            return Err(TaskError::ask(
+                "losses uniform",
+                "a surface with one decay time",
+                "one that varies with frequency (nearest: `losses` per-mode)",
+            ));
+        }
+    };
+    let usual = Options::default();
+    Ok(Options {
+        method: ask.method,
+        strength: ask.strength,
+        push: ask.push,
+        spread: ask.spread,
+        rest: ask.rest,
+        worst: ask.worst.unwrap_or(usual.worst),
+        economy: ask.economy.unwrap_or(usual.economy),
+        window,
+        limit: surface.emission.limit,
+        rms_limit: surface.emission.rms_limit,
+        total_rms: ask.total_rms,
+        loss,
+        duration: ask.duration_s.map(|length| above_zero(length, "duration_s", "s")).transpose()?,
+        ..usual
+    })
+}
+
+/// What a drive is made for: a surface under fingers, and others that it may turn into.
+fn aware(ask: &Ask, surface: &Surface) -> Result<Aware, TaskError> {
+    if ask.finger_aware && ask.fingers_m.is_empty() {
+        return Err(TaskError::ask("finger_aware", "`fingers_m` with it", "none"));
+    }
+    let resting = fingers::contacts(&ask.fingers_m, "fingers_m", surface)?;
+    let known = if ask.finger_aware { resting.as_slice() } else { &[] };
+    if let Some(share) = ask.bear_tension
+        && !(share > 0.0 && share < 0.5)
+    {
+        return Err(TaskError::ask("bear_tension", "a share above 0 and below 0.5", share));
+    }
+    let more = fingers::contacts(&ask.bear_fingers_m, "bear_fingers_m", surface)?;
+    Ok(Aware::of(surface, known, ask.bear_tension, &more)?)
+}
+
+/// What figures are of, where that is not what the drive was made from.
+fn judged_on(surface: &Surface, hz: Option<f64>) -> String {
+    let modes = hz.map_or(String::new(), |hz| format!(", modes to {hz} Hz"));
+    format!("{}{modes}", surface.name)
+}

@@ -1,0 +1,30 @@
+//! The folder of a focus: drive, report and figures.
+
+use super::Made;
+use crate::figures::{self, Scene};
+use crate::{TaskError, folder};
+use unripple::act;
+use unripple::core::ActuatorKind;
+use unripple_store::{OutputDir, write_wav};
+
+/// Writes all of it, and names the files in the report.
+pub(super) fn write(out: &OutputDir, made: &mut Made) -> Result<(), TaskError> {
+    let (measured, surface) = (&made.judged.measured, &made.surface);
+    let scene = Scene::new(surface, &made.focused.points, measured.focal_radius_m);
+    let unit = act::unit(&surface.actuators.first().map_or(ActuatorKind::Force, |a| a.kind));
+    let mut figures = vec![("drive", figures::channels(&made.drive, unit))];
+    // The others are drawn in m/s and µm, which nobody knows without a scale.
+    if made.scaled {
+        let traces = figures::traces(&measured.targets, &made.judged.traces, made.drive.rate());
+        figures.insert(0, ("traces", traces));
+        figures.extend(figures::snapshots(&scene, measured).map(|figure| ("focus", figure)));
+        figures.extend(figures::peaks(&scene, measured).map(|figure| ("peaks", figure)));
+        figures.extend(figures::felt(&scene, measured).map(|figure| ("felt", figure)));
+    }
+    write_wav(out.path().join("drive.wav"), &made.drive)?;
+    made.report.files = vec!["drive.wav".into()];
+    made.report.files.extend(figures::write(out, &figures)?);
+    out.write("report.json", folder::json(&made.report)?.as_bytes())?;
+    out.write("report.md", made.report.markdown().as_bytes())?;
+    Ok(())
+}

@@ -1,0 +1,6 @@
+//! Waveforms and strokes: what is played, judged, and written.
+
+mod judged;
+mod write;
+
+pub(crate) use judged::{Common, Played, judge};

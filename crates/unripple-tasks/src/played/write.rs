@@ -1,0 +1,33 @@
+//! The folder of what is played: drive, report and figures.
+
+use crate::figures::{self, Scene};
+use crate::{TaskError, folder};
+use unripple::act::{Judged, Report, unit};
+use unripple::core::{ActuatorKind, Drive, Point, Surface};
+use unripple_store::{OutputDir, write_wav};
+
+/// Writes all of it, and names the files in the report.
+pub(super) fn write(
+    out: &OutputDir,
+    report: &mut Report,
+    surface: &Surface,
+    drive: &Drive,
+    judged: &Judged,
+) -> Result<(), TaskError> {
+    let measured = &judged.measured;
+    let points: Vec<Vec<Point>> =
+        measured.targets.iter().map(|t| vec![Point::new(t.at_m[0], t.at_m[1])]).collect();
+    let scene = Scene::new(surface, &points, measured.focal_radius_m);
+    let unit = unit(&surface.actuators.first().map_or(ActuatorKind::Force, |a| a.kind));
+    let mut figures = vec![
+        ("traces", figures::traces(&measured.targets, &judged.traces, drive.rate())),
+        ("drive", figures::channels(drive, unit)),
+    ];
+    figures.extend(figures::peaks(&scene, measured).map(|figure| ("peaks", figure)));
+    write_wav(out.path().join("drive.wav"), drive)?;
+    report.files = vec!["drive.wav".into()];
+    report.files.extend(figures::write(out, &figures)?);
+    out.write("report.json", folder::json(report)?.as_bytes())?;
+    out.write("report.md", report.markdown().as_bytes())?;
+    Ok(())
+}

@@ -1,0 +1,9 @@
+//! `respond`: responses from the model, as a library.
+
+mod ask;
+mod report;
+mod run;
+
+pub use ask::Ask;
+pub use report::Report;
+pub use run::run;

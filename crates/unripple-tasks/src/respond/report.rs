@@ -1,0 +1,57 @@
+//! What `respond` did.
+
+use serde::Serialize;
+
+/// A library of responses, as it was made.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// The program.
+    pub program: &'static str,
+    /// Its version.
+    pub version: &'static str,
+    /// The task.
+    pub command: &'static str,
+    /// The surface's own name.
+    pub surface: String,
+    /// The library's folder.
+    pub library: String,
+    /// How many points it holds.
+    pub points: usize,
+    /// How many of them were there before.
+    pub points_found_done: usize,
+    /// Distance between them, in m.
+    pub pitch_m: f64,
+    /// How many actuators drive.
+    pub actuators: usize,
+    /// Samples of each response.
+    pub samples: usize,
+    /// Their rate, in Hz.
+    pub sample_rate_hz: f64,
+    /// Shortest wavelength of the band, in m.
+    pub lambda_min_m: f64,
+}
+
+impl crate::Report for Report {
+    fn text(&self) -> String {
+        let taken_up = match self.points_found_done {
+            0 => String::new(),
+            before => format!(", {before} of them done before"),
+        };
+        format!(
+            "{}: responses of {} actuators at {} points, {} mm apart{taken_up}\n{} samples each, {:.3} ms at {} Hz\nwrote {}\n",
+            self.surface,
+            self.actuators,
+            self.points,
+            rounded(self.pitch_m * 1e3),
+            self.samples,
+            (self.samples - 1) as f64 / self.sample_rate_hz * 1e3,
+            self.sample_rate_hz,
+            self.library
+        )
+    }
+}
+
+/// A length in mm without the digits that came of metres.
+fn rounded(mm: f64) -> f64 {
+    (mm * 1e9).round() / 1e9
+}

@@ -1,0 +1,113 @@
+//! The responses of a surface at the points of a grid, into a library.
+
+use super::{Ask, Report};
+use crate::numbers::above_zero;
+use crate::{Progress, TaskError, go_on, grid, judge};
+use std::time::{SystemTime, UNIX_EPOCH};
+use unripple::act::{carries, unit};
+use unripple::core::{ModalResponses, Responses, Surface, window_samples};
+use unripple::physics::design::Windows;
+use unripple::physics::sample;
+use unripple_store::{Library, LibraryPlan, PointState, Quality, Take};
+
+/// Points computed and stored at once.
+const BATCH: usize = 64;
+
+/// Computes the responses of a surface at the points of a grid, and keeps them in a library. One that was cancelled is taken up again.
+///
+/// # Errors
+/// Those of [`SurfaceAsk::load`](crate::SurfaceAsk::load); [`TaskError::Ask`] of a pitch or length that makes no sense;
+/// [`TaskError::Work`] where modes cannot be had or files not be written; [`TaskError::Cancelled`].
+///
+/// ```
+/// use unripple_tasks::{Silent, respond};
+///
+/// let folder = std::env::temp_dir().join(format!("unripple-respond-{}", std::process::id()));
+/// let ask = respond::Ask { pitch_m: 0.05, length_s: Some(0.01), output: folder.clone(), ..respond::Ask::default() };
+/// assert_eq!(respond::run(&ask, &mut Silent)?.points, 4);
+/// # std::fs::remove_dir_all(folder)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    let surface = ask.surface.load()?;
+    above_zero(ask.pitch_m, "pitch_m", "m")?;
+    Library::may_be_at(&ask.output)?;
+    go_on(progress)?;
+    progress.stage("modes");
+    let Responses::Modal(modal) = judge::model(&surface, None, &[])? else {
+        return Err(TaskError::Work("expected a model with modes, found samples".into()));
+    };
+    go_on(progress)?;
+    let plan = plan(ask, &surface, &modal)?;
+    let mut library = Library::create(&ask.output, &plan)?;
+    let before = library.done().len();
+    fill(&mut library, &modal, progress)?;
+    Ok(Report {
+        program: "unripple",
+        version: env!("CARGO_PKG_VERSION"),
+        command: "respond",
+        surface: surface.name,
+        library: ask.output.display().to_string(),
+        points: plan.points.len(),
+        points_found_done: before,
+        pitch_m: ask.pitch_m,
+        actuators: plan.ports.len(),
+        samples: plan.samples,
+        sample_rate_hz: plan.conditions.rate,
+        lambda_min_m: plan.conditions.lambda_min,
+    })
+}
+
+fn plan(ask: &Ask, surface: &Surface, modal: &ModalResponses) -> Result<LibraryPlan, TaskError> {
+    let length = match ask.length_s {
+        Some(length) => above_zero(length, "length_s", "s")?,
+        None => 2.0 * Windows::of(surface).recommended().seconds,
+    };
+    carries(&modal.conditions, length).map_err(|error| TaskError::Work(format!("`length_s`: {error}")))?;
+    let points = grid::points(&surface.outline, ask.pitch_m)?;
+    let conditions = modal.conditions.clone();
+    let samples = window_samples(length, conditions.rate) + 1;
+    let now = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    let about = [
+        ("device", "model".to_owned()),
+        ("stimulus", "impulse".to_owned()),
+        ("modes", modal.poles.len().to_string()),
+        ("software", format!("unripple {}", env!("CARGO_PKG_VERSION"))),
+        ("created", format!("{now} s after 1970-01-01 00:00 UTC")),
+    ];
+    Ok(LibraryPlan {
+        drive_units: surface.actuators.iter().map(|a| unit(&a.kind).to_owned()).collect(),
+        surface: Some(surface.clone()),
+        provenance: about.into_iter().map(|(key, text)| (key.to_owned(), text)).collect(),
+        ..LibraryPlan::new(modal.ports.clone(), points, conditions, samples)
+    })
+}
+
+/// Computes and stores the points that are not there yet.
+fn fill(library: &mut Library, modal: &ModalResponses, progress: &mut dyn Progress) -> Result<(), TaskError> {
+    let missing = library.in_state(PointState::Missing);
+    let (samples, ports) = (library.plan().samples, modal.ports.len());
+    let quality = vec![Quality::UNKNOWN; ports];
+    progress.stage("points");
+    for (done, batch) in missing.chunks(BATCH).enumerate() {
+        go_on(progress)?;
+        let places: Vec<_> = batch.iter().map(|point| library.points()[*point]).collect();
+        let sampled = sample(modal, &places, samples);
+        let values: Vec<Vec<f32>> = (0..batch.len())
+            .map(|point| (0..ports).flat_map(|port| sampled.response(port, point)).copied().collect())
+            .collect();
+        let pairs = batch.iter().zip(&values);
+        let takes: Vec<Take<'_>> = pairs
+            .map(|(point, samples)| Take {
+                point: *point,
+                samples,
+                quality: &quality,
+                bands: &[],
+                state: PointState::Measured,
+            })
+            .collect();
+        library.put_all(&takes)?;
+        progress.done(((done + 1) * BATCH).min(missing.len()) as f64 / missing.len() as f64);
+    }
+    Ok(())
+}

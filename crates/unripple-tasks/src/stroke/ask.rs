@@ -1,0 +1,51 @@
+//! What `stroke` is asked.
+
+use crate::target::{LineAsk, ShapeAsk};
+use crate::{SurfaceAsk, source};
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// Where a focus is to move along, how fast, how strongly, and on what that is judged.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Ask {
+    /// A surface file, or the name of a built-in surface.
+    pub surface: SurfaceAsk,
+    /// The path; of a shape its outline.
+    pub path: ShapeAsk,
+    /// How fast the focus moves, in m/s.
+    pub speed_m_s: f64,
+    /// Velocity of its pulses, in m/s.
+    pub level_m_s: f64,
+    /// Window T of each pulse, in s.
+    pub window_s: Option<f64>,
+    /// Judge on another surface than the one it was computed for.
+    pub on: Option<SurfaceAsk>,
+    /// Judge on modes up to this frequency, in Hz; by default to twice the band.
+    pub judge_hz: Option<f64>,
+    /// Folder for drive.wav, report.json, report.md and figures. An earlier run's folder is replaced whole, unless something else is in it.
+    pub output: Option<PathBuf>,
+}
+
+impl Default for Ask {
+    fn default() -> Self {
+        Self {
+            surface: SurfaceAsk::default(),
+            path: ShapeAsk::Lines { lines: vec![LineAsk::default()], filled: false },
+            speed_m_s: 0.1,
+            level_m_s: 10e-3,
+            window_s: None,
+            on: None,
+            judge_hz: None,
+            output: None,
+        }
+    }
+}
+
+impl Ask {
+    /// Files and folders that are read, which no output may take the place of.
+    pub fn reads(&self) -> Vec<PathBuf> {
+        let surfaces = std::iter::once(&self.surface).chain(&self.on);
+        surfaces.flat_map(source::reads).chain(self.path.reads().cloned()).collect()
+    }
+}

@@ -1,0 +1,9 @@
+//! `stroke`: a focus that moves along a path.
+
+mod ask;
+mod report;
+mod run;
+
+pub use ask::Ask;
+pub use report::Report;
+pub use run::{make, run};

@@ -1,0 +1,127 @@
+//! A drive whose focus moves along a path, and what it was found to do.
+
+use super::{Ask, Report};
+use crate::numbers::above_zero;
+use crate::played::{Common, Played, judge};
+use crate::window::carries;
+use crate::{Progress, TaskError};
+use unripple::act::Stroked;
+use unripple::core::{Drive, Point, Responses, Surface};
+use unripple::field::{Aim, Field};
+use unripple::focus::{Pattern, PulseOptions, Stroke, strike};
+
+/// Strokes are planned and judged on modes up to these multiples of the band, the second if not told otherwise: pulses are all band.
+const BANDS: [f64; 2] = [1.0, 2.0];
+
+/// Places of a stroke measured at once.
+const AT_ONCE: usize = 256;
+
+/// Places measured for each pulse of a stroke.
+const BETWEEN: usize = 2;
+
+/// A drive whose focus moves along a path at one level, judged, and written to a folder if one is given.
+///
+/// # Errors
+/// [`TaskError::Ask`] of numbers that make no sense; those of reading and writing files; those of the method; [`TaskError::Cancelled`].
+pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    Ok(make(ask, progress)?.0)
+}
+
+/// The same, with the drive: float32 samples in the actuators' unit.
+///
+/// # Errors
+/// Those of [`run()`].
+pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<(Report, Drive), TaskError> {
+    let speed = above_zero(ask.speed_m_s, "speed_m_s", "m/s")?;
+    let level = above_zero(ask.level_m_s, "level_m_s", "m/s")?;
+    let common = Common {
+        surface: &ask.surface,
+        on: ask.on.as_ref(),
+        judge_hz: ask.judge_hz,
+        output: ask.output.as_ref(),
+        reads: ask.reads(),
+        needs: "waveforms and path",
+        bands: BANDS,
+    };
+    judge(&common, progress, |surface, models| {
+        let path = Pattern { filled: false, ..ask.path.pattern("path")? };
+        stroked(ask, surface, &Stroke { level, ..Stroke::along(path, speed) }, models)
+    })
+}
+
+fn stroked(
+    ask: &Ask,
+    surface: &Surface,
+    stroke: &Stroke,
+    [model, judging]: [&Responses; 2],
+) -> Result<Played, TaskError> {
+    let defaults = PulseOptions::default();
+    let settings = PulseOptions {
+        window: ask.window_s.map_or(Ok(defaults.window), |window| above_zero(window, "window_s", "s"))?,
+        limit: surface.emission.limit,
+        rms_limit: surface.emission.rms_limit,
+        ..defaults
+    };
+    carries(model.conditions(), settings.window, "window_s")?;
+    let pulses = stroke.pulses(model).map_err(TaskError::input)?;
+    let struck = strike(model, &pulses, &settings).map_err(TaskError::input)?;
+    let drive = struck.drive.as_emitted();
+    let asked = stroke.level * struck.scale;
+    let [level, peak] =
+        evenness(stroke, &struck.instants, &drive, judging)?.map(|range| range.map(|v| decibels(v / asked)));
+    let start = struck.instants[0] as f64 / drive.rate();
+    let stroked = Stroked {
+        pulses: pulses.len(),
+        duration_s: stroke.duration(),
+        start_s: start,
+        asked_m_s: asked,
+        level_range_db: level,
+        peak_range_db: peak,
+    };
+    let middle = pulses.len() / 2;
+    let instant = struck.instants[middle] as f64 / drive.rate();
+    let aims = vec![Aim { points: struck.points[middle].clone(), instant }];
+    Ok(Played {
+        drive,
+        aims,
+        method: "stroke",
+        waveforms: Vec::new(),
+        silent: Vec::new(),
+        stroke: Some(stroked),
+    })
+}
+
+/// Least and greatest velocity along a path: at the pulse nearest to each place's own instant, and at most within half an
+/// interval of it; in m/s.
+fn evenness(
+    stroke: &Stroke,
+    instants: &[usize],
+    drive: &Drive,
+    responses: &Responses,
+) -> Result<[[f64; 2]; 2], TaskError> {
+    let field = Field::new(responses, drive, 1.0).map_err(TaskError::input)?;
+    let steps = BETWEEN * instants.len().saturating_sub(1).max(1);
+    let (first, last) = (instants[0], instants[instants.len() - 1]);
+    let sample = |i: usize| first + (last - first) * i / steps;
+    let place = |i: usize| stroke.place((sample(i) - first) as f64 / drive.rate());
+    let half = (last - first).div_ceil(2 * instants.len().saturating_sub(1).max(1));
+    let mut found = [[f64::INFINITY, 0.0]; 2];
+    for batch in (0..=steps).collect::<Vec<_>>().chunks(AT_ONCE) {
+        let places: Vec<Point> = batch.iter().map(|i| place(*i)).collect();
+        let until = drive.duration() - 1.0 / drive.rate();
+        let traces = field.traces(&places, until).map_err(TaskError::input)?;
+        for (i, trace) in batch.iter().zip(traces) {
+            let v = |i: usize| trace.velocity[i].abs();
+            let pulse = instants[(i + BETWEEN / 2).min(steps) / BETWEEN];
+            let near = sample(*i).saturating_sub(half)..(sample(*i) + half + 1).min(trace.velocity.len());
+            for ([least, most], level) in found.iter_mut().zip([v(pulse), near.map(v).fold(0.0, f64::max)]) {
+                (*least, *most) = (least.min(level), most.max(level));
+            }
+        }
+    }
+    Ok(found)
+}
+
+fn decibels(ratio: f64) -> f64 {
+    20.0 * ratio.max(1e-20).log10()
+}

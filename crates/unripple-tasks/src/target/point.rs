@@ -1,0 +1,43 @@
+//! A point that is to be in focus, as an ask gives it.
+
+use crate::numbers::above_zero;
+use crate::{Place, TaskError, point};
+use serde::{Deserialize, Serialize};
+use unripple::focus::Target;
+
+/// A point that is to be in focus.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct PointAsk {
+    /// Where, in m.
+    pub at_m: Place,
+    /// Its level beside those of the other targets; below 0 it moves the other way.
+    pub gain: f64,
+    /// How often it is repeated, in Hz; once if nothing is given.
+    pub rate_hz: Option<f64>,
+}
+
+impl Default for PointAsk {
+    fn default() -> Self {
+        Self { at_m: [0.0; 2], gain: 1.0, rate_hz: None }
+    }
+}
+
+impl PointAsk {
+    /// A point, once, at the level of the others; in m.
+    pub fn at(x: f64, y: f64) -> Self {
+        Self { at_m: [x, y], ..Self::default() }
+    }
+
+    /// The same as the library has it.
+    ///
+    /// # Errors
+    /// [`TaskError::Ask`] of a rate that is not above 0.
+    pub fn target(&self) -> Result<Target, TaskError> {
+        let target = Target::at(point(&self.at_m)).with_gain(self.gain);
+        match self.rate_hz {
+            Some(rate) => Ok(target.repeated(above_zero(rate, "rate_hz", "Hz")?)),
+            None => Ok(target),
+        }
+    }
+}

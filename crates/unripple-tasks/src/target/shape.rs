@@ -1,0 +1,103 @@
+//! A shape or a path, as an ask gives it.
+
+use crate::{Place, TaskError, point};
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+use unripple::core::Point;
+use unripple::focus::{Line, Pattern};
+use unripple_store::Drawing;
+
+/// How closely the curves of an SVG shape are followed, in metres.
+const TOLERANCE: f64 = 0.05e-3;
+
+/// Corners one after the other.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LineAsk {
+    /// Its corners, in m.
+    pub points_m: Vec<Place>,
+    /// Whether it goes back to the first.
+    pub closed: bool,
+}
+
+/// A shape or a path.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum ShapeAsk {
+    /// The outline of an equilateral triangle that stands on a side.
+    Triangle {
+        /// Its centre, in m.
+        centre_m: Place,
+        /// Length of a side, in m.
+        side_m: f64,
+    },
+    /// A circle.
+    Circle {
+        /// Its centre, in m.
+        centre_m: Place,
+        /// Its radius, in m.
+        radius_m: f64,
+    },
+    /// Lines, or what they enclose.
+    Lines {
+        /// The lines.
+        lines: Vec<LineAsk>,
+        /// Whether what they enclose is meant.
+        filled: bool,
+    },
+    /// An SVG file, which says by itself what is filled and what is stroked.
+    Svg {
+        /// The file.
+        file: PathBuf,
+    },
+}
+
+impl ShapeAsk {
+    /// The file that is read for it, if any.
+    pub fn reads(&self) -> Option<&PathBuf> {
+        match self {
+            Self::Svg { file } => Some(file),
+            _ => None,
+        }
+    }
+
+    /// The same as the library has it; errors name `field`.
+    ///
+    /// # Errors
+    /// [`TaskError::Ask`] of a size that is not above 0, or of a drawing without a path; those of reading a drawing.
+    pub fn pattern(&self, field: &'static str) -> Result<Pattern, TaskError> {
+        let sized = |centre: &Place, size: f64, made: fn(Point, f64) -> Pattern| match size.is_finite()
+            && size > 0.0
+        {
+            true => Ok(made(point(centre), size)),
+            false => Err(TaskError::ask(field, "a size above 0 m", size)),
+        };
+        match self {
+            Self::Triangle { centre_m, side_m } => sized(centre_m, *side_m, Pattern::triangle),
+            Self::Circle { centre_m, radius_m } => sized(centre_m, *radius_m, Pattern::circle),
+            Self::Lines { lines, filled } => {
+                let line = |line: &LineAsk| Line {
+                    points: line.points_m.iter().map(point).collect(),
+                    closed: line.closed,
+                };
+                Ok(Pattern { lines: lines.iter().map(line).collect(), filled: *filled })
+            }
+            Self::Svg { file } => drawn(file, field),
+        }
+    }
+}
+
+fn drawn(file: &PathBuf, field: &'static str) -> Result<Pattern, TaskError> {
+    let drawing = Drawing::read(file, TOLERANCE)?;
+    let filled = drawing.shapes.iter().any(|shape| shape.fill.is_some());
+    let meant = drawing.shapes.iter().filter(|shape| shape.fill.is_some() == filled);
+    let lines: Vec<Line> = meant
+        .flat_map(|shape| &shape.polylines)
+        .map(|line| Line { points: line.points.clone(), closed: line.closed })
+        .collect();
+    if lines.is_empty() {
+        let found = format!("none in {}", file.display());
+        return Err(TaskError::ask(field, "a filled or stroked path", found));
+    }
+    Ok(Pattern { lines, filled })
+}

@@ -1,0 +1,92 @@
+//! What `waveform` is asked.
+
+use crate::{Place, SurfaceAsk, source};
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// What a target is to do.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum SoundAsk {
+    /// A tone.
+    Sine {
+        /// Its frequency, in Hz.
+        hz: f64,
+        /// How long it lasts, in s.
+        length_s: f64,
+    },
+    /// Some cycles of a tone.
+    Burst {
+        /// Its frequency, in Hz.
+        hz: f64,
+        /// How many of them.
+        cycles: f64,
+    },
+    /// A single push.
+    Click {
+        /// How long it lasts, in s.
+        length_s: f64,
+    },
+    /// The first channel of a recording.
+    Wav {
+        /// The file.
+        file: PathBuf,
+    },
+    /// Samples.
+    Samples {
+        /// Their values; only their proportions matter.
+        values: Vec<f64>,
+        /// Their rate, in Hz.
+        rate_hz: f64,
+    },
+}
+
+/// A target, and what it is to do.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WaveformAsk {
+    /// Where, in m.
+    pub at_m: Place,
+    /// What.
+    pub sound: SoundAsk,
+    /// Its peak displacement, in m.
+    #[serde(default = "micrometre")]
+    pub level_m: f64,
+}
+
+/// Level of a waveform if none is given, in m: felt clearly at most frequencies.
+fn micrometre() -> f64 {
+    1e-6
+}
+
+/// Which targets are to do what, which are to be still, and on what that is judged.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Ask {
+    /// A surface file, or the name of a built-in surface.
+    pub surface: SurfaceAsk,
+    /// Targets that do something.
+    pub waveforms: Vec<WaveformAsk>,
+    /// Targets that are to be still meanwhile, in m.
+    pub silent_m: Vec<Place>,
+    /// Time that drives have before and after, in s.
+    pub window_s: Option<f64>,
+    /// Judge on another surface than the one it was computed for.
+    pub on: Option<SurfaceAsk>,
+    /// Judge on modes up to this frequency, in Hz; by default to three times the band.
+    pub judge_hz: Option<f64>,
+    /// Folder for drive.wav, report.json, report.md and figures. An earlier run's folder is replaced whole, unless something else is in it.
+    pub output: Option<PathBuf>,
+}
+
+impl Ask {
+    /// Files and folders that are read, which no output may take the place of.
+    pub fn reads(&self) -> Vec<PathBuf> {
+        let surfaces = std::iter::once(&self.surface).chain(&self.on);
+        let files = self.waveforms.iter().filter_map(|waveform| match &waveform.sound {
+            SoundAsk::Wav { file } => Some(file.clone()),
+            _ => None,
+        });
+        surfaces.flat_map(source::reads).chain(files).collect()
+    }
+}

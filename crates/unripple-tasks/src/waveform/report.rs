@@ -1,0 +1,3 @@
+//! What `waveform` found: the report of an act of focusing, shared with `focus`.
+
+pub use unripple::act::Report;

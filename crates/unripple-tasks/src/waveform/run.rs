@@ -1,0 +1,84 @@
+//! A drive that has targets follow waveforms, and what it was found to do.
+
+use super::{Ask, Report, sound};
+use crate::numbers::above_zero;
+use crate::played::{Common, Played, judge};
+use crate::{Progress, TaskError, point};
+use unripple::act::Followed;
+use unripple::core::{Drive, Responses, Surface};
+use unripple::field::{Aim, Field, Wanted};
+use unripple::focus::{PlayOptions, play};
+
+/// Waveforms are planned and judged on modes up to these multiples of the band, the second if not told otherwise: at low
+/// frequencies a sheet yields by modes far above.
+const BANDS: [f64; 2] = [2.0, 3.0];
+
+/// A drive that has targets follow waveforms while others are still, judged, and written to a folder if one is given.
+///
+/// # Errors
+/// [`TaskError::Ask`] without a waveform, and of numbers that make no sense; those of reading and writing files; those of the method;
+/// [`TaskError::Cancelled`].
+pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    Ok(make(ask, progress)?.0)
+}
+
+/// The same, with the drive: float32 samples in the actuators' unit.
+///
+/// # Errors
+/// Those of [`run()`].
+pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<(Report, Drive), TaskError> {
+    if ask.waveforms.is_empty() {
+        return Err(TaskError::ask("waveforms", "a waveform at a place", "none"));
+    }
+    let common = Common {
+        surface: &ask.surface,
+        on: ask.on.as_ref(),
+        judge_hz: ask.judge_hz,
+        output: ask.output.as_ref(),
+        reads: ask.reads(),
+        needs: "waveforms and path",
+        bands: BANDS,
+    };
+    judge(&common, progress, |surface, models| followed(ask, surface, models))
+}
+
+fn followed(ask: &Ask, surface: &Surface, [model, judging]: [&Responses; 2]) -> Result<Played, TaskError> {
+    let emission = &surface.emission;
+    let waves = ask.waveforms.iter().map(|waveform| sound::waveform(waveform, emission.rate));
+    let waves = waves.collect::<Result<Vec<_>, _>>()?;
+    let silent: Vec<_> = ask.silent_m.iter().map(point).collect();
+    let window = ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
+    let defaults = PlayOptions::default();
+    let settings = PlayOptions {
+        lead: window.map_or(defaults.lead, |window| [window; 2]),
+        limit: emission.limit,
+        rms_limit: emission.rms_limit,
+        ..defaults
+    };
+    let played = play(model, &waves, &silent, &settings).map_err(TaskError::input)?;
+    let drive = played.drive.as_emitted();
+    let rate = drive.rate();
+    let targets = played.points.iter().zip(&played.asked);
+    let wanted: Vec<Wanted> =
+        targets.map(|(points, asked)| Wanted { points: points.clone(), samples: asked.clone() }).collect();
+    let field = Field::new(judging, &drive, 1.0).map_err(TaskError::input)?;
+    let until = 2.0 * drive.duration();
+    let (figures, silent) =
+        field.followed(&wanted, &silent, until, |t| &t.displacement).map_err(TaskError::input)?;
+    drop(field);
+    let largest = |asked: &[f64]| {
+        let by_size = asked.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+        by_size.map_or((0, 0.0), |(i, x)| (i, x.abs()))
+    };
+    let aims =
+        wanted.iter().map(|w| Aim { points: w.points.clone(), instant: largest(&w.samples).0 as f64 / rate });
+    let aims = aims.collect();
+    let told = figures.into_iter().enumerate().map(|(i, figures)| Followed {
+        figures,
+        start_s: played.starts[i] as f64 / rate,
+        asked_peak_m: largest(&wanted[i].samples).1,
+        lost: played.lost[i],
+    });
+    let waveforms = told.collect();
+    Ok(Played { drive, aims, method: "waveforms", waveforms, silent, stroke: None })
+}
