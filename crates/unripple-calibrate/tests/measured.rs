@@ -118,7 +118,10 @@ fn a_device_that_vanishes_loses_nothing_that_is_finished() {
         let way = Way::Probe(Box::new(WORLD.session(&device, &MeasureOptions::default())));
         let handle = device.handle();
         let mut told = 0;
-        let result = campaign(&mut Hands::new(device, handle), &way, &points, kept, 1, &mut |_| told += 1);
+        let result = campaign(&mut Hands::new(device, handle), &way, &points, kept, 1, &mut |_| {
+            told += 1;
+            std::ops::ControlFlow::Continue(())
+        });
         (result, told)
     };
     let (lost, told) = run(Some(3000), &mut kept);

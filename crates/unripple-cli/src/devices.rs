@@ -4,8 +4,6 @@ use crate::args::DevicesOptions;
 use crate::error::CliError;
 use crate::output;
 use crate::progress::Terminal;
-#[cfg(not(feature = "cards"))]
-pub use unripple_tasks::device::HOW_TO_GET_CARDS;
 use unripple_tasks::devices::{self, Ask};
 
 pub fn run(options: &DevicesOptions, as_json: bool) -> Result<(), CliError> {

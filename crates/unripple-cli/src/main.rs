@@ -18,15 +18,10 @@ mod doctor;
 mod error;
 mod export;
 mod field;
-mod fingers;
 mod fit;
 mod focus;
-mod grid;
-mod input;
 mod interrupt;
-mod judge;
 mod modes;
-mod open;
 mod options;
 mod output;
 mod play;
@@ -41,7 +36,6 @@ use args::{Arguments, Command};
 use clap::Parser;
 use error::CliError;
 use std::process::ExitCode;
-use unripple_tasks::{figures, late, own};
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();

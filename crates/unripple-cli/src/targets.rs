@@ -53,19 +53,6 @@ pub fn level(options: &TargetOptions) -> Result<LevelAsk, CliError> {
     })
 }
 
-/// An error, and if it is about a window that nobody `asked` for, the option that gives another.
-pub fn of_window(error: CliError, asked: bool) -> CliError {
-    let told = |text: String| match !asked && text.contains("window") && !text.contains("--window-ms") {
-        true => format!("{text} (the window is the default one; --window-ms gives another)"),
-        false => text,
-    };
-    match error {
-        CliError::Input(text) => CliError::Input(told(text)),
-        CliError::Work(text) => CliError::Work(told(text)),
-        faults @ CliError::Faults(_) => faults,
-    }
-}
-
 /// A positive time given in milliseconds, in seconds.
 pub fn seconds(ms: Option<f64>, option: &str) -> Result<Option<f64>, CliError> {
     ms.map(|ms| Ok(positive(ms, option, "ms")? / 1e3)).transpose()

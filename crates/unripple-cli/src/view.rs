@@ -2,9 +2,9 @@
 
 use crate::args::{DeviceName, ViewOptions};
 use crate::error::CliError;
-use crate::play::{follower, late, opener};
+use crate::progress::Terminal;
 use crate::targets::positive;
-use crate::{input, judge, output};
+use crate::{interrupt, output};
 use serde_json::json;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::process::{Command, Stdio};
@@ -12,6 +12,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 use unripple_calibrate::Interpolation;
+use unripple_tasks::play::{follower, late, opener};
+use unripple_tasks::{SurfaceAsk, TaskError, judge, source};
 use unripple_viewer::{Follow, Opener, Responder, View, ViewError};
 
 /// Bytes of a token that is made here, before they are letters.
@@ -23,8 +25,8 @@ const LENGTHS: std::ops::RangeInclusive<usize> = 8..=64;
 impl From<ViewError> for CliError {
     fn from(error: ViewError) -> Self {
         match error {
-            ViewError::Store(error) => error.into(),
-            ViewError::Live(error) => error.into(),
+            ViewError::Store(error) => TaskError::from(error).into(),
+            ViewError::Live(error) => TaskError::from(error).into(),
             error @ (ViewError::Address { .. } | ViewError::Gone { .. } | ViewError::Device { .. }) => {
                 Self::work(error)
             }
@@ -35,7 +37,7 @@ impl From<ViewError> for CliError {
 
 pub fn run(options: &ViewOptions, as_json: bool) -> Result<(), CliError> {
     let seconds = options.seconds.map(|s| positive(s, "--seconds", "s")).transpose()?;
-    let source = input::source(&options.surface)?;
+    let source = source::open(&(&options.surface).into(), &mut Terminal::default())?;
     let respond = respond(&options.surface, &source);
     let ip = options.listen.unwrap_or(IpAddr::V4(Ipv4Addr::LOCALHOST));
     let without_scale = source.without_scale();
@@ -66,17 +68,17 @@ pub fn run(options: &ViewOptions, as_json: bool) -> Result<(), CliError> {
     if !options.no_browser {
         browse(&url);
     }
-    let stop = crate::play::interrupted()?;
+    let stop = interrupt::wished();
     Ok(viewer.serve(until(stop, seconds))?)
 }
 
 /// Responses of a library at places that pages ask for, as `focus` has them.
 fn respond(name: &str, source: &unripple_tasks::Source) -> Option<Responder> {
     source.stored.as_ref()?;
-    let name = name.to_owned();
+    let name = SurfaceAsk::from(name);
     Some(Arc::new(move |places| {
-        let answered = input::quiet_source(&name)
-            .and_then(|source| Ok(source.respond(places, Interpolation::default())?));
+        let answered =
+            source::open_again(&name).and_then(|source| source.respond(places, Interpolation::default()));
         answered.map(|(_, responses, _)| responses).map_err(|error| error.to_string())
     }))
 }
@@ -85,7 +87,7 @@ fn respond(name: &str, source: &unripple_tasks::Source) -> Option<Responder> {
 fn device(options: &ViewOptions) -> Option<Opener> {
     let device = &options.device;
     let simulated = device.device == DeviceName::Virtual && device.unknowns.is_none();
-    (!simulated).then(|| opener(device, options.follow_tension))
+    (!simulated).then(|| opener(&device.ask(), options.follow_tension))
 }
 
 /// What follows the tension of the surface out there, if it is to be followed.
@@ -97,7 +99,7 @@ fn follow(options: &ViewOptions) -> Result<Option<Follow>, CliError> {
         let text = "--follow-tension: expected a real device, or --unknowns, found a surface that is known and never drifts";
         return Err(CliError::Input(text.into()));
     }
-    let device = options.device.clone();
+    let device = options.device.ask();
     Ok(Some(Arc::new(move |surface, settings, block| {
         let followed = judge::model(surface, None, &[])
             .and_then(|model| follower(surface, &model, settings, late(&device, block)));

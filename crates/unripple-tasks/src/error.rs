@@ -2,6 +2,7 @@
 
 use unripple::act::{ActError, LevelKind};
 use unripple_calibrate::CalibrateError;
+use unripple_devices::DevicesError;
 use unripple_live::LiveError;
 use unripple_plot::PlotError;
 use unripple_store::{FileFaults, StoreError};
@@ -91,6 +92,12 @@ impl From<CalibrateError> for TaskError {
             | CalibrateError::Sink { .. } => Self::work(error),
             error => Self::input(error),
         }
+    }
+}
+
+impl From<DevicesError> for TaskError {
+    fn from(error: DevicesError) -> Self {
+        Self::input(error)
     }
 }
 

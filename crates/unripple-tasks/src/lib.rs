@@ -16,16 +16,19 @@
 
 mod apart;
 pub mod between;
+pub mod calibrate;
 pub mod check;
 pub mod compare;
 pub mod design;
 pub mod device;
 pub mod devices;
+pub mod doctor;
 mod error;
 pub mod export;
 pub mod field;
 pub mod figures;
 pub mod fingers;
+pub mod fit;
 pub mod focus;
 pub mod folder;
 pub mod grid;
@@ -36,6 +39,7 @@ mod names;
 mod numbers;
 pub mod own;
 mod place;
+pub mod play;
 mod played;
 mod progress;
 mod report;

@@ -1,5 +1,6 @@
 use super::{Channel, Listen, Rig, Session, TapSession};
 use crate::CalibrateError;
+use std::ops::ControlFlow;
 use unripple_core::Point;
 
 /// Where finished points go, one by one.
@@ -68,7 +69,7 @@ impl Way {
 }
 
 /// Measures every point that a sink misses, in order, each kept as soon as it is finished; returns how many were kept as bad.
-/// A bad point is measured again, up to `again` times, and the best of its recordings is kept.
+/// A bad point is measured again, up to `again` times, and the best of its recordings is kept. Ends early where `tell` says so.
 ///
 /// # Errors
 /// Those of rig, device and sink. What was kept before stays kept, and a later run goes on from there.
@@ -78,7 +79,7 @@ pub fn campaign(
     points: &[Point],
     sink: &mut dyn Sink,
     again: u64,
-    tell: &mut dyn FnMut(&Progress),
+    tell: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<usize, CalibrateError> {
     let missing = sink.missing();
     let mut bad = 0;
@@ -107,7 +108,10 @@ pub fn campaign(
         let Some((_, channel, fault)) = best else { continue };
         sink.keep(number, &channel, fault.as_deref())?;
         bad += usize::from(fault.is_some());
-        tell(&Progress { done: done + 1, total: missing.len(), number, attempts, fault });
+        let progress = Progress { done: done + 1, total: missing.len(), number, attempts, fault };
+        if tell(&progress).is_break() {
+            break;
+        }
     }
     Ok(bad)
 }

@@ -65,11 +65,6 @@ impl DeviceOptions {
             snr_db: self.snr_db,
         }
     }
-
-    /// Whether it has a clock of its own that nobody can stop.
-    pub fn is_real(&self) -> bool {
-        self.device != DeviceName::Virtual && !self.freewheel
-    }
 }
 
 /// Options of `calibrate`.

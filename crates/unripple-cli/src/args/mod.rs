@@ -9,10 +9,10 @@ mod view;
 
 pub use calibrate::{CalibrateOptions, DeviceOptions};
 use clap::{Args, Parser, Subcommand};
-pub use export::{ExportOptions, FormatName};
+pub use export::ExportOptions;
 pub use fit::FitOptions;
 pub use names::{BetweenName, DeviceName, LossName, MethodName, WayName};
-pub use play::{DoctorOptions, PlayOptions, TouchOptions};
+pub use play::{DoctorOptions, PlayOptions};
 use std::path::PathBuf;
 pub use view::ViewOptions;
 

@@ -2,6 +2,7 @@ use super::{DeviceOptions, MethodName};
 use clap::Args;
 use std::net::IpAddr;
 use std::path::PathBuf;
+use unripple_tasks::play::TouchAsk;
 
 /// Options of `play`.
 #[derive(Debug, Args)]
@@ -48,23 +49,6 @@ pub struct PlayOptions {
     pub keep_drive: Option<PathBuf>,
 }
 
-impl PlayOptions {
-    /// Files and folders that are read, which no output may take the place of.
-    pub fn reads(&self) -> Vec<PathBuf> {
-        let sessions = self.touch.session.iter().chain(&self.touch.screen).cloned();
-        let surface = unripple_tasks::source::reads(&(&self.surface).into());
-        surface.into_iter().chain(unripple_store::effect_files(&self.effect)).chain(sessions).collect()
-    }
-
-    /// What makes a sitting go by the clock on the wall, as typed; `None` where it goes as fast as it can.
-    pub fn clock(&self) -> Option<String> {
-        let device = || format!("--device {}", self.device.device.name());
-        let real = self.device.is_real().then(device);
-        real.or_else(|| self.real_time.then(|| "--real-time".into()))
-            .or_else(|| self.touch.live().map(Into::into))
-    }
-}
-
 /// Where touches come from.
 #[derive(Debug, Args)]
 pub struct TouchOptions {
@@ -95,14 +79,18 @@ pub struct TouchOptions {
 }
 
 impl TouchOptions {
-    /// An option by which somebody out there may touch.
-    pub fn live(&self) -> Option<&'static str> {
-        let options = [
-            (self.tuio.is_some(), "--tuio"),
-            (self.websocket.is_some(), "--websocket"),
-            (!self.screen.is_empty(), "--screen"),
-        ];
-        options.into_iter().find_map(|(given, name)| given.then_some(name))
+    /// The same as a task takes it.
+    pub fn ask(&self) -> TouchAsk {
+        TouchAsk {
+            fingers: self.fingers,
+            seed: self.seed,
+            tuio: self.tuio,
+            websocket: self.websocket,
+            listen: self.listen,
+            screen: self.screen.clone(),
+            session: self.session.clone(),
+            record: self.record.clone(),
+        }
     }
 }
 

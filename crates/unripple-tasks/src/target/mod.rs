@@ -22,7 +22,7 @@ pub fn targets(points: &[PointAsk], shapes: &[ShapeAsk], lambda_min: f64) -> Res
         targets.push(Target::of(sampled.map_err(|error| TaskError::Input(format!("`shapes`: {error}")))?));
     }
     if targets.is_empty() {
-        return Err(TaskError::ask("points, shapes", "a point or a shape", "none"));
+        return Err(TaskError::ask("points, shapes", "`points` or `shapes`", "none"));
     }
     Ok(targets)
 }

@@ -1,0 +1,22 @@
+//! `unripple fit`: the model fitted to what a library's actuators heard of each other.
+
+use crate::args::FitOptions;
+use crate::error::CliError;
+use crate::output;
+use crate::progress::Terminal;
+use crate::targets::{places, positive};
+use unripple_tasks::fit::{self, Ask};
+
+pub fn run(options: &FitOptions, as_json: bool) -> Result<(), CliError> {
+    let pitch = options.grid_mm.map(|mm| positive(mm, "--grid-mm", "mm"));
+    let ask = Ask {
+        library: options.library.clone().into(),
+        pitch_m: pitch.transpose()?.map(|mm| mm / 1e3),
+        points_m: places(&options.at, "--at")?,
+        strays: options.strays,
+        profile: options.profile,
+        even_if_doubtful: options.even_if_doubtful,
+        output: options.output.clone(),
+    };
+    output::report(as_json, &fit::run(&ask, &mut Terminal::default())?)
+}

@@ -1,0 +1,27 @@
+//! `unripple play`: a surface that answers fingers, live.
+
+use crate::args::PlayOptions;
+use crate::error::CliError;
+use crate::output;
+use crate::progress::Terminal;
+use crate::targets::seconds;
+use unripple_tasks::play::{self, Ask};
+
+pub fn run(options: &PlayOptions, as_json: bool) -> Result<(), CliError> {
+    let ask = Ask {
+        surface: (&options.surface).into(),
+        device: options.device.ask(),
+        effect: options.effect.clone(),
+        touch: options.touch.ask(),
+        method: options.method.method(),
+        window_s: seconds(options.window_ms, "--window-ms")?,
+        block: options.block,
+        seconds: options.seconds,
+        full_limit: options.full_limit,
+        follow_tension: options.follow_tension,
+        real_time: options.real_time,
+        drift: options.drift_percent.map(|percent| percent / 100.0),
+        keep_drive: options.keep_drive.clone(),
+    };
+    output::report(as_json, &play::run(&ask, &mut Terminal::that_stops())?)
+}

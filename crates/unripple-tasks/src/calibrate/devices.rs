@@ -1,0 +1,87 @@
+//! Devices by the names of the command line.
+
+use super::hands::Hands;
+use super::rigs::{HandRig, VirtualRig};
+use crate::TaskError;
+use crate::{DeviceAsk, DeviceKind};
+use crate::{device, judge};
+use unripple::core::{PROBE, Surface};
+use unripple_calibrate::measure::Rig;
+use unripple_devices::{DevicesError, Jack, Unknowns, VirtualOptions};
+
+/// An open device with whoever moves its probe.
+pub struct Opened {
+    pub rig: Box<dyn Rig>,
+    /// What is true of a virtual surface and was not told.
+    pub truth: Option<String>,
+}
+
+/// A failure of the device, or a device that does not fit.
+fn failed(error: DevicesError) -> TaskError {
+    match error {
+        DevicesError::Jack { .. } | DevicesError::Card { .. } | DevicesError::Device(_) => {
+            TaskError::work(error)
+        }
+        error => TaskError::input(error),
+    }
+}
+
+pub fn open(options: &DeviceAsk, surface: &Surface, hands: Hands) -> Result<Opened, TaskError> {
+    match options.device {
+        DeviceKind::Virtual => virtual_surface(options, surface),
+        DeviceKind::Jack => jack(options, surface, hands),
+        DeviceKind::Card => card(options, surface, hands),
+        DeviceKind::Tape => Err(TaskError::Input(
+            "`device` tape: expected a device that plays and listens at once, found files".into(),
+        )),
+    }
+}
+
+fn virtual_surface(options: &DeviceAsk, surface: &Surface) -> Result<Opened, TaskError> {
+    let plain = VirtualOptions::to_be_measured(surface).map_err(failed)?;
+    let plain = VirtualOptions { accuracy: judge::accuracy(surface), ..plain };
+    let (device, unknowns) = device::virtual_surface(options, surface, &plain).map_err(failed)?;
+    let seed = unknowns.as_ref().map_or(0, |unknowns| unknowns.seed);
+    Ok(Opened { rig: Box::new(VirtualRig::new(device, seed)), truth: unknowns.as_ref().map(said) })
+}
+
+/// Unknowns in words.
+fn said(unknowns: &Unknowns) -> String {
+    format!(
+        "signal to noise {} dB, gains off by {} %, actuators by {} mm, tension by {} %, {} stray masses, other damping",
+        unknowns.snr_db,
+        unknowns.gain * 100.0,
+        unknowns.misplacement * 1e3,
+        unknowns.tension * 100.0,
+        unknowns.masses.len(),
+    )
+}
+
+/// All sensors, then the probe.
+fn inputs(surface: &Surface) -> Vec<String> {
+    device::names(surface).into_iter().chain([PROBE.to_owned()]).collect()
+}
+
+fn jack(options: &DeviceAsk, surface: &Surface, hands: Hands) -> Result<Opened, TaskError> {
+    let device = Jack::open(&device::jack(options, surface, inputs(surface))).map_err(failed)?;
+    Ok(Opened { rig: Box::new(HandRig::new(device, hands)), truth: None })
+}
+
+#[cfg(feature = "cards")]
+fn card(options: &DeviceAsk, surface: &Surface, hands: Hands) -> Result<Opened, TaskError> {
+    let known = device::card(options, surface, inputs(surface));
+    let device = unripple_devices::cards::Card::open(&known).map_err(failed)?;
+    Ok(Opened { rig: Box::new(HandRig::new(device, hands)), truth: None })
+}
+
+/// Says how to get a program that knows cards.
+#[cfg(not(feature = "cards"))]
+fn card(options: &DeviceAsk, _: &Surface, _: Hands) -> Result<Opened, TaskError> {
+    let named = options.card.as_ref().or(options.capture_card.as_ref());
+    let named = named
+        .map_or_else(String::new, |id| format!(" for `{id}` with {} samples a block", options.card_block));
+    Err(TaskError::Input(format!(
+        "`device` card: expected a build with sound cards{named}, found one without; {}",
+        crate::device::HOW_TO_GET_CARDS
+    )))
+}

@@ -1,0 +1,269 @@
+//! What a library says of its measurement: with what its points are measured, before; how far it is to be trusted, when all is there.
+
+use super::Campaign;
+use super::shelf::Shelf;
+use super::verify;
+use crate::TaskError;
+use crate::own;
+use serde_json::{Value, json};
+use std::time::{SystemTime, UNIX_EPOCH};
+use unripple_devices::reciprocal;
+use unripple_store::{Doubt, Library, PointState, date};
+
+/// Share of what actuators hear of each other that may differ both ways, gains free, beyond what noise explains: a change of tension by 0.3 %,
+/// or clocks apart by 12 millionths, makes as much.
+const RECIPROCITY: f64 = 0.15;
+
+/// Seconds by which actuators may disagree on the latency: a third of a period at 3 kHz.
+const LATENCY: f64 = 1e-4;
+
+/// Sensors are of another scale than the probe if they are louder or quieter than it by more than this, on average over all places.
+const APART: f64 = 2.0;
+
+/// Runs that the log holds: more says nothing more.
+const RUNS: usize = 100;
+
+/// The check that finds a measurement which was stopped.
+const UNFINISHED: &str = "unfinished";
+
+/// The check that finds own points missing or bad.
+const OWN: &str = "own";
+
+/// The key of the log for what was asked for that changes responses, beside scales.
+pub const ASKED: &str = "asked";
+
+/// There, the probe's delay that was taken out as it was recorded, in s.
+pub const PROBE_DELAY: &str = "probe_delay_s";
+
+/// Keeps in the library what its points are measured with, before they are: whoever is stopped leaves a library that says so, and that it
+/// was stopped.
+pub fn begin(campaign: &Campaign<'_>, library: &mut Library) -> Result<(), TaskError> {
+    let names: Vec<&str> = campaign.surface.actuators.iter().map(|a| a.name.as_str()).collect();
+    let dead: Vec<&str> = campaign.settings.without.iter().map(|actuator| names[*actuator]).collect();
+    library.log("dead", if dead.is_empty() { Value::Null } else { json!(dead) })?;
+    library.log("scale", campaign.scale_told())?;
+    library.log(ASKED, json!({ PROBE_DELAY: campaign.settings.probe_delay }))?;
+    let listens = library.points().len() > campaign.places.probed;
+    library.log(own::KEY, if listens { own::told(campaign.surface)? } else { Value::Null })?;
+    if library.in_state(PointState::Missing).is_empty() {
+        return Ok(());
+    }
+    let stopped = Doubt::of(
+        UNFINISHED,
+        "the measurement was not finished: expected all that was measured to be checked at its end, found none; run calibrate again",
+    );
+    Ok(library.set_doubts(UNFINISHED, vec![stopped])?)
+}
+
+/// Says how far the library is to be trusted; all of it in the library itself.
+pub fn finish(
+    campaign: &Campaign<'_>,
+    shelf: &mut Shelf,
+    latency: Option<[f64; 2]>,
+) -> Result<(), TaskError> {
+    reciprocity(campaign, shelf)?;
+    spread(campaign, shelf, latency)?;
+    sensors(campaign, shelf)?;
+    lacking(campaign, shelf)?;
+    verify::check(shelf, campaign.surface, campaign.model, &campaign.settings)?;
+    recorded(shelf)?;
+    Ok(shelf.library.set_doubts(UNFINISHED, Vec::new())?)
+}
+
+/// Adds a run to the log.
+pub fn log_run(
+    campaign: &Campaign<'_>,
+    library: &mut Library,
+    measured: usize,
+    seconds: f64,
+) -> Result<(), TaskError> {
+    let now = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    let settings = &campaign.settings;
+    let run = json!({
+        "ended": date(now),
+        "software": format!("unripple {}", env!("CARGO_PKG_VERSION")),
+        "device": format!("{:?}", campaign.ask.device.device).to_lowercase(),
+        "measured": measured,
+        "seconds": seconds,
+        "sweep_s": settings.sweep,
+        "swept_hz": settings.swept(campaign.surface),
+        "level": settings.level,
+        "repeats": settings.repeats,
+    });
+    let mut runs = library.logged("runs").and_then(Value::as_array).cloned().unwrap_or_default();
+    runs.push(run);
+    let first = runs.len().saturating_sub(RUNS);
+    Ok(library.log("runs", Value::Array(runs.split_off(first)))?)
+}
+
+/// Responses, `[sensor][drive]`.
+type Pairs = Vec<Vec<Vec<f64>>>;
+
+/// Actuators whose own points are measured and not left out, and what their sensors heard.
+fn own(campaign: &Campaign<'_>, shelf: &Shelf) -> Result<(Vec<usize>, Pairs), TaskError> {
+    let library = &shelf.library;
+    let count = campaign.surface.actuators.len();
+    let measured = |actuator: &usize| library.state(shelf.probed + actuator) == Some(PointState::Measured);
+    let alive: Vec<usize> = (0..count).filter(|a| !shelf.without.contains(a)).filter(measured).collect();
+    let mut heard = Vec::with_capacity(alive.len());
+    for sensor in &alive {
+        let values = library.get(shelf.probed + sensor)?;
+        let all: Vec<Vec<f64>> = values
+            .chunks_exact(library.plan().samples)
+            .map(|response| response.iter().map(|h| f64::from(*h)).collect())
+            .collect();
+        heard.push(alive.iter().map(|drive| all[*drive].clone()).collect());
+    }
+    Ok((alive, heard))
+}
+
+/// Doubts a library whose actuators hear each other otherwise one way than the other.
+fn reciprocity(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> {
+    const CHECK: &str = "reciprocity";
+    let (alive, heard) = own(campaign, shelf)?;
+    if alive.len() < 2 {
+        shelf.library.log(CHECK, Value::Null)?;
+        return Ok(shelf.library.set_doubts(CHECK, Vec::new())?);
+    }
+    let names: Vec<String> =
+        alive.iter().map(|actuator| campaign.surface.actuators[*actuator].name.clone()).collect();
+    let found = reciprocal(&names, &heard, &[]);
+    let noise = noise(shelf, &alive)?;
+    let beyond = (found.error.powi(2) - noise.powi(2)).max(0.0).sqrt();
+    let mut doubts = Vec::new();
+    if beyond > RECIPROCITY {
+        doubts.push(Doubt::of(
+            CHECK,
+            format!(
+                "what actuators hear of each other differs by {:.0} % both ways, expected at most {:.0} %: the surface or its tension \
+                 changed meanwhile, samples were lost, clocks run apart, or a sensor hears something else; measure it again",
+                100.0 * beyond,
+                100.0 * RECIPROCITY
+            ),
+        ));
+    }
+    doubts.extend(found.faults.iter().map(|fault| Doubt::of(CHECK, fault)));
+    shelf.library.log(CHECK, json!({ "error": found.error, "noise": noise, "most": RECIPROCITY }))?;
+    Ok(shelf.library.set_doubts(CHECK, doubts)?)
+}
+
+/// Share of the same that noise alone makes.
+fn noise(shelf: &Shelf, alive: &[usize]) -> Result<f64, TaskError> {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for sensor in alive {
+        let qualities = shelf.library.quality(shelf.probed + sensor)?;
+        let others = alive.iter().filter(|drive| *drive != sensor);
+        for noise in others.filter_map(|drive| own::noise(&qualities[*drive])) {
+            sum += noise.powi(2);
+            count += 1.0;
+        }
+    }
+    Ok(if count > 0.0 { (2.0_f64 * sum / count).sqrt() } else { 0.0 })
+}
+
+/// Doubts a library whose actuators disagree on the latency.
+fn spread(campaign: &Campaign<'_>, shelf: &mut Shelf, latency: Option<[f64; 2]>) -> Result<(), TaskError> {
+    const CHECK: &str = "latency";
+    let Some([late, spread]) = latency else { return Ok(()) };
+    let most = LATENCY * campaign.surface.emission.rate;
+    shelf.library.log(CHECK, json!({ "samples": late, "spread_samples": spread, "most_samples": most }))?;
+    // Without a model it is not judged: what was said of points that are there stays.
+    if !campaign.settings.model && !shelf.is_new() {
+        return Ok(());
+    }
+    let found = (campaign.settings.model && spread > most).then(|| {
+        Doubt::of(
+            CHECK,
+            format!(
+                "actuators disagree on the latency by {spread:.1} samples, expected at most {most:.1}: samples were lost, or the surface \
+                 is far from its file; measure it again, or mend the file"
+            ),
+        )
+    });
+    Ok(shelf.library.set_doubts(CHECK, found.into_iter().collect())?)
+}
+
+/// Takes back the doubt of a record that could not be read, once all that is there was measured since: in this run, or as the new record
+/// says.
+fn recorded(shelf: &mut Shelf) -> Result<(), TaskError> {
+    let library = &shelf.library;
+    let own = library.logged("own").is_some();
+    let since = |point: &usize| {
+        let said = library.logged_point(*point).is_some_and(|log| log.get("made").is_some());
+        shelf.made.contains(point) || said || (own && *point >= shelf.probed)
+    };
+    let there = |point: &usize| library.state(*point) != Some(PointState::Missing);
+    if !(0..library.points().len()).filter(there).all(|point| since(&point)) {
+        return Ok(());
+    }
+    Ok(shelf.library.set_doubts("record", Vec::new())?)
+}
+
+/// Doubts a library that lacks what a sensor heard of the actuators, unless it is dead.
+fn lacking(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> {
+    let lacks = |actuator: &usize| {
+        let state = shelf.library.state(shelf.probed + actuator);
+        let known = shelf.without.contains(actuator) || shelf.deaf.contains(actuator);
+        matches!(state, Some(PointState::Missing | PointState::Bad)) && !known
+    };
+    let actuators = &campaign.surface.actuators;
+    let names: Vec<&str> =
+        (0..actuators.len()).filter(lacks).map(|actuator| actuators[actuator].name.as_str()).collect();
+    let found = (!names.is_empty()).then(|| {
+        Doubt::of(
+            OWN,
+            format!(
+                "the own points of {} are missing or bad, expected those of all actuators that listen: what they hear of each other tells \
+                 whether the rest is sound; measure them again",
+                names.join(", ")
+            ),
+        )
+    });
+    Ok(shelf.library.set_doubts(OWN, found.into_iter().collect())?)
+}
+
+/// Leaves the actuators' own points out of figures, where sensors are of another scale than the probe.
+fn sensors(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> {
+    let (sensing, plan) = (own::sensing(campaign.surface)?, shelf.library.plan());
+    let power = |points: std::ops::Range<usize>, own: bool| -> Result<Option<f64>, TaskError> {
+        let (mut sum, mut count) = (0.0, 0.0);
+        for point in points.filter(|point| shelf.library.state(*point) == Some(PointState::Measured)) {
+            let values = shelf.library.get(point)?;
+            let values = match own.then(|| &sensing[point - shelf.probed]) {
+                Some(sensor) => own::velocities(sensor, &values, plan, campaign.surface),
+                None => Some(values),
+            };
+            for (actuator, response) in
+                values.iter().flat_map(|rows| rows.chunks_exact(plan.samples)).enumerate()
+            {
+                // What an actuator hears of itself is louder anyway.
+                let itself = own && point - shelf.probed == actuator;
+                if !itself && !shelf.without.contains(&actuator) {
+                    sum += response.iter().map(|h| f64::from(*h).powi(2)).sum::<f64>();
+                    count += 1.0;
+                }
+            }
+        }
+        Ok((count > 0.0 && sum > 0.0).then(|| sum / count))
+    };
+    let all = shelf.library.points().len();
+    let apart = match (power(0..shelf.probed, false)?, power(shelf.probed..all, true)?) {
+        (Some(probe), Some(sensors)) if !campaign.scales.sensors_too(campaign.surface) => {
+            Some((sensors / probe).sqrt())
+        }
+        _ => None,
+    };
+    let said = match apart {
+        Some(apart) if !(1.0 / APART..=APART).contains(&apart) => json!({
+            "over_probe": apart,
+            "left_out": true,
+            "said": format!(
+                "sensors are {apart:.3} times as loud as the probe, in another unit: the actuators' own points count in no figure \
+                 (`input_scales` says what they hear)"
+            ),
+        }),
+        Some(apart) => json!({ "over_probe": apart, "left_out": false }),
+        None => Value::Null,
+    };
+    Ok(shelf.library.log("sensors", said)?)
+}

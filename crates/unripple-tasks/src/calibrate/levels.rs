@@ -1,0 +1,227 @@
+//! Levels before the long run: what is too loud, what is too quiet, and what to do.
+
+use super::{Campaign, Report, middle};
+use crate::TaskError;
+use serde::Serialize;
+use std::fmt::Write;
+use std::path::PathBuf;
+use unripple::core::{Layout, PROBE};
+use unripple::dsp::clipped;
+use unripple_calibrate::measure::{Channel, Listen, MeasureOptions, Rig, Session, Wires};
+use unripple_store::read_wav;
+
+/// Share of full scale above which the next take may clip.
+const LOUD: f64 = 0.9;
+
+/// Share of full scale below which steps of integers are heard: 40 dB below it.
+const QUIET: f64 = 0.01;
+
+/// Signal to noise, in dB, that is worth to be aimed at: half a per cent of noise in a focus of ten actuators.
+const AIM: f64 = 40.0;
+
+/// Signal to noise below which a response is bad, in dB, with some to spare.
+const LEAST: f64 = 23.0;
+
+/// Samples side by side at the largest magnitude that are no chance.
+const FLAT: usize = 20;
+
+/// Most repeats that are worth their time.
+const REPEATS: f64 = 16.0;
+
+/// One channel of a take.
+#[derive(Clone, Debug, Serialize)]
+struct Level {
+    /// The file, of recordings.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<String>,
+    /// Counted from 1.
+    channel: usize,
+    name: String,
+    /// Largest magnitude, 1 being full scale.
+    peak: f64,
+    /// Samples that are clipped.
+    clipped: usize,
+    /// Of the worst response, in dB, where it is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    signal_to_noise_db: Option<f64>,
+    /// What to do.
+    advice: Option<String>,
+    /// Whether it has to hear anything.
+    #[serde(skip)]
+    needed: bool,
+}
+
+/// What was found of all channels.
+#[derive(Clone, Debug, Serialize)]
+pub struct Levels {
+    levels: Vec<Level>,
+    advice: Vec<String>,
+}
+
+impl Level {
+    fn of(name: &str, channel: usize, line: &[f64], absolute: bool) -> Self {
+        let peak = line.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let flat = clipped(line, f64::INFINITY);
+        let flat = if flat > FLAT { flat } else { 0 };
+        let db = |share: f64| 20.0 * share.log10();
+        let advice = if flat > 0 {
+            Some("clipped: turn its gain down by 6 dB or more".to_owned())
+        } else if peak <= 0.0 {
+            Some("silent: look at its cable and gain".into())
+        } else if absolute {
+            None
+        } else if peak > LOUD {
+            Some(format!("nearly clipped: turn its gain down by {:.0} dB", db(peak / 0.5).ceil()))
+        } else if peak < QUIET {
+            Some(format!("quiet: turn its gain up by {:.0} dB", db(0.5 / peak).floor()))
+        } else {
+            None
+        };
+        let name = name.to_owned();
+        Self {
+            file: None,
+            channel,
+            name,
+            peak,
+            clipped: flat,
+            signal_to_noise_db: None,
+            advice,
+            needed: true,
+        }
+    }
+
+    /// The same of one that may be silent.
+    fn unneeded(self) -> Self {
+        let advice = self.advice.filter(|_| self.peak > 0.0);
+        Self { advice, needed: false, ..self }
+    }
+
+    fn is_useless(&self) -> bool {
+        self.needed && (self.clipped > 0 || self.peak <= 0.0)
+    }
+
+    /// Adds what its responses say, measured with these settings, and what would help.
+    fn judged(&mut self, channel: &Channel, without: &[usize], settings: &MeasureOptions) {
+        let all = channel.quality.iter().enumerate().filter(|(actuator, _)| !without.contains(actuator));
+        let worst = all.map(|(_, quality)| quality.snr_db).fold(f64::INFINITY, f64::min);
+        if !worst.is_finite() {
+            return;
+        }
+        self.signal_to_noise_db = Some(worst);
+        if self.advice.is_some() || worst >= AIM {
+            return;
+        }
+        let times = (10f64.powf((AIM - worst) / 10.0) * settings.repeats as f64).ceil();
+        let louder = if settings.level < 1.0 { "`level` 1, " } else { "" };
+        let repeats = times.min(REPEATS);
+        self.advice = Some(if worst < LEAST {
+            format!(
+                "too much noise ({worst:.0} dB): {louder}a quieter place, more gain before the recorder, or `repeats` {repeats:.0}"
+            )
+        } else {
+            format!(
+                "{worst:.0} dB of signal to noise will do; {louder}`repeats` {repeats:.0} makes {:.0}",
+                worst + 10.0 * (repeats / settings.repeats as f64).log10()
+            )
+        });
+    }
+}
+
+impl Levels {
+    fn of(levels: Vec<Level>) -> Self {
+        let named = |level: &Level| {
+            let file = level.file.as_ref().map_or_else(String::new, |file| format!("{file}: "));
+            Some(format!("{file}channel {} (`{}`): {}", level.channel, level.name, level.advice.as_ref()?))
+        };
+        let advice = levels.iter().filter_map(named).collect();
+        Self { levels, advice }
+    }
+
+    pub(super) fn text(&self) -> String {
+        let mut text = String::new();
+        for level in &self.levels {
+            let file = level.file.as_ref().map_or_else(String::new, |file| format!("{file:20}"));
+            let peak = 20.0 * level.peak.log10();
+            let noise = level
+                .signal_to_noise_db
+                .map_or_else(String::new, |db| format!(", worst response {db:5.1} dB over noise"));
+            let _ = writeln!(
+                text,
+                "{file}channel {:2} {:12} peak {peak:6.1} dB{noise}",
+                level.channel, level.name
+            );
+        }
+        match self.advice.is_empty() {
+            true => text += "levels are good\n",
+            false => self.advice.iter().for_each(|line| {
+                let _ = writeln!(text, "{line}");
+            }),
+        }
+        text
+    }
+
+    /// Why levels count as failed: clipped or silent channels.
+    pub(super) fn failure(&self) -> Option<String> {
+        let useless = self.levels.iter().filter(|level| level.is_useless()).count();
+        (useless > 0).then(|| format!("levels: {useless} channels are clipped or silent, see above"))
+    }
+}
+
+/// Plays all sweeps once, and listens to all inputs.
+pub(super) fn listen(
+    known: &Campaign<'_>,
+    rig: &mut dyn Rig,
+    layout: &Layout,
+    wires: &Wires,
+) -> Result<Report, TaskError> {
+    let settings = MeasureOptions { repeats: 1, ..known.settings.clone() };
+    let session = Session::new(known.surface, layout, wires.clone(), &settings)?;
+    let (number, at) = (known.places.points.len(), middle(known.surface));
+    let drive = super::tape::sweeps(&session, layout, at)?;
+    rig.ready(number, at, 3)?;
+    let outputs: Vec<usize> = (0..layout.outputs.len()).collect();
+    let inputs: Vec<usize> = (0..layout.inputs.len()).collect();
+    let scaled: Vec<Vec<f64>> =
+        drive.channels().iter().map(|line| line.iter().map(|x| x * layout.full_scale).collect()).collect();
+    let heard =
+        unripple_calibrate::measure::record(rig.device(), &outputs, &scaled, &inputs, drive.samples())?;
+    // The virtual surface is in SI units, and has no full scale.
+    let absolute = known.scales.is_absolute();
+    let mut levels: Vec<Level> = heard
+        .iter()
+        .enumerate()
+        .map(|(input, line)| Level::of(&layout.inputs[input], input + 1, line, absolute))
+        .collect();
+    let mut judge = |channels: Vec<Channel>, inputs: Vec<usize>| {
+        for (channel, input) in channels.iter().zip(inputs) {
+            levels[input].judged(channel, &settings.without, &settings);
+        }
+    };
+    if !wires.sensors.is_empty() {
+        judge(session.measure(rig, number, at, 4, Listen::Sensors)?, wires.sensors.clone());
+    }
+    if let Some(probe) = wires.probe {
+        judge(session.measure(rig, number, at, 5, Listen::Probe)?, vec![probe]);
+    }
+    Report::of_levels(&Levels::of(levels))
+}
+
+/// Looks at the recordings that are there; in those of the actuators the probe may be silent.
+pub(super) fn look(files: &[(PathBuf, bool)], inputs: &[String]) -> Result<Report, TaskError> {
+    let mut levels = Vec::new();
+    for (file, of_actuators) in files {
+        let wav = read_wav(file)?;
+        let name = file.file_name().map(|name| name.to_string_lossy().into_owned());
+        for (input, line) in wav.channels.iter().enumerate() {
+            let unknown = "not planned".to_owned();
+            let known = inputs.get(input).unwrap_or(&unknown);
+            let level = Level { file: name.clone(), ..Level::of(known, input + 1, line, false) };
+            levels.push(if *of_actuators && known == PROBE { level.unneeded() } else { level });
+        }
+    }
+    if levels.is_empty() {
+        let text = "`check_levels`: expected a recording in the folder, say actuators.wav, found none; record one while play.wav plays";
+        return Err(TaskError::Work(text.into()));
+    }
+    Report::of_levels(&Levels::of(levels))
+}

@@ -1,0 +1,189 @@
+//! Calibration through a device that plays and listens at once.
+
+use super::devices::{self, Opened};
+use super::finish::{ASKED, PROBE_DELAY, begin, finish, log_run};
+use super::report;
+use super::shelf::Shelf;
+use super::wires::{Asked, Found};
+use super::{By, Campaign, Hands, Report, before, doubted, figure, levels, middle, points};
+use crate::{TaskError, go_on};
+use serde_json::Value;
+use std::ops::ControlFlow;
+use std::time::Instant;
+use unripple::core::{Layout, Point};
+use unripple_calibrate::measure::{
+    Listen, MeasureOptions, Progress, Rig, Session, Sink, TapOptions, TapSession, Way, Wires, campaign,
+};
+use unripple_devices::{Expected, WiringOptions, check_wiring};
+use unripple_store::{Library, PointState};
+
+/// Measures all points that are missing, and says what the library is worth.
+pub(super) fn run(mut known: Campaign<'_>, hands: Hands) -> Result<Report, TaskError> {
+    let (ask, surface) = (known.ask, known.surface);
+    before::apply(ask, surface, &mut known.settings)?;
+    known.warn();
+    let Opened { mut rig, truth } = devices::open(&ask.device, surface, hands)?;
+    let layout = rig.device().layout().clone();
+    let wires = Wires::by_name(&known.model.ports, &layout, &ask.wires)?;
+    known.places = points::places(ask, surface, !wires.sensors.is_empty())?;
+    if ask.check_levels {
+        return levels::listen(&known, rig.as_mut(), &layout, &wires);
+    }
+    let mut library = Library::create(&ask.output, &known.plan())?;
+    agree(&known, &library)?;
+    let began = library.in_state(PointState::Missing).len();
+    let middle = middle(surface);
+    let wired = wiring(&known, rig.as_mut(), &layout, middle)?;
+    known.settings.without.clone_from(&wired.dead);
+    same_dead(&known, &library)?;
+    wired.tell(&known);
+    wired.keep(&mut library)?;
+    begin(&known, &mut library)?;
+    let without = known.settings.without.clone();
+    let mut shelf = Shelf::new(library, known.places.probed, surface, &known.scales, without);
+
+    let places = &known.places;
+    let first = Session::new(surface, &layout, wires.clone(), &known.settings)?;
+    let latency = first.find_latency(rig.as_mut(), places.points.len(), middle, known.model)?;
+    let late = latency.map_or(0.0, |found| found[0]);
+    let settings = MeasureOptions { latency: late, ..known.settings.clone() };
+    let mut session = Session::new(surface, &layout, wires.clone(), &settings)?;
+    own(&known, &session, rig.as_mut(), &mut shelf, middle)?;
+    if let Some(sensors) = shelf.heard()? {
+        session.follow(&sensors)?;
+    }
+    let seconds = session.seconds();
+    let way = match ask.by {
+        By::Probe => Way::Probe(Box::new(session)),
+        By::Tap => {
+            shelf = shelf.by_taps();
+            let (model, taps) = (known.model.clone(), TapOptions::default());
+            Way::Tap(Box::new(TapSession::new(surface, &layout, &wires, model, &settings, taps)?))
+        }
+    };
+    let start = Instant::now();
+    known.with_progress(|heard| {
+        heard.stage("points");
+        let mut tell = |progress: &Progress| {
+            if let Some(fault) = &progress.fault {
+                heard.tell(&format!("point {}: {fault}; kept as bad", progress.number + 1));
+            }
+            heard.done(progress.done as f64 / progress.total as f64);
+            if heard.cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        campaign(rig.as_mut(), &way, &places.points, &mut shelf, settings.again, &mut tell)?;
+        go_on(heard)
+    })?;
+    let taken = start.elapsed();
+    finish(&known, &mut shelf, latency)?;
+    if began > 0 {
+        log_run(&known, &mut shelf.library, began, taken.as_secs_f64())?;
+    }
+    let report = report::Report::of(&shelf.library, places, latency, truth.as_deref(), seconds, taken)?;
+    let drawn = figure::write(&mut known, &shelf.library);
+    Report::of_library(&report, doubted(&shelf.library).or(drawn.err().map(|error| error.to_string())))
+}
+
+/// Whether a library has points already.
+fn is_begun(library: &Library) -> bool {
+    library.in_state(PointState::Missing).len() < library.points().len()
+}
+
+/// Refuses to mix points of two scales, or of two delays of the probe, in one library.
+fn agree(known: &Campaign<'_>, library: &Library) -> Result<(), TaskError> {
+    let here = known.scale_told();
+    let other = library.logged("scale").filter(|there| is_begun(library) && **there != here);
+    if let Some(there) = other {
+        let said = |value: &Value| {
+            let keys = ["input_all", "input", "output"].map(|key| format!("{key} {}", value[key]));
+            keys.join(", ")
+        };
+        return Err(TaskError::Work(format!(
+            "{}: expected the scales that its points were measured with ({}), found {}; use `input_scales` and `output_scale` as \
+             then, or another library",
+            library.path().display(),
+            said(there),
+            said(&here)
+        )));
+    }
+    let said = |delay: Option<f64>| delay.map_or("none".to_owned(), |s| format!("{:.3} ms", 1e3 * s));
+    let there = library.logged(ASKED).map(|asked| said(asked[PROBE_DELAY].as_f64()));
+    let here = said(known.settings.probe_delay);
+    match there.filter(|there| is_begun(library) && *there != here) {
+        None => Ok(()),
+        Some(there) => Err(TaskError::Work(format!(
+            "{}: expected the `probe_delay_s` that its points were measured with ({there}), found {here}; give it as then, or use \
+             another library",
+            library.path().display()
+        ))),
+    }
+}
+
+/// Refuses to mix points that were measured without other actuators in one library: what is left out is zero there.
+fn same_dead(known: &Campaign<'_>, library: &Library) -> Result<(), TaskError> {
+    let (there, here) = (library.dead(), &known.settings.without);
+    if !is_begun(library) || library.logged("scale").is_none() || there == *here {
+        return Ok(());
+    }
+    let named = |dead: &[usize]| match dead {
+        [] => "none".to_owned(),
+        dead => {
+            let names = dead.iter().map(|actuator| known.surface.actuators[*actuator].name.as_str());
+            names.collect::<Vec<_>>().join(", ")
+        }
+    };
+    Err(TaskError::Work(format!(
+        "{}: expected the same actuators left out as when its points were measured ({}), found {}; use `without` as then, mend what \
+         broke since, or use another library",
+        library.path().display(),
+        named(&there),
+        named(here)
+    )))
+}
+
+/// Tries the wires, where the device has a sensor for each actuator.
+fn wiring(
+    known: &Campaign<'_>,
+    rig: &mut dyn Rig,
+    layout: &Layout,
+    middle: Point,
+) -> Result<Found, TaskError> {
+    let (ask, model) = (known.ask, known.model);
+    let sensing = layout.inputs.len() >= layout.outputs.len();
+    if !sensing || layout.outputs.len() != model.ports.len() || !ask.wires.is_empty() {
+        known.tell(
+            "wiring: not tried, since channels do not correspond to actuators and their sensors by name",
+        );
+        return Ok(Found { dead: known.settings.without.clone(), ..Found::default() });
+    }
+    rig.ready(known.places.points.len(), middle, 1)?;
+    let try_options = WiringOptions::for_surface(known.surface);
+    let probe = (layout.inputs.len() > layout.outputs.len()).then_some(middle);
+    let expected = Expected::of(known.surface, model, probe, try_options.listen).map_err(TaskError::input)?;
+    let found = check_wiring(rig.device(), &expected, &try_options).map_err(TaskError::work)?;
+    Asked::of(known).judge(&found)
+}
+
+/// What actuators hear of each other and of themselves, as the library's last points.
+fn own(
+    known: &Campaign<'_>,
+    session: &Session,
+    rig: &mut dyn Rig,
+    shelf: &mut Shelf,
+    middle: Point,
+) -> Result<(), TaskError> {
+    let places = &known.places;
+    let mut missing = shelf.library.in_state(PointState::Missing);
+    missing.retain(|point| *point >= places.probed);
+    if missing.is_empty() {
+        return Ok(());
+    }
+    let sensors = session.measure(rig, places.points.len(), middle, 2, Listen::Sensors)?;
+    for point in missing {
+        if let Some(channel) = sensors.get(point - places.probed) {
+            let fault = session.fault(channel);
+            shelf.keep(point, channel, fault.as_deref())?;
+        }
+    }
+    shelf.reciprocity(&sensors)
+}

@@ -1,0 +1,47 @@
+//! What a calibration answers, by what was asked.
+
+use super::{Levels, report};
+use crate::TaskError;
+use serde::Serialize;
+use serde_json::Value;
+
+/// What a calibration answers.
+#[derive(Clone, Debug, Serialize)]
+#[serde(transparent)]
+pub struct Report {
+    /// Of a library its quality; of recordings also what is missing and wrong; of levels each channel's.
+    pub found: Value,
+    #[serde(skip)]
+    text: String,
+    #[serde(skip)]
+    failure: Option<String>,
+}
+
+impl Report {
+    /// Of a library that was measured, and why it counts as failed if it does.
+    pub(super) fn of_library(report: &report::Report, failure: Option<String>) -> Result<Self, TaskError> {
+        let found = serde_json::to_value(report).map_err(TaskError::work)?;
+        Ok(Self { found, text: report.text(), failure })
+    }
+
+    /// Of recordings.
+    pub(super) fn of_tape(found: Value, text: String, failure: Option<String>) -> Self {
+        Self { found, text, failure }
+    }
+
+    /// Of levels.
+    pub(super) fn of_levels(levels: &Levels) -> Result<Self, TaskError> {
+        let found = serde_json::to_value(levels).map_err(TaskError::work)?;
+        Ok(Self { found, text: levels.text(), failure: levels.failure() })
+    }
+}
+
+impl crate::Report for Report {
+    fn text(&self) -> String {
+        self.text.clone()
+    }
+
+    fn failure(&self) -> Option<String> {
+        self.failure.clone()
+    }
+}

@@ -1,0 +1,30 @@
+//! The places to be measured.
+
+use super::ask::Ask;
+use crate::TaskError;
+use crate::grid;
+use unripple::core::{Point, Surface};
+
+/// A grid, points typed, and last the actuators themselves, whose own sensors hear them.
+#[derive(Clone, Debug, Default)]
+pub struct Places {
+    /// All of them.
+    pub points: Vec<Point>,
+    /// How many are measured by a probe or by taps; the rest are the actuators.
+    pub probed: usize,
+}
+
+/// The places that were asked for.
+pub fn places(ask: &Ask, surface: &Surface, sensing: bool) -> Result<Places, TaskError> {
+    let mut points = grid::places(&surface.outline, ask.pitch_m, &ask.points_m)?;
+    let probed = points.len();
+    if probed == 0 && !sensing {
+        return Err(TaskError::Input(
+            "expected `pitch_m` P or `points_m` X,Y: the places to be measured, found neither".into(),
+        ));
+    }
+    if sensing {
+        points.extend(surface.actuators.iter().map(|actuator| actuator.at));
+    }
+    Ok(Places { points, probed })
+}

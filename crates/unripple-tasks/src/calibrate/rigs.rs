@@ -1,0 +1,84 @@
+//! What measures: the virtual surface, or people at a real one.
+
+use super::hands::Hands;
+use unripple::core::{Device, Point};
+use unripple_calibrate::CalibrateError;
+use unripple_calibrate::measure::{Rig, SILENCE};
+use unripple_devices::{Handle, Tap, Virtual};
+
+/// The virtual surface, at rest before every recording, with noise and taps that depend on the point alone.
+pub struct VirtualRig {
+    device: Virtual,
+    handle: Handle,
+    seed: u64,
+}
+
+impl VirtualRig {
+    pub fn new(device: Virtual, seed: u64) -> Self {
+        Self { handle: device.handle(), device, seed }
+    }
+
+    fn seed(&self, number: usize, attempt: u64) -> u64 {
+        (self.seed ^ (number as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15)).wrapping_add(attempt)
+    }
+}
+
+impl Rig for VirtualRig {
+    fn device(&mut self) -> &mut dyn Device {
+        &mut self.device
+    }
+
+    fn ready(&mut self, number: usize, at: Point, attempt: u64) -> Result<(), CalibrateError> {
+        self.handle.rest(self.seed(number, attempt));
+        self.handle.move_probe(at).map_err(|error| CalibrateError::Rig { number, why: error.to_string() })
+    }
+
+    fn tap(&mut self, number: usize, at: Point, attempt: u64) -> Result<(), CalibrateError> {
+        let seed = self.seed(number, attempt);
+        let layout = self.device.layout();
+        let tap = Tap::random(seed, layout.rate);
+        let silence = (SILENCE * layout.block) as f64 / layout.rate;
+        let after = silence + 0.01 + 0.04 * (seed % 1024) as f64 / 1024.0;
+        self.handle
+            .tap(&tap, at, after)
+            .map_err(|error| CalibrateError::Rig { number, why: error.to_string() })
+    }
+}
+
+/// People at a real surface, who do what they are asked.
+pub struct HandRig<D> {
+    device: D,
+    hands: Hands,
+    place: Option<usize>,
+}
+
+impl<D: Device> HandRig<D> {
+    pub fn new(device: D, hands: Hands) -> Self {
+        Self { device, hands, place: None }
+    }
+
+    fn ask(&mut self, number: usize, text: &str) -> Result<(), CalibrateError> {
+        (self.hands)(text).map_err(|why| CalibrateError::Rig { number, why })
+    }
+}
+
+impl<D: Device> Rig for HandRig<D> {
+    fn device(&mut self) -> &mut dyn Device {
+        &mut self.device
+    }
+
+    fn ready(&mut self, number: usize, at: Point, _attempt: u64) -> Result<(), CalibrateError> {
+        if self.place != Some(number) {
+            self.ask(number, &format!("point {}: put the probe at {at}", number + 1))?;
+            self.place = Some(number);
+        }
+        Ok(())
+    }
+
+    fn tap(&mut self, number: usize, at: Point, _attempt: u64) -> Result<(), CalibrateError> {
+        self.ask(
+            number,
+            &format!("point {}: get ready to tap at {at} right after pressing Enter", number + 1),
+        )
+    }
+}

@@ -1,0 +1,108 @@
+//! What full scale is at inputs and outputs, and so whether levels are known.
+
+use super::ask::{Ask, InputScales};
+use crate::{DeviceKind, TaskError};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use unripple::core::{PROBE, Surface};
+use unripple_calibrate::measure::REFERENCE;
+
+/// Factors from what a device or a file holds to what it means.
+#[derive(Clone, Debug)]
+pub struct Scales {
+    all: Option<f64>,
+    named: BTreeMap<String, f64>,
+    output: Option<f64>,
+    /// Whether the device says its scale itself.
+    own: bool,
+}
+
+impl Scales {
+    /// As the options say.
+    pub fn of(ask: &Ask, surface: &Surface) -> Result<Self, TaskError> {
+        let own = ask.device.device == DeviceKind::Virtual;
+        let output = ask.device.output_scale;
+        if own && (output.is_some() || ask.input_scales != InputScales::default()) {
+            let text = "`input_scales`, `output_scale`: expected a device of sound or recordings, found the virtual surface, which \
+                        is in SI units";
+            return Err(TaskError::Input(text.into()));
+        }
+        if let Some(scale) = output.filter(|scale| !(scale.is_finite() && *scale > 0.0)) {
+            return Err(TaskError::Input(format!(
+                "`output_scale`: expected a number above 0, in A, V or N, found {scale}"
+            )));
+        }
+        let InputScales { all, named } = ask.input_scales.clone();
+        for (name, scale) in
+            named.iter().map(|(name, scale)| (name.as_str(), *scale)).chain(all.map(|all| ("", all)))
+        {
+            known(name, scale, surface)?;
+        }
+        Ok(Self { all, named, output, own })
+    }
+
+    /// What an input's samples are to be multiplied by.
+    pub fn input(&self, name: &str) -> f64 {
+        self.named.get(name).copied().or(self.all).unwrap_or(1.0)
+    }
+
+    /// Drive, in the actuators' unit, of a sample at full scale.
+    pub fn full_scale(&self, surface: &Surface) -> f64 {
+        self.output.unwrap_or(surface.emission.limit)
+    }
+
+    /// Whether an input's size is known; a sign alone (±1 by name) says it too.
+    fn knows(&self, name: &str) -> bool {
+        self.own || self.all.is_some() || self.named.contains_key(name)
+    }
+
+    /// Why lengths and velocities are not known, if they are not.
+    pub fn unknown(&self) -> Option<String> {
+        let mut lacking = Vec::new();
+        if !self.knows(PROBE) {
+            lacking.push("`input_scales` probe=SCALE, m/s at the probe's full scale");
+        }
+        if !self.own && self.output.is_none() {
+            lacking.push("`output_scale`, drive at full scale");
+        }
+        (!lacking.is_empty()).then(|| {
+            format!("level unknown: no µm and no m/s, until `calibrate` is told {}", lacking.join(", and "))
+        })
+    }
+
+    /// Whether the device itself is in SI units, so that it has no full scale.
+    pub fn is_absolute(&self) -> bool {
+        self.own
+    }
+
+    /// Whether sensors are known to be in the probe's own scale.
+    pub fn sensors_too(&self, surface: &Surface) -> bool {
+        surface.actuators.iter().all(|actuator| self.knows(&actuator.name)) && self.knows(PROBE)
+    }
+
+    /// For the library's log.
+    pub fn told(&self) -> Value {
+        json!({
+            "input_all": self.all,
+            "input": self.named,
+            "output": self.output,
+            "unknown": self.unknown(),
+        })
+    }
+}
+
+/// Refuses a scale of nothing, or of an input that there is not.
+fn known(name: &str, scale: f64, surface: &Surface) -> Result<(), TaskError> {
+    if !(scale.is_finite() && scale != 0.0) {
+        return Err(TaskError::ask("input_scales", "a number other than 0, as in probe=0.5", scale));
+    }
+    let actuator = surface.actuators.iter().any(|actuator| actuator.name == name);
+    if !actuator && !["", PROBE, REFERENCE].contains(&name) {
+        return Err(TaskError::ask(
+            "input_scales",
+            "the name of an actuator, or `probe`",
+            format!("`{name}`"),
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,178 @@
+//! Measured points on their way into a library.
+
+use super::scale::Scales;
+use super::verify;
+use crate::TaskError;
+use serde_json::{Value, json};
+use std::collections::{BTreeMap, BTreeSet};
+use unripple::core::{PROBE, Surface};
+use unripple::dsp::Reciprocity;
+use unripple_calibrate::CalibrateError;
+use unripple_calibrate::measure::{self, Channel, Sink};
+use unripple_store::{BandQuality, Library, PointState, Quality, StoreError, Take};
+
+/// The key of a point's log under which is what its take tells of itself.
+pub const SAID: &str = "said";
+
+/// A library that is being filled.
+pub struct Shelf {
+    pub library: Library,
+    /// Points that this campaign measures; the rest are the actuators' own.
+    pub probed: usize,
+    /// What is heard at a point is multiplied by this.
+    probe: f64,
+    /// What each actuator's sensor hears, by this.
+    sensors: Vec<f64>,
+    /// Actuators that are left out: their responses are zero, since what was heard of them is noise.
+    pub without: Vec<usize>,
+    /// Actuators whose sensor hears nothing: their own points are not missed.
+    pub deaf: Vec<usize>,
+    /// Points that were kept in this run.
+    pub made: BTreeSet<usize>,
+}
+
+impl Shelf {
+    pub fn new(
+        library: Library,
+        probed: usize,
+        surface: &Surface,
+        scales: &Scales,
+        without: Vec<usize>,
+    ) -> Self {
+        let sensors = surface.actuators.iter().map(|actuator| scales.input(&actuator.name)).collect();
+        let (deaf, made) = (Vec::new(), BTreeSet::new());
+        Self { library, probed, probe: scales.input(PROBE), sensors, without, deaf, made }
+    }
+
+    /// For taps, whose strength the model tells: scales do not matter.
+    pub fn by_taps(self) -> Self {
+        Self { probe: 1.0, ..self }
+    }
+
+    /// Keeps how reciprocal the actuators are, from what each hears of all.
+    pub fn reciprocity(&mut self, sensors: &[Channel]) -> Result<(), TaskError> {
+        let alive: Vec<usize> = (0..sensors.len()).filter(|a| !self.without.contains(a)).collect();
+        let mut flat = Vec::new();
+        for drive in &alive {
+            for heard in &alive {
+                let scale = self.sensors[*heard];
+                flat.extend(sensors[*heard].responses[*drive].iter().map(|x| x * scale));
+            }
+        }
+        let found = Reciprocity::of(&flat, alive.len()).map_err(TaskError::work)?;
+        Ok(self.library.set_reciprocity_error(found.error)?)
+    }
+
+    /// What sensors heard when the library was begun, if any was measured: what later takes are held against. Those that are dead or bad
+    /// heard nothing.
+    pub fn heard(&self) -> Result<Option<Vec<Channel>>, TaskError> {
+        let (samples, count) = (self.library.plan().samples, self.sensors.len());
+        let known = |sensor: usize| {
+            let state = self.library.state(self.probed + sensor);
+            state == Some(PointState::Measured) && !self.without.contains(&sensor)
+        };
+        if !(0..count).any(known) {
+            return Ok(None);
+        }
+        let channel = |(sensor, scale): (usize, &f64)| -> Result<Channel, TaskError> {
+            if !known(sensor) {
+                return Ok(Channel::of_responses(vec![vec![0.0; samples]; count]));
+            }
+            let values = self.library.get(self.probed + sensor)?;
+            let rows = values.chunks_exact(samples);
+            let rows = rows.map(|row| row.iter().map(|h| f64::from(*h) / scale).collect()).collect();
+            Ok(Channel::of_responses(rows))
+        };
+        self.sensors.iter().enumerate().map(channel).collect::<Result<Vec<_>, _>>().map(Some)
+    }
+
+    /// Quality by thirds of an octave as it is kept, for which room is made; none of taps, which are not told apart by frequency.
+    fn bands(&mut self, channel: &Channel) -> Result<Vec<Vec<BandQuality>>, StoreError> {
+        let middles: Vec<f64> = channel.bands.first().into_iter().flatten().map(|band| band.hz).collect();
+        if middles.is_empty() {
+            return Ok(Vec::new());
+        }
+        self.library.hold_bands(&middles)?;
+        let row = |(actuator, row): (usize, &Vec<measure::BandQuality>)| {
+            if self.without.contains(&actuator) {
+                return vec![BandQuality::UNKNOWN; middles.len()];
+            }
+            let kept = row.iter().map(|band| BandQuality {
+                signal_to_noise_db: band.snr_db,
+                coherence: band.coherence.unwrap_or(f64::NAN),
+            });
+            kept.collect()
+        };
+        Ok(channel.bands.iter().enumerate().map(row).collect())
+    }
+
+    /// Stores a channel as a point's, bad if something is wrong with it.
+    fn store(&mut self, number: usize, channel: &Channel, bad: bool) -> Result<(), StoreError> {
+        let (samples, quality) = self.kept(number, channel);
+        let bands = self.bands(channel)?;
+        let state = if bad { PointState::Bad } else { PointState::Measured };
+        let take = Take { point: number, samples: &samples, quality: &quality, bands: &bands, state };
+        self.library.put_all(&[take])
+    }
+
+    /// Whether all that is there was measured in this run.
+    pub fn is_new(&self) -> bool {
+        let there = |point: &usize| self.library.state(*point) != Some(PointState::Missing);
+        (0..self.library.points().len()).filter(there).all(|point| self.made.contains(&point))
+    }
+
+    /// Keeps what a take tells of itself in a point's log, and forgets what was done to the responses before: first, so that no log
+    /// speaks of other responses than are there.
+    fn note(&mut self, number: usize, channel: &Channel) -> Result<(), StoreError> {
+        let said = channel.account.said();
+        let stale = |log: &Value| log.get(SAID).is_some() || log.get(verify::CHECK).is_some();
+        if said.is_empty() && !self.library.logged_point(number).is_some_and(stale) {
+            return Ok(());
+        }
+        let said = if said.is_empty() { Value::Null } else { json!(said) };
+        self.library
+            .log_points(BTreeMap::from([(number, json!({ SAID: said, (verify::CHECK): Value::Null }))]))
+    }
+
+    /// A channel as it is kept.
+    fn kept(&self, number: usize, channel: &Channel) -> (Vec<f32>, Vec<Quality>) {
+        let own = number.checked_sub(self.probed);
+        let scale = own.map_or(self.probe, |actuator| self.sensors.get(actuator).copied().unwrap_or(1.0));
+        let (mut samples, mut qualities) = (Vec::new(), Vec::new());
+        for (actuator, (response, found)) in channel.responses.iter().zip(&channel.quality).enumerate() {
+            if self.without.contains(&actuator) {
+                samples.extend(std::iter::repeat_n(0.0_f32, response.len()));
+                qualities.push(Quality::UNKNOWN);
+            } else {
+                samples.extend(response.iter().map(|h| (h * scale) as f32));
+                qualities.push(quality(found));
+            }
+        }
+        (samples, qualities)
+    }
+}
+
+impl Sink for Shelf {
+    fn missing(&self) -> Vec<usize> {
+        self.library.in_state(PointState::Missing).into_iter().filter(|point| *point < self.probed).collect()
+    }
+
+    fn keep(&mut self, number: usize, channel: &Channel, fault: Option<&str>) -> Result<(), CalibrateError> {
+        let failed = |error: StoreError| CalibrateError::Sink { number, why: error.to_string() };
+        self.note(number, channel)
+            .and_then(|()| self.store(number, channel, fault.is_some()))
+            .map_err(failed)?;
+        self.made.insert(number);
+        Ok(())
+    }
+}
+
+/// What the store keeps of a quality.
+fn quality(quality: &unripple::dsp::Quality) -> Quality {
+    Quality {
+        signal_to_noise_db: quality.snr_db,
+        coherence: quality.coherence.unwrap_or(f64::NAN),
+        distortion: quality.distortion_db.map_or(f64::NAN, |db| 10f64.powf(db / 20.0)),
+        decay_time: quality.decay.map_or(f64::NAN, |decay| decay.time),
+    }
+}

@@ -1,0 +1,51 @@
+//! The library that recordings go into: a new one, the one there, or that one with more points.
+
+use super::Bench;
+use crate::TaskError;
+use crate::calibrate::{Campaign, PROBED};
+use std::collections::BTreeMap;
+use unripple::core::Point;
+use unripple_store::{Library, LibraryPlan};
+
+/// Places closer than this, in metres, are the same.
+const SAME: f64 = 1e-9;
+
+impl Bench<'_> {
+    /// The library of this calibration, with all its points.
+    pub fn library(&self) -> Result<Library, TaskError> {
+        let (folder, plan) = (&self.campaign.ask.output, self.campaign.plan());
+        if Library::is_at(folder) {
+            let there = Library::open(folder)?;
+            if let Some(known) = grown(&self.campaign, &plan, there.plan()) {
+                drop(there);
+                return Ok(Library::grow(folder, &plan, &known)?);
+            }
+        }
+        Ok(Library::create(folder, &plan)?)
+    }
+}
+
+/// The old number of each point, if a plan is another one with points added and nothing else.
+fn grown(campaign: &Campaign<'_>, plan: &LibraryPlan, there: &LibraryPlan) -> Option<Vec<Option<usize>>> {
+    let old: usize = there.provenance.get(PROBED)?.parse().ok()?;
+    let new = campaign.places.probed;
+    if new <= old || there.points.len() < old {
+        return None;
+    }
+    let provenance: BTreeMap<String, String> = plan.provenance.clone();
+    let as_if = LibraryPlan { points: plan.points.clone(), provenance, ..there.clone() };
+    let only = BTreeMap::from([(PROBED.to_owned(), old.to_string())]);
+    let others = |map: &BTreeMap<String, String>| -> BTreeMap<String, String> {
+        map.iter().filter(|(key, _)| !only.contains_key(*key)).map(|(k, v)| (k.clone(), v.clone())).collect()
+    };
+    let same = plan.difference(&as_if).is_none()
+        && LibraryPlan { provenance: others(&plan.provenance), ..as_if.clone() }
+            .difference(&LibraryPlan { provenance: others(&there.provenance), ..as_if })
+            .is_none();
+    let place = |points: &[Point], at: &Point| points.iter().position(|other| other.distance(*at) < SAME);
+    let mut known: Vec<Option<usize>> =
+        plan.points[..new].iter().map(|at| place(&there.points[..old], at)).collect();
+    known.extend((0..plan.points.len() - new).map(|own| Some(old + own).filter(|n| *n < there.points.len())));
+    let kept = known.iter().flatten().count() == there.points.len();
+    (same && kept).then_some(known)
+}

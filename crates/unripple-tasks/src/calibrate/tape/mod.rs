@@ -1,0 +1,145 @@
+//! Calibration by files: what is to be played is written, what was recorded elsewhere is brought back.
+
+mod answer;
+mod asked;
+mod fault;
+mod library;
+mod marks;
+mod measure;
+mod plan;
+mod read;
+mod rig;
+mod takes;
+mod wiring;
+
+use super::ask::{Ask, By};
+use super::{Campaign, Report, figure, levels, middle, points, report};
+
+use crate::TaskError;
+use asked::{Asked, Wanted};
+use fault::Fault;
+use read::Reader;
+use std::path::{Path, PathBuf};
+use takes::Takes;
+use unripple::core::{Layout, PROBE, Surface};
+use unripple_calibrate::measure::{MeasureOptions, Session, Wires};
+use unripple_store::Library;
+
+/// Samples of a block: nothing waits for it, so that it only sets the silence at the beginning.
+const BLOCK: usize = 256;
+
+pub(super) use plan::drive as sweeps;
+
+/// All that is known before anything is read.
+struct Bench<'a> {
+    campaign: Campaign<'a>,
+    wanted: Vec<Wanted>,
+    takes: Takes,
+    folder: &'a Path,
+    /// Points that have a recording which can be read, once that is known.
+    good: Vec<usize>,
+}
+
+/// What came of the recordings that are there.
+#[derive(Default)]
+struct Outcome {
+    report: Option<report::Report>,
+    library: Option<Library>,
+    faults: Vec<Fault>,
+    notes: Vec<String>,
+}
+
+/// Writes what is to be played, or makes what there is of the library from the recordings that are there.
+pub(super) fn run(mut campaign: Campaign<'_>) -> Result<Report, TaskError> {
+    let (ask, surface) = (campaign.ask, campaign.surface);
+    let Some(folder) = ask.device.tape.as_deref() else {
+        return Err(TaskError::Input(
+            "`device` tape: expected `tape` DIR, a folder for recordings, found none".into(),
+        ));
+    };
+    if ask.by == By::Tap {
+        return Err(TaskError::Input("`by` tap: expected `by` probe with `device` tape, found taps".into()));
+    }
+    let before = plan::found(folder)?;
+    // A bad recording is not better when it is read again, and one that was made is read as it was made.
+    campaign.settings = MeasureOptions { again: 0, ..campaign.settings };
+    if let Some(before) = &before {
+        plan::apply(before, ask, &mut campaign.settings);
+    }
+    campaign.warn();
+    let layout = layout(ask, surface, campaign.scales.full_scale(surface))?;
+    let wires = Wires::by_name(&campaign.model.ports, &layout, &ask.wires)?;
+    campaign.places = points::places(ask, surface, !wires.sensors.is_empty())?;
+    if campaign.places.probed > 0 && wires.probe.is_none() {
+        let found = layout.inputs.join(", ");
+        return Err(TaskError::Input(format!(
+            "`tape_inputs`: expected one that is called `{PROBE}`, found {found}"
+        )));
+    }
+    let session = Session::new(surface, &layout, wires.clone(), &campaign.settings)?;
+    let drive = plan::drive(&session, &layout, middle(surface))?;
+    let reader = Reader { layout, band: session.band(), resample: ask.resample };
+    let takes = Takes::new(folder.into(), reader, wires, drive);
+    let asked = before.as_ref().map(Asked::of).unwrap_or_default();
+    let hears_itself = !takes.telling().is_empty();
+    let wanted = asked.wanted(&campaign.places, hears_itself, campaign.settings.repeats);
+    let told = plan::told(&surface.name, takes.layout(), &takes.drive, &campaign.settings, &wanted);
+    plan::put(folder, &told, &takes.drive, before.as_ref())?;
+
+    let mut bench = Bench { campaign, wanted, takes, folder, good: Vec::new() };
+    if ask.check_levels {
+        return levels::look(&bench.recordings(), &bench.takes.reader.layout.inputs);
+    }
+    let outcome = if bench.can_begin() { bench.measure(&session)? } else { Outcome::default() };
+    let drawn = match &outcome.library {
+        Some(library) => figure::write(&mut bench.campaign, library),
+        None => Ok(()),
+    };
+    bench.answer(outcome, &told, drawn)
+}
+
+/// The channels that recordings are to have.
+fn layout(ask: &Ask, surface: &Surface, full_scale: f64) -> Result<Layout, TaskError> {
+    let names: Vec<String> = surface.actuators.iter().map(|actuator| actuator.name.clone()).collect();
+    let inputs = match &ask.device.tape_inputs[..] {
+        [] => names.iter().cloned().chain([PROBE.to_owned()]).collect(),
+        given => given.to_vec(),
+    };
+    if let Some(twice) = inputs.iter().enumerate().find(|(i, name)| inputs[..*i].contains(name)) {
+        return Err(TaskError::Input(format!(
+            "`tape_inputs`: expected each name once, found `{}` twice",
+            twice.1
+        )));
+    }
+    Ok(Layout {
+        device: "tape".into(),
+        rate: surface.emission.rate,
+        block: BLOCK,
+        outputs: names,
+        inputs,
+        full_scale,
+    })
+}
+
+impl Bench<'_> {
+    fn there(&self, wanted: &Wanted) -> bool {
+        self.folder.join(&wanted.file).is_file()
+    }
+
+    /// Recordings that are there.
+    fn present(&self) -> Vec<Wanted> {
+        self.wanted.iter().filter(|one| self.there(one)).cloned().collect()
+    }
+
+    /// Their files, and whether they are of the actuators.
+    fn recordings(&self) -> Vec<(PathBuf, bool)> {
+        self.present().iter().map(|one| (self.folder.join(&one.file), one.at.is_none())).collect()
+    }
+
+    /// Whether there is what nothing can be read without: a recording of the actuators, where anything tells of them.
+    fn can_begin(&self) -> bool {
+        let present = self.present();
+        let own = self.wanted.iter().any(|one| one.at.is_none());
+        !present.is_empty() && (!own || present.iter().any(|one| one.at.is_none()))
+    }
+}

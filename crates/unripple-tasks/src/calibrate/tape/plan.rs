@@ -1,0 +1,197 @@
+//! What is to be played, and what is to be recorded of it.
+
+use super::asked::{Asked, Wanted};
+use crate::TaskError;
+use crate::calibrate::ask::Ask;
+use serde_json::{Value, json};
+use std::path::Path;
+use unripple::core::{Device, Drive, Layout, Point};
+use unripple_calibrate::CalibrateError;
+use unripple_calibrate::measure::{Listen, MeasureOptions, Rig, Session};
+use unripple_devices::Tape;
+use unripple_store::{write_file, write_wav};
+
+/// What is to be played.
+pub const PLAY: &str = "play.wav";
+
+/// What was planned.
+const PLAN: &str = "plan.json";
+
+/// The version of the plan.
+const FORMAT: u32 = 1;
+
+/// Numbers that differ by less than this share are the same, written by another version.
+const SAME: f64 = 1e-9;
+
+/// Keys that a plan may lack.
+const NEW: [&str; 2] = ["ringing_s", "sweep_from_hz"];
+
+/// The plan that a folder has, if it has one.
+pub fn found(folder: &Path) -> Result<Option<Value>, TaskError> {
+    let file = folder.join(PLAN);
+    let wrong = |expected: &str, found: String| {
+        TaskError::Work(format!("{}: expected {expected}, found {found}", file.display()))
+    };
+    let text = match std::fs::read_to_string(&file) {
+        Ok(text) => text,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+        Err(error) => return Err(TaskError::Work(format!("{}: {error}", file.display()))),
+    };
+    let plan: Value = serde_json::from_str(&text)
+        .map_err(|error| wrong("a plan that `calibrate` wrote", error.to_string()))?;
+    match &plan["format"] {
+        format if *format == json!(FORMAT) => Ok(Some(plan)),
+        other => Err(wrong(&format!("a plan of format {FORMAT}"), other.to_string())),
+    }
+}
+
+/// Measures as a plan says, where nothing else is asked for: recordings are read as they were made.
+pub fn apply(plan: &Value, ask: &Ask, settings: &mut MeasureOptions) {
+    let seconds = |key: &str| plan[key].as_f64().filter(|seconds| *seconds > 0.0 && *seconds < 60.0);
+    let usual = MeasureOptions::default();
+    settings.ringing = seconds("ringing_s").unwrap_or(usual.ringing);
+    settings.from = plan["sweep_from_hz"].as_f64().filter(|hz| *hz > 0.0).unwrap_or(usual.from);
+    if ask.sweep_s.is_none() {
+        settings.sweep = seconds("sweep_s").unwrap_or(settings.sweep);
+    }
+    // A plan that does not say is of a time when as much was kept of every surface.
+    if ask.response_s.is_none() && seconds("ringing_s").is_none() {
+        settings.kept = usual.kept;
+    }
+}
+
+/// A rig that hears nothing, and keeps what is driven in one recording.
+struct Recorder(Tape);
+
+impl Rig for Recorder {
+    fn device(&mut self) -> &mut dyn Device {
+        &mut self.0
+    }
+
+    fn ready(&mut self, number: usize, _at: Point, _attempt: u64) -> Result<(), CalibrateError> {
+        let layout = self.0.layout().clone();
+        let fresh = Tape::recorder(layout);
+        self.0 = fresh.map_err(|error| CalibrateError::Rig { number, why: error.to_string() })?;
+        Ok(())
+    }
+
+    fn tap(&mut self, number: usize, _at: Point, _attempt: u64) -> Result<(), CalibrateError> {
+        Err(CalibrateError::Rig { number, why: "a tape cannot tap".into() })
+    }
+}
+
+/// What a session drives for one recording, full scale as 1.
+pub fn drive(session: &Session, layout: &Layout, at: Point) -> Result<Drive, TaskError> {
+    let mut recorder = Recorder(Tape::recorder(layout.clone()).map_err(TaskError::input)?);
+    let listen = if session.wires().probe.is_some() { Listen::Probe } else { Listen::Sensors };
+    let found = session.measure(&mut recorder, 0, at, 0, listen);
+    // What it finds in the silence that it hears does not matter, error or not, once all was driven.
+    if recorder.0.drive().iter().all(Vec::is_empty) {
+        found?;
+    }
+    let channels = recorder.0.into_drive();
+    let channels = channels.into_iter().map(|line| line.into_iter().map(f64::from).collect()).collect();
+    Drive::new(layout.rate, layout.outputs.clone(), channels).map_err(TaskError::input)
+}
+
+/// The plan as it is told in the folder, SI units.
+pub fn told(
+    surface: &str,
+    layout: &Layout,
+    drive: &Drive,
+    settings: &MeasureOptions,
+    wanted: &[Wanted],
+) -> Value {
+    let begins = |line: &Vec<f64>| line.iter().position(|x| *x != 0.0).map(|i| i as f64 / layout.rate);
+    let recordings = wanted.iter().map(|one| {
+        json!({ "file": one.file, "probe_at_m": one.at.map(|at| [at.x, at.y]), "repeat": one.repeat + 1 })
+    });
+    json!({
+        "format": FORMAT,
+        "surface": surface,
+        "play": PLAY,
+        "sample_rate_hz": layout.rate,
+        "duration_s": drive.duration(),
+        "full_scale": layout.full_scale,
+        "outputs": layout.outputs,
+        "inputs": layout.inputs,
+        "sweep_s": settings.sweep,
+        "sweep_from_hz": settings.from,
+        "ringing_s": settings.ringing,
+        "sweeps_begin_s": drive.channels().iter().map(begins).collect::<Vec<_>>(),
+        "level": settings.level,
+        "repeats": settings.repeats,
+        "recordings": recordings.collect::<Vec<_>>(),
+    })
+}
+
+/// Puts what is to be played and the plan into the folder, unless they are there. A plan that has fewer points gets the new ones; one that is
+/// otherwise different is refused, with all that differs.
+pub fn put(folder: &Path, plan: &Value, drive: &Drive, before: Option<&Value>) -> Result<(), TaskError> {
+    let failed = |error: std::io::Error| TaskError::Work(format!("{}: {error}", folder.display()));
+    let (file, play) = (folder.join(PLAN), folder.join(PLAY));
+    let text = serde_json::to_string_pretty(plan).map_err(TaskError::work)? + "\n";
+    match before {
+        Some(before) => {
+            let other = differences(plan, before);
+            if !other.is_empty() {
+                return Err(TaskError::Work(format!(
+                    "{}: expected the plan of this calibration, found another:\n{}\nuse its options again, or another folder",
+                    file.display(),
+                    other.join("\n")
+                )));
+            }
+            if plan["recordings"] != before["recordings"] {
+                write_file(&file, text.as_bytes())?;
+            }
+        }
+        None => {
+            std::fs::create_dir_all(folder).map_err(failed)?;
+            if std::fs::read_dir(folder).map_err(failed)?.next().is_some() {
+                return Err(TaskError::Work(format!(
+                    "will not write to {}: expected no such folder yet, an empty one, or one with the plan of this \
+                     calibration, found one with other things in it",
+                    folder.display()
+                )));
+            }
+            // The plan first: what is to be played is written again wherever a plan is without it.
+            write_file(&file, text.as_bytes())?;
+        }
+    }
+    // Whoever has played it may have moved it away.
+    if !play.exists() {
+        write_wav(&play, drive)?;
+    }
+    Ok(())
+}
+
+/// What another plan has otherwise, a line for each key, recordings last.
+fn differences(plan: &Value, before: &Value) -> Vec<String> {
+    let keys = plan.as_object().into_iter().flatten().filter(|(key, _)| *key != "recordings");
+    let mut other: Vec<String> = keys
+        .filter(|(key, here)| match before.get(key.as_str()) {
+            Some(there) => !same(here, there),
+            None => !NEW.contains(&key.as_str()),
+        })
+        .map(|(key, here)| {
+            let there = before.get(key).map_or("nothing".to_owned(), Value::to_string);
+            format!("  `{key}`: {there} there, {here} asked for")
+        })
+        .collect();
+    if other.is_empty() {
+        other.extend(Asked::of(before).lost(&Asked::of(plan)));
+    }
+    other
+}
+
+/// Whether two values are the same, numbers within the last digits.
+fn same(a: &Value, b: &Value) -> bool {
+    match (a, b) {
+        (Value::Number(a), Value::Number(b)) => {
+            let (a, b) = (a.as_f64().unwrap_or(f64::NAN), b.as_f64().unwrap_or(f64::NAN));
+            (a - b).abs() <= SAME * a.abs().max(b.abs())
+        }
+        (Value::Array(a), Value::Array(b)) => a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(a, b)),
+        _ => a == b,
+    }
+}

@@ -1,0 +1,98 @@
+//! The channels of a recording, if it is one of all inputs, at the rate, neither silent nor clipped.
+
+use super::fault::Fault;
+use std::path::Path;
+use unripple::core::Layout;
+use unripple::dsp::{Band, clipped, resample};
+use unripple_store::{Wav, read_wav};
+
+/// Samples at the largest magnitude, side by side, above which a channel is taken to be clipped.
+const FLAT: usize = 20;
+
+/// A recording at another rate has to hold this multiple of the band's top: twice, and the resampler's transition.
+const ROOM: f64 = 2.2;
+
+/// How recordings are read.
+#[derive(Clone, Debug)]
+pub struct Reader {
+    pub layout: Layout,
+    pub band: Band,
+    /// Whether recordings of another rate are brought to that of the surface.
+    pub resample: bool,
+}
+
+/// What each channel must be.
+pub struct Needed<'a> {
+    /// Channels that must hear something.
+    pub all: &'a [usize],
+    /// Channels of which one must hear something; others may be dead.
+    pub any: &'a [usize],
+}
+
+impl Reader {
+    /// The channels of a file, checked.
+    pub fn read(&self, folder: &Path, file: &str, needed: &Needed<'_>) -> Result<Vec<Vec<f64>>, Fault> {
+        let wav = self.wav(folder, file)?;
+        let silent = |line: &[f64]| {
+            let mean = line.iter().sum::<f64>() / line.len().max(1) as f64;
+            line.iter().all(|x| (x - mean).abs() <= 1e-9 * mean.abs().max(f64::MIN_POSITIVE))
+        };
+        let quiet: Vec<usize> = (0..wav.channels.len()).filter(|i| silent(&wav.channels[*i])).collect();
+        let dead = needed.any.iter().all(|input| quiet.contains(input)).then(|| needed.any.first()).flatten();
+        if let Some(input) = needed.all.iter().find(|input| quiet.contains(input)).or(dead) {
+            let why = format!("expected sound in {}, found silence", self.named(*input));
+            return Err(Fault::new(file, why, "look at its cable and gain, and record again"));
+        }
+        for input in needed.all.iter().chain(needed.any).filter(|input| !quiet.contains(input)) {
+            let flat = clipped(&wav.channels[*input], f64::INFINITY);
+            if flat > FLAT {
+                let why = format!("{} is clipped: {flat} samples at its largest value", self.named(*input));
+                let mend = "turn its gain down, and record again, all points with the same gain";
+                return Err(Fault::new(file, why, mend));
+            }
+        }
+        self.at_rate(wav, file)
+    }
+
+    /// A file as it is, if it has all channels.
+    pub fn wav(&self, folder: &Path, file: &str) -> Result<Wav, Fault> {
+        let wav = read_wav(folder.join(file)).map_err(|error| {
+            let why = error.to_string();
+            // The path that the message begins with is the file that is named anyway.
+            let why = why.split_once(": ").map_or(why.as_str(), |(_, why)| why).to_owned();
+            Fault::new(file, why, "save it as WAV of integers, float32 or float64")
+        })?;
+        let inputs = &self.layout.inputs;
+        if wav.channels.len() != inputs.len() {
+            let found = wav.channels.len();
+            let why = format!("expected {} channels ({}), found {found}", inputs.len(), inputs.join(", "));
+            let mend =
+                "record all of them into one file, in that order, or name those there are with `tape_inputs`";
+            return Err(Fault::new(file, why, mend));
+        }
+        Ok(wav)
+    }
+
+    fn at_rate(&self, wav: Wav, file: &str) -> Result<Vec<Vec<f64>>, Fault> {
+        let rate = self.layout.rate;
+        if wav.rate == rate {
+            return Ok(wav.channels);
+        }
+        let why = format!("expected {rate} Hz, found {} Hz", wav.rate);
+        if !self.resample {
+            let mend = "record at that rate, or have it resampled by `resample`";
+            return Err(Fault::new(file, why, mend));
+        }
+        if wav.rate < ROOM * self.band.high[1] {
+            let least = ROOM * self.band.high[1];
+            let why = format!("{why}, too few for what is swept ({least:.0} Hz)");
+            return Err(Fault::new(file, why, "record at a higher rate"));
+        }
+        Ok(wav.channels.iter().map(|line| resample(line, wav.rate / rate)).collect())
+    }
+
+    /// A channel in words; channels count from 1.
+    pub fn named(&self, input: usize) -> String {
+        format!("channel {} (`{}`)", input + 1, self.layout.inputs[input])
+    }
+}

@@ -1,0 +1,313 @@
+//! The wiring test on recordings: what is dead, swapped or reversed, by what was heard of the sweeps.
+
+use super::Bench;
+use super::rig::TapeRig;
+use crate::TaskError;
+use crate::calibrate::middle;
+use std::collections::BTreeSet;
+use unripple::core::{Layout, PROBE, Point};
+use unripple_calibrate::CalibrateError;
+use unripple_calibrate::measure::{Channel, Listen, Session};
+use unripple_devices::{DevicesError, Expected, WiringOptions, WiringReport, check_responses, reciprocal};
+
+/// Signal to noise, in dB, below which nothing is heard.
+const DEAF: f64 = 6.0;
+
+/// An actuator is dead that is this much quieter than the loudest, as a share, or [`QUIET`] and no more than noise.
+const DEAD: f64 = 0.01;
+const QUIET: f64 = 0.3;
+
+/// Share of the inputs that must be like the model for it to be believed.
+const BELIEVED: f64 = 0.67;
+
+/// Middle frequencies of the bursts that a fault is found by, as shares of the band. A wire is wrong at all of them; where the surface is not
+/// like its model, what seems wrong differs from one to the next.
+const BURSTS: [f64; 3] = [0.2, 0.4, 0.6];
+
+/// Points that are looked at where no sensor tells.
+const LOOKED_AT: usize = 3;
+
+/// What was found of the wires.
+#[derive(Clone, Debug, Default)]
+pub struct Tried {
+    /// Actuators that nobody hears.
+    pub dead: Vec<usize>,
+    /// Actuators whose sensor hears nothing.
+    pub deaf: Vec<usize>,
+    /// Wires that are not as they should be.
+    pub faults: Vec<String>,
+    /// What to say of the rest.
+    pub notes: Vec<String>,
+}
+
+/// Why wires could not be tried.
+pub enum Failed {
+    /// The recording of the actuators is no good.
+    Recording(String),
+    /// Anything else.
+    Other(TaskError),
+}
+
+impl From<CalibrateError> for Failed {
+    fn from(error: CalibrateError) -> Self {
+        match error {
+            CalibrateError::Recording { .. } | CalibrateError::Dsp(_) => Self::Recording(error.to_string()),
+            error => Self::Other(error.into()),
+        }
+    }
+}
+
+impl From<DevicesError> for Failed {
+    fn from(error: DevicesError) -> Self {
+        Self::Other(error.into())
+    }
+}
+
+/// Tries the wires by the recording of the actuators, and that of the first point that is there.
+pub fn tried(bench: &Bench<'_>, session: &Session, rig: &mut TapeRig) -> Result<Tried, Failed> {
+    let mut tried = Tried { dead: bench.campaign.settings.without.clone(), ..Tried::default() };
+    let rows = heard(bench, session, rig)?;
+    if rows.is_empty() {
+        return Ok(tried);
+    }
+    tried.silent(bench, &rows);
+    if bench.takes.wires.sensors.is_empty() || !tried.faults.is_empty() {
+        return Ok(tried);
+    }
+    let reciprocal = tried.reciprocal(bench, session, rig, &rows)?;
+    if bench.campaign.settings.model {
+        tried.model(bench, session, rig, &rows)?;
+    }
+    if tried.faults.is_empty() {
+        tried.faults = reciprocal;
+    }
+    Ok(tried)
+}
+
+/// What all sensors heard of all actuators; without sensors, what the probe heard at some points.
+fn heard(bench: &Bench<'_>, session: &Session, rig: &mut TapeRig) -> Result<Vec<Channel>, Failed> {
+    let (last, centre) = (bench.campaign.places.points.len(), middle(bench.campaign.surface));
+    if !bench.takes.wires.sensors.is_empty() {
+        return Ok(session.measure(rig, last, centre, 0, Listen::Sensors)?);
+    }
+    let mut rows = Vec::new();
+    for number in bench.good.iter().copied() {
+        if rows.len() >= LOOKED_AT {
+            break;
+        }
+        match session.measure(rig, number, bench.campaign.places.points[number], 0, Listen::Probe) {
+            Ok(heard) => rows.extend(heard),
+            // A point's recording that is no good is told of when it is measured.
+            Err(CalibrateError::Recording { .. } | CalibrateError::Dsp(_)) => {}
+            Err(error) => return Err(error.into()),
+        }
+    }
+    Ok(rows)
+}
+
+impl Tried {
+    /// Says who drives nothing, and whose sensor hears nothing.
+    fn silent(&mut self, bench: &Bench<'_>, rows: &[Channel]) {
+        let actuators = &bench.campaign.surface.actuators;
+        let sensing = rows.len() == actuators.len() && !bench.takes.wires.sensors.is_empty();
+        // One that hears anybody is not deaf, however many are dead.
+        let noisy = |channel: &Channel| {
+            let best = channel.quality.iter().map(|quality| quality.snr_db);
+            best.filter(|db| !db.is_nan()).fold(f64::NEG_INFINITY, f64::max) < DEAF
+        };
+        let deaf: Vec<usize> = (0..rows.len()).filter(|row| sensing && noisy(&rows[*row])).collect();
+        // Where nobody hears anything it is not wires, and told otherwise.
+        if deaf.len() == rows.len() {
+            return;
+        }
+        let hearing: Vec<Hearing<'_>> = (0..rows.len())
+            .filter(|row| !deaf.contains(row))
+            .map(|row| Hearing { itself: sensing.then_some(row), channel: &rows[row] })
+            .collect();
+        let quiet: Vec<usize> = (0..actuators.len()).filter(|drive| is_dead(&hearing, *drive)).collect();
+        self.deaf = deaf;
+        let name = |actuator: &usize| actuators[*actuator].name.as_str();
+        if 2 * quiet.len() > actuators.len() {
+            let names: Vec<&str> = quiet.iter().map(name).collect();
+            let text =
+                format!("nobody hears {}: was play.wav played with all its channels?", names.join(", "));
+            self.faults.push(text);
+            return;
+        }
+        for actuator in quiet.iter().filter(|actuator| !self.dead.contains(actuator)) {
+            let (name, output) = (name(actuator), bench.takes.wires.drives[*actuator] + 1);
+            let too = if self.deaf.contains(actuator) { ", nor does its sensor hear anything" } else { "" };
+            self.notes.push(format!(
+                "actuator `{name}` is dead: nobody hears its sweep (output {output}){too}; look at its amplifier, its cable and itself. \
+                 The others go on without it"
+            ));
+        }
+        let alone: Vec<usize> =
+            self.deaf.iter().copied().filter(|actuator| !quiet.contains(actuator)).collect();
+        for actuator in alone {
+            let input = bench.takes.reader.named(bench.takes.wires.sensors[actuator]);
+            self.notes.push(format!(
+                "the sensor of `{}` hears nothing, {input}: look at its cable and gain. Its own point is left out",
+                actuators[actuator].name
+            ));
+        }
+        let all: BTreeSet<usize> = self.dead.iter().copied().chain(quiet).collect();
+        self.dead = all.into_iter().collect();
+    }
+
+    /// Actuators that drive and hear.
+    fn alive(&self, count: usize) -> Vec<usize> {
+        (0..count).filter(|a| !self.dead.contains(a) && !self.deaf.contains(a)).collect()
+    }
+
+    /// Wires that contradict reciprocity.
+    fn reciprocal(
+        &self,
+        bench: &Bench<'_>,
+        session: &Session,
+        rig: &mut TapeRig,
+        rows: &[Channel],
+    ) -> Result<Vec<String>, Failed> {
+        let alive = self.alive(rows.len());
+        let names: Vec<String> =
+            alive.iter().map(|a| bench.campaign.surface.actuators[*a].name.clone()).collect();
+        let of = |channel: &Channel, scale: f64| -> Vec<Vec<f64>> {
+            let scaled = |drive: &usize| channel.responses[*drive].iter().map(|h| h * scale).collect();
+            alive.iter().map(scaled).collect()
+        };
+        let heard: Vec<Vec<Vec<f64>>> = alive
+            .iter()
+            .zip(&names)
+            .map(|(a, name)| of(&rows[*a], bench.campaign.scales.input(name)))
+            .collect();
+        let mut spare = Vec::new();
+        if bench.takes.wires.probe.is_some() {
+            let (last, centre) = (bench.campaign.places.points.len(), middle(bench.campaign.surface));
+            let probe = session.measure(rig, last, centre, 0, Listen::Probe)?;
+            spare.extend(probe.iter().map(|channel| (PROBE.to_owned(), of(channel, 1.0))));
+        }
+        Ok(reciprocal(&names, &heard, &spare).faults)
+    }
+
+    /// Wires that contradict the model, where that is like the surface at all.
+    fn model(
+        &mut self,
+        bench: &Bench<'_>,
+        session: &Session,
+        rig: &mut TapeRig,
+        rows: &[Channel],
+    ) -> Result<(), Failed> {
+        let model = bench.campaign.model;
+        let alive = self.alive(rows.len());
+        let outputs: Vec<String> = alive.iter().map(|a| model.ports[*a].name.clone()).collect();
+        let Held { names, channels, at } = Held::of(bench, session, rig, rows, &alive);
+        let options = WiringOptions::for_band(model.conditions.band);
+        let all = Expected::of(bench.campaign.surface, model, at, options.listen)?;
+        let inputs: Vec<usize> = alive.iter().copied().chain(at.map(|_| model.ports.len())).collect();
+        let response = |o: &usize, i: &usize| all.response(*o, *i).to_vec();
+        let row = |o: &usize| inputs.iter().map(|i| response(o, i)).collect();
+        let expected = Expected::new(alive.iter().map(row).collect())?;
+        let scaled = |(channel, name): (&Channel, &String), drive: usize| {
+            let scale = bench.campaign.scales.input(name);
+            channel.responses[drive].iter().map(|h| h * scale).collect::<Vec<f64>>()
+        };
+        let of = |drive: &usize| channels.iter().zip(&names).map(|pair| scaled(pair, *drive)).collect();
+        let heard: Vec<Vec<Vec<f64>>> = alive.iter().map(of).collect();
+        let layout = Layout { outputs, inputs: names, ..bench.takes.layout().clone() };
+        let [low, high] = model.conditions.band;
+        let found = BURSTS.map(|share| {
+            let frequency = low + share * (high - low);
+            check_responses(&heard, &layout, &expected, &WiringOptions { frequency, ..options })
+        });
+        let found = found.into_iter().collect::<Result<Vec<WiringReport>, _>>()?;
+        let believed = |report: &WiringReport| {
+            let like = report.inputs.iter().filter(|lead| !lead.unlike && !lead.silent).count();
+            like as f64 >= BELIEVED * report.inputs.len() as f64
+        };
+        if !found.iter().all(believed) {
+            self.notes.push("wires: not held against the model, which the surface is too far from".into());
+            return Ok(());
+        }
+        let leads = found.iter().flat_map(|report| report.outputs.iter().chain(&report.inputs));
+        let unlike: BTreeSet<String> =
+            leads.filter(|lead| lead.unlike).map(|lead| lead.name.clone()).collect();
+        if !unlike.is_empty() {
+            let names = unlike.iter().cloned().collect::<Vec<_>>().join(", ");
+            self.notes.push(format!("wires: {names} unlike the model, which says nothing of them"));
+        }
+        let sure = |fault: &String| !unlike.iter().any(|name| fault.contains(&format!("`{name}`")));
+        let everywhere = |fault: &String| found.iter().all(|report| report.faults().contains(fault));
+        for fault in found[0].faults().into_iter().filter(sure).filter(everywhere) {
+            if fault == format!("input `{PROBE}` is reversed") {
+                // Its sign is that of all responses: a focus only moves the other way.
+                self.notes.push(format!("{fault} beside the sensors: `input_scales` {PROBE}=-1 turns it"));
+            } else {
+                self.faults.push(fault);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Channels that are held against the model, with their names; where the probe was, if it is the last of them.
+struct Held {
+    names: Vec<String>,
+    channels: Vec<Channel>,
+    at: Option<Point>,
+}
+
+impl Held {
+    /// Sensors of some actuators; with a probe, of one point's recording, so that it may have changed places with a sensor.
+    fn of(
+        bench: &Bench<'_>,
+        session: &Session,
+        rig: &mut TapeRig,
+        rows: &[Channel],
+        alive: &[usize],
+    ) -> Self {
+        let mut names: Vec<String> =
+            alive.iter().map(|a| bench.campaign.model.ports[*a].name.clone()).collect();
+        let of = |all: &[Channel]| alive.iter().map(|a| all[*a].clone()).collect::<Vec<_>>();
+        let point = bench.good.first().copied().filter(|_| bench.takes.wires.probe.is_some());
+        let both = point.map(|number| {
+            let at = bench.campaign.places.points[number];
+            let sensors = session.measure(rig, number, at, 0, Listen::Sensors)?;
+            Ok::<_, CalibrateError>((at, sensors, session.measure(rig, number, at, 0, Listen::Probe)?))
+        });
+        match both {
+            Some(Ok((at, sensors, probe))) => {
+                names.push(PROBE.into());
+                Self { names, channels: [of(&sensors), probe].concat(), at: Some(at) }
+            }
+            // A point's recording that is no good is told of when it is measured.
+            Some(Err(_)) | None => Self { names, channels: of(rows), at: None },
+        }
+    }
+}
+
+/// A channel, and the actuator that it belongs to, which it hears louder than others.
+struct Hearing<'a> {
+    itself: Option<usize>,
+    channel: &'a Channel,
+}
+
+/// Whether those who hear hear no more of an actuator than noise, beside the others' loudest.
+fn is_dead(hearing: &[Hearing<'_>], drive: usize) -> bool {
+    let others = hearing.iter().filter(|one| one.itself != Some(drive));
+    let share = |one: &Hearing<'_>| {
+        let power = |actuator: usize| one.channel.responses[actuator].iter().map(|h| h * h).sum::<f64>();
+        let all = (0..one.channel.responses.len()).filter(|actuator| one.itself != Some(*actuator));
+        let most = all.map(power).fold(0.0, f64::max);
+        (most > 0.0).then(|| (power(drive) / most).sqrt())
+    };
+    let noise = middle_of(others.clone().map(|one| one.channel.quality[drive].snr_db).collect());
+    let noise = noise.is_none_or(|db| db.is_nan() || db < DEAF);
+    middle_of(others.filter_map(share).collect())
+        .is_some_and(|share| share < DEAD || (noise && share < QUIET))
+}
+
+/// The median.
+fn middle_of(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_unstable_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}

@@ -1,0 +1,66 @@
+//! One stage, and how it fares.
+
+use serde::Serialize;
+
+/// One stage, and how it fares.
+#[derive(Clone, Debug, Serialize)]
+pub struct Check {
+    /// Which stage.
+    pub name: &'static str,
+    /// How it fares.
+    pub verdict: Verdict,
+    /// What was found.
+    pub found: String,
+    /// What to do about it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fix: Option<String>,
+}
+
+/// How a stage fares.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// As it should.
+    Good,
+    /// It works, but may be why little is felt.
+    Doubtful,
+    /// It does not work.
+    Failed,
+    /// It could not be looked at.
+    Skipped,
+}
+
+impl Verdict {
+    /// For people.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Good => "good",
+            Self::Doubtful => "doubtful",
+            Self::Failed => "FAILED",
+            Self::Skipped => "skipped",
+        }
+    }
+}
+
+impl Check {
+    pub(super) fn good(name: &'static str, found: impl Into<String>) -> Self {
+        Self { name, verdict: Verdict::Good, found: found.into(), fix: None }
+    }
+
+    pub(super) fn doubtful(name: &'static str, found: impl Into<String>, fix: impl Into<String>) -> Self {
+        Self { name, verdict: Verdict::Doubtful, found: found.into(), fix: Some(fix.into()) }
+    }
+
+    pub(super) fn failed(name: &'static str, found: impl Into<String>, fix: impl Into<String>) -> Self {
+        Self { name, verdict: Verdict::Failed, found: found.into(), fix: Some(fix.into()) }
+    }
+
+    pub(super) fn skipped(name: &'static str, why: impl Into<String>) -> Self {
+        Self { name, verdict: Verdict::Skipped, found: why.into(), fix: None }
+    }
+
+    /// What to do, as the end of a sentence.
+    pub(super) fn advice(&self) -> String {
+        self.fix.as_ref().map_or_else(String::new, |fix| format!(" → {fix}"))
+    }
+}

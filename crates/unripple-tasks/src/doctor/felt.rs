@@ -1,0 +1,87 @@
+//! What a focus is worth to a fingertip.
+
+use super::check::Check;
+use crate::TaskError;
+use crate::judge;
+use std::sync::Arc;
+use unripple::core::{Contact, Point, Responses, Surface};
+use unripple::field::{Aim, Field, TargetFigures};
+use unripple::focus::{Options, Target, focus};
+use unripple_live::Window;
+
+/// A level in dB above threshold that nearly everybody feels: thresholds of persons differ by 6 dB.
+const CLEAR: f64 = 12.0;
+
+/// Contrast below which a focus is hardly one.
+const WEAK: f64 = 5.0;
+
+/// How many dB the finger must be louder than the worst spot for the focus to be told from the rest.
+const APART: f64 = 3.0;
+
+/// Cells of the grid per shortest wavelength: enough for a verdict.
+const CELLS: f64 = 4.0;
+
+/// The focus as the model has it, and under a finger.
+pub fn checks(surface: &Surface, model: &Arc<Responses>, window: Window) -> Result<Vec<Check>, TaskError> {
+    let (width, height) = surface.outline.extent();
+    let at = surface.outline.nearest(Point::new(0.41 * width, 0.6 * height));
+    let options = Options { window: window.seconds, limit: surface.emission.limit, ..Options::default() };
+    let drive = focus(model, &[Target::at(at)], &options).map_err(TaskError::input)?.drive.as_emitted();
+    let judged = |responses: &Responses| -> Result<TargetFigures, TaskError> {
+        let field = Field::new(responses, &drive, CELLS).map_err(TaskError::input)?;
+        let aim = Aim { points: vec![at], instant: window.seconds };
+        let measured = field.measure(&[aim], None).map_err(TaskError::input)?;
+        measured.targets.into_iter().next().ok_or_else(|| TaskError::Work("no target was judged".into()))
+    };
+    let free = judged(model)?;
+    let under = judged(&judge::model(surface, None, &[Contact { at, finger: surface.finger }])?)?;
+    Ok(vec![contrast(&free, window), level(&free, &under), spread(&free)])
+}
+
+fn contrast(free: &TargetFigures, window: Window) -> Check {
+    let contrast = free.contrast.unwrap_or(0.0);
+    let found = format!("contrast {contrast:.1} in a window of {:.1} ms", 1e3 * window.seconds);
+    match contrast >= WEAK {
+        true => Check::good("focus", found),
+        false => Check::doubtful(
+            "focus",
+            found,
+            "more actuators, a longer window or a sheet that rings longer: `unripple design` shows what each gives",
+        ),
+    }
+}
+
+fn level(free: &TargetFigures, under: &TargetFigures) -> Check {
+    let db = |figures: &TargetFigures| figures.felt_level_db.unwrap_or(f64::NEG_INFINITY);
+    let (alone, pressed) = (db(free), db(under));
+    let found = format!(
+        "{pressed:.0} dB above the threshold of touch under a finger at the drive's limit ({alone:.0} dB without its load)"
+    );
+    if pressed < 0.0 {
+        let fix = "raise `limit`, use stronger actuators or more of them, or a lighter sheet";
+        return Check::failed("level", found, fix);
+    }
+    match pressed >= CLEAR {
+        true => Check::good("level", found),
+        false => Check::doubtful(
+            "level",
+            found,
+            "thresholds of persons differ by 6 dB: raise `limit`, or choose effects with more of their energy around 250 Hz",
+        ),
+    }
+}
+
+fn spread(free: &TargetFigures) -> Check {
+    let Some(worst) = free.felt_worst_spot_db else {
+        return Check::skipped("elsewhere", "nothing moves outside the focus");
+    };
+    let found = format!("felt {worst:.1} dB less at the worst place elsewhere");
+    match worst >= APART {
+        true => Check::good("elsewhere", found),
+        false => Check::doubtful(
+            "elsewhere",
+            found,
+            "it is felt nearly everywhere, so nowhere in particular: `method` felt keeps the rest down",
+        ),
+    }
+}

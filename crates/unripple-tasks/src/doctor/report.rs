@@ -1,0 +1,58 @@
+//! What `doctor` found.
+
+use super::{Check, Verdict};
+use serde::Serialize;
+use std::fmt::Write;
+
+/// What was found, and what it means for the fingertip.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// The surface's own name.
+    pub surface: String,
+    /// The stages, in the order of a touch.
+    pub checks: Vec<Check>,
+    /// Why nothing may be felt, the likeliest first; empty where there is no reason.
+    pub why_you_may_feel_nothing: Vec<String>,
+}
+
+impl Report {
+    /// Of all checks of a surface.
+    pub(super) fn of(surface: String, checks: Vec<Check>) -> Self {
+        let why_you_may_feel_nothing = reasons(&checks);
+        Self { surface, checks, why_you_may_feel_nothing }
+    }
+}
+
+/// What failed first, then what is doubtful.
+fn reasons(checks: &[Check]) -> Vec<String> {
+    let of = |verdict: Verdict| {
+        let all = checks.iter().filter(move |check| check.verdict == verdict);
+        all.map(|check| format!("{}: {}{}", check.name, check.found, check.advice()))
+    };
+    of(Verdict::Failed).chain(of(Verdict::Doubtful)).collect()
+}
+
+impl crate::Report for Report {
+    fn text(&self) -> String {
+        let mut text = String::new();
+        for check in &self.checks {
+            let _ = writeln!(text, "{:9} {:<11} {}", check.verdict.word(), check.name, check.found);
+        }
+        text += "\nwhy you may feel nothing\n";
+        if self.why_you_may_feel_nothing.is_empty() {
+            text += "  nothing here stands in the way. Threshold differs by 6 dB between persons; rest the finger lightly: a hard \
+                     press stills the sheet under it.\n";
+        }
+        for (n, why) in self.why_you_may_feel_nothing.iter().enumerate() {
+            let _ = writeln!(text, "  {}. {why}", n + 1);
+        }
+        text
+    }
+
+    fn failure(&self) -> Option<String> {
+        let failed = self.checks.iter().filter(|check| check.verdict == Verdict::Failed);
+        let failed: Vec<&str> = failed.map(|check| check.name).collect();
+        let (count, all) = (failed.len(), self.checks.len());
+        (count > 0).then(|| format!("{count} of {all} checks failed: {}", failed.join(", ")))
+    }
+}

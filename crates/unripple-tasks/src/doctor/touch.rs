@@ -1,0 +1,36 @@
+//! Where touches may come from.
+
+use super::ask::Ask;
+use super::check::Check;
+use std::net::{SocketAddr, UdpSocket};
+use unripple_touch::Screen;
+
+/// The port of TUIO, and the screens.
+pub fn checks(ask: &Ask) -> [Check; 2] {
+    [port(ask), screens()]
+}
+
+fn port(ask: &Ask) -> Check {
+    let address = SocketAddr::new(ask.listen, ask.tuio);
+    match UdpSocket::bind(address) {
+        Ok(_) => Check::good("TUIO", format!("UDP {address} is free for `play `tuio``")),
+        Err(error) => Check::doubtful(
+            "TUIO",
+            format!("UDP {address} cannot be had: {error}"),
+            "another program listens there: stop it, or choose another port on both sides",
+        ),
+    }
+}
+
+fn screens() -> Check {
+    let found = Screen::list();
+    if found.is_empty() {
+        return Check::skipped(
+            "screens",
+            "no multi-touch screen that may be read: touches come over TUIO, OSC or WebSocket, or from synthetic fingers",
+        );
+    }
+    let names: Vec<String> =
+        found.iter().map(|(path, name)| format!("{} ({name})", path.display())).collect();
+    Check::good("screens", names.join(", "))
+}

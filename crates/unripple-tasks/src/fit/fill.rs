@@ -1,0 +1,121 @@
+//! Responses of a fitted model, as a library.
+
+use super::probed::Probed;
+use crate::TaskError;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::time::{SystemTime, UNIX_EPOCH};
+use unripple::core::{Decay, Point, SampledResponses, Surface};
+use unripple_calibrate::{Fitted, Verdict};
+use unripple_store::{Doubt, Library, LibraryPlan, PointState, Quality, Take};
+
+/// Points blended and stored at once.
+const BATCH: usize = 64;
+
+/// What the log of a measurement says of all that is made from it: whether its scale is known, and which actuators are dead.
+const KEPT: [&str; 2] = ["scale", "dead"];
+
+/// Writes responses at some points, blended with those probed, as long as the measured ones. Dead actuators have none.
+pub fn fill(
+    folder: &Path,
+    source: &Library,
+    surface: &Surface,
+    fitted: &Fitted,
+    probed: &Probed,
+    points: &[Point],
+) -> Result<(), TaskError> {
+    let plan = plan(source, surface, fitted, &probed.good, points);
+    let mut library = Library::create(folder, &plan)?;
+    for key in KEPT {
+        library.log(key, source.logged(key).cloned().unwrap_or(Value::Null))?;
+    }
+    let dead = source.dead();
+    let quality = vec![Quality::UNKNOWN; plan.ports.len()];
+    for batch in library.in_state(PointState::Missing).chunks(BATCH) {
+        let places: Vec<Point> = batch.iter().map(|point| points[*point]).collect();
+        let blended = fitted.blend(&probed.good, &places)?;
+        let row = |port: usize, p: usize| match dead.contains(&port) {
+            true => vec![0.0; plan.samples],
+            false => blended.response(port, p).to_vec(),
+        };
+        let values: Vec<Vec<f32>> =
+            (0..batch.len()).map(|p| (0..plan.ports.len()).flat_map(|port| row(port, p)).collect()).collect();
+        let takes: Vec<Take<'_>> = (batch.iter().zip(&values))
+            .map(|(point, samples)| Take {
+                point: *point,
+                samples,
+                quality: &quality,
+                bands: &[],
+                state: PointState::Measured,
+            })
+            .collect();
+        library.put_all(&takes)?;
+    }
+    let doubtful = match &fitted.verdict {
+        Verdict::Doubtful { why, .. } => {
+            Some(Doubt::of("fit", format!("the fitted model is doubtful: {why}")))
+        }
+        Verdict::Good => None,
+    };
+    // What is doubted of single points was left out; what is doubted of the whole measurement is doubted of what is fitted to it.
+    let of_all = source.doubts().iter().filter(|doubt| doubt.points.is_empty()).cloned();
+    let found = probed.doubts.iter().map(|what| Doubt::of("fit", what)).chain(doubtful);
+    let mut doubts: BTreeMap<String, Vec<Doubt>> = BTreeMap::new();
+    of_all.chain(found).for_each(|doubt| doubts.entry(doubt.check.clone()).or_default().push(doubt));
+    for (check, found) in doubts {
+        library.set_doubts(&check, found)?;
+    }
+    Ok(())
+}
+
+fn plan(
+    source: &Library,
+    surface: &Surface,
+    fitted: &Fitted,
+    probed: &SampledResponses,
+    points: &[Point],
+) -> LibraryPlan {
+    let verdict = match &fitted.verdict {
+        Verdict::Good => "good".to_owned(),
+        Verdict::Doubtful { why, .. } => format!("doubtful: {why}"),
+    };
+    let now = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    let about = [
+        ("device", "fitted model".to_owned()),
+        ("fitted to", source.path().display().to_string()),
+        ("measured points blended in", probed.points.len().to_string()),
+        ("verdict", verdict),
+        ("modes", fitted.modal().poles.len().to_string()),
+        ("software", format!("unripple {}", env!("CARGO_PKG_VERSION"))),
+        ("created", format!("{now} s after 1970-01-01 00:00 UTC")),
+    ];
+    let own = about.into_iter().map(|(key, text)| (key.to_owned(), text));
+    let theirs = source.plan().provenance.iter().map(|(key, text)| (format!("measured {key}"), text.clone()));
+    let provenance: BTreeMap<String, String> = theirs.chain(own).collect();
+    let modal = fitted.modal();
+    LibraryPlan {
+        drive_units: source.plan().drive_units.clone(),
+        surface: Some(as_fitted(surface, fitted)),
+        provenance,
+        ..LibraryPlan::new(modal.ports.clone(), points.to_vec(), modal.conditions.clone(), probed.samples())
+    }
+}
+
+/// The surface with what the fit found of its sheet and its actuators' places.
+fn as_fitted(nominal: &Surface, fitted: &Fitted) -> Surface {
+    let mut surface = nominal.clone();
+    let stiffness = unripple::physics::Medium::of(&nominal.sheet).bending_stiffness;
+    surface.sheet.tension = fitted.tension.value;
+    if stiffness > 0.0 {
+        surface.sheet.young *= fitted.bending_stiffness.value / stiffness;
+    }
+    surface.sheet.decay = Decay::Table(fitted.decay.iter().map(|(hz, time)| (*hz, time.value)).collect());
+    for (actuator, found) in surface.actuators.iter_mut().zip(&fitted.actuators) {
+        let at = Point::new(found.at[0].value, found.at[1].value);
+        if surface.outline.contains(at) {
+            actuator.at = at;
+        }
+    }
+    surface
+}

@@ -1,0 +1,125 @@
+//! What a library says of its actuators and of the points of its surface.
+
+use crate::calibrate::before::SWEPT;
+use crate::own;
+use crate::{Progress, TaskError};
+use unripple::core::{SampledResponses, Surface};
+use unripple::dsp::Band;
+use unripple_calibrate::Measured;
+use unripple_calibrate::measure::MeasureOptions;
+use unripple_store::Library;
+
+/// A point this near to an actuator's place, in metres, is the actuator's own.
+const SAME: f64 = 1e-9;
+
+/// The lowest frequency that is fitted, over the lowest that is measured in full.
+const LOWEST: f64 = 1.2;
+
+/// Top of what is fitted, over the band's: modes at the very top are cut.
+const TOP: f64 = 0.9;
+
+/// The measurements of a library.
+pub struct Heard {
+    /// What actuators hear of each other.
+    pub measured: Measured,
+    /// The responses at all other points.
+    pub probed: SampledResponses,
+    /// What the library calls those points, from 1.
+    pub numbers: Vec<usize>,
+    /// Actuators that are dead, or left out.
+    pub dead: Vec<usize>,
+    /// Whether a probe heard them, not taps.
+    pub probe: bool,
+    /// The band that is fitted, in Hz.
+    pub band: [f64; 2],
+}
+
+impl Heard {
+    pub fn of(library: &Library, surface: &Surface, progress: &mut dyn Progress) -> Result<Self, TaskError> {
+        let (all, damage) = library.intact()?;
+        for damage in &damage {
+            progress.tell(&format!("damaged, and left out: {damage}"));
+        }
+        let count = surface.actuators.len();
+        // The last point of a place is the actuator's own; one before may be a probe's.
+        let place = |at: unripple::core::Point| all.points.iter().rposition(|p| p.distance(at) < SAME);
+        let own: Vec<Option<usize>> = surface.actuators.iter().map(|actuator| place(actuator.at)).collect();
+        if own.iter().flatten().count() < 2 || all.ports.len() != count {
+            return Err(TaskError::Input(format!(
+                "{}: expected what {count} actuators hear of each other, found {} of them that listen \
+                 (measure with `unripple calibrate` on a device with an input for each actuator's sensor)",
+                library.path().display(),
+                own.iter().flatten().count(),
+            )));
+        }
+        let dead = library.dead();
+        let one = |n: usize| match own[n % count] {
+            _ if dead.contains(&(n % count)) || dead.contains(&(n / count)) => Vec::new(),
+            Some(point) => all.response(n / count, point).iter().map(|v| f64::from(*v)).collect(),
+            None => Vec::new(),
+        };
+        let responses = (0..count * count).map(one).collect();
+        let [low, high] = all.conditions.band;
+        let [from, to] = swept(library, surface)?;
+        let limited = Band::within(from, to);
+        let (rate, band) = (all.conditions.rate, [low.max(LOWEST * limited.low[1]), TOP * high]);
+        let numbers = numbers(library, &all);
+        let measured = Measured::reciprocal(rate, responses, [from, to])?.limited_to(limited);
+        let measured = match noise(library, &all, &own, &numbers)? {
+            Some(noise) => measured.with_noise(noise),
+            None => measured,
+        };
+        let others: Vec<usize> = (0..all.points.len()).filter(|p| !own.contains(&Some(*p))).collect();
+        let probed = all.select(&others).map_err(TaskError::work)?;
+        let numbers = others.iter().map(|p| numbers[*p] + 1).collect();
+        let probe = library.plan().provenance.get("by").is_none_or(|by| by != "tap");
+        Ok(Self { measured, probed, numbers, dead, probe, band })
+    }
+
+    /// Responses between actuators that there are.
+    pub fn count(&self) -> usize {
+        self.measured.pairs.iter().flat_map(|p| &p.responses).filter(|r| !r.is_empty()).count()
+    }
+}
+
+/// The library's own numbers of the points that could be read, from 0.
+fn numbers(library: &Library, all: &SampledResponses) -> Vec<usize> {
+    let mut done = library.done().into_iter();
+    all.points.iter().filter_map(|at| done.find(|point| library.points()[*point] == *at)).collect()
+}
+
+/// Noise of what actuators hear of each other, root mean square, by the signal to noise that was measured: the median.
+fn noise(
+    library: &Library,
+    all: &SampledResponses,
+    own: &[Option<usize>],
+    numbers: &[usize],
+) -> Result<Option<f64>, TaskError> {
+    let mut found = Vec::new();
+    for (sensor, point) in own.iter().enumerate() {
+        let Some(point) = *point else { continue };
+        let qualities = library.quality(numbers[point])?;
+        for (driven, quality) in qualities.iter().enumerate().filter(|(driven, _)| *driven != sensor) {
+            let response = all.response(driven, point);
+            let power = response.iter().map(|h| f64::from(*h).powi(2)).sum::<f64>() / response.len() as f64;
+            found.extend(own::noise(quality).filter(|_| power > 0.0).map(|noise| power.sqrt() * noise));
+        }
+    }
+    found.sort_unstable_by(f64::total_cmp);
+    Ok(found.get(found.len() / 2).copied())
+}
+
+/// The lowest and the highest frequency that a library was measured with, in Hz: what it says, or what `calibrate` sweeps.
+fn swept(library: &Library, surface: &Surface) -> Result<[f64; 2], TaskError> {
+    let Some(text) = library.plan().provenance.get(SWEPT) else {
+        return Ok(MeasureOptions::default().swept(surface));
+    };
+    let hz: Vec<f64> = text.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+    match hz[..] {
+        [from, to] if from > 0.0 && from.is_finite() && to > 1.8 * from && to.is_finite() => Ok([from, to]),
+        _ => Err(TaskError::Input(format!(
+            "{}: expected `{SWEPT}` as the lowest and the highest frequency, found `{text}`",
+            library.path().display()
+        ))),
+    }
+}

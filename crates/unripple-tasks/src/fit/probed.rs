@@ -1,0 +1,108 @@
+//! The probed points of a library, held against the model fitted to its actuators.
+
+use super::heard::Heard;
+use crate::TaskError;
+use crate::late::comes;
+use unripple::core::{SampledResponses, Surface};
+use unripple::dsp::shift;
+use unripple_calibrate::Fitted;
+use unripple_calibrate::verify::{Checked, Verified, VerifyOptions, check_by};
+
+/// Probed points that a model may be corrected by.
+pub struct Probed {
+    /// Those that do not contradict it, their gains made one and the probe's own delay taken out.
+    pub good: SampledResponses,
+    /// Why others are left out.
+    pub left_out: Vec<String>,
+    /// What is doubted of all that was heard, for which nothing is left out.
+    pub doubts: Vec<String>,
+    /// What is worth a word of those that are not.
+    pub notes: Vec<String>,
+    /// Gain of the probe over the sensors.
+    pub gain: f64,
+}
+
+impl Probed {
+    pub fn of(fitted: &Fitted, surface: &Surface, heard: &Heard) -> Result<Self, TaskError> {
+        let options = VerifyOptions {
+            numbers: heard.numbers.clone(),
+            dead: heard.dead.clone(),
+            probe: heard.probe,
+            ..VerifyOptions::default()
+        };
+        if heard.probed.points.is_empty() {
+            let good = heard.probed.clone();
+            let (left_out, doubts, notes) = (Vec::new(), Vec::new(), Vec::new());
+            return Ok(Self { good, left_out, doubts, notes, gain: 1.0 });
+        }
+        let found = check_by(fitted, surface, &heard.measured, &heard.probed, &options)?;
+        let doubted = |p: &usize| found.doubts.iter().any(|doubt| doubt.points.contains(p));
+        let kept: Vec<usize> = (0..heard.probed.points.len()).filter(|p| !doubted(p)).collect();
+        let good = heard.probed.select(&kept).map_err(TaskError::work)?;
+        let factors: Vec<f64> = kept
+            .iter()
+            .map(|p| found.points.get(*p).and_then(|point| point.correction).unwrap_or(1.0))
+            .collect();
+        let late = found.probe_delay.unwrap_or(0.0) * good.conditions.rate;
+        let notes = notes(&found);
+        let (of_all, of_points): (Vec<_>, Vec<_>) =
+            found.doubts.into_iter().partition(|doubt| doubt.points.is_empty());
+        Ok(Self {
+            good: corrected(&good, &factors, late)?,
+            left_out: of_points.into_iter().map(|doubt| doubt.what).collect(),
+            doubts: of_all.into_iter().map(|doubt| doubt.what).collect(),
+            notes,
+            gain: found.gain.filter(|gain| gain.is_finite() && *gain != 0.0).unwrap_or(1.0),
+        })
+    }
+}
+
+/// What is worth a word, that nothing was checked among it.
+fn notes(found: &Verified) -> Vec<String> {
+    let mut notes = found.notes.clone();
+    if let Checked::Not { why } = &found.model {
+        notes.push(format!("probed points are taken as they are, not checked against the model: {why}"));
+    }
+    if let Some(delay) = found.probe_delay {
+        notes.push(comes(delay));
+    }
+    notes
+}
+
+/// Responses of each point times its factor, and earlier by so many samples.
+fn corrected(
+    responses: &SampledResponses,
+    factors: &[f64],
+    late: f64,
+) -> Result<SampledResponses, TaskError> {
+    let ports = responses.ports.len();
+    let mut data = Vec::with_capacity(factors.len() * ports * responses.samples());
+    for (point, factor) in factors.iter().enumerate() {
+        for port in 0..ports {
+            let row: Vec<f64> = responses.response(port, point).iter().map(|h| f64::from(*h)).collect();
+            let row = if late == 0.0 { row } else { shift(&row, -late) };
+            data.extend(row.into_iter().map(|h| (factor * h) as f32));
+        }
+    }
+    let SampledResponses { ports, points, conditions, .. } = responses.clone();
+    SampledResponses::new(ports, points, conditions, responses.samples(), data).map_err(TaskError::work)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_probe_that_comes_first_is_not_said_to_come_later() {
+        let found = Verified {
+            model: Checked::Against { band: [100.0, 1000.0], unexplained: 0.01 },
+            points: Vec::new(),
+            probe_delay: Some(-0.5e-3),
+            gain: None,
+            notes: Vec::new(),
+            copies: Vec::new(),
+            doubts: Vec::new(),
+        };
+        assert_eq!(notes(&found), ["the probe comes 0.500 ms earlier than the sensors: taken out"]);
+    }
+}

@@ -1,0 +1,13 @@
+//! `play`: a surface that answers fingers, live.
+
+mod ask;
+mod open;
+mod outputs;
+mod report;
+mod run;
+mod touches;
+
+pub use ask::{Ask, TouchAsk};
+pub use open::{Opener, late, opener};
+pub use report::Report;
+pub use run::{follower, run};

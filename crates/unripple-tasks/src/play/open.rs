@@ -1,0 +1,161 @@
+//! The device that a surface is played through.
+
+use super::ask::Ask;
+use crate::{DeviceAsk, DeviceKind, TaskError, device, judge};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+use unripple::core::{Device, ModalResponses, Surface};
+use unripple::physics::{Medium, StepperOptions};
+use unripple_calibrate::{Tracker, Tracking, Warp};
+use unripple_devices::{DevicesError, Jack, JackOptions, VirtualOptions};
+use unripple_live::{Feeler, Recovering};
+
+/// Fingers that a virtual surface bears at once, those that are being lifted included.
+const FINGERS: usize = 24;
+
+/// Fingers of which it is told what they feel.
+const FELT: usize = 10;
+
+/// How often a lost sound server is looked for again.
+const TRIES: u32 = 1000;
+
+/// Blocks that drive is ahead of a device that does not call by itself: the fewest that it takes.
+const LEAD: usize = 2;
+
+/// What the model may miss of what is heard: the sheet still rings a little as it did under a finger.
+const MODEL: f64 = 0.02;
+
+/// Period of the drift that may be asked for, in s, and how far apart its knots are.
+const MINUTE: f64 = 60.0;
+const KNOT: f64 = 0.1;
+
+/// Longest drift that is laid out beforehand, in s.
+const LONGEST: f64 = 3600.0;
+
+/// A device, and what goes with it.
+pub(super) struct Opened {
+    pub device: Box<dyn Device>,
+    /// Of a virtual surface: what fingers feel.
+    pub feeler: Option<Feeler>,
+    /// Samples by which what is heard comes after what was sent.
+    pub latency: usize,
+}
+
+/// Opens what was asked for.
+pub(super) fn open(ask: &Ask, surface: &Surface) -> Result<Opened, TaskError> {
+    match ask.device.device {
+        DeviceKind::Virtual => virtual_surface(ask, surface),
+        DeviceKind::Jack => jack(&ask.device, surface, heard(ask, surface)),
+        DeviceKind::Card => card(&ask.device, surface, heard(ask, surface)),
+        DeviceKind::Tape => Err(TaskError::Input(
+            "`device` tape: expected a device that plays while touches come, found files (`keep_drive` writes one)".into(),
+        )),
+    }
+}
+
+fn virtual_surface(ask: &Ask, surface: &Surface) -> Result<Opened, TaskError> {
+    let stepper = StepperOptions { max_fingers: FINGERS, ..StepperOptions::default() };
+    let mut plain = VirtualOptions {
+        block: ask.block,
+        stepper,
+        accuracy: judge::accuracy(surface),
+        real_time: ask.clock().is_some(),
+        ..VirtualOptions::default()
+    };
+    plain.mishaps.tension = ask.drift.map_or_else(Vec::new, drift);
+    let (device, _) = device::virtual_surface(&ask.device, surface, &plain).map_err(TaskError::input)?;
+    let feeler = Feeler::new(device.handle(), surface, FELT)?;
+    Ok(Opened { device: Box::new(device), feeler: Some(feeler), latency: 0 })
+}
+
+/// Tension over nominal against time, up and down by a share.
+fn drift(share: f64) -> Vec<(f64, f64)> {
+    let knots = (LONGEST / KNOT) as usize;
+    let at = |i: usize| i as f64 * KNOT;
+    (0..=knots).map(|i| (at(i), 1.0 + share * (TAU * at(i) / MINUTE).sin())).collect()
+}
+
+/// Opens the device of a surface; why not, in words.
+pub type Opener = Arc<dyn Fn(&Surface) -> Result<Box<dyn Device>, String> + Send + Sync>;
+
+/// Opens the device that options name, all actuators heard or none: a virtual surface only if it is not the one that it is said to be, and
+/// then by the clock on the wall.
+pub fn opener(options: &DeviceAsk, hears: bool) -> Opener {
+    let options = options.clone();
+    Arc::new(move |surface| {
+        let heard = || if hears { device::names(surface) } else { Vec::new() };
+        let opened = match options.device {
+            DeviceKind::Virtual => truth(&options, surface),
+            DeviceKind::Jack => jack(&options, surface, heard()).map(|opened| opened.device),
+            DeviceKind::Card => card(&options, surface, heard()).map(|opened| opened.device),
+            DeviceKind::Tape => {
+                Err(TaskError::Input("expected a device that plays while touches come, found files".into()))
+            }
+        };
+        opened.map_err(|error| error.to_string())
+    })
+}
+
+/// Samples by which what such a device hears comes after what was sent, for blocks of some length.
+pub fn late(options: &DeviceAsk, block: usize) -> usize {
+    if options.device == DeviceKind::Virtual { 0 } else { (LEAD + 1) * block }
+}
+
+fn truth(options: &DeviceAsk, surface: &Surface) -> Result<Box<dyn Device>, TaskError> {
+    let plain =
+        VirtualOptions { accuracy: judge::accuracy(surface), real_time: true, ..VirtualOptions::default() };
+    let (device, _) = device::virtual_surface(options, surface, &plain).map_err(TaskError::input)?;
+    Ok(Box::new(device))
+}
+
+fn jack(options: &DeviceAsk, surface: &Surface, heard: Vec<String>) -> Result<Opened, TaskError> {
+    let usual = device::jack(options, surface, heard);
+    let known = JackOptions { lead: LEAD, ..usual };
+    recovering(move || Ok(Box::new(Jack::open(&known)?)))
+}
+
+#[cfg(feature = "cards")]
+fn card(options: &DeviceAsk, surface: &Surface, heard: Vec<String>) -> Result<Opened, TaskError> {
+    use unripple_devices::cards::{Card, CardOptions};
+    let usual = device::card(options, surface, heard);
+    let known = CardOptions { strict: false, ..usual };
+    recovering(move || Ok(Box::new(Card::open(&known)?)))
+}
+
+#[cfg(not(feature = "cards"))]
+fn card(_: &DeviceAsk, _: &Surface, _: Vec<String>) -> Result<Opened, TaskError> {
+    let text = "`device` card: expected a build with sound cards, found one without; ";
+    Err(TaskError::Input(format!("{text}{}", crate::device::HOW_TO_GET_CARDS)))
+}
+
+/// The sensors that are listened to.
+fn heard(ask: &Ask, surface: &Surface) -> Vec<String> {
+    if ask.follow_tension { device::names(surface) } else { Vec::new() }
+}
+
+/// A device that is opened again when it is lost. What may be said at once is said at once.
+fn recovering(
+    mut open: impl FnMut() -> Result<Box<dyn Device>, DevicesError> + Send + 'static,
+) -> Result<Opened, TaskError> {
+    let first = open().map_err(TaskError::work)?;
+    let block = first.layout().block;
+    let latency = match first.status().server {
+        // What is played in a cycle is heard in the next at the earliest.
+        Some(server) => ((server.playback + server.capture) as usize).max(block),
+        None => (LEAD + 1) * block,
+    };
+    let mut first = Some(first);
+    let again = move || match first.take() {
+        Some(device) => Ok(device),
+        None => open().map_err(|error| error.to_string()),
+    };
+    let device = Recovering::open(Box::new(again), TRIES).map_err(TaskError::work)?;
+    Ok(Opened { device: Box::new(device), feeler: None, latency })
+}
+
+/// What follows the tension of a surface whose modes are known.
+pub(super) fn tracker(surface: &Surface, modal: &ModalResponses) -> Result<Tracker, TaskError> {
+    let warp = Warp::new(&Medium::of(&surface.sheet));
+    let shares: Vec<f64> = modal.poles.iter().map(|pole| warp.bending_share(pole.omega)).collect();
+    Ok(Tracker::new(modal, &shares, &Tracking { model: MODEL, ..Tracking::default() })?)
+}

@@ -1,0 +1,37 @@
+//! The files that a sitting is to write, looked at before there is any work to lose.
+
+use super::ask::Ask;
+use crate::{DeviceKind, TaskError};
+use std::fs;
+use std::path::{Path, PathBuf};
+use unripple_store::{check_kept_wav, check_new_file};
+
+/// Refuses what could not be written when the sitting is over; nothing is made.
+pub fn check(ask: &Ask) -> Result<(), TaskError> {
+    let record = ask.touch.record.as_ref();
+    if let Some(path) = &ask.keep_drive {
+        // Files are no device to play through at all, which is said where devices are opened.
+        let clock = ask.clock().filter(|_| ask.device.device != DeviceKind::Tape);
+        if let Some(clock) = clock {
+            let text =
+                format!("`keep_drive`: expected a run that needs no clock, found one in real time ({clock})");
+            return Err(TaskError::Input(text));
+        }
+        if record.is_some_and(|record| place(record) == place(path)) {
+            let text = "`keep_drive`: expected another file than that of `record`, found the same";
+            return Err(TaskError::Input(text.into()));
+        }
+        check_kept_wav(path, &ask.reads())?;
+    }
+    Ok(record.map_or(Ok(()), check_new_file)?)
+}
+
+/// Where a file is or would be, by whatever way it is named.
+fn place(path: &Path) -> PathBuf {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let made = || Some(fs::canonicalize(folder).ok()?.join(path.file_name()?));
+    fs::canonicalize(path).ok().or_else(made).unwrap_or_else(|| path.into())
+}

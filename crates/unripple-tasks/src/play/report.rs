@@ -1,0 +1,331 @@
+//! What was played and felt.
+
+use serde::Serialize;
+use std::fmt::Write;
+use unripple::act::Note;
+use unripple::core::{Server, State, Surface};
+use unripple_calibrate::Drift;
+
+use unripple_live::{Engine, Feeling, Level, Percentiles, Pulse, Stage, Window};
+use unripple_player::Count;
+
+/// A sitting, SI units.
+#[derive(Debug, Default, Serialize)]
+pub struct Report {
+    surface: String,
+    window_s: f64,
+    /// The one that `design` recommends where nobody waits.
+    window_unhurried_s: f64,
+    #[serde(skip)]
+    window: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    full_level_db: Option<f64>,
+    seconds: f64,
+    touches: u64,
+    refused_touches: u64,
+    cues: u64,
+    failed_cues: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    last_failure: Option<String>,
+    drives_made: u64,
+    started: u64,
+    limited: u64,
+    least_limit: Option<f32>,
+    waves_limited: u64,
+    beyond_limit: u64,
+    stale: u64,
+    late: u64,
+    refused: u64,
+    lost_commands: u64,
+    lost_blocks: u64,
+    heavy_blocks: u64,
+    block_s: f64,
+    first_sample_s: Four,
+    unknown_times: u64,
+    focus_s: Four,
+    making_s: Four,
+    computing_s: Four,
+    block_work_s: Four,
+    felt: Felt,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tension: Option<Tension>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    priority: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    server: Option<ServerSays>,
+    /// What is wrong with the library that was played on.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<Note>,
+    /// Whether what fingers feel could be told.
+    #[serde(skip)]
+    tells_feelings: bool,
+    /// Whether the library that was played on has no scale, so that levels mean nothing.
+    #[serde(skip)]
+    pub without_scale: bool,
+}
+
+/// What a sound server says of itself and of the sitting.
+#[derive(Debug, Serialize)]
+struct ServerSays {
+    /// A cycle, as it was at the end.
+    period_s: f64,
+    /// From our ports to the air, as the server knows it; not in the times above.
+    playback_latency_s: f64,
+    /// Cycles that it says came late, whoever's fault that was.
+    late_cycles: u64,
+    /// Cycles that were over before our own part of them was done.
+    own_late_cycles: u64,
+    /// Time that it left out between cycles.
+    skipped_s: f64,
+    /// Real-time priority of its thread that calls us.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    real_time_priority: Option<u8>,
+}
+
+impl ServerSays {
+    fn of(server: &Server, rate: f64) -> Self {
+        Self {
+            period_s: server.period as f64 / rate,
+            playback_latency_s: server.playback as f64 / rate,
+            late_cycles: server.late,
+            own_late_cycles: server.own_late,
+            skipped_s: server.skipped as f64 / rate,
+            real_time_priority: server.priority,
+        }
+    }
+
+    fn text(&self) -> String {
+        let Self { period_s, playback_latency_s, late_cycles, own_late_cycles, skipped_s, .. } = self;
+        let [period, latency, skipped] = [period_s, playback_latency_s, skipped_s].map(|s| 1e3 * s);
+        format!(
+            "\ntimes of samples are those at the server's ports; it says that they are heard {latency:.3} ms later\n\
+             the server: a cycle of {period:.3} ms, {late_cycles} late by its count of all clients, {skipped:.1} ms left out between \
+             cycles\nour own part of a cycle was not done in time {own_late_cycles} times\n"
+        )
+    }
+}
+
+/// The 50th, 90th, 99th, 99.9th percentile and the worst; `null` where nothing was.
+#[derive(Debug, Default, Serialize)]
+struct Four {
+    p50: Option<f64>,
+    p90: Option<f64>,
+    p99: Option<f64>,
+    p999: Option<f64>,
+    worst: Option<f64>,
+}
+
+impl Four {
+    fn of(times: &Percentiles) -> Self {
+        match times.four() {
+            Some([p50, p99, p999, worst]) => Self {
+                p50: Some(p50),
+                p90: times.at(0.9),
+                p99: Some(p99),
+                p999: Some(p999),
+                worst: Some(worst),
+            },
+            None => Self::default(),
+        }
+    }
+
+    fn text(&self, name: &str) -> String {
+        let ms = |value: Option<f64>| value.map_or("-".into(), |s| format!("{:.3}", 1e3 * s));
+        let Self { p50, p90, p99, p999, worst } = self;
+        let columns = [p50, p90, p99, p999, worst].map(|value| format!("{:>9}", ms(*value)));
+        format!("  {name:<34}{}\n", columns.concat())
+    }
+}
+
+/// What fingers felt, over all looks in which one felt anything.
+#[derive(Debug, Default, Serialize)]
+struct Felt {
+    looks: usize,
+    level_db_median: Option<f64>,
+    level_db_most: Option<f64>,
+    contrast_median: Option<f64>,
+    #[serde(skip)]
+    levels: Vec<f64>,
+    #[serde(skip)]
+    contrasts: Vec<f64>,
+}
+
+/// Tension as it was followed.
+#[derive(Debug, Serialize)]
+struct Tension {
+    ratio: f64,
+    explained: bool,
+}
+
+impl Report {
+    pub(super) fn new(surface: &Surface, window: &Window, level: &Level) -> Self {
+        Self {
+            surface: surface.name.clone(),
+            window_s: window.seconds,
+            window_unhurried_s: window.unhurried,
+            window: window.to_string(),
+            full_level_db: level.full.map(|full| full.felt_db),
+            ..Self::default()
+        }
+    }
+
+    /// Looks at the fingers; a line of what they feel.
+    pub fn look(&mut self, stage: &mut Stage, pulse: Option<&Pulse>) -> String {
+        let mut line = format!("{:7.1} s", stage.time());
+        let feelings = stage.feelings();
+        for feeling in &feelings {
+            self.felt.add(feeling);
+            line += &told(feeling, self.without_scale);
+        }
+        if let Some(drift) = stage.drift() {
+            let explained = !drift.asks_for_calibration();
+            self.tension = Some(Tension { ratio: drift.tension(), explained });
+            let _ = match drift {
+                Drift::Followed { tension, .. } => write!(line, "  tension {tension:.5}"),
+                Drift::Unexplained { .. } => write!(line, "  tension unknown: calibrate again"),
+            };
+        }
+        if let Some(pulse) = pulse {
+            self.lost_blocks = pulse.lost;
+            self.priority = Some(pulse.priority.clone());
+            if pulse.state != State::Running {
+                let _ = write!(line, "  device {}", pulse.state);
+            }
+            let load = stage.conductor().desk().meters().load();
+            if load > 0.7 {
+                let _ = write!(line, "  load {:.0} %: close to too much", 100.0 * load);
+            }
+        }
+        match feelings.is_empty() && pulse.is_none_or(|pulse| pulse.state == State::Running) {
+            true => String::new(),
+            false => line,
+        }
+    }
+
+    /// The whole sitting.
+    pub fn finish(mut self, engine: &mut Engine) -> Self {
+        let rate = engine.heart().device().layout().rate;
+        self.block_s = engine.heart().device().layout().block as f64 / rate;
+        self.block_work_s = Four::of(engine.heart().work());
+        self.heavy_blocks = engine.heart().heavy();
+        let status = engine.heart().device().status();
+        self.lost_blocks = status.lost;
+        self.server = status.server.map(|server| ServerSays::of(&server, rate));
+        self.block_s = self.server.as_ref().map_or(self.block_s, |server| server.period_s);
+        let stage = engine.stage();
+        self.tells_feelings = stage.tells_feelings();
+        let counts = stage.counts();
+        self.touches = counts.touches;
+        self.refused_touches = counts.errors();
+        self.seconds = stage.time();
+        self.computing_s = Four::of(stage.computing());
+        let conductor = stage.conductor();
+        let tally = conductor.tally();
+        self.drives_made = conductor.drives().making().count();
+        self.making_s = Four::of(conductor.drives().making());
+        self.first_sample_s = Four::of(&tally.first_sample);
+        self.focus_s = Four::of(&tally.focus);
+        self.unknown_times = tally.first_sample.unknown();
+        (self.cues, self.failed_cues, self.last_failure) = (tally.cues, tally.failed, tally.failure.clone());
+        (self.started, self.limited, self.least_limit) = (tally.started, tally.limited, tally.least);
+        (self.waves_limited, self.beyond_limit) = (tally.waves_limited, tally.beyond);
+        self.stale = tally.stale;
+        (self.late, self.refused) = (tally.late, tally.refused);
+        self.lost_commands = tally.lost + conductor.desk().meters().count(Count::ReportsLost);
+        self.felt.settle(self.without_scale);
+        self
+    }
+}
+
+fn told(feeling: &Feeling, without_scale: bool) -> String {
+    let level = match feeling.level_db {
+        Some(_) if without_scale => "level unknown".into(),
+        level => level.map_or("  silent".into(), |db| format!("{db:5.1} dB")),
+    };
+    let contrast = feeling.contrast.map_or("    -".into(), |contrast| format!("{contrast:5.1}"));
+    let (x, y) = (feeling.at.x * 1e3, feeling.at.y * 1e3);
+    format!("  finger {} at {x:.0},{y:.0}: {level}, contrast {contrast}", feeling.finger)
+}
+
+impl Felt {
+    /// For people; `told` where a virtual surface says what is felt, `without_scale` where its level means nothing.
+    fn text(&self, told: bool, without_scale: bool) -> String {
+        if !told {
+            return "felt: unknown, since no virtual surface plays that could tell\n".into();
+        }
+        let db = |value: Option<f64>| value.map_or("-".into(), |db| format!("{db:.1}"));
+        let [median, most, contrast] =
+            [self.level_db_median, self.level_db_most, self.contrast_median].map(db);
+        if without_scale {
+            return format!("felt: level unknown, contrast {contrast}\n");
+        }
+        format!("felt: {median} dB above threshold (most {most}), contrast {contrast}\n")
+    }
+
+    fn add(&mut self, feeling: &Feeling) {
+        self.levels.extend(feeling.level_db.filter(|db| *db > 0.0));
+        self.contrasts.extend(feeling.contrast);
+    }
+
+    fn settle(&mut self, without_scale: bool) {
+        self.levels.sort_unstable_by(f64::total_cmp);
+        self.contrasts.sort_unstable_by(f64::total_cmp);
+        let middle = |values: &[f64]| values.get(values.len() / 2).copied();
+        self.looks = self.levels.len();
+        if !without_scale {
+            self.level_db_median = middle(&self.levels);
+            self.level_db_most = self.levels.last().copied();
+        }
+        self.contrast_median = middle(&self.contrasts);
+    }
+}
+
+impl crate::Report for Report {
+    fn text(&self) -> String {
+        let mut text = format!(
+            "{}: {:.1} s played, {} touches, {} cues, {} drives made\n",
+            self.surface, self.seconds, self.touches, self.cues, self.drives_made
+        );
+        let _ = writeln!(text, "{}", self.window);
+        text += &self.felt.text(self.tells_feelings, self.without_scale);
+        let columns = ["p50", "p90", "p99", "p99.9", "worst"].map(|name| format!("{name:>9}"));
+        let _ = writeln!(text, "\n  {:<34}{}", "in ms", columns.concat());
+        text += &self.first_sample_s.text("touch to first sample");
+        text += &self.focus_s.text("touch to focus");
+        text += &self.making_s.text("making a drive for a new place");
+        text += &self.computing_s.text("all that touches of one moment ask");
+        text += &self.block_work_s.text(&format!("a block of {:.3} ms, processor", 1e3 * self.block_s));
+        let _ =
+            writeln!(text, "\nlimited: {} events, {} times all waveforms", self.limited, self.waves_limited);
+        for (count, what) in [
+            (
+                self.unknown_times,
+                "answers to touches not among these times: told of too late to know when they left",
+            ),
+            (self.beyond_limit, "levels beyond the limit, played as strongly as it allows"),
+            (self.failed_cues, "cues that could not be played"),
+            (self.stale, "pulses dropped because they came too late"),
+            (self.late, "commands late"),
+            (self.refused, "commands refused by the player"),
+            (self.lost_commands, "commands or reports lost"),
+            (
+                self.lost_blocks,
+                "blocks lost: they left late or not at all, which is heard as a gap or a click",
+            ),
+            (self.heavy_blocks, "blocks that took more than 70 % of their time"),
+            (self.refused_touches, "packets, places or fingers refused"),
+        ] {
+            if count > 0 {
+                let _ = writeln!(text, "{count} {what}");
+            }
+        }
+        text += &self.server.as_ref().map(ServerSays::text).unwrap_or_default();
+        if let Some(failure) = &self.last_failure {
+            let _ = writeln!(text, "the last that failed: {failure}");
+        }
+        if let Some(priority) = &self.priority {
+            let _ = writeln!(text, "audio thread: {priority}");
+        }
+        text
+    }
+}

@@ -1,0 +1,187 @@
+//! A surface that answers fingers, live.
+
+use super::open::{self, Opened};
+use super::report::Report;
+use super::touches::Touches;
+use super::{Ask, outputs};
+use crate::numbers::above_zero;
+use crate::window::of_window;
+use crate::{Progress, TaskError, judge, source};
+use std::sync::Arc;
+use unripple::act::lasting;
+use unripple::core::{Drive, Responses, Surface};
+use unripple::physics::Medium;
+use unripple_calibrate::{Ping, PingOptions};
+use unripple_live::{Engine, Follower, Level, LiveOptions, Maker, Pulse, Stage, Window};
+use unripple_store::{load_effects, write_kept_wav};
+
+/// Most of a drive that is kept, in s.
+const KEPT: f64 = 60.0;
+
+/// Time over which tension is observed, in s: a ping, and until it is over.
+const FOLLOWED: f64 = 0.4;
+
+/// How often fingers are told of, in s of played time.
+const TELL: f64 = 0.2;
+
+/// Plays a surface under touches until it is over, or is cancelled, which is no error: what was played until then is reported.
+///
+/// # Errors
+/// [`TaskError::Ask`] of what makes no sense; those of surfaces, effects, devices, touches and files.
+pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    let source = source::open(&ask.surface, progress)?;
+    let (surface, without_scale) = (source.surface.clone(), source.without_scale().is_some());
+    let notes = source.stored.as_ref().map_or_else(Vec::new, |stored| stored.notes.clone());
+    let set = load_effects(&ask.effect)?;
+    outputs::check(ask)?;
+    let responses = Arc::new(match source.stored {
+        Some(stored) => Responses::Sampled(stored.responses),
+        None => judge::model(&surface, None, &[])?,
+    });
+    let window = window(ask, &surface, &responses)?;
+    let mut settings = LiveOptions::new(&surface, window.seconds);
+    settings.focus.method = ask.method;
+    let asked = ask.window_s.is_some();
+    let maker = maker(&surface, &responses, &settings).map_err(|error| of_window(error, asked))?;
+    let level = match without_scale {
+        true => Level::without_scale(&surface, &maker)?,
+        false => Level::of(&surface, &maker, ask.full_limit)?,
+    };
+    settings.full = level.full;
+    let (touches, sources) = Touches::open(&ask.touch, &surface)?;
+    let Opened { device, feeler, latency } = open::open(ask, &surface)?;
+    let engine = Engine::new(&surface, maker, &set, sources, device, &settings)?;
+    let mut engine = match feeler {
+        Some(feeler) => engine.with_feeler(feeler),
+        None => engine,
+    };
+    if let Some(listener) = touches.listener() {
+        engine = engine.with_listener(listener);
+    }
+    if ask.follow_tension {
+        let (follower, ping) = follower(&surface, &responses, &settings, latency)?;
+        engine = engine.with_follower(follower, &ping)?;
+    }
+    for line in [window.to_string(), level.to_string()].iter().chain(&touches.told) {
+        progress.tell(line);
+    }
+    let mut report = Report::new(&surface, &window, &level);
+    report.notes = notes;
+    report.without_scale = without_scale;
+    let mut session = Session { ask, touches, report, told: 0.0, progress };
+    let seconds = seconds_to_play(ask, session.touches.lasts)?;
+    session.touches.begin();
+    match ask.clock() {
+        Some(_) => session.run(&mut engine, seconds)?,
+        None => session.step(&mut engine, seconds)?,
+    }
+    session.touches.finish()?;
+    Ok(session.report.finish(&mut engine))
+}
+
+/// What makes drives: of a library, at places between its points.
+fn maker(surface: &Surface, responses: &Arc<Responses>, settings: &LiveOptions) -> Result<Maker, TaskError> {
+    match responses.as_ref() {
+        Responses::Sampled(stored) if settings.focus.method.reverses() => {
+            let medium = Medium::of(&surface.sheet).with_air(surface.sheet.air);
+            Ok(Maker::between(Arc::new(stored.clone()), medium, &settings.focus)?)
+        }
+        _ => Ok(Maker::new(responses.clone(), &settings.focus)?),
+    }
+}
+
+fn window(ask: &Ask, surface: &Surface, responses: &Responses) -> Result<Window, TaskError> {
+    Ok(match ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()? {
+        Some(asked) => Window::of(surface, asked),
+        None => Window::prompt_within(surface, lasting(responses)),
+    })
+}
+
+fn seconds_to_play(ask: &Ask, lasts: Option<f64>) -> Result<Option<f64>, TaskError> {
+    let asked = ask.seconds.map(|s| above_zero(s, "seconds", "s")).transpose()?;
+    Ok(asked.or(lasts))
+}
+
+/// What follows the tension of a surface that is known by its modes.
+pub fn follower(
+    surface: &Surface,
+    responses: &Responses,
+    settings: &LiveOptions,
+    latency: usize,
+) -> Result<(Follower, Ping), TaskError> {
+    let Responses::Modal(modal) = responses else {
+        let text = "`follow_tension`: expected a surface, whose modes it needs, found a library (fit a model to it first)";
+        return Err(TaskError::Input(text.into()));
+    };
+    let tracker = open::tracker(surface, modal)?;
+    let channels = surface.actuators.len();
+    let options = PingOptions { limit: surface.emission.limit, ..PingOptions::default() };
+    let ping = Ping::design(modal, &options)?;
+    Ok((Follower::new(tracker, &settings.focus, channels, surface.emission.rate, FOLLOWED, latency), ping))
+}
+
+/// One sitting.
+struct Session<'a> {
+    ask: &'a Ask,
+    touches: Touches,
+    report: Report,
+    told: f64,
+    progress: &'a mut dyn Progress,
+}
+
+impl Session<'_> {
+    /// Plays as fast as it goes, all on this thread.
+    fn step(&mut self, engine: &mut Engine, seconds: Option<f64>) -> Result<(), TaskError> {
+        let mut kept = Vec::new();
+        while !self.progress.cancelled() && seconds.is_none_or(|end| engine.stage().time() < end) {
+            engine.step()?;
+            if self.ask.keep_drive.is_some() && engine.stage().time() <= KEPT {
+                kept.extend_from_slice(engine.heart().drive());
+            }
+            let stage = engine.stage();
+            if stage.time() - self.told >= TELL {
+                self.tell(stage, None);
+            }
+        }
+        match &self.ask.keep_drive {
+            Some(path) => {
+                let drive = drive(&kept, engine)?;
+                if write_kept_wav(path, &self.ask.reads(), &drive)?.replaced {
+                    self.progress.tell(&format!("replaced the earlier drive in {}", path.display()));
+                }
+                Ok(())
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Plays by the device's clock, on a thread of its own.
+    fn run(&mut self, engine: &mut Engine, seconds: Option<f64>) -> Result<(), TaskError> {
+        engine.run(seconds, |stage, pulse| {
+            self.tell(stage, Some(pulse));
+            !self.progress.cancelled()
+        })?;
+        Ok(())
+    }
+
+    fn tell(&mut self, stage: &mut Stage, pulse: Option<&Pulse>) {
+        self.told = stage.time();
+        let line = self.report.look(stage, pulse);
+        if !line.is_empty() {
+            self.progress.tell(&line);
+        }
+    }
+}
+
+/// What was driven, from blocks.
+fn drive(kept: &[f32], engine: &Engine) -> Result<Drive, TaskError> {
+    let layout = engine.heart().device().layout();
+    let outputs = layout.outputs.len();
+    let mut channels = vec![Vec::new(); outputs];
+    for block in kept.chunks_exact(outputs * layout.block) {
+        for (channel, plane) in channels.iter_mut().zip(block.chunks_exact(layout.block)) {
+            channel.extend(plane.iter().map(|x| f64::from(*x)));
+        }
+    }
+    Drive::new(layout.rate, layout.outputs.clone(), channels).map_err(TaskError::work)
+}

@@ -1,0 +1,117 @@
+//! Where touches come from, as typed.
+
+use super::ask::TouchAsk;
+use crate::TaskError;
+use std::fs::File;
+use std::io::BufWriter;
+use std::net::SocketAddr;
+use std::sync::{Arc, Mutex};
+use unripple::core::Surface;
+use unripple_live::Listener;
+use unripple_store::{Underway, new_file};
+use unripple_touch::{
+    Heard, Options, OscPort, Playback, Recorder, Recording, Screen, Source, Sources, Synthetic,
+    SyntheticOptions, TouchError, WebSocketOptions, WebSocketPort,
+};
+
+/// Seconds that a recorded session is followed by, so that what it set off is over.
+const AFTER: f64 = 0.5;
+
+/// Fingers that are not there, where nothing else touches.
+const ALONE: usize = 2;
+
+/// What is known of the sources of touches, and what is recorded of them.
+#[derive(Default)]
+pub(super) struct Touches {
+    recording: Option<Arc<Mutex<Tape>>>,
+    /// The recording's file goes again unless the sitting begins.
+    unused: Option<Underway>,
+    /// How long a recorded session lasts, in s.
+    pub lasts: Option<f64>,
+    /// A line for each source.
+    pub told: Vec<String>,
+}
+
+/// A recording under way, or why it ended.
+struct Tape {
+    recorder: Option<Recorder<BufWriter<File>>>,
+    failed: Option<TouchError>,
+}
+
+impl Tape {
+    fn hear(&mut self, now: f64, heard: &Heard) {
+        if let Some(recorder) = self.recorder.as_mut().filter(|_| self.failed.is_none()) {
+            self.failed = recorder.record(now, heard).err();
+        }
+    }
+
+    fn finish(&mut self) -> Result<(), TouchError> {
+        let done = self.recorder.take().map_or(Ok(()), |recorder| recorder.finish().map(|_| ()));
+        self.failed.take().map_or(done, Err)
+    }
+}
+
+impl Touches {
+    /// Opens all sources that were asked for.
+    pub fn open(options: &TouchAsk, surface: &Surface) -> Result<(Self, Sources), TaskError> {
+        let mut touches = Self::default();
+        let mut sources = Sources::new(&surface.outline);
+        let heard = Options::new(&surface.outline);
+        let mut all: Vec<Box<dyn Source>> = Vec::new();
+        if let Some(port) = options.tuio {
+            all.push(Box::new(OscPort::bind(SocketAddr::new(options.listen, port), heard.clone())?));
+        }
+        if let Some(port) = options.websocket {
+            let address = SocketAddr::new(options.listen, port);
+            all.push(Box::new(WebSocketPort::bind(address, heard.clone(), WebSocketOptions::default())?));
+        }
+        for path in &options.screen {
+            all.push(Box::new(Screen::open(path, heard.clone())?));
+        }
+        if let Some(path) = &options.session {
+            let recording = Recording::open(path)?;
+            touches.lasts = Some(recording.duration() + AFTER);
+            all.push(Box::new(Playback::new(recording, &surface.outline)?));
+        }
+        let fingers = options.fingers.unwrap_or(if all.is_empty() { ALONE } else { 0 });
+        if fingers > 0 {
+            let synthetic = SyntheticOptions { fingers, seed: options.seed, ..SyntheticOptions::default() };
+            all.push(Box::new(Synthetic::new(&surface.outline, synthetic)?));
+        }
+        for source in all {
+            touches.told.push(format!("touches from {}", source.name()));
+            sources.push(source);
+        }
+        if let Some(path) = &options.record {
+            let (file, unused) = new_file(path)?;
+            let recorder = Some(Recorder::new(BufWriter::new(file), 0.0)?);
+            touches.recording = Some(Arc::new(Mutex::new(Tape { recorder, failed: None })));
+            touches.unused = Some(unused);
+        }
+        Ok((touches, sources))
+    }
+
+    /// What is to be told of all that is heard, if it is recorded.
+    pub fn listener(&self) -> Option<Listener> {
+        let tape = self.recording.clone()?;
+        Some(Box::new(move |now, heard| {
+            if let Ok(mut tape) = tape.lock() {
+                tape.hear(now, heard);
+            }
+        }))
+    }
+
+    /// The sitting begins: what is recorded stays from now on, however it ends.
+    pub fn begin(&mut self) {
+        if let Some(unused) = self.unused.take() {
+            unused.keep();
+        }
+    }
+
+    /// Ends the recording.
+    pub fn finish(&mut self) -> Result<(), TaskError> {
+        let Some(tape) = self.recording.take() else { return Ok(()) };
+        let finished = tape.lock().map_err(TaskError::work)?.finish();
+        finished.map_err(TaskError::work)
+    }
+}

@@ -1,0 +1,126 @@
+//! What is true of every task: its ask goes through JSON and back, an unknown key is refused, and one that is cancelled before it begins
+//! does nothing.
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::fmt::Debug;
+use unripple_tasks::*;
+
+/// Whoever waits has gone.
+struct Gone;
+
+impl Progress for Gone {
+    fn cancelled(&self) -> bool {
+        true
+    }
+}
+
+fn folder(name: &str) -> std::path::PathBuf {
+    std::env::temp_dir().join(format!("unripple-every-{name}-{}", std::process::id()))
+}
+
+fn through_json<A: Serialize + DeserializeOwned + PartialEq + Debug>(ask: &A) {
+    let text = serde_json::to_string(ask).unwrap();
+    assert_eq!(&serde_json::from_str::<A>(&text).unwrap(), ask, "{text}");
+    let mut other: serde_json::Value = serde_json::from_str(&text).unwrap();
+    other["no_such_key"] = 1.into();
+    assert!(serde_json::from_value::<A>(other).is_err(), "an unknown key is taken by {text}");
+    assert_eq!(serde_json::from_str::<A>("{}").ok().is_some(), true, "no defaults: {text}");
+}
+
+#[test]
+fn asks_go_through_json() {
+    through_json(&check::Ask::default());
+    through_json(&design::Ask::default());
+    through_json(&modes::Ask { top_hz: Some(500.5), ..modes::Ask::default() });
+    through_json(&respond::Ask { pitch_m: 0.0075, ..respond::Ask::default() });
+    through_json(&export::Ask { format: Some(export::Format::Sofa), ..export::Ask::default() });
+    through_json(&devices::Ask::default());
+    through_json(&doctor::Ask::default());
+    through_json(&fit::Ask::default());
+    through_json(&calibrate::Ask { by: calibrate::By::Tap, ..calibrate::Ask::default() });
+    through_json(&play::Ask::default());
+    through_json(&compare::Ask { level: target::LevelAsk::PeakM(1e-5), ..compare::Ask::default() });
+    through_json(&field::Ask {
+        drive: field::DriveAsk::Samples { channels: vec![vec![0.5, 1.0]], rate_hz: 48e3 },
+        ..field::Ask::default()
+    });
+    through_json(&focus::Ask {
+        surface: SurfaceAsk::Text { toml: "format = 1".into() },
+        points: vec![target::PointAsk { rate_hz: Some(5.0), ..target::PointAsk::at(0.062, 0.09) }],
+        shapes: vec![target::ShapeAsk::Circle { centre_m: [0.075; 2], radius_m: 0.02 }],
+        level: target::LevelAsk::FeltDb(12.0),
+        method: unripple::focus::Method::Concentrate,
+        losses: focus::Losses::PerMode,
+        ..focus::Ask::default()
+    });
+    through_json(&waveform::Ask {
+        waveforms: vec![waveform::WaveformAsk {
+            at_m: [0.062, 0.09],
+            sound: waveform::SoundAsk::Burst { hz: 250.0, cycles: 5.0 },
+            level_m: 1e-6,
+        }],
+        ..waveform::Ask::default()
+    });
+    through_json(&stroke::Ask::default());
+}
+
+/// A task that was cancelled before it began.
+fn does_nothing<A, R: Debug>(ask: &A, run: fn(&A, &mut dyn Progress) -> Result<R, TaskError>) {
+    let found = run(ask, &mut Gone);
+    assert!(matches!(found, Err(TaskError::Cancelled)), "{found:?}");
+}
+
+#[test]
+fn a_cancelled_task_leaves_nothing() {
+    let output = folder("cancelled");
+    let points = vec![target::PointAsk::at(0.062, 0.09)];
+    let place = Some(output.clone());
+    does_nothing(&check::Ask::default(), check::run);
+    does_nothing(&design::Ask::default(), design::run);
+    does_nothing(&modes::Ask::default(), modes::run);
+    does_nothing(&devices::Ask::default(), devices::run);
+    does_nothing(&doctor::Ask::default(), doctor::run);
+    does_nothing(
+        &respond::Ask { pitch_m: 0.02, output: output.clone(), ..respond::Ask::default() },
+        respond::run,
+    );
+    let ask = focus::Ask { points: points.clone(), output: place.clone(), ..focus::Ask::default() };
+    does_nothing(&ask, focus::run);
+    let ask = compare::Ask { points, output: place.clone(), ..compare::Ask::default() };
+    does_nothing(&ask, compare::run);
+    let ask =
+        calibrate::Ask { points_m: vec![[0.05; 2]], output: output.clone(), ..calibrate::Ask::default() };
+    does_nothing(&ask, calibrate::run);
+    let sound = waveform::SoundAsk::Click { length_s: 0.002 };
+    let waveforms = vec![waveform::WaveformAsk { at_m: [0.05; 2], sound, level_m: 1e-6 }];
+    does_nothing(
+        &waveform::Ask { waveforms, output: place.clone(), ..waveform::Ask::default() },
+        waveform::run,
+    );
+    does_nothing(&stroke::Ask { output: place.clone(), ..stroke::Ask::default() }, stroke::run);
+    let drive = field::DriveAsk::Samples { channels: vec![vec![1.0; 64]; 8], rate_hz: 48e3 };
+    does_nothing(&field::Ask { drive, output: place, ..field::Ask::default() }, field::run);
+    assert!(!output.exists());
+}
+
+#[test]
+fn defaults_are_those_of_the_library() {
+    let usual = unripple::focus::Options::default();
+    let ask = focus::Ask::default();
+    assert_eq!((ask.push, ask.spread, ask.method), (usual.push, usual.spread, usual.method));
+}
+
+#[test]
+fn an_ask_names_the_field_that_is_wrong() {
+    let field = |error: TaskError| match error {
+        TaskError::Ask { field, .. } => field,
+        other => panic!("{other}"),
+    };
+    let ask = focus::Ask::default();
+    assert_eq!(field(focus::run(&ask, &mut Silent).unwrap_err()), "points, shapes");
+    let ask = focus::Ask { points: vec![target::PointAsk::at(0.05, 0.05)], window_s: Some(-1.0), ..ask };
+    assert_eq!(field(focus::run(&ask, &mut Silent).unwrap_err()), "window_s");
+    let ask = modes::Ask { top_hz: Some(f64::NAN), ..modes::Ask::default() };
+    assert_eq!(field(modes::run(&ask, &mut Silent).unwrap_err()), "top_hz");
+}
