@@ -22,17 +22,70 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`core`] holds the conventions (axes, signs, units, samples) that everything keeps to.
+//! The same from a surface file to a drive on disk, at a level that linear theory allows, with a report:
+//!
+//! ```
+//! use unripple::act::{Act, Level, chosen_window, model};
+//! use unripple::core::Point;
+//! use unripple::focus::{Method, Options, Target};
+//! use unripple::store::{parse_surface, write_wav};
+//!
+//! let film = parse_surface(
+//!     r#"
+//!     format = 1
+//!     [outline]
+//!     rectangle_mm = [120, 80]
+//!     [sheet]
+//!     material = "BoPET"
+//!     thickness_mm = 0.1
+//!     tension_n_per_m = 150
+//!     decay_time_ms = 60
+//!     [drive]
+//!     band_hz = [0, 2000]
+//!     [[actuator]]
+//!     at_mm = [9, 22]
+//!     [[actuator]]
+//!     at_mm = [31, 71]
+//!     [[actuator]]
+//!     at_mm = [112, 35]
+//!     "#,
+//!     "film.toml",
+//! )?;
+//! let responses = model(&film, None, &[])?;
+//! let targets = [Target::at(Point::from_mm(50.0, 40.0))];
+//! let window = chosen_window(&film, &responses).seconds;
+//! let options = Options { method: Method::Concentrate, window, limit: film.emission.limit, ..Options::default() };
+//! let level = Level::Linear;
+//! let acted = Act { surface: &film, responses: &responses, targets: &targets, options: &options, level }.run()?;
+//! // Judged by other code than made it.
+//! assert!(acted.judged.measured.targets[0].contrast.is_some_and(|contrast| contrast > 10.0));
+//! println!("{}", acted.report(&film, &options).text());
+//! let file = std::env::temp_dir().join(format!("unripple-drive-{}.wav", std::process::id()));
+//! write_wav(&file, &acted.drive)?;
+//! # std::fs::remove_file(file)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! [`core`] holds the conventions (axes, signs, units, samples) that everything keeps to. Then, upwards: [`dsp`]; [`physics`], [`focus`],
+//! [`field`], [`player`], [`effects`]; [`store`], [`plot`], [`devices`], [`calibrate`], [`touch`]; and here [`act`], [`drafting`] and
+//! [`contrast_map`]. A surface played live is `unripple-live`, whole tasks with files and figures are `unripple-tasks`.
 
+pub use unripple_calibrate as calibrate;
 pub use unripple_core as core;
+pub use unripple_devices as devices;
 pub use unripple_dsp as dsp;
+pub use unripple_effects as effects;
 pub use unripple_field as field;
 pub use unripple_focus as focus;
 pub use unripple_physics as physics;
+pub use unripple_player as player;
+pub use unripple_plot as plot;
+pub use unripple_store as store;
+pub use unripple_touch as touch;
 
 pub mod act;
+mod contact;
 pub mod contrast_map;
 pub mod drafting;
-mod touch;
 
-pub use touch::{Touch, touch};
+pub use contact::{Touch, touch};
