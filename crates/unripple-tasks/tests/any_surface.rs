@@ -17,11 +17,12 @@ const FEW: u64 = 12;
 /// One in three has more modes than this.
 const MANY: f64 = 100.0;
 
-/// A shape as a file says it, its area in m² and the number of its sides.
+/// A shape as a file says it, its area in mm², the number of its sides and its extent in mm.
 struct Shape {
     text: String,
     area: f64,
     sides: usize,
+    extent: [f64; 2],
 }
 
 fn pick<'a>(random: &mut Random, of: &[&'a str]) -> &'a str {
@@ -57,19 +58,22 @@ fn area(corners: &[[f64; 2]]) -> f64 {
 fn shape(random: &mut Random) -> Shape {
     let size = random.decades(20.0, 1000.0);
     let other = size * random.between(0.3, 1.0);
-    match (random.uniform() * 5.0) as usize {
-        0 | 1 => Shape { text: format!("rectangle_mm = [{size}, {other}]"), area: size * other, sides: 4 },
-        2 => Shape { text: format!("circle_mm = {}", size / 2.0), area: PI * size * size / 4.0, sides: 1 },
+    let (text, area, sides, extent) = match (random.uniform() * 5.0) as usize {
+        0 | 1 => (format!("rectangle_mm = [{size}, {other}]"), size * other, 4, [size, other]),
+        2 => (format!("circle_mm = {}", size / 2.0), PI * size * size / 4.0, 1, [size; 2]),
         3 => {
             let radius = other / 2.0;
             let area = size * other + PI * radius * radius;
-            Shape { text: format!("stadium_mm = [{size}, {radius}]"), area, sides: 4 }
+            (format!("stadium_mm = [{size}, {radius}]"), area, 4, [size + other, other])
         }
         _ => {
             let corners = star(random, size);
-            Shape { text: format!("polygon_mm = {corners:?}"), area: area(&corners), sides: corners.len() }
+            let most = |axis: usize| corners.iter().map(|corner| corner[axis]).fold(0.0, f64::max);
+            let extent = [most(0), most(1)];
+            (format!("polygon_mm = {corners:?}"), area(&corners), corners.len(), extent)
         }
-    }
+    };
+    Shape { text, area, sides, extent }
 }
 
 fn edge(random: &mut Random) -> String {
@@ -198,8 +202,12 @@ fn file(random: &mut Random) -> String {
     );
     let size = (shape.area).sqrt();
     // Somewhere around the middle, now and then beyond the rim.
-    let reach = if chance(random, 0.1) { 1.2 } else { 0.85 };
-    let place = |random: &mut Random| [size * random.between(0.1, reach), size * random.between(0.1, reach)];
+    let reach = if chance(random, 0.1) { 0.6 } else { 0.4 };
+    let [width, height] = shape.extent;
+    let place = |random: &mut Random| {
+        let (angle, share) = (random.between(0.0, TAU), reach * random.uniform().sqrt());
+        [width * (0.5 + share * angle.cos()), height * (0.5 + share * angle.sin())]
+    };
     if chance(random, 0.2) {
         let at = place(random);
         text += &hole(random, at, size);
