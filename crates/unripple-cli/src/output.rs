@@ -1,6 +1,7 @@
 //! Standard output: one JSON object, or text for people.
 
 use crate::error::CliError;
+use crate::options;
 use serde::Serialize;
 use std::io::Write;
 use unripple_tasks::Report;
@@ -19,8 +20,8 @@ pub fn answer(as_json: bool, report: &impl Serialize, text: &str) -> Result<(), 
 
 /// Prints the report of a task, and fails if the task counts as failed.
 pub fn report(as_json: bool, report: &impl Report) -> Result<(), CliError> {
-    answer(as_json, report, &report.text())?;
-    report.failure().map_or(Ok(()), |why| Err(CliError::Work(why)))
+    answer(as_json, report, &options::spoken(&report.text()))?;
+    report.failure().map_or(Ok(()), |why| Err(CliError::Work(options::spoken(&why))))
 }
 
 /// A report as indented JSON.

@@ -1,5 +1,6 @@
 //! How far a task is, on a terminal; elsewhere only what people should read.
 
+use crate::options;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -53,6 +54,7 @@ impl Progress for Terminal {
     }
 
     fn tell(&mut self, line: &str) {
+        let line = options::spoken(line);
         match &self.bar {
             Some(bar) => bar.suspend(|| eprintln!("{line}")),
             None => eprintln!("{line}"),

@@ -20,7 +20,7 @@ pub fn checks(
             let fix = match options.device {
                 DeviceKind::Virtual => "mend the surface file",
                 _ => {
-                    "start the sound server, or try `device` virtual; `unripple devices` lists what there is"
+                    "start the sound server, or try --device virtual; `unripple devices` lists what there is"
                 }
             };
             return Ok(vec![Check::failed("device", error.to_string(), fix)]);

@@ -81,7 +81,7 @@ fn spread(free: &TargetFigures) -> Check {
         false => Check::doubtful(
             "elsewhere",
             found,
-            "it is felt nearly everywhere, so nowhere in particular: `method` felt keeps the rest down",
+            "it is felt nearly everywhere, so nowhere in particular: --method felt keeps the rest down",
         ),
     }
 }

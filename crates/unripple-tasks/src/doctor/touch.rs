@@ -13,7 +13,7 @@ pub fn checks(ask: &Ask) -> [Check; 2] {
 fn port(ask: &Ask) -> Check {
     let address = SocketAddr::new(ask.listen, ask.tuio);
     match UdpSocket::bind(address) {
-        Ok(_) => Check::good("TUIO", format!("UDP {address} is free for `play `tuio``")),
+        Ok(_) => Check::good("TUIO", format!("UDP {address} is free for `play --tuio`")),
         Err(error) => Check::doubtful(
             "TUIO",
             format!("UDP {address} cannot be had: {error}"),
