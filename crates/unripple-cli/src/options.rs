@@ -74,19 +74,25 @@ pub fn option(field: &str) -> String {
     field.split(", ").map(one).collect::<Vec<_>>().join(", ")
 }
 
-/// A text that names fields in backticks, naming options instead.
+/// A text that names fields in backticks, naming options instead; what else stands in backticks stays.
 pub fn spoken(text: &str) -> String {
-    let mut parts = text.split('`').enumerate();
-    let known = |name: &str| OTHERWISE.iter().any(|(field, _)| *field == name);
-    let mut spoken = String::new();
-    for (i, part) in parts.by_ref() {
-        match i % 2 {
-            0 => spoken.push_str(part),
-            _ if known(part) => spoken.push_str(&option(part)),
-            _ => spoken.push_str(&format!("`{part}`")),
-        }
+    let mut spoken = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(start) = rest.find('`') {
+        let (before, quoted) = rest.split_at(start);
+        spoken.push_str(before);
+        let name = quoted[1..].split('`').next().unwrap_or_default();
+        let known =
+            OTHERWISE.iter().any(|(field, _)| *field == name) && quoted[1 + name.len()..].starts_with('`');
+        rest = if known {
+            spoken.push_str(&option(name));
+            &quoted[name.len() + 2..]
+        } else {
+            spoken.push('`');
+            &quoted[1..]
+        };
     }
-    spoken
+    spoken + rest
 }
 
 #[cfg(test)]
@@ -99,5 +105,7 @@ mod tests {
         assert_eq!(option("full_limit"), "--full-limit");
         assert_eq!(option("author, organization"), "--author, --organization");
         assert_eq!(spoken("`points_m` beside it, not `a1`"), "--at beside it, not `a1`");
+        assert_eq!(spoken("a ` alone, then `without` a2"), "a ` alone, then --without a2");
+        assert_eq!(spoken("`limit`, `"), "`limit`, `");
     }
 }

@@ -6,11 +6,11 @@ use serde::Serialize;
 use std::io::Write;
 use unripple_tasks::Report;
 
-/// Prints `report` as one JSON object, or `text`.
+/// Prints `report` as one JSON object, or `text`, in the words of the command line.
 ///
 /// A reader that has gone away, as in `unripple … | head`, is no failure.
 pub fn answer(as_json: bool, report: &impl Serialize, text: &str) -> Result<(), CliError> {
-    let mut line = if as_json { json(report)? } else { text.trim_end().to_owned() };
+    let mut line = options::spoken(&if as_json { json(report)? } else { text.trim_end().to_owned() });
     line.push('\n');
     match std::io::stdout().lock().write_all(line.as_bytes()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(CliError::work(error)),
@@ -20,7 +20,7 @@ pub fn answer(as_json: bool, report: &impl Serialize, text: &str) -> Result<(), 
 
 /// Prints the report of a task, and fails if the task counts as failed.
 pub fn report(as_json: bool, report: &impl Report) -> Result<(), CliError> {
-    answer(as_json, report, &options::spoken(&report.text()))?;
+    answer(as_json, report, &report.text())?;
     report.failure().map_or(Ok(()), |why| Err(CliError::Work(options::spoken(&why))))
 }
 

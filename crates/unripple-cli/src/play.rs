@@ -4,7 +4,6 @@ use crate::args::PlayOptions;
 use crate::error::CliError;
 use crate::output;
 use crate::progress::Terminal;
-use crate::targets::seconds;
 use unripple_tasks::play::{self, Ask};
 
 pub fn run(options: &PlayOptions, as_json: bool) -> Result<(), CliError> {
@@ -14,7 +13,8 @@ pub fn run(options: &PlayOptions, as_json: bool) -> Result<(), CliError> {
         effect: options.effect.clone(),
         touch: options.touch.ask(),
         method: options.method.method(),
-        window_s: seconds(options.window_ms, "--window-ms")?,
+        // Looked at by the task, after the files that are to be written.
+        window_s: options.window_ms.map(|ms| ms / 1e3),
         block: options.block,
         seconds: options.seconds,
         full_limit: options.full_limit,
