@@ -1,5 +1,6 @@
-//! House rules and documentation checks: `cargo xtask tidy` and `cargo xtask docs`.
+//! House rules and documentation checks: `cargo xtask tidy`, `cargo xtask docs` and `cargo xtask circles`.
 
+mod circles;
 mod docs;
 mod floors;
 mod sizes;
@@ -14,8 +15,14 @@ fn main() -> ExitCode {
     let faults = match task.as_str() {
         "tidy" => tidy(&root),
         "docs" => docs::run_all(&root),
+        "circles" => {
+            let circles = circles::find(&root);
+            circles.iter().for_each(|circle| print!("{circle}"));
+            println!("circles: {}", circles.len());
+            return ExitCode::SUCCESS;
+        }
         _ => {
-            eprintln!("usage: cargo xtask tidy | docs");
+            eprintln!("usage: cargo xtask tidy | docs | circles");
             return ExitCode::from(2);
         }
     };
