@@ -67,7 +67,7 @@
 //! ```
 //!
 //! [`core`] holds the conventions (axes, signs, units, samples) that everything keeps to. Then, upwards: [`dsp`]; [`physics`], [`focus`],
-//! [`field`], [`player`], [`effects`]; [`store`], [`plot`], [`devices`], [`calibrate`], [`touch`]; and here [`act`], [`drafting`] and
+//! [`field`], [`player`], [`effects`]; [`store`], [`plot`], [`devices`], [`calibrate`], [`mod@touch`]; and here [`act`], [`drafting`] and
 //! [`contrast_map`]. A surface played live is `unripple-live`, whole tasks with files and figures are `unripple-tasks`.
 
 pub use unripple_calibrate as calibrate;

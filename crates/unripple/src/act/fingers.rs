@@ -19,7 +19,7 @@ pub struct Felt {
 /// What every finger feels of a drive up to `until` (s), from the responses under all of them and those without.
 ///
 /// # Errors
-/// Those of [`Field::new`] and [`touch`].
+/// Those of [`Field::new`] and [`touch()`].
 pub fn felt(
     contacts: &[Contact],
     surface: &Surface,
