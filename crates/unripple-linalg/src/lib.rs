@@ -8,11 +8,12 @@
 //! use faer::{Mat, mat};
 //! use unripple_linalg::{product, symmetric};
 //!
-//! let stiffness = mat![[2.0, -1.0], [-1.0, 2.0]];
+//! let stiffness = mat![[2.0, -1.0], [-1.0, 2.0_f64]];
 //! let (values, vectors) = symmetric(stiffness.as_ref()).unwrap();
 //! assert!((values[0] - 1.0).abs() < 1e-12 && (values[1] - 3.0).abs() < 1e-12);
-//! let rest: Mat<f64> = product(stiffness.as_ref(), vectors.as_ref()) - vectors * faer::Mat::from_fn(2, 2, |i, j| if i == j { values[i] } else { 0.0 });
-//! assert!(rest.norm_l2() < 1e-12);
+//! let turned: Mat<f64> = product(stiffness.as_ref(), vectors.as_ref());
+//! let scaled = Mat::from_fn(2, 2, |i, j| vectors[(i, j)] * values[j]);
+//! assert!((turned - scaled).norm_l2() < 1e-12);
 //! ```
 
 mod eigen;
