@@ -3,14 +3,16 @@
 use crate::args::{CalibrateOptions, WayName};
 use crate::error::CliError;
 use crate::output;
-use crate::progress::Terminal;
+use crate::progress::{Bar, Terminal};
 use crate::targets::{places, positive, seconds};
 use std::io::{BufRead, Write};
 use unripple_tasks::calibrate::{self, Ask, By, Hands, InputScales};
 
 pub fn run(options: &CalibrateOptions, as_json: bool) -> Result<(), CliError> {
-    let report = calibrate::run_with(&ask(options)?, by_hand(), &mut Terminal::default())?;
-    output::report(as_json, &report)
+    let mut terminal = Terminal::default();
+    let done = calibrate::run_with(&ask(options)?, by_hand(terminal.bar()), &mut terminal);
+    drop(terminal);
+    output::report(as_json, &done?)
 }
 
 fn ask(options: &CalibrateOptions) -> Result<Ask, CliError> {
@@ -76,14 +78,18 @@ fn scales(typed: &[String]) -> Result<InputScales, CliError> {
 }
 
 /// People are told on standard error what to do, and press Enter when it is done.
-fn by_hand() -> Hands {
-    Box::new(|asked| {
-        let mut out = std::io::stderr().lock();
-        write!(out, "{asked}, then press Enter: ").and_then(|()| out.flush()).map_err(|e| e.to_string())?;
-        match std::io::stdin().lock().read_line(&mut String::new()) {
-            Ok(0) => Err("nobody is there to press Enter: standard input has ended".into()),
-            Ok(_) => Ok(()),
-            Err(error) => Err(error.to_string()),
-        }
+fn by_hand(bar: Bar) -> Hands {
+    Box::new(move |asked| {
+        bar.aside(|| {
+            let mut out = std::io::stderr().lock();
+            write!(out, "{asked}, then press Enter: ")
+                .and_then(|()| out.flush())
+                .map_err(|e| e.to_string())?;
+            match std::io::stdin().lock().read_line(&mut String::new()) {
+                Ok(0) => Err("nobody is there to press Enter: standard input has ended".into()),
+                Ok(_) => Ok(()),
+                Err(error) => Err(error.to_string()),
+            }
+        })
     })
 }

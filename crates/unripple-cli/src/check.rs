@@ -7,7 +7,8 @@ use crate::progress::Terminal;
 use unripple_tasks::check::{self, Ask};
 
 pub fn run(options: &CheckOptions, as_json: bool) -> Result<(), CliError> {
-    let mut report = check::run(&Ask { surface: (&options.surface).into() }, &mut Terminal::default())?;
+    let checked = check::run(&Ask { surface: (&options.surface).into() }, &mut Terminal::default());
+    let mut report = checked?;
     // Faults are shown on standard error, with the lines that they are about.
     let faults = report.file.take();
     if as_json || faults.is_none() {

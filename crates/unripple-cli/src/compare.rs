@@ -3,7 +3,6 @@
 use crate::args::CompareOptions;
 use crate::error::CliError;
 use crate::output;
-use crate::progress::Terminal;
 use crate::targets::{self, seconds};
 use unripple_tasks::compare::{self, Ask};
 
@@ -17,5 +16,5 @@ pub fn run(options: &CompareOptions, as_json: bool) -> Result<(), CliError> {
         judge_hz: options.judge_hz,
         output: options.output.clone(),
     };
-    output::report(as_json, &compare::run(&ask, &mut Terminal::default())?)
+    output::perform(as_json, &ask, compare::run)
 }

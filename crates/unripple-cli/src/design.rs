@@ -3,10 +3,9 @@
 use crate::args::DesignOptions;
 use crate::error::CliError;
 use crate::output;
-use crate::progress::Terminal;
 use unripple_tasks::design::{self, Ask};
 
 pub fn run(options: &DesignOptions, as_json: bool) -> Result<(), CliError> {
     let ask = Ask { surface: (&options.surface).into() };
-    output::report(as_json, &design::run(&ask, &mut Terminal::default())?)
+    output::perform(as_json, &ask, design::run)
 }

@@ -3,7 +3,6 @@
 use crate::args::DoctorOptions;
 use crate::error::CliError;
 use crate::output;
-use crate::progress::Terminal;
 use unripple_tasks::doctor::{self, Ask};
 
 pub fn run(options: &DoctorOptions, as_json: bool) -> Result<(), CliError> {
@@ -13,5 +12,5 @@ pub fn run(options: &DoctorOptions, as_json: bool) -> Result<(), CliError> {
         tuio: options.tuio,
         listen: options.listen,
     };
-    output::report(as_json, &doctor::run(&ask, &mut Terminal::default())?)
+    output::perform(as_json, &ask, doctor::run)
 }

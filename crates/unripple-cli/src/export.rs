@@ -3,7 +3,6 @@
 use crate::args::ExportOptions;
 use crate::error::CliError;
 use crate::output;
-use crate::progress::Terminal;
 use unripple_tasks::export::{self, Ask};
 
 pub fn run(options: &ExportOptions, as_json: bool) -> Result<(), CliError> {
@@ -15,5 +14,5 @@ pub fn run(options: &ExportOptions, as_json: bool) -> Result<(), CliError> {
         organization: options.organization.clone(),
         license: options.license.clone(),
     };
-    output::report(as_json, &export::run(&ask, &mut Terminal::default())?)
+    output::perform(as_json, &ask, export::run)
 }

@@ -3,7 +3,6 @@
 use crate::args::FieldOptions;
 use crate::error::CliError;
 use crate::output;
-use crate::progress::Terminal;
 use crate::targets::{numbers, places, seconds};
 use unripple_tasks::field::{self, Ask, DriveAsk};
 
@@ -21,7 +20,7 @@ pub fn run(options: &FieldOptions, as_json: bool) -> Result<(), CliError> {
         frames: options.frames,
         between: options.between.interpolation(),
     };
-    output::report(as_json, &field::run(&ask, &mut Terminal::default())?)
+    output::perform(as_json, &ask, field::run)
 }
 
 /// Start and end of the animation, in seconds.

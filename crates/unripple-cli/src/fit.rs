@@ -3,7 +3,6 @@
 use crate::args::FitOptions;
 use crate::error::CliError;
 use crate::output;
-use crate::progress::Terminal;
 use crate::targets::{places, positive};
 use unripple_tasks::fit::{self, Ask};
 
@@ -18,5 +17,5 @@ pub fn run(options: &FitOptions, as_json: bool) -> Result<(), CliError> {
         even_if_doubtful: options.even_if_doubtful,
         output: options.output.clone(),
     };
-    output::report(as_json, &fit::run(&ask, &mut Terminal::default())?)
+    output::perform(as_json, &ask, fit::run)
 }

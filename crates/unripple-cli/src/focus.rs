@@ -2,7 +2,6 @@
 
 use crate::args::{FocusOptions, LossName};
 use crate::error::CliError;
-use crate::progress::Terminal;
 use crate::targets::{self, places, seconds};
 use crate::{output, waveforms};
 use unripple_tasks::focus::{self, Losses};
@@ -10,16 +9,14 @@ use unripple_tasks::{stroke, waveform};
 
 pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
     waveforms::check(options)?;
-    let progress = &mut Terminal::default();
     let targets = &options.targets;
-    let report = if let Some(path) = &targets.path {
-        stroke::run(&stroke_ask(options, path)?, progress)?
+    if let Some(path) = &targets.path {
+        output::perform(as_json, &stroke_ask(options, path)?, stroke::run)
     } else if !targets.waveform.is_empty() {
-        waveform::run(&waveform_ask(options)?, progress)?
+        output::perform(as_json, &waveform_ask(options)?, waveform::run)
     } else {
-        focus::run(&ask(options)?, progress)?
-    };
-    output::report(as_json, &report)
+        output::perform(as_json, &ask(options)?, focus::run)
+    }
 }
 
 fn ask(options: &FocusOptions) -> Result<focus::Ask, CliError> {

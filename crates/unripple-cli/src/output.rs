@@ -2,9 +2,10 @@
 
 use crate::error::CliError;
 use crate::options;
+use crate::progress::Terminal;
 use serde::Serialize;
 use std::io::Write;
-use unripple_tasks::Report;
+use unripple_tasks::{Progress, Report, TaskError};
 
 /// Prints `report` as one JSON object, or `text`, in the words of the command line.
 ///
@@ -16,6 +17,16 @@ pub fn answer(as_json: bool, report: &impl Serialize, text: &str) -> Result<(), 
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(CliError::work(error)),
         _ => Ok(()),
     }
+}
+
+/// Does a task before people's eyes, and prints its report once nothing else is drawn there.
+pub fn perform<A, R: Report>(
+    as_json: bool,
+    ask: &A,
+    run: fn(&A, &mut dyn Progress) -> Result<R, TaskError>,
+) -> Result<(), CliError> {
+    let done = run(ask, &mut Terminal::default());
+    report(as_json, &done?)
 }
 
 /// Prints the report of a task, and fails if the task counts as failed.

@@ -23,5 +23,6 @@ pub fn run(options: &PlayOptions, as_json: bool) -> Result<(), CliError> {
         drift: options.drift_percent.map(|percent| percent / 100.0),
         keep_drive: options.keep_drive.clone(),
     };
-    output::report(as_json, &play::run(&ask, &mut Terminal::that_stops())?)
+    let played = play::run(&ask, &mut Terminal::that_stops());
+    output::report(as_json, &played?)
 }

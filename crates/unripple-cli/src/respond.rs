@@ -3,7 +3,6 @@
 use crate::args::RespondOptions;
 use crate::error::CliError;
 use crate::output;
-use crate::progress::Terminal;
 use crate::targets::{positive, seconds};
 use unripple_tasks::respond::{self, Ask};
 
@@ -14,5 +13,5 @@ pub fn run(options: &RespondOptions, as_json: bool) -> Result<(), CliError> {
         length_s: seconds(options.length_ms, "--length-ms")?,
         output: options.output.clone(),
     };
-    output::report(as_json, &respond::run(&ask, &mut Terminal::default())?)
+    output::perform(as_json, &ask, respond::run)
 }

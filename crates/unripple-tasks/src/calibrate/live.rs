@@ -33,6 +33,7 @@ pub(super) fn run(mut known: Campaign<'_>, hands: Hands) -> Result<Report, TaskE
     agree(&known, &library)?;
     let began = library.in_state(PointState::Missing).len();
     let middle = middle(surface);
+    known.go_on()?;
     let wired = wiring(&known, rig.as_mut(), &layout, middle)?;
     known.settings.without.clone_from(&wired.dead);
     same_dead(&known, &library)?;
@@ -44,10 +45,12 @@ pub(super) fn run(mut known: Campaign<'_>, hands: Hands) -> Result<Report, TaskE
 
     let places = &known.places;
     let first = Session::new(surface, &layout, wires.clone(), &known.settings)?;
+    known.go_on()?;
     let latency = first.find_latency(rig.as_mut(), places.points.len(), middle, known.model)?;
     let late = latency.map_or(0.0, |found| found[0]);
     let settings = MeasureOptions { latency: late, ..known.settings.clone() };
     let mut session = Session::new(surface, &layout, wires.clone(), &settings)?;
+    known.go_on()?;
     own(&known, &session, rig.as_mut(), &mut shelf, middle)?;
     if let Some(sensors) = shelf.heard()? {
         session.follow(&sensors)?;
@@ -81,6 +84,9 @@ pub(super) fn run(mut known: Campaign<'_>, hands: Hands) -> Result<Report, TaskE
     }
     let report = report::Report::of(&shelf.library, places, latency, truth.as_deref(), seconds, taken)?;
     let drawn = figure::write(&mut known, &shelf.library);
+    if let Err(TaskError::Cancelled) = drawn {
+        return Err(TaskError::Cancelled);
+    }
     Report::of_library(&report, doubted(&shelf.library).or(drawn.err().map(|error| error.to_string())))
 }
 

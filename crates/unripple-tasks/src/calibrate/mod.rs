@@ -168,6 +168,14 @@ impl Campaign<'_> {
         work(*self.progress.borrow_mut())
     }
 
+    /// An error once nobody waits for it any more.
+    ///
+    /// # Errors
+    /// [`TaskError::Cancelled`].
+    pub fn go_on(&self) -> Result<(), TaskError> {
+        self.with_progress(|progress| go_on(progress))
+    }
+
     /// Says what is too short for the surface.
     fn warn(&self) {
         self.settings

@@ -6,12 +6,12 @@ use super::marks::Marks;
 use super::rig::{TapeRig, TapeShelf, bad};
 use super::wiring::{Failed, Tried, tried};
 use super::{Bench, Outcome};
+use crate::TaskError;
 use crate::calibrate::finish::{begin, finish, log_run};
 use crate::calibrate::middle;
 use crate::calibrate::report::Report;
 use crate::calibrate::shelf::Shelf;
 use crate::calibrate::wires::WIRING;
-use crate::{TaskError, go_on};
 use serde_json::{Value, json};
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
@@ -318,12 +318,14 @@ impl Work<'_, '_> {
                 }
                 _ => failed.extend(fault.map(|why| (number, why))),
             }
-            known.with_progress(|progress| {
-                progress.done((done + 1) as f64 / there.len() as f64);
-                go_on(progress)
-            })?;
+            known.with_progress(|progress| progress.done((done + 1) as f64 / there.len() as f64));
+            if known.go_on().is_err() {
+                break;
+            }
         }
+        // What was kept until now stays, and is not measured again.
         sink.log()?;
+        known.go_on()?;
         for (number, why) in failed {
             self.name(settings, number, &why)?;
         }
