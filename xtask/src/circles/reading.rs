@@ -209,7 +209,7 @@ mod tests {
             ("a::c::D", true)
         );
         assert_eq!(file.globs, [["a", "f"]]);
-        assert!(file.paths.contains(&["super", "h", "i"].map(str::to_owned).to_vec()));
+        assert!(file.paths.contains(["super", "h", "i"].map(str::to_owned).as_slice()));
         assert_eq!(file.defined.iter().collect::<Vec<_>>(), ["g"]);
         assert_eq!(inline.imported["k"].path, ["super", "k"]);
         assert_eq!((inline.defined.len(), found.len()), (1, 2));
