@@ -64,7 +64,7 @@ impl<R> Progress for Relay<R> {
 /// A task that was given up ends at its next look at its own progress; the next one begins only after that.
 ///
 /// ```
-/// use unripple_tasks::{Silent, apart, design};
+/// use unripple_tasks::{Report, Silent, apart, design};
 ///
 /// let report = apart(design::Ask::default(), design::run, &mut Silent)?;
 /// assert!(report.text().contains("contrast"));

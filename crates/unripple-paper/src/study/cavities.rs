@@ -13,7 +13,7 @@ const IRREGULAR: [(f64, f64); 6] =
 /// 1979) nearly every ray visits every place in every direction, and the polygon has no symmetry left.
 ///
 /// ```
-/// let outlines = unripple::study::cavities(0.0225);
+/// let outlines = unripple_paper::study::cavities(0.0225);
 /// assert!(outlines.iter().all(|(_, outline)| (outline.area() / 0.0225 - 1.0).abs() < 1e-12));
 /// ```
 pub fn cavities(area: f64) -> Vec<(&'static str, Outline)> {

@@ -22,12 +22,12 @@ pub struct Compared {
 /// Contrast of one focus against window (s, ascending) and number of actuators.
 ///
 /// ```
-/// # use unripple::study::{Bench, CELLS, Sampling, against_window};
+/// # use unripple_paper::study::{Bench, CELLS, Sampling, against_window};
 /// let surface = unripple_physics::design::papers_surface();
 /// let sampling = Sampling { placements: 4, ..Sampling::default() };
 /// let rows = against_window(&Bench::of(&surface, CELLS)?, &surface, &[0.030], &[8], &sampling);
 /// assert!((rows[0].simulated / rows[0].predicted - 1.0).abs() < 0.2);
-/// # Ok::<(), unripple::study::StudyError>(())
+/// # Ok::<(), unripple_paper::study::StudyError>(())
 /// ```
 pub fn against_window(
     bench: &Bench,
