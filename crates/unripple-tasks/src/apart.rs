@@ -9,8 +9,8 @@ use std::time::Duration;
 /// How often a caller looks whether the task is still wanted: a tenth of the 0.2 s after which people take a program for stuck.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Whether a task that was given up still runs: at most one may, since each holds its memory and cores until its longest call is over.
-static GIVEN_UP: (Mutex<bool>, Condvar) = (Mutex::new(false), Condvar::new());
+/// How many tasks that were given up still run: the next begins when none does, since each holds its memory and cores until its longest call is over.
+static GIVEN_UP: (Mutex<usize>, Condvar) = (Mutex::new(0), Condvar::new());
 
 /// What a task on its own thread says.
 enum Said<R> {
@@ -24,8 +24,8 @@ enum Said<R> {
 #[derive(Default)]
 struct Shared {
     cancelled: AtomicBool,
-    /// Held while results are put in place, so that a cancelled task has put nothing there.
-    placing: Mutex<()>,
+    /// Whether results were put in place: who cancels after that hears how the task ended. Held while they are put there.
+    placed: Mutex<bool>,
 }
 
 /// The caller's progress, as the thread sees it.
@@ -53,10 +53,12 @@ impl<R> Progress for Relay<R> {
     }
 
     fn place(&mut self, put: &mut dyn FnMut() -> Result<(), TaskError>) -> Result<(), TaskError> {
-        let placing = self.shared.placing.lock().unwrap_or_else(PoisonError::into_inner);
-        let done = if self.cancelled() { Err(TaskError::Cancelled) } else { put() };
-        drop(placing);
-        done
+        let mut placed = self.shared.placed.lock().unwrap_or_else(PoisonError::into_inner);
+        if self.cancelled() {
+            return Err(TaskError::Cancelled);
+        }
+        *placed = true;
+        put()
     }
 }
 
@@ -121,36 +123,39 @@ fn follow<R>(
             }
         }
         if progress.cancelled() {
-            let placing = shared.placing.lock().unwrap_or_else(PoisonError::into_inner);
+            let placed = shared.placed.lock().unwrap_or_else(PoisonError::into_inner);
             shared.cancelled.store(true, Ordering::Relaxed);
-            drop(placing);
-            return None;
+            if !*placed {
+                return None;
+            }
         }
     }
 }
 
 /// Waits in the background for a task that nobody wants.
 fn give_up(thread: std::thread::JoinHandle<()>) {
-    set(true);
+    count(|running| running + 1);
     let wait = move || {
         // A panic of what nobody waits for has said so already.
         let _ = thread.join();
-        set(false);
+        count(|running| running - 1);
     };
     if std::thread::Builder::new().name("given up".into()).spawn(wait).is_err() {
-        set(false);
+        count(|running| running - 1);
     }
 }
 
-fn set(given_up: bool) {
-    *GIVEN_UP.0.lock().unwrap_or_else(PoisonError::into_inner) = given_up;
+fn count(change: impl Fn(usize) -> usize) {
+    let mut running = GIVEN_UP.0.lock().unwrap_or_else(PoisonError::into_inner);
+    *running = change(*running);
+    drop(running);
     GIVEN_UP.1.notify_all();
 }
 
 /// Waits until the task that was given up last is over, or this one is cancelled too.
 fn wait_for_the_last(progress: &dyn Progress) -> Result<(), TaskError> {
     let mut running = GIVEN_UP.0.lock().unwrap_or_else(PoisonError::into_inner);
-    while *running {
+    while *running > 0 {
         crate::go_on(progress)?;
         let woken = GIVEN_UP.1.wait_timeout(running, LOOK);
         running = woken.unwrap_or_else(PoisonError::into_inner).0;

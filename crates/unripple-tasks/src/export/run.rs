@@ -24,11 +24,15 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     go_on(progress)?;
     progress.stage("points");
     let bad = library.in_state(PointState::Bad).len();
-    let committed = match format {
-        Format::Wav => library.export_wav(&ask.output)?,
-        Format::Sofa => library.export_sofa(&ask.output, &about(ask))?,
-    };
-    if committed.replaced {
+    let mut committed = None;
+    progress.place(&mut || {
+        committed = Some(match format {
+            Format::Wav => library.export_wav(&ask.output)?,
+            Format::Sofa => library.export_sofa(&ask.output, &about(ask))?,
+        });
+        Ok(())
+    })?;
+    if let Some(committed) = committed.filter(|committed| committed.replaced) {
         progress.tell(&format!("replaced the earlier export in {}", committed.path.display()));
     }
     let plan = library.plan();
