@@ -72,14 +72,19 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
         report.written =
             Some(report::Written { library: folder.display().to_string(), points: wanted.len() });
     }
-    report.failure = why.map(|why| match &ask.output {
+    report.failure = why.map(|why| failure(ask, &why));
+    Ok(report)
+}
+
+/// Why a doubtful fit counts as failed, and whether anything was written.
+fn failure(ask: &Ask, why: &str) -> String {
+    match &ask.output {
         Some(folder) if !ask.even_if_doubtful => format!(
             "the model is doubtful: {why}; nothing was written to {} (`even_if_doubtful` writes it all the same)",
             folder.display()
         ),
         _ => format!("the model is doubtful: {why}"),
-    });
-    Ok(report)
+    }
 }
 
 /// Refuses, before minutes of work, a place where the new library cannot be.
