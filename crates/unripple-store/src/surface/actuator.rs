@@ -83,8 +83,8 @@ fn one(
         Kind::Force => Some(ActuatorKind::Force),
         Kind::MovingMagnet => magnet(section, faults),
         Kind::Piezo => {
-            let to_rim = at.zip(base.ground).map(|(at, ground)| ground.to_rim(at));
-            piezo::read(section, &Spot { thickness: at.and_then(base.thickness), to_rim }, faults)
+            let place = base.ground.map(Ground::outline).zip(at);
+            piezo::read(section, &Spot { thickness: at.and_then(base.thickness), place }, faults)
         }
     };
     Some(Actuator { name: name?, at: at?, kind: kind?, contact_radius: pad? })

@@ -1,7 +1,7 @@
 use super::range::of;
 use super::reader::{Entry, Faults, Section};
 use std::f64::consts::PI;
-use unripple_core::ActuatorKind;
+use unripple_core::{ActuatorKind, Outline, Point};
 
 /// The keys of a piezo patch.
 pub(super) const PIEZO_KEYS: [&str; 7] = [
@@ -19,17 +19,17 @@ const PATCH_KEYS: [&str; 3] = ["d31_pm_per_v", "patch_young_gpa", "patch_thickne
 const PATCH_POISSON: f64 = 0.3;
 
 /// What is known of the sheet where a patch is; nothing of what is at fault.
-pub(super) struct Spot {
+pub(super) struct Spot<'a> {
     /// Thickness there, in metres.
     pub thickness: Option<f64>,
-    /// Distance from the nearest rim, in metres.
-    pub to_rim: Option<f64>,
+    /// The outline, and where on it the patch is.
+    pub place: Option<(&'a Outline, Point)>,
 }
 
 /// A piezo patch on a sheet, all of it.
-pub(super) fn read(section: &Section, spot: &Spot, faults: &mut Faults) -> Option<ActuatorKind> {
+pub(super) fn read(section: &Section, spot: &Spot<'_>, faults: &mut Faults) -> Option<ActuatorKind> {
     let radius = section.number(PIEZO_KEYS[0], &of::PATCH_RADIUS, faults);
-    let fits = radius.is_none() || within(section, radius, spot.to_rim, faults);
+    let fits = radius.is_none() || within(section, radius, spot.place, faults);
     let patch_thickness = match section.get("patch_thickness_mm") {
         Some(entry) => entry.number(&of::PATCH_THICKNESS, faults).map(Some),
         None => Some(None),
@@ -40,13 +40,18 @@ pub(super) fn read(section: &Section, spot: &Spot, faults: &mut Faults) -> Optio
 }
 
 /// Whether a patch keeps within the rims, or a fault: its moment acts along the whole of its own rim.
-fn within(section: &Section, radius: Option<f64>, to_rim: Option<f64>, faults: &mut Faults) -> bool {
-    let (Some(radius), Some(to_rim)) = (radius, to_rim) else { return true };
-    if to_rim >= radius * (1.0 - 1e-9) {
+fn within(
+    section: &Section,
+    radius: Option<f64>,
+    place: Option<(&Outline, Point)>,
+    faults: &mut Faults,
+) -> bool {
+    let (Some(radius), Some((outline, at))) = (radius, place) else { return true };
+    if outline.holds_disc(at, radius) {
         return true;
     }
     let Some(entry) = section.get(PIEZO_KEYS[0]) else { return false };
-    let most = (to_rim * 1e7).floor() / 1e4;
+    let most = (outline.to_rim(at) * 1e7).floor() / 1e4;
     let found = format!("{} mm, which reaches beyond the rim", radius * 1e3);
     let near = (most >= of::PATCH_RADIUS.least).then(|| most.to_string());
     faults.add(

@@ -92,9 +92,9 @@ impl Ground {
         self.outline.extent()
     }
 
-    /// Distance of a place from the nearest rim, in metres.
-    pub fn to_rim(&self, p: Point) -> f64 {
-        self.outline.to_rim(p)
+    /// The outline.
+    pub fn outline(&self) -> &Outline {
+        &self.outline
     }
 
     fn within_rim(&self, p: Point) -> bool {
