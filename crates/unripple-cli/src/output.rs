@@ -5,13 +5,13 @@ use crate::options;
 use crate::progress::Terminal;
 use serde::Serialize;
 use std::io::Write;
-use unripple_tasks::{Progress, Report, TaskError};
+use unripple_tasks::{Progress, Report, TaskError, folder};
 
 /// Prints `report` as one JSON object, or `text`, in the words of the command line.
 ///
 /// A reader that has gone away, as in `unripple … | head`, is no failure.
 pub fn answer(as_json: bool, report: &impl Serialize, text: &str) -> Result<(), CliError> {
-    let mut line = options::spoken(&if as_json { json(report)? } else { text.trim_end().to_owned() });
+    let mut line = options::spoken(&if as_json { folder::json(report)? } else { text.trim_end().to_owned() });
     line.push('\n');
     match std::io::stdout().lock().write_all(line.as_bytes()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(CliError::work(error)),
@@ -33,9 +33,4 @@ pub fn perform<A, R: Report>(
 pub fn report(as_json: bool, report: &impl Report) -> Result<(), CliError> {
     answer(as_json, report, &report.text())?;
     report.failure().map_or(Ok(()), |why| Err(CliError::Work(options::spoken(&why))))
-}
-
-/// A report as indented JSON.
-pub fn json(report: &impl Serialize) -> Result<String, CliError> {
-    serde_json::to_string_pretty(report).map_err(CliError::work)
 }

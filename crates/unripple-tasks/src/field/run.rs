@@ -34,9 +34,9 @@ pub struct Made {
 /// [`TaskError::Ask`] of numbers that make no sense; those of reading and writing files; [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     let out = ask.output.as_ref().map(|place| OutputDir::create_beside(place, &ask.reads())).transpose()?;
-    let mut made = make(ask, progress)?;
+    let (mut made, movie) = measured(ask, out.is_some(), progress)?;
     if let Some(out) = out {
-        write::write(ask, out, &mut made, progress)?;
+        write::write(out, &mut made, movie, progress)?;
     }
     Ok(made.report)
 }
@@ -46,6 +46,15 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
 /// # Errors
 /// Those of [`run()`], but for those of writing.
 pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
+    Ok(measured(ask, false, progress)?.0)
+}
+
+/// What was found, and the animation if it is wanted: both of one field.
+fn measured(
+    ask: &Ask,
+    animated: bool,
+    progress: &mut dyn Progress,
+) -> Result<(Made, Option<Vec<u8>>), TaskError> {
     let source = source::open(&ask.surface, progress)?;
     source.allows(&[("fingers_m", !ask.fingers_m.is_empty()), ("judge_hz", ask.judge_hz.is_some())])?;
     let drive = drive(&ask.drive, &source.surface)?;
@@ -69,6 +78,10 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     let last = aims.iter().map(|aim| aim.instant).fold(0.0, f64::max);
     let until = if period.is_some() { drive.duration() - 1.0 / drive.rate() } else { 2.0 * last };
     let judged = judge::judge(&surface, &field, &aims, period, until, progress)?;
+    let movie = match animated {
+        true => write::movie(ask, &surface, &field, &aims, &judged, progress)?,
+        false => None,
+    };
     drop(field);
 
     let mut report = Report::new("field", &surface, &drive, &judged);
@@ -84,7 +97,7 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     if unscaled {
         report = report.without_scale();
     }
-    Ok(Made { report, drive, judged, aims, surface, responses, scaled: !unscaled })
+    Ok((Made { report, drive, judged, aims, surface, responses, scaled: !unscaled }, movie))
 }
 
 fn drive(ask: &DriveAsk, surface: &Surface) -> Result<Drive, TaskError> {
