@@ -1,3 +1,5 @@
+//! The fingers that are down: which of them each sender speaks of, how long they are silent, how many there may be.
+
 use crate::options::MOST_FORCE;
 use crate::{Counts, Heard, Options, TouchError, Wish};
 use unripple_core::{Phase, Point, Touch};
@@ -85,6 +87,11 @@ impl Fingers {
     /// What it was made with.
     pub fn options(&self) -> &Options {
         &self.options
+    }
+
+    /// What was taken in, and what was refused.
+    pub fn counts(&self) -> Counts {
+        self.counts
     }
 
     /// How many there are.
