@@ -53,7 +53,6 @@ pub fn run(options: &ViewOptions, as_json: bool) -> Result<(), CliError> {
         device_name: options.device.device.name().into(),
         address: SocketAddr::new(ip, options.port),
         token: token(options, ip)?,
-        program: std::env::current_exe().map_err(CliError::work)?,
         folder: options.folder.clone(),
         quiet: false,
     };

@@ -84,7 +84,6 @@ fn view() -> View {
         device_name: "virtual".into(),
         address: ([127, 0, 0, 1], 0).into(),
         token: None,
-        program: "unripple".into(),
         folder: ".".into(),
         quiet: false,
     }

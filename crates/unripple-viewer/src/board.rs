@@ -1,3 +1,5 @@
+//! What all pages are to be shown, from which each takes what it has not seen.
+
 use crate::lock::lock;
 use axum::body::Bytes;
 use std::collections::BTreeMap;
@@ -21,7 +23,6 @@ pub struct Board {
     posted: Mutex<BTreeMap<String, (u64, Notice)>>,
     version: watch::Sender<u64>,
     viewers: AtomicUsize,
-    frames: AtomicUsize,
 }
 
 /// A page that is there.
@@ -40,19 +41,11 @@ impl Board {
     /// An empty one.
     pub fn new() -> Self {
         let (version, _) = watch::channel(0);
-        Self {
-            posted: Mutex::new(BTreeMap::new()),
-            version,
-            viewers: AtomicUsize::new(0),
-            frames: AtomicUsize::new(0),
-        }
+        Self { posted: Mutex::new(BTreeMap::new()), version, viewers: AtomicUsize::new(0) }
     }
 
     /// Puts a notice in place of the last of its kind. Never waits for a page.
     pub fn post(&self, kind: &str, notice: Notice) {
-        if matches!(notice, Notice::Frame(..)) {
-            self.frames.fetch_add(1, Ordering::Relaxed);
-        }
         let mut posted = lock(&self.posted);
         // Under the same lock, so that no two notices share a version.
         let version = *self.version.borrow() + 1;
@@ -102,11 +95,6 @@ impl Board {
     /// Pages there are.
     pub fn viewers(&self) -> usize {
         self.viewers.load(Ordering::Relaxed)
-    }
-
-    /// Frames put up so far.
-    pub fn frames(&self) -> usize {
-        self.frames.load(Ordering::Relaxed)
     }
 }
 

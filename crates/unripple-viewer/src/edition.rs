@@ -1,8 +1,8 @@
 //! The surfaces that pages were told of lately, by the number of the edit that made each.
 
-use crate::lock::lock;
 use std::collections::VecDeque;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use unripple::core::Surface;
 
 /// Surfaces that can still be asked about: a page that lags behind by more has lost sight of what it asks.
@@ -20,17 +20,24 @@ pub struct Edition {
 /// The newest of them.
 #[derive(Debug, Default)]
 pub struct Editions {
-    kept: Mutex<VecDeque<Arc<Edition>>>,
+    kept: VecDeque<Arc<Edition>>,
+    /// The newest edit, for whoever computes an older one elsewhere.
+    newest: Arc<AtomicU64>,
 }
 
 impl Editions {
     /// One more, before any page is told of it.
-    pub fn publish(&self, edition: Arc<Edition>) {
-        let mut kept = lock(&self.kept);
-        if kept.len() == KEPT {
-            kept.pop_front();
+    pub fn publish(&mut self, edition: Arc<Edition>) {
+        if self.kept.len() == KEPT {
+            self.kept.pop_front();
         }
-        kept.push_back(edition);
+        self.newest.store(edition.edit, Ordering::Relaxed);
+        self.kept.push_back(edition);
+    }
+
+    /// The edit that is the newest, whenever it is looked at.
+    pub fn newest(&self) -> Arc<AtomicU64> {
+        self.newest.clone()
     }
 
     /// The one that a page speaks of; the newest where it does not say.
@@ -38,7 +45,7 @@ impl Editions {
     /// # Errors
     /// Why there is none, in words.
     pub fn find(&self, edit: Option<u64>) -> Result<Arc<Edition>, String> {
-        let kept = lock(&self.kept);
+        let kept = &self.kept;
         let found = match edit {
             Some(edit) => kept.iter().rev().find(|edition| edition.edit == edit),
             None => kept.back(),
@@ -61,7 +68,7 @@ mod tests {
 
     #[test]
     fn a_page_is_answered_for_the_surface_that_it_names() {
-        let editions = Editions::default();
+        let mut editions = Editions::default();
         assert!(editions.find(None).is_err());
         for edit in 0..40 {
             let mut surface = papers_surface();

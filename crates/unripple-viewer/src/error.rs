@@ -1,3 +1,5 @@
+//! Why a surface cannot be shown.
+
 use unripple_store::StoreError;
 
 /// What keeps a surface from being shown.
@@ -39,6 +41,9 @@ pub enum ViewError {
     /// A virtual surface that cannot be.
     #[error(transparent)]
     Devices(#[from] unripple_devices::DevicesError),
+    /// A surface that cannot be touched.
+    #[error(transparent)]
+    Touch(#[from] unripple_touch::TouchError),
     /// A device that cannot be opened.
     #[error("device: {why}")]
     Device {

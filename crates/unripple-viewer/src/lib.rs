@@ -6,9 +6,10 @@
 //! # In reading order
 //!
 //! A page speaks `wire`. `door` takes connections in, `lobby` has too many of them leave; `server` lets a page in if `guard` does,
-//! `link` talks with it, `studio` passes on what it asks for: to the `rig`, which is the surface at work; to the `workshop`, where
-//! surfaces are changed; to the `bench`, where figures are computed; to `jobs`, which take a while. What comes of it stands on the
-//! `board`, from which each page takes what it has not seen, as fast as it can.
+//! `link` talks with it. `studio` runs the `session`, a state machine: what pages say and the time go in, what they are shown comes out.
+//! It has the `rig`, which is the surface at work, and the `workshop`, where surfaces are changed; what takes longer than a picture may
+//! wait is done beside it by the `bench`. What comes of it leaves by the `outbox` for the `board`, from which each page takes what it has
+//! not seen, as fast as it can. `jobs` are tasks that take a while: a calibration, what the doctor says.
 
 mod assets;
 mod bench;
@@ -22,8 +23,10 @@ mod jobs;
 mod link;
 mod lobby;
 mod lock;
+mod outbox;
 mod rig;
 mod server;
+mod session;
 mod spectrum;
 mod studio;
 mod told;
@@ -34,7 +37,6 @@ mod workshop;
 pub use bench::Responder;
 pub use draft::Draft;
 pub use error::ViewError;
-pub(crate) use link::Caller;
 pub use rig::{Follow, Opener};
 pub use view::{View, Viewer};
 pub use wire::{Command, Edit, Job, Measure, Phase, Probe, Refused, Settings, Transport};

@@ -7,7 +7,7 @@ use axum::extract::ws::{Message, Utf8Bytes, WebSocket};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
-use tokio::sync::mpsc::{Receiver, Sender, channel};
+use tokio::sync::mpsc::{Receiver, channel};
 use tokio::time::{Instant, MissedTickBehavior, timeout};
 
 /// Frames that may be on their way before the page says that it has drawn them.
@@ -29,40 +29,17 @@ const FASTEST: u32 = 600;
 const BORNE: u32 = 50;
 const WAITING: usize = 32;
 
-/// Names for pages.
+/// Numbers for pages.
 static GIVEN: AtomicU64 = AtomicU64::new(1);
-
-/// Fingers of a page are numbered from its own number times this.
-pub const FINGERS: u64 = 1000;
-
-/// Whoever asked for something: is told why it is refused.
-#[derive(Clone, Debug)]
-pub struct Caller {
-    told: Sender<String>,
-}
-
-impl Caller {
-    /// Whoever hears what is sent here.
-    pub fn new(told: Sender<String>) -> Self {
-        Self { told }
-    }
-
-    /// Tells, unless so much waits to be told that it would be no use.
-    pub fn refuse(&self, why: &str) {
-        let text = serde_json::json!({ "is": "fault", "text": why }).to_string();
-        let _ = self.told.try_send(text);
-    }
-}
 
 /// Serves a page until it goes.
 pub async fn serve(mut socket: WebSocket, studio: Arc<Studio>) {
     let page = GIVEN.fetch_add(1, Ordering::Relaxed);
     let (told, faults) = channel(WAITING);
-    studio.look();
+    studio.come(page, told);
     let mut link = Link {
-        studio: studio.clone(),
+        studio,
         page,
-        caller: Caller::new(told),
         faults,
         texts: 0,
         frames: 0,
@@ -72,17 +49,15 @@ pub async fn serve(mut socket: WebSocket, studio: Arc<Studio>) {
         refused: 0,
         unanswered: 0,
         second: (Instant::now(), 0),
-        fingers: Vec::new(),
     };
     link.talk(&mut socket).await;
-    link.lift();
+    link.studio.leave(page);
 }
 
 /// A page's link at work.
 struct Link {
     studio: Arc<Studio>,
     page: u64,
-    caller: Caller,
     faults: Receiver<String>,
     /// Of the newest text that was sent, and of the newest frame.
     texts: u64,
@@ -96,8 +71,6 @@ struct Link {
     unanswered: u32,
     /// The second under way, and messages in it.
     second: (Instant, u32),
-    /// Fingers that are down.
-    fingers: Vec<u64>,
 }
 
 impl Link {
@@ -173,15 +146,7 @@ impl Link {
         }
         match Command::read(&text) {
             Ok(Command::Seen { frame }) => self.seen = self.seen.max(frame.min(self.shown)),
-            Ok(Command::Touch { finger, phase, at_mm }) => {
-                let finger = self.page * FINGERS + u64::from(finger);
-                self.fingers.retain(|other| *other != finger);
-                if phase != crate::wire::Phase::Up {
-                    self.fingers.push(finger);
-                }
-                self.studio.touch(finger, phase, at_mm);
-            }
-            Ok(command) => self.studio.obey(command, &self.caller),
+            Ok(command) => self.studio.obey(self.page, command),
             Err(error) => return self.refuse(&error.to_string()),
         }
         true
@@ -191,15 +156,8 @@ impl Link {
     fn refuse(&mut self, why: &str) -> bool {
         self.refused += 1;
         self.studio.log(&format!("page {}: refused: {why}", self.page));
-        self.caller.refuse(why);
+        self.studio.refuse(self.page, why);
         self.refused <= BORNE
-    }
-
-    /// Lifts the fingers of a page that goes.
-    fn lift(&mut self) {
-        for finger in self.fingers.drain(..) {
-            self.studio.touch(finger, crate::wire::Phase::Up, [0.0; 2]);
-        }
     }
 }
 

@@ -1,43 +1,49 @@
-//! All that pages share: the surface at work, and whoever works on what they ask for.
+//! Where the session lives on this machine: threads for the surface and for what is computed beside it, the board that pages' links read.
 
-use crate::bench::{Bench, Task};
+use crate::bench::Task;
 use crate::board::{Board, Notice};
-use crate::edition::{Edition, Editions};
 use crate::jobs::Jobs;
-use crate::link::Caller;
 use crate::lock::lock;
-use crate::rig::{Instrument, Order, Rig};
+use crate::outbox::{Measured, Out};
+use crate::rig::{Instrument, Spec};
+use crate::session::{Done, Errand, Session};
 use crate::told::Settled;
-use crate::wire::{Command, Phase};
-use crate::workshop::{Outlets, Work, Workshop};
+use crate::wire::Command;
 use crate::{View, ViewError};
-use std::sync::atomic::AtomicUsize;
-use std::sync::mpsc::{Sender, channel};
+use std::collections::BTreeMap;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
-use unripple::core::Point;
+use std::time::{Duration, Instant};
 
-/// The last act that was measured: as files.
-#[derive(Clone, Debug, Default)]
-pub struct Measured {
-    /// The number that the page gave it.
-    pub id: u64,
-    /// `drive.wav`.
-    pub drive: Vec<u8>,
-    /// `report.json`.
-    pub json: String,
-    /// `report.md`.
-    pub markdown: String,
+/// Pictures a second.
+const FRAMES: f64 = 30.0;
+
+/// Most of a picture's time that the surface may take to catch up.
+const BUSY: f64 = 0.8;
+
+/// Least time between two pictures, so that what pages say is heard between them.
+const BREATH: Duration = Duration::from_millis(2);
+
+/// What the session's thread is told.
+enum Word {
+    Come,
+    Leave(u64),
+    Hear(u64, Command),
+    Load(String, tokio::sync::oneshot::Sender<Result<(), String>>),
+    Done(Done),
+    Stop,
 }
+
+/// The links of pages, by number: each is told why something is refused.
+type Links = Arc<Mutex<BTreeMap<u64, tokio::sync::mpsc::Sender<String>>>>;
 
 /// Where everything a page asks for goes.
 pub struct Studio {
     /// What all pages are shown.
     pub board: Arc<Board>,
-    rig: Sender<Order>,
-    shop: Sender<Work>,
-    bench: Sender<Task>,
-    editions: Arc<Editions>,
+    words: Sender<Word>,
+    links: Links,
     jobs: Jobs,
     measured: Arc<Mutex<Option<Measured>>>,
     /// The thread that plays.
@@ -51,81 +57,69 @@ impl Studio {
     /// # Errors
     /// Those of [`Instrument::build`]; [`ViewError::Gone`] if a thread cannot be had.
     pub fn open(view: &View, elsewhere: Option<String>) -> Result<Arc<Self>, ViewError> {
-        let board = Arc::new(Board::new());
         let instrument = Instrument::build(view.spec())?;
         let told =
             Settled { source: view.source.clone(), device: view.device_name.clone(), address: elsewhere };
-        let (rig, orders) = channel();
-        let (bench, tasks) = channel();
-        let (shop, work) = channel();
-        let measured = Arc::new(Mutex::new(None));
-        let pending = Arc::new(AtomicUsize::new(0));
-        let editions = Arc::new(Editions::default());
-        let outlets = Outlets {
-            rig: rig.clone(),
-            bench: bench.clone(),
-            pending: pending.clone(),
-            editions: editions.clone(),
-        };
-        let workshop = Workshop::new(board.clone(), outlets, &instrument, told);
+        let session = Session::new(instrument, told);
         let known = (view.source.clone(), view.respond.clone(), view.without_scale.clone());
-        let worker = Bench::new(board.clone(), rig.clone(), measured.clone(), known, pending);
-        let stage = Rig::new(board.clone(), instrument);
-        let playing = Mutex::new(Some(thread("surface", move || stage.run(orders))?));
-        thread("workshop", move || workshop.run(work))?;
-        thread("bench", move || worker.run(tasks))?;
-        let jobs = Jobs::new(board.clone(), view.program.clone(), view.folder.clone());
-        let quiet = view.quiet;
-        Ok(Arc::new(Self { board, rig, shop, bench, editions, jobs, measured, playing, quiet }))
+        let mut bench = session.bench(known);
+        let (words, heard) = channel();
+        let (building, specs) = channel::<Box<Spec>>();
+        let (computing, tasks) = channel::<Task>();
+        // Whoever has gone is at the program's end.
+        let say = words.clone();
+        thread("workshop", move || {
+            specs.iter().for_each(|spec| drop(say.send(Word::Done(Errand::build(spec)))))
+        })?;
+        let say = words.clone();
+        thread("bench", move || {
+            for task in tasks {
+                bench.work(task, &mut |found| drop(say.send(Word::Done(Done::Found(found)))));
+                let _ = say.send(Word::Done(Done::Computed));
+            }
+        })?;
+        let (board, links) = (Arc::new(Board::new()), Links::default());
+        let measured = Arc::new(Mutex::new(None));
+        let stage = Stage {
+            session,
+            building,
+            computing,
+            board: board.clone(),
+            links: links.clone(),
+            measured: measured.clone(),
+        };
+        let playing = Mutex::new(Some(thread("surface", move || stage.run(&heard))?));
+        let jobs = Jobs::new(board.clone(), view.folder.clone());
+        Ok(Arc::new(Self { board, words, links, jobs, measured, playing, quiet: view.quiet }))
     }
 
-    /// Has something put up for a page that came.
-    pub fn look(&self) {
-        self.order(Order::Look);
+    /// A page came: it must be shown something, and is told what is refused.
+    pub fn come(&self, page: u64, told: tokio::sync::mpsc::Sender<String>) {
+        lock(&self.links).insert(page, told);
+        self.say(Word::Come);
     }
 
-    /// A page's finger, by its number over all pages.
-    pub fn touch(&self, finger: u64, phase: Phase, [x, y]: [f64; 2]) {
-        self.order(Order::Touch(finger, phase, Point::from_mm(x, y)));
+    /// A page went.
+    pub fn leave(&self, page: u64) {
+        lock(&self.links).remove(&page);
+        self.say(Word::Leave(page));
     }
 
     /// Does what a page asks for, or sees to it.
-    pub fn obey(&self, command: Command, caller: &Caller) {
-        let asker = || caller.clone();
+    pub fn obey(&self, page: u64, command: Command) {
         match command {
-            Command::Transport(transport) => self.order(Order::Transport(transport)),
-            Command::Probe(probe) => self.order(Order::Probe(probe)),
-            Command::Settings(settings) => {
-                match settings.quantity.as_deref() {
-                    None => {}
-                    Some("displacement") => self.order(Order::Velocity(false)),
-                    Some("velocity") => self.order(Order::Velocity(true)),
-                    Some(other) => {
-                        caller.refuse(&format!("quantity: expected displacement or velocity, found {other}"))
-                    }
-                }
-                if settings.plays() {
-                    self.work(Work::Settings(settings, asker()));
+            Command::Job(job) => {
+                if let Err(why) = self.jobs.obey(&job, self.toml()) {
+                    refuse(&self.links, page, &why);
                 }
             }
-            Command::Edit(edit) => self.work(Work::Edit(edit, asker())),
-            Command::Undo => self.work(Work::Undo),
-            Command::Redo => self.work(Work::Redo),
-            Command::Open { name } => self.work(Work::Open(name, asker())),
-            Command::Measure(measure) => {
-                self.ask(measure.edit, caller, |of| Task::Measure { measure, of, caller: asker() });
-            }
-            Command::Compare { off: true, .. } => {
-                self.board.withdraw("compare");
-                self.order(Order::Replay(None));
-            }
-            Command::Compare { at, methods, window_ms, edit, .. } => {
-                let task = |of| Task::Compare { at, methods, window_ms, of, caller: asker() };
-                self.ask(edit, caller, task);
-            }
-            Command::Job(job) => self.jobs.obey(&job, self.toml(), caller),
-            Command::Touch { .. } | Command::Seen { .. } => {}
+            command => self.say(Word::Hear(page, command)),
         }
+    }
+
+    /// Tells a page why something is refused.
+    pub fn refuse(&self, page: u64, why: &str) {
+        refuse(&self.links, page, why);
     }
 
     /// Takes in a surface file's text.
@@ -134,7 +128,7 @@ impl Studio {
     /// All its faults, as text.
     pub async fn load(&self, text: String) -> Result<(), String> {
         let (answer, loaded) = tokio::sync::oneshot::channel();
-        self.work(Work::Load(text, answer));
+        self.say(Word::Load(text, answer));
         loaded.await.unwrap_or_else(|_| Err("the program is ending".into()))
     }
 
@@ -162,26 +156,101 @@ impl Studio {
     /// # Errors
     /// [`ViewError::Gone`] if the play ended before.
     pub fn close(&self) -> Result<(), ViewError> {
-        self.order(Order::Stop);
+        self.say(Word::Stop);
         self.jobs.close();
         let ended = lock(&self.playing).take().map_or(Ok(()), JoinHandle::join);
         ended.map_err(|_| ViewError::Gone { why: "the surface's own failed".into() })
     }
 
-    // Whoever has gone has told why, and the program is at its end.
-    fn order(&self, order: Order) {
-        let _ = self.rig.send(order);
+    fn say(&self, word: Word) {
+        // Whoever has gone has told why, and the program is at its end.
+        let _ = self.words.send(word);
+    }
+}
+
+/// Tells a page why something is refused, unless so much waits to be told that it would be no use.
+fn refuse(links: &Links, page: u64, why: &str) {
+    let text = serde_json::json!({ "is": "fault", "text": why }).to_string();
+    if let Some(told) = lock(links).get(&page) {
+        let _ = told.try_send(text);
+    }
+}
+
+/// The thread on which the session runs.
+struct Stage {
+    session: Session,
+    building: Sender<Box<Spec>>,
+    computing: Sender<Task>,
+    board: Arc<Board>,
+    links: Links,
+    measured: Arc<Mutex<Option<Measured>>>,
+}
+
+impl Stage {
+    /// Works until told to stop, or until nobody is there any more to tell.
+    fn run(mut self, words: &Receiver<Word>) {
+        self.pass_on();
+        let mut due = Instant::now();
+        let mut passed = Instant::now();
+        loop {
+            match words.recv_timeout(due.saturating_duration_since(Instant::now())) {
+                Ok(Word::Stop) | Err(RecvTimeoutError::Disconnected) => return,
+                Ok(word) => {
+                    self.take(word);
+                    // Words that come faster than pictures must not keep them waiting.
+                    if Instant::now() < due {
+                        continue;
+                    }
+                }
+                Err(RecvTimeoutError::Timeout) => {}
+            }
+            let seconds = passed.elapsed().as_secs_f64();
+            passed = Instant::now();
+            due = passed.max(due) + Duration::from_secs_f64(1.0 / FRAMES);
+            due = due.max(passed + BREATH);
+            let began = Instant::now();
+            let mut more = || began.elapsed().as_secs_f64() <= BUSY / FRAMES;
+            self.session.advance(seconds, self.board.viewers(), &mut more);
+            self.pass_on();
+        }
     }
 
-    fn work(&self, work: Work) {
-        let _ = self.shop.send(work);
+    fn take(&mut self, word: Word) {
+        match word {
+            Word::Come => self.session.come(),
+            Word::Leave(page) => self.session.leave(page),
+            Word::Hear(page, command) => self.session.hear(page, command),
+            Word::Load(text, answer) => {
+                let loaded = self.session.load(&text);
+                self.pass_on();
+                // The page may have gone meanwhile.
+                let _ = answer.send(loaded);
+            }
+            Word::Done(done) => self.session.done(done),
+            Word::Stop => {}
+        }
+        self.pass_on();
     }
 
-    /// Has something computed of the surface that a page shows.
-    fn ask(&self, edit: Option<u64>, caller: &Caller, task: impl FnOnce(Arc<Edition>) -> Task) {
-        match self.editions.find(edit) {
-            Ok(of) => drop(self.bench.send(task(of))),
-            Err(why) => caller.refuse(&why),
+    /// Passes on what the session says, and what it wants done.
+    fn pass_on(&mut self) {
+        while let Some(errand) = self.session.errand() {
+            // Whoever has gone is at the program's end.
+            let _ = match errand {
+                Errand::Build(spec) => self.building.send(spec).is_ok(),
+                Errand::Compute(task) => self.computing.send(task).is_ok(),
+            };
+        }
+        for out in self.session.take() {
+            match out {
+                Out::Text(kind, text) => self.board.post(&kind, Notice::Text(text.into())),
+                Out::Frame(kind, bytes, number) => {
+                    self.board.post(&kind, Notice::Frame(bytes.into(), number))
+                }
+                Out::Withdraw(kind) => self.board.withdraw(&kind),
+                Out::Refuse(page, why) => refuse(&self.links, page, &why),
+                Out::Measured(files) => *lock(&self.measured) = Some(*files),
+            }
         }
     }
 }

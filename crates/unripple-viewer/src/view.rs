@@ -1,3 +1,5 @@
+//! What is to be shown and to whom, and the server that shows it.
+
 use crate::ViewError;
 use crate::bench::Responder;
 use crate::door::listen;
@@ -44,8 +46,6 @@ pub struct View {
     pub address: SocketAddr,
     /// What pages must know; `None` where only this machine can come.
     pub token: Option<String>,
-    /// This program, for what it does beside: calibrations, the doctor.
-    pub program: PathBuf,
     /// Where libraries go.
     pub folder: PathBuf,
     /// Whether to be silent about what is refused.

@@ -1,51 +1,20 @@
-//! Where surfaces are changed and made ready to be played: a thread, so that pictures go on meanwhile.
+//! The surface as pages change it, and how it is to be played.
 
-use crate::board::Board;
+use crate::ViewError;
 use crate::draft::Draft;
 use crate::edition::{Edition, Editions};
-use crate::rig::{Instrument, Order, Spec, check_effect};
+use crate::outbox::Outbox;
+use crate::rig::{Instrument, Spec, check_effect};
 use crate::told::{Settled, settings, surface};
 use crate::wire::{Edit, Settings};
-use crate::{Caller, ViewError};
+use serde_json::Value;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc::{Receiver, Sender};
 use unripple::core::Surface;
 use unripple::focus::Method;
 use unripple_store::{BUILTINS, load_surface, parse_surface};
 
-/// What the workshop is asked for.
-pub enum Work {
-    /// Another surface, bit by bit.
-    Edit(Box<Edit>, Caller),
-    /// Back.
-    Undo,
-    /// Forth.
-    Redo,
-    /// A built-in surface.
-    Open(String, Caller),
-    /// A surface file's text; the answer is nothing or all its faults.
-    Load(String, tokio::sync::oneshot::Sender<Result<(), String>>),
-    /// How the surface is played.
-    Settings(Settings, Caller),
-}
-
-/// What comes out of the workshop.
-pub struct Outlets {
-    /// What is played.
-    pub rig: Sender<Order>,
-    /// What is computed.
-    pub bench: Sender<crate::bench::Task>,
-    /// Surfaces on their way to the bench.
-    pub pending: Arc<AtomicUsize>,
-    /// What pages may ask about.
-    pub editions: Arc<Editions>,
-}
-
-/// The thread's own.
+/// The surface as pages change it. What has been asked for meanwhile is made in one.
 pub struct Workshop {
-    board: Arc<Board>,
-    out: Outlets,
     draft: Draft,
     spec: Spec,
     /// What is played.
@@ -55,63 +24,68 @@ pub struct Workshop {
     /// Whether what is played is not what is wanted, and whether the surface is another.
     stale: bool,
     edited: bool,
+    /// Whether something is being made ready.
+    building: bool,
 }
 
 impl Workshop {
     /// A workshop for what is played now.
-    pub fn new(board: Arc<Board>, out: Outlets, instrument: &Instrument, told: Settled) -> Self {
+    pub fn new(instrument: &Instrument, told: Settled) -> Self {
         let draft = Draft::new(instrument.spec.surface.clone());
         let spec = instrument.spec.clone();
         let played = spec.clone();
-        let workshop = Self { board, out, draft, spec, played, told, edits: 0, stale: false, edited: false };
-        workshop.publish();
-        workshop.board.tell("settings", &settings(&workshop.told, instrument));
-        workshop
+        // The first surface has been told to nobody yet.
+        Self { draft, spec, played, told, edits: 0, stale: false, edited: true, building: false }
     }
 
-    /// Works until nobody asks any more. What has been asked for meanwhile is made in one.
-    pub fn run(mut self, work: Receiver<Work>) {
-        while let Ok(first) = work.recv() {
-            self.take(first);
-            while let Ok(next) = work.try_recv() {
-                self.take(next);
-            }
-            self.renew();
-            if std::mem::take(&mut self.stale) {
-                self.rebuild();
-            }
+    /// How an instrument is played, for pages.
+    pub fn settings(&self, instrument: &Instrument) -> Value {
+        settings(&self.told, instrument)
+    }
+
+    /// Another surface, bit by bit.
+    ///
+    /// # Errors
+    /// [`ViewError`] for what cannot be; then nothing has changed.
+    pub fn edit(&mut self, edit: &Edit) -> Result<(), ViewError> {
+        self.draft.edit(edit)?;
+        self.changed(edit.settled != Some(false));
+        Ok(())
+    }
+
+    /// Back to the surface before.
+    pub fn undo(&mut self) {
+        if self.draft.undo() {
+            self.changed(true);
         }
     }
 
-    fn take(&mut self, work: Work) {
-        match work {
-            Work::Edit(edit, caller) => match self.draft.edit(&edit) {
-                Ok(()) => self.changed(edit.settled != Some(false)),
-                Err(error) => caller.refuse(&error.to_string()),
-            },
-            Work::Undo if self.draft.undo() => self.changed(true),
-            Work::Redo if self.draft.redo() => self.changed(true),
-            Work::Undo | Work::Redo => {}
-            Work::Open(name, caller) => match open(&name) {
-                Ok(surface) => self.replace(surface, name),
-                Err(error) => caller.refuse(&error.to_string()),
-            },
-            Work::Load(text, answer) => {
-                let loaded = parse_surface(&text, "uploaded").map_err(|faults| format!("{faults:#}"));
-                let loaded = loaded.map(|surface| {
-                    let name = surface.name.clone();
-                    self.replace(surface, name);
-                    // Whoever is answered finds it in its place.
-                    self.renew();
-                });
-                // The page may have gone meanwhile.
-                let _ = answer.send(loaded);
-            }
-            Work::Settings(settings, caller) => match self.set(&settings) {
-                Ok(()) => self.stale = true,
-                Err(error) => caller.refuse(&error.to_string()),
-            },
+    /// Forth to the surface that was undone.
+    pub fn redo(&mut self) {
+        if self.draft.redo() {
+            self.changed(true);
         }
+    }
+
+    /// A built-in surface.
+    ///
+    /// # Errors
+    /// [`ViewError::Range`] for a name that none has.
+    pub fn open(&mut self, name: String) -> Result<(), ViewError> {
+        let surface = open(&name)?;
+        self.replace(surface, name);
+        Ok(())
+    }
+
+    /// The text of a surface file.
+    ///
+    /// # Errors
+    /// All its faults, as text.
+    pub fn load(&mut self, text: &str) -> Result<(), String> {
+        let surface = parse_surface(text, "uploaded").map_err(|faults| format!("{faults:#}"))?;
+        let name = surface.name.clone();
+        self.replace(surface, name);
+        Ok(())
     }
 
     fn changed(&mut self, settled: bool) {
@@ -131,7 +105,11 @@ impl Workshop {
         self.changed(true);
     }
 
-    fn set(&mut self, settings: &Settings) -> Result<(), ViewError> {
+    /// How the surface is played.
+    ///
+    /// # Errors
+    /// [`ViewError::Range`] for names that there are not.
+    pub fn set(&mut self, settings: &Settings) -> Result<(), ViewError> {
         if let Some(name) = &settings.method {
             let refused = |found: String| ViewError::Range {
                 what: "method",
@@ -149,49 +127,51 @@ impl Workshop {
         }
         self.spec.load = settings.load.unwrap_or(self.spec.load);
         self.spec.rate = settings.rate_hz.unwrap_or(self.spec.rate);
+        self.stale = true;
         Ok(())
     }
 
-    /// Makes what is wanted, and has it played; says so if that cannot be.
-    fn rebuild(&mut self) {
-        match Instrument::build(self.spec.clone()) {
-            Ok(instrument) => {
-                let told = settings(&self.told, &instrument);
-                self.board.withdraw("notice");
-                self.played = self.spec.clone();
-                // Without a rig the program is at its end.
-                let _ = self.out.rig.send(Order::Play(Box::new(instrument), told));
-            }
-            Err(error) => {
-                // What cannot be played is not what the next change starts from; the surface stays as it was drawn.
-                let Spec { surface, stored, without_scale, .. } =
-                    std::mem::replace(&mut self.spec, self.played.clone());
-                (self.spec.surface, self.spec.stored) = (surface, stored);
-                self.spec.without_scale = without_scale;
-                let text = error.to_string();
-                self.board.tell("notice", &serde_json::json!({ "is": "notice", "text": text }));
-            }
+    /// What is to be made ready now, if it is not what is played and nothing is being made.
+    pub fn wanted(&mut self) -> Option<Box<Spec>> {
+        if self.building || !std::mem::take(&mut self.stale) {
+            return None;
         }
+        self.building = true;
+        Some(Box::new(self.spec.clone()))
     }
 
-    /// Makes what has been edited since the last time the surface that pages are shown.
-    fn renew(&mut self) {
-        if std::mem::take(&mut self.edited) {
-            self.edits += 1;
-            self.publish();
-        }
+    /// Something has been made ready.
+    pub fn built(&mut self, spec: &Spec, out: &mut Outbox) {
+        self.building = false;
+        self.played = spec.clone();
+        out.withdraw("notice");
     }
 
-    /// Has the surface computed, and tells it: whoever knows of it can ask about it.
-    fn publish(&self) {
+    /// What was wanted cannot be made: says so.
+    pub fn failed(&mut self, why: &str, out: &mut Outbox) {
+        self.building = false;
+        if !self.stale {
+            // What cannot be played is not what the next change starts from; the surface stays as it was drawn.
+            let Spec { surface, stored, without_scale, .. } =
+                std::mem::replace(&mut self.spec, self.played.clone());
+            (self.spec.surface, self.spec.stored) = (surface, stored);
+            self.spec.without_scale = without_scale;
+        }
+        out.tell("notice", &serde_json::json!({ "is": "notice", "text": why }));
+    }
+
+    /// Tells the surface that pages are shown, if it has been edited since it was told last; then it is to be computed, and can be asked
+    /// about.
+    pub fn renew(&mut self, editions: &mut Editions, out: &mut Outbox) -> Option<Arc<Edition>> {
+        if !std::mem::take(&mut self.edited) {
+            return None;
+        }
         let edition = Arc::new(Edition { edit: self.edits, surface: self.draft.surface().clone() });
-        self.out.editions.publish(edition.clone());
-        self.out.pending.fetch_add(1, Ordering::Relaxed);
-        // Without a bench the program is at its end.
-        let _ = self.out.bench.send(crate::bench::Task::Design(edition.clone()));
+        self.edits += 1;
+        editions.publish(edition.clone());
         let library = self.spec.stored.is_some();
-        let message = surface(&edition, self.draft.ways(), &self.told.source, library);
-        self.board.tell("surface", &message);
+        out.tell("surface", &surface(&edition, self.draft.ways(), &self.told.source, library));
+        Some(edition)
     }
 }
 

@@ -1,88 +1,72 @@
-//! A viewer that is told to stop leaves nothing behind.
-#![cfg(unix)]
+//! A viewer that is told to stop ends what it does beside, and what was begun can be gone on with.
 
 mod common;
 
 use common::{Served, until};
-use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 use tungstenite::Message;
+use unripple_store::{Library, PointState};
 
-/// A program in the viewer's place that begins something and puts it away when it is asked to end, or does not listen.
-fn program(folder: &Path, heeds: bool) -> PathBuf {
-    let path = folder.join(if heeds { "heeds" } else { "deaf" });
-    let trap = if heeds { "trap 'rm begun; exit 1' TERM" } else { "trap '' TERM" };
-    let text = format!(
-        "#!/bin/sh\ncd {}\n{trap}\ntouch begun\necho $$ > pid\nwhile :; do sleep 0.05; done\n",
-        folder.display()
-    );
-    std::fs::write(&path, text).unwrap();
-    std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).unwrap();
-    path
-}
+/// A folder that is gone when it is dropped.
+struct Folder(PathBuf);
 
-/// Files of jobs of this process that are left.
-fn sheets() -> Vec<PathBuf> {
-    let own = format!("unripple-view-{}-", std::process::id());
-    let all = std::fs::read_dir(std::env::temp_dir()).unwrap();
-    let all = all.filter_map(|entry| entry.ok().map(|entry| entry.path()));
-    all.filter(|path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(&own))).collect()
-}
-
-/// Starts a job with a program, waits until it is under way, and stops the viewer.
-fn stopped(heeds: bool) -> (tempfolder::Folder, i32) {
-    let folder = tempfolder::Folder::new(if heeds { "heeds" } else { "deaf" });
-    let mut served = Served::with(None, |view| view.program = program(folder.path(), heeds));
-    let mut page = served.page();
-    page.send(Message::text(r#"{"do":"job","start":"calibrate","name":"x"}"#)).unwrap();
-    let pid = loop {
-        until(&mut page, "job");
-        let pid = std::fs::read_to_string(folder.path().join("pid")).ok();
-        if let Some(pid) = pid.and_then(|text| text.trim().parse().ok()) {
-            break pid;
-        }
-    };
-    assert!(!sheets().is_empty());
-    served.stop();
-    // What is open when it ends is cut.
-    assert!((0..100_000).any(|_| page.read().is_err()));
-    (folder, pid)
-}
-
-mod tempfolder {
-    use std::path::{Path, PathBuf};
-
-    /// A folder that is gone when it is dropped.
-    pub struct Folder(PathBuf);
-
-    impl Folder {
-        pub fn new(name: &str) -> Self {
-            let path = std::env::temp_dir().join(format!("viewer-ending-{name}-{}", std::process::id()));
-            std::fs::create_dir_all(&path).unwrap();
-            Self(path)
-        }
-
-        pub fn path(&self) -> &Path {
-            &self.0
-        }
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("viewer-ending-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&path).unwrap();
+        Self(path)
     }
 
-    impl Drop for Folder {
-        fn drop(&mut self) {
-            let _ = std::fs::remove_dir_all(&self.0);
+    fn path(&self) -> &Path {
+        &self.0
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// Starts a calibration of very many points, and waits until some are measured.
+fn calibrating(folder: &Folder) -> (Served, Library) {
+    let place = folder.path().to_path_buf();
+    let served = Served::with(None, |view| view.folder = place);
+    let mut page = served.page();
+    page.send(Message::text(r#"{"do":"job","start":"calibrate","name":"film","grid_mm":3}"#)).unwrap();
+    loop {
+        let job = until(&mut page, "job");
+        assert_eq!(job["state"], "running", "{job}");
+        let library = Library::open(folder.path().join("film"));
+        if let Some(library) = library.ok().filter(|library| library.in_state(PointState::Measured).len() > 2)
+        {
+            return (served, library);
         }
     }
 }
 
 #[test]
-fn jobs_put_away_what_they_have_begun_and_end_with_the_viewer() {
-    let (folder, _) = stopped(true);
-    assert!(
-        !folder.path().join("begun").exists(),
-        "the job was ended before it could put away what it had begun"
-    );
-    let (deaf, pid) = stopped(false);
-    assert!(deaf.path().join("begun").exists());
-    assert!(!Path::new(&format!("/proc/{pid}")).exists(), "a job that does not listen is still there");
-    assert_eq!(sheets(), Vec::<PathBuf>::new());
+fn a_calibration_ends_with_the_viewer_and_its_library_can_be_gone_on_with() {
+    let folder = Folder::new("viewer");
+    let (mut served, begun) = calibrating(&folder);
+    let began = Instant::now();
+    served.stop();
+    assert!(began.elapsed() < Duration::from_secs(2), "{:?}", began.elapsed());
+    let left = Library::open(folder.path().join("film")).unwrap();
+    let measured = |library: &Library| library.in_state(PointState::Measured).len();
+    assert!(measured(&left) >= measured(&begun) && !left.in_state(PointState::Missing).is_empty());
+}
+
+#[test]
+fn a_calibration_that_is_stopped_says_so_before_it_measures_on() {
+    let folder = Folder::new("stopped");
+    let (served, _) = calibrating(&folder);
+    let mut page = served.page();
+    let id = until(&mut page, "job")["id"].as_u64().unwrap();
+    let began = Instant::now();
+    page.send(Message::text(format!(r#"{{"do":"job","stop":{id}}}"#))).unwrap();
+    while until(&mut page, "job")["state"] != "stopped" {}
+    // Even where much else is at work.
+    assert!(began.elapsed() < Duration::from_secs(2), "{:?}", began.elapsed());
 }

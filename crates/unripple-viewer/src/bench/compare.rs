@@ -1,6 +1,8 @@
-use super::{Bench, method, options, places, text};
+//! Two methods of focusing on the same touch, side by side.
+
+use super::{Bench, Found, Hear, method, options, places, tell, text};
 use crate::edition::Edition;
-use crate::rig::{Order, Replay};
+use crate::rig::Replay;
 use serde_json::json;
 use std::sync::Arc;
 use unripple::act::{Act, Level};
@@ -16,6 +18,7 @@ impl Bench {
         methods: &[String],
         window: Option<f64>,
         of: &Edition,
+        hear: &mut Hear,
     ) -> Result<(), String> {
         let methods = methods.iter().map(|name| method(name)).collect::<Result<Vec<Method>, String>>()?;
         let places = places(at);
@@ -49,9 +52,8 @@ impl Bench {
             "to_s": replay.to(),
             "focus_s": replay.focus(),
         });
-        self.board.tell("compare", &message);
-        // Without a rig the program is at its end.
-        let _ = self.rig.send(Order::Replay(Some(Box::new(replay))));
+        tell(hear, "compare", &message);
+        hear(Found::Replay(Box::new(replay)));
         Ok(())
     }
 }

@@ -1,4 +1,6 @@
-use super::Bench;
+//! What a surface promises, told stage by stage as it follows an edit.
+
+use super::{Bench, Hear, tell};
 use crate::edition::Edition;
 use serde_json::{Map, Value, json};
 use std::time::Instant;
@@ -15,42 +17,48 @@ const PLACE: [f64; 2] = [62.0 / 150.0, 0.6];
 
 impl Bench {
     /// Computes and tells what a surface can do, the quickest first; what another edit overtakes is left.
-    pub(super) fn design(&mut self, edition: &Edition) {
+    pub(super) fn design(&mut self, edition: &Edition, hear: &mut Hear) {
         let surface = &edition.surface;
         let mut told = Stage::new(edition.edit);
         if let Ok(figures) = Draft::by_law(surface) {
             told.add("figures", json!(figures));
-            self.show(&told);
+            show(&told, hear);
         }
         let place = self.place.filter(|place| surface.outline.contains(*place));
         let place = place.unwrap_or_else(|| usual(surface));
-        let found = self.stages(&mut told, edition, place);
+        let found = self.stages(&mut told, edition, place, hear);
         if let Err(error) = found {
             told.add("fault", json!(error.to_string()));
         }
         told.add("done", json!(true));
-        self.show(&told);
+        show(&told, hear);
     }
 
-    fn stages(&mut self, told: &mut Stage, edition: &Edition, place: Point) -> Result<(), ActError> {
+    fn stages(
+        &mut self,
+        told: &mut Stage,
+        edition: &Edition,
+        place: Point,
+        hear: &mut Hear,
+    ) -> Result<(), ActError> {
         let draft = self.draft(edition)?;
         told.add("figures", json!(draft.figures()));
-        self.show(told);
-        if self.is_overtaken() {
+        show(told, hear);
+        if self.is_overtaken(edition) {
             return Ok(());
         }
         told.add("act", spot(&draft.spot(place, None)?));
-        self.show(told);
-        if self.is_overtaken() {
+        show(told, hear);
+        if self.is_overtaken(edition) {
             return Ok(());
         }
         told.add("map", map(&draft.map(None, ACROSS)?));
         Ok(())
     }
+}
 
-    fn show(&self, told: &Stage) {
-        self.board.tell("design", &told.found);
-    }
+fn show(told: &Stage, hear: &mut Hear) {
+    tell(hear, "design", &Value::Object(told.found.clone()));
 }
 
 /// What has been found so far.

@@ -1,8 +1,9 @@
-use super::{Bench, given, method, options, places, text};
+//! An act of focusing, with every figure that the command line has.
+
+use super::{Bench, Found, Hear, given, method, options, places, tell, text};
 use crate::edition::Edition;
-use crate::lock::lock;
+use crate::outbox::{Measured, Out};
 use crate::spectrum::spectrum;
-use crate::studio::Measured;
 use crate::wire::Measure;
 use serde_json::{Value, json};
 use std::time::Instant;
@@ -17,7 +18,7 @@ const DRAWN: usize = 480;
 
 impl Bench {
     /// Measures one act, and tells all figures of it.
-    pub(super) fn measure(&mut self, measure: &Measure, of: &Edition) -> Result<(), String> {
+    pub(super) fn measure(&mut self, measure: &Measure, of: &Edition, hear: &mut Hear) -> Result<(), String> {
         let began = Instant::now();
         let places = places(&measure.at);
         let (surface, responses) = (&of.surface, self.known(of, &places)?);
@@ -57,8 +58,8 @@ impl Bench {
         let json = serde_json::to_string_pretty(&value).map_err(|error| error.to_string())?;
         let wav = encode_wav(&acted.drive).map_err(|error| error.to_string())?;
         let files = Measured { id: measure.id, drive: wav, json, markdown: report.markdown() };
-        *lock(&self.measured) = Some(files);
-        self.board.tell("measured", &message);
+        hear(Found::Out(Out::Measured(Box::new(files))));
+        tell(hear, "measured", &message);
         Ok(())
     }
 }

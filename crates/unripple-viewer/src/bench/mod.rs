@@ -1,20 +1,18 @@
-//! Where figures are computed, as the command line computes them: a thread of its own.
+//! Where figures are computed, as the command line computes them: what takes longer than a picture may wait, done beside the session.
 
 mod compare;
 mod design;
 mod measure;
 mod queue;
 
-use crate::board::Board;
+pub use queue::Queue;
+
 use crate::edition::Edition;
-use crate::link::Caller;
-use crate::rig::Order;
-use crate::studio::Measured;
+use crate::outbox::{Out, Outbox};
+use crate::rig::Replay;
 use crate::wire::Measure;
-use queue::Queue;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc::{Receiver, Sender};
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use unripple::act::{self, ActError, Note, Report};
 use unripple::core::{Point, Responses, Surface};
 use unripple::drafting::Draft;
@@ -36,8 +34,8 @@ pub enum Task {
         measure: Measure,
         /// Of which surface.
         of: Arc<Edition>,
-        /// Who asked.
-        caller: Caller,
+        /// The page that asked.
+        page: u64,
     },
     /// Two methods on the same touch.
     Compare {
@@ -49,16 +47,24 @@ pub enum Task {
         window_ms: Option<f64>,
         /// Of which surface.
         of: Arc<Edition>,
-        /// Who asked.
-        caller: Caller,
+        /// The page that asked.
+        page: u64,
     },
 }
 
-/// The thread's own.
+/// What the bench finds.
+pub enum Found {
+    /// Something that is to be told.
+    Out(Out),
+    /// Two acts side by side, to be played.
+    Replay(Box<Replay>),
+}
+
+/// Whoever hears at once what is found.
+pub type Hear<'a> = dyn FnMut(Found) + 'a;
+
+/// Computes figures, and keeps what the next ones need too.
 pub struct Bench {
-    board: Arc<Board>,
-    rig: Sender<Order>,
-    measured: Arc<Mutex<Option<Measured>>>,
     /// What the surface is called on the command line, and the responses of a library: both of the surface before any edit.
     source: String,
     stored: Option<Responder>,
@@ -68,57 +74,37 @@ pub struct Bench {
     draft: Option<(u64, Arc<Draft>)>,
     /// Where the last act was.
     place: Option<Point>,
-    waiting: Queue,
-    /// Surfaces that were asked for and not begun.
-    pending: Arc<AtomicUsize>,
+    /// The newest edit of the surface.
+    newest: Arc<AtomicU64>,
 }
 
 impl Bench {
-    /// A bench that shows results to pages and acts to the rig; `pending` counts surfaces on their way here.
+    /// A bench for a surface, by its name, and its library, if it has one; `newest` is the edit that pages see.
     pub fn new(
-        board: Arc<Board>,
-        rig: Sender<Order>,
-        measured: Arc<Mutex<Option<Measured>>>,
         (source, stored, without_scale): (String, Option<Responder>, Option<String>),
-        pending: Arc<AtomicUsize>,
+        newest: Arc<AtomicU64>,
     ) -> Self {
-        let (draft, place, waiting) = (None, None, Queue::default());
-        Self { board, rig, measured, source, stored, without_scale, draft, place, waiting, pending }
+        Self { source, stored, without_scale, draft: None, place: None, newest }
     }
 
-    /// Works until nobody asks any more. Of surfaces only the newest is computed.
-    pub fn run(mut self, tasks: Receiver<Task>) {
-        while let Ok(task) = tasks.recv() {
-            self.waiting.push(task);
-            while let Some(task) = self.next(&tasks) {
-                self.work(task);
-            }
-        }
-    }
-
-    /// The next task, surfaces that were overtaken left out.
-    fn next(&mut self, tasks: &Receiver<Task>) -> Option<Task> {
-        tasks.try_iter().for_each(|task| self.waiting.push(task));
-        self.pending.store(0, Ordering::Relaxed);
-        self.waiting.next()
-    }
-
-    fn work(&mut self, task: Task) {
-        match task {
-            Task::Design(edition) => self.design(&edition),
-            Task::Measure { measure, of, caller } => {
-                self.measure(&measure, &of).unwrap_or_else(|why| caller.refuse(&why));
-            }
-            Task::Compare { at, methods, window_ms, of, caller } => {
+    /// Does a task.
+    pub fn work(&mut self, task: Task, hear: &mut Hear) {
+        let (page, done) = match task {
+            Task::Design(edition) => return self.design(&edition, hear),
+            Task::Measure { measure, of, page } => (page, self.measure(&measure, &of, hear)),
+            Task::Compare { at, methods, window_ms, of, page } => {
                 let window = given(window_ms).map(|ms| ms * 1e-3);
-                self.compare(&at, &methods, window, &of).unwrap_or_else(|why| caller.refuse(&why));
+                (page, self.compare(&at, &methods, window, &of, hear))
             }
+        };
+        if let Err(why) = done {
+            hear(Found::Out(Out::Refuse(page, why)));
         }
     }
 
-    /// Whether another surface is on its way.
-    fn is_overtaken(&self) -> bool {
-        self.pending.load(Ordering::Relaxed) > 0
+    /// Whether pages see another surface by now.
+    fn is_overtaken(&self, edition: &Edition) -> bool {
+        self.newest.load(Ordering::Relaxed) > edition.edit
     }
 
     /// What a surface is called on the command line.
@@ -195,4 +181,11 @@ fn method(name: &str) -> Result<Method, String> {
 
 fn text(error: ActError) -> String {
     error.to_string()
+}
+
+/// Has something told to all pages.
+fn tell(hear: &mut Hear, kind: &str, message: &serde_json::Value) {
+    let mut out = Outbox::default();
+    out.tell(kind, message);
+    out.take().into_iter().for_each(|out| hear(Found::Out(out)));
 }

@@ -15,18 +15,21 @@ pub struct Queue {
 impl Queue {
     /// One more task. A surface takes the place of one that waits, and is never refused itself: what pages show would stay without
     /// figures. An act too many is refused.
-    pub fn push(&mut self, task: Task) {
+    ///
+    /// # Errors
+    /// Why it is refused, and the page that asked for it.
+    pub fn push(&mut self, task: Task) -> Result<(), (u64, &'static str)> {
         match &task {
             Task::Design(_) => self.waiting.retain(|other| !matches!(other, Task::Design(_))),
-            Task::Measure { caller, .. } | Task::Compare { caller, .. } => {
+            Task::Measure { page, .. } | Task::Compare { page, .. } => {
                 let acts = self.waiting.iter().filter(|other| !matches!(other, Task::Design(_)));
                 if acts.count() >= MOST {
-                    caller.refuse("measuring: expected one after the other, found too many at once");
-                    return;
+                    return Err((*page, "measuring: expected one after the other, found too many at once"));
                 }
             }
         }
         self.waiting.push_back(task);
+        Ok(())
     }
 
     /// The next task.
@@ -38,11 +41,9 @@ impl Queue {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Caller;
     use crate::edition::Edition;
     use crate::wire::Measure;
     use std::sync::Arc;
-    use tokio::sync::mpsc::channel;
     use unripple::physics::design::papers_surface;
 
     fn edition(edit: u64) -> Arc<Edition> {
@@ -60,26 +61,20 @@ mod tests {
 
     #[test]
     fn a_surface_gives_way_to_a_newer_one_and_to_nothing_else() {
-        let (told, mut faults) = channel(64);
-        let caller = Caller::new(told);
-        let act =
-            |edit| Task::Measure { measure: Measure::default(), of: edition(edit), caller: caller.clone() };
+        let act = |edit| Task::Measure { measure: Measure::default(), of: edition(edit), page: 7 };
         let mut queue = Queue::default();
-        queue.push(Task::Design(edition(1)));
-        for _ in 0..20 {
-            queue.push(act(1));
-        }
-        queue.push(Task::Design(edition(2)));
-        queue.push(act(2));
-        queue.push(Task::Design(edition(3)));
+        queue.push(Task::Design(edition(1))).unwrap();
+        let refused = (0..20).filter_map(|_| queue.push(act(1)).err()).filter(|(page, _)| *page == 7).count();
+        queue.push(Task::Design(edition(2))).unwrap();
+        assert!(queue.push(act(2)).is_err());
+        queue.push(Task::Design(edition(3))).unwrap();
         let mut expected = vec![101; 16];
         expected.push(3);
         assert_eq!(drained(&mut queue), expected);
-        let refused = std::iter::from_fn(|| faults.try_recv().ok()).count();
-        assert_eq!(refused, 5);
+        assert_eq!(refused, 4);
         // In the order in which it was asked for.
         for task in [Task::Design(edition(4)), act(4), Task::Design(edition(5)), act(5)] {
-            queue.push(task);
+            queue.push(task).unwrap();
         }
         assert_eq!(drained(&mut queue), [104, 5, 105]);
     }

@@ -1,19 +1,17 @@
-//! What takes a while and is done by the same program beside this one: calibrations, the list of devices, the doctor.
+//! Tasks that take a while, as pages ask for them: calibrations, the list of devices, the doctor.
 
 mod quality;
 mod running;
 
 use crate::board::Board;
-use crate::link::Caller;
 use crate::lock::lock;
 use crate::wire::Job;
-use running::Running;
-use std::fs::File;
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use running::{Running, Work};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
+use unripple_tasks::{DeviceAsk, SurfaceAsk, calibrate, devices, doctor};
 
 /// Jobs at once.
 const MOST: usize = 2;
@@ -25,10 +23,12 @@ const LOOKED: Duration = Duration::from_millis(20);
 /// Distance of points of a calibration that says none, in mm.
 const GRID_MM: f64 = 15.0;
 
+/// What the surface's file is called when people save it.
+const SAVED: &str = "surface.toml";
+
 /// The jobs there are.
 pub struct Jobs {
     board: Arc<Board>,
-    program: PathBuf,
     folder: PathBuf,
     given: AtomicU64,
     running: Mutex<Vec<Arc<Running>>>,
@@ -36,53 +36,52 @@ pub struct Jobs {
 
 impl Jobs {
     /// None yet; libraries go to `folder`.
-    pub fn new(board: Arc<Board>, program: PathBuf, folder: PathBuf) -> Self {
-        Self { board, program, folder, given: AtomicU64::new(0), running: Mutex::new(Vec::new()) }
+    pub fn new(board: Arc<Board>, folder: PathBuf) -> Self {
+        Self { board, folder, given: AtomicU64::new(0), running: Mutex::new(Vec::new()) }
     }
 
     /// Starts or ends a job on a surface, given as the text of its file.
-    pub fn obey(&self, job: &Job, toml: String, caller: &Caller) {
+    ///
+    /// # Errors
+    /// Why it cannot be started.
+    pub fn obey(&self, job: &Job, toml: String) -> Result<(), String> {
         if let Some(id) = job.stop {
             lock(&self.running).iter().filter(|running| running.id == id).for_each(|running| running.stop());
         }
-        let Some(kind) = &job.start else { return };
-        if let Err(why) = self.start(kind, job, toml) {
-            caller.refuse(&why);
-        }
-    }
-
-    fn start(&self, kind: &str, job: &Job, toml: String) -> Result<(), String> {
+        let Some(kind) = &job.start else { return Ok(()) };
         let mut running = lock(&self.running);
         running.retain(|running| !running.is_over());
         if running.len() >= MOST {
             return Err(format!("jobs: expected at most {MOST} at once, found one more"));
         }
+        let (work, command) = self.work(kind, job, toml)?;
         let id = self.given.fetch_add(1, Ordering::Relaxed) + 1;
-        let name = format!("unripple-view-{}-{id}.toml", std::process::id());
-        let surface = std::env::temp_dir().join(name);
-        let path = surface.display().to_string();
-        let mut arguments = vec![kind.to_owned()];
-        let mut library = None;
-        match kind {
-            "devices" => {}
-            "doctor" => arguments.push(path),
-            "calibrate" => {
-                let place = self.folder.join(plain(job.name.as_deref().unwrap_or("library"))?);
-                let grid = job.grid_mm.unwrap_or(GRID_MM);
-                arguments.extend([path, "--grid-mm".into(), grid.to_string()]);
-                if let Some(seed) = job.unknowns {
-                    arguments.extend(["--unknowns".into(), seed.to_string()]);
-                }
-                arguments.extend(["-o".into(), place.display().to_string()]);
-                library = Some(place);
-            }
-            other => return Err(format!("job: expected calibrate, doctor or devices, found {other}")),
-        }
-        arguments.push("--json".into());
-        let file = Sheet::put(surface, &toml)?;
-        let started = Running::start(id, &self.program, arguments, library, file, self.board.clone())?;
-        running.push(started);
+        running.push(Running::start(id, work, command, self.board.clone())?);
         Ok(())
+    }
+
+    /// What is to be done, and what to type for the same.
+    fn work(&self, kind: &str, job: &Job, toml: String) -> Result<(Work, String), String> {
+        let surface = SurfaceAsk::Text { toml };
+        match kind {
+            "devices" => Ok((Work::Devices(devices::Ask::default()), "unripple devices".into())),
+            "doctor" => {
+                let ask = doctor::Ask { surface, ..doctor::Ask::default() };
+                Ok((Work::Doctor(Box::new(ask)), format!("unripple doctor {SAVED}")))
+            }
+            "calibrate" => {
+                let output = self.folder.join(plain(job.name.as_deref().unwrap_or("library"))?);
+                let grid = job.grid_mm.unwrap_or(GRID_MM);
+                let seed = job.unknowns.map_or(String::new(), |seed| format!(" --unknowns {seed}"));
+                let command =
+                    format!("unripple calibrate {SAVED} --grid-mm {grid}{seed} -o {}", output.display());
+                let device = DeviceAsk { unknowns: job.unknowns, ..DeviceAsk::default() };
+                let pitch_m = Some(grid / 1e3);
+                let ask = calibrate::Ask { surface, device, pitch_m, output, ..calibrate::Ask::default() };
+                Ok((Work::Calibrate(Box::new(ask)), command))
+            }
+            other => Err(format!("job: expected calibrate, doctor or devices, found {other}")),
+        }
     }
 
     /// Ends all of them, and waits until they have.
@@ -93,35 +92,6 @@ impl Jobs {
         while running.iter().any(|running| !running.is_over()) && began.elapsed() < ENDING {
             std::thread::sleep(LOOKED);
         }
-    }
-}
-
-/// The surface as a file, for a program beside this one; gone when it is dropped.
-pub struct Sheet {
-    path: PathBuf,
-}
-
-impl Sheet {
-    fn put(path: PathBuf, toml: &str) -> Result<Self, String> {
-        let failed = |path: &Path, error| format!("writing {} for a job: {error}", path.display());
-        // A file that is there already is somebody else's.
-        let opened = File::options().write(true).create_new(true).open(&path);
-        let mut file = opened.map_err(|error| failed(&path, error))?;
-        let sheet = Self { path };
-        file.write_all(toml.as_bytes()).map_err(|error| failed(&sheet.path, error))?;
-        Ok(sheet)
-    }
-
-    /// Where it is.
-    pub fn path(&self) -> &Path {
-        &self.path
-    }
-}
-
-impl Drop for Sheet {
-    fn drop(&mut self) {
-        // A file that is gone already need not be removed.
-        let _ = std::fs::remove_file(&self.path);
     }
 }
 

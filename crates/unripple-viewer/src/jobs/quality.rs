@@ -1,16 +1,18 @@
+//! How far a library has got that is being filled, and how good it is.
+
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use unripple::core::Point;
 use unripple_store::{Library, PointState};
 
-/// How far a library has got that another program is filling, and how good it is.
-pub struct Progress {
+/// How far a library has got that is being filled, and how good it is.
+pub struct Quality {
     folder: PathBuf,
     /// Signal over noise of points that were looked at, in dB: what is measured stays.
     known: Vec<Option<f64>>,
 }
 
-impl Progress {
+impl Quality {
     /// Of a library that may not be there yet.
     pub fn of(folder: PathBuf) -> Self {
         Self { folder, known: Vec::new() }

@@ -1,88 +1,160 @@
-use super::Sheet;
-use super::quality::Progress;
+//! A task at work beside the session, and what pages are told of it.
+
+use super::quality::Quality;
 use crate::board::Board;
 use crate::lock::lock;
 use serde_json::{Value, json};
 use std::collections::VecDeque;
-use std::io::{BufRead, BufReader, Read};
-use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, OnceLock};
-use std::thread::Thread;
-use std::time::{Duration, Instant};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+use unripple_tasks::{Progress, Report, TaskError, apart, calibrate, devices, doctor};
 
-/// Lines that are shown, how long each may be, and most bytes of a result.
+/// Lines that are shown, and how long each may be.
 const LINES: usize = 12;
 const LONGEST: usize = 400;
-const RESULT: u64 = 8 << 20;
 
-/// What the surface's file is called when people save it.
-const SAVED: &str = "surface.toml";
-
-/// How often a job is looked at, and one that has been asked to end.
+/// How often pages are told how far it is.
 const LOOKED: Duration = Duration::from_millis(400);
-const ENDING: Duration = Duration::from_millis(20);
 
-/// How long a job that has been asked to end may take to put away what it has begun.
-const GRACE: Duration = Duration::from_secs(2);
+/// What is to be done.
+pub enum Work {
+    /// The list of devices.
+    Devices(devices::Ask),
+    /// Each stage between a touch and what is felt, checked.
+    Doctor(Box<doctor::Ask>),
+    /// Responses measured into a library.
+    Calibrate(Box<calibrate::Ask>),
+}
 
-/// A program at work beside this one.
+impl Work {
+    fn name(&self) -> &'static str {
+        match self {
+            Self::Devices(_) => "devices",
+            Self::Doctor(_) => "doctor",
+            Self::Calibrate(_) => "calibrate",
+        }
+    }
+
+    /// The library that it fills.
+    fn library(&self) -> Option<PathBuf> {
+        match self {
+            Self::Calibrate(ask) => Some(ask.output.clone()),
+            Self::Devices(_) | Self::Doctor(_) => None,
+        }
+    }
+
+    fn run(self, progress: &mut dyn Progress) -> Result<Value, TaskError> {
+        match self {
+            Self::Devices(ask) => apart(ask, devices::run, progress).map(told),
+            Self::Doctor(ask) => apart(*ask, doctor::run, progress).map(told),
+            Self::Calibrate(ask) => apart(*ask, calibrate::run, progress).map(told),
+        }
+    }
+}
+
+fn told(report: impl Report) -> Value {
+    // A report is made of numbers and names: always JSON.
+    serde_json::to_value(report).unwrap_or_default()
+}
+
+/// A task at work.
 pub struct Running {
     /// Its number.
     pub id: u64,
-    kind: String,
+    kind: &'static str,
     command: String,
     stopped: AtomicBool,
     over: AtomicBool,
-    /// The thread that looks after it.
-    watching: OnceLock<Thread>,
-    lines: Mutex<VecDeque<String>>,
+    now: Mutex<Now>,
+}
+
+/// How it fares.
+#[derive(Default)]
+struct Now {
+    share: Option<f64>,
+    lines: VecDeque<String>,
+}
+
+/// What the task tells, as pages see it.
+struct Heard(Arc<Running>);
+
+impl Progress for Heard {
+    fn stage(&mut self, _what: &str) {
+        lock(&self.0.now).share = None;
+    }
+
+    fn done(&mut self, share: f64) {
+        lock(&self.0.now).share = Some(share);
+    }
+
+    fn tell(&mut self, line: &str) {
+        self.0.say(line);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.0.stopped.load(Ordering::Relaxed)
+    }
 }
 
 impl Running {
-    /// Starts this program with other arguments; what it writes on standard error is shown, and the JSON on standard output at its end.
+    /// Starts a task; `command` is what to type for the same.
     ///
     /// # Errors
     /// Why it cannot be started.
-    pub fn start(
-        id: u64,
-        program: &Path,
-        arguments: Vec<String>,
-        library: Option<PathBuf>,
-        surface: Sheet,
-        board: Arc<Board>,
-    ) -> Result<Arc<Self>, String> {
-        let mut command = Command::new(program);
-        command.args(&arguments).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        let child = command.spawn().map_err(|error| format!("starting {}: {error}", program.display()))?;
-        let kind = arguments.first().cloned().unwrap_or_default();
-        let own = surface.path().display().to_string();
-        let named = |word: &String| if *word == own { SAVED.to_owned() } else { word.clone() };
-        let shown: Vec<String> = arguments.iter().filter(|word| *word != "--json").map(named).collect();
-        let running = Arc::new(Self {
-            id,
-            kind,
-            command: format!("unripple {}", shown.join(" ")),
-            stopped: AtomicBool::new(false),
-            over: AtomicBool::new(false),
-            watching: OnceLock::new(),
-            lines: Mutex::new(VecDeque::new()),
-        });
+    pub fn start(id: u64, work: Work, command: String, board: Arc<Board>) -> Result<Arc<Self>, String> {
+        let (stopped, over, now) = (AtomicBool::new(false), AtomicBool::new(false), Mutex::default());
+        let running = Arc::new(Self { id, kind: work.name(), command, stopped, over, now });
+        let mut quality = work.library().map(Quality::of);
         let own = running.clone();
-        let watch = move || own.watch(child, library, surface, &board);
-        let watching = std::thread::Builder::new().name("job".into()).spawn(watch);
-        // It is set nowhere else.
-        let _ = running.watching.set(watching.map_err(|error| error.to_string())?.thread().clone());
+        let watch = move || {
+            let (done, result) = channel();
+            let mut heard = Heard(own.clone());
+            std::thread::scope(|scope| {
+                scope.spawn(move || {
+                    // Whoever listens waits until this comes.
+                    let _ = done.send(work.run(&mut heard));
+                });
+                own.accompany(&result, &board, quality.as_mut());
+            });
+        };
+        std::thread::Builder::new().name("job".into()).spawn(watch).map_err(|error| error.to_string())?;
         Ok(running)
+    }
+
+    /// Tells pages how the task fares until it is over, and then what came of it.
+    fn accompany(
+        &self,
+        result: &Receiver<Result<Value, TaskError>>,
+        board: &Board,
+        mut quality: Option<&mut Quality>,
+    ) {
+        let ended = loop {
+            self.tell(board, "running", Value::Null, quality.as_deref_mut());
+            match result.recv_timeout(LOOKED) {
+                Err(RecvTimeoutError::Timeout) => {}
+                ended => break ended,
+            }
+        };
+        let (state, found) = match ended {
+            Ok(Ok(found)) => ("done", found),
+            Ok(Err(TaskError::Cancelled)) => ("stopped", Value::Null),
+            Ok(Err(error)) => {
+                self.say(&format!("error: {error}"));
+                ("failed", Value::Null)
+            }
+            // It panicked, and said so.
+            Err(_) => ("failed", Value::Null),
+        };
+        self.over.store(true, Ordering::Relaxed);
+        self.tell(board, state, found, quality);
     }
 
     /// Has it ended.
     pub fn stop(&self) {
         self.stopped.store(true, Ordering::Relaxed);
-        if let Some(watching) = self.watching.get() {
-            watching.unpark();
-        }
     }
 
     /// Whether it has ended.
@@ -90,105 +162,28 @@ impl Running {
         self.over.load(Ordering::Relaxed)
     }
 
-    fn watch(self: Arc<Self>, mut child: Child, library: Option<PathBuf>, surface: Sheet, board: &Board) {
-        let said = self.clone();
-        let errors = child.stderr.take().map(|errors| std::thread::spawn(move || said.listen(errors)));
-        let output = child.stdout.take().map(|output| {
-            std::thread::spawn(move || {
-                let mut text = String::new();
-                // What is no text is no JSON.
-                let _ = output.take(RESULT).read_to_string(&mut text);
-                text
-            })
-        });
-        let mut progress = library.map(Progress::of);
-        let ended =
-            self.accompany(&mut child, || self.tell(board, "running", Value::Null, progress.as_mut()));
-        let text = output.and_then(|output| output.join().ok()).unwrap_or_default();
-        if let Some(errors) = errors {
-            // A reader that panicked has read enough.
-            let _ = errors.join();
+    fn say(&self, line: &str) {
+        let mut now = lock(&self.now);
+        if now.lines.len() == LINES {
+            now.lines.pop_front();
         }
-        drop(surface);
-        let result: Value = serde_json::from_str(&text).unwrap_or_default();
-        // The doctor finds faults and says so with its exit status: what it found is an answer all the same.
-        let state = match (self.stopped.load(Ordering::Relaxed), ended || !result.is_null()) {
-            (true, _) => "stopped",
-            (false, true) => "done",
-            (false, false) => "failed",
-        };
-        self.over.store(true, Ordering::Relaxed);
-        self.tell(board, state, result, progress.as_mut());
+        now.lines.push_back(line.chars().take(LONGEST).collect());
     }
 
-    /// Waits until it has ended, by itself or because it was asked to; whether all went well.
-    fn accompany(&self, child: &mut Child, mut look: impl FnMut()) -> bool {
-        let mut asked = None;
-        loop {
-            if self.stopped.load(Ordering::Relaxed) {
-                let since = *asked.get_or_insert_with(|| {
-                    ask_to_end(child);
-                    Instant::now()
-                });
-                if since.elapsed() > GRACE {
-                    // One that has ended already cannot be ended.
-                    let _ = child.kill();
-                }
-            }
-            match child.try_wait() {
-                Ok(None) => {}
-                Ok(Some(status)) => return status.success(),
-                Err(_) => return false,
-            }
-            if asked.is_none() {
-                look();
-            }
-            std::thread::park_timeout(if asked.is_some() { ENDING } else { LOOKED });
-        }
-    }
-
-    fn listen(&self, errors: impl Read) {
-        for line in BufReader::new(errors).split(b'\n').map_while(Result::ok) {
-            let line = String::from_utf8_lossy(&line).chars().take(LONGEST).collect();
-            let mut lines = lock(&self.lines);
-            if lines.len() == LINES {
-                lines.pop_front();
-            }
-            lines.push_back(line);
-        }
-    }
-
-    fn tell(&self, board: &Board, state: &str, result: Value, progress: Option<&mut Progress>) {
-        let quality = progress.map(Progress::look);
-        let (share, quality) = match quality {
-            Some((share, quality)) => (share, quality),
-            None => (None, Value::Null),
-        };
+    fn tell(&self, board: &Board, state: &str, result: Value, quality: Option<&mut Quality>) {
+        let (share, quality) = quality.map_or((None, Value::Null), Quality::look);
+        let now = lock(&self.now);
         let message = json!({
             "is": "job",
             "id": self.id,
             "kind": self.kind,
             "command": self.command,
             "state": state,
-            "progress": share,
-            "lines": &*lock(&self.lines),
+            "progress": share.or(now.share),
+            "lines": &now.lines,
             "result": result,
             "quality": quality,
         });
         board.tell(&format!("job {}", self.kind), &message);
     }
-}
-
-/// Asks a program to end, so that it can put away what it has begun.
-#[cfg(unix)]
-fn ask_to_end(child: &mut Child) {
-    use rustix::process::{Pid, Signal, kill_process};
-    // One that has ended and was not waited for keeps its number, so nobody else is asked.
-    let _ = Pid::from_raw(child.id() as i32).map(|pid| kill_process(pid, Signal::TERM));
-}
-
-/// Ends a program, where it cannot be asked.
-#[cfg(not(unix))]
-fn ask_to_end(child: &mut Child) {
-    let _ = child.kill();
 }

@@ -1,3 +1,5 @@
+//! A surface with all that plays it: device, engine, the picture's modes.
+
 use super::lens::Lens;
 use super::pad::{Pad, Pressed};
 use super::past::stride;
@@ -122,7 +124,7 @@ impl Instrument {
         let plant = handle.plant();
         remember(&handle, surface, plant.modes())?;
 
-        let (pad, source) = Pad::new(&surface.outline);
+        let (pad, source) = Pad::new(&surface.outline)?;
         let mut sources = Sources::new(&surface.outline);
         sources.push(Box::new(source));
         let set = effect(&spec)?;

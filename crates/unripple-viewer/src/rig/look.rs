@@ -3,7 +3,7 @@
 use super::Rig;
 use super::lens::{product, weights};
 use super::past::Past;
-use crate::board::Notice;
+use crate::outbox::Outbox;
 use crate::wire::{Frame, Head, Resting, Strip};
 use unripple::core::Point;
 
@@ -22,10 +22,10 @@ struct Followed<'a> {
 
 impl Rig {
     /// Puts up a picture, if somebody looks and something has changed.
-    pub(super) fn show(&mut self) {
+    pub(super) fn show(&mut self, out: &mut Outbox) {
         let shown = self.transport.shown();
         let still = shown == self.before && !self.changed;
-        if self.board.viewers() == 0 || still {
+        if self.viewers == 0 || still {
             return;
         }
         self.changed = false;
@@ -33,24 +33,24 @@ impl Rig {
             Some(replay) => {
                 for (pane, frame) in replay.frames(shown, self.velocity).into_iter().enumerate() {
                     self.frame += 1;
-                    self.put(format!("frame {pane}"), frame);
+                    self.put(format!("frame {pane}"), frame, out);
                 }
             }
             None => {
                 self.follow_targets();
                 if let Some(frame) = self.picture(shown) {
                     self.frame += 1;
-                    self.board.withdraw("frame 1");
-                    self.put("frame 0".into(), frame);
+                    out.withdraw("frame 1");
+                    self.put("frame 0".into(), frame, out);
                 }
             }
         }
         self.before = shown;
     }
 
-    fn put(&self, kind: String, mut frame: Frame) {
+    fn put(&self, kind: String, mut frame: Frame, out: &mut Outbox) {
         frame.head.frame = self.frame;
-        self.board.post(&kind, Notice::Frame(frame.encode().into(), self.frame));
+        out.frame(kind, frame.encode(), self.frame);
     }
 
     /// Knows what the places under fingers read of the modes; remembers the last of each finger until others come.

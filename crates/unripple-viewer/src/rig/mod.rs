@@ -19,30 +19,32 @@ pub use lens::Cells;
 pub use replay::Replay;
 pub use transport::Transport;
 
-use crate::board::Board;
+use crate::outbox::Outbox;
 use crate::wire;
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::sync::Arc;
-use std::sync::mpsc::{Receiver, RecvTimeoutError};
-use std::time::{Duration, Instant};
 use unripple::core::Point;
 use works::{Known, Works, step};
 
-/// Frames a second, and how often the rest is told, in s.
-const FRAMES: f64 = 30.0;
+/// How often it is told how the surface fares, and how often its pace is taken, in s.
 const TOLD: f64 = 0.2;
+const PACED: f64 = 1.0;
 
-/// Most of a frame's time that the surface may take to catch up.
-const BUSY: f64 = 0.8;
+/// Longest step of the page's time that the surface takes at once, in s: after a sleep of this machine it goes on from where it was.
+const STEP: f64 = 0.25;
+
+/// Fingers of pages that no instrument has numbered yet are numbered from that of their page times this.
+const FINGERS: u64 = 1000;
 
 /// Probes at once.
 const MOST_PROBES: usize = 6;
 
 /// What the rig is asked for.
 pub enum Order {
-    /// A page's finger, by its number over all pages.
-    Touch(u64, wire::Phase, Point),
+    /// A finger, by its page and its number there.
+    Touch((u64, u32), wire::Phase, Point),
+    /// A page went: its fingers are lifted.
+    Leave(u64),
     /// How time passes.
     Transport(wire::Transport),
     /// `displacement` or `velocity`.
@@ -55,8 +57,6 @@ pub enum Order {
     Replay(Option<Box<Replay>>),
     /// A page came: it must be shown something.
     Look,
-    /// Ends the rig.
-    Stop,
 }
 
 /// A place whose motion is followed.
@@ -66,9 +66,8 @@ struct Probe {
     weights: Vec<f32>,
 }
 
-/// The thread's own.
+/// A surface, its clock, and what pages look at.
 pub struct Rig {
-    board: Arc<Board>,
     instrument: Instrument,
     transport: Transport,
     velocity: bool,
@@ -76,27 +75,28 @@ pub struct Rig {
     given: u32,
     replay: Option<Box<Replay>>,
     known: Known,
-    /// Fingers of pages that are down: what is played next has them too.
-    pressed: BTreeMap<u64, Point>,
-    /// Those that the instrument knows of.
-    told_of: BTreeMap<u64, Point>,
+    /// Fingers of pages that are down, by page and number: what is played next has them too. And whether they are as the instrument knows.
+    pressed: BTreeMap<(u64, u32), Point>,
+    moved: bool,
     /// Places focused on last, and what they read of the modes.
     targets: BTreeMap<u64, (Point, Vec<f32>)>,
     frame: u64,
     /// The moment of the frame before, and whether something has changed since.
     before: f64,
     changed: bool,
-    told: Instant,
-    /// Clock and surface when the pace was last taken, and the pace.
-    pace: (Instant, f64, f64),
+    /// Pages that look.
+    viewers: usize,
+    /// Seconds of the page since it was last told how the surface fares.
+    untold: f64,
+    /// Seconds of the page since the pace was last taken, the surface's clock then, and the pace.
+    pace: (f64, f64, f64),
     wrong: Option<String>,
 }
 
 impl Rig {
     /// A rig for a surface.
-    pub fn new(board: Arc<Board>, instrument: Instrument) -> Self {
+    pub fn new(instrument: Instrument) -> Self {
         Self {
-            board,
             instrument,
             transport: Transport::default(),
             velocity: false,
@@ -105,47 +105,44 @@ impl Rig {
             replay: None,
             known: Known::default(),
             pressed: BTreeMap::new(),
-            told_of: BTreeMap::new(),
+            moved: false,
             targets: BTreeMap::new(),
             frame: 0,
             before: 0.0,
             changed: true,
-            told: Instant::now(),
-            pace: (Instant::now(), 0.0, 1.0),
+            viewers: 0,
+            untold: 0.0,
+            pace: (0.0, 0.0, 1.0),
             wrong: None,
         }
     }
 
-    /// Works until told to stop, or until nobody is there any more to tell.
-    pub fn run(mut self, orders: Receiver<Order>) {
-        self.tell_anew();
-        let mut due = Instant::now();
-        let mut passed = Instant::now();
-        loop {
-            match orders.recv_timeout(due.saturating_duration_since(Instant::now())) {
-                Ok(Order::Stop) | Err(RecvTimeoutError::Disconnected) => return,
-                Ok(order) => {
-                    self.obey(order);
-                    // Orders that come faster than frames must not keep them waiting.
-                    if Instant::now() < due {
-                        continue;
-                    }
-                }
-                Err(RecvTimeoutError::Timeout) => {}
-            }
-            let seconds = passed.elapsed().as_secs_f64().min(0.25);
-            passed = Instant::now();
-            due = passed.max(due) + Duration::from_secs_f64(1.0 / FRAMES);
-            due = due.max(passed + Duration::from_millis(2));
-            self.pass(seconds);
-            self.show();
-            if self.told.elapsed().as_secs_f64() >= TOLD {
-                self.tell();
-            }
+    /// Tells all there is to tell at first.
+    pub fn begin(&mut self, out: &mut Outbox) {
+        self.tell_anew(out);
+    }
+
+    /// Lets so many seconds of the page pass, in which the surface goes on while there is time for `more`, and shows what has become of it
+    /// to so many pages.
+    pub fn advance(
+        &mut self,
+        seconds: f64,
+        viewers: usize,
+        more: &mut dyn FnMut() -> bool,
+        out: &mut Outbox,
+    ) {
+        self.viewers = viewers;
+        self.untold += seconds;
+        self.pace.0 += seconds;
+        self.pass(seconds.min(STEP), more);
+        self.show(out);
+        if self.untold >= TOLD {
+            self.tell(out);
         }
     }
 
-    fn obey(&mut self, order: Order) {
+    /// Does what is asked for.
+    pub fn obey(&mut self, order: Order, out: &mut Outbox) {
         self.changed = true;
         match order {
             Order::Touch(finger, phase, at) => {
@@ -153,6 +150,12 @@ impl Rig {
                     wire::Phase::Up => drop(self.pressed.remove(&finger)),
                     wire::Phase::Down | wire::Phase::Move => drop(self.pressed.insert(finger, at)),
                 }
+                self.moved = true;
+                self.press();
+            }
+            Order::Leave(page) => {
+                self.pressed.retain(|(whose, _), _| *whose != page);
+                self.moved = true;
                 self.press();
             }
             Order::Transport(asked) => {
@@ -161,19 +164,19 @@ impl Rig {
                     Some(replay) => self.transport.wind(&asked, [oldest, replay.to()], state),
                     None => self.transport.obey(&asked, oldest, state),
                 }
-                self.tell_transport();
+                self.tell_transport(out);
             }
             Order::Velocity(velocity) => {
                 self.velocity = velocity;
-                self.tell_transport();
+                self.tell_transport(out);
             }
             Order::Probe(asked) => {
                 self.probe(&asked);
-                self.tell_transport();
+                self.tell_transport(out);
             }
             Order::Play(instrument, told) => {
-                self.play(*instrument);
-                self.board.tell("settings", &told);
+                self.play(*instrument, out);
+                out.tell("settings", &told);
             }
             Order::Replay(replay) => {
                 let Transport { speed, .. } = self.transport;
@@ -182,49 +185,42 @@ impl Rig {
                     None => Transport { now: self.head(), speed, ..Transport::default() },
                 };
                 self.replay = replay;
-                self.tell_anew();
+                self.tell_anew(out);
             }
-            Order::Look | Order::Stop => {}
+            Order::Look => {}
         }
     }
 
-    /// Tells the instrument what fingers have done since it was told last; while time stands still it hears nothing.
+    /// Tells the instrument which fingers are down, if it does not know; while time stands still it hears nothing.
     fn press(&mut self) {
-        if self.transport.paused && matches!(self.instrument.works, Works::Here(_)) {
-            return;
+        let stands = self.transport.paused && matches!(self.instrument.works, Works::Here(_));
+        if self.moved && !stands {
+            // An instrument at its end needs to know no more.
+            let _ = self.instrument.pad.send(self.pressed.clone());
+            self.moved = false;
         }
-        let before = std::mem::replace(&mut self.told_of, self.pressed.clone());
-        let left = before.iter().filter(|(finger, _)| !self.pressed.contains_key(finger));
-        let left = left.map(|(finger, at)| (*finger, wire::Phase::Up, *at));
-        let here = self.pressed.iter().filter(|(finger, at)| before.get(finger) != Some(at));
-        let here = here.map(|(finger, at)| match before.contains_key(finger) {
-            true => (*finger, wire::Phase::Move, *at),
-            false => (*finger, wire::Phase::Down, *at),
-        });
-        // An instrument at its end needs to know no more.
-        left.chain(here).for_each(|pressed| self.instrument.pad.send(pressed).unwrap_or(()));
     }
 
     /// Goes over to another instrument, at the same pace and under the same fingers.
-    fn play(&mut self, instrument: Instrument) {
+    fn play(&mut self, instrument: Instrument, out: &mut Outbox) {
         self.instrument = instrument;
         self.replay = None;
         let Transport { speed, paused, .. } = self.transport;
         // A block of it is played at once, so that there is something to look at even while time stands still.
         let now = 1.0 / self.instrument.rate();
         self.transport = Transport { speed, paused: paused && speed < 1.0, now, ..Transport::default() };
-        self.pace = (Instant::now(), 0.0, speed);
+        self.pace = (0.0, 0.0, speed);
         self.before = 0.0;
         self.wrong = None;
         self.targets.clear();
-        self.told_of.clear();
+        self.moved = !self.pressed.is_empty();
         self.press();
         let plant = &self.instrument.plant;
         for probe in &mut self.probes {
             probe.at = self.instrument.spec.surface.outline.nearest(probe.at);
             probe.weights = lens::weights(plant, &[probe.at]);
         }
-        self.tell_anew();
+        self.tell_anew(out);
     }
 
     fn probe(&mut self, asked: &wire::Probe) {
@@ -243,7 +239,7 @@ impl Rig {
     }
 
     /// Lets time pass.
-    fn pass(&mut self, seconds: f64) {
+    fn pass(&mut self, seconds: f64, more: &mut dyn FnMut() -> bool) {
         self.press();
         let (oldest, _) = self.remembered();
         if let Some(replay) = &self.replay {
@@ -252,12 +248,12 @@ impl Rig {
             return;
         }
         if matches!(self.instrument.works, Works::Away(_)) {
-            self.mirror();
+            self.mirror(more);
             let head = self.head();
             self.transport.follow(head, seconds, oldest);
         } else {
             self.transport.pass(seconds, oldest);
-            self.catch_up();
+            self.catch_up(more);
         }
         self.known.fingers = match (&self.instrument.works, self.transport.paused) {
             // The surface hears of fingers when it goes on; who looks sees them at once.
@@ -270,20 +266,20 @@ impl Rig {
     fn resting(&self) -> Vec<(u64, Point)> {
         let outline = &self.instrument.spec.surface.outline;
         let here = self.pressed.iter().filter(|(_, at)| outline.contains(**at));
-        here.map(|(finger, at)| (*finger, *at)).collect()
+        here.map(|((page, finger), at)| (page * FINGERS + u64::from(*finger), *at)).collect()
     }
 
     /// Steps the surface to where it should be; what cannot be done in time is let go, so that it runs slower.
-    fn catch_up(&mut self) {
+    fn catch_up(&mut self, more: &mut dyn FnMut() -> bool) {
         let Instrument { works, tape, spec, .. } = &mut self.instrument;
         let Works::Here(engine) = works else { return };
-        let (began, limit) = (Instant::now(), spec.surface.emission.limit as f32);
+        let limit = spec.surface.emission.limit as f32;
         while self.wrong.is_none() && engine.stage().time() < self.transport.now {
             match step(engine) {
                 Ok(drive) => tape.keep(drive, limit),
                 Err(error) => self.wrong = Some(error.to_string()),
             }
-            if began.elapsed().as_secs_f64() > BUSY / FRAMES {
+            if !more() {
                 self.transport.now = self.transport.now.min(engine.stage().time());
                 return;
             }
@@ -291,11 +287,10 @@ impl Rig {
     }
 
     /// Lets the computed surface follow the one out there.
-    fn mirror(&mut self) {
+    fn mirror(&mut self, more: &mut dyn FnMut() -> bool) {
         let Instrument { works, tape, .. } = &mut self.instrument;
         let Works::Away(away) = works else { return };
-        let began = Instant::now();
-        while self.wrong.is_none() && began.elapsed().as_secs_f64() < BUSY / FRAMES {
+        while self.wrong.is_none() && more() {
             match away.step() {
                 Ok(Some(drive)) => tape.keep(drive, 1.0),
                 Ok(None) => return,

@@ -1,52 +1,55 @@
-use crate::wire::Phase;
-use std::collections::HashSet;
-use std::sync::mpsc::{Receiver, Sender, channel};
-use unripple::core::{Outline, Phase as Core, Point, Touch};
-use unripple_touch::{Counts, Heard, Source};
+//! Fingers on pages as a source of touches.
 
-/// Touches taken in one poll.
+use std::collections::BTreeMap;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use unripple::core::{Outline, Point};
+use unripple_touch::{Counts, Fingers, Heard, Key, Options, Source, TouchError};
+
+/// Changes taken in one poll.
 const TAKEN: usize = 256;
 
-/// What a page's finger did: its number over all pages, what, and where.
-pub type Pressed = (u64, Phase, Point);
+/// Fingers at once over all pages: all that a crowd of pages can put down and a surface can tell apart.
+const MOST: usize = 128;
+
+/// Fingers of pages that are down, by page and number.
+pub type Pressed = BTreeMap<(u64, u32), Point>;
 
 /// Fingers on pages as a source of touches.
 pub struct Pad {
     outline: Outline,
     pressed: Receiver<Pressed>,
-    down: HashSet<u64>,
+    fingers: Fingers,
     counts: Counts,
 }
 
 impl Pad {
     /// A source for a surface, and the end that is told.
-    pub fn new(outline: &Outline) -> (Sender<Pressed>, Self) {
+    ///
+    /// # Errors
+    /// [`TouchError`], for a surface that cannot be.
+    pub fn new(outline: &Outline) -> Result<(Sender<Pressed>, Self), TouchError> {
         let (tell, pressed) = channel();
-        let counts = Counts::default();
-        (tell, Self { outline: outline.clone(), pressed, down: HashSet::new(), counts })
+        // A page is one sender among others, and its link says when it is gone: nothing is lifted for want of news.
+        let fingers = Fingers::new(Options { most: MOST, most_per_sender: MOST, ..Options::new(outline) })?;
+        Ok((tell, Self { outline: outline.clone(), pressed, fingers, counts: Counts::default() }))
     }
 
-    fn hear(&mut self, (finger, phase, at): Pressed, now: f64, heard: &mut Heard) {
-        let known = self.down.contains(&finger);
-        let phase = match phase {
-            Phase::Down if !self.outline.contains(at) => {
-                self.counts.outside += 1;
-                return;
-            }
-            Phase::Down if !known => Core::Down,
-            Phase::Down | Phase::Move if known => Core::Move,
-            Phase::Up if known => Core::Up,
-            _ => return,
-        };
-        match phase {
-            Core::Down => drop(self.down.insert(finger)),
-            Core::Up => drop(self.down.remove(&finger)),
-            Core::Move => {}
+    fn hear(&mut self, pressed: &Pressed, heard: &mut Heard) {
+        self.fingers.lift_where(|key| !pressed.keys().any(|finger| *key == named(*finger)), heard);
+        for (finger, at) in pressed {
+            let key = named(*finger);
+            // One that comes must come on the surface; one that slides off stays at its rim.
+            let at = if self.fingers.has(key) { self.outline.nearest(*at) } else { *at };
+            // What is refused is counted.
+            let _ = self.fingers.put(key, at, None, heard);
         }
-        let at = self.outline.nearest(at);
-        self.counts.touches += 1;
-        heard.touches.push(Touch { finger, phase, at, time: now, force: None });
     }
+}
+
+/// A page's finger among those of all.
+fn named((page, finger): (u64, u32)) -> Key {
+    // Pages are counted from 1, and there will not be more of them than a u32 can tell apart.
+    Key { peer: page as u32, stream: 0, session: i64::from(finger) }
 }
 
 impl Source for Pad {
@@ -55,14 +58,15 @@ impl Source for Pad {
     }
 
     fn poll(&mut self, now: f64, heard: &mut Heard) {
+        self.fingers.begin(now);
         for _ in 0..TAKEN {
             let Ok(pressed) = self.pressed.try_recv() else { return };
             self.counts.packets += 1;
-            self.hear(pressed, now, heard);
+            self.hear(&pressed, heard);
         }
     }
 
     fn counts(&self) -> Counts {
-        self.counts
+        self.fingers.counts() + self.counts
     }
 }

@@ -1,5 +1,7 @@
+//! The surface at work, as pages see it.
+
 use super::*;
-use crate::board::Notice;
+use crate::outbox::Out;
 use serde_json::json;
 use unripple::core::Surface;
 use unripple::focus::Method;
@@ -22,64 +24,72 @@ fn spec() -> Spec {
     }
 }
 
-fn told(board: &Board, kind: &str) -> Value {
-    let Some(Notice::Text(text)) = board.newest(kind) else { return Value::Null };
-    serde_json::from_str(&text).unwrap()
-}
-
-/// What is on the board, in the order in which it was put up: the kinds of texts, and `frame`.
-fn order(board: &Board) -> Vec<String> {
-    let name = |(_, notice)| match notice {
-        Notice::Text(text) => {
-            let value: Value = serde_json::from_str(&text).unwrap();
-            value["is"].as_str().unwrap().to_owned()
-        }
-        Notice::Frame(..) => "frame".to_owned(),
-    };
-    board.since(0).into_iter().map(name).collect()
-}
-
-/// A rig that has run for a second of its surface, with a page that looks.
-fn running(board: &Arc<Board>) -> Rig {
-    let mut rig = Rig::new(board.clone(), Instrument::build(spec()).unwrap());
-    for _ in 0..50 {
-        // Each brings as much as can be computed in a frame's time.
-        rig.pass(0.02);
+/// Whoever has time for a little.
+fn some(blocks: usize) -> impl FnMut() -> bool {
+    let mut left = blocks;
+    move || {
+        left = left.saturating_sub(1);
+        left > 0
     }
-    rig.show();
-    rig.tell();
-    rig
+}
+
+/// The newest message of a kind.
+fn told(said: &[Out], kind: &str) -> Value {
+    let text = said.iter().rev().find_map(|out| match out {
+        Out::Text(of, text) if of == kind => Some(text),
+        _ => None,
+    });
+    text.map_or(Value::Null, |text| serde_json::from_str(text).unwrap())
+}
+
+/// What is said to pages, in order: the kinds of texts, and `frame`.
+fn order(said: &[Out]) -> Vec<&str> {
+    let name = |out| match out {
+        &Out::Text(ref kind, _) => Some(kind.as_str()),
+        Out::Frame(..) => Some("frame"),
+        _ => None,
+    };
+    said.iter().filter_map(name).collect()
+}
+
+/// A rig that has run for a while, with a page that looks, and what it said.
+fn running() -> (Rig, Vec<Out>) {
+    let (mut rig, mut out) = (Rig::new(Instrument::build(spec()).unwrap()), Outbox::default());
+    rig.begin(&mut out);
+    for _ in 0..50 {
+        rig.advance(0.02, 1, &mut some(20), &mut out);
+    }
+    (rig, out.take())
 }
 
 #[test]
 fn the_clock_of_another_surface_is_told_before_how_it_is_played() {
-    let board = Arc::new(Board::new());
-    let _page = board.enter(1).unwrap();
-    let mut rig = running(&board);
-    let before = told(&board, "status")["head_s"].as_f64().unwrap();
-    assert!(before > 0.01 && order(&board).contains(&"frame".to_owned()), "{before}");
+    let (mut rig, said) = running();
+    let before = told(&said, "status")["head_s"].as_f64().unwrap();
+    assert!(before > 0.01 && order(&said).contains(&"frame"), "{before}");
     let other = Instrument::build(Spec { load: true, ..spec() }).unwrap();
-    rig.obey(Order::Play(Box::new(other), json!({ "is": "settings", "load": true })));
-    let status = told(&board, "status");
+    let mut out = Outbox::default();
+    rig.obey(Order::Play(Box::new(other), json!({ "is": "settings", "load": true })), &mut out);
+    let said = out.take();
+    let status = told(&said, "status");
     assert!(status["head_s"].as_f64().unwrap() < 1e-3, "the clock of before: {status}");
     assert_eq!(status["clock_s"], 0.0);
-    assert_eq!(order(&board), ["status", "transport", "settings"]);
+    assert_eq!(order(&said), ["status", "transport", "settings"]);
 }
 
 #[test]
 fn a_surface_that_is_played_otherwise_is_seen_while_time_stands_still() {
-    let board = Arc::new(Board::new());
-    let _page = board.enter(1).unwrap();
-    let mut rig = running(&board);
+    let (mut rig, _) = running();
+    let mut out = Outbox::default();
     let slowly = wire::Transport { speed: Some(0.02), paused: Some(true), ..wire::Transport::default() };
-    rig.obey(Order::Transport(slowly));
-    rig.obey(Order::Play(Box::new(Instrument::build(spec()).unwrap()), json!({ "is": "settings" })));
-    rig.pass(0.1);
-    rig.show();
+    rig.obey(Order::Transport(slowly), &mut out);
+    let other = Instrument::build(spec()).unwrap();
+    rig.obey(Order::Play(Box::new(other), json!({ "is": "settings" })), &mut out);
+    rig.advance(0.1, 1, &mut some(20), &mut out);
     assert!(rig.transport.paused && rig.head() > 0.0);
-    assert!(order(&board).contains(&"frame".to_owned()));
+    assert!(order(&out.take()).contains(&"frame"));
     let head = rig.head();
-    rig.pass(0.1);
+    rig.advance(0.1, 1, &mut some(20), &mut out);
     assert_eq!(rig.head(), head);
 }
 

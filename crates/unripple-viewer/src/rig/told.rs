@@ -1,10 +1,10 @@
 //! What the rig says of itself.
 
-use super::Rig;
+use super::{PACED, Rig};
+use crate::outbox::Outbox;
 use crate::wire::Resting;
 use serde::Serialize;
 use serde_json::{Value, json};
-use std::time::Instant;
 use unripple_calibrate::Drift;
 use unripple_live::Feeling;
 
@@ -22,7 +22,7 @@ struct Feels {
 
 impl Rig {
     /// Tells how the surface fares.
-    pub(super) fn tell(&mut self) {
+    pub(super) fn tell(&mut self, out: &mut Outbox) {
         let fingers = std::mem::take(&mut self.known.fingers);
         self.known = self.instrument.works.look();
         self.known.fingers = fingers;
@@ -41,8 +41,8 @@ impl Rig {
             "tail_s": tail,
             "speed_real": self.pace.2,
             "live": self.transport.back.is_none(),
-            "viewers": self.board.viewers(),
-            "frames": self.board.frames(),
+            "viewers": self.viewers,
+            "frames": self.frame,
             "fingers": feels,
             "drive_peak": peak,
             "rms": rms,
@@ -51,8 +51,8 @@ impl Rig {
             "state": wrong.map_or("running", String::as_str),
             "drift": self.known.drift.as_ref().map(drift),
         });
-        self.board.tell("status", &status);
-        self.told = Instant::now();
+        out.tell("status", &status);
+        self.untold = 0.0;
     }
 
     fn feels(&self, resting: Resting) -> Feels {
@@ -64,27 +64,26 @@ impl Rig {
 
     /// How fast the surface runs beside the clock on the wall.
     fn take_pace(&mut self) {
-        let (then, clock, _) = self.pace;
-        let seconds = then.elapsed().as_secs_f64();
-        if seconds >= 1.0 {
+        let (seconds, clock, _) = self.pace;
+        if seconds >= PACED {
             let now = self.transport.now;
-            self.pace = (Instant::now(), now, (now - clock) / seconds);
+            self.pace = (0.0, now, (now - clock) / seconds);
         }
     }
 
     /// Tells all there is to tell of another clock, at once: whoever is told next of how that surface is played must not take what he
     /// knows of the clock before for it, nor see a picture of then.
-    pub(super) fn tell_anew(&mut self) {
+    pub(super) fn tell_anew(&mut self, out: &mut Outbox) {
         for pane in ["frame 0", "frame 1"] {
-            self.board.withdraw(pane);
+            out.withdraw(pane);
         }
         self.known.fingers.clear();
-        self.tell();
-        self.tell_transport();
+        self.tell(out);
+        self.tell_transport(out);
     }
 
     /// Tells how time passes and what is followed.
-    pub(super) fn tell_transport(&mut self) {
+    pub(super) fn tell_transport(&mut self, out: &mut Outbox) {
         let probe =
             |probe: &super::Probe| json!({ "id": probe.id, "at_mm": [probe.at.x * 1e3, probe.at.y * 1e3] });
         let transport = json!({
@@ -94,7 +93,7 @@ impl Rig {
             "quantity": if self.velocity { "velocity" } else { "displacement" },
             "probes": self.probes.iter().map(probe).collect::<Vec<_>>(),
         });
-        self.board.tell("transport", &transport);
+        out.tell("transport", &transport);
         self.changed = true;
     }
 }

@@ -40,7 +40,6 @@ impl Served {
             device_name: "virtual".into(),
             address: ([127, 0, 0, 1], 0).into(),
             token: token.map(str::to_owned),
-            program: "unripple".into(),
             folder: std::env::temp_dir(),
             quiet: true,
         };
