@@ -29,6 +29,7 @@ mod server;
 mod session;
 mod spectrum;
 mod studio;
+pub mod task;
 mod told;
 mod view;
 mod wire;
@@ -37,7 +38,8 @@ mod workshop;
 pub use bench::Responder;
 pub use draft::Draft;
 pub use error::ViewError;
-pub use rig::{Follow, Opener};
+pub use rig::Follow;
+pub use unripple_tasks::play::Opener;
 pub use view::{View, Viewer};
 pub use wire::{Command, Edit, Job, Measure, Phase, Probe, Refused, Settings, Transport};
 

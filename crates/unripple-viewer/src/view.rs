@@ -4,7 +4,7 @@ use crate::ViewError;
 use crate::bench::Responder;
 use crate::door::listen;
 use crate::guard::Guard;
-use crate::rig::{Follow, Opener, PULSES, Spec};
+use crate::rig::{Follow, PULSES, Spec};
 use crate::server::{Desk, router};
 use crate::studio::Studio;
 use std::future::Future;
@@ -15,6 +15,7 @@ use tokio::net::TcpListener;
 use tokio::runtime::Runtime;
 use unripple::core::{SampledResponses, Surface};
 use unripple::focus::Method;
+use unripple_tasks::play::Opener;
 
 /// Pulses a second under a resting finger, at first.
 const RATE: f64 = 10.0;
@@ -111,7 +112,7 @@ impl Viewer {
     ///
     /// # Errors
     /// [`ViewError::Gone`] if the surface ended before.
-    pub fn serve(self, stop: impl Future<Output = ()> + Send + 'static) -> Result<(), ViewError> {
+    pub fn serve(self, stop: impl Future<Output = ()>) -> Result<(), ViewError> {
         let Self { listener, desk, runtime } = self;
         let studio = desk.studio.clone();
         runtime.block_on(async move {

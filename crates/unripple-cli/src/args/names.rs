@@ -25,16 +25,6 @@ impl DeviceName {
             Self::Tape => DeviceKind::Tape,
         }
     }
-
-    /// Its name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Virtual => "virtual",
-            Self::Jack => "jack",
-            Self::Card => "card",
-            Self::Tape => "tape",
-        }
-    }
 }
 
 /// How a place is measured.

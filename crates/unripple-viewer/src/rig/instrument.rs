@@ -8,7 +8,7 @@ use super::works::{Away, Works};
 use crate::ViewError;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
-use unripple::core::{Device, Responses, SampledResponses, Surface};
+use unripple::core::{Responses, SampledResponses, Surface};
 use unripple::focus::Method;
 use unripple::physics::stepper::{Plant, StepperOptions};
 use unripple::physics::{Medium, Modes, ResponseOptions, responses};
@@ -17,6 +17,7 @@ use unripple_devices::{Handle, Virtual, VirtualOptions};
 use unripple_effects::EffectSet;
 use unripple_live::{Engine, Feeler, Follower, Level, LiveOptions, Maker, Window};
 use unripple_store::{builtin_effect, builtin_effects, parse_effects};
+use unripple_tasks::play::Opener;
 use unripple_touch::Sources;
 
 /// Cells along the longer side of the picture.
@@ -35,9 +36,6 @@ const MOST_BYTES: usize = 256 << 20;
 
 /// The effect of a page that asks for none: pulses at the finger while it rests.
 pub const PULSES: &str = "pulses";
-
-/// Opens a device for a surface.
-pub type Opener = Arc<dyn Fn(&Surface) -> Result<Box<dyn Device>, String> + Send + Sync>;
 
 /// Makes what follows the tension of a surface that is played with some options, in blocks of some length.
 pub type Follow =

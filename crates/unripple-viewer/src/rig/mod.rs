@@ -14,7 +14,7 @@ mod works;
 #[cfg(test)]
 mod tests;
 
-pub use instrument::{CELLS, Follow, Instrument, Opener, PULSES, Spec, check_effect};
+pub use instrument::{CELLS, Follow, Instrument, PULSES, Spec, check_effect};
 pub use lens::Cells;
 pub use replay::Replay;
 pub use transport::Transport;

@@ -1,0 +1,154 @@
+//! A surface opened with its device and shown until nobody wants it any more.
+
+use super::{Ask, Report};
+use crate::bench::Responder;
+use crate::rig::Follow;
+use crate::{View, ViewError, Viewer, pause};
+use std::net::SocketAddr;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use unripple_calibrate::Interpolation;
+use unripple_tasks::play::{Opener, follower, late, opener};
+use unripple_tasks::{Progress, Source, SurfaceAsk, TaskError, go_on, judge, source};
+
+/// Bytes of a token that is made here, before they are letters.
+const TOKEN: usize = 16;
+
+/// Lengths of a token that is given: not guessed in a lifetime, and still typed on a phone.
+const LENGTHS: std::ops::RangeInclusive<usize> = 8..=64;
+
+/// How often it is asked whether the page is still wanted.
+const LOOKED: Duration = Duration::from_millis(100);
+
+impl From<ViewError> for TaskError {
+    fn from(error: ViewError) -> Self {
+        match error {
+            ViewError::Store(error) => error.into(),
+            ViewError::Live(error) => error.into(),
+            error @ (ViewError::Address { .. } | ViewError::Gone { .. } | ViewError::Device { .. }) => {
+                Self::work(error)
+            }
+            error => Self::input(error),
+        }
+    }
+}
+
+/// Shows a surface until the task is cancelled or the time asked for is over; `opened` hears where, as soon as a page
+/// can be opened.
+///
+/// ```
+/// use unripple_tasks::Silent;
+/// use unripple_viewer::task::{Ask, run};
+///
+/// let ask = Ask { port: 0, seconds: Some(0.1), ..Ask::default() };
+/// let mut heard = String::new();
+/// let report = run(&ask, &mut Silent, &mut |report| {
+///     heard.clone_from(&report.url);
+///     Ok(())
+/// })?;
+/// assert!(heard.starts_with("http://127.0.0.1:"));
+/// assert_eq!(report.elsewhere, None);
+/// # Ok::<(), unripple_tasks::TaskError>(())
+/// ```
+///
+/// # Errors
+/// Those of [`View::open`], [`Viewer::serve`] and `opened`; [`TaskError::Ask`] that names the field.
+pub fn run(
+    ask: &Ask,
+    progress: &mut dyn Progress,
+    opened: &mut dyn FnMut(&Report) -> Result<(), TaskError>,
+) -> Result<Report, TaskError> {
+    if let Some(seconds) = ask.seconds.filter(|s| !s.is_finite() || *s <= 0.0) {
+        return Err(TaskError::ask("seconds", "a number above 0 s", seconds));
+    }
+    let viewer = open(ask, progress)?;
+    go_on(progress)?;
+    let report = Report { url: viewer.url(), elsewhere: viewer.elsewhere() };
+    opened(&report)?;
+    viewer.serve(until(progress, ask.seconds))?;
+    Ok(report)
+}
+
+/// Makes the surface ready, and listens.
+fn open(ask: &Ask, progress: &mut dyn Progress) -> Result<Viewer, TaskError> {
+    let token = token(ask)?;
+    let follow = follow(ask)?;
+    let source = source::open(&ask.surface, progress)?;
+    let view = View {
+        without_scale: source.without_scale(),
+        respond: respond(&ask.surface, &source),
+        surface: source.surface,
+        stored: source.stored.map(|stored| Arc::new(stored.responses)),
+        source: ask.surface.to_string(),
+        method: ask.method,
+        device: device(ask),
+        follow,
+        device_name: ask.device.device.name().into(),
+        address: SocketAddr::new(ask.listen, ask.port),
+        token,
+        folder: ask.folder.clone(),
+        quiet: false,
+    };
+    Ok(view.open()?)
+}
+
+/// Responses of a library at places that pages ask for, as `focus` has them.
+fn respond(ask: &SurfaceAsk, source: &Source) -> Option<Responder> {
+    source.stored.as_ref()?;
+    let ask = ask.clone();
+    Some(Arc::new(move |places| {
+        let answered =
+            source::open_again(&ask).and_then(|source| source.respond(places, Interpolation::default()));
+        answered.map(|(_, responses, _)| responses).map_err(|error| error.to_string())
+    }))
+}
+
+/// The device that was asked for, where the surface is not merely simulated.
+fn device(ask: &Ask) -> Option<Opener> {
+    (!ask.simulated()).then(|| opener(&ask.device, ask.follow_tension))
+}
+
+/// What follows the tension of the surface out there, if it is to be followed.
+fn follow(ask: &Ask) -> Result<Option<Follow>, TaskError> {
+    if !ask.follow_tension {
+        return Ok(None);
+    }
+    if ask.simulated() {
+        let expected = "a real device, or `unknowns`";
+        let found = "a surface that is known and never drifts";
+        return Err(TaskError::ask("follow_tension", expected, found));
+    }
+    let device = ask.device.clone();
+    Ok(Some(Arc::new(move |surface, settings, block| {
+        let followed = judge::model(surface, None, &[])
+            .and_then(|model| follower(surface, &model, settings, late(&device, block)));
+        followed.map_err(|error| error.to_string())
+    })))
+}
+
+/// Who does not know it is not let in, where others than this machine can come.
+fn token(ask: &Ask) -> Result<Option<String>, TaskError> {
+    if let Some(token) = &ask.token {
+        let legal = LENGTHS.contains(&token.len()) && token.chars().all(|c| c.is_ascii_alphanumeric());
+        let expected = format!("{} to {} letters and digits", LENGTHS.start(), LENGTHS.end());
+        return if legal {
+            Ok(Some(token.clone()))
+        } else {
+            Err(TaskError::ask("token", expected, "others"))
+        };
+    }
+    if ask.listen.is_loopback() {
+        return Ok(None);
+    }
+    let mut bytes = [0; TOKEN];
+    getrandom::fill(&mut bytes).map_err(TaskError::work)?;
+    Ok(Some(bytes.iter().map(|byte| format!("{byte:02x}")).collect()))
+}
+
+/// Is over when the task is cancelled, or after so many seconds.
+async fn until(progress: &dyn Progress, seconds: Option<f64>) {
+    let began = Instant::now();
+    while !progress.cancelled() && seconds.is_none_or(|s| began.elapsed().as_secs_f64() < s) {
+        pause(LOOKED).await;
+    }
+}
