@@ -27,6 +27,7 @@ mod error;
 pub mod export;
 pub mod field;
 pub mod figures;
+mod filling;
 pub mod fingers;
 pub mod fit;
 pub mod focus;

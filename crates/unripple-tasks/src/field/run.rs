@@ -55,6 +55,14 @@ fn measured(
     animated: bool,
     progress: &mut dyn Progress,
 ) -> Result<(Made, Option<Vec<u8>>), TaskError> {
+    if let Some([from, to]) = ask.movie_s.filter(|[from, to]| !(*from >= 0.0 && to > from && to.is_finite()))
+    {
+        return Err(TaskError::ask(
+            "movie_s",
+            "a start from 0 and an end after it",
+            format!("{from} to {to}"),
+        ));
+    }
     let source = source::open(&ask.surface, progress)?;
     source.allows(&[("fingers_m", !ask.fingers_m.is_empty()), ("judge_hz", ask.judge_hz.is_some())])?;
     let drive = drive(&ask.drive, &source.surface)?;

@@ -50,12 +50,13 @@ pub(super) fn movie(
     judged: &Judged,
     progress: &mut dyn Progress,
 ) -> Result<Option<Vec<u8>>, TaskError> {
-    let span = span(ask, aims)?;
     go_on(progress)?;
     if ask.frames == 0 {
         return Ok(None);
     }
     progress.stage("animation");
+    let instant = aims.first().map_or(0.0, |aim| aim.instant);
+    let span = ask.movie_s.unwrap_or([(instant - AROUND[0]).max(0.0), instant + AROUND[1]]);
     figures::movie(field, &scene(surface, aims, judged), span, ask.frames)
 }
 
@@ -63,16 +64,4 @@ pub(super) fn movie(
 fn scene(surface: &Surface, aims: &[Aim], judged: &Judged) -> Scene {
     let points: Vec<Vec<Point>> = aims.iter().map(|aim| aim.points.clone()).collect();
     Scene::new(surface, &points, judged.measured.focal_radius_m)
-}
-
-/// Start and end of the animation, in seconds.
-fn span(ask: &Ask, aims: &[Aim]) -> Result<[f64; 2], TaskError> {
-    let instant = aims.first().map_or(0.0, |aim| aim.instant);
-    match ask.movie_s {
-        None => Ok([(instant - AROUND[0]).max(0.0), instant + AROUND[1]]),
-        Some([from, to]) if from >= 0.0 && to > from => Ok([from, to]),
-        Some([from, to]) => {
-            Err(TaskError::ask("movie_s", "a start from 0 and an end after it", format!("{from} to {to}")))
-        }
-    }
 }

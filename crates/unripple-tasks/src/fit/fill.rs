@@ -1,22 +1,20 @@
 //! Responses of a fitted model, as a library.
 
 use super::probed::Probed;
-use crate::TaskError;
+use crate::{Progress, TaskError, filling};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 use unripple::core::{Decay, Point, SampledResponses, Surface};
 use unripple_calibrate::{Fitted, Verdict};
-use unripple_store::{Doubt, Library, LibraryPlan, PointState, Quality, Take};
-
-/// Points blended and stored at once.
-const BATCH: usize = 64;
+use unripple_store::{Doubt, Library, LibraryPlan};
 
 /// What the log of a measurement says of all that is made from it: whether its scale is known, and which actuators are dead.
 const KEPT: [&str; 2] = ["scale", "dead"];
 
-/// Writes responses at some points, blended with those probed, as long as the measured ones. Dead actuators have none.
+/// Writes responses at some points, blended with those probed, as long as the measured ones. Dead actuators have none. What is doubted
+/// is written first: a library that is filled only in part is doubted as well.
 pub fn fill(
     folder: &Path,
     source: &Library,
@@ -24,33 +22,12 @@ pub fn fill(
     fitted: &Fitted,
     probed: &Probed,
     points: &[Point],
+    progress: &mut dyn Progress,
 ) -> Result<(), TaskError> {
     let plan = plan(source, surface, fitted, &probed.good, points);
     let mut library = Library::create(folder, &plan)?;
     for key in KEPT {
         library.log(key, source.logged(key).cloned().unwrap_or(Value::Null))?;
-    }
-    let dead = source.dead();
-    let quality = vec![Quality::UNKNOWN; plan.ports.len()];
-    for batch in library.in_state(PointState::Missing).chunks(BATCH) {
-        let places: Vec<Point> = batch.iter().map(|point| points[*point]).collect();
-        let blended = fitted.blend(&probed.good, &places)?;
-        let row = |port: usize, p: usize| match dead.contains(&port) {
-            true => vec![0.0; plan.samples],
-            false => blended.response(port, p).to_vec(),
-        };
-        let values: Vec<Vec<f32>> =
-            (0..batch.len()).map(|p| (0..plan.ports.len()).flat_map(|port| row(port, p)).collect()).collect();
-        let takes: Vec<Take<'_>> = (batch.iter().zip(&values))
-            .map(|(point, samples)| Take {
-                point: *point,
-                samples,
-                quality: &quality,
-                bands: &[],
-                state: PointState::Measured,
-            })
-            .collect();
-        library.put_all(&takes)?;
     }
     let doubtful = match &fitted.verdict {
         Verdict::Doubtful { why, .. } => {
@@ -66,7 +43,9 @@ pub fn fill(
     for (check, found) in doubts {
         library.set_doubts(&check, found)?;
     }
-    Ok(())
+    filling::fill(&mut library, &source.dead(), progress, &mut |places| {
+        Ok(fitted.blend(&probed.good, places)?)
+    })
 }
 
 fn plan(

@@ -68,7 +68,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     };
     if let Some(folder) = ask.output.as_ref().filter(|_| why.is_none() || ask.even_if_doubtful) {
         go_on(progress)?;
-        fill::fill(folder, &library, &surface, &fitted, &probed, &wanted)?;
+        fill::fill(folder, &library, &surface, &fitted, &probed, &wanted, progress)?;
         report.written =
             Some(report::Written { library: folder.display().to_string(), points: wanted.len() });
     }

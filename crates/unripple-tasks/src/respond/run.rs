@@ -2,16 +2,13 @@
 
 use super::{Ask, Report};
 use crate::numbers::above_zero;
-use crate::{Progress, TaskError, go_on, grid, judge};
+use crate::{Progress, TaskError, filling, go_on, grid, judge};
 use std::time::{SystemTime, UNIX_EPOCH};
 use unripple::act::{carries, unit};
 use unripple::core::{ModalResponses, Responses, Surface, window_samples};
 use unripple::physics::design::Windows;
 use unripple::physics::sample;
-use unripple_store::{Library, LibraryPlan, PointState, Quality, Take};
-
-/// Points computed and stored at once.
-const BATCH: usize = 64;
+use unripple_store::{Library, LibraryPlan};
 
 /// Computes the responses of a surface at the points of a grid, and keeps them in a library. One that was cancelled is taken up again.
 ///
@@ -39,9 +36,11 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     };
     go_on(progress)?;
     let plan = plan(ask, &surface, &modal)?;
+    go_on(progress)?;
     let mut library = Library::create(&ask.output, &plan)?;
     let before = library.done().len();
-    fill(&mut library, &modal, progress)?;
+    let samples = plan.samples;
+    filling::fill(&mut library, &[], progress, &mut |places| Ok(sample(&modal, places, samples)))?;
     Ok(Report {
         program: "unripple",
         version: env!("CARGO_PKG_VERSION"),
@@ -81,33 +80,4 @@ fn plan(ask: &Ask, surface: &Surface, modal: &ModalResponses) -> Result<LibraryP
         provenance: about.into_iter().map(|(key, text)| (key.to_owned(), text)).collect(),
         ..LibraryPlan::new(modal.ports.clone(), points, conditions, samples)
     })
-}
-
-/// Computes and stores the points that are not there yet.
-fn fill(library: &mut Library, modal: &ModalResponses, progress: &mut dyn Progress) -> Result<(), TaskError> {
-    let missing = library.in_state(PointState::Missing);
-    let (samples, ports) = (library.plan().samples, modal.ports.len());
-    let quality = vec![Quality::UNKNOWN; ports];
-    progress.stage("points");
-    for (done, batch) in missing.chunks(BATCH).enumerate() {
-        go_on(progress)?;
-        let places: Vec<_> = batch.iter().map(|point| library.points()[*point]).collect();
-        let sampled = sample(modal, &places, samples);
-        let values: Vec<Vec<f32>> = (0..batch.len())
-            .map(|point| (0..ports).flat_map(|port| sampled.response(port, point)).copied().collect())
-            .collect();
-        let pairs = batch.iter().zip(&values);
-        let takes: Vec<Take<'_>> = pairs
-            .map(|(point, samples)| Take {
-                point: *point,
-                samples,
-                quality: &quality,
-                bands: &[],
-                state: PointState::Measured,
-            })
-            .collect();
-        library.put_all(&takes)?;
-        progress.done(((done + 1) * BATCH).min(missing.len()) as f64 / missing.len() as f64);
-    }
-    Ok(())
 }

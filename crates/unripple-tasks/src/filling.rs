@@ -1,0 +1,55 @@
+//! A library filled with responses that are computed, batch by batch.
+
+use crate::{Progress, TaskError, go_on};
+use unripple::core::{Point, SampledResponses};
+use unripple_store::{Library, PointState, Quality, Take};
+
+/// Points computed and stored at once: some megabytes, and a fraction of a second.
+const BATCH: usize = 64;
+
+/// Computes and stores the points that are not there yet; actuators that are `dead` have no response. One that was cancelled is taken up
+/// again.
+///
+/// # Errors
+/// Those of `compute` and of the library; [`TaskError::Cancelled`].
+pub(crate) fn fill(
+    library: &mut Library,
+    dead: &[usize],
+    progress: &mut dyn Progress,
+    compute: &mut dyn FnMut(&[Point]) -> Result<SampledResponses, TaskError>,
+) -> Result<(), TaskError> {
+    let missing = library.in_state(PointState::Missing);
+    let (samples, ports) = (library.plan().samples, library.plan().ports.len());
+    let quality = vec![Quality::UNKNOWN; ports];
+    progress.stage("points");
+    for (done, batch) in missing.chunks(BATCH).enumerate() {
+        go_on(progress)?;
+        let places: Vec<Point> = batch.iter().map(|point| library.points()[*point]).collect();
+        let computed = compute(&places)?;
+        go_on(progress)?;
+        let values: Vec<Vec<f32>> = (0..batch.len())
+            .map(|point| {
+                let mut row = Vec::with_capacity(ports * samples);
+                for port in 0..ports {
+                    match dead.contains(&port) {
+                        true => row.resize(row.len() + samples, 0.0),
+                        false => row.extend_from_slice(computed.response(port, point)),
+                    }
+                }
+                row
+            })
+            .collect();
+        let takes: Vec<Take<'_>> = (batch.iter().zip(&values))
+            .map(|(point, samples)| Take {
+                point: *point,
+                samples,
+                quality: &quality,
+                bands: &[],
+                state: PointState::Measured,
+            })
+            .collect();
+        library.put_all(&takes)?;
+        progress.done(((done + 1) * BATCH).min(missing.len()) as f64 / missing.len() as f64);
+    }
+    Ok(())
+}
