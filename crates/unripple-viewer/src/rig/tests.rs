@@ -44,12 +44,12 @@ fn told(said: &[Out], kind: &str) -> Value {
 
 /// What is said to pages, in order: the kinds of texts, and `frame`.
 fn order(said: &[Out]) -> Vec<&str> {
-    let name = |out| match out {
-        &Out::Text(ref kind, _) => Some(kind.as_str()),
+    let named = said.iter().map(|out| match out {
+        Out::Text(kind, _) => Some(kind.as_str()),
         Out::Frame(..) => Some("frame"),
         _ => None,
-    };
-    said.iter().filter_map(name).collect()
+    });
+    named.flatten().collect()
 }
 
 /// A rig that has run for a while, with a page that looks, and what it said.
