@@ -6,6 +6,7 @@ const FLOORS: &[(&str, u8)] = &[
     ("unripple-core", 0),
     ("unripple-linalg", 0),
     ("unripple-dsp", 1),
+    ("unripple-plates", 1),
     ("unripple-physics", 2),
     ("unripple-focus", 2),
     ("unripple-field", 2),

@@ -1,7 +1,7 @@
 //! The accuracy asked for beside the accuracy reached, on round sheets against exact frequencies and on a polygon against
 //! itself: `cargo run --release -p unripple-physics --example accuracy`.
 
-#[path = "../tests/round_common/mod.rs"]
+#[path = "../../unripple-plates/tests/round_common/mod.rs"]
 mod round_common;
 
 use std::time::Instant;

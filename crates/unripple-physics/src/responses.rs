@@ -1,6 +1,4 @@
-use crate::damping::decay_rate;
-use crate::modes::Modes;
-use crate::{Footprint, Load, Loaded, Medium, PhysicsError, Transducer, transducers};
+use crate::{Footprint, Load, Loaded, Medium, Modes, PhysicsError, Transducer, transducers};
 use faer::{Mat, MatRef};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -10,6 +8,7 @@ use unripple_core::{
     require,
 };
 use unripple_dsp::ModalSynth;
+use unripple_plates::decay_rate;
 
 /// Points of a library worked on at once.
 const POINTS: usize = 64;

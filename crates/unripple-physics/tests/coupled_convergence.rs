@@ -1,6 +1,7 @@
 //! Truth: what loads feel of the modes above the band, against more and more modes one by one.
 
 mod coupled_common;
+#[path = "../../unripple-plates/tests/modes_common/mod.rs"]
 mod modes_common;
 
 use coupled_common::*;

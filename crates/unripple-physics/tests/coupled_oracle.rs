@@ -1,6 +1,7 @@
 //! Truth: problems solved by hand, and the other route, Woodbury's identity at one frequency.
 
 mod coupled_common;
+#[path = "../../unripple-plates/tests/modes_common/mod.rs"]
 mod modes_common;
 
 use coupled_common::*;

@@ -1,6 +1,7 @@
 //! Truth: what holds for every loaded sheet: reciprocity, passivity, and two routes to one answer.
 
 mod coupled_common;
+#[path = "../../unripple-plates/tests/modes_common/mod.rs"]
 mod modes_common;
 
 use coupled_common::*;

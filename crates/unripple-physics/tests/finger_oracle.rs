@@ -1,6 +1,7 @@
 //! Truth: a finger on a long strip, against the waves of Hudin et al. 2012, section 3.5.
 
 mod coupled_common;
+#[path = "../../unripple-plates/tests/modes_common/mod.rs"]
 mod modes_common;
 
 use coupled_common::*;

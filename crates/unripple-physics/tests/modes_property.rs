@@ -1,5 +1,6 @@
 //! Truth: what holds for every sheet.
 
+#[path = "../../unripple-plates/tests/modes_common/mod.rs"]
 mod modes_common;
 
 use modes_common::*;

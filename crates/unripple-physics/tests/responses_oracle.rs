@@ -1,5 +1,6 @@
 //! Truth: the sums and closed forms that define responses.
 
+#[path = "../../unripple-plates/tests/modes_common/mod.rs"]
 mod modes_common;
 
 use modes_common::*;

@@ -5,6 +5,7 @@ use unripple_core::{Edge, Edges, Point};
 use unripple_physics::Modes;
 use unripple_physics::stepper::{Misbehaving, Mishaps, Reading, StepperOptions, VirtualSurface};
 
+#[path = "../../unripple-plates/tests/modes_common/mod.rs"]
 mod modes_common;
 
 const FRAMES: usize = 64;

@@ -1,5 +1,6 @@
 //! Truth: sums of responses where nothing hangs on the sheet.
 
+#[path = "../../unripple-plates/tests/modes_common/mod.rs"]
 mod modes_common;
 mod stepper_common;
 

@@ -6,6 +6,7 @@ use unripple_core::{Edge, Edges, Finger, Point};
 use unripple_physics::stepper::{Channel, Misbehaving, Mishaps, Reading, StepperOptions, VirtualSurface};
 use unripple_physics::{Circuit, Footprint, Load, Modes, stepper::Plant};
 
+#[path = "../../unripple-plates/tests/modes_common/mod.rs"]
 mod modes_common;
 
 #[global_allocator]

@@ -1,5 +1,4 @@
 use super::active::Active;
-use crate::modes::{Method, symmetric};
 use crate::{Load, PhysicsError};
 use faer::Mat;
 use unripple_linalg::singular;
@@ -31,7 +30,7 @@ impl Conservative {
         let unweighted = lightened(active, loads).ok_or_else(failed)?;
         let springs = weighted(&active.felt, loads, |load| load.stiffness);
         let stiffness = &unweighted * (&active.stiffness + springs) * &unweighted;
-        let (squares, vectors) = symmetric(stiffness.as_ref(), Method::Exact).ok_or_else(failed)?;
+        let (squares, vectors) = unripple_linalg::exact_symmetric(stiffness.as_ref()).ok_or_else(failed)?;
         let top = squares.last().map_or(0.0, |square| square.max(0.0).sqrt());
         let shapes = unweighted * vectors;
         let dampers = weighted(&active.felt, loads, |load| load.damping + load.direct_coil_damping());

@@ -1,9 +1,9 @@
 //! The part of a sheet's answer to a load that lies above the modes computed.
 
 use crate::Medium;
-use crate::modes::gauss;
 use std::f64::consts::TAU;
 use unripple_dsp::bessel_j;
+use unripple_plates::gauss;
 
 /// How far from a load its remainder is known, and at what steps, in 1/K; farther away it is nothing.
 const REACH: f64 = 25.0;

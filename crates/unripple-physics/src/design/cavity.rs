@@ -1,8 +1,8 @@
 use super::closed::exposure;
 use crate::Medium;
-use crate::damping::decay_rate;
 use std::f64::consts::{PI, TAU};
 use unripple_core::{FOCAL_RADIUS, Outline, Shape, Surface};
+use unripple_plates::decay_rate;
 
 /// Frequencies that a band is divided into.
 const BINS: usize = 400;

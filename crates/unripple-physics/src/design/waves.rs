@@ -1,8 +1,8 @@
 use super::cavity::modes_per_wavenumber;
 use crate::Medium;
-use crate::damping::decay_rate;
 use std::f64::consts::TAU;
 use unripple_core::Surface;
+use unripple_plates::decay_rate;
 
 /// A wave of the band: one row of the dispersion relation.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]

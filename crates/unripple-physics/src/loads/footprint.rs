@@ -36,7 +36,7 @@ impl Footprint {
                 (Point::new(at.x + r * angle.cos(), at.y + r * angle.sin()), weight / DIRECTIONS as f64)
             })
         };
-        let mut points: Vec<(Point, f64)> = crate::modes::gauss(RADII)
+        let mut points: Vec<(Point, f64)> = unripple_plates::gauss(RADII)
             .into_iter()
             .map(|(x, w)| (0.5 * (1.0 + x), 0.5 * w))
             .flat_map(around)
@@ -58,7 +58,7 @@ impl Footprint {
             let t = 0.5 * (1.0 + x);
             (Point::new(from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)), 0.5 * w)
         };
-        Self { points: crate::modes::gauss(count.max(1)).into_iter().map(along).collect() }
+        Self { points: unripple_plates::gauss(count.max(1)).into_iter().map(along).collect() }
     }
 
     /// The slope outwards across the rim of a disc, integrated along the rim, ∮ ∂u/∂n ds = ∫ ∇²u dA: weights in metres times

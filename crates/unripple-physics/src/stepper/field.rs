@@ -333,7 +333,7 @@ mod tests {
     #[test]
     fn a_held_force_moves_modes_of_any_kind() {
         // Against Gauss-Legendre sums of the impulse response over many pieces of the step.
-        let gauss = crate::modes::gauss(12);
+        let gauss = unripple_plates::gauss(12);
         let mut worst: f64 = 0.0;
         for omega in [0.0, 1e-6, 1.0, 30.0, 499.0, 501.0, 3e3, 2e4] {
             for sigma in [0.0, 1e-3, 14.0, 499.0, 999.0, 1001.0, 3e3, 4e4] {

@@ -1,9 +1,9 @@
-use crate::damping::decay_rate;
 use crate::{Entry, Footprint, Load, Loaded, Medium, Modes, PhysicsError, Transducer, transducers};
 use faer::Mat;
 use std::f64::consts::PI;
 use std::sync::Arc;
 use unripple_core::{ModalResponses, Onset, Outline, Point, Pole, Shapes, Surface, require};
+use unripple_plates::decay_rate;
 
 /// What is added to modes may oscillate at this share of half the rate: faster, samples would show it as something slower.
 const FASTEST: f64 = 0.9;

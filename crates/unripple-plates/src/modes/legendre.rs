@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 ///
 /// Newton's method on the three-term recurrence from the cosine estimate (Davis and Rabinowitz, *Methods of Numerical
 /// Integration*, 1984).
-pub(crate) fn gauss(count: usize) -> Vec<(f64, f64)> {
+pub fn gauss(count: usize) -> Vec<(f64, f64)> {
     let n = count as f64;
     let mut rule: Vec<(f64, f64)> = (0..count)
         .map(|i| {

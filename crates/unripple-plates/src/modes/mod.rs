@@ -13,8 +13,7 @@ use rectangle::Problem;
 use std::f64::consts::TAU;
 use unripple_core::{Point, Pole, Shapes, Surface};
 
-pub(crate) use eigen::{Method, symmetric};
-pub(crate) use legendre::gauss;
+pub use legendre::gauss;
 
 /// Memory that a solution may take, in bytes.
 const MEMORY: f64 = 4.0 * GIB;
@@ -71,7 +70,7 @@ impl Modes {
     ///
     /// ```
     /// # use unripple_core::*;
-    /// # use unripple_physics::Modes;
+    /// # use unripple_plates::Modes;
     /// # let sheet = Sheet { material: "BoPET".into(), young: 4e9, density: 1400.0, poisson: 0.3, strength: None,
     /// #     thickness: 0.125e-3, tension: 200.0, decay: Decay::Time(0.07), air: Air::None,
     /// #     uneven: Uneven::default() };
@@ -82,7 +81,7 @@ impl Modes {
     /// let hz = modes.frequencies_hz();
     /// assert_eq!(hz.len(), 6);
     /// assert!((hz[0] - 163.7436).abs() < 1e-3);
-    /// # Ok::<(), unripple_physics::PhysicsError>(())
+    /// # Ok::<(), unripple_plates::PhysicsError>(())
     /// ```
     pub fn solve(surface: &Surface, max_hz: f64, accuracy: f64) -> Result<Self, PhysicsError> {
         let bounds = Bounds::of(surface, max_hz, accuracy)?;

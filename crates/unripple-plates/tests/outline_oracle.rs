@@ -7,7 +7,7 @@ use modes_common::film;
 use round_common::frequencies;
 use std::f64::consts::TAU;
 use unripple_core::*;
-use unripple_physics::{Modes, PhysicsError};
+use unripple_plates::{Modes, PhysicsError};
 
 const ROUND: f64 = 0.07;
 
@@ -83,7 +83,7 @@ fn a_free_round_film_under_tension_keeps_one() {
 fn textbook_circles_are_what_the_determinants_say() {
     // ω a² √(ρ_s/D) (Leissa, Vibration of Plates, 1969): clamped, then supported with ν = 0.3.
     let surface = plate(round(Edge::Clamped));
-    let medium = unripple_physics::Medium::of(&surface.sheet);
+    let medium = unripple_plates::Medium::of(&surface.sheet);
     let scale = ROUND * ROUND * (medium.areal_density / medium.bending_stiffness).sqrt() * TAU;
     let clamped = frequencies(&surface.sheet, ROUND, Edge::Clamped, 12e3);
     for (hz, textbook) in
@@ -94,7 +94,7 @@ fn textbook_circles_are_what_the_determinants_say() {
     let mut surface = plate(round(Edge::Supported));
     surface.sheet.poisson = 0.3;
     let scale = ROUND * ROUND * TAU * {
-        let medium = unripple_physics::Medium::of(&surface.sheet);
+        let medium = unripple_plates::Medium::of(&surface.sheet);
         (medium.areal_density / medium.bending_stiffness).sqrt()
     };
     let supported = frequencies(&surface.sheet, ROUND, Edge::Supported, 12e3);

@@ -2,7 +2,7 @@
 
 use crate::elements::{Forms, Space};
 use crate::fabric::Fabric;
-use crate::modes::{Method, symmetric};
+use crate::modes::eigen::{Method, symmetric};
 use faer::{Mat, Side};
 use unripple_core::*;
 

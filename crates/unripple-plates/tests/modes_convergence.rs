@@ -4,7 +4,7 @@ mod modes_common;
 
 use modes_common::*;
 use unripple_core::*;
-use unripple_physics::Modes;
+use unripple_plates::Modes;
 
 /// Largest relative error of the frequencies against a reference, and the error claimed; fails if one is below.
 fn errors(surface: &Surface, max_hz: f64, accuracy: f64, reference: &Modes) -> (f64, f64) {
@@ -73,7 +73,7 @@ fn tightly_stretched_and_stiff_sheets_join_their_limits() {
     let mut surface = film(Edges::All(Edge::Clamped));
     for tension in [2e3, 2e4] {
         surface.sheet.tension = tension;
-        let medium = unripple_physics::Medium::of(&surface.sheet);
+        let medium = unripple_plates::Medium::of(&surface.sheet);
         let membrane = (2f64 * tension / medium.areal_density).sqrt() / 0.3;
         let found = Modes::solve(&surface, 1.3 * membrane, 1e-8).unwrap().frequencies_hz()[0];
         let layer = (medium.bending_stiffness / tension).sqrt();

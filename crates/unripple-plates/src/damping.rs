@@ -4,7 +4,7 @@ use unripple_core::Decay;
 ///
 /// `omega` is its angular frequency (rad/s), `bending_share` the part of its elastic energy that is bending. With a loss
 /// factor η only bending dissipates: σ = η · share · ω/2. Tables are linear in frequency between their entries.
-pub(crate) fn decay_rate(decay: &Decay, omega: f64, bending_share: f64) -> f64 {
+pub fn decay_rate(decay: &Decay, omega: f64, bending_share: f64) -> f64 {
     match decay {
         Decay::Time(time) => 1.0 / time,
         Decay::Table(table) => 1.0 / interpolate(table, omega / std::f64::consts::TAU),

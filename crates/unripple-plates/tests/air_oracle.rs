@@ -5,7 +5,7 @@ mod modes_common;
 use modes_common::*;
 use std::f64::consts::{PI, TAU};
 use unripple_core::*;
-use unripple_physics::*;
+use unripple_plates::*;
 
 const AIRS: [Air; 3] = [Air::None, Air::OneSide, Air::BothSides];
 

@@ -5,7 +5,7 @@ mod modes_common;
 use modes_common::*;
 use std::f64::consts::{PI, TAU};
 use unripple_core::*;
-use unripple_physics::{Medium, Modes, PhysicsError};
+use unripple_plates::{Medium, Modes, PhysicsError};
 
 fn hz(surface: &Surface, max_hz: f64, accuracy: f64) -> Vec<f64> {
     Modes::solve(surface, max_hz, accuracy).unwrap().frequencies_hz()

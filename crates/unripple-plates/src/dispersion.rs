@@ -25,7 +25,7 @@ pub const AIR_CELERITY: f64 = 343.2;
 /// starts at about as much of ω. A finite sheet also radiates a little below coincidence, by its edges: that is left out.
 ///
 /// ```
-/// use unripple_physics::Medium;
+/// use unripple_plates::Medium;
 ///
 /// let film = Medium { areal_density: 0.175, tension: 200.0, bending_stiffness: 7.15e-4, air_sides: 0.0 };
 /// let k = film.wavenumber(std::f64::consts::TAU * 3000.0);

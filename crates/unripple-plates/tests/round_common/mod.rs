@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 use unripple_core::{Edge, Sheet};
-use unripple_physics::Medium;
+use unripple_plates::Medium;
 
 /// J_n(x) for n = 0 … `most`, by downward recurrence normalised with J_0 + 2ΣJ_2k = 1.
 pub fn j(most: usize, x: f64) -> Vec<f64> {

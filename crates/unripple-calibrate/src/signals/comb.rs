@@ -1,0 +1,95 @@
+use super::transform::Transform;
+use realfft::num_complex::Complex;
+use std::f64::consts::TAU;
+
+/// Transforms of which only a stretch of lines counts, by decimation in time: a signal of `teeth` interleaved signals,
+/// each transformed alone where caches reach, and joined in the lines that count only.
+///
+/// Source: H. V. Sorensen, C. S. Burrus, "Efficient computation of the DFT with only a subset of input or output points",
+/// IEEE Trans. Signal Processing 41 (1993), section III (transform decomposition).
+#[derive(Clone, Debug)]
+pub(super) struct Comb {
+    size: usize,
+    teeth: usize,
+    part: Transform,
+    first: usize,
+    /// e^{-2πjk/size} of the lines that count.
+    turns: Vec<Complex<f64>>,
+}
+
+/// Where one thread works.
+pub(super) struct CombWork {
+    /// The interleaved signals, one after another.
+    parts: Vec<f64>,
+    lines: Vec<Complex<f64>>,
+    scratch: Vec<Complex<f64>>,
+    /// The lines that count.
+    pub band: Vec<Complex<f64>>,
+}
+
+impl CombWork {
+    pub fn size(&self) -> usize {
+        self.parts.len()
+    }
+}
+
+/// Most interleaved signals: beyond, joining them takes longer than is won.
+const MOST: usize = 8;
+
+impl Comb {
+    /// For a size, and lines from `first` up to `end`.
+    pub fn new(size: usize, first: usize, end: usize) -> Self {
+        let fits = |teeth: &usize| size.is_multiple_of(*teeth) && end <= size / teeth / 2;
+        let teeth = [MOST, MOST / 2, MOST / 4].into_iter().find(fits).unwrap_or(1);
+        let turn = |line: usize| Complex::from_polar(1.0, -TAU * line as f64 / size as f64);
+        let part = Transform::exact(size / teeth);
+        Self { size, teeth, part, first, turns: (first..end).map(turn).collect() }
+    }
+
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
+    pub fn work(&self) -> CombWork {
+        let one = self.part.work();
+        CombWork {
+            parts: vec![0.0; self.size],
+            lines: one.lines,
+            scratch: one.scratch,
+            band: vec![Complex::default(); self.turns.len()],
+        }
+    }
+
+    /// The lines that count of a signal, zero beyond its end, into `work.band`.
+    pub fn forward(&self, signal: &[f64], work: &mut CombWork) {
+        let length = self.size / self.teeth;
+        for (tooth, part) in work.parts.chunks_mut(length).enumerate() {
+            let given = signal.get(tooth..).unwrap_or(&[]).iter().step_by(self.teeth);
+            let filled = given.len().min(length);
+            part[..filled].iter_mut().zip(given).for_each(|(to, from)| *to = *from);
+            part[filled..].fill(0.0);
+        }
+        work.band.fill(Complex::default());
+        for part in work.parts.chunks_mut(length).rev() {
+            self.part.forward_in(part, &mut work.lines, &mut work.scratch);
+            let joined = work.band.iter_mut().zip(&work.lines[self.first..]).zip(&self.turns);
+            joined.for_each(|((sum, line), turn)| *sum = *sum * turn + line);
+        }
+    }
+
+    /// The begin of the signal that has `work.band`, which it leaves turned, and no other lines.
+    pub fn inverse(&self, work: &mut CombWork, signal: &mut [f64]) {
+        let (length, end) = (self.size / self.teeth, self.first + self.turns.len());
+        for part in work.parts.chunks_mut(length) {
+            work.lines[..self.first].fill(Complex::default());
+            work.lines[self.first..end].copy_from_slice(&work.band);
+            work.lines[end..].fill(Complex::default());
+            self.part.inverse_in(&mut work.lines, part, &mut work.scratch);
+            work.band.iter_mut().zip(&self.turns).for_each(|(line, turn)| *line *= turn.conj());
+        }
+        for (tooth, part) in work.parts.chunks(length).enumerate() {
+            let places = signal.iter_mut().skip(tooth).step_by(self.teeth);
+            places.zip(part).for_each(|(to, from)| *to = *from);
+        }
+    }
+}

@@ -1,0 +1,141 @@
+use super::transform::{Transform, Work};
+use super::{Band, positive};
+use realfft::num_complex::Complex;
+use std::f64::consts::TAU;
+use unripple_dsp::DspError;
+
+/// How much later one signal is than another, to a fraction of a sample.
+///
+/// ```
+/// use unripple_calibrate::signals::{Band, Delay, shift};
+///
+/// let model: Vec<f64> = (0..200).map(|i| (-0.5 * ((f64::from(i) - 40.0) / 6.0).powi(2)).exp()).collect();
+/// let found: Vec<f64> = shift(&model, 3.37).iter().map(|x| -0.2 * x).collect();
+/// let delay = Delay::between(&found, &model, 48e3, Band::ALL)?;
+/// assert!((delay.samples - 3.37).abs() < 1e-6 && delay.inverted);
+/// # Ok::<(), unripple_dsp::DspError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Delay {
+    /// Samples by which the one is later.
+    pub samples: f64,
+    /// Their correlation in the band at that delay, from 0 to 1: 1 if they differ by a delay and a factor only.
+    pub correlation: f64,
+    /// Whether that factor is negative.
+    pub inverted: bool,
+}
+
+impl Delay {
+    /// How much later `found` is than `model` (what it would be without latency), both zero beyond their ends.
+    ///
+    /// The delay at which their correlation in the band is largest in magnitude, sought continuously: the
+    /// maximum-likelihood one in white noise, and where the phase of the cross-spectrum is least away from a straight
+    /// line, weighted by its magnitude.
+    ///
+    /// Source: C. H. Knapp, G. C. Carter, IEEE Trans. ASSP 24 (1976), eq. 1 and table I.
+    ///
+    /// # Errors
+    /// [`DspError::Range`] for a rate or a band out of range, or if either signal is silent in the band.
+    pub fn between(found: &[f64], model: &[f64], rate: f64, band: Band) -> Result<Self, DspError> {
+        positive("samples per second", rate)?;
+        band.check()?;
+        let plan = Transform::smooth(found.len() + model.len());
+        let mut works = [plan.work(), plan.work()];
+        let mut powers = [0.0; 2];
+        for ((signal, work), total) in [found, model].into_iter().zip(&mut works).zip(&mut powers) {
+            plan.forward(signal, work);
+            for (line, value) in work.lines.iter_mut().enumerate() {
+                *value *= band.weight(plan.hz(line, rate)) * plan.copies(line).sqrt();
+                *total += value.norm_sqr();
+            }
+        }
+        positive("power of what was found, in the band", powers[0])?;
+        positive("power of the model, in the band", powers[1])?;
+        let [mut cross, other] = works;
+        cross.lines.iter_mut().zip(&other.lines).for_each(|(f, m)| *f *= m.conj());
+        Ok(Self::largest(&plan, cross, found.len(), (powers[0] * powers[1]).sqrt()))
+    }
+
+    /// How much later a loopback's response is than an impulse at time 0.
+    ///
+    /// # Errors
+    /// As [`Delay::between`].
+    pub fn of_impulse(found: &[f64], rate: f64, band: Band) -> Result<Self, DspError> {
+        Self::between(found, &[1.0], rate, band)
+    }
+
+    /// With `latest` delays from 0 on; those below 0 are at the end of the circle.
+    fn largest(plan: &Transform, mut cross: Work, latest: usize, norm: f64) -> Self {
+        let lines = cross.lines.clone();
+        // Lines stand for their mirror images too, whose half the inverse transform adds by itself.
+        cross.lines.iter_mut().enumerate().for_each(|(line, x)| *x /= plan.copies(line));
+        plan.inverse(&mut cross);
+        let peak =
+            cross.signal.iter().enumerate().fold((0, 0.0), |best: (usize, f64), (i, x)| {
+                if x.abs() > best.1.abs() { (i, *x) } else { best }
+            });
+        let sign = peak.1.signum();
+        let size = plan.size();
+        let whole = if peak.0 >= latest { peak.0 as f64 - size as f64 } else { peak.0 as f64 };
+        let samples = refined(&lines, size, whole, sign);
+        let correlation = (sign * slopes(&lines, size, samples)[0] / norm).clamp(0.0, 1.0);
+        Self { samples, correlation, inverted: sign < 0.0 }
+    }
+}
+
+/// The maximum of `sign` times the correlation within a sample of `whole`: Newton's steps, or halving where they leave the
+/// bracket.
+fn refined(lines: &[Complex<f64>], size: usize, whole: f64, sign: f64) -> f64 {
+    let (mut low, mut high, mut at) = (whole - 1.0, whole + 1.0, whole);
+    for _ in 0..STEPS {
+        let [_, first, second] = slopes(lines, size, at).map(|x| sign * x);
+        if first > 0.0 {
+            low = at;
+        } else {
+            high = at;
+        }
+        let newton = at - first / second;
+        let next = if second < 0.0 && newton > low && newton < high { newton } else { (low + high) / 2.0 };
+        let step = (next - at).abs();
+        at = next;
+        if step < 1e-10 {
+            break;
+        }
+    }
+    at
+}
+
+const STEPS: usize = 40;
+
+/// The correlation at a delay, and its first and second derivative.
+fn slopes(lines: &[Complex<f64>], size: usize, delay: f64) -> [f64; 3] {
+    let step = TAU / size as f64;
+    lines.iter().enumerate().fold([0.0; 3], |[value, first, second], (line, x)| {
+        let omega = step * line as f64;
+        let turned = x * Complex::from_polar(1.0, omega * delay);
+        [value + turned.re, first - omega * turned.im, second - omega * omega * turned.re]
+    })
+}
+
+/// A signal later by any number of samples, negative for earlier: a phase ramp in the spectrum, exact for a signal that
+/// is band limited and zero near its ends. What is moved beyond an end is lost.
+///
+/// ```
+/// let moved = unripple_calibrate::signals::shift(&[0.0, 1.0, 2.0, 0.0], 1.0);
+/// assert!(moved.iter().zip([0.0, 0.0, 1.0, 2.0]).all(|(a, b)| (a - b).abs() < 1e-12));
+/// ```
+pub fn shift(signal: &[f64], samples: f64) -> Vec<f64> {
+    let length = signal.len();
+    if !samples.is_finite() || samples.abs() >= length as f64 {
+        return vec![0.0; length];
+    }
+    let plan = Transform::smooth(2 * length);
+    let mut work = plan.work();
+    plan.forward(signal, &mut work);
+    let (turn, scale) = (-TAU * samples / plan.size() as f64, 1.0 / plan.size() as f64);
+    for (line, value) in work.lines.iter_mut().enumerate() {
+        *value *= Complex::from_polar(scale, turn * line as f64);
+    }
+    plan.inverse(&mut work);
+    work.signal[..length].to_vec()
+}

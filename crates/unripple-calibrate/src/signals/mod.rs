@@ -1,0 +1,59 @@
+//! Measuring responses: what to play, responses from what was heard, and how good they are.
+
+mod average;
+mod band;
+mod comb;
+mod cross;
+mod cut;
+mod decay;
+mod deconvolver;
+mod delay;
+mod gate;
+mod harmonics;
+mod powers;
+mod quality;
+mod reciprocity;
+mod remap;
+mod schedule;
+mod stimulus;
+mod sweep;
+mod transform;
+
+pub use average::{Average, Outliers};
+pub use band::Band;
+pub use cross::CrossSpectra;
+pub use decay::Decay;
+pub use deconvolver::{Deconvolver, Inversion, Workspace};
+pub use delay::{Delay, shift};
+pub use gate::{Gate, onset};
+pub use harmonics::{Harmonic, Harmonics, Split};
+pub use powers::band_powers;
+pub use quality::{Quality, clipped, snr_db};
+pub use reciprocity::{Pair, Reciprocity};
+pub use remap::Remap;
+pub use schedule::Schedule;
+pub use stimulus::Stimulus;
+pub use sweep::Sweep;
+
+use unripple_core::OutOfRange;
+use unripple_dsp::DspError;
+
+/// # Errors
+/// [`DspError::Range`] if a number is not positive and finite.
+fn positive(what: &'static str, found: f64) -> Result<(), DspError> {
+    if found > 0.0 && found.is_finite() {
+        return Ok(());
+    }
+    Err(DspError::Range(OutOfRange::new(what, "positive and finite", found)))
+}
+
+/// # Errors
+/// [`DspError::Size`] if two counts differ.
+fn same(what: &'static str, expected: usize, found: usize) -> Result<(), DspError> {
+    if expected == found { Ok(()) } else { Err(DspError::Size { what, expected, found }) }
+}
+
+/// Mean of squares; 0 of nothing.
+fn mean_square(signal: &[f64]) -> f64 {
+    signal.iter().map(|x| x * x).sum::<f64>() / signal.len().max(1) as f64
+}

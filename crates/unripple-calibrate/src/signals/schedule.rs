@@ -1,0 +1,194 @@
+use super::cut::cut;
+use super::{Stimulus, Sweep, same};
+use unripple_core::OutOfRange;
+use unripple_dsp::DspError;
+
+/// When each actuator plays, so that one deconvolution of all that was heard holds every actuator's response apart.
+///
+/// Actuators play the same stimulus, later each than the one before. A response needs `window` samples; what an
+/// actuator's response is cut from is its own.
+///
+/// ```
+/// use unripple_calibrate::signals::{Schedule, Sweep};
+///
+/// let sweep = Sweep { seconds: 0.5, ..Sweep::default() };
+/// let window = 16_000;
+/// let one_by_one = Schedule::sequential(sweep.stimulus()?, 8, window)?;
+/// let together = Schedule::interleaved(&sweep, 8, window, 3)?;
+/// assert!(together.samples() < 3 * one_by_one.samples() / 4);
+/// # Ok::<(), unripple_dsp::DspError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Schedule {
+    stimulus: Stimulus,
+    starts: Vec<usize>,
+    window: usize,
+}
+
+impl Schedule {
+    /// One actuator after another, each when the response to the one before has ended.
+    ///
+    /// # Errors
+    /// [`DspError::Size`] without actuators or with a window of 0; [`DspError::Range`] for a periodic stimulus.
+    pub fn sequential(stimulus: Stimulus, actuators: usize, window: usize) -> Result<Self, DspError> {
+        if stimulus.periodic {
+            let expected = "a stimulus that ends";
+            return Err(DspError::Range(OutOfRange::new("periods of the stimulus", expected, f64::INFINITY)));
+        }
+        let step = stimulus.samples.len() + window;
+        Self::made(stimulus, (0..actuators).map(|a| a * step).collect(), window)
+    }
+
+    /// Overlapping and interleaved exponential sweeps: no actuator's response meets another's, nor any harmonic of
+    /// orders 2 to `highest_order` of another, each as long as `window`; harmonics may meet one another. With
+    /// `highest_order` 1 the surface is taken to be linear.
+    ///
+    /// Source: P. Majdak, P. Balazs, B. Laback, "Multiple exponential sweep method", J. Audio Eng. Soc. 55 (2007). Where
+    /// they fix the pattern (groups interleaved, groups overlapped), each sweep here begins as early as it can, or all
+    /// at the same distance where that ends earlier.
+    ///
+    /// # Errors
+    /// As [`Sweep::stimulus`]; [`DspError::Size`] without actuators or with a window of 0; [`DspError::Range`] for an
+    /// order of 0 or one that the sweep does not reach.
+    pub fn interleaved(
+        sweep: &Sweep,
+        actuators: usize,
+        window: usize,
+        highest_order: usize,
+    ) -> Result<Self, DspError> {
+        let stimulus = sweep.stimulus()?;
+        let most = (sweep.to / sweep.from).floor();
+        if highest_order == 0 || highest_order as f64 > most {
+            return Err(DspError::Range(OutOfRange::new(
+                "highest order of harmonics",
+                format!("1 to {most}"),
+                highest_order as f64,
+            )));
+        }
+        // A start that makes an earlier response meet a harmonic lies this far behind it: between the two, exclusively.
+        let forbidden: Vec<[usize; 2]> = (2..=highest_order)
+            .map(|order| {
+                let lead = sweep.lead(order) * sweep.rate;
+                [(lead.floor() as usize).saturating_sub(window), lead.ceil() as usize + window]
+            })
+            .collect();
+        let [greedy, even] = [earliest(actuators, window, &forbidden), evenly(actuators, window, &forbidden)];
+        let starts = if even.last() < greedy.last() { even } else { greedy };
+        Self::made(stimulus, starts, window)
+    }
+
+    /// All at once: each actuator plays the same periodic stimulus, turned by an equal share of the period, which is the
+    /// window. What is heard is one period, once the surface has settled.
+    ///
+    /// # Errors
+    /// [`DspError::Size`] without actuators, or for a period shorter than their number; [`DspError::Range`] for a
+    /// stimulus that is not periodic.
+    pub fn simultaneous(stimulus: Stimulus, actuators: usize) -> Result<Self, DspError> {
+        if !stimulus.periodic {
+            let expected = "a stimulus that goes round";
+            return Err(DspError::Range(OutOfRange::new("periods of the stimulus", expected, 1.0)));
+        }
+        let window = stimulus.samples.len() / actuators.max(1);
+        Self::made(stimulus, (0..actuators).map(|a| a * window).collect(), window)
+    }
+
+    fn made(stimulus: Stimulus, starts: Vec<usize>, window: usize) -> Result<Self, DspError> {
+        for (what, found) in [("actuators of a schedule", starts.len()), ("samples of a window", window)] {
+            if found == 0 {
+                return Err(DspError::Size { what, expected: 1, found });
+            }
+        }
+        Ok(Self { stimulus, starts, window })
+    }
+
+    /// What each actuator plays, and what a [`super::Deconvolver`] of this schedule is made for.
+    pub fn stimulus(&self) -> &Stimulus {
+        &self.stimulus
+    }
+
+    /// Where each actuator begins, in samples.
+    pub fn starts(&self) -> &[usize] {
+        &self.starts
+    }
+
+    /// Samples of a response.
+    pub fn window(&self) -> usize {
+        self.window
+    }
+
+    /// Samples to be heard: until the last response has ended, or one period. Of a periodic stimulus, at least a window
+    /// must have been played before.
+    pub fn samples(&self) -> usize {
+        if self.stimulus.periodic {
+            return self.stimulus.samples.len();
+        }
+        self.starts.last().map_or(0, |last| last + self.stimulus.samples.len() + self.window)
+    }
+
+    /// Writes what an actuator plays; a periodic stimulus goes on for as long as `drive` is.
+    ///
+    /// # Errors
+    /// [`DspError::Size`] if there is no such actuator.
+    pub fn drive(&self, actuator: usize, drive: &mut [f64]) -> Result<(), DspError> {
+        let (start, samples) = (self.start(actuator)?, &self.stimulus.samples);
+        if self.stimulus.periodic {
+            cut(samples, -start, drive);
+            return Ok(());
+        }
+        drive.fill(0.0);
+        let after = drive.iter_mut().skip(self.starts[actuator]);
+        after.zip(samples).for_each(|(to, from)| *to = *from);
+        Ok(())
+    }
+
+    /// Cuts an actuator's response, as many samples as `response` has and [`Schedule::window`] at most, out of the
+    /// whole deconvolution. With a lead, both begin that much before time 0.
+    ///
+    /// # Errors
+    /// [`DspError::Size`] if there is no such actuator, or `response` is longer than the window.
+    pub fn cut(&self, deconvolved: &[f64], actuator: usize, response: &mut [f64]) -> Result<(), DspError> {
+        if response.len() > self.window {
+            same("samples of a response in its window", self.window, response.len())?;
+        }
+        cut(deconvolved, self.start(actuator)?, response);
+        Ok(())
+    }
+
+    fn start(&self, actuator: usize) -> Result<i64, DspError> {
+        let size =
+            DspError::Size { what: "actuators of a schedule", expected: self.starts.len(), found: actuator };
+        self.starts.get(actuator).and_then(|start| i64::try_from(*start).ok()).ok_or(size)
+    }
+}
+
+/// Each start as early as the starts before allow.
+fn earliest(actuators: usize, window: usize, forbidden: &[[usize; 2]]) -> Vec<usize> {
+    let mut starts: Vec<usize> = Vec::with_capacity(actuators);
+    for _ in 0..actuators {
+        let mut start = starts.last().map_or(0, |last| last + window);
+        // Every step clears one forbidden stretch for good, so this ends.
+        while let Some(end) = starts.iter().find_map(|before| {
+            let behind = start - before;
+            forbidden
+                .iter()
+                .find(|[low, high]| behind > *low && behind < *high)
+                .map(|[_, high]| before + high)
+        }) {
+            start = end;
+        }
+        starts.push(start);
+    }
+    starts
+}
+
+/// Starts at one distance, the least that there is.
+fn evenly(actuators: usize, window: usize, forbidden: &[[usize; 2]]) -> Vec<usize> {
+    let fits = |step: usize| {
+        let clear = |behind: usize| forbidden.iter().all(|[low, high]| behind <= *low || behind >= *high);
+        (1..actuators).all(|count| clear(count * step))
+    };
+    let ends = forbidden.iter().flat_map(|[_, high]| (1..actuators).map(|count| high.div_ceil(count)));
+    let step = ends.chain([window]).filter(|step| *step >= window && fits(*step)).min();
+    let step = step.unwrap_or_else(|| forbidden.iter().map(|[_, high]| *high).max().unwrap_or(window));
+    (0..actuators).map(|a| a * step).collect()
+}

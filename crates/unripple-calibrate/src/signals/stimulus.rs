@@ -1,0 +1,97 @@
+use super::transform::Transform;
+use super::{Band, positive};
+use unripple_core::OutOfRange;
+use unripple_dsp::DspError;
+
+/// What is played, or the force that was recorded: samples whose spectrum is known.
+///
+/// ```
+/// use unripple_calibrate::signals::Stimulus;
+///
+/// let tap = Stimulus::new(vec![0.0, 0.4, 1.0, 0.4, 0.0], 48e3)?;
+/// let [low, high] = tap.usable_band(15.0); // 1 + 0.8 cos ω falls to 0.32 at 19.8 kHz
+/// assert!(low == 0.0 && (high - 19.8e3).abs() < 100.0);
+/// # Ok::<(), unripple_dsp::DspError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stimulus {
+    pub(super) samples: Vec<f64>,
+    pub(super) rate: f64,
+    pub(super) band: Band,
+    pub(super) periodic: bool,
+}
+
+impl Stimulus {
+    /// A stimulus that begins and ends, in the unit of the drive, useful at all frequencies until
+    /// [`Stimulus::in_band`] says otherwise.
+    ///
+    /// # Errors
+    /// [`DspError::Range`] if `rate` is not positive, or a sample is not finite; [`DspError::Size`] without samples.
+    pub fn new(samples: Vec<f64>, rate: f64) -> Result<Self, DspError> {
+        positive("samples per second", rate)?;
+        if samples.is_empty() {
+            return Err(DspError::Size { what: "samples of a stimulus", expected: 1, found: 0 });
+        }
+        if let Some(found) = samples.iter().copied().find(|x| !x.is_finite()) {
+            return Err(DspError::Range(OutOfRange::new("sample of a stimulus", "finite", found)));
+        }
+        Ok(Self { samples, rate, band: Band::ALL, periodic: false })
+    }
+
+    /// The same, played round and round, so that what is heard is periodic too once the surface has settled.
+    pub fn repeated(self) -> Self {
+        Self { periodic: true, ..self }
+    }
+
+    /// The same, with the band that it is useful in.
+    ///
+    /// # Errors
+    /// [`DspError::Range`] if the band's edges do not ascend.
+    pub fn in_band(self, band: Band) -> Result<Self, DspError> {
+        band.check()?;
+        Ok(Self { band, ..self })
+    }
+
+    /// Its samples, one period of them if it is periodic.
+    pub fn samples(&self) -> &[f64] {
+        &self.samples
+    }
+
+    /// Samples per second.
+    pub fn rate(&self) -> f64 {
+        self.rate
+    }
+
+    /// The band that it is useful in.
+    pub fn band(&self) -> Band {
+        self.band
+    }
+
+    /// Whether it is one period of something that goes round.
+    pub fn is_periodic(&self) -> bool {
+        self.periodic
+    }
+
+    /// Sum of squares of the samples over the rate, in the drive's unit squared times seconds.
+    pub fn energy(&self) -> f64 {
+        self.samples.iter().map(|x| x * x).sum::<f64>() / self.rate
+    }
+
+    /// Lowest and highest frequency around the strongest one between which the spectrum nowhere falls `db` below its
+    /// maximum: where a tap has something to say.
+    pub fn usable_band(&self, db: f64) -> [f64; 2] {
+        let plan = Transform::smooth(self.samples.len().max(1024));
+        let mut work = plan.work();
+        plan.forward(&self.samples, &mut work);
+        let powers: Vec<f64> = work.lines.iter().map(|x| x.norm_sqr()).collect();
+        let (top, most) = powers
+            .iter()
+            .copied()
+            .enumerate()
+            .fold((0, 0.0), |best, (line, power)| if power > best.1 { (line, power) } else { best });
+        let floor = most * 10f64.powf(-db / 10.0);
+        let low = (0..=top).rev().take_while(|&line| powers[line] >= floor).last().unwrap_or(top);
+        let high = (top..powers.len()).take_while(|&line| powers[line] >= floor).last().unwrap_or(top);
+        [plan.hz(low, self.rate), plan.hz(high, self.rate)]
+    }
+}
