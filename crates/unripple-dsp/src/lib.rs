@@ -17,7 +17,7 @@ pub use convolve::{Convolver, convolve};
 pub use error::DspError;
 pub use integral::integral;
 pub use measure::{
-    Average, Band, CrossSpectra, Decay, Deconvolver, Delay, Gate, Harmonic, Harmonics, Inversion, Mls,
+    Average, Band, CrossSpectra, Decay, Deconvolver, Delay, Gate, Harmonic, Harmonics, Inversion,
     Outliers, Pair, Quality, Reciprocity, Remap, Schedule, Split, Stimulus, Sweep, Workspace, band_powers,
     clipped, onset, shift, snr_db,
 };

@@ -1,37 +1,9 @@
-//! Truth: what sequences and sweeps are defined by, and closed forms of what they measure.
+//! Truth: what sweeps are defined by, and closed forms of what they measure.
 
 mod measure;
 
 use measure::{Noise, Plant, RATE, error, fourier, hear, limited, rms};
-use unripple_dsp::{Band, CrossSpectra, Deconvolver, DspError, Inversion, Mls, Stimulus, Sweep};
-
-#[test]
-fn sequences_of_every_order_are_of_maximum_length() {
-    for order in 2..=20 {
-        let sequence = Mls::new(order).unwrap().samples(1.0);
-        let period = (1_usize << order) - 1;
-        assert_eq!(sequence.len(), period);
-        let sum: f64 = sequence.iter().sum();
-        assert_eq!(sum, -1.0, "order {order}");
-        // Every window of `order` values but all zeros comes once.
-        let mut seen = vec![false; period + 1];
-        let mut window = 0;
-        for i in 0..period + order as usize - 1 {
-            window = (window << 1 | usize::from(sequence[i % period] < 0.0)) & period;
-            if i + 1 >= order as usize {
-                assert!(!std::mem::replace(&mut seen[window], true), "order {order} repeats itself");
-            }
-        }
-        assert!(!seen[0]);
-        for lag in (1..period).step_by(period / 7 + 1) {
-            let product: f64 = (0..period).map(|i| sequence[i] * sequence[(i + lag) % period]).sum();
-            assert_eq!(product, -1.0, "order {order}, lag {lag}");
-        }
-    }
-    assert!(matches!(Mls::new(1), Err(DspError::Range(_))));
-    assert!(matches!(Mls::of_length(1 << 20), Err(DspError::Range(_))));
-    assert_eq!(Mls::of_length(1024).unwrap().period(), 2047);
-}
+use unripple_dsp::{Band, CrossSpectra, Deconvolver, DspError, Inversion, Stimulus, Sweep};
 
 #[test]
 fn a_synchronized_sweep_holds_its_own_harmonics() {
@@ -94,19 +66,6 @@ fn latency_is_taken_out_to_a_fraction() {
         out
     };
     assert!(error(&respond(&late, 100.37), &respond(&heard, 0.0)) < 1e-6);
-}
-
-#[test]
-fn a_sequence_measures_all_frequencies_but_zero() {
-    let response: Vec<f64> = Plant::new(3, 50, 0.01).response(8191);
-    let stimulus = Mls::new(13).unwrap().stimulus(RATE, 0.5).unwrap();
-    let twice = [stimulus.samples(), stimulus.samples()].concat();
-    let heard = hear(&response, &twice, 2 * 8191).split_off(8191);
-    let plan = Deconvolver::new(&stimulus, 8191, &Inversion::default()).unwrap();
-    let mut found = vec![0.0; 8191];
-    plan.deconvolve(&heard, &mut found, &mut plan.workspace()).unwrap();
-    assert!(error(&found, &response) < 1e-4);
-    assert!(Deconvolver::new(&stimulus, 8192, &Inversion::default()).is_err());
 }
 
 #[test]
