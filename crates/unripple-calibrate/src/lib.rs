@@ -5,6 +5,7 @@ mod drift;
 mod error;
 mod fit;
 pub mod measure;
+pub mod signals;
 pub mod verify;
 
 pub use between::{Between, BetweenOptions, Interpolation, Uncertainty};

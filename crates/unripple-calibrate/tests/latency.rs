@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 use unripple_calibrate::measure::{Hearing, latency};
+use unripple_calibrate::signals::{Band, shift};
 use unripple_core::{ActuatorKind, CoilDrive, Edge, Edges, Point, Responses, Surface};
-use unripple_dsp::{Band, shift};
 use unripple_physics::design::papers_surface;
 use unripple_physics::{ResponseOptions, responses};
 

@@ -162,7 +162,7 @@ fn a_late_probe_is_moved_back_before_it_corrects_the_model() {
         let values = library.get(point).unwrap();
         let late = values.chunks_exact(samples).flat_map(|row| {
             let row: Vec<f64> = row.iter().map(|h| f64::from(*h)).collect();
-            unripple::dsp::shift(&row, 48.0)
+            unripple_calibrate::signals::shift(&row, 48.0)
         });
         let late: Vec<f32> = late.map(|h| h as f32).collect();
         let quality = library.quality(point).unwrap();

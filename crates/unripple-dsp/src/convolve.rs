@@ -94,7 +94,7 @@ pub fn convolve(signal: &[f64], response: &[f64]) -> Vec<f64> {
 }
 
 /// The smallest even size of at least `least` whose prime factors are 2, 3 and 5, where transforms are quick.
-pub(crate) fn smooth_size(least: usize) -> usize {
+pub fn smooth_size(least: usize) -> usize {
     let ceiling = least.max(2).next_power_of_two();
     let mut best = ceiling;
     let mut fives = 1;

@@ -7,7 +7,7 @@ use common::table::{Table, none, number};
 use common::times::Times;
 use common::{Outcome, peers};
 use std::hint::black_box;
-use unripple::dsp::{Deconvolver, Inversion, Sweep};
+use unripple_calibrate::signals::{Deconvolver, Inversion, Sweep};
 
 /// Channels, and samples of each.
 const CHANNELS: usize = 64;

@@ -7,10 +7,10 @@ use super::loaded::LoadedModes;
 use super::reached::Reached;
 use super::residual::Case;
 use super::solve::Found;
+use crate::signals::Band;
 use crate::{CalibrateError, Tracker, Tracking};
 use faer::Mat;
 use unripple_core::{Conditions, ModalResponses, Point, Port, Responses, Surface};
-use unripple_dsp::Band;
 use unripple_physics::Medium;
 
 /// The share of what was measured that neither model nor noise explains from which a model is doubted.

@@ -3,10 +3,11 @@ use super::layout::{Layout, Values};
 use super::loaded::LoadedModes;
 use super::system::System;
 use crate::CalibrateError;
+use crate::signals::{Band, shift};
 use faer::{Mat, c64};
 use realfft::RealFftPlanner;
 use std::f64::consts::TAU;
-use unripple_dsp::{Band, ModalSynth, shift};
+use unripple_dsp::ModalSynth;
 
 /// Error of the synthesis, over the sum of magnitudes.
 const ACCURACY: f64 = 1e-6;

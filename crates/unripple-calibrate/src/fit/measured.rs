@@ -1,6 +1,6 @@
 use crate::CalibrateError;
+use crate::signals::Band;
 use unripple_core::{Point, Surface, require};
-use unripple_dsp::Band;
 
 /// Least noise of responses over themselves: what models of a band's edges and a device's latency are good for.
 const FLOOR: f64 = 1e-3;

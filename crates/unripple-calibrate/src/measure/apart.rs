@@ -1,9 +1,9 @@
 //! How much later, and under how much more tension, some responses are than the same ones of another time.
 
 use super::law::Law;
+use crate::signals::{Band, Remap};
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
-use unripple_dsp::{Band, Remap};
 
 /// Largest change of tension that is looked for, as a share: twice what is promised, and more than any warm hand does.
 const MOST_CHANGE: f64 = 0.016;
@@ -187,7 +187,7 @@ impl<'a> Pairs<'a> {
 fn faded(signal: &[f64], band: Band, rate: f64) -> Vec<f64> {
     let mut signal = signal.to_vec();
     let length = signal.len() as f64;
-    let gate = unripple_dsp::Gate { begin: -1.0, rise: 1.0, end: length, fall: length / 4.0 };
+    let gate = crate::signals::Gate { begin: -1.0, rise: 1.0, end: length, fall: length / 4.0 };
     gate.apply(&mut signal);
     // A band out of range leaves it as it is: its lines are taken within the band anyway.
     let _ = band.limit(&mut signal, rate);
@@ -204,8 +204,8 @@ fn normed(mut lines: Vec<Complex<f64>>) -> Vec<Complex<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::signals::shift;
     use unripple_core::Sheet;
-    use unripple_dsp::shift;
     use unripple_physics::design::papers_surface;
 
     fn film() -> Sheet {

@@ -2,7 +2,7 @@
 
 use super::Account;
 use super::telling::around;
-use unripple_dsp::{Band, Quality, Sweep, band_powers};
+use crate::signals::{Band, Quality, Sweep, band_powers};
 
 /// What an input heard of every actuator.
 #[derive(Clone, Debug, Default, PartialEq)]

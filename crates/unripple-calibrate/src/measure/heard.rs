@@ -6,7 +6,7 @@ use super::session::{LEAD, Session, Take};
 use super::telling::around;
 use super::{Account, Channel, Knocked};
 use crate::CalibrateError;
-use unripple_dsp::{Average, Band, Harmonics, Outliers, Quality, Remap, Split, band_powers};
+use crate::signals::{Average, Band, Harmonics, Outliers, Quality, Remap, Split, band_powers};
 
 impl Session {
     /// All of a deconvolution.

@@ -1,8 +1,8 @@
 //! Something short that is not of the drive: a knock, a door, a dropped tool.
 
+use crate::signals::{Band, Sweep};
 use realfft::RealFftPlanner;
 use std::f64::consts::TAU;
-use unripple_dsp::{Band, Sweep};
 
 /// Seconds of a frame: lines of 47 Hz.
 const FRAME: f64 = 0.0213;

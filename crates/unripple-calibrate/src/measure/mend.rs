@@ -1,6 +1,7 @@
 //! A recording brought to the clock and the time of what was played.
 
-use unripple_dsp::{resample, shift};
+use crate::signals::shift;
+use unripple_dsp::resample;
 
 /// What is to be undone in a recording.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -1,7 +1,7 @@
 use super::{Channel, Knocked};
 use crate::CalibrateError;
+use crate::signals::{Quality, Sweep};
 use unripple_core::{Layout, ModalResponses, Surface, require};
-use unripple_dsp::{Quality, Sweep};
 
 /// Decay time of amplitude, in s, that the default sweep, ringing and response are for: they are 7, 5 and 1.4 times as long.
 const USUAL_DECAY: f64 = 0.07;

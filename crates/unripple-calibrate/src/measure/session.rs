@@ -3,8 +3,8 @@ use super::law::Law;
 use super::take::{Judge, Verdict};
 use super::{Channel, Hearing, MeasureOptions, Rig, Wires, latency, record};
 use crate::CalibrateError;
+use crate::signals::{Band, Deconvolver, Delay, Inversion, Schedule, Sweep, shift};
 use unripple_core::{Layout, ModalResponses, PROBE, Point, Surface};
-use unripple_dsp::{Band, Deconvolver, Delay, Inversion, Schedule, Sweep, shift};
 
 /// Longest latency that is looked for, in s.
 const LATEST: f64 = 0.25;

@@ -7,7 +7,8 @@ use super::mend::{Mend, place};
 use super::telling::Telling;
 use super::timing::{Sweep, Timing};
 use crate::CalibrateError;
-use unripple_dsp::{Band, convolve};
+use crate::signals::Band;
+use unripple_dsp::convolve;
 
 /// Largest difference of clocks that is made up for, in millionths, with a little to spare for what 200 is measured as.
 const MOST_PPM: f64 = 203.0;
@@ -265,7 +266,7 @@ impl Judge<'_> {
             let heard = convolve(drive, response);
             sum.iter_mut().zip(heard).for_each(|(sum, x)| *sum += x / self.rate);
         }
-        if self.latency == 0.0 { sum } else { unripple_dsp::shift(&sum, self.latency) }
+        if self.latency == 0.0 { sum } else { crate::signals::shift(&sum, self.latency) }
     }
 
     /// Says what tension there was, and keeps what is to be undone.

@@ -1,7 +1,7 @@
 use crate::CalibrateError;
+use crate::signals::{Band, Deconvolver, Inversion, Stimulus};
 use faer::linalg::solvers::Llt;
 use faer::{Mat, Side};
-use unripple_dsp::{Band, Deconvolver, Inversion, Stimulus};
 use unripple_linalg::{product, solve_cholesky};
 
 /// What is known of taps beforehand.

@@ -1,7 +1,7 @@
 use super::{Channel, MeasureOptions, Rig, TapOptions, Wires, record, tapped};
 use crate::CalibrateError;
+use crate::signals::{Band, Quality, shift};
 use unripple_core::{Layout, ModalResponses, Point, Surface};
-use unripple_dsp::{Band, Quality, shift};
 use unripple_physics::sample;
 
 /// A plan for tapping places, all actuators listening: responses by reciprocity, with no probe.
@@ -87,7 +87,7 @@ impl TapSession {
             let peak = sound.iter().map(|x| x.abs()).fold(0.0, f64::max);
             let start = sound.iter().position(|x| x.abs() >= 0.1 * peak).unwrap_or(0);
             let loud = &sound[start..(start + samples).min(sound.len())];
-            let snr_db = unripple_dsp::snr_db(loud, &noise(sound));
+            let snr_db = crate::signals::snr_db(loud, &noise(sound));
             Ok(Quality { snr_db, coherence: Some(1.0 - found.unexplained), ..own })
         });
         let quality = quality.collect::<Result<Vec<_>, CalibrateError>>()?;

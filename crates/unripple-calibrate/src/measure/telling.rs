@@ -2,7 +2,7 @@
 
 use super::apart::{Apart, Pairs};
 use super::law::Law;
-use unripple_dsp::{Band, Delay};
+use crate::signals::{Band, Delay};
 
 /// Seconds by which a sweep is looked for before and after where it should be.
 const REACH: f64 = 0.1;

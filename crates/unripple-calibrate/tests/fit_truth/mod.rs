@@ -4,12 +4,12 @@
 
 use faer::Mat;
 use std::sync::Arc;
+use unripple_calibrate::signals::Band;
 use unripple_calibrate::{Measured, Tap};
 use unripple_core::{
     Conditions, Decay, Drive, ModalResponses, Point, Port, Profile, Random, Responses, Scatterer,
     ScattererKind, Shapes, Surface,
 };
-use unripple_dsp::Band;
 use unripple_field::Field;
 use unripple_focus::{Focuser, Method, Options, Target};
 use unripple_physics::design::papers_surface;

@@ -4,11 +4,11 @@
 
 use std::f64::consts::{PI, TAU};
 use unripple_calibrate::Measured;
+use unripple_calibrate::signals::{Band, shift};
 use unripple_core::{
     Actuator, ActuatorKind, Air, Conditions, Decay, Edge, Edges, Emission, Finger, Outline, Point, Port,
     Random, SampledResponses, Shape, Sheet, Surface, Uneven,
 };
-use unripple_dsp::{Band, shift};
 use unripple_physics::Medium;
 
 /// Seconds kept of each response, and samples that what is before time 0 is drawn from.

@@ -9,6 +9,7 @@ use contrast::contrast;
 use std::sync::Arc;
 use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{Listen, MeasureOptions, Rig, Session, Wires};
+use unripple_calibrate::signals::Reciprocity;
 use unripple_core::{
     Actuator, ActuatorKind, CoilDrive, Decay, Device, Edge, Edges, Emission, ModalResponses, Outline, Point,
     Responses, SampledResponses, Shape, Surface,
@@ -16,7 +17,6 @@ use unripple_core::{
 use unripple_devices::{
     Expected, Handle, Truth, Unknowns, Virtual, VirtualOptions, WiringOptions, check_wiring,
 };
-use unripple_dsp::Reciprocity;
 use unripple_focus::Method;
 use unripple_physics::design::papers_surface;
 use unripple_physics::{ResponseOptions, responses, sensors};

@@ -6,9 +6,9 @@
 use std::f64::consts::{PI, TAU};
 use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{Channel, Listen, MeasureOptions, Rig, Session, Wires};
+use unripple_calibrate::signals::Band;
 use unripple_core::{Decay, Device, Layout, ModalResponses, PROBE, Point, Port, Responses, Surface};
 use unripple_devices::Tape;
-use unripple_dsp::Band;
 use unripple_physics::design::papers_surface;
 use unripple_physics::{ResponseOptions, responses};
 

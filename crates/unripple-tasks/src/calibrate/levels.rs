@@ -6,8 +6,8 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
 use unripple::core::{Layout, PROBE};
-use unripple::dsp::clipped;
 use unripple_calibrate::measure::{Channel, Listen, MeasureOptions, Rig, Session, Wires};
+use unripple_calibrate::signals::clipped;
 use unripple_store::read_wav;
 
 /// Share of full scale above which the next take may clip.

@@ -6,9 +6,9 @@ use crate::TaskError;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use unripple::core::{PROBE, Surface};
-use unripple::dsp::Reciprocity;
 use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{self, Channel, Sink};
+use unripple_calibrate::signals::Reciprocity;
 use unripple_store::{BandQuality, Library, PointState, Quality, StoreError, Take};
 
 /// The key of a point's log under which is what its take tells of itself.
@@ -168,7 +168,7 @@ impl Sink for Shelf {
 }
 
 /// What the store keeps of a quality.
-fn quality(quality: &unripple::dsp::Quality) -> Quality {
+fn quality(quality: &unripple_calibrate::signals::Quality) -> Quality {
     Quality {
         signal_to_noise_db: quality.snr_db,
         coherence: quality.coherence.unwrap_or(f64::NAN),

@@ -6,9 +6,9 @@ use crate::late::comes;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use unripple::core::{ModalResponses, Point, SampledResponses, Surface};
-use unripple::dsp::{Band, shift};
 use unripple_calibrate::Measured;
 use unripple_calibrate::measure::MeasureOptions;
+use unripple_calibrate::signals::{Band, shift};
 use unripple_calibrate::verify::{self, Checked, Doubted, Verified, VerifyOptions};
 use unripple_store::{Doubt, Library, PointState, Take};
 

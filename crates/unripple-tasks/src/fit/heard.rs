@@ -4,9 +4,9 @@ use crate::calibrate::before::SWEPT;
 use crate::own;
 use crate::{Progress, TaskError};
 use unripple::core::{SampledResponses, Surface};
-use unripple::dsp::Band;
 use unripple_calibrate::Measured;
 use unripple_calibrate::measure::MeasureOptions;
+use unripple_calibrate::signals::Band;
 use unripple_store::Library;
 
 /// A point this near to an actuator's place, in metres, is the actuator's own.

@@ -4,8 +4,8 @@ use super::heard::Heard;
 use crate::TaskError;
 use crate::late::comes;
 use unripple::core::{SampledResponses, Surface};
-use unripple::dsp::shift;
 use unripple_calibrate::Fitted;
+use unripple_calibrate::signals::shift;
 use unripple_calibrate::verify::{Checked, Verified, VerifyOptions, check_by};
 
 /// Probed points that a model may be corrected by.

@@ -3,7 +3,8 @@
 use super::fault::Fault;
 use std::path::Path;
 use unripple::core::Layout;
-use unripple::dsp::{Band, clipped, resample};
+use unripple::dsp::resample;
+use unripple_calibrate::signals::{Band, clipped};
 use unripple_store::{Wav, read_wav};
 
 /// Samples at the largest magnitude, side by side, above which a channel is taken to be clipped.

@@ -6,8 +6,8 @@ use super::read::{Needed, Reader};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use unripple::core::{Drive, Layout};
-use unripple::dsp::{Delay, shift};
 use unripple_calibrate::measure::Wires;
+use unripple_calibrate::signals::{Delay, shift};
 
 /// Seconds by which a recording may end before what is played, of which the last quarter of a second is silence.
 const SHORT: f64 = 0.2;
