@@ -25,7 +25,7 @@ pub use list::{Found, Server, Stream, list};
 pub use tap::Tap;
 pub use tape::Tape;
 pub use unknowns::{Truth, Unknowns};
-pub use virtual_surface::{Handle, Virtual, VirtualOptions};
+pub use virtual_surface::{Feeler, Feeling, Handle, Virtual, VirtualOptions};
 pub use wiring::{
     Expected, Lead, Reciprocal, WiringOptions, WiringReport, check_responses, check_wiring, reciprocal,
 };

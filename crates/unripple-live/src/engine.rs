@@ -1,12 +1,13 @@
 use crate::ears::Ears;
 use crate::pinging::Pinging;
 use crate::{
-    Conductor, Drives, Feeler, Follower, Heartbeat, Listener, LiveError, LiveOptions, Maker, Percentiles,
-    Stage, Timing,
+    Conductor, Drives, Follower, Heartbeat, Listener, LiveError, LiveOptions, Maker, Percentiles, Stage,
+    Timing,
 };
 use std::sync::Arc;
 use unripple_calibrate::Ping;
 use unripple_core::{Device, Surface};
+use unripple_devices::Feeler;
 use unripple_effects::{EffectSet, Effects};
 use unripple_player::{Prepared, player};
 use unripple_touch::{Counts, Heard, Sources};

@@ -1,9 +1,10 @@
 use crate::ears::News;
 use crate::pinging::Pinging;
-use crate::{Conductor, Feeler, Feeling, Follower, LiveError, Percentiles};
+use crate::{Conductor, Follower, LiveError, Percentiles};
 use std::time::Instant;
 use unripple_calibrate::Drift;
 use unripple_core::{Phase, Point, Touch};
+use unripple_devices::{Feeler, Feeling};
 use unripple_touch::{Counts, Heard};
 
 /// Who is told of all that is heard, and when (s of the device's clock).

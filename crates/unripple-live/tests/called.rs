@@ -9,9 +9,9 @@ use std::sync::{Arc, Mutex, mpsc};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 use unripple_core::{Cycle, Device, DeviceError, Layout, Phase, Point, Server, Status, Touch, Work};
-use unripple_devices::Handle;
+use unripple_devices::{Feeler, Handle};
 use unripple_effects::{EffectSet, Kind, Level, Train};
-use unripple_live::{Feeler, LiveError};
+use unripple_live::LiveError;
 use unripple_touch::{Counts, Heard, Source};
 
 /// Touches in all.

@@ -6,9 +6,9 @@ use common::*;
 use std::sync::Arc;
 use unripple_calibrate::{Ping, PingOptions, Tracker, Tracking};
 use unripple_core::{Phase, Responses};
-use unripple_devices::{Virtual, VirtualOptions};
+use unripple_devices::{Feeler, Virtual, VirtualOptions};
 use unripple_effects::{Button, Kind, Level};
-use unripple_live::{Engine, Feeler, Follower, LiveOptions, Maker};
+use unripple_live::{Engine, Follower, LiveOptions, Maker};
 use unripple_physics::Modes;
 use unripple_physics::stepper::Mishaps;
 

@@ -1,6 +1,8 @@
-use crate::LiveError;
+//! What fingers feel of a virtual surface.
+
+use super::Handle;
+use crate::DevicesError;
 use unripple_core::{Contact, FOCAL_RADIUS, Finger, Outline, Phase, Point, Surface, Touch};
-use unripple_devices::Handle;
 use unripple_dsp::{Threshold, Weighting};
 use unripple_physics::Medium;
 
@@ -48,8 +50,8 @@ impl Feeler {
     /// Watches a virtual surface for at most `most` fingers.
     ///
     /// # Errors
-    /// [`LiveError::Devices`] if the surface cannot be watched.
-    pub fn new(handle: Handle, surface: &Surface, most: usize) -> Result<Self, LiveError> {
+    /// [`DevicesError`] if the surface cannot be watched.
+    pub fn new(handle: Handle, surface: &Surface, most: usize) -> Result<Self, DevicesError> {
         let outline = surface.outline.clone();
         let (width, height) = outline.extent();
         let middle = outline.nearest(Point::new(width / 2.0, height / 2.0));
@@ -82,8 +84,8 @@ impl Feeler {
     /// are still being lifted presses as soon as it has.
     ///
     /// # Errors
-    /// [`LiveError::Devices`] for a finger that the surface does not know.
-    pub fn touch(&mut self, touch: &Touch) -> Result<(), LiveError> {
+    /// [`DevicesError`] for a finger that the surface does not know.
+    pub fn touch(&mut self, touch: &Touch) -> Result<(), DevicesError> {
         let at = self.outline.nearest(touch.at);
         let mut here = self.slots.iter().zip(&self.left);
         let slot = here.position(|(slot, left)| *slot == Some(touch.finger) && !left);
@@ -119,8 +121,8 @@ impl Feeler {
     /// Follows the fingers: to be called once a block.
     ///
     /// # Errors
-    /// [`LiveError::Devices`] if the surface cannot be watched there.
-    pub fn follow(&mut self) -> Result<(), LiveError> {
+    /// [`DevicesError`] if the surface cannot be watched there.
+    pub fn follow(&mut self) -> Result<(), DevicesError> {
         if std::mem::take(&mut self.moved) {
             self.handle.move_watched(&self.places)?;
         }

@@ -1,9 +1,11 @@
 //! The surface of the stepper as a device.
 
+mod feeler;
 mod handle;
 mod watch;
 mod workings;
 
+pub use feeler::{Feeler, Feeling};
 pub use handle::Handle;
 
 use crate::interface::Converter;

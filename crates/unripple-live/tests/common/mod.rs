@@ -3,9 +3,9 @@
 
 use std::sync::{Arc, LazyLock};
 use unripple_core::{Device, Phase, Point, Responses, Surface, Touch};
-use unripple_devices::{Virtual, VirtualOptions};
+use unripple_devices::{Feeler, Virtual, VirtualOptions};
 use unripple_effects::{Button, Effect, EffectSet, Kind, Level, Region};
-use unripple_live::{Engine, Feeler, LiveOptions, Maker};
+use unripple_live::{Engine, LiveOptions, Maker};
 use unripple_physics::design::papers_surface;
 use unripple_physics::{ResponseOptions, StepperOptions, responses};
 use unripple_touch::{Counts, Heard, Source, Sources};

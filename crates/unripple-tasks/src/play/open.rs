@@ -7,8 +7,8 @@ use std::sync::Arc;
 use unripple::core::{Device, ModalResponses, Surface};
 use unripple::physics::{Medium, StepperOptions};
 use unripple_calibrate::{Tracker, Tracking, Warp};
-use unripple_devices::{DevicesError, Jack, JackOptions, VirtualOptions};
-use unripple_live::{Feeler, Recovering};
+use unripple_devices::{DevicesError, Feeler, Jack, JackOptions, VirtualOptions};
+use unripple_live::Recovering;
 
 /// Fingers that a virtual surface bears at once, those that are being lifted included.
 const FINGERS: usize = 24;

@@ -6,7 +6,8 @@ use unripple::act::Note;
 use unripple::core::{Server, State, Surface};
 use unripple_calibrate::Drift;
 
-use unripple_live::{Engine, Feeling, Level, Percentiles, Pulse, Stage, Window};
+use unripple_devices::Feeling;
+use unripple_live::{Engine, Level, Percentiles, Pulse, Stage, Window};
 use unripple_player::Count;
 
 /// A sitting, SI units.

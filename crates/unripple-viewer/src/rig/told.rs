@@ -6,7 +6,7 @@ use crate::wire::Resting;
 use serde::Serialize;
 use serde_json::{Value, json};
 use unripple_calibrate::Drift;
-use unripple_live::Feeling;
+use unripple_devices::Feeling;
 
 /// Time over which the drive is looked at, in s.
 const LOOKED: f64 = 0.2;

@@ -6,8 +6,8 @@ use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use unripple::core::{Device, DeviceError, Layout, Point, State, Status};
 use unripple_calibrate::Drift;
-use unripple_devices::Virtual;
-use unripple_live::{Engine, Feeling, LiveError, Stage, Tally};
+use unripple_devices::{Feeling, Virtual};
+use unripple_live::{Engine, LiveError, Stage, Tally};
 
 /// Blocks of drive that may wait between the audio thread and the picture.
 const WAITING: usize = 512;
