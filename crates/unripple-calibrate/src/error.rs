@@ -1,3 +1,5 @@
+//! Why responses could not be made from what was measured.
+
 use unripple_core::{CoreError, DeviceError, OutOfRange, Point};
 use unripple_dsp::DspError;
 use unripple_physics::PhysicsError;

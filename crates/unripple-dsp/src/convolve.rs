@@ -1,3 +1,5 @@
+//! Linear convolution by fast Fourier transforms.
+
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use std::sync::Arc;

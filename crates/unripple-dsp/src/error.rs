@@ -1,3 +1,5 @@
+//! Why a signal or a plan could not be made.
+
 use unripple_core::OutOfRange;
 
 /// Why a signal or a plan could not be made.

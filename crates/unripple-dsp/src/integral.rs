@@ -1,3 +1,5 @@
+//! Integration of sampled signals, sixth order.
+
 /// Weights, times 1440, of six neighbouring samples in the integral over the first, second and third of the five
 /// intervals between them; those of the fourth and fifth are the mirror images. Exact for quintics.
 const INTERVALS: [[f64; 6]; 3] = [

@@ -1,3 +1,5 @@
+//! Polyphase interpolation in SIMD lanes.
+
 use faer::traits::RealField;
 use pulp::NullaryFnOnce;
 

@@ -1,3 +1,5 @@
+//! Energy of signals in frequency bands.
+
 use realfft::RealFftPlanner;
 
 /// Share of the energy of `channels` that lies above `hz`, from 0 to 1; 0 for silence.

@@ -1,3 +1,5 @@
+//! Modal synthesis: impulse responses from poles and weights.
+
 use crate::DspError;
 use crate::interpolate::{Rows, Sample};
 use crate::kernel::Kernel;

@@ -1,3 +1,5 @@
+//! The vibrotactile threshold of the fingertip against frequency.
+
 use crate::DspError;
 use unripple_core::OutOfRange;
 

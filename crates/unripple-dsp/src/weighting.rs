@@ -1,3 +1,5 @@
+//! Displacement weighed by the threshold of touch.
+
 use crate::Threshold;
 use crate::convolve::smooth_size;
 use realfft::num_complex::Complex;

@@ -1,3 +1,5 @@
+//! Impulse responses of a surface, by modal superposition.
+
 use crate::{Footprint, Load, Loaded, Medium, Modes, PhysicsError, Transducer, transducers};
 use faer::{Mat, MatRef};
 use rayon::prelude::*;

@@ -1,3 +1,5 @@
+//! Damping laws: decay rate of a mode by its frequency.
+
 use unripple_core::Decay;
 
 /// Decay rate σ = 1/τ of the amplitude of a mode, in 1/s.

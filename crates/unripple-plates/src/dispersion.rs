@@ -1,3 +1,5 @@
+//! The dispersion relation of a tensioned plate with air at its sides.
+
 use faer::c64;
 use std::f64::consts::{PI, TAU};
 use unripple_core::{Air, Sheet};

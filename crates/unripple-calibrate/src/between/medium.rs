@@ -1,3 +1,5 @@
+//! Covariance of the waves between points: kriging with the sheet's own waves as the covariance.
+
 use super::bessel::Bessel;
 use super::options::BetweenOptions;
 use super::spectra::Spectra;

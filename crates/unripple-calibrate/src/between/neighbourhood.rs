@@ -1,3 +1,5 @@
+//! Weights of the points around a place: the kriging equations solved for every frequency bin.
+
 use super::medium::Waves;
 use super::spectra::Spectra;
 use super::system::{System, distances};

@@ -1,3 +1,5 @@
+//! How responses between measured points are interpolated.
+
 use crate::CalibrateError;
 use unripple_core::require;
 

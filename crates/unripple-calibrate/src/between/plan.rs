@@ -1,3 +1,5 @@
+//! Responses at any place from those at measured points: kriging with the waves' own covariance.
+
 use super::medium::{Line, Waves};
 use super::neighbourhood::{Quilt, nearest};
 use super::options::{BetweenOptions, Interpolation};

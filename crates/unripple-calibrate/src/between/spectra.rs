@@ -1,3 +1,5 @@
+//! Cosine and sine transforms of responses, even and odd parts apart.
+
 use crate::CalibrateError;
 use rayon::prelude::*;
 use realfft::num_complex::Complex;

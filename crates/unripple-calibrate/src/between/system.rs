@@ -1,3 +1,5 @@
+//! Cholesky factor of the covariance matrix of measured points.
+
 use super::medium::{Line, Waves};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::{factor, solve};

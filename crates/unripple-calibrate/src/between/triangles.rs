@@ -1,3 +1,5 @@
+//! Linear interpolation on a Delaunay triangulation.
+
 use spade::{DelaunayTriangulation, FloatTriangulation, HasPosition, Point2, Triangulation};
 use unripple_core::Point;
 

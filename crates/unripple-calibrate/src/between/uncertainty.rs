@@ -1,3 +1,5 @@
+//! Expected error of interpolated responses: the kriging variance.
+
 /// How far an interpolated response is expected to be off.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uncertainty {

@@ -1,3 +1,5 @@
+//! Drives scaled so that the peak stays level while tension drifts.
+
 use crate::CalibrateError;
 use unripple_core::{ModalResponses, Point, require};
 use unripple_physics::sample;

@@ -1,3 +1,5 @@
+//! The weak test signal, sent between effects, by which tension is followed.
+
 use crate::CalibrateError;
 use faer::Mat;
 use rayon::prelude::*;

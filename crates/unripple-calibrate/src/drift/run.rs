@@ -1,3 +1,5 @@
+//! Modal responses run in time under a tension that drifts.
+
 use super::warp::tuned;
 use faer::Mat;
 use unripple_core::Pole;

@@ -1,3 +1,5 @@
+//! Tension tracked by a Kalman filter for its ratio and rate; each observation is fitted by Newton's method.
+
 use super::run::{Course, Instants, Motion, Sheet};
 use super::warp::warped;
 use super::{Drift, Tracking};

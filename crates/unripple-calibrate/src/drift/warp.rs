@@ -1,3 +1,5 @@
+//! Responses under another tension: every mode moved along the dispersion relation.
+
 use realfft::RealFftPlanner;
 use std::f64::consts::TAU;
 use unripple_core::{CoreError, ModalResponses, Pole, SampledResponses};

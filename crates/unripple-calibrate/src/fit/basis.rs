@@ -1,3 +1,5 @@
+//! Nominal modes as a Ritz basis for sheets of other tension and thickness.
+
 use super::coil::Coil;
 use super::quadrature;
 use crate::CalibrateError;

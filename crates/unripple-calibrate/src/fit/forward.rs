@@ -1,3 +1,5 @@
+//! The forward model: responses between places at complex frequencies, with derivatives by the unknowns.
+
 use super::basis::Basis;
 use super::layout::{Unknown, around};
 use super::system::System;

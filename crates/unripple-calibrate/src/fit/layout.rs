@@ -1,3 +1,5 @@
+//! The vector of unknowns, its order and its priors.
+
 use unripple_core::Point;
 
 /// Frequencies of the damping law's knots, as shares of the band's top.

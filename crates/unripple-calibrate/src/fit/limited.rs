@@ -1,3 +1,5 @@
+//! Modelled responses between actuators as they are measured: limited to the band, from time 0.
+
 use super::basis::Basis;
 use super::layout::{Layout, Values};
 use super::loaded::LoadedModes;

@@ -1,3 +1,5 @@
+//! Modes of the fitted sheet with actuators and masses on it.
+
 use super::basis::Basis;
 use super::layout::Values;
 use super::sheet::{decay_rate, eigen};

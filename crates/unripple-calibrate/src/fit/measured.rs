@@ -1,3 +1,5 @@
+//! Measured responses that a model is fitted to, and their noise.
+
 use crate::CalibrateError;
 use crate::signals::Band;
 use unripple_core::{Point, Surface, require};

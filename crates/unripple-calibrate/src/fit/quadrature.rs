@@ -1,3 +1,5 @@
+//! Quadrature over an outline, for the integrals of energies.
+
 use unripple_core::{Outline, Point, Shape};
 use unripple_physics::Footprint;
 

@@ -1,3 +1,5 @@
+//! Residuals of the fit, whitened by the noise, and their Jacobian.
+
 use super::basis::Basis;
 use super::coil::lag;
 use super::forward::Answer;

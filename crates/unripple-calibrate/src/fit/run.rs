@@ -1,3 +1,5 @@
+//! The model fitted to measured responses: Gauss-Newton steps, damped after Levenberg and Marquardt.
+
 use super::basis::Basis;
 use super::fitted::Fitted;
 use super::layout::{KNOTS, Layout, Values};

@@ -1,3 +1,5 @@
+//! The bare sheet at some values of the unknowns: a Ritz combination of the nominal modes.
+
 use super::basis::Basis;
 use super::layout::{Values, around};
 use crate::CalibrateError;

@@ -1,3 +1,5 @@
+//! Levenberg-Marquardt steps of the regularised least-squares problem, and standard errors.
+
 use super::layout::Values;
 use super::residual::{Case, Residual};
 use crate::CalibrateError;

@@ -1,3 +1,5 @@
+//! Laplace transforms of measured responses on a line right of their poles.
+
 use super::limited::{DERIVATIVES, Limited};
 use super::measured::Measured;
 use faer::c64;

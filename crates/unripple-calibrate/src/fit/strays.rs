@@ -1,3 +1,5 @@
+//! Unknown point masses, sought by trial at every place.
+
 use super::forward::Answer;
 use super::layout::Unknown;
 use super::residual::Case;

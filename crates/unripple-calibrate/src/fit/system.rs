@@ -1,3 +1,5 @@
+//! The coupled equations of a sheet and its loads, with what left-out modes contribute (residual flexibility).
+
 use super::basis::Basis;
 use super::coil::Coil;
 use super::layout::{Layout, Values};

@@ -1,3 +1,5 @@
+//! All points of a plan measured one by one, into a sink that can be taken up again.
+
 use super::{Channel, Listen, Rig, Session, TapSession};
 use crate::CalibrateError;
 use std::ops::ControlFlow;

@@ -1,3 +1,5 @@
+//! Latency of a device, found from the phases of tones at its actuators.
+
 use super::Hearing;
 use super::tones::{Heard, Part, Tone, tones};
 use crate::CalibrateError;

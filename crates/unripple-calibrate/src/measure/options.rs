@@ -1,3 +1,5 @@
+//! How responses are measured: sweeps, pauses, repeats.
+
 use super::{Channel, Knocked};
 use crate::CalibrateError;
 use crate::signals::{Quality, Sweep};

@@ -1,3 +1,5 @@
+//! Signals played and recorded through a device, block by block.
+
 use crate::CalibrateError;
 use unripple_core::Device;
 

@@ -1,3 +1,5 @@
+//! What a measurement needs of the world: a device, and somebody who moves the probe.
+
 use crate::CalibrateError;
 use unripple_core::{Device, Point};
 

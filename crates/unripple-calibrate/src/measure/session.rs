@@ -1,3 +1,5 @@
+//! Responses of one place to all actuators by overlapping sweeps, from what the probe and the sensors heard.
+
 use super::channel::Noise;
 use super::law::Law;
 use super::take::{Judge, Verdict};

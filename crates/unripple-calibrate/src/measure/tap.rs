@@ -1,3 +1,5 @@
+//! What is known of a tap beforehand: how long, how strong, how well the model is believed.
+
 use crate::CalibrateError;
 use crate::signals::{Band, Deconvolver, Inversion, Stimulus};
 use faer::linalg::solvers::Llt;

@@ -1,3 +1,5 @@
+//! Responses of a place from taps of unknown force: the actuators listen, and reciprocity turns that round.
+
 use super::{Channel, MeasureOptions, Rig, TapOptions, Wires, record, tapped};
 use crate::CalibrateError;
 use crate::signals::{Band, Quality, shift};

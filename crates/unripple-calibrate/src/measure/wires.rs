@@ -1,3 +1,5 @@
+//! Which channel of a device is which actuator, sensor, probe or reference.
+
 use crate::CalibrateError;
 use unripple_core::{Layout, PROBE, Port};
 

@@ -1,3 +1,5 @@
+//! Averages of repeats without outliers.
+
 use super::{mean_square, same};
 use unripple_dsp::DspError;
 

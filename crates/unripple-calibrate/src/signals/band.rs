@@ -1,3 +1,5 @@
+//! A frequency band with raised-cosine edges.
+
 use super::transform::Transform;
 use std::f64::consts::FRAC_PI_2;
 use unripple_core::OutOfRange;

@@ -1,3 +1,5 @@
+//! Pruned Fourier transforms: only the lines in the band, by decimation in time.
+
 use super::transform::Transform;
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;

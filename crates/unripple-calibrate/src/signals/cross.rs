@@ -1,3 +1,5 @@
+//! The H1 estimator: frequency responses from averaged cross and power spectra, with coherence.
+
 use super::transform::{Transform, Work};
 use super::{Band, Inversion, positive, same};
 use realfft::num_complex::Complex;

@@ -1,3 +1,5 @@
+//! Decay time of a response: an exponential and a noise floor fitted to its energy.
+
 use super::{mean_square, positive};
 use unripple_dsp::DspError;
 

@@ -1,3 +1,5 @@
+//! Deconvolution: impulse responses from what was played and heard, with Tikhonov regularisation.
+
 use super::comb::{Comb, CombWork};
 use super::transform::Transform;
 use super::{Band, Stimulus, same};

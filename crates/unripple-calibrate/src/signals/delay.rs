@@ -1,3 +1,5 @@
+//! Delay between two signals to a fraction of a sample: cross-correlation in a band.
+
 use super::transform::{Transform, Work};
 use super::{Band, positive};
 use realfft::num_complex::Complex;

@@ -1,3 +1,5 @@
+//! A time window with half-cosine edges, and the onset of a response.
+
 use super::positive;
 use std::f64::consts::PI;
 use unripple_dsp::DspError;

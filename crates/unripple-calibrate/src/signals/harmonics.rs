@@ -1,3 +1,5 @@
+//! Harmonic distortion from a synchronized exponential sweep (Novak et al. 2015).
+
 use super::cut::cut;
 use super::transform::Transform;
 use super::{Band, Gate, Sweep, positive, same, shift};

@@ -1,3 +1,5 @@
+//! Quality of a measured response: signal-to-noise ratio, coherence, clipping.
+
 use super::{Decay, mean_square, onset};
 use unripple_dsp::DspError;
 

@@ -1,3 +1,5 @@
+//! Reciprocity error between actuators that also sense.
+
 use super::average::correlation;
 use super::same;
 use unripple_dsp::DspError;

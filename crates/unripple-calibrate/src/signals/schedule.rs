@@ -1,3 +1,5 @@
+//! Multiple exponential sweeps, interleaved and overlapping (Majdak et al. 2007).
+
 use super::cut::cut;
 use super::{Stimulus, Sweep, same};
 use unripple_core::OutOfRange;

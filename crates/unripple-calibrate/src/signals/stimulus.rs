@@ -1,3 +1,5 @@
+//! A measurement signal of known spectrum.
+
 use super::transform::Transform;
 use super::{Band, positive};
 use unripple_core::OutOfRange;

@@ -1,3 +1,5 @@
+//! The exponential sine sweep (Farina 2000), synchronized if wanted (Novak et al. 2015).
+
 use super::{Band, Stimulus, positive};
 use std::f64::consts::{PI, TAU};
 use unripple_core::OutOfRange;

@@ -1,3 +1,5 @@
+//! Real fast Fourier transforms of one size, with their scratch.
+
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use std::sync::Arc;

@@ -1,3 +1,5 @@
+//! An ideal force actuator.
+
 use super::{Entry, Transducer};
 use crate::Footprint;
 use unripple_core::{Actuator, Outline};

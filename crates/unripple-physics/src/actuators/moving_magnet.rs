@@ -1,3 +1,5 @@
+//! A voice coil whose magnet rides on the sheet, driven by current or voltage.
+
 use super::{Entry, Transducer};
 use crate::{Circuit, Footprint, Load};
 use unripple_core::{Actuator, ActuatorKind, CoilDrive, Outline};

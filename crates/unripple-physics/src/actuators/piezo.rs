@@ -1,3 +1,5 @@
+//! A round piezoelectric patch: a bending moment along its rim.
+
 use super::{Entry, Transducer, place};
 use crate::{Footprint, Load, PhysicsError};
 use unripple_core::{Actuator, ActuatorKind, Outline, require};

@@ -1,3 +1,5 @@
+//! Reduced coordinates that feel the loads: low modes kept, high ones condensed.
+
 use super::basis::Shape;
 use super::span::Span;
 use faer::{Mat, MatRef};

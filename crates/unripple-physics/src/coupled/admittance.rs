@@ -1,3 +1,5 @@
+//! Mobility: velocity per force at a complex frequency, with loads.
+
 use super::Loaded;
 use crate::Footprint;
 use faer::{Mat, c64};

@@ -1,3 +1,5 @@
+//! Modes grouped by frequency into those that loads feel and those they do not.
+
 use super::span::Span;
 use faer::MatRef;
 use unripple_core::Pole;

@@ -1,3 +1,5 @@
+//! Undamped modes of sheet and loads: a symmetric eigenvalue problem.
+
 use super::active::Active;
 use crate::{Load, PhysicsError};
 use faer::Mat;

@@ -1,3 +1,5 @@
+//! Mode shapes as linear combinations of others.
+
 use faer::Mat;
 use std::sync::Arc;
 use unripple_core::{Point, Shapes};

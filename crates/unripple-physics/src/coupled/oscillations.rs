@@ -1,3 +1,5 @@
+//! Damped oscillations of the coupled system, as real modal responses.
+
 use super::Loaded;
 use super::active::Active;
 use super::basis::{Shape, split};

@@ -1,3 +1,5 @@
+//! Residual flexibility: what loads feel of the modes above those kept.
+
 use super::remainder::{Profile, Remainder};
 use crate::{Footprint, Load, Medium};
 use faer::Mat;

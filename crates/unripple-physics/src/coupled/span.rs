@@ -1,3 +1,5 @@
+//! Gram-Schmidt orthonormalisation, vector by vector.
+
 /// Orthonormal vectors, gathered one by one.
 #[derive(Debug, Default)]
 pub(super) struct Span {

@@ -1,3 +1,5 @@
+//! Complex poles of the damped system, in state-space form.
+
 use super::conservative::Conservative;
 use crate::loads::Circuit;
 use crate::{Load, PhysicsError};

@@ -1,3 +1,5 @@
+//! Statistical contrast of a reverberant surface: modal overlap, decay, window.
+
 use super::closed::exposure;
 use crate::Medium;
 use std::f64::consts::{PI, TAU};

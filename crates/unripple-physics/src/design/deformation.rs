@@ -1,3 +1,5 @@
+//! What a displacement does to the sheet: slope, strain, added tension.
+
 use crate::Medium;
 use std::f64::consts::{PI, TAU};
 use unripple_core::{Sheet, Surface};

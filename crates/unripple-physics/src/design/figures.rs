@@ -1,3 +1,5 @@
+//! All figures of `design`, in SI units.
+
 use super::ground::Ground;
 use super::paper::WAVELENGTH;
 use super::tradeoffs::{by_band, by_noise, by_rate, by_window};

@@ -1,3 +1,5 @@
+//! Modes counted and wave properties that the figures of a design stand on.
+
 use super::cavity::{modes_below, modes_per_wavenumber, signed_perimeter};
 use super::paper::WAVELENGTH;
 use super::{Cavity, Recommended, Windows};

@@ -1,3 +1,5 @@
+//! How far a field is from small deflections.
+
 use super::deformation::TENSION_CHANGE;
 use unripple_core::Surface;
 

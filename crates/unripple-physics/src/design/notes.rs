@@ -1,3 +1,5 @@
+//! Slips in the paper, and the right values.
+
 use super::Design;
 use unripple_core::Surface;
 

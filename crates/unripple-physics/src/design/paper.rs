@@ -1,3 +1,5 @@
+//! The paper's surface and the conditions of its table.
+
 use super::Strip;
 use unripple_core::{
     Actuator, ActuatorKind, Air, Decay, Emission, Finger, Outline, Point, Shape, Sheet, Surface, Uneven,

@@ -1,3 +1,5 @@
+//! The paper's model of touch: a strip of sheet as wide as the finger (section 3.5).
+
 use std::f64::consts::TAU;
 use unripple_core::Finger;
 

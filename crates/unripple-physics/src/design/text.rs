@@ -1,3 +1,5 @@
+//! The design as text for people.
+
 use super::{ACTUATORS, Design};
 use std::fmt::{Display, Formatter, Result};
 

@@ -1,3 +1,5 @@
+//! Force and power that move a finger by 10 µm.
+
 use super::Strip;
 use super::paper::{CONTACT, DISPLACEMENT, WAVELENGTH, film_strip, glass_strip};
 use super::strip::finger_impedance;

@@ -1,3 +1,5 @@
+//! Contrast against number of actuators, window, bandwidth and noise.
+
 use super::Cavity;
 use super::closed;
 use crate::Medium;

@@ -1,3 +1,5 @@
+//! Rows of the dispersion table: wavelength and celerities against frequency.
+
 use super::cavity::modes_per_wavenumber;
 use crate::Medium;
 use std::f64::consts::TAU;

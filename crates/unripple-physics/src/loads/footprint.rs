@@ -1,3 +1,5 @@
+//! Contact shapes as quadrature points and weights: point, disc, rim.
+
 use std::f64::consts::{PI, TAU};
 use unripple_core::{Outline, Point, Shapes};
 

@@ -1,3 +1,5 @@
+//! Loads in the time-stepper: masses, springs and coils at a point.
+
 use super::small::{Inverse, OCT, Oct, Small, Solution, add, get, octs, registers, set};
 use crate::Circuit;
 use pulp::Simd;

@@ -1,3 +1,5 @@
+//! Mutual influence of loads within one time step, and its inverse.
+
 use super::bank::Bank;
 use super::lanes::{Rows, grams};
 use super::small::{Inverse, Small};

@@ -1,3 +1,5 @@
+//! The time-stepper: modes advanced exactly, loads solved implicitly.
+
 use super::bank::{Bank, Burden};
 use super::couplings::{Couplings, Part};
 use super::field::{Felt, Field, Probes};

@@ -1,3 +1,5 @@
+//! Modal states advanced by their exact propagator, in SIMD lanes.
+
 use super::lanes::{LANES, Lanes, Rows, Tiles, feel, feel_both, gather, gather_both, hear, total, vectors};
 use pulp::{Simd, as_arrays, as_arrays_mut};
 use unripple_core::Pole;

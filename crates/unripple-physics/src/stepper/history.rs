@@ -1,3 +1,5 @@
+//! A ring of past modal states.
+
 use crate::PhysicsError;
 use unripple_core::require;
 

@@ -1,3 +1,5 @@
+//! Faults of a real device on request: drift, noise, lost samples, delay.
+
 use super::surface::VirtualSurface;
 use crate::PhysicsError;
 use unripple_core::{Random, require};

@@ -1,3 +1,5 @@
+//! The sheet as the time-stepper knows it: oscillations, shapes, rim.
+
 use crate::{Entry, Footprint, Load, Loaded, Medium, Modes, PhysicsError, Transducer, transducers};
 use faer::Mat;
 use std::f64::consts::PI;

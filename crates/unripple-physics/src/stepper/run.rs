@@ -1,3 +1,5 @@
+//! A block of samples through the time-stepper.
+
 use super::couplings::Part;
 use super::engine::Engine;
 use super::field::Laid;

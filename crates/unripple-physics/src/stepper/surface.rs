@@ -1,3 +1,5 @@
+//! A virtual surface in the time domain: channels, fingers, options.
+
 use super::engine::Engine;
 use super::field::Probes;
 use super::history::History;

@@ -1,3 +1,5 @@
+//! A finger on the running surface: coming, moving, going.
+
 use super::bank::Burden;
 use unripple_core::Finger;
 

@@ -1,3 +1,5 @@
+//! A mesh of an outline: advancing front, constrained Delaunay triangulation, smoothing.
+
 use super::cells::Quick;
 use super::delaunay::triangulate;
 use super::estimate::check_count;

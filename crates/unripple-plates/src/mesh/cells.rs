@@ -1,3 +1,5 @@
+//! A spatial hash of vertices and rim edges.
+
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 use unripple_core::Point;

@@ -1,3 +1,5 @@
+//! Corners of an outline and the singularity there (Williams 1952).
+
 use super::williams::exponent;
 use crate::PhysicsError;
 use std::f64::consts::PI;

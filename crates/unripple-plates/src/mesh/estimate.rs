@@ -1,3 +1,5 @@
+//! Number of vertices that a sizing will take, before there is a mesh.
+
 use super::region::Region;
 use super::rim::cut;
 use super::sizing::Sizing;

@@ -1,3 +1,5 @@
+//! The size field: edge length wanted at every place, with bounded growth.
+
 use unripple_core::Point;
 use unripple_core::plane::{Bounds, Node, Tree};
 

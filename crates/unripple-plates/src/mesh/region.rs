@@ -1,3 +1,5 @@
+//! Inside and outside of closed polygons.
+
 use unripple_core::Point;
 use unripple_core::plane::{Bounds, Node, Tree, doubled};
 

@@ -1,3 +1,5 @@
+//! Rims cut into edges.
+
 use super::field::{Field, Source};
 use super::sizing::Sizing;
 use super::{Span, Vertex};

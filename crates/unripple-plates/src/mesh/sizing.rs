@@ -1,3 +1,5 @@
+//! How long the edges of a mesh should be.
+
 use super::corner::{Corner, smallest_edge};
 use crate::PhysicsError;
 use unripple_core::{Point, require};

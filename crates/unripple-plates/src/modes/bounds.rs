@@ -1,3 +1,5 @@
+//! What modes are asked for: top frequency, accuracy, and the sheet's medium.
+
 use crate::damping::decay_rate;
 use crate::{Medium, PhysicsError};
 use std::f64::consts::TAU;

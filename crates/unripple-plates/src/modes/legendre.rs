@@ -1,3 +1,5 @@
+//! Gauss-Legendre quadrature.
+
 use std::f64::consts::PI;
 
 /// Gauss–Legendre nodes and weights on [-1, 1], exact for polynomials of degree 2·`count` - 1.

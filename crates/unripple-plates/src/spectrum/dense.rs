@@ -1,3 +1,5 @@
+//! Dense generalised eigenvalue problem, for small meshes.
+
 use super::SpectrumError;
 use super::panel::LANES;
 use super::pencil::{Pencil, indefinite};

@@ -1,3 +1,5 @@
+//! Why eigenpairs were not found.
+
 /// Why the eigenpairs of a pencil were not found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub(crate) enum SpectrumError {

@@ -1,3 +1,5 @@
+//! Sparse supernodal LDLᵀ factor, and Sylvester's inertia count.
+
 use super::SpectrumError;
 use super::panel::TILE;
 use super::pencil::Pencil;

@@ -1,3 +1,5 @@
+//! Block Lanczos with full reorthogonalisation.
+
 use super::SpectrumError;
 use super::factor::Factor;
 use super::panel::{LANES, NONE, Panel, Row, project, subtract, transform};

@@ -1,3 +1,5 @@
+//! Memory that an eigenvalue problem will take.
+
 use super::plan::{KEPT, SHARE};
 
 /// Entries of the matrices in each row, about.

@@ -1,3 +1,5 @@
+//! Eigenpairs of several shifts joined, none twice and none missed.
+
 use super::SpectrumError;
 use super::panel::{NONE, Panel, project, subtract};
 use super::pencil::Pencil;

@@ -1,3 +1,5 @@
+//! The matrix pencil K x = λ M x, scaled and ordered for factorisation.
+
 use super::SpectrumError;
 use super::panel::{NONE, Row, add};
 use faer::Side;

@@ -1,3 +1,5 @@
+//! Some eigenpairs, and their residuals.
+
 use super::panel::{LANES, Panel, Row};
 use super::pencil::Pencil;
 use super::quotient::quotients;

@@ -1,3 +1,5 @@
+//! Shifts that cut a spectrum into shares.
+
 use super::SpectrumError;
 use super::factor::Factor;
 use super::pencil::Pencil;

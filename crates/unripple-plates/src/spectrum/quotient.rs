@@ -1,3 +1,5 @@
+//! Rayleigh quotients in compensated sums.
+
 use super::panel::{LANES, NONE, Panel, Row};
 use super::pencil::{Lower, Pencil};
 use pulp::NullaryFnOnce;

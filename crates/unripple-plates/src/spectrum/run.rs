@@ -1,3 +1,5 @@
+//! Shift-and-invert Lanczos at one shift.
+
 use super::SpectrumError;
 use super::factor::Factor;
 use super::lanczos::{Lanczos, Ritz};

@@ -1,3 +1,5 @@
+//! Triangular solves with many right-hand sides.
+
 use super::factor::{Factor, Node};
 use super::panel::{NONE, Row, TILE, add};
 use pulp::{Arch, NullaryFnOnce};

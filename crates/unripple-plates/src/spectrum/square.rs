@@ -1,3 +1,5 @@
+//! Small Gram matrices between blocks of vectors.
+
 use super::SpectrumError;
 use super::panel::{LANES, NONE, Row};
 use super::pencil::indefinite;

@@ -1,3 +1,5 @@
+//! Random polygons with holes.
+
 use super::{check, least_angle};
 use crate::PhysicsError;
 use crate::mesh::{Mesh, Sizing, corners};

@@ -1,3 +1,5 @@
+//! Outlines that mesh tests share.
+
 use crate::mesh::{Sizing, corners};
 use unripple_core::{Edge, Edges, Hole, Outline, Point, Shape, Side};
 

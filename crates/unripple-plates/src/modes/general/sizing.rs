@@ -1,3 +1,5 @@
+//! Mesh size for a band and an accuracy: eighth-order convergence assumed.
+
 use crate::Medium;
 use crate::PhysicsError;
 use crate::fabric::{Fabric, Local};

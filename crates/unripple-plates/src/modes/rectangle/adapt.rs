@@ -1,3 +1,5 @@
+//! Rayleigh-Ritz basis enlarged until frequencies converge.
+
 use super::line::Line;
 use super::plate::Plate;
 use super::problem::Problem;

@@ -1,3 +1,5 @@
+//! One-dimensional basis functions on a side, and their energy integrals.
+
 use super::super::legendre::gauss;
 use super::polynomials::Polynomials;
 use faer::Mat;

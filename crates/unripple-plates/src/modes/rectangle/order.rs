@@ -1,3 +1,5 @@
+//! Modes in order of frequency, with one convention of sign.
+
 use super::ritz::BlockModes;
 use faer::ColRef;
 

@@ -1,3 +1,5 @@
+//! Elastic energy of a rectangular plate in products of one-dimensional functions.
+
 use super::line::Line;
 use super::product::{Product, Symmetry};
 use faer::Mat;

@@ -1,3 +1,5 @@
+//! Orthonormal Jacobi polynomials that satisfy the essential boundary conditions.
+
 use unripple_core::Edge;
 
 /// Orthonormal polynomials on [-1, 1] that meet the essential conditions at both ends:

@@ -1,3 +1,5 @@
+//! The eigenvalue problem of a rectangle: sides, edges, top frequency.
+
 use super::super::bounds::Bounds;
 use crate::PhysicsError;
 use unripple_core::{Edge, Shape, Surface, require};

@@ -1,3 +1,5 @@
+//! Symmetrised products of basis functions along x and y.
+
 use super::line::Class;
 use faer::{ColMut, Mat};
 use std::f64::consts::FRAC_1_SQRT_2;

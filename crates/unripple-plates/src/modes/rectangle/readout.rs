@@ -1,3 +1,5 @@
+//! Ritz mode shapes evaluated at points, in SIMD lanes.
+
 use super::line::Line;
 use super::product::Product;
 use super::ritz::BlockModes;

@@ -1,3 +1,5 @@
+//! The Rayleigh-Ritz eigenvalue problem, one symmetry class at a time.
+
 use super::super::eigen::{Method, orthonormalised, product, symmetric};
 use super::line::Class;
 use super::plate::Plate;

@@ -1,3 +1,5 @@
+//! Exact modes of supported plates and of membranes: products of sines.
+
 use super::line::sines;
 use super::problem::Problem;
 use super::{GIB, MEMORY};
