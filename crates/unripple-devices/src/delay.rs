@@ -1,3 +1,5 @@
+//! Fractional delay of channels: a Kaiser-windowed sinc.
+
 use unripple_dsp::{kaiser, sinc};
 
 /// Half the length of the interpolator, in samples: the least delay that is not whole.

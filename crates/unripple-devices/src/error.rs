@@ -1,3 +1,5 @@
+//! What goes wrong with devices.
+
 use unripple_core::{DeviceError, OutOfRange};
 use unripple_physics::PhysicsError;
 

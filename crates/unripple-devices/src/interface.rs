@@ -1,3 +1,5 @@
+//! Converters and amplifiers between computer and surface: rate, delay, gains.
+
 use crate::DevicesError;
 use crate::delay::{Delay, HALF};
 use crate::error::same;

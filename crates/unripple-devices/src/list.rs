@@ -1,3 +1,5 @@
+//! The list of devices that there are.
+
 use crate::jack;
 use std::path::Path;
 

@@ -1,3 +1,5 @@
+//! The force pulse of a tap.
+
 use std::f64::consts::PI;
 use unripple_core::Random;
 

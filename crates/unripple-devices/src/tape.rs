@@ -1,3 +1,5 @@
+//! A device that plays nowhere: drives are kept, recordings given beforehand.
+
 use crate::DevicesError;
 use crate::error::same;
 use unripple_core::{Device, DeviceError, Layout, State, Status};

@@ -1,3 +1,5 @@
+//! A true surface that differs from its model, from a seed.
+
 use crate::{DevicesError, Interface};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;

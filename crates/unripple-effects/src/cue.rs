@@ -1,3 +1,5 @@
+//! What an effect wants played, and when.
+
 use crate::Level;
 use std::fmt;
 use std::sync::Arc;

@@ -1,3 +1,5 @@
+//! Piecewise-linear functions.
+
 use crate::EffectsError;
 use crate::error::{counted, within};
 use crate::limits::MOST_POINTS;

@@ -1,3 +1,5 @@
+//! Effects in use: touches and time in, cues out.
+
 use crate::error::within;
 use crate::fingers::{Finger, Under, holds};
 use crate::play::{Budget, Maker, Moment, Out, Play};

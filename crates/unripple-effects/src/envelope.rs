@@ -1,3 +1,5 @@
+//! Amplitude and frequency of a waveform over time.
+
 use crate::error::within;
 use crate::{Curve, EffectsError, Wave, limits};
 use std::f64::consts::{PI, TAU};

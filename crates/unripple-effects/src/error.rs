@@ -1,3 +1,5 @@
+//! Why a set of effects cannot be used.
+
 use unripple_core::OutOfRange;
 
 /// Why a set of effects cannot be used.

@@ -1,3 +1,5 @@
+//! Fingers on the surface, and the effects under each.
+
 use crate::play::{Moment, Play};
 use crate::{Region, limits};
 use unripple_core::{Outline, Point};

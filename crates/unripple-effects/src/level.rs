@@ -1,3 +1,5 @@
+//! How strong an effect is: a gain, or dB above threshold.
+
 /// How strong something is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Level {

@@ -1,3 +1,5 @@
+//! Where a finger is, how fast it moves, and what that means for an effect.
+
 use crate::{Act, Cue, Level, Wave, limits};
 use std::sync::Arc;
 use unripple_core::{Outline, Point};

@@ -1,3 +1,5 @@
+//! Where on the surface an effect holds.
+
 use crate::error::{counted, place, within};
 use crate::{EffectsError, limits};
 use unripple_core::Point;

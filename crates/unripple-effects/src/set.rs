@@ -1,3 +1,5 @@
+//! A set of effects: what is felt on a surface.
+
 use crate::error::{counted, within};
 use crate::{EffectsError, Kind, Level, Region, limits};
 use std::collections::HashSet;

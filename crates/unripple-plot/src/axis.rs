@@ -1,3 +1,5 @@
+//! Axes: scale, range, ticks.
+
 use crate::{PlotError, font, ticks};
 
 /// How values are spread along an axis.

@@ -1,3 +1,5 @@
+//! Colours, and a palette safe for colour blindness.
+
 use std::f64::consts::PI;
 
 /// An sRGB colour of eight bits a channel.

@@ -1,3 +1,5 @@
+//! Perceptually uniform colour maps (Oklab).
+
 use crate::colour::{Oklch, Rgb};
 use std::sync::LazyLock;
 

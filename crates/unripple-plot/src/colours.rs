@@ -1,3 +1,5 @@
+//! From values to colours, with the colour bar's text.
+
 use crate::axis::{Axis, Direction, Padding, Ruler, usable};
 use crate::canvas::{Anchor, Canvas, Rect, Rise, Stroke, Text, path, rectangle};
 use crate::colour::Rgb;

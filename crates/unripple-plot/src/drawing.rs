@@ -1,3 +1,5 @@
+//! A finished figure, as SVG and PNG.
+
 use crate::colour::Rgb;
 use crate::panel::Placed;
 use crate::{PlotError, encode};

@@ -1,3 +1,5 @@
+//! Why a figure could not be drawn.
+
 /// Why a figure could not be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PlotError {

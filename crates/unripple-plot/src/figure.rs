@@ -1,3 +1,5 @@
+//! Panels in a grid, their frames aligned.
+
 use crate::canvas::{Canvas, Rect, Text};
 use crate::drawing::Drawing;
 use crate::panel::{Margins, Placed, Prepared};

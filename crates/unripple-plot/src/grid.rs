@@ -1,3 +1,5 @@
+//! Values on a regular grid of cells.
+
 use crate::PlotError;
 use crate::error::{same_length, some_finite};
 

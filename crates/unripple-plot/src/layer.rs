@@ -1,3 +1,5 @@
+//! What is drawn on axes: lines, points, bands.
+
 use crate::canvas::Anchor;
 use crate::colour::Rgb;
 use crate::colourmap::ColourMap;

@@ -1,3 +1,5 @@
+//! A field over the surface, in colour.
+
 use crate::axis::{Axis, Direction, Padding, Ruler};
 use crate::canvas::{Anchor, Canvas, Rect, Text};
 use crate::colours::{Bar, Colours};

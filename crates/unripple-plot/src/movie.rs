@@ -1,3 +1,5 @@
+//! Animated PNG of a field.
+
 use crate::canvas::{Anchor, Canvas, Rect, Rise, Text};
 use crate::colour::Rgb;
 use crate::colours::{Bar, Colours};

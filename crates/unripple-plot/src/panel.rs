@@ -1,3 +1,5 @@
+//! One panel of a figure.
+
 use crate::axis::Ruler;
 use crate::canvas::{Canvas, Rect};
 use crate::style::Style;

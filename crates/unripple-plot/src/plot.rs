@@ -1,3 +1,5 @@
+//! Curves on a pair of axes.
+
 use crate::axis::{Axis, Direction, Padding, Ruler, Scale};
 use crate::canvas::{Anchor, Canvas, Rect, Text};
 use crate::error::{same_length, some_finite};

@@ -1,3 +1,5 @@
+//! Several fields side by side with one colour bar.
+
 use crate::axis::Ruler;
 use crate::canvas::{Anchor, Canvas, Rect, Rise, Stroke, Text};
 use crate::colour::Rgb;

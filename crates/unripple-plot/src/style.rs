@@ -1,3 +1,5 @@
+//! Sizes of text and lines.
+
 /// Sizes shared by everything in a figure, in points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Style {

@@ -1,3 +1,5 @@
+//! Traces one above the other, as on an oscilloscope.
+
 use crate::axis::{Axis, Direction, LARGEST, Padding, Ruler, usable};
 use crate::canvas::{Anchor, Canvas, Rect, Rise, Stroke, Text, rectangle};
 use crate::colour::Rgb;

@@ -1,3 +1,5 @@
+//! SI prefixes for axes.
+
 /// The decimal prefix that brings a largest value to between 1 and 1000: what to multiply data by, and the unit so prefixed.
 ///
 /// From pico to giga; a value of zero or one that is not finite keeps the unit as it is.

@@ -1,3 +1,5 @@
+//! Built-in surfaces.
+
 /// A surface that comes with the program, as the text of its file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Builtin {

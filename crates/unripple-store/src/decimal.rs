@@ -1,3 +1,5 @@
+//! Units of files to SI and back without a lost digit.
+
 /// The number that `text` times ten to the `power` is nearest to: how a file's units become SI without rounding twice.
 ///
 /// `text` is a decimal number as Rust parses it. `None` if it is not one.

@@ -1,3 +1,5 @@
+//! Why something could not be read or written.
+
 use crate::FileFaults;
 use miette::Diagnostic;
 use std::io;

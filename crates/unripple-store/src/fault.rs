@@ -1,3 +1,5 @@
+//! One fault of a file: line, column, found, expected.
+
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
 use serde::Serialize;
 use std::fmt;

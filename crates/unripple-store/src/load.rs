@@ -1,3 +1,5 @@
+//! Surfaces by name or file.
+
 use crate::document::{too_large, whole};
 use crate::file::{LARGEST_TEXT, read_start, read_text};
 use crate::names::nearest;

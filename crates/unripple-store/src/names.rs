@@ -1,3 +1,5 @@
+//! The known name nearest to a misspelt one: edit distance.
+
 /// Longest name compared, in characters; what is longer was not meant as any known name.
 const LONGEST: usize = 64;
 

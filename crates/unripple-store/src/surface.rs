@@ -1,3 +1,5 @@
+//! Surface files, format 1.
+
 mod actuator;
 mod apart;
 mod bounds;

@@ -1,3 +1,5 @@
+//! Shapes of SVG files, flattened.
+
 mod arcs;
 mod curves;
 mod ellipse;

@@ -1,3 +1,5 @@
+//! WAV files.
+
 use crate::StoreError;
 use crate::file::write_beside;
 use crate::wide::{self, Format};

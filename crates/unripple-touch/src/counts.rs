@@ -1,3 +1,5 @@
+//! What a source of touches took in and refused.
+
 use std::ops::Add;
 
 /// What a source has taken in and what it has refused, since it was opened.

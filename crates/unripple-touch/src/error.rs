@@ -1,3 +1,5 @@
+//! Why a source of touches cannot be opened.
+
 use unripple_core::OutOfRange;
 
 /// What goes wrong when a source of touches is opened. Once open, a source counts what it refuses: see [`Counts`](crate::Counts).

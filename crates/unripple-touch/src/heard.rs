@@ -1,3 +1,5 @@
+//! Touches and wishes as a source hands them on.
+
 use unripple_core::Touch;
 
 /// Something asked for that is not a touch.

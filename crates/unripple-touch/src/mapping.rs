@@ -1,3 +1,5 @@
+//! From a sensor's coordinates to the surface's.
+
 use crate::error::TouchError;
 use unripple_core::{Outline, Point, require};
 

@@ -1,3 +1,5 @@
+//! Velocity and prediction of a finger: a line fitted to its last places.
+
 use unripple_core::{Outline, Point};
 
 /// How many places are remembered.

@@ -1,3 +1,5 @@
+//! What a source of touches must know, and its limits.
+
 use crate::error::TouchError;
 use crate::mapping::Mapping;
 use unripple_core::{Outline, require};

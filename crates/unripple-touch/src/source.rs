@@ -1,3 +1,5 @@
+//! The trait of whatever tells of touches.
+
 use crate::{Counts, Heard};
 #[cfg(unix)]
 use std::os::fd::BorrowedFd;

@@ -1,3 +1,5 @@
+//! Several sources as one, with velocity and prediction.
+
 use crate::{Counts, Heard, Motion, Source};
 #[cfg(unix)]
 use std::os::fd::BorrowedFd;

@@ -1,3 +1,5 @@
+//! Synthetic fingers that tap and slide, from a seed.
+
 use crate::{Counts, Heard, Source, TouchError};
 use std::f64::consts::{PI, TAU};
 use unripple_core::{OutOfRange, Outline, Phase, Point, Random, Touch, require};

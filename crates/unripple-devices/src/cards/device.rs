@@ -1,3 +1,5 @@
+//! A sound card as a device.
+
 use super::crossing::{Events, crossing};
 use super::ferry::{Ferry, Manners};
 use super::streams::{self, Running, Side};

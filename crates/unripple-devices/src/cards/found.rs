@@ -1,3 +1,5 @@
+//! Sound cards that are there, and what they offer.
+
 use super::streams::{Side, name};
 use cpal::traits::{DeviceTrait, HostTrait};
 

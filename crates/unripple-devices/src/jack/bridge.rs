@@ -1,3 +1,5 @@
+//! A device run as a JACK client, so that a virtual surface stands where a sound card would.
+
 use super::library::{Client, Cycle, Process};
 use crate::DevicesError;
 use std::sync::Arc;

@@ -1,3 +1,5 @@
+//! Samples passed between the server's thread and the program, through ring buffers without locks.
+
 use super::events::Events;
 use super::library::{Cycle, Process};
 use rtrb::{Consumer, Producer, RingBuffer};

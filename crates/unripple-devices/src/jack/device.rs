@@ -1,3 +1,5 @@
+//! A JACK server as a device.
+
 use super::crossing::{Crossing, Shore};
 use super::library::Client;
 use super::links::{Links, OWN, wires};

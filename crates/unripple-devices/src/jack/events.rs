@@ -1,3 +1,5 @@
+//! What the server tells a client, kept in atomics.
+
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 

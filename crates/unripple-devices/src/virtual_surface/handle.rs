@@ -1,3 +1,5 @@
+//! A handle on a virtual surface: moves the probe, taps, puts fingers down.
+
 use super::lock;
 use super::workings::Workings;
 use crate::{DevicesError, Tap};

@@ -1,3 +1,5 @@
+//! Displacement recorded at some places of a virtual surface.
+
 use std::collections::VecDeque;
 use unripple_core::Point;
 use unripple_physics::stepper::Reading;

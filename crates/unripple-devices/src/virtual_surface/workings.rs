@@ -1,3 +1,5 @@
+//! What is behind a virtual device: stepper, taps, converters.
+
 use super::watch::{self, Watch};
 use crate::DevicesError;
 use crate::interface::Converter;

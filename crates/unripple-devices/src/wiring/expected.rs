@@ -1,3 +1,5 @@
+//! What a model says that each input hears of each output.
+
 use super::WiringOptions;
 use crate::DevicesError;
 use crate::error::same;

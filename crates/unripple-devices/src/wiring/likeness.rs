@@ -1,3 +1,5 @@
+//! Which channel is which: an assignment by normalised correlation.
+
 use super::take::{Takes, rms};
 use std::collections::HashMap;
 use unripple_core::Layout;

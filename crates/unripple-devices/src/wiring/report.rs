@@ -1,3 +1,5 @@
+//! What was found of all channels.
+
 use super::WiringOptions;
 use super::likeness::{Likeness, Routes};
 use std::fmt;

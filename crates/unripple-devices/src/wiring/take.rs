@@ -1,3 +1,5 @@
+//! Recordings of all inputs while each output plays a burst.
+
 use super::{Expected, WiringOptions};
 use std::f64::consts::TAU;
 use unripple_core::{Device, DeviceError, Layout};

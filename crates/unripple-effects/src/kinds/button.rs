@@ -1,3 +1,5 @@
+//! A button: a click when pressed, another when let go.
+
 use crate::error::within;
 use crate::play::{Maker, Moment, Out, Play};
 use crate::{EffectsError, limits};

@@ -1,3 +1,5 @@
+//! An edge: a pulse where the finger crosses a line.
+
 use crate::error::{place, within};
 use crate::play::{Maker, Moment, Out, Play};
 use crate::region::{crossing, lerp};

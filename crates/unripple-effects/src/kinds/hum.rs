@@ -1,3 +1,5 @@
+//! A steady waveform under the finger.
+
 use crate::error::within;
 use crate::play::{Maker, Moment, Out, Play, Sounding};
 use crate::{Act, Curve, EffectsError, Envelope, Wave, limits};

@@ -1,3 +1,5 @@
+//! Detents along an axis.
+
 use crate::error::{place, within};
 use crate::play::{Maker, Moment, Out, Play};
 use crate::region::lerp;

@@ -1,3 +1,5 @@
+//! Events over time, started by a touch.
+
 use crate::error::{counted, place, within};
 use crate::play::{Maker, Moment, Out, Play, Sounding};
 use crate::{Act, EffectsError, Envelope, Wave, limits};

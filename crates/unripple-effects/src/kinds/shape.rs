@@ -1,3 +1,5 @@
+//! A shape drawn on a resting palm, over and over.
+
 use crate::error::{counted, place, within};
 use crate::play::{Beat, Maker, Moment, Out, Play};
 use crate::region::lerp;

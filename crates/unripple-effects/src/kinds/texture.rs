@@ -1,3 +1,5 @@
+//! Texture: grains along the finger's path, so that their rate follows its speed.
+
 use crate::error::within;
 use crate::play::{Maker, Moment, Out, Play};
 use crate::region::lerp;

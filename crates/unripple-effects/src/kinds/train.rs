@@ -1,3 +1,5 @@
+//! A train of pulses under a finger.
+
 use crate::error::within;
 use crate::play::{Beat, Maker, Moment, Out, Play};
 use crate::{Act, Curve, EffectsError, limits};

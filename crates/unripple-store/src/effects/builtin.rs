@@ -1,3 +1,5 @@
+//! Built-in effects.
+
 use super::parse_effects;
 use unripple_effects::EffectSet;
 

@@ -1,3 +1,5 @@
+//! Curves in files of effects.
+
 use crate::surface::range::Limits;
 use crate::surface::reader::{Entry, Faults};
 use unripple_effects::{Curve, Envelope, limits};

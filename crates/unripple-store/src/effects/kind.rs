@@ -1,3 +1,5 @@
+//! Keys of each kind of effect.
+
 use super::curve::{envelope, gains, said};
 use super::path::{corners, place};
 use super::{range, score};

@@ -1,3 +1,5 @@
+//! Levels in files of effects.
+
 use super::range;
 use crate::surface::reader::{Faults, Section};
 use unripple_effects::Level;

@@ -1,3 +1,5 @@
+//! Effects by name or file.
+
 use super::{builtin_effects, import_haptic, near, parse_effects};
 use crate::StoreError;
 use crate::document::stem;

@@ -1,3 +1,5 @@
+//! Files of effects, format 1.
+
 mod builtin;
 mod curve;
 mod import;

@@ -1,3 +1,5 @@
+//! Places in files of effects.
+
 use super::range;
 use crate::surface::reader::{Entry, Faults};
 use unripple_core::Point;

@@ -1,3 +1,5 @@
+//! Regions in files of effects.
+
 use super::path::{corners, place};
 use super::range;
 use crate::surface::reader::{Faults, Section};

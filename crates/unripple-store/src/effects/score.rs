@@ -1,3 +1,5 @@
+//! Scores in files of effects.
+
 use super::curve::envelope;
 use super::path::place;
 use super::range;

@@ -1,3 +1,5 @@
+//! Effects written as a file.
+
 use super::kind::{ANCHORS, PLAYS};
 use super::range;
 use super::score::STARTS;

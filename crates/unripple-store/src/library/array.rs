@@ -1,3 +1,5 @@
+//! One checksummed Zarr v3 array of a library.
+
 use super::bands::{self, Bands};
 use super::plan::LibraryPlan;
 use super::{disk, manifest};

@@ -1,3 +1,5 @@
+//! Verification of a library: files that are not as they were written.
+
 use super::bands::{self, Bands};
 use super::{Library, PointState, manifest, record};
 use crate::StoreError;

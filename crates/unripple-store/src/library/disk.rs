@@ -1,3 +1,5 @@
+//! Files written so that a crash loses nothing.
+
 use crate::StoreError;
 use crate::underway::{Underway, What};
 use std::fs::{self, File};

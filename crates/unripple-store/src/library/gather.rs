@@ -1,3 +1,5 @@
+//! Responses read from a library.
+
 use super::{Damage, Library, PointState};
 use crate::StoreError;
 use std::io;

@@ -1,3 +1,5 @@
+//! A library's metadata.
+
 use super::disk;
 use super::outline::{OutlineText, place, point};
 use super::plan::LibraryPlan;

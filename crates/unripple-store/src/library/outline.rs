@@ -1,3 +1,5 @@
+//! An outline in a library's metadata.
+
 use serde::{Deserialize, Serialize};
 use unripple_core::{Edge, Edges, Hole, Outline, Point, Shape, Side};
 

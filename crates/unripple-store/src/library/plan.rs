@@ -1,3 +1,5 @@
+//! What a library is to hold.
+
 use crate::StoreError;
 use std::collections::{BTreeMap, HashSet};
 use unripple_core::{Conditions, Outline, Point, Port, Shape, Surface};

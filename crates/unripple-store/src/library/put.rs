@@ -1,3 +1,5 @@
+//! Responses stored in a library.
+
 use super::array::BLOCK;
 use super::{BandQuality, Library, PointState, Quality};
 use crate::StoreError;

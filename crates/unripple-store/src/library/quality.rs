@@ -1,3 +1,5 @@
+//! Quality of stored responses.
+
 use super::array::{BLOCK, floats};
 use super::{Library, Take};
 use crate::StoreError;

@@ -1,3 +1,5 @@
+//! State of each point: missing, measured or bad.
+
 use super::array::BLOCK;
 use super::{Damage, Library};
 use crate::StoreError;

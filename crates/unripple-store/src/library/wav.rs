@@ -1,3 +1,5 @@
+//! A library exported as WAV files.
+
 use super::Library;
 use crate::{Committed, OutputDir, StoreError, write_wav};
 use serde_json::{Value, json};

@@ -1,3 +1,5 @@
+//! Global attributes of a SOFA file.
+
 use super::API;
 use crate::LibraryPlan;
 use unripple_core::{Outline, Shape};

@@ -1,3 +1,5 @@
+//! Actuators in a surface file.
+
 use super::piezo::{self, PIEZO_KEYS, Spot};
 use super::place::Ground;
 use super::range::of;

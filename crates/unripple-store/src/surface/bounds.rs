@@ -1,3 +1,5 @@
+//! Bounding box of a rim.
+
 use unripple_core::{Point, Side};
 
 /// Lower-left and upper-right corner of what was added so far.

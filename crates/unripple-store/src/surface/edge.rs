@@ -1,3 +1,5 @@
+//! How edges are held, in a surface file.
+
 use super::range::of;
 use super::reader::{Entry, Faults, Section};
 use unripple_core::{Edge, Edges};

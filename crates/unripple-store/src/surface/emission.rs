@@ -1,3 +1,5 @@
+//! The tables `[drive]` and `[finger]`.
+
 use super::range::{Limits, of};
 use super::reader::{Faults, Section};
 use crate::decimal;

@@ -1,3 +1,5 @@
+//! Orthotropic sheets in a surface file.
+
 use super::material::Stuff;
 use super::range::of;
 use super::reader::{Faults, Section};

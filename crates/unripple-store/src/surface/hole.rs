@@ -1,3 +1,5 @@
+//! Holes in a surface file.
+
 use super::edge::{self, SidesListed};
 use super::outline::{Fetch, drawn_ring, only_shape, stadium};
 use super::range::of;

@@ -1,3 +1,5 @@
+//! Materials in a surface file.
+
 use super::range::of;
 use super::reader::{Entry, Faults, Section};
 use crate::names::nearest;

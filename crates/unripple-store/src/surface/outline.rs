@@ -1,3 +1,5 @@
+//! The table `[outline]`.
+
 use super::edge::{self, SidesListed};
 use super::hole::{MOST_HOLES, count_expected};
 use super::path;

@@ -1,3 +1,5 @@
+//! Outlines as paths of lines and curves.
+
 use super::range::of;
 use super::reader::{Entry, Faults};
 use super::ring::{MOST_SIDES, Ring, is_clockwise, millimetres, off_corner};

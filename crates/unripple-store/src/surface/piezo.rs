@@ -1,3 +1,5 @@
+//! Piezoelectric patches in a surface file.
+
 use super::range::of;
 use super::reader::{Entry, Faults, Section};
 use std::f64::consts::PI;

@@ -1,3 +1,5 @@
+//! Places in a surface file, and whether they lie on the sheet.
+
 use super::bounds::Bounds;
 use super::range::of;
 use super::reader::{Entry, Faults, Section};

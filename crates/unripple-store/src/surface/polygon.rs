@@ -1,3 +1,5 @@
+//! Outlines as polygons.
+
 use super::bounds::Bounds;
 use super::range::of;
 use super::reader::{Entry, Faults};

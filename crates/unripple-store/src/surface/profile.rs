@@ -1,3 +1,5 @@
+//! Quantities that vary over the surface.
+
 use super::range::Limits;
 use super::reader::{Entry, Faults};
 use unripple_core::Profile;

@@ -1,3 +1,5 @@
+//! Legal ranges of numbers, and their units.
+
 use crate::{decimal, degrees};
 
 /// Legal values of a number, in the file's unit, and how that unit relates to SI.

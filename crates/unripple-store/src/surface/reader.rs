@@ -1,3 +1,5 @@
+//! A TOML file read with its places, all faults gathered.
+
 use super::range::Limits;
 use crate::decimal;
 use crate::fault::{Fault, MOST_FAULTS};

@@ -1,3 +1,5 @@
+//! Closed curves of a surface file, judged by core.
+
 use super::bounds::Bounds;
 use crate::decimal;
 use unripple_core::plane::{self, Met};

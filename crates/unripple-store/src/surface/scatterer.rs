@@ -1,3 +1,5 @@
+//! Scatterers in a surface file: point masses and discs.
+
 use super::material;
 use super::place::Ground;
 use super::range::of;

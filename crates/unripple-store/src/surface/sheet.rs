@@ -1,3 +1,5 @@
+//! The table `[sheet]`.
+
 use super::grain::{self, GRAIN_KEYS};
 use super::material::{self, MATERIAL_KEYS, Stuff};
 use super::profile;

@@ -1,3 +1,5 @@
+//! A surface written as a file.
+
 mod rim;
 
 use super::actuator::COIL_DRIVES;

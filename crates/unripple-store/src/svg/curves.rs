@@ -1,3 +1,5 @@
+//! Shapes of SVG files with their curves kept.
+
 use super::{FINEST, Page, arcs, ellipse, guard, nothing};
 use crate::StoreError;
 use crate::file::{LARGEST_TEXT, too_large};

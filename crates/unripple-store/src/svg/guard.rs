@@ -1,3 +1,5 @@
+//! SVG files bounded before they are read: depth, size, copies.
+
 use crate::StoreError;
 use std::collections::HashMap;
 use usvg::roxmltree::{Document, Node, NodeId, ParsingOptions};

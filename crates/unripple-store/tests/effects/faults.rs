@@ -1,3 +1,5 @@
+//! Faults of files of effects, and what is said of them.
+
 use unripple_store::parse_effects;
 
 /// The faults of one effect of a kind with some lines of text, as key, what was expected and the nearest.

@@ -1,3 +1,5 @@
+//! Files of effects, and what they make felt.
+
 use unripple_core::{Outline, Phase, Point, Shape, Touch};
 use unripple_effects::{Act, Cue, Effects, Kind, Level, Region};
 use unripple_store::{StoreError, builtin_effect, builtin_effects, load_effects, parse_effects};

@@ -1,3 +1,5 @@
+//! Effects imported from other formats.
+
 use unripple_effects::{Event, Score, Sound};
 use unripple_store::{StoreError, import_haptic};
 

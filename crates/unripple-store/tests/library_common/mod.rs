@@ -1,3 +1,5 @@
+//! Libraries and folders that tests share.
+
 #![allow(dead_code)]
 
 use std::fs;

@@ -1,3 +1,5 @@
+//! One TUIO frame of one sender.
+
 use rosc::OscType;
 
 /// One finger of a frame.

@@ -1,3 +1,5 @@
+//! Unripple's own OSC addresses.
+
 use super::frame::{int, number};
 use super::receiver::OscReceiver;
 use crate::{Heard, Key, Wish};

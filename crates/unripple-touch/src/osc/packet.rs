@@ -1,3 +1,5 @@
+//! OSC packets read from bytes.
+
 use rosc::{OscMessage, OscPacket, decoder};
 use std::ops::Range;
 

@@ -1,3 +1,5 @@
+//! A UDP port that hears OSC and TUIO.
+
 use super::packet::LONGEST;
 use super::receiver::OscReceiver;
 use crate::{Counts, Heard, Options, Source, TouchError};

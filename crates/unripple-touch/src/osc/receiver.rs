@@ -1,3 +1,5 @@
+//! TUIO 1.1, TUIO 2.0 and our own addresses, from packets to fingers.
+
 use super::frame::Frame;
 use super::packet;
 use super::senders::{LISTS, Senders};

@@ -1,3 +1,5 @@
+//! Senders on a port, with quotas.
+
 use super::sequence::Sequence;
 use std::net::SocketAddr;
 

@@ -1,3 +1,5 @@
+//! Order of TUIO frames: late ones dropped, restarts noticed.
+
 /// A sender that was silent for as long may have begun anew, in s.
 const SILENCE: f64 = 1.0;
 /// A frame that is behind by more than this is not late: its sender has begun anew.

@@ -1,3 +1,5 @@
+//! TUIO 1.1 messages.
+
 use super::frame::{Set, int, number};
 use super::receiver::{OscReceiver, Speaker};
 use super::sequence::Verdict;

@@ -1,3 +1,5 @@
+//! TUIO 2.0 messages.
+
 use super::frame::{Set, int, number};
 use super::receiver::{OscReceiver, Speaker};
 use super::sequence::Verdict;

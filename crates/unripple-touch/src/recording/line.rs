@@ -1,3 +1,5 @@
+//! One line of a recorded session.
+
 use crate::Wish;
 use crate::options::MOST_FORCE;
 use serde::{Deserialize, Serialize};

@@ -1,3 +1,5 @@
+//! A recorded session played again as a source.
+
 use super::line::Item;
 use super::session::Recording;
 use crate::{Counts, Heard, Source, TouchError};

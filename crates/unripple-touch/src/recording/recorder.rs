@@ -1,3 +1,5 @@
+//! Touches written to a file while they happen.
+
 use super::line::{self, FORMAT, Head, Item, VERSION};
 use crate::{Heard, TouchError};
 use std::io::{self, Write};

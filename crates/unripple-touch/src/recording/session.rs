@@ -1,3 +1,5 @@
+//! A recorded session, read and checked.
+
 use super::line::{self, FORMAT, Head, Item, VERSION};
 use crate::TouchError;
 use std::collections::BTreeSet;

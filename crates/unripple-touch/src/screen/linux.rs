@@ -1,3 +1,5 @@
+//! Multi-touch screens of Linux: evdev devices.
+
 use super::reader::{Axis, Contacts};
 use super::slots::Event;
 use crate::TouchError;

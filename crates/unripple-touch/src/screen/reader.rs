@@ -1,3 +1,5 @@
+//! A screen as a source: events read, lost devices reopened.
+
 use super::slots::{Event, Report, Slots};
 use crate::{Counts, Fingers, Heard, Key, Options, Source, TouchError};
 use std::io;

@@ -1,3 +1,5 @@
+//! The evdev multi-touch protocol B: slots and tracking ids.
+
 /// One event of the kernel's, as `linux/input.h` has it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Event {

@@ -1,3 +1,5 @@
+//! One WebSocket client.
+
 use super::message::{self, Message};
 use super::metered::Metered;
 use super::origin::admitted;

@@ -1,3 +1,5 @@
+//! The JSON protocol of touches over WebSocket.
+
 use crate::Wish;
 use serde::{Deserialize, Deserializer};
 use serde_json::json;

@@ -1,3 +1,5 @@
+//! A connection that gives a bounded number of bytes per poll.
+
 use std::io::{Error, ErrorKind, Read, Result, Write};
 use std::net::TcpStream;
 

@@ -1,3 +1,5 @@
+//! Which web pages may connect.
+
 use std::net::Ipv4Addr;
 
 /// Whether a page may connect: one of this machine, or one of a list. Programs that are no browsers send no origin.

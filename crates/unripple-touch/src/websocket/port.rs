@@ -1,3 +1,5 @@
+//! A TCP port for WebSocket clients.
+
 use super::connection::{Connection, Gone};
 use crate::{Counts, Fingers, Heard, Options, Source, TouchError};
 use std::io::ErrorKind;

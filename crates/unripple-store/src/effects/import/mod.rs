@@ -1,3 +1,5 @@
+//! Effects imported from files made for phones and controllers.
+
 mod ahap;
 mod haptic;
 mod hjif;

@@ -1,3 +1,5 @@
+//! JSON values with their places, for messages.
+
 use crate::StoreError;
 use crate::surface::reader::clip;
 use serde_json::Value;

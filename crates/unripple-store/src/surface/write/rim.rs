@@ -1,3 +1,5 @@
+//! Outlines and holes written in their shortest exact form.
+
 use super::super::edge::EDGES;
 use super::super::range::of;
 use crate::decimal::text;
