@@ -1,3 +1,5 @@
+//! The trait of whatever plays drives and hears what comes back.
+
 use crate::Work;
 use std::fmt;
 use std::time::Duration;

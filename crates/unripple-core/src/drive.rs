@@ -1,3 +1,5 @@
+//! What is sent: one channel of samples per actuator.
+
 use crate::CoreError;
 use crate::OutOfRange;
 

@@ -1,3 +1,5 @@
+//! Why a value of this crate could not be made.
+
 use crate::OutOfRange;
 
 /// Why a core value could not be made.

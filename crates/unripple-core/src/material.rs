@@ -1,3 +1,5 @@
+//! Materials: density, Young's modulus, Poisson's ratio, strength.
+
 /// What a sheet is made of. Typical room-temperature values; every one can be overridden in a surface file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {

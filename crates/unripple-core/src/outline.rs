@@ -1,3 +1,5 @@
+//! The rim of a sheet: its shape, holes, and how each side is held.
+
 use crate::{Point, Shape, Side};
 
 /// How a side of the sheet is held.

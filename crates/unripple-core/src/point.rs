@@ -1,3 +1,5 @@
+//! A place on the surface, in metres.
+
 /// A place on the surface, in metres from the lower-left corner of the outline's bounding box.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Point {

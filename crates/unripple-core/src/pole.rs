@@ -1,3 +1,5 @@
+//! A damped oscillation: pole, impulse response, onset.
+
 /// What an impulse does to an oscillation at first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Onset {

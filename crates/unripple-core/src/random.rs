@@ -1,3 +1,5 @@
+//! Repeatable random numbers (SplitMix64).
+
 use std::f64::consts::TAU;
 
 /// Repeatable random numbers: SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).

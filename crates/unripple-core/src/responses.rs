@@ -1,3 +1,5 @@
+//! Impulse responses from actuators to points, sampled or as modes.
+
 use crate::{CoreError, Outline, Point, Pole};
 use faer::Mat;
 use std::sync::Arc;

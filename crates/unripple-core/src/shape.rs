@@ -1,3 +1,5 @@
+//! Closed curves that outlines and holes have.
+
 use crate::{Point, Side};
 use std::f64::consts::PI;
 

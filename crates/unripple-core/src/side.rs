@@ -1,3 +1,5 @@
+//! One smooth side of a rim: a line, an arc or a Bézier curve.
+
 use crate::Point;
 use std::f64::consts::TAU;
 

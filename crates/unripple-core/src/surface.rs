@@ -1,3 +1,5 @@
+//! The whole surface: sheet, outline, actuators, band, finger.
+
 use crate::{Outline, Point, Uneven};
 
 /// A whole surface: sheet, rim, actuators, band and finger. What a surface file says, in SI.

@@ -1,3 +1,5 @@
+//! What a finger just did.
+
 use crate::Point;
 
 /// What one finger just did, wherever that was learnt: a screen, a network, a recording.

@@ -1,3 +1,5 @@
+//! What makes a sheet non-uniform or orthotropic.
+
 use crate::Point;
 
 /// What makes a sheet other than uniform and isotropic. The default is nothing.

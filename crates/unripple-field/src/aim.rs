@@ -1,3 +1,5 @@
+//! Where and when a focus is measured.
+
 use crate::{Field, FieldError};
 use std::ops::Range;
 use unripple_core::Point;

@@ -1,3 +1,5 @@
+//! Why a field could not be computed or measured.
+
 use unripple_core::{CoreError, OutOfRange, Point};
 
 /// Why a field could not be computed or measured.

@@ -1,3 +1,5 @@
+//! Felt levels of a modal field: modes weighed by the threshold of touch, then summed.
+
 use crate::modal::{ModalField, POINTS, STATES, add_to};
 use crate::motion::Motion;
 use crate::source::{Passage, Tally, Weighed};

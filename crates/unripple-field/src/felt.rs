@@ -1,3 +1,5 @@
+//! Figures as felt: level, contrast and background in dB.
+
 use crate::Field;
 use crate::aim::Resolved;
 use crate::source::{Passage, Quantity, Tally};

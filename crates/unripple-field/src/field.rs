@@ -1,3 +1,5 @@
+//! What a drive does to a surface: velocity and displacement anywhere, at any time.
+
 use crate::modal::ModalField;
 use crate::sampled::SampledField;
 use crate::source::{Quantity, Source};

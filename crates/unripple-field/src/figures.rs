@@ -1,3 +1,5 @@
+//! The figures of a drive, as numbers with units.
+
 use crate::{Grid, Snapshot};
 use serde::Serialize;
 use unripple_core::Point;

@@ -1,3 +1,5 @@
+//! The grid of points that figures outside targets are taken on.
+
 use crate::FieldError;
 use unripple_core::{Conditions, Point, require};
 

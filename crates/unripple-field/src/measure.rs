@@ -1,3 +1,5 @@
+//! All figures of a drive at its aims.
+
 use crate::aim::{Resolved, last_period, segments};
 use crate::felt::{AllFelt, decibels, felt};
 use crate::figures::{DriveFigures, Maps, Measured, TakenOn, TargetFigures};

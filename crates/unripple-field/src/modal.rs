@@ -1,3 +1,5 @@
+//! The field of a modal system, read out in blocks.
+
 use crate::feeling::Feeling;
 use crate::motion::Motion;
 use crate::source::{Passage, Quantity, Source, Survey, Tally, Trace, Weighed};

@@ -1,3 +1,5 @@
+//! Modal coordinates under a drive, advanced exactly from sample to sample.
+
 use faer::{Accum, Mat, Par, linalg::matmul::matmul};
 use std::ops::Range;
 use unripple_core::{Drive, ModalResponses};

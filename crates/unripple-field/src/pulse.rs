@@ -1,3 +1,5 @@
+//! Width of a pulse in time, at half maximum.
+
 /// Full width at half maximum of a signal around the sample `centre`, in samples.
 ///
 /// From the centre outwards to the first crossing of half the value there, interpolated linearly between samples; `None`

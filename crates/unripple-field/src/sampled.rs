@@ -1,3 +1,5 @@
+//! The field at the points of a library, by convolution.
+
 use crate::source::{Passage, Quantity, Source, Survey, Tally, Trace, Weighed};
 use crate::{FieldError, spot};
 use rayon::prelude::*;

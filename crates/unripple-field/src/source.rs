@@ -1,3 +1,5 @@
+//! What a field is read from: modes or samples.
+
 use crate::FieldError;
 use std::ops::Range;
 use unripple_core::Point;

@@ -1,3 +1,5 @@
+//! Diameter of the focal spot.
+
 use std::f64::consts::PI;
 use unripple_core::{Outline, Point};
 

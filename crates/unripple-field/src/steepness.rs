@@ -1,3 +1,5 @@
+//! Slopes and curvature of the surface, by finite differences.
+
 use crate::{Maps, Snapshot};
 use serde::Serialize;
 

@@ -1,3 +1,5 @@
+//! How well a target follows the waveform it was asked for.
+
 use crate::{Field, FieldError, Trace};
 use serde::Serialize;
 use unripple_core::Point;

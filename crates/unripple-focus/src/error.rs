@@ -1,3 +1,5 @@
+//! Why no drive could be made.
+
 use unripple_core::{CoreError, OutOfRange, Point};
 use unripple_dsp::DspError;
 

@@ -1,3 +1,5 @@
+//! A plan that turns targets into drives by any method.
+
 use crate::planned::Planned;
 use crate::recording::{Recorder, Recording, energy, peak};
 use crate::schedule::{self, MOST_SAMPLES, Schedule};

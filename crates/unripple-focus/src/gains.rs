@@ -1,3 +1,5 @@
+//! Gains that bring every focus to its own level: a small linear system.
+
 use crate::FocusError;
 use crate::recording::Recording;
 use faer::{Mat, Side};

@@ -1,3 +1,5 @@
+//! Drives scaled to their peak and rms limits.
+
 use crate::recording::{energy, peak};
 
 /// Scales channels down as a whole to a largest magnitude and a largest rms per channel, and says by how much: 1 where neither

@@ -1,3 +1,5 @@
+//! The strongest focus within peak and rms limits: Newton's method on the dual problem.
+
 use crate::FocusError;
 use crate::objective::{Levels, read};
 use crate::state::State;

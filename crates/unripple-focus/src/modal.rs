@@ -1,3 +1,5 @@
+//! Recordings for time reversal, synthesised from modes.
+
 use crate::recording::energy;
 use crate::{FocusError, LossCorrection, Options};
 use faer::traits::ComplexField;

@@ -1,3 +1,5 @@
+//! The cost of a state: contrast against energy, with levels as constraints.
+
 use crate::FocusError;
 use crate::state::State;
 use faer::linalg::matmul::triangular::{self, BlockStructure};

@@ -1,3 +1,5 @@
+//! Methods of focusing, and their options.
+
 use crate::{FeltOptions, FocusError};
 use unripple_core::require;
 

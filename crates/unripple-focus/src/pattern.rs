@@ -1,3 +1,5 @@
+//! Shapes to be felt, sampled into points.
+
 use crate::FocusError;
 use std::f64::consts::PI;
 use unripple_core::{Point, require};

@@ -1,3 +1,5 @@
+//! Drives made from the state at the focal instant: inverse, concentrated, robust.
+
 use crate::limited::Limits;
 use crate::objective::{Levels, Objective};
 use crate::state::{Keeps, ModalPlant, Plant, ReducedPlant, SampledPlant, State};

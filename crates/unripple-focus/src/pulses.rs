@@ -1,3 +1,5 @@
+//! Focal pulses at places and instants, with levels.
+
 use crate::gains::gains;
 use crate::recording::{Recorder, Recording};
 use crate::settle::settle;

@@ -1,3 +1,5 @@
+//! Recorded velocity responses of a target, as time reversal plays them backwards.
+
 use crate::modal::ModalRecorder;
 use crate::{FocusError, LossCorrection, Options};
 use unripple_core::{Point, Responses, SampledResponses};

@@ -1,3 +1,5 @@
+//! When every target is in focus, and how long the drive is.
+
 use crate::FocusError;
 use unripple_core::require;
 

@@ -1,3 +1,5 @@
+//! How long a surface rings.
+
 use crate::schedule::MOST_SAMPLES;
 use unripple_core::{Pole, Responses};
 

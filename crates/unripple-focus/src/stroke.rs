@@ -1,3 +1,5 @@
+//! A focus that moves along a path at one level.
+
 use crate::{FocusError, Pattern, Pulse};
 use unripple_core::{Point, Responses, require};
 

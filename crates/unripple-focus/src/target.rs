@@ -1,3 +1,5 @@
+//! Where a focus is wanted: points and shapes, with gain and repetition rate.
+
 use crate::FocusError;
 use unripple_core::{Outline, Point, require};
 

@@ -1,3 +1,5 @@
+//! From touches to commands for the player: starts, moves and stops of effects.
+
 use crate::log::{Began, Log};
 use crate::pace::Pace;
 use crate::pulses::Ahead;

@@ -1,3 +1,5 @@
+//! A cache of drives by the place they focus on.
+
 use crate::{LiveError, Made, Maker, Percentiles};
 use std::collections::HashMap;
 use std::sync::Arc;

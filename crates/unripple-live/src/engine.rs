@@ -1,3 +1,5 @@
+//! A surface being played: sources of touches, effects, player and device joined.
+
 use crate::ears::Ears;
 use crate::pinging::Pinging;
 use crate::{

@@ -1,3 +1,5 @@
+//! Why a surface cannot be played live.
+
 use unripple_core::DeviceError;
 use unripple_devices::DevicesError;
 use unripple_field::FieldError;

@@ -1,3 +1,5 @@
+//! Tension followed while playing, from what is sent and what the actuators hear.
+
 use crate::{LiveError, Maker};
 use std::sync::Arc;
 use unripple_calibrate::{Drift, Tracker};

@@ -1,3 +1,5 @@
+//! The audio thread's loop: samples from the player to the device.
+
 use crate::beats::Beats;
 use crate::{Percentiles, Timeline};
 use std::sync::Arc;

@@ -1,3 +1,5 @@
+//! What a gain of 1 stands for: the largest drive that stays within linear theory.
+
 use crate::drives::pulse_felt;
 use crate::{Full, LiveError, Made, Maker};
 use std::fmt;

@@ -1,3 +1,5 @@
+//! Drives that began to sound, for whoever asks what was played.
+
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use unripple_player::{At, Command, Prepared, Report};

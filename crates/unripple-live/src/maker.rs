@@ -1,3 +1,5 @@
+//! Drives made on demand, from modes or from a library's responses.
+
 use crate::LiveError;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};

@@ -1,3 +1,5 @@
+//! How a surface is played live.
+
 use crate::{Full, LiveError};
 use unripple_core::{Emission, Surface};
 use unripple_focus::{Method, Options as FocusOptions};

@@ -1,3 +1,5 @@
+//! When test signals for following the tension are sent.
+
 use crate::Conductor;
 use std::sync::Arc;
 use unripple_player::Prepared;

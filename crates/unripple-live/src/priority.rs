@@ -1,3 +1,5 @@
+//! Real-time priorities of the threads, below the sound server's own.
+
 use thread_priority::{
     RealtimeThreadSchedulePolicy, ThreadPriority, ThreadPriorityValue, ThreadSchedulePolicy,
     set_thread_priority_and_policy, thread_native_id,

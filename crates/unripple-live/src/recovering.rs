@@ -1,3 +1,5 @@
+//! A device that is reopened when it is lost.
+
 use std::time::{Duration, Instant};
 use unripple_core::{Cycle, Device, DeviceError, Layout, Server, State, Status, Work};
 

@@ -1,3 +1,5 @@
+//! What goes on sounding under a voice: a repeated focus, or a waveform.
+
 use unripple_core::Point;
 use unripple_effects::{Level, Wave};
 use unripple_player::Hold;

@@ -1,3 +1,5 @@
+//! All of a live surface but the audio thread: touches, effects, what fingers feel.
+
 use crate::ears::News;
 use crate::pinging::Pinging;
 use crate::{Conductor, Follower, LiveError, Percentiles};

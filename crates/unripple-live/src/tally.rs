@@ -1,3 +1,5 @@
+//! Counts and latencies of a sitting.
+
 use crate::{LiveError, Percentiles};
 use unripple_player::{Report, Why};
 

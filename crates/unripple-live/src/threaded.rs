@@ -1,3 +1,5 @@
+//! A live surface on threads: who waits for what, and who wakes whom.
+
 use crate::ears::{Ears, News};
 use crate::heartbeat::Overheard;
 use crate::{Engine, Follower, Heartbeat, LiveError, Maker, Priorities, Stage, Timeline, priority};

@@ -1,3 +1,5 @@
+//! The focusing window of live play: short, for latency, against contrast.
+
 use unripple_core::Surface;
 use unripple_physics::design::{Recommended, Windows, milliseconds};
 

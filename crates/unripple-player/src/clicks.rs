@@ -1,3 +1,5 @@
+//! A test instrument that hears clicks: steps that no drive has by itself.
+
 use crate::Prepared;
 
 /// Hears steps of what was emitted that no drive has by itself.

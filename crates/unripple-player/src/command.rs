@@ -1,3 +1,5 @@
+//! Commands for the audio thread, and when they act.
+
 use crate::{Prepared, PreparedFilters};
 use std::sync::Arc;
 

@@ -1,3 +1,5 @@
+//! Drives that sound now, and their fades.
+
 use crate::events::Whose;
 use crate::shelf::Shelf;
 use crate::{Prepared, kernels};

@@ -1,3 +1,5 @@
+//! The control side of a player: sends commands, hears reports.
+
 use crate::hold::{Held, Hold};
 use crate::shelf::Garbage;
 use crate::standing::Standing;

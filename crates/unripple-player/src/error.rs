@@ -1,3 +1,5 @@
+//! What cannot be prepared or set up.
+
 use unripple_core::{OutOfRange, require};
 
 /// What cannot be prepared or set up.

@@ -1,3 +1,5 @@
+//! Drives in the player: repeating, sounding, committed.
+
 use crate::copies::{Fade, Sounding};
 use crate::kernels::Wide;
 use crate::ledger::Ledger;

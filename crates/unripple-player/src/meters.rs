@@ -1,3 +1,5 @@
+//! Counters of a player, readable from anywhere.
+
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering::Relaxed};
 
 /// What a player counts, to be read from anywhere at any time.

@@ -1,3 +1,5 @@
+//! What a player is made for: sizes that are allocated once.
+
 use crate::PlayerError;
 use crate::error::{count, same};
 use unripple_core::require;

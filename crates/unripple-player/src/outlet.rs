@@ -1,3 +1,5 @@
+//! What leaves the audio thread besides samples: reports, and memory to be freed.
+
 use crate::shelf::Garbage;
 use crate::{Count, Meters, Report, Voice, Which, Why};
 use rtrb::Producer;

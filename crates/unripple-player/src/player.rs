@@ -1,3 +1,5 @@
+//! The audio side of a player: commands into blocks of samples, in real time.
+
 use crate::copies::Fade;
 use crate::desk::Sent;
 use crate::events::{Events, Whose};

@@ -1,3 +1,5 @@
+//! Running rms of each actuator, kept below its limit.
+
 use crate::kernels;
 use crate::{Options, Which};
 use std::ops::Range;

@@ -1,3 +1,5 @@
+//! A drive made ready for the audio thread.
+
 use crate::PlayerError;
 use crate::error::{count, playable, same};
 use unripple_core::Drive;

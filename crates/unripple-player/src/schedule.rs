@@ -1,3 +1,5 @@
+//! A queue of commands by sample.
+
 use crate::desk::Sent;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

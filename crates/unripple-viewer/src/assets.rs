@@ -1,3 +1,5 @@
+//! The page's files, embedded in the program.
+
 use rust_embed::RustEmbed;
 
 /// The page and all that it is made of, within the program.

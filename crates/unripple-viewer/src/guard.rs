@@ -1,3 +1,5 @@
+//! Who may speak with the server: host, origin, token.
+
 use axum::http::{HeaderMap, Uri, header};
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, UdpSocket};
 

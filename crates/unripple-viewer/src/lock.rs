@@ -1,3 +1,5 @@
+//! A lock that survives a panic elsewhere.
+
 use std::sync::{Mutex, MutexGuard};
 
 /// Holds what a lock guards; what another thread left behind when it panicked can still be read.

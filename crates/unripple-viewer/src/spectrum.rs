@@ -1,3 +1,5 @@
+//! Spectrum of an act in bands.
+
 use serde_json::{Value, json};
 use unripple::act::Acted;
 use unripple::dsp::band_energies;

@@ -1,3 +1,5 @@
+//! Options of `unripple calibrate`, and of devices.
+
 use super::{DeviceName, WayName};
 use clap::Args;
 use std::path::PathBuf;

@@ -1,3 +1,5 @@
+//! Options of `unripple export`.
+
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 

@@ -1,3 +1,5 @@
+//! Options of `unripple fit`.
+
 use clap::Args;
 use std::path::PathBuf;
 

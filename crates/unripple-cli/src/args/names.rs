@@ -1,3 +1,5 @@
+//! Names of devices, methods and interpolations as they are typed.
+
 use clap::ValueEnum;
 
 /// Where drives go and what is heard comes from.

@@ -1,3 +1,5 @@
+//! Options of `unripple play`.
+
 use super::{DeviceOptions, MethodName};
 use clap::Args;
 use std::net::IpAddr;

@@ -1,3 +1,5 @@
+//! Options of `unripple view`.
+
 use super::{DeviceOptions, MethodName};
 use clap::Args;
 use std::net::IpAddr;

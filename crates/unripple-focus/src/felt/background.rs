@@ -1,3 +1,5 @@
+//! Quadratic form of what is felt outside the targets, in the drive's coefficients.
+
 use super::lines::Lines;
 use faer::{Accum, Mat, MatRef, Par, linalg::matmul::matmul};
 use realfft::num_complex::Complex;

@@ -1,3 +1,5 @@
+//! A non-negative quadratic programme by an active-set method.
+
 use faer::linalg::solvers::Llt;
 use faer::{Mat, Side};
 use unripple_linalg::solve_cholesky;

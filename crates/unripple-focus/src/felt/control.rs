@@ -1,3 +1,5 @@
+//! Control points where what is felt outside is bounded.
+
 use super::reduced::Reduced;
 use faer::Mat;
 use unripple_core::{Outline, Point};

@@ -1,3 +1,5 @@
+//! Frequency lines up to the top of what is felt.
+
 use realfft::num_complex::Complex;
 use realfft::{RealFftPlanner, RealToComplex};
 use std::sync::Arc;

@@ -1,3 +1,5 @@
+//! Weights of the felt-contrast method.
+
 use crate::FocusError;
 use unripple_core::require;
 use unripple_dsp::Threshold;

@@ -1,3 +1,5 @@
+//! Drives felt at the targets and least elsewhere: regularised least squares with bounds at control points.
+
 use super::FeltOptions;
 use super::background::Actuation;
 use super::control::{Control, Lattice};

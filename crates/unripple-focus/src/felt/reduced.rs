@@ -1,3 +1,5 @@
+//! A reduced model: low modes one by one, high ones as static flexibility.
+
 use super::lines::Lines;
 use faer::{Accum, Mat, Par, linalg::matmul::matmul};
 use realfft::num_complex::Complex;

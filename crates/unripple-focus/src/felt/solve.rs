@@ -1,3 +1,5 @@
+//! Least squares with levels held exactly and bounds at control points.
+
 use super::background::dot;
 use super::ceiling::multipliers;
 use super::control::Control;

@@ -1,3 +1,5 @@
+//! Drives as cubic B-splines.
+
 use faer::Mat;
 use std::ops::Range;
 

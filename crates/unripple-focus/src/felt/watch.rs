@@ -1,3 +1,5 @@
+//! Samples in space and time at which the felt background is bounded.
+
 use super::background::Actuation;
 use super::control::Control;
 use faer::{Accum, Mat, MatRef, Par, linalg::matmul::matmul};

@@ -1,3 +1,5 @@
+//! Modal states at the focal instant as a linear function of the drive.
+
 use crate::FocusError;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};

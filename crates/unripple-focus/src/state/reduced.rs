@@ -1,3 +1,5 @@
+//! The same for modes that share shapes, with as many coordinates as are independent.
+
 use super::modal::{lattice, ringing, steady};
 use crate::FocusError;
 use faer::linalg::matmul::matmul;

@@ -1,3 +1,5 @@
+//! Velocities of stored points at the focal instant as a linear function of the drive.
+
 use crate::FocusError;
 use crate::recording::{SampledRecorder, locate};
 use faer::{Mat, MatRef};

@@ -1,3 +1,5 @@
+//! Desired waveforms, band-limited, as spectra on the drive's clock.
+
 use super::Waveform;
 use super::plan::Plan;
 use unripple_dsp::Complex;

@@ -1,3 +1,5 @@
+//! Sizes and frequency lines of the waveform problem.
+
 use super::{PlayOptions, Waveform};
 use crate::FocusError;
 use crate::settle::settle;

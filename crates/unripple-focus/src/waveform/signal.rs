@@ -1,3 +1,5 @@
+//! Waveforms made here: tone bursts, and resampled recordings.
+
 use crate::FocusError;
 use std::f64::consts::{PI, TAU};
 use unripple_core::require;

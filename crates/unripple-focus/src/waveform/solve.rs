@@ -1,3 +1,5 @@
+//! Least-squares drives for waveforms: conjugate gradients on the dual (regularised crosstalk cancellation).
+
 use super::PlayOptions;
 use super::plan::Plan;
 use super::transfer::Transfer;

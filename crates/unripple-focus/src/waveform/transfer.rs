@@ -1,3 +1,5 @@
+//! Transfer functions from all actuators to all points, over the lines of the band.
+
 use super::Quantity;
 use super::plan::Plan;
 use crate::FocusError;

@@ -1,3 +1,5 @@
+//! The paper's film with eight actuators, for its experiments to be done again.
+
 use unripple::core::{Point, Responses, Surface};
 use unripple_tasks::TaskError;
 use unripple_tasks::judge;

@@ -1,3 +1,5 @@
+//! Contrast on outlines from regular to chaotic, against theory.
+
 use super::contrast::{Statistic, statistics};
 use super::section::row;
 use super::{Bed, Compared, Picture, Section};

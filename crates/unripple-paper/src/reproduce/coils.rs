@@ -1,3 +1,5 @@
+//! What moving-magnet coils do to the focus: added mass and damping.
+
 use super::section::{row, three};
 use super::{Bed, Compared, Section};
 use crate::study::{Coiled, Coils, Credibility, coils, credibility};

@@ -1,3 +1,5 @@
+//! Contrast against window, bandwidth, number of actuators and noise (the paper's tradeoffs).
+
 use super::section::row;
 use super::{Bed, Compared, Picture, Section};
 use crate::study::{self, Bench, CELLS, Sampling, StudyError, against_band, against_noise, against_window};

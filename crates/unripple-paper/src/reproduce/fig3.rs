@@ -1,3 +1,5 @@
+//! Figure 3: power against frequency for film and glass.
+
 use super::{Bed, Compared, Picture, Section};
 use serde_json::json;
 use std::f64::consts::TAU;

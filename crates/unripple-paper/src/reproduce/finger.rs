@@ -1,3 +1,5 @@
+//! Section 4.3: what a finger does to the focus and the background.
+
 use super::section::row;
 use super::{Bed, Compared, Picture, Section};
 use crate::study::{Touched, finger};

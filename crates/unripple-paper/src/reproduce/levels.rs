@@ -1,3 +1,5 @@
+//! Section 4: displacement and electric power of the focus.
+
 use super::section::{row, three};
 use super::{Bed, Compared, Picture, Section};
 use serde::Serialize;

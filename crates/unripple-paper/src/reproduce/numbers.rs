@@ -1,3 +1,5 @@
+//! Numbers of the paper's text beside ours: first mode, wavelength, celerity.
+
 use super::section::row;
 use super::{Bed, Compared, Section};
 use serde_json::json;

@@ -1,3 +1,5 @@
+//! The page of `reproduce`, as Markdown and HTML.
+
 use super::{Compared, Picture, Section};
 use std::fmt::Write;
 

@@ -1,3 +1,5 @@
+//! Contrast of a repeated focus against its period.
+
 use super::contrast::{Statistic, curve, departure, of, series, statistics};
 use super::{Bed, Compared, Picture, Section};
 use crate::study::{self, Bench, CELLS, Sampling, against_period};

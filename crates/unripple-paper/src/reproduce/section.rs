@@ -1,3 +1,5 @@
+//! One section of the page: the paper's figures or table beside ours.
+
 use unripple_plot::Figure;
 
 /// One part of the page: a figure or table of the paper beside ours.

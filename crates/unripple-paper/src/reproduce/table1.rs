@@ -1,3 +1,5 @@
+//! Table 1: power to move a fingertip by 10 µm through glass and film.
+
 use super::section::{row, three};
 use super::{Bed, Compared, Section};
 use std::f64::consts::TAU;

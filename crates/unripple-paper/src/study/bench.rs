@@ -1,3 +1,5 @@
+//! Modes and responses for studies of contrast.
+
 use super::Replay;
 use super::replay::{product, rings};
 use faer::{Mat, MatRef};

@@ -1,3 +1,5 @@
+//! Outlines of one area, from the most to the least symmetric.
+
 use std::f64::consts::PI;
 use unripple_core::{Outline, Point, Shape};
 

@@ -1,3 +1,5 @@
+//! Simulated contrast beside the closed forms, one parameter varied at a time.
+
 use super::{Bench, Draw, Random, Replay, Sampling, StudyError};
 use faer::{Mat, MatRef};
 use rayon::prelude::*;

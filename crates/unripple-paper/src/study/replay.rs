@@ -1,3 +1,5 @@
+//! Time reversal mode by mode: the matrix of residual amplitudes at the focal instant.
+
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par, c64};
 use unripple_core::{Pole, window_samples};

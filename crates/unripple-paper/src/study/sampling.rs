@@ -1,3 +1,5 @@
+//! Random placements of actuators and targets, from a seed.
+
 use super::Random;
 use unripple_core::{Outline, Point};
 

@@ -1,3 +1,5 @@
+//! Size of the focal spot beside the closed forms.
+
 use super::contrast::{mean, over};
 use super::{Bench, Sampling};
 use faer::{ColRef, Mat, MatRef};

@@ -1,3 +1,5 @@
+//! Impulse responses partitioned and transformed for the convolver.
+
 use super::resample::LowPass;
 use crate::PlayerError;
 use crate::error::{playable, same};

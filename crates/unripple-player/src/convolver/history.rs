@@ -1,3 +1,5 @@
+//! Spectra of the last blocks of one input, and cross-fades between filters.
+
 use super::filters::LANES;
 use crate::PreparedFilters;
 use crate::shelf::{Garbage, Shelf};

@@ -1,3 +1,5 @@
+//! Complex multiply-accumulate over inputs and partitions, in SIMD lanes.
+
 use super::Input;
 use super::filters::{LANES, OUTPUTS};
 use pulp::{Simd, WithSimd};

@@ -1,3 +1,5 @@
+//! Low-pass filters for convolution at a lower rate.
+
 use std::f64::consts::PI;
 use unripple_dsp::{bessel_i0, sinc};
 

@@ -1,3 +1,5 @@
+//! The figure of a drive: one lane per actuator.
+
 use unripple::core::Drive;
 use unripple_plot::{Axis, Figure, Trace, Traces, prefixed};
 

@@ -1,3 +1,5 @@
+//! Maps of the surface with its rim, actuators and targets.
+
 use unripple::core::{Point, Surface};
 use unripple::field::{self, Maps, Measured};
 use unripple_plot::{ColourMap, Colours, Figure, Grid, Map, Marker, Ring, Symbol, prefixed};

@@ -1,3 +1,5 @@
+//! The animated field, as APNG.
+
 use super::Scene;
 use super::maps::{drawn, scale};
 use crate::TaskError;

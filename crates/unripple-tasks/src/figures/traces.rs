@@ -1,3 +1,5 @@
+//! Velocity and displacement at the targets against time.
+
 use unripple::field::{TargetFigures, Trace};
 use unripple_plot::{Axis, Figure, Ink, Rule, Traces, prefixed};
 

@@ -1,3 +1,5 @@
+//! A surface with an edit applied.
+
 use super::places;
 use crate::wire::Edit;
 use unripple::core::{Decay, Edge, Edges, Material, Outline, Point, Shape, Surface};

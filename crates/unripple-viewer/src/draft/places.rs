@@ -1,3 +1,5 @@
+//! Places for actuators that are added: farthest from the others along the rim.
+
 use unripple::core::{Actuator, ActuatorKind, Outline, Point, Surface};
 
 /// Places along the rim that are looked at, and how far inside they lie, as shares of the way to the middle.

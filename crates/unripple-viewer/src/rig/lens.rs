@@ -1,3 +1,5 @@
+//! Modal states to the picture's cells: one matrix product.
+
 use unripple::core::{Outline, Point};
 use unripple::physics::stepper::Plant;
 

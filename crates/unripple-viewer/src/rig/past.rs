@@ -1,3 +1,5 @@
+//! Past states of the surface, as displacement or velocity.
+
 use super::lens::product;
 use unripple::core::Surface;
 use unripple::physics::stepper::History;

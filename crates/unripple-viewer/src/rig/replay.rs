@@ -1,3 +1,5 @@
+//! Two recorded acts shown side by side.
+
 use super::lens::{Lens, weights};
 use super::past::{Past, stride};
 use super::transport::Transport;

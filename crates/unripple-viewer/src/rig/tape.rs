@@ -1,3 +1,5 @@
+//! The drive of the last second.
+
 /// What was driven lately: every sample of every actuator, as a share of its limit.
 #[derive(Clone, Debug)]
 pub struct Tape {

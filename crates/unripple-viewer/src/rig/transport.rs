@@ -1,3 +1,5 @@
+//! How time passes: speed, pause, scrubbing.
+
 use crate::wire::Transport as Asked;
 
 /// From this many seconds of the surface in a second of the page on, a picture shows the strongest instant since the last.

@@ -1,3 +1,5 @@
+//! What plays the surface: here, or a device elsewhere that is mirrored.
+
 use crate::ViewError;
 use crate::lock::lock;
 use rtrb::{Consumer, Producer, RingBuffer};

@@ -1,3 +1,5 @@
+//! What pages may ask for, as JSON.
+
 use serde::{Deserialize, Deserializer};
 
 /// Bytes of the longest message that is read.

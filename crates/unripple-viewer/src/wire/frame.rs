@@ -1,3 +1,5 @@
+//! A picture as bytes: a JSON head, then 16-bit cells and traces.
+
 use serde::Serialize;
 
 /// Largest count of a cell or sample.

@@ -1,3 +1,5 @@
+//! What a drive is made for: fingers that are there, and plants that it must bear.
+
 use super::{ActError, Note, model};
 use crate::core::{Contact, Drive, Responses, Surface};
 use crate::field::Field;

@@ -1,3 +1,5 @@
+//! Why an act of focusing could not be carried out or judged.
+
 use crate::field::FieldError;
 use crate::focus::FocusError;
 use crate::physics::PhysicsError;

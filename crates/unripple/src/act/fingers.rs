@@ -1,3 +1,5 @@
+//! What fingers feel of a drive, and what they do to the waves.
+
 use super::ActError;
 use crate::core::{Contact, Drive, Responses, Surface};
 use crate::field::Field;

@@ -1,3 +1,5 @@
+//! What a drive does to a surface: figures, traces, maps.
+
 use super::ActError;
 use super::note::{self, Note};
 use crate::core::{Point, Surface};

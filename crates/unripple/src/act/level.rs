@@ -1,3 +1,5 @@
+//! How strong a drive is to be: by linear theory, by limit, by peak, as felt.
+
 use super::error::{ActError, LevelKind};
 use super::judge::{CELLS, known, linear};
 use super::send::Aimed;

@@ -1,3 +1,5 @@
+//! The model's responses of a surface, fingers on it included.
+
 use super::ActError;
 use crate::core::{Contact, Responses, Shape, Surface};
 use crate::physics::{ResponseOptions, responses};

@@ -1,3 +1,5 @@
+//! Notes: what a reader of the figures must know.
+
 use super::level::Beyond;
 use super::{Act, ActError};
 use crate::core::{Drive, Surface};

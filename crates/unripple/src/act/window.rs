@@ -1,3 +1,5 @@
+//! The focusing window that is taken where none is asked for.
+
 use crate::core::{Responses, Surface};
 use crate::physics::design::{Recommended, Windows};
 

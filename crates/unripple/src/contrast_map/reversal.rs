@@ -1,3 +1,5 @@
+//! Time reversal to every place at once, in modal coordinates.
+
 use crate::core::{ModalResponses, Pole};
 use faer::Mat;
 use rayon::prelude::*;

@@ -1,3 +1,5 @@
+//! Figures of a surface as an edit changes them.
+
 use crate::physics::design::Design;
 use serde::Serialize;
 

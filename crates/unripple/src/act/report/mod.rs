@@ -1,3 +1,5 @@
+//! The report of a drive on a surface, in SI units.
+
 mod played;
 mod text;
 mod unscaled;

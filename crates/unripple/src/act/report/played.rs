@@ -1,3 +1,5 @@
+//! The report of waveforms and strokes.
+
 use crate::field::{SilenceFigures, WaveformFigures};
 use serde::Serialize;
 

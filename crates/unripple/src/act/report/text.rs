@@ -1,3 +1,5 @@
+//! Reports as text and as Markdown.
+
 use super::{Report, played};
 use crate::Touch;
 use crate::act::Felt;
