@@ -3,6 +3,7 @@
 mod circles;
 mod docs;
 mod floors;
+mod openings;
 mod sizes;
 mod words;
 
@@ -33,6 +34,7 @@ fn main() -> ExitCode {
 /// Every breach of the house rules, one line each.
 fn tidy(root: &Path) -> Vec<String> {
     let mut faults = floors::check(root);
+    faults.extend(openings::check(root));
     faults.extend(sizes::check(root));
     faults.extend(words::check(root));
     faults
