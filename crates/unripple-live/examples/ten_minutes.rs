@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::time::Instant;
 use unripple_devices::{Virtual, VirtualOptions};
 use unripple_effects::{Curve, Effect, EffectSet, Hum, Kind, Level, Region, Texture, Tone};
-use unripple_live::{Engine, LiveOptions, Maker, Percentiles, Window};
+use unripple_live::{Engine, FocusWorker, LiveOptions, Percentiles, Window};
 use unripple_physics::design::papers_surface;
 use unripple_physics::{ResponseOptions, responses};
 use unripple_player::Count;
@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let ten = SyntheticOptions { fingers: 10, ..SyntheticOptions::default() };
     sources.push(Box::new(Synthetic::new(&film.outline, ten)?));
     let options = LiveOptions::new(&film, window.seconds);
-    let maker = Maker::new(known, &options.focus)?;
+    let maker = FocusWorker::new(known, &options.focus)?;
     let mut engine = Engine::new(&film, maker, &effects(), sources, Box::new(device), &options)?;
     println!("{window}");
 

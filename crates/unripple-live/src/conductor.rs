@@ -5,7 +5,7 @@ use crate::pace::Pace;
 use crate::pulses::Ahead;
 use crate::sounding::{Inputs, Kept, Sounding};
 use crate::waiting::Waiting;
-use crate::{Drives, LiveError, Maker, Tally, Timeline, Timing};
+use crate::{DriveCache, FocusWorker, LiveError, PlayStats, Timeline, Timing};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -48,7 +48,7 @@ const PING: u64 = u64::MAX;
 /// - This side is gone: the player fades out by itself. [`Conductor::end`] asks it to.
 pub struct Conductor {
     effects: Effects,
-    pub(crate) drives: Drives,
+    pub(crate) drives: DriveCache,
     pub(crate) desk: Desk,
     pub(crate) rate: f64,
     /// Samples from the beginning of a drive to its focus.
@@ -69,7 +69,7 @@ pub struct Conductor {
     /// When the touch came that a start answers, in samples, by its name.
     asked: BTreeMap<u64, u64>,
     cues: Vec<Cue>,
-    pub(crate) tally: Tally,
+    pub(crate) tally: PlayStats,
     pace: Pace,
     /// Whether the player stands still.
     pub(crate) stands: bool,
@@ -92,7 +92,7 @@ impl std::fmt::Debug for Conductor {
 
 impl Conductor {
     /// Effects played through a desk, whose player has so many inputs for waveforms.
-    pub fn new(effects: Effects, drives: Drives, desk: Desk, time: Timing, inputs: usize) -> Self {
+    pub fn new(effects: Effects, drives: DriveCache, desk: Desk, time: Timing, inputs: usize) -> Self {
         let Timing { rate, window, .. } = time;
         Self {
             effects,
@@ -111,7 +111,7 @@ impl Conductor {
             trim: 1.0,
             asked: BTreeMap::new(),
             cues: Vec::new(),
-            tally: Tally::default(),
+            tally: PlayStats::default(),
             pace: Pace::new(rate),
             stands: false,
             told: None,
@@ -123,8 +123,8 @@ impl Conductor {
     }
 
     /// Lets drives be made with real-time priority, where the system grants it.
-    pub fn hurry(&mut self, priority: Option<u8>) {
-        self.drives.hurry(priority);
+    pub fn request_realtime(&mut self, priority: Option<u8>) {
+        self.drives.request_realtime(priority);
     }
 
     /// Counts latency by when samples leave, from now on.
@@ -169,7 +169,7 @@ impl Conductor {
     }
 
     /// What was played and what was not.
-    pub fn tally(&self) -> &Tally {
+    pub fn tally(&self) -> &PlayStats {
         &self.tally
     }
 
@@ -179,7 +179,7 @@ impl Conductor {
     }
 
     /// Drives made so far, and those remembered.
-    pub fn drives(&self) -> &Drives {
+    pub fn drives(&self) -> &DriveCache {
         &self.drives
     }
 
@@ -217,7 +217,7 @@ impl Conductor {
         while let Some(entry) = self.waiting.first_entry().filter(|entry| entry.key().0 < until) {
             let ((sample, _), Waiting { cue, asked }) = entry.remove_entry();
             let played = self.play(&cue, asked, sample, now);
-            self.tally.cues += u64::from(self.tally.went(played)?);
+            self.tally.cues += u64::from(self.tally.record(played)?);
             if self.is_long(began) {
                 break;
             }
@@ -244,7 +244,7 @@ impl Conductor {
     ///
     /// # Errors
     /// [`LiveError::Gone`] if no drive can be made any more.
-    pub fn renew(&mut self, maker: Maker, now: u64) -> Result<(), LiveError> {
+    pub fn renew(&mut self, maker: FocusWorker, now: u64) -> Result<(), LiveError> {
         self.drives.replace(maker);
         self.sounding.values_mut().for_each(|kept| kept.told = false);
         if !self.tell_again(At::Sample(now), Instant::now())? {

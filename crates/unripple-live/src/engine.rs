@@ -3,8 +3,8 @@
 use crate::ears::Ears;
 use crate::pinging::Pinging;
 use crate::{
-    Conductor, Drives, Follower, Heartbeat, Listener, LiveError, LiveOptions, Maker, Percentiles, Stage,
-    Timing,
+    Conductor, DriveCache, FocusWorker, Follower, Heartbeat, Listener, LiveError, LiveOptions, Percentiles,
+    Stage, Timing,
 };
 use std::sync::Arc;
 use unripple_calibrate::Ping;
@@ -41,7 +41,7 @@ impl Engine {
     /// [`LiveError::Player`] for options that cannot be; [`LiveError::Effects`].
     pub fn new(
         surface: &Surface,
-        maker: Maker,
+        maker: FocusWorker,
         set: &EffectSet,
         sources: Sources,
         device: Box<dyn Device>,
@@ -51,7 +51,7 @@ impl Engine {
         fits(surface, &layout)?;
         let rate = surface.emission.rate;
         let effects = Effects::new(set, surface.outline.clone(), rate)?;
-        let drives = Drives::new(maker, options.focus.limit, options.full);
+        let drives = DriveCache::new(maker, options.focus.limit, options.full);
         let block = match device.status().server {
             Some(_) => layout.block.clamp(SHORTEST_BLOCK, LONGEST_BLOCK),
             None => layout.block,

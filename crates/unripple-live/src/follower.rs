@@ -1,6 +1,6 @@
 //! Tension followed while playing, from what is sent and what the actuators hear.
 
-use crate::{LiveError, Maker};
+use crate::{FocusWorker, LiveError};
 use std::sync::Arc;
 use unripple_calibrate::{Drift, Tracker};
 use unripple_core::Responses;
@@ -89,8 +89,8 @@ impl Follower {
     /// Once a period is full: what it says of tension, and a maker for the surface as it is now, if that has changed.
     ///
     /// # Errors
-    /// Those of [`Tracker::observe`] and [`Maker::new`].
-    pub fn observe(&mut self) -> Result<Option<Maker>, LiveError> {
+    /// Those of [`Tracker::observe`] and [`FocusWorker::new`].
+    pub fn observe(&mut self) -> Result<Option<FocusWorker>, LiveError> {
         if self.heard.iter().map(Vec::len).min().unwrap_or(0) < self.period {
             return Ok(None);
         }
@@ -117,6 +117,6 @@ impl Follower {
         }
         self.made_for = tension;
         let responses = Responses::Modal(self.tracker.responses(ahead));
-        Ok(Some(Maker::new(Arc::new(responses), &self.options)?))
+        Ok(Some(FocusWorker::new(Arc::new(responses), &self.options)?))
     }
 }

@@ -1,7 +1,7 @@
 //! What a gain of 1 stands for: the largest drive that stays within linear theory.
 
-use crate::drives::pulse_felt;
-use crate::{Full, LiveError, Made, Maker};
+use crate::drive_cache::pulse_felt;
+use crate::{FocusDrive, FocusWorker, Full, LiveError};
 use std::fmt;
 use unripple_core::{Point, Surface};
 use unripple_physics::design::{LinearLevel, linearity};
@@ -26,8 +26,8 @@ impl Level {
     /// is less, or if `limited` asks for it.
     ///
     /// # Errors
-    /// Those of [`Maker::focus`] and [`Maker::reach`].
-    pub fn of(surface: &Surface, maker: &Maker, limited: bool) -> Result<Self, LiveError> {
+    /// Those of [`FocusWorker::focus`] and [`FocusWorker::reach`].
+    pub fn of(surface: &Surface, maker: &FocusWorker, limited: bool) -> Result<Self, LiveError> {
         let limit = surface.emission.limit;
         let (width, height) = surface.outline.extent();
         let place = surface.outline.nearest(Point::new(0.41 * width, 0.6 * height));
@@ -46,12 +46,12 @@ impl Level {
     ///
     /// # Errors
     /// Those of [`Level::of`].
-    pub fn without_scale(surface: &Surface, maker: &Maker) -> Result<Self, LiveError> {
+    pub fn without_scale(surface: &Surface, maker: &FocusWorker) -> Result<Self, LiveError> {
         Ok(Self { scaled: false, ..Self::of(surface, maker, true)? })
     }
 
     /// The share of a drive at the limit that linear theory allows; `None` where that is not known.
-    fn linear(surface: &Surface, maker: &Maker, made: &Made) -> Result<Option<f64>, LiveError> {
+    fn linear(surface: &Surface, maker: &FocusWorker, made: &FocusDrive) -> Result<Option<f64>, LiveError> {
         let reach = maker.reach(made)?;
         let steep = reach.steepness.unwrap_or_default();
         let (slope, square) = (steep.slope, steep.mean_square_slope);

@@ -1,6 +1,6 @@
 //! Tests of what is done while drives take long to make: the player goes on meanwhile, and fingers leave.
 
-use crate::{Conductor, Drives, LiveOptions, Maker, Timeline, Timing};
+use crate::{Conductor, DriveCache, FocusWorker, LiveOptions, Timeline, Timing};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use unripple_core::{Phase, Point, Touch};
@@ -34,7 +34,7 @@ impl Slow {
         let (plays, mut meanwhile) = (player.clone(), vec![0.0; outputs * BLOCK]);
         let known = Arc::new(responses(&film, &ResponseOptions::default()).unwrap());
         let meanwhile = Mutex::new(std::mem::take(&mut meanwhile));
-        let maker = Maker::planned(known, &options.focus, move || {
+        let maker = FocusWorker::planned(known, &options.focus, move || {
             let (mut player, mut drive) = (plays.lock().unwrap(), meanwhile.lock().unwrap());
             (0..MAKING).for_each(|_| player.process(&mut drive));
             std::thread::sleep(takes);
@@ -43,7 +43,7 @@ impl Slow {
             Effect { name: "it".into(), region: Region::Everywhere, level: Level::Share(0.01), kind };
         let set = EffectSet { name: "one".into(), about: String::new(), effects: vec![effect] };
         let effects = Effects::new(&set, film.outline.clone(), RATE).unwrap();
-        let drives = Drives::new(maker.unwrap(), options.focus.limit, None);
+        let drives = DriveCache::new(maker.unwrap(), options.focus.limit, None);
         let time = Timing { rate: RATE, window: 0.02, block: BLOCK };
         let mut conductor = Conductor::new(effects, drives, desk, time, 0);
         conductor.keep_log();

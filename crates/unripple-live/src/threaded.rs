@@ -2,7 +2,7 @@
 
 use crate::ears::{Ears, News};
 use crate::heartbeat::Overheard;
-use crate::{Engine, Follower, Heartbeat, LiveError, Maker, Priorities, Stage, Timeline, priority};
+use crate::{Engine, FocusWorker, Follower, Heartbeat, LiveError, Priorities, Stage, Timeline, priority};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::TryRecvError;
@@ -110,7 +110,7 @@ impl Engine {
         let ((failed, failures), (found, finds), (told, news)) =
             (mpsc::channel(), mpsc::channel(), mpsc::channel());
         let mail = Mail { news, failures, finds };
-        stage.conductor.hurry(priorities.beside);
+        stage.conductor.request_realtime(priorities.beside);
         stage.conductor.count_by(timeline.clone());
         let (lent, overheard) = heart.lend(shared.bell.clone(), overheard);
         let scope = || {
@@ -162,7 +162,7 @@ struct Fetched {
 }
 
 /// What following found: how tension fares, and a maker for the surface as it is, if that has changed.
-type Found = Result<(Drift, Option<Maker>), LiveError>;
+type Found = Result<(Drift, Option<FocusWorker>), LiveError>;
 
 /// The thread that follows tension: what it computes is too long for the one that hears touches.
 fn follow(follower: &mut Follower, mut heard: Fetched, shared: &Shared, found: &mpsc::Sender<Found>) {

@@ -75,7 +75,7 @@ impl Conductor {
         let untold = self.sounding.iter().filter(|(_, kept)| !kept.told).map(|(voice, _)| *voice);
         for voice in untold.collect::<Vec<u64>>() {
             let told = self.change(voice, |sounding| sounding, at);
-            if !self.tally.went(told)?
+            if !self.tally.record(told)?
                 && let Some(kept) = self.sounding.get_mut(&voice)
             {
                 // It would fail each time.

@@ -8,7 +8,7 @@ use unripple_calibrate::{Ping, PingOptions, Tracker, Tracking};
 use unripple_core::{Phase, Responses};
 use unripple_devices::{Feeler, Virtual, VirtualOptions};
 use unripple_effects::{Button, Kind, Level};
-use unripple_live::{Engine, Follower, LiveOptions, Maker};
+use unripple_live::{Engine, FocusWorker, Follower, LiveOptions};
 use unripple_physics::Modes;
 use unripple_physics::stepper::Mishaps;
 
@@ -55,7 +55,7 @@ fn peaks(tension: f64, known: Known) -> Vec<f64> {
     };
     // As strong as is felt well, so that a ping is not lost in what is left of it.
     let soft = one(Kind::Button(Button { press_force: None, release: 0.5 }), Level::Share(0.004));
-    let maker = Maker::new(responses, &options.focus).unwrap();
+    let maker = FocusWorker::new(responses, &options.focus).unwrap();
     let mut engine =
         Engine::new(&FILM, maker, &soft, sources(vec![Box::new(script)]), Box::new(device), &options)
             .unwrap();

@@ -9,7 +9,7 @@ use unripple_effects::{
     Curve, Effect, EffectSet, Envelope, Event, Hum, Kind, Level, Region, Score, Sound, Start, Texture, Tone,
     Train,
 };
-use unripple_live::{Engine, LiveOptions, Maker};
+use unripple_live::{Engine, FocusWorker, LiveOptions};
 use unripple_player::Clicks;
 use unripple_touch::{Counts, Heard, Source};
 
@@ -153,7 +153,7 @@ fn sitting(seed: u64, watch: &mut Watch) -> (u64, u64) {
     let set = loud(&mut random, !pulses_alone);
     let hostile = Hostile { random, next: 0.0 };
     let options = LiveOptions { rms_seconds: OVER, ..LiveOptions::new(&film, WINDOW) };
-    let maker = Maker::new(KNOWN.clone(), &options.focus).unwrap();
+    let maker = FocusWorker::new(KNOWN.clone(), &options.focus).unwrap();
     let sources = sources(vec![Box::new(hostile)]);
     let mut engine = Engine::new(&film, maker, &set, sources, Box::new(Nowhere(layout)), &options).unwrap();
     let mut clicks = Clicks::new(film.actuators.len(), BLOCK);

@@ -5,7 +5,7 @@ use std::sync::{Arc, LazyLock};
 use unripple_core::{Device, Phase, Point, Responses, Surface, Touch};
 use unripple_devices::{Feeler, Virtual, VirtualOptions};
 use unripple_effects::{Button, Effect, EffectSet, Kind, Level, Region};
-use unripple_live::{Engine, LiveOptions, Maker};
+use unripple_live::{Engine, FocusWorker, LiveOptions};
 use unripple_physics::design::papers_surface;
 use unripple_physics::{ResponseOptions, StepperOptions, responses};
 use unripple_touch::{Counts, Heard, Source, Sources};
@@ -85,7 +85,7 @@ pub fn engine(set: &EffectSet, sources: Sources) -> Engine {
 
 pub fn with_device(set: &EffectSet, sources: Sources, device: Box<dyn Device>) -> Engine {
     let options = LiveOptions::new(&FILM, WINDOW);
-    let maker = Maker::new(KNOWN.clone(), &options.focus).unwrap();
+    let maker = FocusWorker::new(KNOWN.clone(), &options.focus).unwrap();
     Engine::new(&FILM, maker, set, sources, device, &options).unwrap()
 }
 

@@ -7,7 +7,7 @@ use unripple_effects::{
     Curve, Effect, EffectSet, Effects, Envelope, Event, Hum, Kind, Level, Region, Score, Sound, Start,
     Texture, Tone, Train,
 };
-use unripple_live::{Conductor, Drives, LiveOptions, Maker, Timing};
+use unripple_live::{Conductor, DriveCache, FocusWorker, LiveOptions, Timing};
 use unripple_player::{Limit, Options, Player, WaveOptions, player};
 use unripple_touch::Heard;
 
@@ -38,11 +38,11 @@ pub fn options() -> Options {
 impl Rig {
     pub fn new(set: &EffectSet, options: &Options) -> Self {
         let live = LiveOptions::new(&FILM, WINDOW);
-        let maker = Maker::new(KNOWN.clone(), &live.focus).unwrap();
+        let maker = FocusWorker::new(KNOWN.clone(), &live.focus).unwrap();
         let (player, desk) = player(options).unwrap();
         let effects = Effects::new(set, FILM.outline.clone(), RATE).unwrap();
         let time = Timing { rate: RATE, window: WINDOW, block: options.block };
-        let drives = Drives::new(maker, live.focus.limit, None);
+        let drives = DriveCache::new(maker, live.focus.limit, None);
         let inputs = options.waves.map_or(0, |waves| waves.inputs);
         let conductor = Conductor::new(effects, drives, desk, time, inputs);
         let drive = vec![0.0; options.outputs * options.block];

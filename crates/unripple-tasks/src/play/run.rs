@@ -12,7 +12,7 @@ use unripple::act::lasting;
 use unripple::core::{Drive, Responses, Surface};
 use unripple::physics::Medium;
 use unripple_calibrate::{Ping, PingOptions};
-use unripple_live::{Engine, Follower, Level, LiveOptions, Maker, Pulse, Stage, Window};
+use unripple_live::{Engine, FocusWorker, Follower, Level, LiveOptions, Pulse, Stage, Window};
 use unripple_store::{load_effects, write_kept_wav};
 
 /// Most of a drive that is kept, in s.
@@ -80,13 +80,17 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
 }
 
 /// What makes drives: of a library, at places between its points.
-fn maker(surface: &Surface, responses: &Arc<Responses>, settings: &LiveOptions) -> Result<Maker, TaskError> {
+fn maker(
+    surface: &Surface,
+    responses: &Arc<Responses>,
+    settings: &LiveOptions,
+) -> Result<FocusWorker, TaskError> {
     match responses.as_ref() {
         Responses::Sampled(stored) if settings.focus.method.reverses() => {
             let medium = Medium::of(&surface.sheet).with_air(surface.sheet.air);
-            Ok(Maker::between(Arc::new(stored.clone()), medium, &settings.focus)?)
+            Ok(FocusWorker::between(Arc::new(stored.clone()), medium, &settings.focus)?)
         }
-        _ => Ok(Maker::new(responses.clone(), &settings.focus)?),
+        _ => Ok(FocusWorker::new(responses.clone(), &settings.focus)?),
     }
 }
 

@@ -15,7 +15,7 @@ use unripple::physics::{Medium, Modes, ResponseOptions, responses};
 use unripple_calibrate::Ping;
 use unripple_devices::{Feeler, Handle, Virtual, VirtualOptions};
 use unripple_effects::EffectSet;
-use unripple_live::{Engine, Follower, Level, LiveOptions, Maker, Window};
+use unripple_live::{Engine, FocusWorker, Follower, Level, LiveOptions, Window};
 use unripple_store::{builtin_effect, builtin_effects, parse_effects};
 use unripple_tasks::play::Opener;
 use unripple_touch::Sources;
@@ -156,19 +156,19 @@ impl Instrument {
 }
 
 /// What makes drives: of a library, at places between its points.
-fn maker(spec: &Spec, accuracy: f64, options: &LiveOptions) -> Result<Maker, ViewError> {
+fn maker(spec: &Spec, accuracy: f64, options: &LiveOptions) -> Result<FocusWorker, ViewError> {
     let surface = &spec.surface;
     match &spec.stored {
         Some(stored) if spec.method.reverses() => {
             let medium = Medium::of(&surface.sheet).with_air(surface.sheet.air);
-            Ok(Maker::between(stored.clone(), medium, &options.focus)?)
+            Ok(FocusWorker::between(stored.clone(), medium, &options.focus)?)
         }
         Some(stored) => {
-            Ok(Maker::new(Arc::new(Responses::Sampled(stored.as_ref().clone())), &options.focus)?)
+            Ok(FocusWorker::new(Arc::new(Responses::Sampled(stored.as_ref().clone())), &options.focus)?)
         }
         None => {
             let options_of = ResponseOptions { accuracy, ..ResponseOptions::default() };
-            Ok(Maker::new(Arc::new(responses(surface, &options_of)?), &options.focus)?)
+            Ok(FocusWorker::new(Arc::new(responses(surface, &options_of)?), &options.focus)?)
         }
     }
 }

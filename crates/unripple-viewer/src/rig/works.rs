@@ -9,7 +9,7 @@ use std::thread::JoinHandle;
 use unripple::core::{Device, DeviceError, Layout, Point, State, Status};
 use unripple_calibrate::Drift;
 use unripple_devices::{Feeling, Virtual};
-use unripple_live::{Engine, LiveError, Stage, Tally};
+use unripple_live::{Engine, LiveError, PlayStats, Stage};
 
 /// Blocks of drive that may wait between the audio thread and the picture.
 const WAITING: usize = 512;
@@ -30,7 +30,7 @@ pub struct Known {
     /// What they felt since the last look.
     pub feelings: Vec<Feeling>,
     /// What was played and what was not.
-    pub tally: Tally,
+    pub tally: PlayStats,
     /// How tension fares, where it is followed.
     pub drift: Option<Drift>,
     /// What is wrong; nothing while all runs.

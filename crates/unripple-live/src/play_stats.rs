@@ -5,7 +5,7 @@ use unripple_player::{Report, Why};
 
 /// What was played, what was not, and how late.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Tally {
+pub struct PlayStats {
     /// Cues played.
     pub cues: u64,
     /// Cues dropped because too many waited.
@@ -40,7 +40,7 @@ pub struct Tally {
     pub focus: Percentiles,
 }
 
-impl Tally {
+impl PlayStats {
     /// One that failed.
     pub(crate) fn fail(&mut self, error: &dyn std::error::Error) {
         self.failed += 1;
@@ -48,7 +48,7 @@ impl Tally {
     }
 
     /// Whether something went well; what failed is counted, unless no drive can be made any more.
-    pub(crate) fn went(&mut self, result: Result<(), LiveError>) -> Result<bool, LiveError> {
+    pub(crate) fn record(&mut self, result: Result<(), LiveError>) -> Result<bool, LiveError> {
         match result {
             Err(error @ LiveError::Gone { .. }) => return Err(error),
             Err(error) => self.fail(&error),

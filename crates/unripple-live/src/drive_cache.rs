@@ -1,6 +1,6 @@
 //! A cache of drives by the place they focus on.
 
-use crate::{LiveError, Made, Maker, Percentiles};
+use crate::{FocusDrive, FocusWorker, LiveError, Percentiles};
 use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Instant;
@@ -17,8 +17,8 @@ const LOUDEST: f64 = 0.25;
 
 /// Drives by the places they focus on, made once and remembered.
 #[derive(Debug)]
-pub struct Drives {
-    maker: Maker,
+pub struct DriveCache {
+    maker: FocusWorker,
     /// The priority that makers were asked to have.
     hurried: Option<u8>,
     /// The limit that drives are made for, in the drive's unit.
@@ -63,16 +63,16 @@ struct Known {
 #[derive(Clone, Debug)]
 pub struct At {
     /// The drive at the limit, in float64 and as it is played.
-    pub made: Made,
+    pub made: FocusDrive,
     /// The same for the player.
     pub prepared: Arc<Prepared>,
     /// Displacement there, once it was asked for.
     trace: Option<Arc<Vec<f64>>>,
 }
 
-impl Drives {
+impl DriveCache {
     /// None yet, by a maker whose drives reach a limit. A share of 1 is what `full` says, or else as much as the limit allows.
-    pub fn new(maker: Maker, limit: f64, full: Option<Full>) -> Self {
+    pub fn new(maker: FocusWorker, limit: f64, full: Option<Full>) -> Self {
         Self {
             maker,
             hurried: None,
@@ -88,16 +88,16 @@ impl Drives {
     }
 
     /// Lets drives be made with priority, by this maker and those to come.
-    pub fn hurry(&mut self, priority: Option<u8>) {
-        self.maker.hurry(priority);
+    pub fn request_realtime(&mut self, priority: Option<u8>) {
+        self.maker.request_realtime(priority);
         self.hurried = priority;
         // What the first touch would wait for: a drive that fails here fails there, and is told then.
         let _ = self.full_pulse();
     }
 
     /// Forgets all that was made and goes on with another maker: the surface has changed.
-    pub fn replace(&mut self, maker: Maker) {
-        maker.hurry(self.hurried);
+    pub fn replace(&mut self, maker: FocusWorker) {
+        maker.request_realtime(self.hurried);
         self.maker = maker;
         self.known.clear();
         self.pulse = None;
@@ -112,7 +112,7 @@ impl Drives {
     /// The drive that focuses at these points.
     ///
     /// # Errors
-    /// Those of [`Maker::focus`].
+    /// Those of [`FocusWorker::focus`].
     pub fn at(&mut self, points: &[Point]) -> Result<At, LiveError> {
         self.asked += 1;
         let place = key(points);
@@ -138,7 +138,7 @@ impl Drives {
     /// the limit.
     ///
     /// # Errors
-    /// Those of [`Drives::at`] and [`Maker::trace`].
+    /// Those of [`DriveCache::at`] and [`FocusWorker::trace`].
     pub fn pulse_gain(&mut self, points: &[Point], level: Level) -> Result<(f64, bool), LiveError> {
         match level {
             Level::Share(share) => {
@@ -154,7 +154,7 @@ impl Drives {
     /// quarter of a second.
     ///
     /// # Errors
-    /// As [`Drives::pulse_gain`].
+    /// As [`DriveCache::pulse_gain`].
     pub fn wave_gain(&mut self, place: Point, wave: &Wave, level: Level) -> Result<(f64, bool), LiveError> {
         match level {
             Level::Share(share) => {
@@ -229,8 +229,8 @@ impl Drives {
 }
 
 /// How strongly a pulse is felt where it focuses, as a multiple of the threshold of touch: its largest weighed displacement
-/// (a [`Maker::trace`]) from its beginning until as long after the focal instant.
-pub(crate) fn pulse_felt(made: &Made, trace: &[f64]) -> f64 {
+/// (a [`FocusWorker::trace`]) from its beginning until as long after the focal instant.
+pub(crate) fn pulse_felt(made: &FocusDrive, trace: &[f64]) -> f64 {
     felt(trace, made.drive.rate(), 2 * made.instant + 1)
 }
 
@@ -252,7 +252,7 @@ fn reaching(db: f64, felt: f64) -> (f64, bool) {
 
 /// Largest amplitude that a steady sine of amplitude 1 has in any channel of a drive taken as a response, whatever its
 /// frequency.
-fn steadiest(made: &Made, plan: &mut Option<Convolver>) -> f64 {
+fn steadiest(made: &FocusDrive, plan: &mut Option<Convolver>) -> f64 {
     let size = 2 * made.drive.samples();
     if plan.as_ref().is_none_or(|plan| plan.size() < size) {
         *plan = Some(Convolver::new(size));

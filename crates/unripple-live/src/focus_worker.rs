@@ -11,7 +11,7 @@ use unripple_physics::Medium;
 
 /// A drive at the limit that focuses at some points once, its last sample the focal instant.
 #[derive(Clone, Debug)]
-pub struct Made {
+pub struct FocusDrive {
     /// The drive; gains below 1 make it less.
     pub drive: Arc<Drive>,
     /// The sample of the focal instant.
@@ -26,19 +26,19 @@ pub struct Made {
 /// use std::sync::Arc;
 /// use unripple_core::Point;
 /// use unripple_focus::Options;
-/// use unripple_live::Maker;
+/// use unripple_live::FocusWorker;
 /// use unripple_physics::{ResponseOptions, design::papers_surface, responses};
 ///
 /// let mut film = papers_surface();
 /// film.emission.band[1] = 500.0;
 /// let known = Arc::new(responses(&film, &ResponseOptions::default())?);
-/// let maker = Maker::new(known, &Options::default())?;
+/// let maker = FocusWorker::new(known, &Options::default())?;
 /// let made = maker.focus(&[Point::from_mm(62.0, 90.0)])?;
 /// assert_eq!(made.drive.peak(), 1.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
-pub struct Maker {
+pub struct FocusWorker {
     asks: Sender<Ask>,
 }
 
@@ -52,18 +52,18 @@ enum Work {
     /// Asks for a priority; nothing is answered but that it was done.
     Hurry(Option<u8>),
     Focus(Vec<Point>),
-    Trace(Made),
-    Reach(Made),
+    Trace(FocusDrive),
+    Reach(FocusDrive),
 }
 
 enum Answer {
     Hurried,
-    Made(Made),
+    FocusDrive(FocusDrive),
     Trace(Vec<f64>),
     Reach(Reach),
 }
 
-impl Maker {
+impl FocusWorker {
     /// Plans for responses and a method, and waits until that is done.
     ///
     /// # Errors
@@ -88,7 +88,7 @@ impl Maker {
                 Work::Hurry(priority) => Ok(hurried(priority)),
                 Work::Focus(points) => {
                     before();
-                    focus(&focuser, points).map(Answer::Made)
+                    focus(&focuser, points).map(Answer::FocusDrive)
                 }
                 Work::Trace(made) => trace(&responses, &made).map(Answer::Trace),
                 Work::Reach(made) => reach(&responses, &made).map(Answer::Reach),
@@ -101,7 +101,7 @@ impl Maker {
     /// responses backwards are worth having.
     ///
     /// # Errors
-    /// [`LiveError::Calibrate`] for a library without points, and those of [`Maker::new`].
+    /// [`LiveError::Calibrate`] for a library without points, and those of [`FocusWorker::new`].
     pub fn between(
         stored: Arc<SampledResponses>,
         medium: Medium,
@@ -119,7 +119,7 @@ impl Maker {
                 Work::Hurry(priority) => Ok(hurried(priority)),
                 Work::Focus(points) => {
                     let responses = at(&points)?;
-                    focus(&Focuser::new(&responses, &options)?, points).map(Answer::Made)
+                    focus(&Focuser::new(&responses, &options)?, points).map(Answer::FocusDrive)
                 }
                 Work::Trace(made) => trace(&at(&made.points)?, &made).map(Answer::Trace),
                 Work::Reach(made) => reach(&at(&made.points)?, &made).map(Answer::Reach),
@@ -145,7 +145,7 @@ impl Maker {
     }
 
     /// Asks for a real-time priority for the thread, for play on a busy machine; without one nothing is asked for.
-    pub fn hurry(&self, priority: Option<u8>) {
+    pub fn request_realtime(&self, priority: Option<u8>) {
         // Without it drives are made all the same.
         let _ = self.ask(Work::Hurry(priority));
     }
@@ -154,9 +154,9 @@ impl Maker {
     ///
     /// # Errors
     /// Those of [`Focuser::focus`].
-    pub fn focus(&self, points: &[Point]) -> Result<Made, LiveError> {
+    pub fn focus(&self, points: &[Point]) -> Result<FocusDrive, LiveError> {
         match self.ask(Work::Focus(points.to_vec()))? {
-            Answer::Made(made) => Ok(made),
+            Answer::FocusDrive(made) => Ok(made),
             _ => Err(gone()),
         }
     }
@@ -166,7 +166,7 @@ impl Maker {
     ///
     /// # Errors
     /// Those of [`Field::traces`].
-    pub fn trace(&self, made: &Made) -> Result<Vec<f64>, LiveError> {
+    pub fn trace(&self, made: &FocusDrive) -> Result<Vec<f64>, LiveError> {
         match self.ask(Work::Trace(made.clone()))? {
             Answer::Trace(trace) => Ok(trace),
             _ => Err(gone()),
@@ -177,7 +177,7 @@ impl Maker {
     ///
     /// # Errors
     /// Those of [`Field::reach`].
-    pub fn reach(&self, made: &Made) -> Result<Reach, LiveError> {
+    pub fn reach(&self, made: &FocusDrive) -> Result<Reach, LiveError> {
         match self.ask(Work::Reach(made.clone()))? {
             Answer::Reach(reach) => Ok(reach),
             _ => Err(gone()),
@@ -219,23 +219,23 @@ fn gone() -> LiveError {
     LiveError::Gone { why: "the one that makes drives ended early".into() }
 }
 
-fn focus(focuser: &Focuser, points: Vec<Point>) -> Result<Made, LiveError> {
+fn focus(focuser: &Focuser, points: Vec<Point>) -> Result<FocusDrive, LiveError> {
     let focused = focuser.focus(&[Target::of(points)])?;
     let instant = focused.timing.first().map_or(0, |timing| timing.instant);
     let points = focused.points.into_iter().next().unwrap_or_default();
-    Ok(Made { drive: Arc::new(focused.drive), instant, points })
+    Ok(FocusDrive { drive: Arc::new(focused.drive), instant, points })
 }
 
 /// Cells of the grid per shortest wavelength: enough for a level.
 const CELLS: f64 = 4.0;
 
-fn reach(responses: &Responses, made: &Made) -> Result<Reach, LiveError> {
+fn reach(responses: &Responses, made: &FocusDrive) -> Result<Reach, LiveError> {
     let drive = made.drive.as_ref().clone().as_emitted();
     let aim = Aim { points: made.points.clone(), instant: made.instant as f64 / drive.rate() };
     Ok(Field::new(responses, &drive, CELLS)?.reach(&[aim], None)?)
 }
 
-fn trace(responses: &Responses, made: &Made) -> Result<Vec<f64>, LiveError> {
+fn trace(responses: &Responses, made: &FocusDrive) -> Result<Vec<f64>, LiveError> {
     let Some(first) = made.points.first() else { return Ok(Vec::new()) };
     let drive = made.drive.as_ref().clone().as_emitted();
     let field = Field::new(responses, &drive, 1.0)?;
