@@ -2,7 +2,7 @@
 
 use super::bank::{Bank, Burden};
 use super::couplings::{Couplings, Part};
-use super::field::{Felt, Field, Probes};
+use super::field::{Field, PortSums, Probes};
 use super::lanes::{LANES, Rows, Tiles};
 use super::lead::Lead;
 use super::small::{OCT, Oct, octs};
@@ -33,7 +33,7 @@ pub(super) struct Engine {
     /// Whether the impulses are still to be laid on.
     pub(super) pending: bool,
     /// Sums of the sweep. Whether any drive strikes the sheet itself, and how many ports carry no load are said there.
-    pub(super) felt: Felt,
+    pub(super) felt: PortSums,
     /// Ports that never change; those without load come first.
     pub(super) fixed: usize,
     /// Whether masses share impulses.
@@ -93,7 +93,7 @@ impl Engine {
             forces: vec![0.0; columns],
             impulses: vec![0.0; columns],
             pending: false,
-            felt: Felt {
+            felt: PortSums {
                 motion: vec![[0.0; LANES]; columns],
                 velocity: vec![[0.0; LANES]; columns],
                 plain: wiring.plain,

@@ -1,6 +1,8 @@
 //! Modal states advanced by their exact propagator, in SIMD lanes.
 
-use super::lanes::{LANES, Lanes, Rows, Tiles, feel, feel_both, gather, gather_both, hear, total, vectors};
+use super::lanes::{
+    LANES, Lanes, Rows, Tiles, accumulate, accumulate_both, gather, gather_both, read_out, total, vectors,
+};
 use pulp::{Simd, as_arrays, as_arrays_mut};
 use unripple_core::Pole;
 
@@ -31,11 +33,11 @@ pub(super) mod step {
 /// Forces on some groups of modes, or what they move by; where cache lines begin.
 #[derive(Default)]
 #[repr(align(64))]
-struct Work([Lanes; TOGETHER]);
+struct ModeBlock([Lanes; TOGETHER]);
 
 /// What ports feel: displacement over the step to come without forces, and velocity, sixteen parts of each sum.
 #[derive(Clone, Debug)]
-pub(super) struct Felt {
+pub(super) struct PortSums {
     pub(super) motion: Vec<Lanes>,
     pub(super) velocity: Vec<Lanes>,
     /// The first ports, which carry no load and do not care for motion.
@@ -44,7 +46,7 @@ pub(super) struct Felt {
     pub(super) striking: bool,
 }
 
-impl Felt {
+impl PortSums {
     /// Starts again from nothing.
     #[inline(always)]
     fn begin(&mut self, columns: usize) {
@@ -67,18 +69,18 @@ impl Felt {
         let loaded = [columns, self.plain];
         let moved = &mut self.motion[self.plain..columns];
         if !self.striking {
-            feel(simd, tiles, loaded, motion, moved);
+            accumulate(simd, tiles, loaded, motion, moved);
             return;
         }
         let (plain, fast) = self.velocity[..columns].split_at_mut(self.plain);
-        feel(simd, tiles, [columns, 0], velocity, plain);
-        feel_both(simd, tiles, loaded, [motion, velocity], [moved, fast]);
+        accumulate(simd, tiles, [columns, 0], velocity, plain);
+        accumulate_both(simd, tiles, loaded, [motion, velocity], [moved, fast]);
     }
 }
 
 /// What is laid on the columns.
 #[derive(Clone, Copy)]
-pub(super) struct Laid<'a> {
+pub(super) struct PortForces<'a> {
     /// Impulses on all of them, or none at all.
     pub(super) impulses: &'a [f64],
     /// Forces on those that carry loads.
@@ -111,19 +113,19 @@ impl Probes {
 
     /// Adds what is heard of the groups of modes from the `first` on, afresh from group 0.
     #[inline(always)]
-    fn hear<S: Simd>(&mut self, simd: S, first: usize, u: &[Lanes], v: &[Lanes]) {
+    fn read_out<S: Simd>(&mut self, simd: S, first: usize, u: &[Lanes], v: &[Lanes]) {
         for (probe, sum) in self.sums.iter_mut().enumerate() {
             if first == 0 {
                 *sum = [0.0; LANES];
             }
             let row = &as_arrays::<LANES, _>(self.weights.row(probe)).0[first..];
-            hear(simd, row, if self.displaced[probe] { u } else { v }, sum);
+            read_out(simd, row, if self.displaced[probe] { u } else { v }, sum);
         }
     }
 
     /// Adds up what was heard.
     #[inline(always)]
-    pub(super) fn tell<S: Simd>(&mut self, simd: S) -> &[f64] {
+    pub(super) fn reduce<S: Simd>(&mut self, simd: S) -> &[f64] {
         total(simd, &self.sums, &mut self.heard);
         &self.heard
     }
@@ -193,7 +195,7 @@ impl Field {
             gather(simd, tiles.all(), [tiles.columns(), 0], impulses, v);
         }
         if let Some(probes) = probes {
-            probes.hear(simd, 0, u, v);
+            probes.read_out(simd, 0, u, v);
         }
     }
 
@@ -204,8 +206,8 @@ impl Field {
         &mut self,
         simd: S,
         tiles: &Tiles,
-        laid: &Laid,
-        felt: &mut Felt,
+        laid: &PortForces,
+        felt: &mut PortSums,
         mut probes: Option<&mut Probes>,
     ) {
         let displacement = as_arrays_mut::<LANES, _>(self.displacement.row_mut(0)).0;
@@ -217,7 +219,7 @@ impl Field {
         for (chunk, ((u, v), steps)) in modes.zip(steps.chunks(TOGETHER)).enumerate() {
             let tiles = &tiles.all()[chunk * TOGETHER * columns..][..v.len() * columns];
             // Forces first, then what modes move by next.
-            let mut work = Work::default();
+            let mut work = ModeBlock::default();
             let work = &mut work.0[..v.len()];
             let loaded = [columns, felt.plain];
             match (columns > 0 && !laid.impulses.is_empty(), felt.plain < columns) {
@@ -227,7 +229,7 @@ impl Field {
                 (false, false) => (),
             }
             if let Some(probes) = &mut probes {
-                probes.hear(simd, chunk * TOGETHER, u, v);
+                probes.read_out(simd, chunk * TOGETHER, u, v);
             }
             advance::<S, true>(simd, u, v, steps, work);
             felt.add(simd, tiles, columns, work, v);
@@ -236,7 +238,7 @@ impl Field {
 
     /// What the columns feel as everything is, nothing moved.
     #[inline(always)]
-    pub(super) fn look<S: Simd>(&mut self, simd: S, tiles: &Tiles, felt: &mut Felt) {
+    pub(super) fn look<S: Simd>(&mut self, simd: S, tiles: &Tiles, felt: &mut PortSums) {
         let displacement = as_arrays_mut::<LANES, _>(self.displacement.row_mut(0)).0;
         let velocity = as_arrays_mut::<LANES, _>(self.velocity.row_mut(0)).0;
         let steps = as_arrays::<{ step::ROWS * LANES }, _>(self.steps.row(0)).0;
@@ -245,7 +247,7 @@ impl Field {
         let modes = displacement.chunks_mut(TOGETHER).zip(velocity.chunks_mut(TOGETHER));
         for (chunk, ((u, v), steps)) in modes.zip(steps.chunks(TOGETHER)).enumerate() {
             let tiles = &tiles.all()[chunk * TOGETHER * columns..][..v.len() * columns];
-            let mut work = Work::default();
+            let mut work = ModeBlock::default();
             advance::<S, false>(simd, u, v, steps, &mut work.0[..]);
             felt.add(simd, tiles, columns, &work.0[..v.len()], v);
         }
@@ -368,14 +370,14 @@ mod tests {
             tiles.set(m, &row);
         }
         let zeros = vec![[0.0; LANES]; 11];
-        let mut felt = Felt { motion: zeros.clone(), velocity: zeros, plain: 0, striking: true };
+        let mut felt = PortSums { motion: zeros.clone(), velocity: zeros, plain: 0, striking: true };
         let impulses: Vec<f64> = (0..11).map(|m| 1.0 - 0.3 * f64::from(m)).collect();
         let simd = pulp::Scalar::new();
         field.settle(simd, &tiles, &impulses, None);
         for i in 0..200 {
             let (before, from) = (field.energy(), field.displacement().to_vec());
             let forces: Vec<f64> = (0..11).map(|m| f64::from((7 * i + 3 * m) % 13) * 100.0 - 600.0).collect();
-            let laid = Laid { impulses: &[], forces: &forces };
+            let laid = PortForces { impulses: &[], forces: &forces };
             field.sweep(simd, &tiles, &laid, &mut felt, None);
             let moved = field.displacement().iter().zip(&from).zip(&forces);
             let work: f64 = moved.map(|((to, from), force)| force * (to - from)).sum();

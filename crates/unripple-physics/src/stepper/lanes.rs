@@ -183,7 +183,7 @@ fn weigh<S: Simd>(simd: S, weights: &Lanes, amount: S::f64s, sums: &mut [S::f64s
 /// Adds to what columns feel of some groups of modes: `sums[k] += Σ_m w_k[m] x[m]`, sixteen parts of it; `sums`
 /// are those of the columns from the `first` on.
 #[inline(always)]
-pub(super) fn feel<S: Simd>(
+pub(super) fn accumulate<S: Simd>(
     simd: S,
     tiles: &[Lanes],
     [columns, first]: [usize; 2],
@@ -220,9 +220,9 @@ pub(super) fn feel<S: Simd>(
     }
 }
 
-/// As [`feel`] does, for two kinds of motion at once.
+/// As [`accumulate`] does, for two kinds of motion at once.
 #[inline(always)]
-pub(super) fn feel_both<S: Simd>(
+pub(super) fn accumulate_both<S: Simd>(
     simd: S,
     tiles: &[Lanes],
     [columns, first]: [usize; 2],
@@ -252,13 +252,13 @@ pub(super) fn feel_both<S: Simd>(
         keep::<S>(&sums[3], &mut too[1]);
         column += 2;
     }
-    feel(simd, tiles, [columns, column], x[0], ones.into_remainder());
-    feel(simd, tiles, [columns, column], x[1], others.into_remainder());
+    accumulate(simd, tiles, [columns, column], x[0], ones.into_remainder());
+    accumulate(simd, tiles, [columns, column], x[1], others.into_remainder());
 }
 
-/// Adds to what a row feels of some groups of modes, as [`feel`] does.
+/// Adds to what a row feels of some groups of modes, as [`accumulate`] does.
 #[inline(always)]
-pub(super) fn hear<S: Simd>(simd: S, row: &[Lanes], x: &[Lanes], to: &mut Lanes) {
+pub(super) fn read_out<S: Simd>(simd: S, row: &[Lanes], x: &[Lanes], to: &mut Lanes) {
     let mut sum = begun::<S>(simd, to);
     for (weights, x) in row.iter().zip(x) {
         let (weights, x) = (S::as_simd_f64s(weights).0, S::as_simd_f64s(x).0);
@@ -269,7 +269,7 @@ pub(super) fn hear<S: Simd>(simd: S, row: &[Lanes], x: &[Lanes], to: &mut Lanes)
     keep::<S>(&sum, to);
 }
 
-/// What was added up by [`feel`].
+/// What was added up by [`accumulate`].
 #[inline(always)]
 pub(super) fn total<S: Simd>(simd: S, sums: &[Lanes], out: &mut [f64]) {
     for (out, sum) in out.iter_mut().zip(sums) {

@@ -2,7 +2,7 @@
 
 use super::couplings::Part;
 use super::engine::Engine;
-use super::field::Laid;
+use super::field::PortForces;
 use super::lanes::total;
 use super::small::{OCT, add};
 use pulp::{Simd, WithSimd};
@@ -65,7 +65,7 @@ impl WithSimd for Block<'_, '_> {
             }
             engine.drive(&planes.drive, frame);
             engine.instant(simd, engine.felt.striking);
-            engine.tell(&mut planes, frame);
+            engine.reduce(&mut planes, frame);
             engine.samples += 1;
             if engine.samples % SILENCE == 0 {
                 engine.field.silence();
@@ -83,7 +83,7 @@ impl Engine {
         let columns = self.tiles.columns();
         lay(&self.couplings.parts, self.fixed, self.bank.forces(), &mut self.forces);
         let impulses = if self.pending { &self.impulses[..columns] } else { &[] };
-        let laid = Laid { impulses, forces: &self.forces[self.felt.plain..columns] };
+        let laid = PortForces { impulses, forces: &self.forces[self.felt.plain..columns] };
         let heard = heard.filter(|_| !planes.probes.is_empty());
         let probes = heard.is_some().then_some(&mut self.probes);
         self.field.sweep(simd, &self.tiles, &laid, &mut self.felt, probes);
@@ -114,7 +114,7 @@ impl Engine {
     #[inline(always)]
     fn write<S: Simd>(&mut self, simd: S, planes: &mut Planes, frame: usize) {
         let Out { stride, first } = planes.out;
-        let heard = self.probes.tell(simd);
+        let heard = self.probes.reduce(simd);
         for (plane, heard) in planes.probes.chunks_exact_mut(stride).zip(heard) {
             plane[first + frame] = *heard;
         }
@@ -185,7 +185,7 @@ impl Engine {
 
     /// Writes one sample of sensors.
     #[inline(always)]
-    fn tell(&mut self, planes: &mut Planes, frame: usize) {
+    fn reduce(&mut self, planes: &mut Planes, frame: usize) {
         let Out { stride, first } = planes.out;
         for (lead, sensor) in self.leads.iter().zip(planes.sensors.chunks_exact_mut(stride)) {
             let velocity = self.velocity.as_flattened()[lead.port];

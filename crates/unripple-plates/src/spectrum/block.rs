@@ -2,7 +2,7 @@
 
 use super::panel::{LANES, Panel, Row};
 use super::pencil::Pencil;
-use super::quotient::quotients;
+use super::rayleigh::quotients;
 use faer::Mat;
 use faer::prelude::ReborrowMut;
 use rayon::prelude::*;
@@ -10,7 +10,7 @@ use std::ops::Range;
 
 /// Some eigenpairs.
 #[derive(Debug, Default)]
-pub(super) struct Piece {
+pub(super) struct EigenBlock {
     /// λ of each.
     pub(super) values: Vec<f64>,
     /// Norm in M of (K - σM)⁻¹Mx - x/(λ-σ), times abs(λ-σ), of each.
@@ -23,7 +23,7 @@ pub(super) struct Piece {
     pub(super) left: usize,
 }
 
-impl Piece {
+impl EigenBlock {
     /// Eigenpairs ascending, their vectors one after the other in panels.
     pub(super) fn new(values: Vec<f64>, residuals: Vec<f64>, panels: Vec<Panel>, left: usize) -> Self {
         let places = (0..values.len()).map(|i| (i / LANES, i % LANES)).collect();
@@ -76,7 +76,7 @@ impl Piece {
 }
 
 /// All values below `top`, ascending, and their vectors in the given order and scale of unknowns.
-pub(super) fn gather(pencil: &Pencil, pieces: &[Piece], top: f64) -> (Vec<f64>, Mat<f64>) {
+pub(super) fn gather(pencil: &Pencil, pieces: &[EigenBlock], top: f64) -> (Vec<f64>, Mat<f64>) {
     let mut pairs: Vec<(f64, usize, (usize, usize))> = Vec::new();
     for (p, piece) in pieces.iter().enumerate() {
         pairs.extend(piece.values.iter().zip(&piece.places).map(|(value, place)| (*value, p, *place)));

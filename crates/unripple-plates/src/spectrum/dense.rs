@@ -1,9 +1,9 @@
 //! Dense generalised eigenvalue problem, for small meshes.
 
 use super::SpectrumError;
+use super::block::EigenBlock;
 use super::panel::LANES;
 use super::pencil::{Pencil, indefinite};
-use super::piece::Piece;
 use super::plan::{STEP, factor_near};
 use crate::modes::eigen::{Method, product, symmetric};
 use faer::linalg::solvers::Llt;
@@ -21,7 +21,7 @@ const SHIFT: f64 = 1e-3;
 /// # Errors
 /// [`SpectrumError::Matrices`] if M is not positive definite or K not semidefinite; [`SpectrumError::Missed`] if the
 /// number of eigenpairs is not that proved by inertia.
-pub(super) fn all(pencil: &Pencil, top: f64) -> Result<Piece, SpectrumError> {
+pub(super) fn all(pencil: &Pencil, top: f64) -> Result<EigenBlock, SpectrumError> {
     let n = pencil.len();
     let bound = factor_near(pencil, top, top * STEP)?;
     let shift = SHIFT * top;
@@ -50,7 +50,7 @@ pub(super) fn all(pencil: &Pencil, top: f64) -> Result<Piece, SpectrumError> {
     let entry = |i: usize, j: usize| if j < found { chosen[(i, j)] } else { 0.0 };
     let panel = |first: usize| (0..n).map(|i| std::array::from_fn(|lane| entry(i, first + lane))).collect();
     let panels = (0..found).step_by(LANES).map(panel).collect();
-    Ok(Piece::new((0..found).map(value).collect(), residuals, panels, 0))
+    Ok(EigenBlock::new((0..found).map(value).collect(), residuals, panels, 0))
 }
 
 /// A sum of K and M with both triangles.

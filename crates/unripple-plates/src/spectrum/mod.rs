@@ -4,20 +4,20 @@
 //! How many there are between two shifts is told by the pivots of K - σM = LDLᵀ (Sylvester's law of inertia), and what is
 //! found must make up that number (Grimes, Lewis and Simon, *SIAM J. Matrix Anal. Appl.* 15, 228, 1994).
 
+mod block;
 mod dense;
 mod error;
 mod factor;
 mod lanczos;
 mod memory;
-mod merge;
 mod panel;
 mod pencil;
-mod piece;
 mod plan;
-mod quotient;
-mod run;
+mod rayleigh;
+mod shift_invert;
+mod slicing;
+mod small;
 mod solve;
-mod square;
 
 #[cfg(test)]
 mod tests;
@@ -69,7 +69,7 @@ pub(crate) fn below(
     let mut pieces = if pencil.len() <= SMALL {
         vec![dense::all(&pencil, top)?]
     } else {
-        let found = Plan::new(&pencil, top).and_then(|plan| merge::all(&pencil, plan));
+        let found = Plan::new(&pencil, top).and_then(|plan| slicing::all(&pencil, plan));
         match found {
             Err(SpectrumError::Missed { .. }) if pencil.len() <= MEDIUM => vec![dense::all(&pencil, top)?],
             found => found?,
@@ -77,7 +77,7 @@ pub(crate) fn below(
     };
     pieces.par_iter_mut().for_each(|piece| piece.refine(&pencil));
     let residual = pieces.iter().flat_map(|p| &p.residuals).fold(0.0_f64, |a, b| a.max(*b));
-    let (values, vectors) = piece::gather(&pencil, &pieces, top);
+    let (values, vectors) = block::gather(&pencil, &pieces, top);
     Ok(Pairs { values, vectors, residual })
 }
 

@@ -1,6 +1,6 @@
 //! Panels of [`LANES`] vectors kept row by row, so that one entry of a matrix acts on all of them at once.
 
-use super::square::Square;
+use super::small::Square;
 use pulp::{Arch, NullaryFnOnce};
 
 /// Vectors of a panel.

@@ -1,11 +1,11 @@
 //! Shift-and-invert Lanczos at one shift.
 
 use super::SpectrumError;
+use super::block::EigenBlock;
 use super::factor::Factor;
 use super::lanczos::{Lanczos, Ritz};
 use super::panel::{LANES, NONE, Panel, project, subtract};
 use super::pencil::Pencil;
-use super::piece::Piece;
 use super::solve::solve;
 
 /// Relative residual of an eigenpair that counts as found.
@@ -38,7 +38,7 @@ pub(super) fn nearest(
     wanted: Wanted,
     known: &[Panel],
     seed: u64,
-) -> Result<Piece, SpectrumError> {
+) -> Result<EigenBlock, SpectrumError> {
     let mut lanczos = Lanczos::new(pencil, factor, known.to_vec(), seed)?;
     let all = wanted.left + wanted.right;
     let expected = START + (all as f64 * PACE / LANES as f64).ceil() as usize;
@@ -58,7 +58,7 @@ pub(super) fn nearest(
             until += ritz.steps_to(wanted);
         }
     }
-    let Some((ritz, have)) = found else { return Ok(Piece::default()) };
+    let Some((ritz, have)) = found else { return Ok(EigenBlock::default()) };
     let (left, right) = (have.left.min(wanted.left), have.right.min(wanted.right));
     let count = ritz.inverses.len();
     let numbers: Vec<usize> = (0..left).rev().chain((count - right..count).rev()).collect();
@@ -68,7 +68,7 @@ pub(super) fn nearest(
     let residuals = residuals(pencil, factor, &inverses, &panels);
     let from = left - residuals[..left].iter().rev().take_while(|r| **r < CHECKED).count();
     let to = left + residuals[left..].iter().take_while(|r| **r < CHECKED).count();
-    let mut piece = Piece::new(values, residuals, panels, left);
+    let mut piece = EigenBlock::new(values, residuals, panels, left);
     piece.keep(from..to);
     Ok(piece)
 }

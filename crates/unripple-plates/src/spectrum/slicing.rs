@@ -1,12 +1,12 @@
 //! Eigenpairs of several shifts joined, none twice and none missed.
 
 use super::SpectrumError;
+use super::block::EigenBlock;
 use super::panel::{NONE, Panel, project, subtract};
 use super::pencil::Pencil;
-use super::piece::Piece;
 use super::plan::{Plan, Shift, factor_near};
-use super::run::{Wanted, nearest};
-use super::square::transposed;
+use super::shift_invert::{Wanted, nearest};
+use super::small::transposed;
 use rayon::prelude::*;
 
 /// Eigenpairs asked for beyond those that a shift is meant to give, so that clusters need not be parted.
@@ -42,18 +42,18 @@ impl Gap {
 ///
 /// # Errors
 /// [`SpectrumError::Missed`] if their number is not that proved by inertia.
-pub(super) fn all(pencil: &Pencil, mut plan: Plan) -> Result<Vec<Piece>, SpectrumError> {
+pub(super) fn all(pencil: &Pencil, mut plan: Plan) -> Result<Vec<EigenBlock>, SpectrumError> {
     let gaps = gaps(&plan);
     let wanted: Vec<Wanted> =
         gaps.windows(2).enumerate().map(|(i, pair)| wanted(pair, i, gaps.len())).collect();
-    let pieces: Vec<Piece> = std::mem::take(&mut plan.shifts)
+    let pieces: Vec<EigenBlock> = std::mem::take(&mut plan.shifts)
         .into_par_iter()
         .zip(&wanted)
         .enumerate()
-        .map(|(i, (shift, wanted))| run(pencil, shift, *wanted, i as u64))
+        .map(|(i, (shift, wanted))| shift_invert(pencil, shift, *wanted, i as u64))
         .collect::<Result<_, _>>()?;
     let parted: Vec<Option<usize>> = gaps.iter().enumerate().map(|(i, gap)| part(gap, i, &pieces)).collect();
-    let mut out: Vec<Piece> = Vec::new();
+    let mut out: Vec<EigenBlock> = Vec::new();
     let mut pieces = pieces.into_iter();
     for (i, (gap, here)) in gaps.iter().zip(&parted).enumerate() {
         if here.is_none() {
@@ -100,9 +100,14 @@ fn wanted(pair: &[Gap], i: usize, count: usize) -> Wanted {
     }
 }
 
-fn run(pencil: &Pencil, shift: Shift, wanted: Wanted, seed: u64) -> Result<Piece, SpectrumError> {
+fn shift_invert(
+    pencil: &Pencil,
+    shift: Shift,
+    wanted: Wanted,
+    seed: u64,
+) -> Result<EigenBlock, SpectrumError> {
     if wanted == Wanted::default() {
-        return Ok(Piece::default());
+        return Ok(EigenBlock::default());
     }
     let factor = match shift.factor {
         Some(factor) => factor,
@@ -113,7 +118,7 @@ fn run(pencil: &Pencil, shift: Shift, wanted: Wanted, seed: u64) -> Result<Piece
 
 /// How many of a gap's eigenpairs the shift at its start gives, the others coming from the shift at its end; `None` if
 /// what both found does not make up the gap.
-fn part(gap: &Gap, i: usize, pieces: &[Piece]) -> Option<usize> {
+fn part(gap: &Gap, i: usize, pieces: &[EigenBlock]) -> Option<usize> {
     let count = gap.count();
     let right: &[f64] = if i == 0 { &[] } else { pieces[i - 1].right() };
     let left: &[f64] = pieces.get(i).map_or(&[], |piece| &piece.values[..piece.left]);
@@ -135,10 +140,10 @@ fn part(gap: &Gap, i: usize, pieces: &[Piece]) -> Option<usize> {
 
 /// All eigenpairs within a gap from a shift of their own, those already found kept out until none is missing. So an
 /// eigenvalue is found with all its vectors, however many.
-fn resolve(pencil: &Pencil, gap: &Gap) -> Result<Piece, SpectrumError> {
+fn resolve(pencil: &Pencil, gap: &Gap) -> Result<EigenBlock, SpectrumError> {
     let low = gap.from.max(0.0);
     let factor = factor_near(pencil, low + 0.47 * (gap.to - low), 0.01 * (gap.to - low))?;
-    let mut whole = Piece::default();
+    let mut whole = EigenBlock::default();
     for round in 0..ROUNDS {
         let done = whole.values.iter().filter(|value| **value < factor.shift).count();
         let wanted = Wanted {
