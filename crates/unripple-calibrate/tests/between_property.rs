@@ -44,7 +44,7 @@ fn k(omega: f64) -> f64 {
 }
 
 fn exact() -> BetweenOptions {
-    BetweenOptions { noise: 1e-5, gain_error: 0.0, stray: 1e-4, ..BetweenOptions::default() }
+    BetweenOptions { noise: 1e-5, gain_error: 0.0, nugget: 1e-4, ..BetweenOptions::default() }
 }
 
 fn off(found: &SampledResponses, truth: &SampledResponses) -> f64 {
@@ -115,7 +115,7 @@ fn what_makes_no_sense_is_refused() {
         BetweenOptions { noise: f64::NAN, ..exact() },
         BetweenOptions { gain_error: -0.1, ..exact() },
         BetweenOptions { position_error: f64::INFINITY, ..exact() },
-        BetweenOptions { stray: 2.0, ..exact() },
+        BetweenOptions { nugget: 2.0, ..exact() },
         BetweenOptions { top: 0.5, ..exact() },
         BetweenOptions { most: 0, ..exact() },
     ] {

@@ -8,20 +8,20 @@ use std::f64::consts::TAU;
 use unripple_core::require;
 
 /// Stray waves have any wavenumber up to this multiple of the one told.
-const STRAY: f64 = 1.5;
+const NUGGET: f64 = 1.5;
 
 /// Least power of the errors of a response over its own power: well above what the tables of covariances are off by.
 const LEAST: f64 = 1e-6;
 
 /// Waves of one frequency as the points see them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Line {
+pub(crate) struct SpectralLine {
     /// Wavenumber, in rad/m.
     pub k: f64,
     /// Largest wavenumber of stray waves, in rad/m.
     pub stray_k: f64,
     /// Share of the power in stray waves.
-    pub stray: f64,
+    pub nugget: f64,
     /// Power of the errors at one point, of its own alone, over that of the field.
     pub error: f64,
     /// What displaced points leave of the field, as a factor.
@@ -31,7 +31,7 @@ pub(crate) struct Line {
 /// Waves of every frequency.
 #[derive(Clone, Debug)]
 pub(crate) struct Waves {
-    pub lines: Vec<Line>,
+    pub lines: Vec<SpectralLine>,
     bessel: Bessel,
 }
 
@@ -62,10 +62,10 @@ impl Waves {
             )?;
             let field = (spectra.power(bin) - noise).max(1e-3 * noise).max(1e-12 * loudest);
             let moved = (k * options.position_error).powi(2) / 2.0;
-            lines.push(Line {
+            lines.push(SpectralLine {
                 k,
-                stray_k: (STRAY * k).max(floor),
-                stray: options.stray,
+                stray_k: (NUGGET * k).max(floor),
+                nugget: options.nugget,
                 error: (noise / field + options.gain_error.powi(2) + moved.exp_m1()).max(LEAST),
                 kept: (-moved / 2.0).exp(),
             });
@@ -75,11 +75,11 @@ impl Waves {
     }
 
     /// Covariance of the field at two places a distance (m) apart, over its power.
-    pub fn covariance(&self, line: &Line, distance: f64) -> f64 {
+    pub fn covariance(&self, line: &SpectralLine, distance: f64) -> f64 {
         let ring = self.bessel.ring(line.k * distance);
-        if line.stray == 0.0 {
+        if line.nugget == 0.0 {
             return ring;
         }
-        ring + line.stray * (self.bessel.disc(line.stray_k * distance) - ring)
+        ring + line.nugget * (self.bessel.disc(line.stray_k * distance) - ring)
     }
 }

@@ -65,12 +65,12 @@ impl Neighbourhood {
 
 /// Which neighbourhood a place belongs to.
 #[derive(Debug)]
-pub(crate) struct Quilt {
+pub(crate) struct Patches {
     centres: Vec<Point>,
     pub neighbourhoods: Vec<Neighbourhood>,
 }
 
-impl Quilt {
+impl Patches {
     /// One neighbourhood of all points if they are at most `most`, or overlapping ones of half as many.
     ///
     /// # Errors

@@ -42,7 +42,7 @@ pub struct BetweenOptions {
     pub position_error: f64,
     /// Share of the power in waves of other wavenumbers than the one told: of edges, of unevenness, of the error of the
     /// dispersion relation itself.
-    pub stray: f64,
+    pub nugget: f64,
     /// Top of what is kept over the top of the band, at least 1; a raised cosine ends it over the upper half of the excess.
     pub top: f64,
     /// Most points that are solved together; of more, each neighbourhood has half as many of its own.
@@ -57,7 +57,7 @@ impl Default for BetweenOptions {
             noise: 3.16e-3,
             gain_error: 5e-3,
             position_error: 0.0,
-            stray: 1e-3,
+            nugget: 1e-3,
             top: 1.1,
             most: 500,
         }
@@ -72,7 +72,7 @@ impl BetweenOptions {
         require("noise", share(self.noise), "0 to 1", self.noise)?;
         require("gain error", share(self.gain_error), "0 to 1", self.gain_error)?;
         require("position error (m)", length, "0 or more", self.position_error)?;
-        require("share of stray waves", share(self.stray), "0 to 1", self.stray)?;
+        require("share of stray waves", share(self.nugget), "0 to 1", self.nugget)?;
         require("top over the band's", (1.0..=10.0).contains(&self.top), "1 to 10", self.top)?;
         let most = self.most as f64;
         Ok(require("points solved together", (4..=5000).contains(&self.most), "4 to 5000", most)?)

@@ -1,7 +1,7 @@
 //! Responses at any place from those at measured points: kriging with the waves' own covariance.
 
-use super::medium::{Line, Waves};
-use super::neighbourhood::{Quilt, nearest};
+use super::medium::{SpectralLine, Waves};
+use super::neighbourhood::{Patches, nearest};
 use super::options::{BetweenOptions, Interpolation};
 use super::spectra::Spectra;
 use super::system::{System, distances};
@@ -67,7 +67,7 @@ pub struct Between<'r> {
 enum Way {
     Nearest,
     Linear(Triangles),
-    Kernel(Quilt),
+    Kernel(Patches),
 }
 
 impl<'r> Between<'r> {
@@ -92,7 +92,7 @@ impl<'r> Between<'r> {
         let way = match options.interpolation {
             Interpolation::Nearest => Way::Nearest,
             Interpolation::Linear => Way::Linear(Triangles::of(points)),
-            Interpolation::Kernel => Way::Kernel(Quilt::of(&spectra, &waves, points, options.most)?),
+            Interpolation::Kernel => Way::Kernel(Patches::of(&spectra, &waves, points, options.most)?),
         };
         Ok(Self { responses, spectra, waves, way })
     }
@@ -170,8 +170,8 @@ impl<'r> Between<'r> {
     /// The responses at a place, `[actuator][sample]`.
     fn respond(&self, place: Point, responses: &mut [f32]) {
         let (actuators, samples) = (self.responses.ports.len(), self.responses.samples());
-        if let Way::Kernel(quilt) = &self.way {
-            let Some(neighbourhood) = quilt.around(place) else { return };
+        if let Way::Kernel(patches) = &self.way {
+            let Some(neighbourhood) = patches.around(place) else { return };
             let bins = neighbourhood.bins(&self.waves, place, actuators);
             responses.par_chunks_mut(samples).enumerate().for_each(|(actuator, response)| {
                 let own = bins.iter().skip(actuator).step_by(actuators).copied();
@@ -188,7 +188,7 @@ impl<'r> Between<'r> {
     }
 
     /// The waves around a bin, with errors over the power there: that of single bins is mostly their distance from a resonance.
-    fn line(&self, bin: usize) -> Line {
+    fn line(&self, bin: usize) -> SpectralLine {
         let reach = self.waves.lines.len() / NODES + 6;
         let around = bin.saturating_sub(reach)..(bin + reach).min(self.waves.lines.len());
         let (mut errors, mut powers) = (0.0, f64::MIN_POSITIVE);
@@ -197,11 +197,11 @@ impl<'r> Between<'r> {
             errors += power * self.waves.lines[bin].error;
             powers += power;
         }
-        Line { error: errors / powers, ..self.waves.lines[bin] }
+        SpectralLine { error: errors / powers, ..self.waves.lines[bin] }
     }
 
     /// Expected power of the error of fixed weights w: wᵀ (K + N) w - 2 wᵀ k + 1.
-    fn plain_share(&self, line: &Line, weights: &[(usize, f64)], place: Point) -> f64 {
+    fn plain_share(&self, line: &SpectralLine, weights: &[(usize, f64)], place: Point) -> f64 {
         let points = &self.responses.points;
         let covariance = |a: Point, b: Point| self.waves.covariance(line, a.distance(b));
         let mut share = 1.0;

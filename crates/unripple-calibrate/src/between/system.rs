@@ -1,6 +1,6 @@
 //! Cholesky factor of the covariance matrix of measured points.
 
-use super::medium::{Line, Waves};
+use super::medium::{SpectralLine, Waves};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::{factor, solve};
 use faer::{Mat, MatMut, MatRef, Par};
@@ -19,7 +19,7 @@ pub(crate) struct System {
 
 impl System {
     /// `None` if it is singular.
-    pub fn factor(waves: &Waves, line: &Line, distances: &[f64], points: usize) -> Option<Self> {
+    pub fn factor(waves: &Waves, line: &SpectralLine, distances: &[f64], points: usize) -> Option<Self> {
         let mut lower = Mat::zeros(points, points);
         let mut from = distances.iter();
         for i in 0..points {

@@ -5,7 +5,7 @@
 use std::sync::LazyLock;
 use unripple_calibrate::{Between, BetweenOptions, Interpolation};
 use unripple_core::{Drive, ModalResponses, Outline, Point, Random, Responses, SampledResponses, Surface};
-use unripple_devices::Unknowns;
+use unripple_devices::Perturbation;
 use unripple_field::Field;
 use unripple_focus::{Focuser, Method, Options, Target};
 use unripple_physics::design::papers_surface;
@@ -45,7 +45,7 @@ impl Truth {
     /// damping, two stray masses of 20 mg.
     pub fn unknown() -> Self {
         static TRUTH: LazyLock<Truth> = LazyLock::new(|| {
-            let truth = Unknowns::default().truth(&papers_surface()).unwrap();
+            let truth = Perturbation::default().truth(&papers_surface()).unwrap();
             let options = ResponseOptions { accuracy: 1e-4, ..ResponseOptions::default() };
             let Ok(Responses::Modal(mut modal)) = responses(&truth.surface, &options) else { unreachable!() };
             for (a, gain) in truth.drive_gains.iter().enumerate() {
