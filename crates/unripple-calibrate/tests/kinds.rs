@@ -7,7 +7,7 @@ mod kinds_bench;
 use kinds_bench::*;
 use unripple_calibrate::measure::MeasureOptions;
 use unripple_core::{ActuatorKind, CoilDrive, Point, Surface};
-use unripple_devices::Unknowns;
+use unripple_devices::Perturbation;
 
 const AT: Point = Point::new(0.062, 0.090);
 const ON_GLASS: Point = Point::new(0.0617, 0.0553);
@@ -109,7 +109,8 @@ fn unknown_surfaces_with_every_kind_calibrate() {
         if !whole() && !["force", "current, 7 mg", "patch"].contains(&name) {
             continue;
         }
-        let found = calibrate(&surface, Some(&Unknowns::default()), &MeasureOptions::default(), at, window);
+        let found =
+            calibrate(&surface, Some(&Perturbation::default()), &MeasureOptions::default(), at, window);
         told(&format!("{name}, unknown"), &found);
         if !right(&found) {
             wrong.push(name);
@@ -133,7 +134,7 @@ fn sweeps_begin_below_the_lowest_mode() {
 /// Its lowest modes ring for a second: the wiring test waits for them, and so do sweeps, which begin below them.
 #[test]
 fn a_table_calibrates() {
-    let unknowns = Unknowns { seed: 3, ..Unknowns::default() };
+    let unknowns = Perturbation { seed: 3, ..Perturbation::default() };
     let settings =
         MeasureOptions { from: 15.0, ringing: 1.5, sweep: 2.0, kept: 0.4, ..MeasureOptions::default() };
     let mut wrong = Vec::new();

@@ -15,7 +15,7 @@ use unripple::field::{Aim, Field};
 use unripple::focus::{Options, Target, focus};
 use unripple::physics::design::papers_surface;
 use unripple::physics::{ResponseOptions, responses};
-use unripple_devices::Unknowns;
+use unripple_devices::Perturbation;
 
 const SEED: u64 = 7;
 
@@ -36,7 +36,7 @@ fn killed(run: &[&str], times: usize, random: &mut Random) -> Value {
 
 /// The film as it truly is.
 fn truth() -> Responses {
-    let truth = Unknowns { seed: SEED, ..Unknowns::default() }.truth(&papers_surface()).unwrap();
+    let truth = Perturbation { seed: SEED, ..Perturbation::default() }.truth(&papers_surface()).unwrap();
     let options = ResponseOptions { accuracy: 1e-4, ..ResponseOptions::default() };
     let Responses::Modal(mut modal) = responses(&truth.surface, &options).unwrap() else { unreachable!() };
     for (a, gain) in truth.drive_gains.iter().enumerate() {

@@ -7,7 +7,7 @@ use unripple::core::{ActuatorKind, CoilDrive, ModalResponses, Point, Responses, 
 use unripple::field::Field;
 use unripple::focus::{Focuser, Method, Options, Target};
 use unripple::physics::{ResponseOptions, responses};
-use unripple_devices::Unknowns;
+use unripple_devices::Perturbation;
 use unripple_store::{Doubt, Library, load_surface, to_toml};
 
 const WINDOW: f64 = 0.030;
@@ -21,7 +21,7 @@ fn film() -> String {
 
 /// The true responses behind a surface and a seed, its drives' gains included.
 fn truth(surface: &Surface, seed: u64) -> ModalResponses {
-    let truth = Unknowns { seed, ..Unknowns::default() }.truth(surface).unwrap();
+    let truth = Perturbation { seed, ..Perturbation::default() }.truth(surface).unwrap();
     let options = ResponseOptions { accuracy: 1e-4, ..ResponseOptions::default() };
     let Ok(Responses::Modal(mut modal)) = responses(&truth.surface, &options) else { unreachable!() };
     for (a, gain) in truth.drive_gains.iter().enumerate() {
@@ -69,7 +69,7 @@ fn actuators_alone_make_a_library_of_points_anywhere() {
     assert_eq!(report["verdict"], "good");
     assert!(number(&report, "/written/points") > 100.0);
     let surface = load_surface(&file).unwrap();
-    let told = Unknowns { seed: 7, ..Unknowns::default() }.truth(&surface).unwrap();
+    let told = Perturbation { seed: 7, ..Perturbation::default() }.truth(&surface).unwrap();
     for (n, actuator) in told.surface.actuators.iter().enumerate() {
         let c = |axis| number(&report, &format!("/actuators/{n}/at_m/{axis}/value"));
         assert!(Point::new(c(0), c(1)).distance(actuator.at) < 0.5e-3, "{}", actuator.name);

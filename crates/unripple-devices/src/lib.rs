@@ -1,6 +1,6 @@
 //! Virtual surfaces, sound servers and files as one kind of device.
 //!
-//! [`Virtual`] is the surface of the time-stepper behind the trait [`Device`](unripple_core::Device), with [`Unknowns`] that no
+//! [`Virtual`] is the surface of the time-stepper behind the trait [`Device`](unripple_core::Device), with [`Perturbation`] that no
 //! model is told; [`Tape`] keeps a drive and brings recordings back; [`Jack`] is a sound server; with the
 //! feature `cards`, `cards::Card` is a sound card; [`check_wiring`] says which
 //! channel is silent, swapped or reversed, [`check_responses`] and [`reciprocal`] the same of recordings; [`list`] says what there is.
@@ -12,9 +12,9 @@ mod error;
 mod interface;
 pub mod jack;
 mod list;
+mod perturbation;
 mod tap;
 mod tape;
-mod unknowns;
 mod virtual_surface;
 mod wiring;
 
@@ -22,9 +22,9 @@ pub use error::DevicesError;
 pub use interface::Interface;
 pub use jack::{Bridge, Jack, JackOptions, Links};
 pub use list::{Found, Server, Stream, list};
+pub use perturbation::{Perturbation, Truth};
 pub use tap::Tap;
 pub use tape::Tape;
-pub use unknowns::{Truth, Unknowns};
 pub use virtual_surface::{Feeler, Feeling, Handle, Virtual, VirtualOptions};
 pub use wiring::{
     Expected, Lead, Reciprocal, WiringOptions, WiringReport, check_responses, check_wiring, reciprocal,

@@ -23,7 +23,7 @@ const NODES_APART: f64 = 1.1;
 /// What makes a true surface other than its model: none of it is in the surface file. One seed gives one truth.
 ///
 /// ```
-/// use unripple_devices::Unknowns;
+/// use unripple_devices::Perturbation;
 /// # use unripple_core::*;
 /// # let sheet = Sheet { material: "BoPET".into(), young: 4e9, density: 1400.0, poisson: 0.3, strength: None,
 /// #     thickness: 0.125e-3, tension: 200.0, decay: Decay::Time(0.07), air: Air::None,
@@ -34,14 +34,14 @@ const NODES_APART: f64 = 1.1;
 /// #     sheet, emission: Emission { band: [0.0, 1e3], rate: 48e3, limit: 1.0, rms_limit: None },
 /// #     finger: Finger::default(), actuators: vec![a1] };
 ///
-/// let truth = Unknowns::default().truth(&surface)?;
+/// let truth = Perturbation::default().truth(&surface)?;
 /// assert_eq!(truth.surface.sheet.uneven.scatterers.len(), 2);
 /// let off = truth.surface.actuators[0].at.distance(surface.actuators[0].at);
 /// assert!((off - 1e-3).abs() < 1e-9);
 /// # Ok::<(), unripple_devices::DevicesError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Unknowns {
+pub struct Perturbation {
     /// Signal-to-noise of what is heard while one actuator sweeps the band at the drive limit, in dB: see [`Truth::noise`].
     pub snr_db: f64,
     /// Root mean square of the error of each drive's and each sensor's gain, as a share.
@@ -61,7 +61,7 @@ pub struct Unknowns {
     pub seed: u64,
 }
 
-impl Default for Unknowns {
+impl Default for Perturbation {
     /// 50 dB, 0.5 %, 1 mm, 1 %, decay times from 15 % above to 25 % below the nominal ones, two masses of 20 mg.
     fn default() -> Self {
         Self {
@@ -92,7 +92,7 @@ pub struct Truth {
     pub seed: u64,
 }
 
-impl Unknowns {
+impl Perturbation {
     /// The truth behind a surface file.
     ///
     /// # Errors

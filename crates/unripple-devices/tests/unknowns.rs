@@ -10,7 +10,7 @@ use unripple_devices::*;
 #[test]
 fn a_truth_is_off_by_what_was_asked() {
     let surface = film(3000.0);
-    let unknowns = Unknowns { actuator_mass: 5e-6, ..Default::default() };
+    let unknowns = Perturbation { actuator_mass: 5e-6, ..Default::default() };
     let truth = unknowns.truth(&surface).unwrap();
     assert_eq!(truth, unknowns.truth(&surface).unwrap());
     for (there, said) in truth.surface.actuators.iter().zip(&surface.actuators) {
@@ -24,7 +24,7 @@ fn a_truth_is_off_by_what_was_asked() {
     let Decay::Table(table) = &truth.surface.sheet.decay else { panic!() };
     assert_eq!((table[0], table[3].0), ((0.0, 1.15 * 0.07), 3000.0));
     let many: Vec<f64> = (0..200)
-        .flat_map(|seed| Unknowns { seed, ..Default::default() }.truth(&surface).unwrap().drive_gains)
+        .flat_map(|seed| Perturbation { seed, ..Default::default() }.truth(&surface).unwrap().drive_gains)
         .map(|gain| gain - 1.0)
         .collect();
     assert!((rms(&many) / 0.005 - 1.0).abs() < 0.1);
@@ -33,7 +33,7 @@ fn a_truth_is_off_by_what_was_asked() {
 #[test]
 fn nothing_unknown_is_the_surface_itself() {
     let surface = film(3000.0);
-    let none = Unknowns {
+    let none = Perturbation {
         gain: 0.0,
         misplacement: 0.0,
         tension: 0.0,
@@ -43,10 +43,10 @@ fn nothing_unknown_is_the_surface_itself() {
     };
     let truth = none.truth(&surface).unwrap();
     assert_eq!((truth.surface, truth.drive_gains), (surface, vec![1.0; 8]));
-    let refused = |unknowns: Unknowns| unknowns.truth(&film(3000.0)).unwrap_err().to_string();
-    assert!(refused(Unknowns { tension: 1.5, ..none.clone() }).contains("tension"));
-    assert!(refused(Unknowns { masses: vec![-1.0], ..none.clone() }).contains("mass"));
-    assert!(refused(Unknowns { decay: vec![(0.5, 1.0), (0.2, 1.0)], ..none }).contains("ascending"));
+    let refused = |unknowns: Perturbation| unknowns.truth(&film(3000.0)).unwrap_err().to_string();
+    assert!(refused(Perturbation { tension: 1.5, ..none.clone() }).contains("tension"));
+    assert!(refused(Perturbation { masses: vec![-1.0], ..none.clone() }).contains("mass"));
+    assert!(refused(Perturbation { decay: vec![(0.5, 1.0), (0.2, 1.0)], ..none }).contains("ascending"));
 }
 
 /// A plate with a loss factor rings the longer the lower the mode: a straight line from nothing to the middle of the band made it ring for
@@ -58,7 +58,7 @@ fn another_law_of_damping_follows_the_nominal_one() {
     plate.sheet.thickness = 0.012;
     plate.sheet.decay = Decay::LossFactor(0.02);
     let factor = |share: f64| if share < 0.3 { 1.15 - 0.5 * share } else { 1.0 - 0.375 * (share - 0.3) };
-    let Decay::Table(table) = Unknowns::default().truth(&plate).unwrap().surface.sheet.decay else {
+    let Decay::Table(table) = Perturbation::default().truth(&plate).unwrap().surface.sheet.decay else {
         panic!()
     };
     let at = |hz: f64| {
@@ -85,7 +85,7 @@ fn sweep(top: f64, samples: usize) -> impl Fn(usize) -> f64 {
 
 #[test]
 fn signal_to_noise_under_a_sweep_is_what_was_asked() {
-    let truth = Unknowns { seed: 3, ..Default::default() }.truth(&film(1500.0)).unwrap();
+    let truth = Perturbation { seed: 3, ..Default::default() }.truth(&film(1500.0)).unwrap();
     let modes = truth.modes(None).unwrap();
     let options = VirtualOptions { accuracy: 1e-4, ..Default::default() };
     let (mut sensors, mut probe) = (Vec::new(), Vec::new());

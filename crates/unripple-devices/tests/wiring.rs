@@ -20,7 +20,7 @@ fn known() -> &'static (Truth, Arc<Modes>, Expected) {
     static KNOWN: OnceLock<(Truth, Arc<Modes>, Expected)> = OnceLock::new();
     KNOWN.get_or_init(|| {
         let surface = film(1500.0);
-        let truth = Unknowns { seed: 5, ..Default::default() }.truth(&surface).unwrap();
+        let truth = Perturbation { seed: 5, ..Default::default() }.truth(&surface).unwrap();
         let modes = truth.modes(None).unwrap();
         let options = ResponseOptions { accuracy: 1e-4, ..Default::default() };
         let Ok(Responses::Modal(model)) = responses(&surface, &options) else { panic!() };

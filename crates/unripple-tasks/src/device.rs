@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use unripple::core::Surface;
-use unripple_devices::{DevicesError, JackOptions, Links, Unknowns, Virtual, VirtualOptions};
+use unripple_devices::{DevicesError, JackOptions, Links, Perturbation, Virtual, VirtualOptions};
 
 /// What a build without sound cards says of them.
 #[cfg(not(feature = "cards"))]
@@ -98,17 +98,17 @@ impl DeviceAsk {
 /// A virtual surface, and what it was not told of if anything.
 ///
 /// # Errors
-/// Those of [`Virtual`] and [`Unknowns::truth`].
+/// Those of [`Virtual`] and [`Perturbation::truth`].
 pub fn virtual_surface(
     options: &DeviceAsk,
     surface: &Surface,
     plain: &VirtualOptions,
-) -> Result<(Virtual, Option<Unknowns>), DevicesError> {
+) -> Result<(Virtual, Option<Perturbation>), DevicesError> {
     let Some(seed) = options.unknowns else {
         return Ok((Virtual::new(surface, plain)?, None));
     };
-    let usual = Unknowns { seed, ..Unknowns::default() };
-    let unknowns = Unknowns { snr_db: options.snr_db.unwrap_or(usual.snr_db), ..usual };
+    let usual = Perturbation { seed, ..Perturbation::default() };
+    let unknowns = Perturbation { snr_db: options.snr_db.unwrap_or(usual.snr_db), ..usual };
     let device = Virtual::of_truth(&unknowns.truth(surface)?, plain)?;
     Ok((device, Some(unknowns)))
 }

@@ -15,7 +15,7 @@ use unripple_core::{
     Responses, SampledResponses, Shape, Surface,
 };
 use unripple_devices::{
-    Expected, Handle, Truth, Unknowns, Virtual, VirtualOptions, WiringOptions, check_wiring,
+    Expected, Handle, Perturbation, Truth, Virtual, VirtualOptions, WiringOptions, check_wiring,
 };
 use unripple_focus::Method;
 use unripple_physics::design::papers_surface;
@@ -127,7 +127,7 @@ pub fn modal(surface: &Surface, max_hz: Option<f64>, accuracy: f64) -> ModalResp
 /// Measures a target of a surface as `calibrate` does, and focuses there by what was measured.
 pub fn calibrate(
     surface: &Surface,
-    unknowns: Option<&Unknowns>,
+    unknowns: Option<&Perturbation>,
     settings: &MeasureOptions,
     target: Point,
     window: f64,

@@ -9,7 +9,7 @@ use std::sync::{Arc, LazyLock};
 use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{Channel, Listen, MeasureOptions, Rig, SILENCE, Session, Wires};
 use unripple_core::{Device, ModalResponses, Point, Port, Responses, SampledResponses, Surface};
-use unripple_devices::{Handle, Tap, Truth, Unknowns, Virtual, VirtualOptions};
+use unripple_devices::{Handle, Perturbation, Tap, Truth, Virtual, VirtualOptions};
 use unripple_focus::Method;
 use unripple_physics::design::papers_surface;
 use unripple_physics::{Modes, ResponseOptions, responses};
@@ -28,7 +28,7 @@ pub struct World {
 
 pub static WORLD: LazyLock<World> = LazyLock::new(|| {
     let surface = papers_surface();
-    let truth = Unknowns::default().truth(&surface).unwrap();
+    let truth = Perturbation::default().truth(&surface).unwrap();
     let modal = |surface: &Surface| match responses(
         surface,
         &ResponseOptions { accuracy: 1e-4, ..Default::default() },

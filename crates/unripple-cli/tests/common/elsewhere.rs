@@ -3,7 +3,7 @@
 
 use std::path::Path;
 use unripple::core::{Device, Drive, Point, Surface};
-use unripple_devices::{Handle, Unknowns, Virtual, VirtualOptions};
+use unripple_devices::{Handle, Perturbation, Virtual, VirtualOptions};
 use unripple_store::{read_wav, write_wav};
 
 /// A surface that is not as it is told, with somebody who plays and records.
@@ -15,7 +15,7 @@ pub struct Elsewhere {
 
 impl Elsewhere {
     pub fn new(surface: &Surface, seed: u64, play: &str) -> Self {
-        let truth = Unknowns { seed, ..Unknowns::default() }.truth(surface).unwrap();
+        let truth = Perturbation { seed, ..Perturbation::default() }.truth(surface).unwrap();
         let device = Virtual::of_truth(&truth, &VirtualOptions::default()).unwrap();
         Self { handle: device.handle(), device, play: read_wav(play).unwrap().channels }
     }

@@ -15,7 +15,7 @@ impl WiringOptions {
     /// For a surface: bursts at a fifth of its band, each when the one before has died away to less than a hundredth.
     pub fn for_surface(surface: &Surface) -> Self {
         let usual = Self::for_band(surface.emission.band);
-        let decay = crate::unknowns::nominal_decay(surface, LOW * usual.frequency);
+        let decay = crate::perturbation::nominal_decay(surface, LOW * usual.frequency);
         Self { pause: (PAUSE * decay).min(LONGEST).max(usual.pause), ..usual }
     }
 }

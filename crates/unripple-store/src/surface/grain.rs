@@ -1,6 +1,6 @@
 //! Orthotropic sheets in a surface file.
 
-use super::material::Stuff;
+use super::material::MaterialProperties;
 use super::range::of;
 use super::reader::{Faults, Section};
 use crate::decimal;
@@ -10,7 +10,11 @@ use unripple_core::Grain;
 pub(super) const GRAIN_KEYS: [&str; 3] = ["young_across_gpa", "shear_gpa", "grain_deg"];
 
 /// The grain that a sheet says it has, if any; `None` at a fault. `stuff` is what it is made of along the grain.
-pub(super) fn read(section: &Section, stuff: Option<&Stuff>, faults: &mut Faults) -> Option<Option<Grain>> {
+pub(super) fn read(
+    section: &Section,
+    stuff: Option<&MaterialProperties>,
+    faults: &mut Faults,
+) -> Option<Option<Grain>> {
     if GRAIN_KEYS.iter().all(|key| section.get(key).is_none()) {
         return Some(None);
     }
@@ -31,7 +35,7 @@ pub(super) fn read(section: &Section, stuff: Option<&Stuff>, faults: &mut Faults
 
 /// The shear modulus where a file does not say: E1 E2 / (E1 + E2 + 2 ν12 E2), which of an isotropic sheet is its own
 /// (Huber's estimate for orthotropic plates).
-fn mean(section: &Section, stuff: &Stuff, across: f64, faults: &mut Faults) -> Option<f64> {
+fn mean(section: &Section, stuff: &MaterialProperties, across: f64, faults: &mut Faults) -> Option<f64> {
     let mean = stuff.young / (1.0 + stuff.young / across + 2.0 * stuff.poisson);
     if of::GRAIN_YOUNG.allow(mean / 1e9) {
         return Some(mean);
@@ -43,7 +47,7 @@ fn mean(section: &Section, stuff: &Stuff, across: f64, faults: &mut Faults) -> O
 }
 
 /// Whether the sheet's strain energy is positive: ν12 ν21 = ν12² E2 / E1 < 1.
-fn bounded(section: &Section, stuff: &Stuff, across: f64, faults: &mut Faults) -> Option<()> {
+fn bounded(section: &Section, stuff: &MaterialProperties, across: f64, faults: &mut Faults) -> Option<()> {
     if stuff.young < of::GRAIN_YOUNG.least * 1e9 {
         let span = section.get("young_gpa").map_or(section.span.clone(), |entry| entry.span);
         let found = format!("{} GPa", of::YOUNG.text(stuff.young));

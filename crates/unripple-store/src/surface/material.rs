@@ -10,7 +10,7 @@ pub(super) const MATERIAL_KEYS: [&str; 5] =
     ["material", "young_gpa", "density_kg_m3", "poisson_ratio", "strength_mpa"];
 
 /// What something is made of, overrides included.
-pub(super) struct Stuff {
+pub(super) struct MaterialProperties {
     pub name: String,
     pub young: f64,
     pub density: f64,
@@ -19,7 +19,7 @@ pub(super) struct Stuff {
 }
 
 /// What a table says that something is made of: a known material, or its numbers, or both.
-pub(super) fn read(section: &Section, faults: &mut Faults) -> Option<Stuff> {
+pub(super) fn read(section: &Section, faults: &mut Faults) -> Option<MaterialProperties> {
     let given = section.get("material");
     let name = given.as_ref().and_then(|entry| entry.line("the name of a material", faults));
     let known = name.as_deref().and_then(Material::named);
@@ -45,7 +45,13 @@ pub(super) fn read(section: &Section, faults: &mut Faults) -> Option<Stuff> {
         return None;
     }
     let name = known.map(|m| m.name.to_owned()).or(name).unwrap_or_else(|| "custom".into());
-    Some(Stuff { name, young: young?, density: density?, poisson: poisson?, strength: strength? })
+    Some(MaterialProperties {
+        name,
+        young: young?,
+        density: density?,
+        poisson: poisson?,
+        strength: strength?,
+    })
 }
 
 fn refuse(entry: &Entry, name: &str, faults: &mut Faults) {

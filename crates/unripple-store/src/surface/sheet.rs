@@ -1,7 +1,7 @@
 //! The table `[sheet]`.
 
 use super::grain::{self, GRAIN_KEYS};
-use super::material::{self, MATERIAL_KEYS, Stuff};
+use super::material::{self, MATERIAL_KEYS, MaterialProperties};
 use super::profile;
 use super::range::{Limits, of};
 use super::reader::{Entry, Faults, Section};
@@ -64,7 +64,7 @@ fn profile(section: &Section, key: &str, limits: &Limits, faults: &mut Faults) -
 /// A fault if neither tension nor stiffness pulls the sheet back, be it only in places.
 fn pulled_back(
     section: &Section,
-    stuff: &Stuff,
+    stuff: &MaterialProperties,
     tension: f64,
     profile: Option<&Profile>,
     faults: &mut Faults,

@@ -7,7 +7,7 @@ use crate::{DeviceAsk, DeviceKind};
 use crate::{device, judge};
 use unripple::core::{PROBE, Surface};
 use unripple_calibrate::measure::Rig;
-use unripple_devices::{DevicesError, Jack, Unknowns, VirtualOptions};
+use unripple_devices::{DevicesError, Jack, Perturbation, VirtualOptions};
 
 /// An open device with whoever moves its probe.
 pub struct Opened {
@@ -46,7 +46,7 @@ fn virtual_surface(options: &DeviceAsk, surface: &Surface) -> Result<Opened, Tas
 }
 
 /// Unknowns in words.
-fn said(unknowns: &Unknowns) -> String {
+fn said(unknowns: &Perturbation) -> String {
     format!(
         "signal to noise {} dB, gains off by {} %, actuators by {} mm, tension by {} %, {} stray masses, other damping",
         unknowns.snr_db,
