@@ -201,7 +201,7 @@ fn combine(points: &[Point; 4], weights: [f64; 4]) -> Point {
     Point::new(sum(|p| p.x), sum(|p| p.y))
 }
 
-/// The integral of `f` from `from` over `width` by Gauss's rule of four points.
+/// The integral of `f` from `from` over `width` by Gauss-Legendre quadrature of four points.
 pub(crate) fn gauss(f: impl Fn(f64) -> f64, from: f64, width: f64) -> f64 {
     const RULE: [(f64, f64); 2] = [
         (0.339_981_043_584_856_26, 0.652_145_154_862_546_1),

@@ -1,4 +1,4 @@
-//! Damping laws: decay rate of a mode by its frequency.
+//! Damping laws: decay rate of a mode by its frequency (quality factor Q = ω/2σ).
 
 use unripple_core::Decay;
 

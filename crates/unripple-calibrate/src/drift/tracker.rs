@@ -21,7 +21,7 @@ const GUESS: f64 = 1e-3;
 ///
 /// The drive that is sent anyway, whatever it is, makes the sheet sound, and the actuators hear it. The model run
 /// under a tension hears something else; the difference tells the tension, since every mode's frequency moves by its own share
-/// of it (the dispersion relation). Between observations tension goes on at the rate found so far (a filter of Kalman's for
+/// of it (the dispersion relation). Between observations tension goes on at the rate found so far (a Kalman filter for
 /// ratio and rate).
 ///
 /// ```

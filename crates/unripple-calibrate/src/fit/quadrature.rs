@@ -12,7 +12,7 @@ const PARTS: usize = 4;
 
 /// Points and weights (m²) of an integral over an outline of functions with wavenumbers up to `k` (rad/m).
 ///
-/// Gauss's rule on whole rectangles, to about rounding; elsewhere cells of a tenth of a wavelength, weighed by how much of them
+/// Gauss-Legendre quadrature on whole rectangles, to about rounding; elsewhere cells of a tenth of a wavelength, weighed by how much of them
 /// lies inside.
 pub(super) fn over(outline: &Outline, k: f64) -> Vec<(Point, f64)> {
     match outline.shape {

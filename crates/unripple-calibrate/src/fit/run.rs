@@ -1,4 +1,4 @@
-//! The model fitted to measured responses: Gauss-Newton steps, damped after Levenberg and Marquardt.
+//! The model fitted to measured responses: Gauss-Newton steps, damped as by Levenberg-Marquardt.
 
 use super::basis::Basis;
 use super::fitted::Fitted;
@@ -56,7 +56,7 @@ const WORTH: f64 = 0.85;
 /// Unknown are the mean tension, bending stiffness, anisotropy and profile of the tension, a damping law, places, masses, damping
 /// and gains of the actuators, and a few stray masses wherever they lie; each is held to its nominal value as weakly as such
 /// values are known. Spectra are compared from low to high frequencies, so that a mode's frequency is known to within its line's
-/// width before its phase matters (Gauss and Newton's steps, damped after Levenberg and Marquardt). Another
+/// width before its phase matters (Gauss-Newton steps, damped as by Levenberg-Marquardt). Another
 /// tension turns the nominal modes into combinations of each other; what hangs on the sheet adds to it by Woodbury's identity.
 ///
 /// # Errors

@@ -40,7 +40,7 @@ pub(super) struct Found {
 }
 
 impl Case<'_> {
-    /// The values that fit best, by Levenberg and Marquardt's method, each unknown held to what it is thought to be.
+    /// The values that fit best, by the Levenberg-Marquardt method, each unknown held to what it is thought to be.
     ///
     /// Where the residual stays above the noise, the noise counts as that much larger, so that a wrong model does not overrule
     /// what is thought.

@@ -54,7 +54,7 @@ impl Footprint {
 
     /// An even contact along a straight line, as narrow as a line is.
     ///
-    /// By Gauss's rule of `count` points: exact for polynomials of degree 2·`count` - 1 along it.
+    /// By Gauss-Legendre quadrature of `count` points: exact for polynomials of degree 2·`count` - 1 along it.
     pub fn line(from: Point, to: Point, count: usize) -> Self {
         let along = |(x, w): (f64, f64)| {
             let t = 0.5 * (1.0 + x);

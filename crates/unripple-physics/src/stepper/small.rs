@@ -106,7 +106,7 @@ const STIFF: f64 = 1e5;
 /// The inverse N grows by one port at a time (bordering): with `k` the new column and κ its diagonal entry, `w = N k` and
 /// `s = κ - kᵀw ≥ 1`, it becomes `N + w wᵀ/s` bordered by `-w/s` and `1/s`. So what changes at the end costs two products,
 /// and N stays symmetric and without negative eigenvalues whatever is rounded. Loads so stiff that the rounding of N would
-/// show are solved by Cholesky's factors, slower but backward stable.
+/// show are solved by Cholesky factorisation, slower but backward stable.
 #[derive(Clone, Debug)]
 pub(super) struct Inverse {
     now: Small,

@@ -53,7 +53,7 @@ impl Border {
         Self { from: along(from), to: along(to), ..*self }
     }
 
-    /// The same in pieces that turn little, for Gauss's rule.
+    /// The same in pieces that turn little, for Gauss-Legendre quadrature.
     pub(crate) fn pieces(&self) -> impl Iterator<Item = Self> {
         let count = ((self.turn() / TURN).ceil() as usize).max(1);
         let whole = *self;

@@ -170,7 +170,7 @@ fn identity(size: usize) -> Vec<Vec<f64>> {
     (0..size).map(|i| (0..size).map(|j| f64::from(u8::from(i == j))).collect()).collect()
 }
 
-/// An orthonormal basis of what is orthogonal to all rows, by Gram and Schmidt's method with pivoting.
+/// An orthonormal basis of what is orthogonal to all rows, by Gram-Schmidt orthogonalisation with pivoting.
 fn null_space(rows: Vec<Vec<f64>>, size: usize) -> Vec<Vec<f64>> {
     let unit = |mut row: Vec<f64>| {
         let norm = dot(&row, &row).sqrt();

@@ -1,7 +1,7 @@
 //! Quadrature over triangles with curved edges.
 //!
 //! A region is the sum of the cones from an apex to the pieces of its border, with signs: x = a + r (γ(s) - a), r and s from
-//! 0 to 1, dA = r (γ - a) x γ' dr ds. Of a polynomial the sum is the same for every apex; with Gauss's rule in r and s it is
+//! 0 to 1, dA = r (γ - a) x γ' dr ds. Of a polynomial the sum is the same for every apex; with Gauss-Legendre quadrature in r and s it is
 //! exact along straight borders and converges spectrally along curves.
 
 use super::border::Border;
@@ -16,7 +16,7 @@ pub(crate) struct Rules {
     higher: Rule,
 }
 
-/// Gauss's rules on [0, 1]: along a cone's rays, along straight borders and along curves.
+/// Gauss-Legendre rules on [0, 1]: along a cone's rays, along straight borders and along curves.
 #[derive(Clone, Debug)]
 pub(crate) struct Rule {
     radial: Vec<(f64, f64)>,

@@ -4,7 +4,7 @@
 //! a slope, and a solution takes advantage of it: frequencies come out low, by h³ for a membrane. Polynomials
 //! (λ_a λ_b)³(λ_a - λ_b)^i, for the slope (λ_a λ_b)² λ_c (λ_a - λ_b)^i, λ_a and λ_b belonging to the curve's ends, are added,
 //! such that u and ∂u/∂n vanish at points of the curve. They are zero with their gradients along the other two edges and with their
-//! second derivatives at the vertices: nothing changes elsewhere. The points are the zeros of Jacobi's polynomials to the
+//! second derivatives at the vertices: nothing changes elsewhere. The points are the zeros of Jacobi polynomials to the
 //! weight that the ends leave, so that what is left between them is orthogonal to the smooth forces that hold the rim.
 
 use super::border::Border;
