@@ -125,7 +125,7 @@ fn sweeps_begin_below_the_lowest_mode() {
         let model = modal(&surface, None, 1e-4);
         let lowest =
             model.poles.iter().map(|pole| pole.omega / std::f64::consts::TAU).fold(f64::MAX, f64::min);
-        let from = MeasureOptions::for_model(&model).from;
+        let from = MeasureOptions::for_model(&model).start_hz;
         println!("lowest mode {lowest:.1} Hz, swept from {from:.1}");
         assert!(from <= 0.7 * lowest && from <= highest && (lowest < 100.0 || from == highest));
     }
@@ -135,8 +135,13 @@ fn sweeps_begin_below_the_lowest_mode() {
 #[test]
 fn a_table_calibrates() {
     let unknowns = Perturbation { seed: 3, ..Perturbation::default() };
-    let settings =
-        MeasureOptions { from: 15.0, ringing: 1.5, sweep: 2.0, kept: 0.4, ..MeasureOptions::default() };
+    let settings = MeasureOptions {
+        start_hz: 15.0,
+        settle_time: 1.5,
+        sweep: 2.0,
+        response_length: 0.4,
+        ..MeasureOptions::default()
+    };
     let mut wrong = Vec::new();
     for (exciters, unknowns) in [(6, None), (if whole() { 16 } else { 6 }, Some(&unknowns))] {
         let found = calibrate(&table(exciters), unknowns, &settings, ON_TABLE, 0.04);

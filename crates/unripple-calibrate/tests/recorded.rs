@@ -40,7 +40,7 @@ fn a_sheet_that_rings_for_half_a_second_is_measured() {
 #[test]
 fn options_too_short_for_the_ringing_are_warned_of() {
     let bench = Bench::new(2, 400.0, 0.5);
-    let short = MeasureOptions { kept: 0.1, ..MeasureOptions::for_model(&bench.model) };
+    let short = MeasureOptions { response_length: 0.1, ..MeasureOptions::for_model(&bench.model) };
     let said = short.warnings(&bench.model);
     assert!(
         said.len() == 1 && said[0].starts_with("response: 100 ms are short") && said[0].contains("500 ms")

@@ -82,7 +82,7 @@ impl Session {
         for knock in sweeps.knocks(line) {
             // Deconvolved, it lies from a sweep's length before where it was, to where it has died away.
             let until = knock.at as f64 + 2.0 * self.decay() * rate;
-            let since = knock.at as f64 - (self.sweep.sounding() + self.options.kept) * rate;
+            let since = knock.at as f64 - (self.sweep.sounding() + self.options.response_length) * rate;
             let hit = |start: &usize| (since..until).contains(&(*start as f64 + self.options.latency));
             let actuators: Vec<usize> =
                 (0..starts.len()).filter(|a| hit(&starts[*a])).map(|a| a + 1).collect();
@@ -156,7 +156,7 @@ impl Session {
 
     /// Amplitude decay time that the plan is made for, in s: what is left of a response when the next begins is e⁻⁵.
     fn decay(&self) -> f64 {
-        self.options.ringing / 5.0
+        self.options.settle_time / 5.0
     }
 
     /// Harmonics as shares of the drive's amplitude, from the second, where they are told from noise.

@@ -14,25 +14,25 @@ pub struct MeasureOptions {
     /// Seconds of an actuator's sweep.
     pub sweep: f64,
     /// Lowest frequency swept, in Hz.
-    pub from: f64,
+    pub start_hz: f64,
     /// Highest frequency swept, as a multiple of the top of the surface's band.
-    pub over: f64,
+    pub stop_over_band: f64,
     /// Drive, as a share of the surface's limit.
     pub level: f64,
     /// Seconds that the surface takes to come to rest; the responses of actuators are kept that far apart.
-    pub ringing: f64,
+    pub settle_time: f64,
     /// Seconds of each response that are kept.
-    pub kept: f64,
+    pub response_length: f64,
     /// Times that each place is measured, and averaged.
     pub repeats: usize,
     /// Harmonics up to this order are kept apart from the responses.
     pub highest_order: usize,
     /// Times that a bad place is measured again before it is left as bad.
-    pub again: u64,
+    pub retries: u64,
     /// Signal to noise below which a response is bad, in dB.
-    pub least_snr_db: f64,
+    pub min_snr_db: f64,
     /// Distortion above which a response is bad, as a share of its power, in dB.
-    pub most_distortion_db: f64,
+    pub max_distortion_db: f64,
     /// Samples that what is heard comes late by.
     pub latency: f64,
     /// Seconds by which the probe alone hears later than the sensors do; `None` to find it.
@@ -48,16 +48,16 @@ impl Default for MeasureOptions {
     fn default() -> Self {
         Self {
             sweep: 0.5,
-            from: 60.0,
-            over: 1.2,
+            start_hz: 60.0,
+            stop_over_band: 1.2,
             level: 1.0,
-            ringing: 0.35,
-            kept: 0.1,
+            settle_time: 0.35,
+            response_length: 0.1,
             repeats: 1,
             highest_order: 3,
-            again: 2,
-            least_snr_db: 20.0,
-            most_distortion_db: -20.0,
+            retries: 2,
+            min_snr_db: 20.0,
+            max_distortion_db: -20.0,
             latency: 0.0,
             probe_delay: None,
             model: true,
@@ -86,22 +86,23 @@ impl MeasureOptions {
     /// decay times: both as far apart in a slow surface as in a quick one.
     pub fn for_model(model: &ModalResponses) -> Self {
         let usual = Self::default();
-        let from = lowest(model).map_or(usual.from, |hz| (BELOW * hz).clamp(LOWEST, usual.from));
+        let from = lowest(model).map_or(usual.start_hz, |hz| (BELOW * hz).clamp(LOWEST, usual.start_hz));
         let times = slowest_decay(model, from) / USUAL_DECAY;
         // What differs in the last digits is the same surface, and the same plan.
         let times = if times > 1.001 { times } else { 1.0 };
-        let [sweep, ringing, kept] = [usual.sweep, usual.ringing, usual.kept].map(|seconds| times * seconds);
-        Self { sweep, from, ringing, kept, ..usual }
+        let [sweep, ringing, kept] =
+            [usual.sweep, usual.settle_time, usual.response_length].map(|seconds| times * seconds);
+        Self { sweep, start_hz: from, settle_time: ringing, response_length: kept, ..usual }
     }
 
     /// What is too short for a surface that is thought to be like a model, a sentence each.
     pub fn warnings(&self, model: &ModalResponses) -> Vec<String> {
         let suited = Self::for_model(model);
-        let decay = 1e3 * slowest_decay(model, self.from);
+        let decay = 1e3 * slowest_decay(model, self.start_hz);
         let of = [
             ("sweep", self.sweep, suited.sweep, "harmonics lie in each other's ringing"),
-            ("pause", self.ringing, suited.ringing, "sweeps lie in each other's ringing"),
-            ("response", self.kept, suited.kept, "what rings on later is left out"),
+            ("pause", self.settle_time, suited.settle_time, "sweeps lie in each other's ringing"),
+            ("response", self.response_length, suited.response_length, "what rings on later is left out"),
         ];
         let short = of.into_iter().filter(|(_, found, wanted, _)| *found < 0.999 * wanted);
         short
@@ -134,12 +135,17 @@ impl MeasureOptions {
         )?;
         require(
             "seconds kept of a response",
-            self.kept > 0.0 && self.kept <= MOST_KEPT,
+            self.response_length > 0.0 && self.response_length <= MOST_KEPT,
             "above 0, at most 60",
-            self.kept,
+            self.response_length,
         )?;
         require("repeats", self.repeats >= 1, "1 or more", self.repeats as f64)?;
-        require("end of the sweep over the band's top", self.over >= 1.0, "1 or more", self.over)?;
+        require(
+            "end of the sweep over the band's top",
+            self.stop_over_band >= 1.0,
+            "1 or more",
+            self.stop_over_band,
+        )?;
         let [from, to] = self.swept(surface);
         Ok(Sweep {
             rate: emission.rate,
@@ -153,12 +159,12 @@ impl MeasureOptions {
 
     /// The lowest and the highest frequency swept on a surface, in Hz.
     pub fn swept(&self, surface: &Surface) -> [f64; 2] {
-        [self.from, (self.over * surface.emission.band[1]).min(0.45 * surface.emission.rate)]
+        [self.start_hz, (self.stop_over_band * surface.emission.band[1]).min(0.45 * surface.emission.rate)]
     }
 
     /// Why a channel is bad, if it is: its first response that is worse than asked. `each` is what its responses are counted by.
     pub(super) fn fault(&self, channel: &Channel, each: &str) -> Option<String> {
-        let matters = |knock: &&Knocked| !knock.left_out && knock.share_db > -self.least_snr_db;
+        let matters = |knock: &&Knocked| !knock.left_out && knock.share_db > -self.min_snr_db;
         if let Some(knock) = channel.account.knocks.iter().find(matters) {
             let hit: Vec<String> = knock.actuators.iter().map(usize::to_string).collect();
             return Some(format!(
@@ -178,13 +184,13 @@ impl MeasureOptions {
                 return None;
             }
             let (number, snr_db) = (index + 1, quality.snr_db);
-            let most = self.most_distortion_db;
+            let most = self.max_distortion_db;
             if let Some(distortion) = quality.distortion_db.filter(|db| *db > most && snr_db > 0.0) {
                 return Some(format!(
                     "{each} {number}: distortion {distortion:.1} dB, expected {most:.0} or less (is the drive clipped?)"
                 ));
             }
-            let least = self.least_snr_db;
+            let least = self.min_snr_db;
             if snr_db >= least {
                 return None;
             }
@@ -211,12 +217,12 @@ impl MeasureOptions {
 
     /// Samples that responses are kept apart by, at least as many as are kept of them.
     pub(super) fn apart(&self, rate: f64) -> usize {
-        ((self.ringing * rate).round() as usize).max(self.samples(rate))
+        ((self.settle_time * rate).round() as usize).max(self.samples(rate))
     }
 
     /// Samples kept of a response.
     pub fn samples(&self, rate: f64) -> usize {
-        (self.kept * rate).round() as usize + 1
+        (self.response_length * rate).round() as usize + 1
     }
 }
 

@@ -42,7 +42,7 @@ impl TapSession {
             });
         }
         // A tap may come late in the recording: twice what the surface rings.
-        let samples = (2.0 * options.ringing * sweep.rate) as usize;
+        let samples = (2.0 * options.settle_time * sweep.rate) as usize;
         Ok(Self {
             options: options.clone(),
             tap,

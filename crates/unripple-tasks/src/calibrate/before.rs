@@ -40,7 +40,7 @@ pub fn apply(ask: &Ask, surface: &Surface, settings: &mut MeasureOptions) -> Res
         && low < high
         && (high - to).abs() <= SAME * to
     {
-        settings.from = low;
+        settings.start_hz = low;
         rest(plan, ask, surface, settings);
     }
     Ok(())
@@ -53,6 +53,6 @@ fn rest(plan: &LibraryPlan, ask: &Ask, surface: &Surface, settings: &mut Measure
         settings.sweep = sweep;
     }
     if ask.response_s.is_none() && plan.samples > 1 {
-        settings.kept = (plan.samples - 1) as f64 / surface.emission.rate;
+        settings.response_length = (plan.samples - 1) as f64 / surface.emission.rate;
     }
 }

@@ -36,7 +36,7 @@ pub fn place(ask: &Ask) -> Result<Option<OutputDir>, TaskError> {
 pub fn write(campaign: &mut Campaign<'_>, library: &Library) -> Result<(), TaskError> {
     let Some(out) = campaign.figure.take() else { return Ok(()) };
     let known = Known::of(library, campaign.places.probed)?;
-    figures::write(&out, &[("bands", known.figure(campaign.settings.least_snr_db))])?;
+    figures::write(&out, &[("bands", known.figure(campaign.settings.min_snr_db))])?;
     campaign.with_progress(|progress| folder::finish(out, progress))
 }
 

@@ -74,7 +74,7 @@ pub(super) fn run(mut known: Campaign<'_>, hands: Hands) -> Result<Report, TaskE
             heard.done(progress.done as f64 / progress.total as f64);
             if heard.cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
-        campaign(rig.as_mut(), &way, &places.points, &mut shelf, settings.again, &mut tell)?;
+        campaign(rig.as_mut(), &way, &places.points, &mut shelf, settings.retries, &mut tell)?;
         go_on(heard)
     })?;
     let taken = start.elapsed();

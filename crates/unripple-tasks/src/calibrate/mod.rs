@@ -104,7 +104,7 @@ fn settings(ask: &Ask, surface: &Surface, model: &ModalResponses) -> Result<Meas
     }
     Ok(MeasureOptions {
         sweep: length(ask.sweep_s, usual.sweep, "sweep_s")?,
-        kept: length(ask.response_s, usual.kept, "response_s")?,
+        response_length: length(ask.response_s, usual.response_length, "response_s")?,
         level: above_zero(ask.level, "level", "of the limit")?,
         repeats: ask.repeats,
         probe_delay: ask.probe_delay_s,

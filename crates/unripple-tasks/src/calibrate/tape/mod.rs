@@ -62,7 +62,7 @@ pub(super) fn run(mut campaign: Campaign<'_>) -> Result<Report, TaskError> {
     }
     let before = plan::found(folder)?;
     // A bad recording is not better when it is read again, and one that was made is read as it was made.
-    campaign.settings = MeasureOptions { again: 0, ..campaign.settings };
+    campaign.settings = MeasureOptions { retries: 0, ..campaign.settings };
     if let Some(before) = &before {
         plan::apply(before, ask, &mut campaign.settings);
     }

@@ -49,14 +49,14 @@ pub fn found(folder: &Path) -> Result<Option<Value>, TaskError> {
 pub fn apply(plan: &Value, ask: &Ask, settings: &mut MeasureOptions) {
     let seconds = |key: &str| plan[key].as_f64().filter(|seconds| *seconds > 0.0 && *seconds < 60.0);
     let usual = MeasureOptions::default();
-    settings.ringing = seconds("ringing_s").unwrap_or(usual.ringing);
-    settings.from = plan["sweep_from_hz"].as_f64().filter(|hz| *hz > 0.0).unwrap_or(usual.from);
+    settings.settle_time = seconds("ringing_s").unwrap_or(usual.settle_time);
+    settings.start_hz = plan["sweep_from_hz"].as_f64().filter(|hz| *hz > 0.0).unwrap_or(usual.start_hz);
     if ask.sweep_s.is_none() {
         settings.sweep = seconds("sweep_s").unwrap_or(settings.sweep);
     }
     // A plan that does not say is of a time when as much was kept of every surface.
     if ask.response_s.is_none() && seconds("ringing_s").is_none() {
-        settings.kept = usual.kept;
+        settings.response_length = usual.response_length;
     }
 }
 
@@ -116,8 +116,8 @@ pub fn told(
         "outputs": layout.outputs,
         "inputs": layout.inputs,
         "sweep_s": settings.sweep,
-        "sweep_from_hz": settings.from,
-        "ringing_s": settings.ringing,
+        "sweep_from_hz": settings.start_hz,
+        "ringing_s": settings.settle_time,
         "sweeps_begin_s": drive.channels().iter().map(begins).collect::<Vec<_>>(),
         "level": settings.level,
         "repeats": settings.repeats,
