@@ -6,39 +6,39 @@
 //! # In reading order
 //!
 //! A page speaks `wire`. `door` takes connections in, `lobby` has too many of them leave; `server` lets a page in if `guard` does,
-//! `link` talks with it. `studio` runs the `session`, a state machine: what pages say and the time go in, what they are shown comes out.
-//! It has the `rig`, which is the surface at work, and the `workshop`, where surfaces are changed; what takes longer than a picture may
-//! wait is done beside it by the `bench`. What comes of it leaves by the `outbox` for the `board`, from which each page takes what it has
+//! `link` talks with it. `host` runs the `session`, a state machine: what pages say and the time go in, what they are shown comes out.
+//! It has the `simulation`, which is the surface at work, and the `editor`, where surfaces are changed; what takes longer than a picture may
+//! wait is done beside it by `compute`. What comes of it leaves by the `outbox` for the `notices`, from which each page takes what it has
 //! not seen, as fast as it can. `jobs` are tasks that take a while: a calibration, what the doctor says.
 
 mod assets;
-mod bench;
-mod board;
+mod compute;
 mod door;
 mod draft;
 mod edition;
+mod editor;
 mod error;
 mod guard;
+mod host;
 mod jobs;
 mod link;
 mod lobby;
 mod lock;
+mod messages;
+mod notices;
 mod outbox;
-mod rig;
 mod server;
 mod session;
+mod simulation;
 mod spectrum;
-mod studio;
 pub mod task;
-mod told;
 mod view;
 mod wire;
-mod workshop;
 
-pub use bench::Responder;
+pub use compute::Responder;
 pub use draft::Draft;
 pub use error::ViewError;
-pub use rig::Follow;
+pub use simulation::Follow;
 pub use unripple_tasks::play::Opener;
 pub use view::{View, Viewer};
 pub use wire::{Command, Edit, Job, Measure, Phase, Probe, Refused, Settings, Transport};

@@ -1,7 +1,7 @@
 //! One page's link: what it is shown, and what it asks for.
 
-use crate::board::Notice;
-use crate::studio::Studio;
+use crate::host::SessionHost;
+use crate::notices::Notice;
 use crate::wire::{Command, LONGEST};
 use axum::extract::ws::{Message, Utf8Bytes, WebSocket};
 use std::sync::Arc;
@@ -33,12 +33,12 @@ const WAITING: usize = 32;
 static GIVEN: AtomicU64 = AtomicU64::new(1);
 
 /// Serves a page until it goes.
-pub async fn serve(mut socket: WebSocket, studio: Arc<Studio>) {
+pub async fn serve(mut socket: WebSocket, host: Arc<SessionHost>) {
     let page = GIVEN.fetch_add(1, Ordering::Relaxed);
     let (told, faults) = channel(WAITING);
-    studio.come(page, told);
+    host.come(page, told);
     let mut link = Link {
-        studio,
+        host,
         page,
         faults,
         texts: 0,
@@ -51,12 +51,12 @@ pub async fn serve(mut socket: WebSocket, studio: Arc<Studio>) {
         second: (Instant::now(), 0),
     };
     link.talk(&mut socket).await;
-    link.studio.leave(page);
+    link.host.leave(page);
 }
 
 /// A page's link at work.
 struct Link {
-    studio: Arc<Studio>,
+    host: Arc<SessionHost>,
     page: u64,
     faults: Receiver<String>,
     /// Of the newest text that was sent, and of the newest frame.
@@ -75,7 +75,7 @@ struct Link {
 
 impl Link {
     async fn talk(&mut self, socket: &mut WebSocket) {
-        let mut news = self.studio.board.watch();
+        let mut news = self.host.notices.watch();
         let mut ask = tokio::time::interval(ASKED);
         // After a sleep of this machine a page has time to answer, too.
         ask.set_missed_tick_behavior(MissedTickBehavior::Delay);
@@ -110,7 +110,7 @@ impl Link {
     /// Sends what the page has not been sent; frames only as fast as it draws them.
     async fn catch_up(&mut self, socket: &mut WebSocket) -> bool {
         let waits = self.shown.saturating_sub(self.seen) > UNSEEN;
-        for (version, notice) in self.studio.board.since(self.texts.min(self.frames)) {
+        for (version, notice) in self.host.notices.since(self.texts.min(self.frames)) {
             let message = match notice {
                 Notice::Text(text) if version > self.texts => {
                     self.texts = version;
@@ -146,7 +146,7 @@ impl Link {
         }
         match Command::read(&text) {
             Ok(Command::Seen { frame }) => self.seen = self.seen.max(frame.min(self.shown)),
-            Ok(command) => self.studio.obey(self.page, command),
+            Ok(command) => self.host.obey(self.page, command),
             Err(error) => return self.refuse(&error.to_string()),
         }
         true
@@ -155,8 +155,8 @@ impl Link {
     /// Says why something is refused; `false` if that was so once too often.
     fn refuse(&mut self, why: &str) -> bool {
         self.refused += 1;
-        self.studio.log(&format!("page {}: refused: {why}", self.page));
-        self.studio.refuse(self.page, why);
+        self.host.log(&format!("page {}: refused: {why}", self.page));
+        self.host.refuse(self.page, why);
         self.refused <= BORNE
     }
 }

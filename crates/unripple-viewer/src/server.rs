@@ -2,9 +2,9 @@
 
 use crate::assets;
 use crate::guard::{Guard, Needs, Turned};
+use crate::host::SessionHost;
 use crate::link;
 use crate::lobby::Seat;
-use crate::studio::Studio;
 use axum::Router;
 use axum::body::Bytes;
 use axum::extract::ws::WebSocketUpgrade;
@@ -34,7 +34,7 @@ const POLICY: &str = "default-src 'self'; img-src 'self' blob: data:; object-src
 #[derive(Clone)]
 pub struct Desk {
     /// What pages share.
-    pub studio: Arc<Studio>,
+    pub host: Arc<SessionHost>,
     /// Who may come in.
     pub guard: Guard,
 }
@@ -68,7 +68,7 @@ async fn guard(State(desk): State<Desk>, request: Request, next: Next) -> Respon
         Needs::Token
     };
     if let Err(turned) = desk.guard.check(request.uri(), request.headers(), needs) {
-        desk.studio.log(&format!(
+        desk.host.log(&format!(
             "refused: {} {}: {turned:?}",
             request.method(),
             request.uri().path().escape_debug()
@@ -117,7 +117,7 @@ async fn open(
     upgrade: WebSocketUpgrade,
 ) -> Response {
     // Taken before the answer, so that no two pages take the last place.
-    let Some(viewing) = desk.studio.board.enter(MOST_PAGES) else {
+    let Some(viewing) = desk.host.notices.enter(MOST_PAGES) else {
         return (StatusCode::SERVICE_UNAVAILABLE, "too many pages are open\n").into_response();
     };
     let upgrade = upgrade.max_message_size(link::TAKEN).max_frame_size(link::TAKEN);
@@ -125,13 +125,13 @@ async fn open(
         if let Some(Extension(seat)) = &seat {
             seat.settle();
         }
-        link::serve(socket, desk.studio).await;
+        link::serve(socket, desk.host).await;
         drop((viewing, seat));
     })
 }
 
 async fn surface(State(desk): State<Desk>) -> Response {
-    download(desk.studio.toml().into_bytes(), "application/toml", "surface.toml")
+    download(desk.host.toml().into_bytes(), "application/toml", "surface.toml")
 }
 
 async fn load(State(desk): State<Desk>, request: Request) -> Response {
@@ -141,14 +141,14 @@ async fn load(State(desk): State<Desk>, request: Request) -> Response {
         Err(_) => return (StatusCode::REQUEST_TIMEOUT, "the file took too long to come\n").into_response(),
     };
     let refused = |why: String| {
-        desk.studio.log(&format!("refused: an uploaded surface: {}", why.lines().next().unwrap_or_default()));
+        desk.host.log(&format!("refused: an uploaded surface: {}", why.lines().next().unwrap_or_default()));
         let text = serde_json::json!({ "text": why }).to_string();
         (StatusCode::BAD_REQUEST, [(header::CONTENT_TYPE, "application/json")], text).into_response()
     };
     let Ok(text) = String::from_utf8(body.to_vec()) else {
         return refused("expected a text, found bytes that are none".into());
     };
-    match desk.studio.load(text).await {
+    match desk.host.load(text).await {
         Ok(()) => ([(header::CONTENT_TYPE, "application/json")], "{}").into_response(),
         Err(why) => refused(why),
     }
@@ -156,7 +156,7 @@ async fn load(State(desk): State<Desk>, request: Request) -> Response {
 
 /// Files of the last act that was measured; of no other, where its number is given.
 async fn measured(State(desk): State<Desk>, Path(name): Path<String>, uri: Uri) -> Response {
-    let Some(measured) = desk.studio.measured() else {
+    let Some(measured) = desk.host.measured() else {
         return (StatusCode::NOT_FOUND, "nothing has been measured yet\n").into_response();
     };
     let wanted = uri.query().unwrap_or_default().split('&').find_map(|pair| pair.strip_prefix("id="));

@@ -2,13 +2,13 @@
 //! beside it comes out. It knows of no thread, clock or network: whoever runs it has those.
 
 use crate::ViewError;
-use crate::bench::{Bench, Found, Queue, Responder, Task};
+use crate::compute::{ComputeWorker, Found, Queue, Responder, Task};
 use crate::edition::{Edition, Editions};
+use crate::editor::Editor;
+use crate::messages::Settled;
 use crate::outbox::{Out, Outbox};
-use crate::rig::{Instrument, Order, Rig, Spec};
-use crate::told::Settled;
+use crate::simulation::{Instrument, Order, Simulation, Spec};
 use crate::wire::Command;
-use crate::workshop::Workshop;
 use std::sync::Arc;
 use unripple::core::Point;
 
@@ -16,7 +16,7 @@ use unripple::core::Point;
 pub enum Errand {
     /// A surface is to be made ready to be played: [`build`](Self::build) does it.
     Build(Box<Spec>),
-    /// Figures are to be computed, by the session's [`Bench`].
+    /// Figures are to be computed, by the session's [`ComputeWorker`].
     Compute(Task),
 }
 
@@ -39,11 +39,11 @@ impl Errand {
 
 /// What all pages share.
 pub struct Session {
-    rig: Rig,
-    workshop: Workshop,
+    simulation: Simulation,
+    editor: Editor,
     editions: Editions,
     tasks: Queue,
-    /// Whether the bench is at work.
+    /// Whether figures are being computed.
     computing: bool,
     out: Outbox,
 }
@@ -51,31 +51,31 @@ pub struct Session {
 impl Session {
     /// A session on a surface that is ready.
     pub fn new(instrument: Instrument, told: Settled) -> Self {
-        let workshop = Workshop::new(&instrument, told);
+        let editor = Editor::new(&instrument, told);
         let mut out = Outbox::default();
-        out.tell("settings", &workshop.settings(&instrument));
-        let mut rig = Rig::new(instrument);
-        rig.begin(&mut out);
+        out.tell("settings", &editor.settings(&instrument));
+        let mut simulation = Simulation::new(instrument);
+        simulation.begin(&mut out);
         let (editions, tasks) = (Editions::default(), Queue::default());
-        let mut session = Self { rig, workshop, editions, tasks, computing: false, out };
+        let mut session = Self { simulation, editor, editions, tasks, computing: false, out };
         session.renew();
         session
     }
 
     /// What computes figures for it; `known` is what the first surface is called on the command line, the responses of its library, and why
     /// nobody knows what those mean.
-    pub fn bench(&self, known: (String, Option<Responder>, Option<String>)) -> Bench {
-        Bench::new(known, self.editions.newest())
+    pub fn compute(&self, known: (String, Option<Responder>, Option<String>)) -> ComputeWorker {
+        ComputeWorker::new(known, self.editions.newest())
     }
 
     /// A page came: it must be shown something.
     pub fn come(&mut self) {
-        self.rig.obey(Order::Look, &mut self.out);
+        self.simulation.obey(Order::Look, &mut self.out);
     }
 
     /// A page went: its fingers are lifted.
     pub fn leave(&mut self, page: u64) {
-        self.rig.obey(Order::Leave(page), &mut self.out);
+        self.simulation.obey(Order::Leave(page), &mut self.out);
     }
 
     /// Does what a page asks for, or sees to it. What concerns its link or the machine alone is not for the session.
@@ -97,18 +97,18 @@ impl Session {
                     }
                 }
                 if settings.plays() {
-                    let set = self.workshop.set(&settings);
+                    let set = self.editor.set(&settings);
                     self.refuse(page, set);
                 }
             }
             Command::Edit(edit) => {
-                let edited = self.workshop.edit(&edit);
+                let edited = self.editor.edit(&edit);
                 self.refuse(page, edited);
             }
-            Command::Undo => self.workshop.undo(),
-            Command::Redo => self.workshop.redo(),
+            Command::Undo => self.editor.undo(),
+            Command::Redo => self.editor.redo(),
             Command::Open { name } => {
-                let opened = self.workshop.open(name);
+                let opened = self.editor.open(name);
                 self.refuse(page, opened);
             }
             Command::Measure(measure) => {
@@ -130,7 +130,7 @@ impl Session {
     /// # Errors
     /// All its faults, as text.
     pub fn load(&mut self, text: &str) -> Result<(), String> {
-        self.workshop.load(text)?;
+        self.editor.load(text)?;
         self.renew();
         Ok(())
     }
@@ -138,13 +138,13 @@ impl Session {
     /// Lets so many seconds of the page pass. The surface goes on while there is time for `more`, and so many pages look at it.
     pub fn advance(&mut self, seconds: f64, viewers: usize, more: &mut dyn FnMut() -> bool) {
         self.renew();
-        self.rig.advance(seconds, viewers, more, &mut self.out);
+        self.simulation.advance(seconds, viewers, more, &mut self.out);
     }
 
     /// What is to be done beside it now, if anything is.
     pub fn errand(&mut self) -> Option<Errand> {
         self.renew();
-        if let Some(spec) = self.workshop.wanted() {
+        if let Some(spec) = self.editor.wanted() {
             return Some(Errand::Build(spec));
         }
         let task = if self.computing { None } else { self.tasks.next() };
@@ -156,11 +156,11 @@ impl Session {
     pub fn done(&mut self, done: Done) {
         match done {
             Done::Built(Ok(instrument)) => {
-                self.workshop.built(&instrument.spec, &mut self.out);
-                let told = self.workshop.settings(&instrument);
+                self.editor.built(&instrument.spec, &mut self.out);
+                let told = self.editor.settings(&instrument);
                 self.order(Order::Play(instrument, told));
             }
-            Done::Built(Err(why)) => self.workshop.failed(&why, &mut self.out),
+            Done::Built(Err(why)) => self.editor.failed(&why, &mut self.out),
             Done::Found(Found::Out(out)) => self.out.push(out),
             Done::Found(Found::Replay(replay)) => self.order(Order::Replay(Some(replay))),
             Done::Computed => self.computing = false,
@@ -173,7 +173,7 @@ impl Session {
     }
 
     fn order(&mut self, order: Order) {
-        self.rig.obey(order, &mut self.out);
+        self.simulation.obey(order, &mut self.out);
     }
 
     fn refuse(&mut self, page: u64, done: Result<(), ViewError>) {
@@ -200,7 +200,7 @@ impl Session {
 
     /// Pages are told of a surface that was edited, and its figures are to be computed.
     fn renew(&mut self) {
-        if let Some(edition) = self.workshop.renew(&mut self.editions, &mut self.out) {
+        if let Some(edition) = self.editor.renew(&mut self.editions, &mut self.out) {
             self.wait(Task::Design(edition));
         }
     }
@@ -209,7 +209,7 @@ impl Session {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rig::PULSES;
+    use crate::simulation::PULSES;
     use serde_json::Value;
     use unripple::focus::Method;
     use unripple::physics::design::papers_surface;
@@ -287,7 +287,7 @@ mod tests {
         let surfaces = told(&out, "surface");
         assert_eq!(surfaces.last().unwrap()["values"]["thickness_mm"], 0.23);
         assert_eq!(told(&out, "settings").len(), 2);
-        // Of the figures the bench was asked for, only the newest surface's are left to do.
+        // Of the figures that were asked for, only the newest surface's are left to do.
         session.done(Done::Computed);
         let edit = surfaces.last().unwrap()["edit"].as_u64().unwrap();
         assert!(matches!(session.errand(), Some(Errand::Compute(Task::Design(of))) if of.edit == edit));

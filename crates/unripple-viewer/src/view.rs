@@ -1,12 +1,12 @@
 //! What is to be shown and to whom, and the server that shows it.
 
 use crate::ViewError;
-use crate::bench::Responder;
+use crate::compute::Responder;
 use crate::door::listen;
 use crate::guard::Guard;
-use crate::rig::{Follow, PULSES, Spec};
+use crate::host::SessionHost;
 use crate::server::{Desk, router};
-use crate::studio::Studio;
+use crate::simulation::{Follow, PULSES, Spec};
 use std::future::Future;
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -76,8 +76,8 @@ impl View {
         let listener = runtime.block_on(TcpListener::bind(self.address)).map_err(|error| refused(&error))?;
         let address = listener.local_addr().map_err(|error| refused(&error))?;
         let guard = Guard::new(address, self.token.clone());
-        let studio = Studio::open(&self, guard.elsewhere())?;
-        Ok(Viewer { listener, desk: Desk { studio, guard }, runtime })
+        let host = SessionHost::open(&self, guard.elsewhere())?;
+        Ok(Viewer { listener, desk: Desk { host, guard }, runtime })
     }
 
     /// What is played at first.
@@ -114,7 +114,7 @@ impl Viewer {
     /// [`ViewError::Gone`] if the surface ended before.
     pub fn serve(self, stop: impl Future<Output = ()>) -> Result<(), ViewError> {
         let Self { listener, desk, runtime } = self;
-        let studio = desk.studio.clone();
+        let host = desk.host.clone();
         runtime.block_on(async move {
             // Links last as long as pages do: what is open when it ends is cut.
             tokio::select! {
@@ -123,6 +123,6 @@ impl Viewer {
             }
         });
         runtime.shutdown_background();
-        studio.close()
+        host.close()
     }
 }

@@ -3,8 +3,8 @@
 mod quality;
 mod running;
 
-use crate::board::Board;
 use crate::lock::lock;
+use crate::notices::Notices;
 use crate::wire::Job;
 use running::{Running, Work};
 use std::path::PathBuf;
@@ -28,7 +28,7 @@ const SAVED: &str = "surface.toml";
 
 /// The jobs there are.
 pub struct Jobs {
-    board: Arc<Board>,
+    notices: Arc<Notices>,
     folder: PathBuf,
     given: AtomicU64,
     running: Mutex<Vec<Arc<Running>>>,
@@ -36,8 +36,8 @@ pub struct Jobs {
 
 impl Jobs {
     /// None yet; libraries go to `folder`.
-    pub fn new(board: Arc<Board>, folder: PathBuf) -> Self {
-        Self { board, folder, given: AtomicU64::new(0), running: Mutex::new(Vec::new()) }
+    pub fn new(notices: Arc<Notices>, folder: PathBuf) -> Self {
+        Self { notices, folder, given: AtomicU64::new(0), running: Mutex::new(Vec::new()) }
     }
 
     /// Starts or ends a job on a surface, given as the text of its file.
@@ -56,7 +56,7 @@ impl Jobs {
         }
         let (work, command) = self.work(kind, job, toml)?;
         let id = self.given.fetch_add(1, Ordering::Relaxed) + 1;
-        running.push(Running::start(id, work, command, self.board.clone())?);
+        running.push(Running::start(id, work, command, self.notices.clone())?);
         Ok(())
     }
 

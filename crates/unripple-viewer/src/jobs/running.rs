@@ -1,8 +1,8 @@
 //! A task at work beside the session, and what pages are told of it.
 
 use super::quality::Quality;
-use crate::board::Board;
 use crate::lock::lock;
+use crate::notices::Notices;
 use serde_json::{Value, json};
 use std::collections::VecDeque;
 use std::path::PathBuf;
@@ -104,7 +104,7 @@ impl Running {
     ///
     /// # Errors
     /// Why it cannot be started.
-    pub fn start(id: u64, work: Work, command: String, board: Arc<Board>) -> Result<Arc<Self>, String> {
+    pub fn start(id: u64, work: Work, command: String, notices: Arc<Notices>) -> Result<Arc<Self>, String> {
         let (stopped, over, now) = (AtomicBool::new(false), AtomicBool::new(false), Mutex::default());
         let running = Arc::new(Self { id, kind: work.name(), command, stopped, over, now });
         let mut quality = work.library().map(Quality::of);
@@ -117,7 +117,7 @@ impl Running {
                     // Whoever listens waits until this comes.
                     let _ = done.send(work.run(&mut heard));
                 });
-                own.accompany(&result, &board, quality.as_mut());
+                own.accompany(&result, &notices, quality.as_mut());
             });
         };
         std::thread::Builder::new().name("job".into()).spawn(watch).map_err(|error| error.to_string())?;
@@ -128,11 +128,11 @@ impl Running {
     fn accompany(
         &self,
         result: &Receiver<Result<Value, TaskError>>,
-        board: &Board,
+        notices: &Notices,
         mut quality: Option<&mut Quality>,
     ) {
         let ended = loop {
-            self.tell(board, "running", Value::Null, quality.as_deref_mut());
+            self.tell(notices, "running", Value::Null, quality.as_deref_mut());
             match result.recv_timeout(LOOKED) {
                 Err(RecvTimeoutError::Timeout) => {}
                 ended => break ended,
@@ -149,7 +149,7 @@ impl Running {
             Err(_) => ("failed", Value::Null),
         };
         self.over.store(true, Ordering::Relaxed);
-        self.tell(board, state, found, quality);
+        self.tell(notices, state, found, quality);
     }
 
     /// Has it ended.
@@ -170,7 +170,7 @@ impl Running {
         now.lines.push_back(line.chars().take(LONGEST).collect());
     }
 
-    fn tell(&self, board: &Board, state: &str, result: Value, quality: Option<&mut Quality>) {
+    fn tell(&self, notices: &Notices, state: &str, result: Value, quality: Option<&mut Quality>) {
         let (share, quality) = quality.map_or((None, Value::Null), Quality::look);
         let now = lock(&self.now);
         let message = json!({
@@ -184,6 +184,6 @@ impl Running {
             "result": result,
             "quality": quality,
         });
-        board.tell(&format!("job {}", self.kind), &message);
+        notices.tell(&format!("job {}", self.kind), &message);
     }
 }

@@ -1,8 +1,8 @@
 //! A surface opened with its device and shown until nobody wants it any more.
 
 use super::{Ask, Report};
-use crate::bench::Responder;
-use crate::rig::Follow;
+use crate::compute::Responder;
+use crate::simulation::Follow;
 use crate::{View, ViewError, Viewer, pause};
 use std::net::SocketAddr;
 use std::sync::Arc;

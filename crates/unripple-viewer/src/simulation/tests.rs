@@ -52,24 +52,24 @@ fn order(said: &[Out]) -> Vec<&str> {
     named.flatten().collect()
 }
 
-/// A rig that has run for a while, with a page that looks, and what it said.
-fn running() -> (Rig, Vec<Out>) {
-    let (mut rig, mut out) = (Rig::new(Instrument::build(spec()).unwrap()), Outbox::default());
-    rig.begin(&mut out);
+/// A simulation that has run for a while, with a page that looks, and what it said.
+fn running() -> (Simulation, Vec<Out>) {
+    let (mut simulation, mut out) = (Simulation::new(Instrument::build(spec()).unwrap()), Outbox::default());
+    simulation.begin(&mut out);
     for _ in 0..50 {
-        rig.advance(0.02, 1, &mut some(20), &mut out);
+        simulation.advance(0.02, 1, &mut some(20), &mut out);
     }
-    (rig, out.take())
+    (simulation, out.take())
 }
 
 #[test]
 fn the_clock_of_another_surface_is_told_before_how_it_is_played() {
-    let (mut rig, said) = running();
+    let (mut simulation, said) = running();
     let before = told(&said, "status")["head_s"].as_f64().unwrap();
     assert!(before > 0.01 && order(&said).contains(&"frame"), "{before}");
     let other = Instrument::build(Spec { load: true, ..spec() }).unwrap();
     let mut out = Outbox::default();
-    rig.obey(Order::Play(Box::new(other), json!({ "is": "settings", "load": true })), &mut out);
+    simulation.obey(Order::Play(Box::new(other), json!({ "is": "settings", "load": true })), &mut out);
     let said = out.take();
     let status = told(&said, "status");
     assert!(status["head_s"].as_f64().unwrap() < 1e-3, "the clock of before: {status}");
@@ -79,18 +79,18 @@ fn the_clock_of_another_surface_is_told_before_how_it_is_played() {
 
 #[test]
 fn a_surface_that_is_played_otherwise_is_seen_while_time_stands_still() {
-    let (mut rig, _) = running();
+    let (mut simulation, _) = running();
     let mut out = Outbox::default();
     let slowly = wire::Transport { speed: Some(0.02), paused: Some(true), ..wire::Transport::default() };
-    rig.obey(Order::Transport(slowly), &mut out);
+    simulation.obey(Order::Transport(slowly), &mut out);
     let other = Instrument::build(spec()).unwrap();
-    rig.obey(Order::Play(Box::new(other), json!({ "is": "settings" })), &mut out);
-    rig.advance(0.1, 1, &mut some(20), &mut out);
-    assert!(rig.transport.paused && rig.head() > 0.0);
+    simulation.obey(Order::Play(Box::new(other), json!({ "is": "settings" })), &mut out);
+    simulation.advance(0.1, 1, &mut some(20), &mut out);
+    assert!(simulation.transport.paused && simulation.head() > 0.0);
     assert!(order(&out.take()).contains(&"frame"));
-    let head = rig.head();
-    rig.advance(0.1, 1, &mut some(20), &mut out);
-    assert_eq!(rig.head(), head);
+    let head = simulation.head();
+    simulation.advance(0.1, 1, &mut some(20), &mut out);
+    assert_eq!(simulation.head(), head);
 }
 
 #[test]

@@ -1,10 +1,10 @@
 //! A surface with all that plays it: device, engine, the picture's modes.
 
 use super::lens::Lens;
-use super::pad::{Pad, Pressed};
+use super::page_touches::{PageTouches, Pressed};
 use super::past::stride;
+use super::playback::{Away, Playback};
 use super::tape::Tape;
-use super::works::{Away, Works};
 use crate::ViewError;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
@@ -71,7 +71,7 @@ pub struct Instrument {
     /// What it was made from.
     pub spec: Spec,
     /// What plays, and the surface that moves.
-    pub works: Works,
+    pub playback: Playback,
     /// The surface, as it is computed here.
     pub handle: Handle,
     /// Its modes, to be read anywhere.
@@ -79,7 +79,7 @@ pub struct Instrument {
     /// The picture.
     pub lens: Lens,
     /// Who is told of pages' fingers.
-    pub pad: Sender<Pressed>,
+    pub page_touches: Sender<Pressed>,
     /// What was driven lately.
     pub tape: Tape,
     /// The window, in s, and what it gives.
@@ -122,16 +122,16 @@ impl Instrument {
         let plant = handle.plant();
         remember(&handle, surface, plant.modes())?;
 
-        let (pad, source) = Pad::new(&surface.outline)?;
+        let (page_touches, source) = PageTouches::new(&surface.outline)?;
         let mut sources = Sources::new(&surface.outline);
         sources.push(Box::new(source));
         let set = effect(&spec)?;
         let feeler = Feeler::new(handle.clone(), surface, FINGERS)?;
         let feeler = if spec.load { feeler } else { feeler.weightless() };
-        let works = match device {
+        let playback = match device {
             None => {
                 let engine = Engine::new(surface, maker, &set, sources, Box::new(shadow), &options)?;
-                Works::Here(Box::new(engine.with_feeler(feeler)))
+                Playback::Here(Box::new(engine.with_feeler(feeler)))
             }
             Some(device) => {
                 let (device, drive) = Away::listen(device);
@@ -141,12 +141,12 @@ impl Instrument {
                         follow(surface, &options, block).map_err(|why| ViewError::Device { why })?;
                     engine = engine.with_follower(follower, &ping)?;
                 }
-                Works::Away(Box::new(Away::start(engine.with_feeler(feeler), shadow, drive)?))
+                Playback::Away(Box::new(Away::start(engine.with_feeler(feeler), shadow, drive)?))
             }
         };
         let lens = Lens::new(&plant, &surface.outline, CELLS);
         let tape = Tape::new(surface.actuators.len(), (REMEMBERED * surface.emission.rate) as usize);
-        Ok(Self { works, handle, plant, lens, pad, tape, window, suggested, level, spec })
+        Ok(Self { playback, handle, plant, lens, page_touches, tape, window, suggested, level, spec })
     }
 
     /// Samples per second.

@@ -3,9 +3,9 @@
 use crate::ViewError;
 use crate::draft::Draft;
 use crate::edition::{Edition, Editions};
+use crate::messages::{Settled, settings, surface};
 use crate::outbox::Outbox;
-use crate::rig::{Instrument, Spec, check_effect};
-use crate::told::{Settled, settings, surface};
+use crate::simulation::{Instrument, Spec, check_effect};
 use crate::wire::{Edit, Settings};
 use serde_json::Value;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use unripple::focus::Method;
 use unripple_store::{BUILTINS, load_surface, parse_surface};
 
 /// The surface as pages change it. What has been asked for meanwhile is made in one.
-pub struct Workshop {
+pub struct Editor {
     draft: Draft,
     spec: Spec,
     /// What is played.
@@ -28,8 +28,8 @@ pub struct Workshop {
     building: bool,
 }
 
-impl Workshop {
-    /// A workshop for what is played now.
+impl Editor {
+    /// An editor of what is played now.
     pub fn new(instrument: &Instrument, told: Settled) -> Self {
         let draft = Draft::new(instrument.spec.surface.clone());
         let spec = instrument.spec.clone();

@@ -1,6 +1,6 @@
-//! What the rig says of itself.
+//! What the simulation says of itself.
 
-use super::{PACED, Rig};
+use super::{PACED, Simulation};
 use crate::outbox::Outbox;
 use crate::wire::Resting;
 use serde::Serialize;
@@ -20,11 +20,11 @@ struct Feels {
     contrast: Option<f64>,
 }
 
-impl Rig {
+impl Simulation {
     /// Tells how the surface fares.
     pub(super) fn tell(&mut self, out: &mut Outbox) {
         let fingers = std::mem::take(&mut self.known.fingers);
-        self.known = self.instrument.works.look();
+        self.known = self.instrument.playback.look();
         self.known.fingers = fingers;
         self.take_pace();
         let (tail, _) = self.remembered();

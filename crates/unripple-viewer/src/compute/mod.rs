@@ -9,7 +9,7 @@ pub use queue::Queue;
 
 use crate::edition::Edition;
 use crate::outbox::{Out, Outbox};
-use crate::rig::Replay;
+use crate::simulation::Replay;
 use crate::wire::Measure;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -52,7 +52,7 @@ pub enum Task {
     },
 }
 
-/// What the bench finds.
+/// What the worker finds.
 pub enum Found {
     /// Something that is to be told.
     Out(Out),
@@ -64,7 +64,7 @@ pub enum Found {
 pub type Hear<'a> = dyn FnMut(Found) + 'a;
 
 /// Computes figures, and keeps what the next ones need too.
-pub struct Bench {
+pub struct ComputeWorker {
     /// What the surface is called on the command line, and the responses of a library: both of the surface before any edit.
     source: String,
     stored: Option<Responder>,
@@ -78,8 +78,8 @@ pub struct Bench {
     newest: Arc<AtomicU64>,
 }
 
-impl Bench {
-    /// A bench for a surface, by its name, and its library, if it has one; `newest` is the edit that pages see.
+impl ComputeWorker {
+    /// A worker for a surface, by its name, and its library, if it has one; `newest` is the edit that pages see.
     pub fn new(
         (source, stored, without_scale): (String, Option<Responder>, Option<String>),
         newest: Arc<AtomicU64>,

@@ -19,7 +19,7 @@ pub enum Notice {
 /// What all pages are to be shown: of each kind of thing the newest. A page takes what it has not seen when it has time, so that a slow
 /// one misses some and keeps nobody waiting.
 #[derive(Debug)]
-pub struct Board {
+pub struct Notices {
     posted: Mutex<BTreeMap<String, (u64, Notice)>>,
     version: watch::Sender<u64>,
     viewers: AtomicUsize,
@@ -28,16 +28,16 @@ pub struct Board {
 /// A page that is there.
 #[derive(Debug)]
 pub struct Viewing {
-    board: Arc<Board>,
+    notices: Arc<Notices>,
 }
 
 impl Drop for Viewing {
     fn drop(&mut self) {
-        self.board.viewers.fetch_sub(1, Ordering::Relaxed);
+        self.notices.viewers.fetch_sub(1, Ordering::Relaxed);
     }
 }
 
-impl Board {
+impl Notices {
     /// An empty one.
     pub fn new() -> Self {
         let (version, _) = watch::channel(0);
@@ -89,7 +89,7 @@ impl Board {
     pub fn enter(self: &Arc<Self>, most: usize) -> Option<Viewing> {
         let one_more = |viewers| (viewers < most).then_some(viewers + 1);
         self.viewers.fetch_update(Ordering::Relaxed, Ordering::Relaxed, one_more).ok()?;
-        Some(Viewing { board: self.clone() })
+        Some(Viewing { notices: self.clone() })
     }
 
     /// Pages there are.
@@ -104,24 +104,24 @@ mod tests {
 
     #[test]
     fn no_more_pages_come_than_may() {
-        let board = Arc::new(Board::new());
-        let both = [board.enter(2), board.enter(2)];
-        assert!(both.iter().all(Option::is_some) && board.enter(2).is_none());
+        let notices = Arc::new(Notices::new());
+        let both = [notices.enter(2), notices.enter(2)];
+        assert!(both.iter().all(Option::is_some) && notices.enter(2).is_none());
         drop(both);
-        assert!(board.viewers() == 0 && board.enter(1).is_some());
+        assert!(notices.viewers() == 0 && notices.enter(1).is_some());
     }
 
     #[test]
     fn whoever_looks_misses_no_kind_however_many_post() {
-        let board = Board::new();
+        let notices = Notices::new();
         std::thread::scope(|scope| {
             for kind in ["a", "b", "c", "d"] {
-                let board = &board;
-                scope.spawn(move || (0..500).for_each(|i| board.tell(kind, &(kind, i))));
+                let notices = &notices;
+                scope.spawn(move || (0..500).for_each(|i| notices.tell(kind, &(kind, i))));
             }
             let (mut seen, mut last) = (0, BTreeMap::new());
             while last.values().filter(|i| **i == 499).count() < 4 {
-                for (version, notice) in board.since(seen) {
+                for (version, notice) in notices.since(seen) {
                     let Notice::Text(text) = notice else { continue };
                     let (kind, i): (String, u32) = serde_json::from_str(&text).unwrap();
                     assert!(version > seen);
@@ -130,8 +130,8 @@ mod tests {
                 }
             }
         });
-        assert_eq!(*board.watch().borrow(), 2000);
-        board.withdraw("a");
-        assert_eq!(board.since(0).len(), 3);
+        assert_eq!(*notices.watch().borrow(), 2000);
+        notices.withdraw("a");
+        assert_eq!(notices.since(0).len(), 3);
     }
 }

@@ -1,4 +1,4 @@
-//! Tasks that wait for the bench.
+//! Tasks that wait to be computed.
 
 use super::Task;
 use std::collections::VecDeque;

@@ -1,8 +1,8 @@
 //! Two methods of focusing on the same touch, side by side.
 
-use super::{Bench, Found, Hear, method, options, places, tell, text};
+use super::{ComputeWorker, Found, Hear, method, options, places, tell, text};
 use crate::edition::Edition;
-use crate::rig::Replay;
+use crate::simulation::Replay;
 use serde_json::json;
 use std::sync::Arc;
 use unripple::act::{Act, Level};
@@ -10,7 +10,7 @@ use unripple::core::{Drive, Point};
 use unripple::focus::{Method, Target};
 use unripple::physics::Modes;
 
-impl Bench {
+impl ComputeWorker {
     /// Measures two methods on the same touch, each brought to the same peak, and has both shown side by side.
     pub(super) fn compare(
         &mut self,

@@ -15,7 +15,7 @@ use unripple_live::{Engine, LiveError, PlayStats, Stage};
 const WAITING: usize = 512;
 
 /// What plays a surface, and the surface that moves.
-pub enum Works {
+pub enum Playback {
     /// Both here, at whatever pace is asked for.
     Here(Box<Engine>),
     /// A real device at its own pace; what it does is computed from the drive it gets.
@@ -117,7 +117,7 @@ impl Drop for Away {
     }
 }
 
-impl Works {
+impl Playback {
     /// What is known now.
     pub fn look(&mut self) -> Known {
         match self {

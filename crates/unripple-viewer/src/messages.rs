@@ -1,7 +1,7 @@
 //! What pages are told of the surface and of how it is played.
 
 use crate::edition::Edition;
-use crate::rig::{CELLS, Cells, Instrument, PULSES};
+use crate::simulation::{CELLS, Cells, Instrument, PULSES};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};

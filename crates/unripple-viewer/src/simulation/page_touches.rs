@@ -15,14 +15,14 @@ const MOST: usize = 128;
 pub type Pressed = BTreeMap<(u64, u32), Point>;
 
 /// Fingers on pages as a source of touches.
-pub struct Pad {
+pub struct PageTouches {
     outline: Outline,
     pressed: Receiver<Pressed>,
     fingers: Fingers,
     counts: Counts,
 }
 
-impl Pad {
+impl PageTouches {
     /// A source for a surface, and the end that is told.
     ///
     /// # Errors
@@ -52,7 +52,7 @@ fn named((page, finger): (u64, u32)) -> Key {
     Key { peer: page as u32, stream: 0, session: i64::from(finger) }
 }
 
-impl Source for Pad {
+impl Source for PageTouches {
     fn name(&self) -> &str {
         "pages"
     }

@@ -1,13 +1,13 @@
-//! Where the session lives on this machine: threads for the surface and for what is computed beside it, the board that pages' links read.
+//! Where the session lives on this machine: threads for the surface and for what is computed beside it, the notices that pages' links read.
 
-use crate::bench::Task;
-use crate::board::{Board, Notice};
+use crate::compute::Task;
 use crate::jobs::Jobs;
 use crate::lock::lock;
+use crate::messages::Settled;
+use crate::notices::{Notice, Notices};
 use crate::outbox::{Measured, Out};
-use crate::rig::{Instrument, Spec};
 use crate::session::{Done, Errand, Session};
-use crate::told::Settled;
+use crate::simulation::{Instrument, Spec};
 use crate::wire::Command;
 use crate::{View, ViewError};
 use std::collections::BTreeMap;
@@ -39,9 +39,9 @@ enum Word {
 type Links = Arc<Mutex<BTreeMap<u64, tokio::sync::mpsc::Sender<String>>>>;
 
 /// Where everything a page asks for goes.
-pub struct Studio {
+pub struct SessionHost {
     /// What all pages are shown.
-    pub board: Arc<Board>,
+    pub notices: Arc<Notices>,
     words: Sender<Word>,
     links: Links,
     jobs: Jobs,
@@ -51,7 +51,7 @@ pub struct Studio {
     quiet: bool,
 }
 
-impl Studio {
+impl SessionHost {
     /// Makes a surface ready and puts everybody to work; other machines come by the address `elsewhere`.
     ///
     /// # Errors
@@ -62,35 +62,35 @@ impl Studio {
             Settled { source: view.source.clone(), device: view.device_name.clone(), address: elsewhere };
         let session = Session::new(instrument, told);
         let known = (view.source.clone(), view.respond.clone(), view.without_scale.clone());
-        let mut bench = session.bench(known);
+        let mut compute = session.compute(known);
         let (words, heard) = channel();
         let (building, specs) = channel::<Box<Spec>>();
         let (computing, tasks) = channel::<Task>();
         // Whoever has gone is at the program's end.
         let say = words.clone();
-        thread("workshop", move || {
+        thread("builder", move || {
             specs.iter().for_each(|spec| drop(say.send(Word::Done(Errand::build(spec)))))
         })?;
         let say = words.clone();
-        thread("bench", move || {
+        thread("compute", move || {
             for task in tasks {
-                bench.work(task, &mut |found| drop(say.send(Word::Done(Done::Found(found)))));
+                compute.work(task, &mut |found| drop(say.send(Word::Done(Done::Found(found)))));
                 let _ = say.send(Word::Done(Done::Computed));
             }
         })?;
-        let (board, links) = (Arc::new(Board::new()), Links::default());
+        let (notices, links) = (Arc::new(Notices::new()), Links::default());
         let measured = Arc::new(Mutex::new(None));
         let stage = Stage {
             session,
             building,
             computing,
-            board: board.clone(),
+            notices: notices.clone(),
             links: links.clone(),
             measured: measured.clone(),
         };
         let playing = Mutex::new(Some(thread("surface", move || stage.run(&heard))?));
-        let jobs = Jobs::new(board.clone(), view.folder.clone());
-        Ok(Arc::new(Self { board, words, links, jobs, measured, playing, quiet: view.quiet }))
+        let jobs = Jobs::new(notices.clone(), view.folder.clone());
+        Ok(Arc::new(Self { notices, words, links, jobs, measured, playing, quiet: view.quiet }))
     }
 
     /// A page came: it must be shown something, and is told what is refused.
@@ -134,7 +134,7 @@ impl Studio {
 
     /// The surface as it is, as the text of its file.
     pub fn toml(&self) -> String {
-        let Some(Notice::Text(text)) = self.board.newest("surface") else { return String::new() };
+        let Some(Notice::Text(text)) = self.notices.newest("surface") else { return String::new() };
         let value: serde_json::Value = serde_json::from_str(&text).unwrap_or_default();
         value.get("toml").and_then(|toml| toml.as_str()).unwrap_or_default().to_owned()
     }
@@ -181,7 +181,7 @@ struct Stage {
     session: Session,
     building: Sender<Box<Spec>>,
     computing: Sender<Task>,
-    board: Arc<Board>,
+    notices: Arc<Notices>,
     links: Links,
     measured: Arc<Mutex<Option<Measured>>>,
 }
@@ -210,7 +210,7 @@ impl Stage {
             due = due.max(passed + BREATH);
             let began = Instant::now();
             let mut more = || began.elapsed().as_secs_f64() <= BUSY / FRAMES;
-            self.session.advance(seconds, self.board.viewers(), &mut more);
+            self.session.advance(seconds, self.notices.viewers(), &mut more);
             self.pass_on();
         }
     }
@@ -243,11 +243,11 @@ impl Stage {
         }
         for out in self.session.take() {
             match out {
-                Out::Text(kind, text) => self.board.post(&kind, Notice::Text(text.into())),
+                Out::Text(kind, text) => self.notices.post(&kind, Notice::Text(text.into())),
                 Out::Frame(kind, bytes, number) => {
-                    self.board.post(&kind, Notice::Frame(bytes.into(), number))
+                    self.notices.post(&kind, Notice::Frame(bytes.into(), number))
                 }
-                Out::Withdraw(kind) => self.board.withdraw(&kind),
+                Out::Withdraw(kind) => self.notices.withdraw(&kind),
                 Out::Refuse(page, why) => refuse(&self.links, page, &why),
                 Out::Measured(files) => *lock(&self.measured) = Some(*files),
             }

@@ -1,6 +1,6 @@
 //! What a surface promises, told stage by stage as it follows an edit.
 
-use super::{Bench, Hear, tell};
+use super::{ComputeWorker, Hear, tell};
 use crate::edition::Edition;
 use serde_json::{Map, Value, json};
 use std::time::Instant;
@@ -15,7 +15,7 @@ const ACROSS: usize = 24;
 /// Where a focus is judged on a surface that nobody has touched, as shares of its sides: (62, 90) mm on the paper's.
 const PLACE: [f64; 2] = [62.0 / 150.0, 0.6];
 
-impl Bench {
+impl ComputeWorker {
     /// Computes and tells what a surface can do, the quickest first; what another edit overtakes is left.
     pub(super) fn design(&mut self, edition: &Edition, hear: &mut Hear) {
         let surface = &edition.surface;

@@ -3,13 +3,13 @@
 mod instrument;
 mod lens;
 mod look;
-mod pad;
+mod messages;
+mod page_touches;
 mod past;
+mod playback;
 mod replay;
 mod tape;
-mod told;
 mod transport;
-mod works;
 
 #[cfg(test)]
 mod tests;
@@ -21,10 +21,10 @@ pub use transport::Transport;
 
 use crate::outbox::Outbox;
 use crate::wire;
+use playback::{Known, Playback, step};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use unripple::core::Point;
-use works::{Known, Works, step};
 
 /// How often it is told how the surface fares, and how often its pace is taken, in s.
 const TOLD: f64 = 0.2;
@@ -39,7 +39,7 @@ const FINGERS: u64 = 1000;
 /// Probes at once.
 const MOST_PROBES: usize = 6;
 
-/// What the rig is asked for.
+/// What the simulation is asked for.
 pub enum Order {
     /// A finger, by its page and its number there.
     Touch((u64, u32), wire::Phase, Point),
@@ -67,7 +67,7 @@ struct Probe {
 }
 
 /// A surface, its clock, and what pages look at.
-pub struct Rig {
+pub struct Simulation {
     instrument: Instrument,
     transport: Transport,
     velocity: bool,
@@ -93,8 +93,8 @@ pub struct Rig {
     wrong: Option<String>,
 }
 
-impl Rig {
-    /// A rig for a surface.
+impl Simulation {
+    /// A simulation of a surface.
     pub fn new(instrument: Instrument) -> Self {
         Self {
             instrument,
@@ -193,10 +193,10 @@ impl Rig {
 
     /// Tells the instrument which fingers are down, if it does not know; while time stands still it hears nothing.
     fn press(&mut self) {
-        let stands = self.transport.paused && matches!(self.instrument.works, Works::Here(_));
+        let stands = self.transport.paused && matches!(self.instrument.playback, Playback::Here(_));
         if self.moved && !stands {
             // An instrument at its end needs to know no more.
-            let _ = self.instrument.pad.send(self.pressed.clone());
+            let _ = self.instrument.page_touches.send(self.pressed.clone());
             self.moved = false;
         }
     }
@@ -247,7 +247,7 @@ impl Rig {
             self.transport.now = replay.wrapped(self.transport.now);
             return;
         }
-        if matches!(self.instrument.works, Works::Away(_)) {
+        if matches!(self.instrument.playback, Playback::Away(_)) {
             self.mirror(more);
             let head = self.head();
             self.transport.follow(head, seconds, oldest);
@@ -255,10 +255,10 @@ impl Rig {
             self.transport.pass(seconds, oldest);
             self.catch_up(more);
         }
-        self.known.fingers = match (&self.instrument.works, self.transport.paused) {
+        self.known.fingers = match (&self.instrument.playback, self.transport.paused) {
             // The surface hears of fingers when it goes on; who looks sees them at once.
-            (Works::Here(_), true) => self.resting(),
-            _ => self.instrument.works.fingers(),
+            (Playback::Here(_), true) => self.resting(),
+            _ => self.instrument.playback.fingers(),
         };
     }
 
@@ -271,8 +271,8 @@ impl Rig {
 
     /// Steps the surface to where it should be; what cannot be done in time is let go, so that it runs slower.
     fn catch_up(&mut self, more: &mut dyn FnMut() -> bool) {
-        let Instrument { works, tape, spec, .. } = &mut self.instrument;
-        let Works::Here(engine) = works else { return };
+        let Instrument { playback, tape, spec, .. } = &mut self.instrument;
+        let Playback::Here(engine) = playback else { return };
         let limit = spec.surface.emission.limit as f32;
         while self.wrong.is_none() && engine.stage().time() < self.transport.now {
             match step(engine) {
@@ -288,8 +288,8 @@ impl Rig {
 
     /// Lets the computed surface follow the one out there.
     fn mirror(&mut self, more: &mut dyn FnMut() -> bool) {
-        let Instrument { works, tape, .. } = &mut self.instrument;
-        let Works::Away(away) = works else { return };
+        let Instrument { playback, tape, .. } = &mut self.instrument;
+        let Playback::Away(away) = playback else { return };
         while self.wrong.is_none() && more() {
             match away.step() {
                 Ok(Some(drive)) => tape.keep(drive, 1.0),

@@ -1,6 +1,6 @@
 //! An act of focusing, with every figure that the command line has.
 
-use super::{Bench, Found, Hear, given, method, options, places, tell, text};
+use super::{ComputeWorker, Found, Hear, given, method, options, places, tell, text};
 use crate::edition::Edition;
 use crate::outbox::{Measured, Out};
 use crate::spectrum::spectrum;
@@ -16,7 +16,7 @@ use unripple_store::encode_wav;
 /// Points of a drive or trace that are drawn.
 const DRAWN: usize = 480;
 
-impl Bench {
+impl ComputeWorker {
     /// Measures one act, and tells all figures of it.
     pub(super) fn measure(&mut self, measure: &Measure, of: &Edition, hear: &mut Hear) -> Result<(), String> {
         let began = Instant::now();

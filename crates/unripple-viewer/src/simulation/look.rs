@@ -1,6 +1,6 @@
 //! Pictures of the surface.
 
-use super::Rig;
+use super::Simulation;
 use super::lens::{product, weights};
 use super::past::Past;
 use crate::outbox::Outbox;
@@ -20,7 +20,7 @@ struct Followed<'a> {
     weights: &'a [f32],
 }
 
-impl Rig {
+impl Simulation {
     /// Puts up a picture, if somebody looks and something has changed.
     pub(super) fn show(&mut self, out: &mut Outbox) {
         let shown = self.transport.shown();
