@@ -1,0 +1,133 @@
+//! `compare`: every method judged alike, its knobs' trades, its files.
+
+use crate::common;
+
+use common::{Scratch, json, number, refused, run};
+use serde_json::Value;
+
+const FILM: &str = "format = 1\nname = \"A film\"\n[outline]\nrectangle_mm = [150, 150]\n[sheet]\nmaterial = \"BoPET\"\n\
+                    thickness_mm = 0.125\ntension_n_per_m = 200\ndecay_time_ms = 70\n[drive]\nband_hz = [0, 1000]\n\
+                    sample_rate_hz = 16000\n[[actuator]]\nat_mm = [12, 31]\n[[actuator]]\nat_mm = [140, 44]\n\
+                    [[actuator]]\nat_mm = [40, 140]\n";
+
+fn values(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
+}
+
+#[test]
+fn all_methods_stand_side_by_side() {
+    let scratch = Scratch::new("compare");
+    let (file, out) = (scratch.file("film.toml", FILM), scratch.join("out"));
+    let report = json(&["compare", &file, "--at", "62,90", "--window-ms", "30", "-o", &out]);
+    let methods = report["methods"].as_array().unwrap();
+    let names: Vec<&str> = methods.iter().map(|row| row["method"].as_str().unwrap()).collect();
+    assert_eq!(&names[..4], ["time-reversal", "one-bit", "inverse", "concentrate"]);
+    let of = |i: usize, key: &str| number(&report, &format!("/methods/{i}/{key}"));
+    assert_eq!(of(0, "energy_for_peak"), 1.0);
+    assert!(of(3, "targets/0/contrast") > 1.5 * of(0, "targets/0/contrast"));
+    // All move as far as linear theory allows; what each reaches at the limit stands beside it.
+    for (i, method) in names.iter().enumerate() {
+        assert_eq!(methods[i]["level"]["decided_by"], "thickness", "{method}");
+        let moved = of(i, "targets/0/peak_displacement_m").abs();
+        assert!(moved < 1.02 * 62.5e-6 && moved > 20e-6, "{method}: {moved}");
+    }
+    assert!(of(1, "peak_at_limit") > 2.0 && of(0, "peak_at_limit") == 1.0);
+    let text = report["methods"][4]["notes"][0]["text"].as_str().unwrap();
+    assert!(names[4] == "limited" && text.contains("the limit does not bind"), "{text}");
+    let full = json(&["compare", &file, "--at", "62,90", "--window-ms", "30", "--full-limit"]);
+    let at = |i: usize, key: &str| number(&full, &format!("/methods/{i}/{key}"));
+    let ratio = at(1, "targets/0/peak_velocity_m_s") / at(0, "targets/0/peak_velocity_m_s");
+    assert!((ratio / of(1, "peak_at_limit") - 1.0).abs() < 1e-9);
+    assert!(at(4, "targets/0/contrast") < of(4, "targets/0/contrast"), "shaped by the limit there");
+    // The knob at 0 is time reversal itself, and contrast rises along it.
+    for front in report["fronts"].as_array().unwrap().iter().filter(|f| f["knob"] == "strength") {
+        let (contrast, energy) = (values(&front["contrast"]), values(&front["energy_for_peak"]));
+        assert!((energy[0] - 1.0).abs() < 1e-6, "{energy:?}");
+        assert!(contrast.last() > contrast.first(), "{contrast:?}");
+        assert!(energy.windows(2).all(|pair| pair[1] >= pair[0] * (1.0 - 1e-6)), "{energy:?}");
+    }
+    let felt = report["felt"].as_array().unwrap();
+    let drive: Vec<f64> = felt.iter().map(|row| row["drive_for_level_db"].as_f64().unwrap()).collect();
+    assert_eq!(drive[0], 0.0);
+    assert!(drive[1..].windows(2).all(|pair| pair[1] < pair[0]), "{drive:?}");
+    for name in ["compare.svg", "compare.png", "report.json", "report.md"] {
+        assert!(std::path::Path::new(&out).join(name).exists(), "{name}");
+    }
+    let focus = scratch.join("focus");
+    let alone = json(&[
+        "focus",
+        &file,
+        "--at",
+        "62,90",
+        "--window-ms",
+        "30",
+        "--method",
+        "concentrate",
+        "--judge-hz",
+        "2000",
+        "-o",
+        &focus,
+    ]);
+    assert!((number(&alone, "/targets/0/contrast") / of(3, "targets/0/contrast") - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_table_needs_no_folder() {
+    let scratch = Scratch::new("compare-table");
+    let file = scratch.file("film.toml", FILM);
+    let out = run(&["compare", &file, "--at", "62,90", "--window-ms", "20"]);
+    let text = String::from_utf8(out.stdout).unwrap();
+    assert!(text.contains("concentrate") && text.contains("energy for peak"), "{text}");
+    assert!(refused(&["compare", &file], 2).contains("targets"));
+    let errors =
+        refused(&["focus", &file, "--at", "62,90", "--method", "inverse", "--strength", "1.5", "-o", "x"], 2);
+    assert!(errors.contains("strength: expected 0 to 1, found 1.5"), "{errors}");
+}
+
+/// A level that some methods do not reach is theirs at their limit, and the others' as asked for.
+#[test]
+fn a_method_that_cannot_reach_a_level_is_shown_at_its_limit() {
+    let scratch = Scratch::new("compare-weak");
+    let weak = FILM.replace("sample_rate_hz", "limit = 1e-4\nsample_rate_hz");
+    let file = scratch.file("weak.toml", weak);
+    let compare = |level: &[&str]| {
+        json(&[&["compare", file.as_str(), "--at", "62,90", "--window-ms", "30"], level].concat())
+    };
+    let full = compare(&["--full-limit"]);
+    let rows = |report: &Value, key: &str| report[key].as_array().unwrap().clone();
+    // Between what the weakest and what the strongest reach.
+    let middle = |key: &str| {
+        let mut all: Vec<f64> = rows(&full, "methods").iter().map(|row| number(row, key).abs()).collect();
+        all.sort_by(f64::total_cmp);
+        all[all.len() / 2 - 1].midpoint(all[all.len() / 2])
+    };
+    let (felt, moved) = ("/targets/0/felt_level_db", "/targets/0/peak_displacement_m");
+    let peak = (1e6 * middle(moved)).to_string();
+    for (report, decided, unit) in [
+        (compare(&["--peak-um", &peak]), "peak_um", "\u{b5}m"),
+        (compare(&["--felt-db", &middle(felt).to_string()]), "felt_db", "dB"),
+    ] {
+        let methods = rows(&report, "methods");
+        assert_eq!(methods.len(), rows(&full, "methods").len());
+        let mut short = 0;
+        for (row, limit) in methods.iter().zip(rows(&full, "methods")) {
+            let beyond = row["level"]["decided_by"] == "limit";
+            assert!(beyond || row["level"]["decided_by"] == decided, "{row}");
+            let notes = row["notes"].as_array().unwrap();
+            let said = notes.iter().filter(|note| note["topic"] == "level").collect::<Vec<_>>();
+            assert_eq!(said.len(), usize::from(beyond), "{row}");
+            if beyond {
+                short += 1;
+                assert!(said[0]["text"].as_str().unwrap().contains(unit), "{}", said[0]);
+                for key in [felt, "/targets/0/peak_velocity_m_s", "/drive/peak"] {
+                    assert_eq!(number(row, key), number(&limit, key), "{key}");
+                }
+            }
+        }
+        assert!(short > 0 && short < methods.len(), "{short}");
+    }
+    // One act alone is refused: it would not be what was asked for.
+    let out = scratch.join("out");
+    let focus = ["focus", &file, "--at", "62,90", "--window-ms", "30", "--method", "inverse", "-o", &out];
+    assert!(refused(&[&focus[..], &["--peak-um", &peak]].concat(), 2).contains("at most"));
+}

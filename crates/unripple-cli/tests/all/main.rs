@@ -1,0 +1,36 @@
+//! Tests of unripple-cli that share one program: a file a kind of truth. What needs a process of its own is beside it.
+
+#[path = "../common/bench.rs"]
+mod bench;
+mod calibrate;
+mod calibrate_bands;
+#[path = "../common/mod.rs"]
+mod common;
+mod compare;
+mod design_and_modes;
+mod doubtful;
+#[path = "../common/elsewhere.rs"]
+mod elsewhere;
+mod export;
+mod fit;
+mod level;
+mod library;
+mod main_job;
+mod ownership;
+#[path = "../../../unripple-core/tests/shared/python.rs"]
+mod python;
+mod recordings;
+mod refusal;
+mod reproduce;
+mod short_drives;
+#[path = "../../../unripple-core/tests/shared/skip.rs"]
+mod skip;
+mod takes;
+mod tape;
+mod trusted;
+mod waveforms;
+mod window;
+#[path = "../../../unripple/tests/window_common/mod.rs"]
+#[allow(dead_code)] // Others hold the windows against simulation there.
+mod window_common;
+mod windows;

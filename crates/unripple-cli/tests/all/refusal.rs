@@ -1,0 +1,171 @@
+//! Bad input: a clear error, the right exit status, and nothing left half-written.
+
+use crate::common;
+
+use common::{Scratch, refused, run};
+
+const FILM: &str = r#"format = 1
+name = "A film"
+[outline]
+rectangle_mm = [150, 150]
+[sheet]
+material = "BoPET"
+thickness_mm = 0.125
+tension_n_per_m = 200
+decay_time_ms = 70
+[drive]
+band_hz = [0, 1000]
+sample_rate_hz = 48000
+[[actuator]]
+at_mm = [12, 31]
+"#;
+
+/// Says what is wrong with a file, in `check` and in `focus` alike, and writes nothing.
+fn faulty(text: &str, expected: &[&str]) {
+    let scratch = Scratch::new(&format!("faulty-{}", expected.join("-").replace(['/', ' ', '`'], "")));
+    let file = scratch.file("film.toml", text);
+    let out = scratch.join("out");
+    for arguments in [vec!["check", &file], vec!["focus", &file, "--at", "62,90", "-o", &out]] {
+        let errors = refused(&arguments, 2);
+        for part in expected {
+            assert!(errors.contains(part), "{part:?} in {errors}");
+        }
+    }
+    assert_eq!(scratch.names(), ["film.toml"]);
+}
+
+#[test]
+fn files_with_faults_are_refused_with_their_place() {
+    faulty("", &["film.toml"]);
+    faulty(&FILM.replace("thickness_mm", "thicknes_mm"), &["film.toml:7:1", "thickness_mm"]);
+    faulty(&FILM.replace("= 0.125", "= -0.125"), &["film.toml:7:16", "sheet.thickness_mm", "-0.125"]);
+    faulty(&FILM.replace("[12, 31]", "[12, 310]"), &["film.toml:14", "actuator[0].at_mm", "310"]);
+    faulty(&FILM.replace("= 200", "= nan"), &["film.toml:8", "sheet.tension_n_per_m"]);
+    faulty(&FILM.replace("[0, 1000]", "[0, 30000]"), &["film.toml:11", "24000"]);
+    faulty(&FILM[..FILM.find("[[actuator]]").unwrap()], &["actuator"]);
+}
+
+#[test]
+fn outlines_that_cannot_be_are_refused() {
+    let rim = "rectangle_mm = [150, 150]";
+    let shaped = |to: &str| FILM.replace(rim, to);
+    faulty(
+        &shaped("polygon_mm = [[0, 0], [150, 150], [150, 0], [0, 180]]"),
+        &["film.toml:4:14", "sides 0 and 2"],
+    );
+    faulty(&shaped("polygon_mm = [[0, 0], [150, 0], [75, 0]]"), &["film.toml:4:14", "without area"]);
+    let hole = |lines: &str| format!("{FILM}[[hole]]\n{lines}\n");
+    faulty(
+        &hole("circle_mm = 9\ncentre_mm = [200, 75]"),
+        &["film.toml:16:13", "hole[0].circle_mm", "outside the outline"],
+    );
+    faulty(&hole("circle_mm = 9\ncentre_mm = [145, 75]"), &["film.toml:16:13", "touches or crosses the rim"]);
+    faulty(
+        &hole("circle_mm = 9\ncentre_mm = [14, 30]"),
+        &["film.toml:14:9", "actuator[0].at_mm", "in a hole"],
+    );
+}
+
+#[test]
+fn what_nothing_holds_is_refused() {
+    let limp = FILM.replace("thickness_mm", "young_gpa = 0\nthickness_mm");
+    let free = format!("{}\nedge = \"free\"", "rectangle_mm = [150, 150]");
+    faulty(
+        &limp.replace("rectangle_mm = [150, 150]", &free),
+        &["film.toml:5:8", "no edge fixed and no stiffness"],
+    );
+    faulty(&limp.replace("= 200", "= 0"), &["sheet.tension_n_per_m", "neither tension nor stiffness"]);
+}
+
+#[test]
+fn ten_thousand_actuators_are_refused() {
+    let many = "[[actuator]]\nat_mm = [12, 31]\n".repeat(10_000);
+    faulty(&format!("{FILM}{many}"), &["actuator", "10001"]);
+}
+
+#[test]
+fn all_faults_come_at_once() {
+    let scratch = Scratch::new("all-faults");
+    let text =
+        FILM.replace("= 0.125", "= -0.125").replace("[12, 31]", "[12, 310]").replace("tension", "tensoin");
+    let file = scratch.file("film.toml", text);
+    let output = run(&["check", &file, "--json"]);
+    assert_eq!(output.status.code(), Some(2));
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(report["ok"], false);
+    assert_eq!(report["faults"].as_array().unwrap().len(), 3, "{report}");
+}
+
+#[test]
+fn targets_must_lie_on_the_surface() {
+    let scratch = Scratch::new("targets");
+    let out = scratch.join("out");
+    for (at, expected) in [
+        ("162,90", "nearest legal point (150.0000, 90.0000) mm"),
+        ("NaN,90", "expected X,Y[,GAIN[,HZ]]"),
+        ("62", "found 1 numbers"),
+        ("62,90,1,0", "expected a number above 0 Hz"),
+        ("0,90", "no actuator can move"),
+    ] {
+        let errors = refused(&["focus", "hudin-2012", "--at", at, "-o", &out], 2);
+        assert!(errors.contains(expected), "{expected:?} in {errors}");
+    }
+    let errors = refused(&["focus", "hudin-2012", "-o", &out], 2);
+    assert!(errors.contains("expected --at or --shape"), "{errors}");
+    let most = refused(&["focus", "hudin-2012", "--at", "62,90", "--peak-um", "1e9", "-o", &out], 2);
+    assert!(most.contains("which the drive limit gives"), "{most}");
+    let most = refused(&["focus", "hudin-2012", "--at", "62,90", "--felt-db", "300", "-o", &out], 2);
+    assert!(most.contains("dB above threshold, which the drive limit gives, found 300"), "{most}");
+    let both = ["focus", "hudin-2012", "--at", "62,90", "--felt-db", "3", "--peak-um", "3", "-o", &out];
+    assert!(refused(&both, 2).contains("cannot be used with"));
+    assert!(scratch.names().is_empty(), "{:?}", scratch.names());
+}
+
+#[test]
+fn numbers_without_meaning_are_usage_errors() {
+    let scratch = Scratch::new("numbers");
+    let out = scratch.join("out");
+    let focus = |option: &str, value: &str| {
+        refused(&["focus", "hudin-2012", "--at", "62,90", option, value, "-o", &out], 2)
+    };
+    assert!(focus("--window-ms", "-3").contains("--window-ms: expected a number above 0 ms, found -3"));
+    assert!(focus("--window-ms", "NaN").contains("found NaN"));
+    assert!(focus("--felt-db", "inf").contains("--felt-db: expected a finite number of dB, found inf"));
+    assert!(focus("--method", "one-bti").contains("one-bit"));
+    assert!(focus("--judge-hz", "0").contains("Hz"));
+    assert!(refused(&["modes", "hudin-2012", "--max-hz", "-1"], 2).contains("--max-hz"));
+    assert!(refused(&["modes", "hudin-2012", "--accuracy", "2"], 2).contains("accuracy"));
+    assert!(refused(&["modes", "hudin-2012", "--max-hz", "1e7"], 2).contains("GiB"));
+    assert!(refused(&["design", "hudin-2021"], 2).contains("nearest: hudin-2012"));
+    assert!(scratch.names().is_empty());
+}
+
+#[test]
+fn foreign_folders_are_left_alone() {
+    let scratch = Scratch::new("foreign");
+    std::fs::create_dir(scratch.path().join("thesis")).unwrap();
+    scratch.file("thesis/chapter.md", "years of work");
+    let out = scratch.join("thesis");
+    let errors = refused(&["focus", "hudin-2012", "--at", "62,90", "-o", &out], 1);
+    assert!(errors.contains("will not write"), "{errors}");
+    let file = scratch.file("file", "");
+    refused(&["focus", "hudin-2012", "--at", "62,90", "-o", &format!("{file}/out")], 1);
+    assert_eq!(scratch.names(), ["file", "thesis"]);
+    assert_eq!(std::fs::read_to_string(format!("{out}/chapter.md")).unwrap(), "years of work");
+}
+
+#[test]
+fn drives_that_do_not_fit_are_refused() {
+    let scratch = Scratch::new("drives");
+    let text = scratch.file("drive.wav", "not a wave");
+    assert!(refused(&["field", "hudin-2012", "--drive", &text], 2).contains("WAV"));
+    let film = scratch.file("film.toml", FILM);
+    let out = scratch.join("out");
+    assert!(run(&["focus", &film, "--at", "62,90", "-o", &out]).status.success());
+    let drive = format!("{out}/drive.wav");
+    let errors = refused(&["field", "hudin-2012", "--drive", &drive], 2);
+    assert!(errors.contains('8') && errors.contains('1'), "{errors}");
+    let late = ["field", &film, "--drive", &drive, "--at", "62,90", "--at-ms", "-1"];
+    assert!(refused(&late, 2).contains("instant"));
+    assert!(refused(&["field", &film, "--drive", "no-such.wav"], 2).contains("no-such.wav"));
+}

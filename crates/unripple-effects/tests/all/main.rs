@@ -1,0 +1,7 @@
+//! Tests of unripple-effects that share one program: a file a kind of truth. What needs a process of its own is beside it.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod envelopes;
+mod oracle;
+mod property;

@@ -1,0 +1,22 @@
+//! Tests of unripple-physics that share one program: a file a kind of truth. What needs a process of its own is beside it.
+
+mod coil_oracle;
+#[path = "../coupled_common/mod.rs"]
+mod coupled_common;
+mod coupled_convergence;
+mod coupled_oracle;
+mod coupled_property;
+mod design_oracle;
+mod finger_oracle;
+#[path = "../../../unripple-plates/tests/modes_common/mod.rs"]
+mod modes_common;
+mod modes_property;
+mod responses_oracle;
+#[path = "../stepper_common/mod.rs"]
+mod stepper_common;
+mod stepper_convergence;
+mod stepper_mishaps;
+mod stepper_oracle;
+mod stepper_property;
+#[path = "../stepper_common/truth.rs"]
+mod truth;

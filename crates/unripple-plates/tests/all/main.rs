@@ -1,0 +1,10 @@
+//! Tests of unripple-plates that share one program: a file a kind of truth. What needs a process of its own is beside it.
+
+mod air_oracle;
+#[path = "../modes_common/mod.rs"]
+mod modes_common;
+mod modes_convergence;
+mod modes_oracle;
+mod outline_oracle;
+#[path = "../round_common/mod.rs"]
+mod round_common;

@@ -1,0 +1,83 @@
+//! Truth: the error is what was asked for, from above, and falls at the rates known for polynomials.
+
+use crate::modes_common;
+
+use modes_common::*;
+use unripple_core::*;
+use unripple_plates::Modes;
+
+/// Largest relative error of the frequencies against a reference, and the error claimed; fails if one is below.
+fn errors(surface: &Surface, max_hz: f64, accuracy: f64, reference: &Modes) -> (f64, f64) {
+    let modes = Modes::solve(surface, max_hz, accuracy).unwrap();
+    let exact = reference.frequencies_hz();
+    let mut worst: f64 = 0.0;
+    for (found, exact) in modes.frequencies_hz().iter().zip(&exact).filter(|(_, exact)| **exact > 0.0) {
+        let error = found / exact - 1.0;
+        assert!(error > -1e-10, "below the reference: {found} {exact}");
+        worst = worst.max(error);
+    }
+    (worst, modes.error())
+}
+
+#[test]
+fn every_accuracy_is_kept() {
+    let cases =
+        [("cccc", 3000.0, 1e-10), ("ssss", 2000.0, 1e-9), ("sccs", 1200.0, 1e-9), ("sssc", 1200.0, 1e-9)];
+    for (sides, max_hz, best) in cases {
+        let surface = film(edges(sides));
+        let reference = Modes::solve(&surface, max_hz, best).unwrap();
+        for accuracy in [1e-2, 1e-4, 1e-6, 1e-8] {
+            let (error, claimed) = errors(&surface, max_hz, accuracy, &reference);
+            assert!(error <= accuracy, "{sides} {accuracy}: {error}");
+            // The claim is an estimate, twice what the next quarter of polynomials would change.
+            assert!(error <= claimed + 2e-10 && claimed <= accuracy, "{sides} {accuracy}: {error} {claimed}");
+        }
+    }
+}
+
+#[test]
+fn every_accuracy_is_kept_where_corners_are_free() {
+    for sides in ["cfff", "ccff", "ffff", "sfcf"] {
+        let surface = unit_plate(1.0, 0.3, edges(sides));
+        let reference = Modes::solve(&surface, 8.0, 3e-6).unwrap();
+        for accuracy in [1e-2, 1e-3, 1e-4] {
+            let (error, claimed) = errors(&surface, 8.0, accuracy, &reference);
+            assert!(
+                error <= accuracy && error <= claimed && claimed <= accuracy,
+                "{sides} {accuracy}: {error} {claimed}"
+            );
+        }
+    }
+}
+
+#[test]
+fn many_modes_of_a_free_plate() {
+    // The energies of the polynomials span thirteen decades here.
+    let mut surface = film(edges("ffff"));
+    surface.outline.shape = Shape::Rectangle { width: 0.4, height: 0.3 };
+    let sheet = &mut surface.sheet;
+    (sheet.young, sheet.density, sheet.poisson) = (69e9, 2300.0, 0.22);
+    (sheet.thickness, sheet.tension) = (1e-3, 0.0);
+    let reference = Modes::solve(&surface, 5000.0, 1e-9).unwrap();
+    assert!(reference.poles().len() > 180);
+    for accuracy in [1e-3, 1e-5, 1e-7] {
+        let (error, claimed) = errors(&surface, 5000.0, accuracy, &reference);
+        assert!(error <= accuracy && error <= claimed + 1e-9, "{accuracy}: {error} {claimed}");
+    }
+}
+
+#[test]
+fn tightly_stretched_and_stiff_sheets_join_their_limits() {
+    // A film under more and more tension becomes the membrane. Clamping bends it within √(D/R) of each edge, as if the
+    // membrane ended that far inside: sides shorter by 2√(D/R), frequencies higher by 2√(D/R)/L of themselves.
+    let mut surface = film(Edges::All(Edge::Clamped));
+    for tension in [2e3, 2e4] {
+        surface.sheet.tension = tension;
+        let medium = unripple_plates::Medium::of(&surface.sheet);
+        let membrane = (2f64 * tension / medium.areal_density).sqrt() / 0.3;
+        let found = Modes::solve(&surface, 1.3 * membrane, 1e-8).unwrap().frequencies_hz()[0];
+        let layer = (medium.bending_stiffness / tension).sqrt();
+        let rise = found / membrane - 1.0;
+        assert!((rise / (2.0 * layer / 0.15) - 1.0).abs() < 20.0 * layer / 0.15, "{tension}: {rise} {layer}");
+    }
+}

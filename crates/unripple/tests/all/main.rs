@@ -1,0 +1,20 @@
+//! Tests of unripple that share one program: a file a kind of truth. What needs a process of its own is beside it.
+
+mod act_oracle;
+#[path = "../bench/mod.rs"]
+mod bench;
+mod contrast_map_oracle;
+mod contrast_oracle;
+mod design_golden;
+mod drafting_oracle;
+mod felt_contrast;
+mod method_oracle;
+mod past_drift;
+mod past_reversal;
+mod surface_property;
+mod touch_oracle;
+mod waveform_stroke;
+mod waveform_two_fingers;
+#[path = "../window_common/mod.rs"]
+mod window_common;
+mod window_oracle;
