@@ -1,5 +1,8 @@
 //! Tests of unripple-calibrate that share one program: a file a kind of truth. What needs a process of its own is beside it.
 
+// Folders of shared code bring what they need themselves, since examples load them too.
+#![allow(clippy::duplicate_mod)]
+
 #[path = "../between_bench/mod.rs"]
 mod between_bench;
 mod between_oracle;
