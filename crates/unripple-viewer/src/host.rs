@@ -44,7 +44,7 @@ pub struct SessionHost {
     pub notices: Arc<Notices>,
     words: Sender<Word>,
     links: Links,
-    jobs: Jobs,
+    jobs: Arc<Jobs>,
     measured: Arc<Mutex<Option<Measured>>>,
     /// The thread that plays.
     playing: Mutex<Option<JoinHandle<()>>>,
@@ -80,16 +80,19 @@ impl SessionHost {
         })?;
         let (notices, links) = (Arc::new(Notices::new()), Links::default());
         let measured = Arc::new(Mutex::new(None));
-        let stage = Stage {
+        let jobs = Arc::new(Jobs::new(notices.clone(), view.folder.clone()));
+        let mut stage = Stage {
             session,
             building,
             computing,
             notices: notices.clone(),
             links: links.clone(),
             measured: measured.clone(),
+            jobs: jobs.clone(),
         };
+        // Whoever asks first is told of the surface as well.
+        stage.pass_on();
         let playing = Mutex::new(Some(thread("surface", move || stage.run(&heard))?));
-        let jobs = Jobs::new(notices.clone(), view.folder.clone());
         Ok(Arc::new(Self { notices, words, links, jobs, measured, playing, quiet: view.quiet }))
     }
 
@@ -105,16 +108,9 @@ impl SessionHost {
         self.say(Word::Leave(page));
     }
 
-    /// Does what a page asks for, or sees to it.
+    /// Does what a page asks for, or sees to it, in the order in which it is asked.
     pub fn obey(&self, page: u64, command: Command) {
-        match command {
-            Command::Job(job) => {
-                if let Err(why) = self.jobs.obey(&job, self.toml()) {
-                    refuse(&self.links, page, &why);
-                }
-            }
-            command => self.say(Word::Hear(page, command)),
-        }
+        self.say(Word::Hear(page, command));
     }
 
     /// Tells a page why something is refused.
@@ -134,9 +130,7 @@ impl SessionHost {
 
     /// The surface as it is, as the text of its file.
     pub fn toml(&self) -> String {
-        let Some(Notice::Text(text)) = self.notices.newest("surface") else { return String::new() };
-        let value: serde_json::Value = serde_json::from_str(&text).unwrap_or_default();
-        value.get("toml").and_then(|toml| toml.as_str()).unwrap_or_default().to_owned()
+        toml(&self.notices)
     }
 
     /// The last act that was measured.
@@ -168,6 +162,13 @@ impl SessionHost {
     }
 }
 
+/// The surface that pages are told of, as the text of its file.
+fn toml(notices: &Notices) -> String {
+    let Some(Notice::Text(text)) = notices.newest("surface") else { return String::new() };
+    let value: serde_json::Value = serde_json::from_str(&text).unwrap_or_default();
+    value.get("toml").and_then(|toml| toml.as_str()).unwrap_or_default().to_owned()
+}
+
 /// Tells a page why something is refused, unless so much waits to be told that it would be no use.
 fn refuse(links: &Links, page: u64, why: &str) {
     let text = serde_json::json!({ "is": "fault", "text": why }).to_string();
@@ -184,12 +185,12 @@ struct Stage {
     notices: Arc<Notices>,
     links: Links,
     measured: Arc<Mutex<Option<Measured>>>,
+    jobs: Arc<Jobs>,
 }
 
 impl Stage {
     /// Works until told to stop, or until nobody is there any more to tell.
     fn run(mut self, words: &Receiver<Word>) {
-        self.pass_on();
         let mut due = Instant::now();
         let mut passed = Instant::now();
         loop {
@@ -219,6 +220,14 @@ impl Stage {
         match word {
             Word::Come => self.session.come(),
             Word::Leave(page) => self.session.leave(page),
+            Word::Hear(page, Command::Job(job)) => {
+                // It is done on the surface as it was edited just before.
+                self.session.renew();
+                self.pass_on();
+                if let Err(why) = self.jobs.obey(&job, toml(&self.notices)) {
+                    refuse(&self.links, page, &why);
+                }
+            }
             Word::Hear(page, command) => self.session.hear(page, command),
             Word::Load(text, answer) => {
                 let loaded = self.session.load(&text);
@@ -258,4 +267,37 @@ impl Stage {
 fn thread(name: &str, work: impl FnOnce() + Send + 'static) -> Result<JoinHandle<()>, ViewError> {
     let spawned = std::thread::Builder::new().name(name.into()).spawn(work);
     spawned.map_err(|error| ViewError::Gone { why: error.to_string() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use unripple::focus::Method;
+    use unripple::physics::design::papers_surface;
+
+    #[test]
+    fn whoever_asks_first_is_told_of_the_surface() {
+        let mut surface = papers_surface();
+        surface.emission.band[1] = 300.0;
+        let view = View {
+            surface,
+            stored: None,
+            without_scale: None,
+            respond: None,
+            source: "small".into(),
+            method: Method::TimeReversal,
+            device: None,
+            follow: None,
+            device_name: "virtual".into(),
+            address: ([127, 0, 0, 1], 0).into(),
+            token: None,
+            folder: std::env::temp_dir(),
+            quiet: true,
+        };
+        for _ in 0..20 {
+            let host = SessionHost::open(&view, None).unwrap();
+            assert!(host.toml().contains("band_hz = [0, 300]"), "{}", host.toml());
+            host.close().unwrap();
+        }
+    }
 }

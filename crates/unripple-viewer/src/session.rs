@@ -199,7 +199,7 @@ impl Session {
     }
 
     /// Pages are told of a surface that was edited, and its figures are to be computed.
-    fn renew(&mut self) {
+    pub fn renew(&mut self) {
         if let Some(edition) = self.editor.renew(&mut self.editions, &mut self.out) {
             self.wait(Task::Design(edition));
         }
