@@ -165,8 +165,8 @@ impl Fingers {
 
     fn come(&mut self, key: Key, at: Point, force: Option<f64>, heard: &mut Heard) -> Result<(), Refusal> {
         let same = self.live.iter().filter(|finger| finger.key.peer == key.peer).count();
-        let full = self.live.len() >= self.options.most || same >= self.options.most_per_sender;
-        if full || self.downs >= DOWNS {
+        let taken = same >= self.options.most_per_sender || self.downs >= DOWNS;
+        if taken || !self.make_room(same, heard) {
             self.counts.crowded += 1;
             return Err(Refusal::Crowded);
         }
@@ -175,6 +175,32 @@ impl Fingers {
         self.tell(live, Phase::Down, heard);
         self.live.push(live);
         Ok(())
+    }
+
+    /// Whether there is room for one more finger of a sender that has so many. Where all places are taken, the sender with most of them
+    /// gives up its latest if it still has no fewer than the other then: whoever comes first does not keep everybody else out.
+    fn make_room(&mut self, same: usize, heard: &mut Heard) -> bool {
+        if self.live.len() < self.options.most {
+            return true;
+        }
+        // Senders are few, while fingers may be a thousand.
+        let mut senders: Vec<(u32, usize)> = Vec::new();
+        for finger in &self.live {
+            match senders.iter_mut().find(|(peer, _)| *peer == finger.key.peer) {
+                Some((_, held)) => *held += 1,
+                None => senders.push((finger.key.peer, 1)),
+            }
+        }
+        let (largest, most) = senders.into_iter().max_by_key(|(_, held)| *held).unwrap_or_default();
+        let latest = self.live.iter().rposition(|finger| finger.key.peer == largest);
+        match latest.filter(|_| most > same + 1) {
+            Some(latest) => {
+                let finger = self.live.remove(latest);
+                self.tell(finger, Phase::Up, heard);
+                true
+            }
+            None => false,
+        }
     }
 
     fn go_on(&mut self, i: usize, at: Point, force: Option<f64>, heard: &mut Heard) {

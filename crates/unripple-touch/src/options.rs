@@ -13,7 +13,7 @@ pub struct Options {
     pub mapping: Mapping,
     /// A finger that nobody spoke of for as long is lifted, in s. TUIO trackers repeat a resting finger once a second.
     pub timeout: f64,
-    /// Fingers at once; more are counted and dropped.
+    /// Fingers at once; more are counted and dropped, but for those of a sender that has fewer than another, which gives way.
     pub most: usize,
     /// Fingers at once from one sender, so that no sender takes the place of all others.
     pub most_per_sender: usize,

@@ -49,6 +49,27 @@ fn no_sender_takes_the_place_of_another() {
 }
 
 #[test]
+fn senders_that_came_first_do_not_keep_others_out() {
+    let mut rig = Rig::new();
+    let many: Vec<(i32, f32, f32)> = (0..16).map(|i| (i, 0.5, i as f32 / 20.0)).collect();
+    let ids: Vec<i32> = (0..16).collect();
+    for sender in [1, 2] {
+        assert_eq!(rig.send(sender, &cursors("greedy", &ids, &many, 1)).len(), 16);
+    }
+    // All 32 are taken; one of the two gives up its latest finger, then the other.
+    for (id, gone) in [(1, 32), (2, 16)] {
+        let ids: Vec<i32> = (1..=id).collect();
+        let sets: Vec<(i32, f32, f32)> = ids.iter().map(|id| (*id, 0.2, 0.5)).collect();
+        let heard = told(&rig.send(3, &cursors("modest", &ids, &sets, id)));
+        let phases: Vec<(u64, Phase)> = heard.iter().map(|touch| (touch.0, touch.1)).collect();
+        assert_eq!(phases, [(gone, Phase::Up), (32 + id as u64, Phase::Down)]);
+    }
+    // Those who have as many as anybody get no more, and nobody is disturbed for them.
+    assert!(rig.send(1, &cursors("greedy", &ids, &many, 2)).is_empty());
+    assert_eq!(rig.counts().crowded, 1);
+}
+
+#[test]
 fn time_stands_still_while_nobody_polls() {
     let mut fingers = Fingers::new(options()).unwrap();
     let mut heard = Heard::default();
