@@ -1,6 +1,6 @@
 //! Pruned Fourier transforms: only the lines in the band, by decimation in time.
 
-use super::transform::Transform;
+use super::transform::{Transform, turns};
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
@@ -43,9 +43,14 @@ impl Comb {
     pub fn new(size: usize, first: usize, end: usize) -> Self {
         let fits = |teeth: &usize| size.is_multiple_of(*teeth) && end <= size / teeth / 2;
         let teeth = [MOST, MOST / 2, MOST / 4].into_iter().find(fits).unwrap_or(1);
-        let turn = |line: usize| Complex::from_polar(1.0, -TAU * line as f64 / size as f64);
         let part = Transform::exact(size / teeth);
-        Self { size, teeth, part, first, turns: (first..end).map(turn).collect() }
+        Self {
+            size,
+            teeth,
+            part,
+            first,
+            turns: turns(-TAU / size as f64, first).take(end.saturating_sub(first)).collect(),
+        }
     }
 
     pub fn size(&self) -> usize {

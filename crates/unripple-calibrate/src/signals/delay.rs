@@ -1,6 +1,6 @@
 //! Delay between two signals to a fraction of a sample: cross-correlation in a band.
 
-use super::transform::{Transform, Work};
+use super::transform::{Transform, Work, turns};
 use super::{Band, positive};
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
@@ -68,7 +68,7 @@ impl Delay {
 
     /// With `latest` delays from 0 on; those below 0 are at the end of the circle.
     fn largest(plan: &Transform, mut cross: Work, latest: usize, norm: f64) -> Self {
-        let lines = cross.lines.clone();
+        let lines = Lines::of(&cross.lines, plan.size());
         // Lines stand for their mirror images too, whose half the inverse transform adds by itself.
         cross.lines.iter_mut().enumerate().for_each(|(line, x)| *x /= plan.copies(line));
         plan.inverse(&mut cross);
@@ -79,18 +79,18 @@ impl Delay {
         let sign = peak.1.signum();
         let size = plan.size();
         let whole = if peak.0 >= latest { peak.0 as f64 - size as f64 } else { peak.0 as f64 };
-        let samples = refined(&lines, size, whole, sign);
-        let correlation = (sign * slopes(&lines, size, samples)[0] / norm).clamp(0.0, 1.0);
+        let samples = refined(&lines, whole, sign);
+        let correlation = (sign * lines.slopes(samples)[0] / norm).clamp(0.0, 1.0);
         Self { samples, correlation, inverted: sign < 0.0 }
     }
 }
 
 /// The maximum of `sign` times the correlation within a sample of `whole`: Newton's steps, or halving where they leave the
 /// bracket.
-fn refined(lines: &[Complex<f64>], size: usize, whole: f64, sign: f64) -> f64 {
+fn refined(lines: &Lines, whole: f64, sign: f64) -> f64 {
     let (mut low, mut high, mut at) = (whole - 1.0, whole + 1.0, whole);
     for _ in 0..STEPS {
-        let [_, first, second] = slopes(lines, size, at).map(|x| sign * x);
+        let [_, first, second] = lines.slopes(at).map(|x| sign * x);
         if first > 0.0 {
             low = at;
         } else {
@@ -109,14 +109,31 @@ fn refined(lines: &[Complex<f64>], size: usize, whole: f64, sign: f64) -> f64 {
 
 const STEPS: usize = 40;
 
-/// The correlation at a delay, and its first and second derivative.
-fn slopes(lines: &[Complex<f64>], size: usize, delay: f64) -> [f64; 3] {
-    let step = TAU / size as f64;
-    lines.iter().enumerate().fold([0.0; 3], |[value, first, second], (line, x)| {
-        let omega = step * line as f64;
-        let turned = x * Complex::from_polar(1.0, omega * delay);
-        [value + turned.re, first - omega * turned.im, second - omega * omega * turned.re]
-    })
+/// The lines of a cross-spectrum from the first to the last that is not zero.
+struct Lines {
+    first: usize,
+    values: Vec<Complex<f64>>,
+    /// Radians per line and sample of delay.
+    step: f64,
+}
+
+impl Lines {
+    fn of(lines: &[Complex<f64>], size: usize) -> Self {
+        let counts = |x: &Complex<f64>| x.norm_sqr() > 0.0;
+        let first = lines.iter().position(counts).unwrap_or(0);
+        let end = lines.iter().rposition(counts).map_or(first, |last| last + 1);
+        Self { first, values: lines[first..end].to_vec(), step: TAU / size as f64 }
+    }
+
+    /// The correlation at a delay, and its first and second derivative.
+    fn slopes(&self, delay: f64) -> [f64; 3] {
+        let turned = self.values.iter().zip(turns(self.step * delay, self.first)).enumerate();
+        turned.fold([0.0; 3], |[value, first, second], (line, (x, turn))| {
+            let omega = self.step * (self.first + line) as f64;
+            let turned = x * turn;
+            [value + turned.re, first - omega * turned.im, second - omega * omega * turned.re]
+        })
+    }
 }
 
 /// A signal later by any number of samples, negative for earlier: a phase ramp in the spectrum, exact for a signal that
@@ -135,8 +152,8 @@ pub fn shift(signal: &[f64], samples: f64) -> Vec<f64> {
     let mut work = plan.work();
     plan.forward(signal, &mut work);
     let (turn, scale) = (-TAU * samples / plan.size() as f64, 1.0 / plan.size() as f64);
-    for (line, value) in work.lines.iter_mut().enumerate() {
-        *value *= Complex::from_polar(scale, turn * line as f64);
+    for (value, turn) in work.lines.iter_mut().zip(turns(turn, 0)) {
+        *value *= turn * scale;
     }
     plan.inverse(&mut work);
     work.signal[..length].to_vec()

@@ -1,6 +1,6 @@
 //! Signals whose frequencies are moved, each by its own share.
 
-use super::transform::Transform;
+use super::transform::{Transform, turns};
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
@@ -59,8 +59,7 @@ impl Remap {
         plan.forward(signal, &mut work);
         let centre = (signal.len() / 2) as f64;
         let step = TAU * centre / plan.size() as f64;
-        let turned = work.lines.iter().enumerate();
-        let lines = turned.map(|(k, x)| x * Complex::from_polar(1.0, step * k as f64)).collect();
+        let lines = work.lines.iter().zip(turns(step, 0)).map(|(x, turn)| x * turn).collect();
         Self { plan, samples: signal.len(), rate, lines, centre, origin }
     }
 
