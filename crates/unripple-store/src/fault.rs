@@ -80,6 +80,8 @@ struct Report {
 impl FileFaults {
     pub(crate) fn new(file: &str, text: &str, mut faults: Vec<Fault>) -> Self {
         faults.sort_by_key(|fault| fault.span.start);
+        // What stands once and holds for several tables is at fault once.
+        faults.dedup();
         let omitted = faults.len().saturating_sub(MOST_FAULTS);
         faults.truncate(MOST_FAULTS);
         for fault in &mut faults {

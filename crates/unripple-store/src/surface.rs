@@ -12,6 +12,7 @@ mod outline;
 mod path;
 mod piezo;
 mod place;
+mod places;
 mod polygon;
 mod profile;
 pub(crate) mod range;
@@ -32,8 +33,18 @@ use place::Ground;
 use reader::{Faults, Section};
 use unripple_core::{Finger, Hole, Outline, Point, Sheet, Surface};
 
-const KEYS: [&str; 9] =
-    ["format", "name", "outline", "hole", "sheet", "scatterer", "drive", "finger", "actuator"];
+const KEYS: [&str; 10] = [
+    "format",
+    "name",
+    "outline",
+    "hole",
+    "sheet",
+    "scatterer",
+    "drive",
+    "finger",
+    actuator::DEFAULTS,
+    "actuator",
+];
 
 /// The surface that a text in format 1 describes. `file` names it in messages; an SVG outline is refused, because a
 /// text alone reaches no other file.

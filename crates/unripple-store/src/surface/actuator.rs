@@ -2,6 +2,7 @@
 
 use super::piezo::{self, PIEZO_KEYS, Spot};
 use super::place::Ground;
+use super::places::{self, PLACE_KEYS, Places};
 use super::range::of;
 use super::reader::{Faults, Section};
 use std::collections::HashMap;
@@ -11,7 +12,10 @@ use unripple_core::{Actuator, ActuatorKind, CoilDrive, Point};
 /// Most actuators of a surface.
 pub(super) const MOST_ACTUATORS: usize = 4096;
 
-const COMMON_KEYS: [&str; 3] = ["name", "at_mm", "kind"];
+/// The table of what actuators are that do not say otherwise.
+pub(super) const DEFAULTS: &str = "actuator_defaults";
+
+const COMMON_KEYS: [&str; 2] = ["name", "kind"];
 const PAD_KEY: &str = "contact_radius_mm";
 const MAGNET_KEYS: [&str; 5] =
     ["force_constant_n_per_a", "resistance_ohm", "inductance_mh", "moving_mass_mg", "driven_by"];
@@ -38,6 +42,8 @@ pub(super) struct Base<'b> {
 
 /// All actuators of a file, in its order.
 pub(super) fn read(root: &Section, base: &Base, faults: &mut Faults) -> Option<Vec<Actuator>> {
+    let defaults = root.get(DEFAULTS).and_then(|entry| entry.section(faults));
+    defaults.iter().for_each(|defaults| check_defaults(defaults, faults));
     let entry = root.get("actuator");
     let items = match &entry {
         Some(entry) => entry.items().or_else(|| {
@@ -57,25 +63,74 @@ pub(super) fn read(root: &Section, base: &Base, faults: &mut Faults) -> Option<V
         return None;
     }
     let mut names = Names::default();
-    let read: Vec<Option<Actuator>> = items
-        .iter()
-        .enumerate()
-        .map(|(i, item)| one(&item.section(faults)?, i, base, &mut names, faults))
-        .collect();
-    read.into_iter().collect()
+    let (mut actuators, mut whole, mut channel) = (Vec::new(), true, 0);
+    for (index, item) in items.iter().enumerate() {
+        let section = item.section(faults).map(|section| section.with_defaults(defaults.as_ref()));
+        let made =
+            section.and_then(|section| table(&section, Numbers { index, channel }, base, &mut names, faults));
+        channel += made.as_ref().map_or(1, Vec::len);
+        if channel > MOST_ACTUATORS {
+            item.refuse(format!("at most {MOST_ACTUATORS} actuators in all"), None, faults);
+            return None;
+        }
+        whole &= made.is_some();
+        actuators.extend(made.into_iter().flatten());
+    }
+    whole.then_some(actuators)
 }
 
-fn one(
-    section: &Section,
+/// Refuses keys that no actuator has, and those that are of one actuator alone.
+fn check_defaults(defaults: &Section, faults: &mut Faults) {
+    let known = [&["kind", PAD_KEY], &MAGNET_KEYS[..], &PIEZO_KEYS].concat();
+    let own = |key: &str| {
+        let own = key == "name" || PLACE_KEYS.contains(&key);
+        own.then(|| "this key in a table [[actuator]]: it is of one alone".into())
+    };
+    defaults.check_keys(&known, own, faults);
+}
+
+/// Which table of the file it is, and which channel its first actuator.
+#[derive(Clone, Copy)]
+struct Numbers {
     index: usize,
+    channel: usize,
+}
+
+/// The actuators of one table: one, or several in a row, round a ring or on a grid.
+fn table(
+    section: &Section,
+    numbers: Numbers,
     base: &Base,
     names: &mut Names,
     faults: &mut Faults,
-) -> Option<Actuator> {
+) -> Option<Vec<Actuator>> {
     let kind = section.choice_or("kind", Kind::Force, &KINDS, faults);
     check_keys(section, kind, faults);
-    let name = name(section, index, names, faults);
-    let at = Ground::read(base.ground, section, faults);
+    let named = Named::read(section, numbers, faults);
+    let places = places::read(section, base.ground, faults);
+    // Where the places are at fault, the rest is read once, for its own faults.
+    let several = places.as_ref().is_some_and(Places::are_several);
+    let at: Vec<Option<Point>> =
+        places.map_or(vec![None], |places| places.at.into_iter().map(Some).collect());
+    let made: Vec<Option<Actuator>> = at
+        .into_iter()
+        .enumerate()
+        .map(|(i, at)| {
+            let name = named.as_ref().and_then(|named| names.take(named, several.then_some(i), faults));
+            one(section, kind, (name, at), base, faults)
+        })
+        .collect();
+    made.into_iter().collect()
+}
+
+/// One actuator, of which name and place are known.
+fn one(
+    section: &Section,
+    kind: Option<Kind>,
+    (name, at): (Option<String>, Option<Point>),
+    base: &Base,
+    faults: &mut Faults,
+) -> Option<Actuator> {
     let kind = kind?;
     let pad = match kind {
         Kind::Force | Kind::MovingMagnet => section.number_or(PAD_KEY, 0.0, &of::PAD_RADIUS, faults),
@@ -105,27 +160,55 @@ fn check_keys(section: &Section, kind: Option<Kind>, faults: &mut Faults) {
         key if PIEZO_KEYS.contains(&key) => Some("this key only where kind = \"piezo\"".into()),
         _ => None,
     };
-    section.check_keys(&[&COMMON_KEYS[..], &keys].concat(), elsewhere, faults);
+    section.check_keys(&[&COMMON_KEYS[..], &PLACE_KEYS, &keys].concat(), elsewhere, faults);
 }
 
-/// Names taken so far, and by which actuator.
+/// What a table says of the names of its actuators.
+struct Named {
+    /// The name as it stands in the file; without one, actuators are called by their channels.
+    given: Option<String>,
+    key: String,
+    span: Range<usize>,
+    numbers: Numbers,
+}
+
+impl Named {
+    fn read(section: &Section, numbers: Numbers, faults: &mut Faults) -> Option<Self> {
+        let entry = section.get("name");
+        let given = match &entry {
+            Some(entry) => Some(entry.line("a name", faults)?),
+            None => None,
+        };
+        let span = entry.map_or(section.span.clone(), |e| e.span);
+        Some(Self { given, key: format!("{}.name", section.key), span, numbers })
+    }
+
+    /// The name of its only actuator, or of one of several.
+    fn of(&self, which: Option<usize>) -> String {
+        match (&self.given, which) {
+            (Some(name), None) => name.clone(),
+            (Some(name), Some(which)) => format!("{name}-{}", which + 1),
+            (None, which) => format!("a{}", self.numbers.channel + which.unwrap_or(0) + 1),
+        }
+    }
+}
+
+/// Names taken so far, and by which table.
 #[derive(Default)]
 struct Names(HashMap<String, usize>);
 
-fn name(section: &Section, index: usize, names: &mut Names, faults: &mut Faults) -> Option<String> {
-    let entry = section.get("name");
-    let name = match &entry {
-        Some(entry) => entry.line("a name", faults)?,
-        None => format!("a{}", index + 1),
-    };
-    let Some(first) = names.0.get(&name) else {
-        names.0.insert(name.clone(), index);
-        return Some(name);
-    };
-    let span: Range<usize> = entry.map_or(section.span.clone(), |e| e.span);
-    let found = format!("\"{name}\", which is also the name of actuator[{first}]");
-    faults.add(&format!("{}.name", section.key), span, found, "a name of its own", None);
-    None
+impl Names {
+    /// Takes a name for an actuator, or a fault if another has it.
+    fn take(&mut self, named: &Named, which: Option<usize>, faults: &mut Faults) -> Option<String> {
+        let name = named.of(which);
+        let Some(first) = self.0.get(&name) else {
+            self.0.insert(name.clone(), named.numbers.index);
+            return Some(name);
+        };
+        let found = format!("\"{name}\", which is also the name of actuator[{first}]");
+        faults.add(&named.key, named.span.clone(), found, "a name of its own", None);
+        None
+    }
 }
 
 fn magnet(section: &Section, faults: &mut Faults) -> Option<ActuatorKind> {

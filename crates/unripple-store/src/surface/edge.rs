@@ -9,6 +9,8 @@ pub(super) const EDGES: [(&str, Edge); 3] =
     [("clamped", Edge::Clamped), ("supported", Edge::Supported), ("free", Edge::Free)];
 
 const SPRING_KEYS: [&str; 2] = ["lift_n_per_mm2", "tilt_n"];
+/// A strip of adhesive under the rim, which is springs too.
+const ADHESIVE_KEYS: [&str; 3] = ["adhesive_young_mpa", "adhesive_width_mm", "adhesive_thickness_mm"];
 
 /// The sides that a list of edges is for.
 pub(super) struct SidesListed {
@@ -49,15 +51,38 @@ fn one(entry: &Entry, faults: &mut Faults) -> Option<Edge> {
     if !entry.is_table() {
         let words: Vec<String> = EDGES.iter().map(|(name, _)| format!("\"{name}\"")).collect();
         entry.refuse(
-            format!("{}, or springs {{ lift_n_per_mm2 = …, tilt_n = … }}", words.join(", ")),
+            format!(
+                "{}, or springs {{ lift_n_per_mm2 = …, tilt_n = … }} or {{ {} = …, … }}",
+                words.join(", "),
+                ADHESIVE_KEYS[0]
+            ),
             None,
             faults,
         );
         return None;
     }
     let springs = entry.section(faults)?;
-    springs.check_keys(&SPRING_KEYS, |_| None, faults);
+    springs.check_keys(&[&SPRING_KEYS[..], &ADHESIVE_KEYS].concat(), |_| None, faults);
+    if ADHESIVE_KEYS.iter().any(|key| springs.get(key).is_some()) {
+        return adhesive(&springs, faults);
+    }
     let lift = springs.number(SPRING_KEYS[0], &of::LIFT, faults);
     let tilt = springs.number_or(SPRING_KEYS[1], 0.0, &of::TILT, faults);
     Some(Edge::Elastic { lift: lift?, tilt: tilt? })
+}
+
+/// A strip of adhesive as springs: with Young's modulus E (of a wide thin strip rather its constrained modulus), width w and thickness t
+/// it lifts by E w / t and tilts by E w³ / (12 t) per length of rim, each slice of it stretched as the sheet above it moves.
+fn adhesive(strip: &Section, faults: &mut Faults) -> Option<Edge> {
+    if let Some(other) = SPRING_KEYS.iter().find_map(|key| strip.get(key)) {
+        let expected = format!("either {}, or {}", SPRING_KEYS.join(" and "), ADHESIVE_KEYS.join(", "));
+        other.refuse(expected, None, faults);
+        return None;
+    }
+    let young = strip.number(ADHESIVE_KEYS[0], &of::ADHESIVE_YOUNG, faults);
+    let width = strip.number(ADHESIVE_KEYS[1], &of::ADHESIVE_WIDTH, faults);
+    let thickness = strip.number(ADHESIVE_KEYS[2], &of::ADHESIVE_THICKNESS, faults);
+    let (young, width, thickness) = (young?, width?, thickness?);
+    let lift = young * width / thickness;
+    Some(Edge::Elastic { lift, tilt: lift * width * width / 12.0 })
 }

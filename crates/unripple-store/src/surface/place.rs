@@ -137,6 +137,23 @@ impl Ground {
         }
     }
 
+    /// Whether the place with this number, counted from 0, of several that an entry stands for is on the sheet, or a fault.
+    /// Without ground, which is at fault then, any place will do.
+    pub fn accepts(
+        ground: Option<&Self>,
+        entry: &Entry,
+        (which, point): (usize, Point),
+        faults: &mut Faults,
+    ) -> bool {
+        let on = ground.is_none_or(|ground| ground.contains(point));
+        if !on {
+            let written = |v: f64| (v * 1e6).round() / 1e3 + 0.0;
+            let found = format!("its place {} at [{}, {}] mm", which + 1, written(point.x), written(point.y));
+            faults.add(&entry.key, entry.span.clone(), found, "places on the sheet", None);
+        }
+        on
+    }
+
     fn refuse(&self, entry: &Entry, point: Point, faults: &mut Faults) {
         if faults.are_plenty() {
             entry.refuse("a point on the sheet", None, faults);

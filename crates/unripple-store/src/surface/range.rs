@@ -68,6 +68,10 @@ pub(crate) mod of {
     pub(crate) const SWEEP: Limits = Limits::degrees(-360.0, 360.0);
     pub(crate) const LIFT: Limits = Limits::new("N/mm²", 6, 0.0, 1e6);
     pub(crate) const TILT: Limits = Limits::new("N", 0, 0.0, 1e9);
+    // The softest foam to steel, and strips that keep springs within the limits above.
+    pub(crate) const ADHESIVE_YOUNG: Limits = Limits::new("MPa", 6, 0.001, 2e5);
+    pub(crate) const ADHESIVE_WIDTH: Limits = Limits::new("mm", -3, 0.01, 1000.0);
+    pub(crate) const ADHESIVE_THICKNESS: Limits = Limits::new("mm", -3, 0.01, 100.0);
     pub(crate) const GRAIN_YOUNG: Limits = Limits::new("GPa", 9, 1e-6, 2000.0);
     pub(crate) const THICKNESS_FACTOR: Limits = Limits::new("", 0, 0.05, 20.0);
     pub(crate) const TENSION_FACTOR: Limits = Limits::new("", 0, 0.0, 20.0);

@@ -103,6 +103,23 @@ impl<'a> Entry<'a> {
         None
     }
 
+    /// A whole number within limits.
+    pub fn count(&self, least: usize, most: usize, faults: &mut Faults) -> Option<usize> {
+        let DeValue::Integer(integer) = self.value else {
+            self.refuse(format!("a whole number from {least} to {most}"), None, faults);
+            return None;
+        };
+        let value = i128::from_str_radix(integer.as_str(), integer.radix()).unwrap_or(i128::MAX);
+        if let Ok(count) = usize::try_from(value)
+            && (least..=most).contains(&count)
+        {
+            return Some(count);
+        }
+        let nearest = if value < least as i128 { least } else { most };
+        self.refuse(format!("a whole number from {least} to {most}"), Some(nearest.to_string()), faults);
+        None
+    }
+
     /// One line of text that is not blank.
     pub fn line(&self, expected: &str, faults: &mut Faults) -> Option<String> {
         let text = self.value.as_str().map(str::trim);
@@ -167,7 +184,9 @@ impl<'a> Entry<'a> {
     /// The table here, or a fault.
     pub fn section(&self, faults: &mut Faults) -> Option<Section<'a>> {
         match self.value {
-            DeValue::Table(table) => Some(Section { key: self.key.clone(), span: self.span.clone(), table }),
+            DeValue::Table(table) => {
+                Some(Section { key: self.key.clone(), span: self.span.clone(), table, defaults: None })
+            }
             _ => {
                 self.refuse(format!("a table, [{}]", self.key), None, faults);
                 None
@@ -181,11 +200,18 @@ pub(crate) struct Section<'a> {
     pub key: String,
     pub span: Range<usize>,
     table: &'a DeTable<'a>,
+    /// Another table that says what this one does not.
+    defaults: Option<&'a Section<'a>>,
 }
 
 impl<'a> Section<'a> {
     pub fn root(document: &'a DeTable<'a>) -> Self {
-        Self { key: String::new(), span: 0..0, table: document }
+        Self { key: String::new(), span: 0..0, table: document, defaults: None }
+    }
+
+    /// The same table, with another that says what this one does not. [`check_keys`](Self::check_keys) looks at this one alone.
+    pub fn with_defaults(self, defaults: Option<&'a Section<'a>>) -> Self {
+        Self { defaults, ..self }
     }
 
     fn path(&self, key: &str) -> String {
@@ -211,9 +237,10 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// The value of a key, if the key is there.
+    /// The value of a key, if the key is here or among the defaults.
     pub fn get(&self, key: &str) -> Option<Entry<'a>> {
-        self.table.get(key).map(|value| Entry::new(self.path(key), value))
+        let own = self.table.get(key).map(|value| Entry::new(self.path(key), value));
+        own.or_else(|| self.defaults?.get(key))
     }
 
     /// The value of a key that must be there.

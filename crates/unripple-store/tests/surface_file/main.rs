@@ -1,5 +1,6 @@
 //! The surface file: what it means, the way back to a file, and its faults.
 
+mod arrays;
 mod faults;
 mod good;
 mod rim_faults;

@@ -64,8 +64,8 @@ fn springs() {
     assert_eq!(side.key, "outline.edge[1].lift_n_per_mm2");
     assert_eq!(
         fault(EDGE, "edge = 3").to_string(),
-        "outline.edge: expected \"clamped\", \"supported\", \"free\", or springs { lift_n_per_mm2 = …, tilt_n = … }, \
-         found 3"
+        "outline.edge: expected \"clamped\", \"supported\", \"free\", or springs { lift_n_per_mm2 = …, tilt_n = … } or \
+         { adhesive_young_mpa = …, … }, found 3"
     );
 }
 
