@@ -1,6 +1,7 @@
 //! `unripple calibrate`: responses measured through a device, point by point, into a library.
 
 use crate::args::{CalibrateOptions, WayName};
+use crate::common::Common;
 use crate::error::CliError;
 use crate::output;
 use crate::progress::{Bar, Terminal};
@@ -8,20 +9,20 @@ use crate::targets::{places, positive, seconds};
 use std::io::{BufRead, Write};
 use unripple_tasks::calibrate::{self, Ask, By, Hands, InputScales};
 
-pub fn run(options: &CalibrateOptions, as_json: bool) -> Result<(), CliError> {
+pub fn run(options: &CalibrateOptions, common: &Common) -> Result<(), CliError> {
     let mut terminal = Terminal::default();
-    let done = calibrate::run_with(&ask(options)?, by_hand(terminal.bar()), &mut terminal);
+    let done = calibrate::run_with(&ask(common, options)?, by_hand(terminal.bar()), &mut terminal);
     drop(terminal);
-    output::report(as_json, &done?)
+    output::report(common.json, &done?)
 }
 
-fn ask(options: &CalibrateOptions) -> Result<Ask, CliError> {
+fn ask(common: &Common, options: &CalibrateOptions) -> Result<Ask, CliError> {
     let pitch = options.grid_mm.map(|mm| positive(mm, "--grid-mm", "mm")).transpose()?;
     if let Some(delay) = options.probe_delay_ms.filter(|delay| !delay.is_finite()) {
         return Err(CliError::Input(format!("--probe-delay-ms: expected a number of ms, found {delay}")));
     }
     Ok(Ask {
-        surface: (&options.surface).into(),
+        surface: common.surface(&options.surface),
         device: options.device.ask(),
         pitch_m: pitch.map(|mm| mm / 1e3),
         points_m: places(&options.at, "--at")?,

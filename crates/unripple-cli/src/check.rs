@@ -1,18 +1,19 @@
 //! `unripple check`: all faults of a surface file.
 
 use crate::args::CheckOptions;
+use crate::common::Common;
 use crate::error::CliError;
 use crate::output;
 use crate::progress::Terminal;
 use unripple_tasks::check::{self, Ask};
 
-pub fn run(options: &CheckOptions, as_json: bool) -> Result<(), CliError> {
-    let checked = check::run(&Ask { surface: (&options.surface).into() }, &mut Terminal::default());
+pub fn run(options: &CheckOptions, common: &Common) -> Result<(), CliError> {
+    let checked = check::run(&Ask { surface: common.surface(&options.surface) }, &mut Terminal::default());
     let mut report = checked?;
     // Faults are shown on standard error, with the lines that they are about.
     let faults = report.file.take();
-    if as_json || faults.is_none() {
-        output::report(as_json, &report)?;
+    if common.json || faults.is_none() {
+        output::report(common.json, &report)?;
     }
     faults.map_or(Ok(()), |faults| Err(CliError::Faults(faults)))
 }

@@ -1,14 +1,15 @@
 //! `unripple compare`: every method on the same targets.
 
 use crate::args::CompareOptions;
+use crate::common::Common;
 use crate::error::CliError;
 use crate::output;
 use crate::targets::{self, seconds};
 use unripple_tasks::compare::{self, Ask};
 
-pub fn run(options: &CompareOptions, as_json: bool) -> Result<(), CliError> {
+pub fn run(options: &CompareOptions, common: &Common) -> Result<(), CliError> {
     let ask = Ask {
-        surface: (&options.surface).into(),
+        surface: common.surface(&options.surface),
         points: targets::points(&options.targets)?,
         shapes: targets::shapes(&options.targets)?,
         level: targets::level(&options.targets)?,
@@ -16,5 +17,5 @@ pub fn run(options: &CompareOptions, as_json: bool) -> Result<(), CliError> {
         judge_hz: options.judge_hz,
         output: options.output.clone(),
     };
-    output::perform(as_json, &ask, compare::run)
+    output::perform(common.json, &ask, compare::run)
 }

@@ -1,11 +1,12 @@
 //! `unripple design`: every tradeoff of a surface before anything is built.
 
 use crate::args::DesignOptions;
+use crate::common::Common;
 use crate::error::CliError;
 use crate::output;
 use unripple_tasks::design::{self, Ask};
 
-pub fn run(options: &DesignOptions, as_json: bool) -> Result<(), CliError> {
-    let ask = Ask { surface: (&options.surface).into() };
-    output::perform(as_json, &ask, design::run)
+pub fn run(options: &DesignOptions, common: &Common) -> Result<(), CliError> {
+    let ask = Ask { surface: common.surface(&options.surface) };
+    output::perform(common.json, &ask, design::run)
 }

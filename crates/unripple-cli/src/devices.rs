@@ -1,11 +1,13 @@
 //! `unripple devices`: what drives can be played through.
 
 use crate::args::DevicesOptions;
+use crate::common::Common;
 use crate::error::CliError;
 use crate::output;
 use unripple_tasks::devices::{self, Ask};
 
-pub fn run(options: &DevicesOptions, as_json: bool) -> Result<(), CliError> {
+pub fn run(options: &DevicesOptions, common: &Common) -> Result<(), CliError> {
+    common.without_surface()?;
     let ask = Ask { server: options.server.clone() };
-    output::perform(as_json, &ask, devices::run)
+    output::perform(common.json, &ask, devices::run)
 }

@@ -1,16 +1,17 @@
 //! `unripple doctor`: each stage between a touch and what is felt, checked in turn.
 
 use crate::args::DoctorOptions;
+use crate::common::Common;
 use crate::error::CliError;
 use crate::output;
 use unripple_tasks::doctor::{self, Ask};
 
-pub fn run(options: &DoctorOptions, as_json: bool) -> Result<(), CliError> {
+pub fn run(options: &DoctorOptions, common: &Common) -> Result<(), CliError> {
     let ask = Ask {
-        surface: (&options.surface).into(),
+        surface: common.surface(&options.surface),
         device: options.device.ask(),
         tuio: options.tuio,
         listen: options.listen,
     };
-    output::perform(as_json, &ask, doctor::run)
+    output::perform(common.json, &ask, doctor::run)
 }

@@ -1,11 +1,13 @@
 //! `unripple export`: a library in formats that others read.
 
 use crate::args::ExportOptions;
+use crate::common::Common;
 use crate::error::CliError;
 use crate::output;
 use unripple_tasks::export::{self, Ask};
 
-pub fn run(options: &ExportOptions, as_json: bool) -> Result<(), CliError> {
+pub fn run(options: &ExportOptions, common: &Common) -> Result<(), CliError> {
+    common.without_surface()?;
     let ask = Ask {
         library: options.library.clone().into(),
         output: options.output.clone(),
@@ -14,5 +16,5 @@ pub fn run(options: &ExportOptions, as_json: bool) -> Result<(), CliError> {
         organization: options.organization.clone(),
         license: options.license.clone(),
     };
-    output::perform(as_json, &ask, export::run)
+    output::perform(common.json, &ask, export::run)
 }

@@ -1,14 +1,15 @@
 //! `unripple field`: what any drive does to a surface.
 
 use crate::args::FieldOptions;
+use crate::common::Common;
 use crate::error::CliError;
 use crate::output;
 use crate::targets::{numbers, places, seconds};
 use unripple_tasks::field::{self, Ask, DriveAsk};
 
-pub fn run(options: &FieldOptions, as_json: bool) -> Result<(), CliError> {
+pub fn run(options: &FieldOptions, common: &Common) -> Result<(), CliError> {
     let ask = Ask {
-        surface: (&options.surface).into(),
+        surface: common.surface(&options.surface),
         drive: DriveAsk::File(options.drive.clone()),
         points_m: places(&options.at, "--at")?,
         instants_s: options.at_ms.iter().map(|ms| ms / 1e3).collect(),
@@ -20,7 +21,7 @@ pub fn run(options: &FieldOptions, as_json: bool) -> Result<(), CliError> {
         frames: options.frames,
         between: options.between.interpolation(),
     };
-    output::perform(as_json, &ask, field::run)
+    output::perform(common.json, &ask, field::run)
 }
 
 /// Start and end of the animation, in seconds.

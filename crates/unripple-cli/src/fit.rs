@@ -1,12 +1,14 @@
 //! `unripple fit`: the model fitted to what a library's actuators heard of each other.
 
 use crate::args::FitOptions;
+use crate::common::Common;
 use crate::error::CliError;
 use crate::output;
 use crate::targets::{places, positive};
 use unripple_tasks::fit::{self, Ask};
 
-pub fn run(options: &FitOptions, as_json: bool) -> Result<(), CliError> {
+pub fn run(options: &FitOptions, common: &Common) -> Result<(), CliError> {
+    common.without_surface()?;
     let pitch = options.grid_mm.map(|mm| positive(mm, "--grid-mm", "mm"));
     let ask = Ask {
         library: options.library.clone().into(),
@@ -17,5 +19,5 @@ pub fn run(options: &FitOptions, as_json: bool) -> Result<(), CliError> {
         even_if_doubtful: options.even_if_doubtful,
         output: options.output.clone(),
     };
-    output::perform(as_json, &ask, fit::run)
+    output::perform(common.json, &ask, fit::run)
 }

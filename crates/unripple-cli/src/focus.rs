@@ -1,25 +1,26 @@
 //! `unripple focus`: a drive, its report and its figures.
 
 use crate::args::{FocusOptions, LossName};
+use crate::common::Common;
 use crate::error::CliError;
 use crate::targets::{self, places, seconds};
 use crate::{output, waveforms};
 use unripple_tasks::focus::{self, Losses};
 use unripple_tasks::{stroke, waveform};
 
-pub fn run(options: &FocusOptions, as_json: bool) -> Result<(), CliError> {
+pub fn run(options: &FocusOptions, common: &Common) -> Result<(), CliError> {
     waveforms::check(options)?;
     let targets = &options.targets;
     if let Some(path) = &targets.path {
-        output::perform(as_json, &stroke_ask(options, path)?, stroke::run)
+        output::perform(common.json, &stroke_ask(common, options, path)?, stroke::run)
     } else if !targets.waveform.is_empty() {
-        output::perform(as_json, &waveform_ask(options)?, waveform::run)
+        output::perform(common.json, &waveform_ask(common, options)?, waveform::run)
     } else {
-        output::perform(as_json, &ask(options)?, focus::run)
+        output::perform(common.json, &ask(common, options)?, focus::run)
     }
 }
 
-fn ask(options: &FocusOptions) -> Result<focus::Ask, CliError> {
+fn ask(common: &Common, options: &FocusOptions) -> Result<focus::Ask, CliError> {
     if let Some(percent) = options.bear_tension_percent
         && !(percent > 0.0 && percent < 50.0)
     {
@@ -28,7 +29,7 @@ fn ask(options: &FocusOptions) -> Result<focus::Ask, CliError> {
         )));
     }
     Ok(focus::Ask {
-        surface: (&options.surface).into(),
+        surface: common.surface(&options.surface),
         points: targets::points(&options.targets)?,
         shapes: targets::shapes(&options.targets)?,
         level: targets::level(&options.targets)?,
@@ -58,9 +59,9 @@ fn ask(options: &FocusOptions) -> Result<focus::Ask, CliError> {
     })
 }
 
-fn waveform_ask(options: &FocusOptions) -> Result<waveform::Ask, CliError> {
+fn waveform_ask(common: &Common, options: &FocusOptions) -> Result<waveform::Ask, CliError> {
     Ok(waveform::Ask {
-        surface: (&options.surface).into(),
+        surface: common.surface(&options.surface),
         waveforms: waveforms::waveforms(&options.targets)?,
         silent_m: places(&options.targets.silent, "--silent")?,
         window_s: seconds(options.window_ms, "--window-ms")?,
@@ -70,10 +71,10 @@ fn waveform_ask(options: &FocusOptions) -> Result<waveform::Ask, CliError> {
     })
 }
 
-fn stroke_ask(options: &FocusOptions, path: &str) -> Result<stroke::Ask, CliError> {
+fn stroke_ask(common: &Common, options: &FocusOptions, path: &str) -> Result<stroke::Ask, CliError> {
     let (path, speed_m_s, level_m_s) = waveforms::stroke(&options.targets, path)?;
     Ok(stroke::Ask {
-        surface: (&options.surface).into(),
+        surface: common.surface(&options.surface),
         path,
         speed_m_s,
         level_m_s,

@@ -11,6 +11,7 @@ macro_rules! eprintln {
 mod args;
 mod calibrate;
 mod check;
+mod common;
 mod compare;
 mod design;
 mod devices;
@@ -34,6 +35,7 @@ mod waveforms;
 
 use args::{Arguments, Command};
 use clap::Parser;
+use common::Common;
 use error::CliError;
 use std::process::ExitCode;
 
@@ -46,22 +48,22 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<(), CliError> {
-    let json = arguments.json;
+    let common = &Common::of(arguments)?;
     match &arguments.command {
-        Command::Calibrate(options) => calibrate::run(options, json),
-        Command::Export(options) => export::run(options, json),
-        Command::Fit(options) => fit::run(options, json),
-        Command::Check(options) => check::run(options, json),
-        Command::Design(options) => design::run(options, json),
-        Command::Modes(options) => modes::run(options, json),
-        Command::Respond(options) => respond::run(options, json),
-        Command::Focus(options) => focus::run(options, json),
-        Command::Compare(options) => compare::run(options, json),
-        Command::Field(options) => field::run(options, json),
-        Command::Play(options) => play::run(options, json),
-        Command::View(options) => view::run(options, json),
-        Command::Devices(options) => devices::run(options, json),
-        Command::Doctor(options) => doctor::run(options, json),
-        Command::Reproduce(options) => reproduce::run(options, json),
+        Command::Calibrate(options) => calibrate::run(options, common),
+        Command::Export(options) => export::run(options, common),
+        Command::Fit(options) => fit::run(options, common),
+        Command::Check(options) => check::run(options, common),
+        Command::Design(options) => design::run(options, common),
+        Command::Modes(options) => modes::run(options, common),
+        Command::Respond(options) => respond::run(options, common),
+        Command::Focus(options) => focus::run(options, common),
+        Command::Compare(options) => compare::run(options, common),
+        Command::Field(options) => field::run(options, common),
+        Command::Play(options) => play::run(options, common),
+        Command::View(options) => view::run(options, common),
+        Command::Devices(options) => devices::run(options, common),
+        Command::Doctor(options) => doctor::run(options, common),
+        Command::Reproduce(options) => reproduce::run(options, common),
     }
 }

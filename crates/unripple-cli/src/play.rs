@@ -1,14 +1,15 @@
 //! `unripple play`: a surface that answers fingers, live.
 
 use crate::args::PlayOptions;
+use crate::common::Common;
 use crate::error::CliError;
 use crate::output;
 use crate::progress::Terminal;
 use unripple_tasks::play::{self, Ask};
 
-pub fn run(options: &PlayOptions, as_json: bool) -> Result<(), CliError> {
+pub fn run(options: &PlayOptions, common: &Common) -> Result<(), CliError> {
     let ask = Ask {
-        surface: (&options.surface).into(),
+        surface: common.surface(&options.surface),
         device: options.device.ask(),
         effect: options.effect.clone(),
         touch: options.touch.ask(),
@@ -24,5 +25,5 @@ pub fn run(options: &PlayOptions, as_json: bool) -> Result<(), CliError> {
         keep_drive: options.keep_drive.clone(),
     };
     let played = play::run(&ask, &mut Terminal::that_stops());
-    output::report(as_json, &played?)
+    output::report(common.json, &played?)
 }

@@ -1,6 +1,7 @@
 //! `unripple view`: a surface in the browser.
 
 use crate::args::ViewOptions;
+use crate::common::Common;
 use crate::error::CliError;
 use crate::output;
 use crate::progress::Terminal;
@@ -9,9 +10,9 @@ use std::process::{Command, Stdio};
 use unripple_tasks::TaskError;
 use unripple_viewer::task::{self, Ask};
 
-pub fn run(options: &ViewOptions, as_json: bool) -> Result<(), CliError> {
+pub fn run(options: &ViewOptions, common: &Common) -> Result<(), CliError> {
     let ask = Ask {
-        surface: (&options.surface).into(),
+        surface: common.surface(&options.surface),
         device: options.device.ask(),
         method: options.method.method(),
         follow_tension: options.follow_tension,
@@ -22,7 +23,7 @@ pub fn run(options: &ViewOptions, as_json: bool) -> Result<(), CliError> {
         seconds: options.seconds,
     };
     task::run(&ask, &mut Terminal::that_stops(), &mut |report| {
-        output::report(as_json, report).map_err(TaskError::work)?;
+        output::report(common.json, report).map_err(TaskError::work)?;
         eprintln!("open the address in a browser; Ctrl+C ends");
         if !options.no_browser {
             browse(&report.url);

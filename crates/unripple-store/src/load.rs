@@ -4,7 +4,7 @@ use crate::document::{too_large, whole};
 use crate::file::{LARGEST_TEXT, read_start, read_text};
 use crate::names::nearest;
 use crate::surface::parse_surface_with;
-use crate::{BUILTINS, FileFaults, StoreError};
+use crate::{BUILTINS, FileFaults, StoreError, set_keys};
 use std::cell::RefCell;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -26,8 +26,17 @@ use unripple_core::Surface;
 /// # Ok::<(), unripple_store::StoreError>(())
 /// ```
 pub fn load_surface(name_or_path: &str) -> Result<Surface, StoreError> {
+    load_surface_with(name_or_path, &[])
+}
+
+/// The same with keys of its file set to other values, as [`set_keys`] takes them.
+///
+/// # Errors
+/// Those of [`load_surface`] and [`set_keys`]; faults have the lines of the text that came of it.
+pub fn load_surface_with(name_or_path: &str, keys: &[(String, String)]) -> Result<Surface, StoreError> {
     if let Some(builtin) = BUILTINS.iter().find(|b| b.name == name_or_path) {
-        return Ok(crate::parse_surface(builtin.text, builtin.name)?);
+        let text = set_keys(builtin.text, builtin.name, keys)?;
+        return Ok(crate::parse_surface(&text, builtin.name)?);
     }
     let path = Path::new(name_or_path);
     let bytes = match read_start(path) {
@@ -37,8 +46,9 @@ pub fn load_surface(name_or_path: &str) -> Result<Surface, StoreError> {
         read => read?,
     };
     let text = decode(name_or_path, &bytes)?;
+    let text = set_keys(text, name_or_path, keys)?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    Ok(parse_surface_with(text, name_or_path, &|svg| {
+    Ok(parse_surface_with(&text, name_or_path, &|svg| {
         let file = folder.join(svg);
         read_text(&file).map_err(|error| match error {
             StoreError::Read { reason, .. } if reason.kind() == ErrorKind::NotFound => {
@@ -49,16 +59,16 @@ pub fn load_surface(name_or_path: &str) -> Result<Surface, StoreError> {
     })?)
 }
 
-/// The files that [`load_surface`] reads for a name: none for a built-in surface, else the surface file and the SVG files that it
+/// The files that [`load_surface_with`] reads for a name: none for a built-in surface, else the surface file and the SVG files that it
 /// names.
-pub fn surface_files(name_or_path: &str) -> Vec<PathBuf> {
+pub fn surface_files(name_or_path: &str, keys: &[(String, String)]) -> Vec<PathBuf> {
     if BUILTINS.iter().any(|b| b.name == name_or_path) {
         return Vec::new();
     }
     let path = Path::new(name_or_path);
     let files = RefCell::new(vec![path.to_path_buf()]);
     let folder = path.parent().unwrap_or(Path::new(""));
-    if let Ok(text) = read_text(path) {
+    if let Ok(text) = read_text(path).and_then(|text| set_keys(&text, name_or_path, keys)) {
         // Faults of the file are told of by whoever loads it.
         let _ = parse_surface_with(&text, name_or_path, &|svg| {
             let file = folder.join(svg);

@@ -120,7 +120,7 @@ fn library(name: &str) -> Result<Source, TaskError> {
 pub fn reads(ask: &SurfaceAsk) -> Vec<PathBuf> {
     match ask {
         SurfaceAsk::Name(name) if Library::is_at(name) => vec![name.into()],
-        SurfaceAsk::Name(name) => surface_files(name),
+        SurfaceAsk::Name(name) | SurfaceAsk::Set { name, .. } => surface_files(name, &ask.keys()),
         SurfaceAsk::Text { .. } => Vec::new(),
     }
 }

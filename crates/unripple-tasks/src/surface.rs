@@ -3,14 +3,22 @@
 use crate::TaskError;
 use serde::{Deserialize, Serialize};
 use unripple::core::Surface;
-use unripple_store::{load_surface, parse_surface};
+use std::collections::BTreeMap;
+use unripple_store::{Library, load_surface_with, parse_surface};
 
-/// A surface: by the name of a built-in surface or file, or as the text of a surface file.
+/// A surface: by the name of a built-in surface or file, that with some keys set otherwise, or as the text of a surface file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum SurfaceAsk {
     /// The name of a built-in surface, or the path of a surface file; for tasks that take one, of a library.
     Name(String),
+    /// A surface by its name, with keys of its file set to other values.
+    Set {
+        /// The name of a built-in surface, or the path of a surface file.
+        name: String,
+        /// Values as the file would write them, by the paths of their keys: `sheet.tension_n_per_m`. An empty one takes the key away.
+        set: BTreeMap<String, String>,
+    },
     /// The text of a surface file.
     Text {
         /// The text.
@@ -40,20 +48,32 @@ impl From<&String> for SurfaceAsk {
 impl std::fmt::Display for SurfaceAsk {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Name(name) => f.write_str(name),
+            Self::Name(name) | Self::Set { name, .. } => f.write_str(name),
             Self::Text { .. } => f.write_str("the surface's text"),
         }
     }
 }
 
 impl SurfaceAsk {
+    /// The keys that are set to other values.
+    pub(crate) fn keys(&self) -> Vec<(String, String)> {
+        match self {
+            Self::Set { set, .. } => set.iter().map(|(key, value)| (key.clone(), value.clone())).collect(),
+            _ => Vec::new(),
+        }
+    }
+
     /// The surface.
     ///
     /// # Errors
     /// [`TaskError::Faults`] with all faults of the file or text; [`TaskError::Input`] if there is none of that name.
     pub fn load(&self) -> Result<Surface, TaskError> {
         match self {
-            Self::Name(name) => Ok(load_surface(name)?),
+            Self::Name(name) => Ok(load_surface_with(name, &[])?),
+            Self::Set { name, .. } if Library::is_at(name) => {
+                Err(TaskError::ask("set", "a surface file, whose keys it sets", "a library"))
+            }
+            Self::Set { name, .. } => Ok(load_surface_with(name, &self.keys())?),
             Self::Text { toml } => {
                 parse_surface(toml, "surface").map_err(|faults| TaskError::Faults(Box::new(faults)))
             }

@@ -25,6 +25,10 @@ pub struct Arguments {
     /// Print one JSON object (SI units) on standard output, everything else on standard error.
     #[arg(long, global = true)]
     pub json: bool,
+    /// A key of SURFACE's file set to another value, as in sheet.tension_n_per_m=220 or actuator[0].at_mm=[12,31]; without a value the key is
+    /// taken away. Repeatable.
+    #[arg(long, global = true, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
