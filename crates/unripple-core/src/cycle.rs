@@ -6,7 +6,7 @@ use std::time::Instant;
 /// One cycle of a device with a clock of its own: the buffers that it wants filled and those that it filled. All have
 /// [`Cycle::frames`] samples, which may differ from cycle to cycle.
 pub trait Cycle {
-    /// Samples of each channel.
+    /// Samples of each channel in this cycle: the length of every [`Cycle::drive`] and [`Cycle::heard`].
     fn frames(&self) -> usize;
 
     /// When the first sample leaves at the device's ports, by the device's own clock; what lies behind them comes later still.
@@ -15,7 +15,8 @@ pub trait Cycle {
     /// What is to be played by an output; samples as [`Device::exchange`](crate::Device::exchange) has them. Empty beyond the last.
     fn drive(&mut self, output: usize) -> &mut [f32];
 
-    /// What an input hears. Empty beyond the last.
+    /// What an input hears in this cycle, as float32 of full scale, [`Cycle::frames`] samples. Empty for an
+    /// input beyond the last.
     fn heard(&self, input: usize) -> &[f32];
 }
 

@@ -1,4 +1,5 @@
-//! The trait of whatever plays drives and hears what comes back.
+//! The trait of whatever plays drives and records what comes back: sound cards, sound servers, virtual
+//! surfaces, files.
 
 use crate::Work;
 use std::fmt;
@@ -13,7 +14,7 @@ pub trait Device: Send {
     /// Its channels, rate and block.
     fn layout(&self) -> &Layout;
 
-    /// How it fares.
+    /// How it fares: whether blocks pass, how many did, how many were late.
     fn status(&self) -> Status;
 
     /// Plays one block and hears one, taking as long as the device's own clock takes. `drive` holds [`Layout::block`]
@@ -40,7 +41,8 @@ pub trait Device: Send {
         None
     }
 
-    /// Looks after a device that calls: how long until it wants to be looked after again.
+    /// Looks after a device that calls, and returns the time (a [`Duration`]) until it wants to be looked
+    /// after again.
     ///
     /// # Errors
     /// [`DeviceError::Lost`] once the device is gone for good.
@@ -52,13 +54,14 @@ pub trait Device: Send {
     }
 }
 
-/// How often a device that calls is looked after.
+/// How often a device that calls is looked after, and so how late its loss is noticed at most. Doubled, it is
+/// noticed twice as late; the drive itself does not wait for it.
 pub const TEND: Duration = Duration::from_millis(100);
 
 /// Name of the input that hears a probe on the surface.
 pub const PROBE: &str = "probe";
 
-/// What a device has.
+/// What a device has: name, sample rate, block length, channels and scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
     /// What it is called: `virtual`, `jack`, a file's name.
@@ -75,10 +78,10 @@ pub struct Layout {
     pub full_scale: f64,
 }
 
-/// How a device fares.
+/// How a device fares: its state, and blocks passed and lost.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Status {
-    /// Whether blocks pass.
+    /// Whether blocks pass, and if not, why.
     pub state: State,
     /// Blocks exchanged so far.
     pub blocks: u64,
@@ -104,8 +107,8 @@ pub struct Server {
     pub capture: u64,
     /// Cycles that it says came late, whoever's fault that was: all its clients are told of each.
     pub late: u64,
-    /// Cycles whose time was over before our own part of them was done: nobody else's part is in it, but the time until we were
-    /// called is.
+    /// Cycles whose time was over before our own part of them was done. The time until we were called counts,
+    /// the work of other clients does not.
     pub own_late: u64,
     /// Samples that it left out between cycles: silence, and a jump in what sounds.
     pub skipped: u64,
@@ -114,12 +117,12 @@ pub struct Server {
 /// Whether blocks pass, and if not, why.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum State {
-    /// They do.
+    /// Blocks pass as they should.
     #[default]
     Running,
-    /// None has passed for a while; some may again.
+    /// No block has passed for a while, for this reason; some may pass again.
     Stalled(String),
-    /// None will pass any more.
+    /// No block will pass any more, for this reason.
     Lost(String),
 }
 
@@ -139,7 +142,7 @@ pub enum DeviceError {
     /// A block of another size than the device's.
     #[error("device `{device}`: expected {expected} samples of {what}, found {found}")]
     Size {
-        /// The device.
+        /// Name of the device, as [`Layout::device`] says it.
         device: String,
         /// `drive` or `heard`.
         what: &'static str,
@@ -148,26 +151,26 @@ pub enum DeviceError {
         /// Samples there are.
         found: usize,
     },
-    /// The device is gone.
+    /// The device is gone for good, for the reason given.
     #[error("device `{device}` is lost: {why}")]
     Lost {
-        /// The device.
+        /// Name of the device, as [`Layout::device`] says it.
         device: String,
-        /// What happened.
+        /// What happened, in words for people.
         why: String,
     },
     /// No block passed within the device's patience.
     #[error("device `{device}` stalled: {why}")]
     Stalled {
-        /// The device.
+        /// Name of the device, as [`Layout::device`] says it.
         device: String,
-        /// What happened.
+        /// What happened, in words for people.
         why: String,
     },
 }
 
 impl Layout {
-    /// Holds a block against the layout.
+    /// Compares the lengths of a block's two buffers, in samples over all channels, with the layout's.
     ///
     /// # Errors
     /// [`DeviceError::Size`] with what was expected and found.

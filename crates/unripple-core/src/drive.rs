@@ -1,4 +1,4 @@
-//! What is sent: one channel of samples per actuator.
+//! The drive: what is sent, one channel of samples per actuator.
 
 use crate::CoreError;
 use crate::OutOfRange;
@@ -12,7 +12,8 @@ pub struct Drive {
 }
 
 impl Drive {
-    /// A drive from named channels of equal length at `rate` samples per second.
+    /// A drive from named channels of equal length (actuators x samples, each in its actuator's unit) at
+    /// `rate` samples per second.
     ///
     /// # Errors
     /// [`CoreError::Size`] if names or lengths do not match, [`CoreError::NotFinite`] at the first bad sample,
@@ -49,7 +50,7 @@ impl Drive {
         Ok(Self { rate, names, channels })
     }
 
-    /// Samples per second.
+    /// Sample rate, in samples per second.
     pub fn rate(&self) -> f64 {
         self.rate
     }
@@ -59,12 +60,12 @@ impl Drive {
         &self.names
     }
 
-    /// The channels, in actuator order.
+    /// The channels in actuator order: actuators x samples, in each actuator's own unit (N, A or V).
     pub fn channels(&self) -> &[Vec<f64>] {
         &self.channels
     }
 
-    /// Samples per channel.
+    /// Number of samples in each channel.
     pub fn samples(&self) -> usize {
         self.channels.first().map_or(0, Vec::len)
     }
@@ -90,7 +91,7 @@ impl Drive {
         self.channels.iter().flatten().map(|x| x * x).sum::<f64>() / self.rate
     }
 
-    /// The same drive times `factor`.
+    /// The same drive with every sample times `factor`, a dimensionless number.
     pub fn scaled(mut self, factor: f64) -> Self {
         self.channels.iter_mut().flatten().for_each(|x| *x *= factor);
         self

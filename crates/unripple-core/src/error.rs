@@ -20,11 +20,11 @@ pub enum CoreError {
     NotFinite {
         /// What holds the value.
         what: &'static str,
-        /// The channel's name.
+        /// Name of the channel that holds it.
         channel: String,
         /// Index of the sample.
         sample: usize,
-        /// The value.
+        /// The value that was found.
         found: f64,
     },
     /// A value is out of its range.

@@ -5,13 +5,13 @@ use crate::{Point, Shape, Side};
 /// How a side of the sheet is held.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Edge {
-    /// No displacement, no slope.
+    /// Clamped edge: no displacement, no slope.
     Clamped,
-    /// No displacement, no moment.
+    /// Simply supported edge: no displacement, no bending moment.
     Supported,
-    /// No force, no moment.
+    /// Free edge: no shear force, no bending moment.
     Free,
-    /// Springs all along: against displacement and against tilt.
+    /// Elastically restrained edge: springs along the side against displacement and against tilt.
     Elastic {
         /// Force per length and displacement, in N/m².
         lift: f64,
@@ -21,7 +21,7 @@ pub enum Edge {
 }
 
 impl Edge {
-    /// Whether it may be displaced.
+    /// Whether the side may be displaced: true of free and of elastic edges.
     pub fn moves(self) -> bool {
         matches!(self, Self::Free | Self::Elastic { .. })
     }
@@ -30,14 +30,14 @@ impl Edge {
 /// How a whole rim is held.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Edges {
-    /// The same all round.
+    /// All sides are held the same way.
     All(Edge),
     /// One per side, in the order of [`Shape::sides`].
     PerSide(Vec<Edge>),
 }
 
 impl Edges {
-    /// How side `i` is held.
+    /// How side `i` is held, an index in the order of [`Shape::sides`]; clamped if the list is too short.
     pub fn of(&self, i: usize) -> Edge {
         match self {
             Self::All(edge) => *edge,
@@ -53,7 +53,7 @@ pub struct Hole {
     pub sides: Vec<Side>,
     /// Where that corner is on the sheet.
     pub at: Point,
-    /// How its rim is held.
+    /// Edge condition of each side of its rim.
     pub edges: Edges,
 }
 
@@ -63,7 +63,7 @@ impl Hole {
         Self { sides: shape.sides(), at, edges: Edges::All(Edge::Free) }
     }
 
-    /// A slit of some width from one point to another, its ends round.
+    /// A slit from one point to another of width `width` (m), its ends round and its rim free.
     pub fn slit(from: Point, to: Point, width: f64) -> Self {
         let (length, radius) = (from.distance(to), width / 2.0);
         let angle = (to.y - from.y).atan2(to.x - from.x);
@@ -94,16 +94,16 @@ impl Hole {
 /// A closed rim with the sheet to its left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loop {
-    /// The sides in order, and how each is held.
+    /// The sides in order, and the edge condition of each.
     pub sides: Vec<(Side, Edge)>,
 }
 
 /// A rim: its shape, how it is held, and what is cut out within.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
-    /// The shape.
+    /// The outer rim's curve.
     pub shape: Shape,
-    /// The edges.
+    /// The edge condition of each side of the outer rim.
     pub edges: Edges,
     /// Holes, apart from each other and from the rim.
     pub holes: Vec<Hole>,
@@ -115,7 +115,7 @@ impl Outline {
         Self { shape, edges: Edges::All(Edge::Clamped), holes: Vec::new() }
     }
 
-    /// The same outline held otherwise.
+    /// The same outline with other edge conditions on its outer rim.
     pub fn with_edges(mut self, edges: Edges) -> Self {
         self.edges = edges;
         self
@@ -145,17 +145,19 @@ impl Outline {
         self.shape.extent()
     }
 
-    /// Whether a point lies on the sheet or on its rim.
+    /// Whether a point (in metres) lies on the sheet or on its rim.
     pub fn contains(&self, p: Point) -> bool {
         let cut = |hole: &Hole| {
             let shape = hole.shape();
+            // A point on a hole's rim is on the sheet, but for the rounding of coordinates.
             shape.contains(p) && shape.nearest_on_rim(p).distance(p) > 1e-12
         };
         self.shape.contains(p) && !self.holes.iter().any(cut)
     }
 
-    /// The legal point nearest to `p`, to be told to people: `p` itself if it is inside, else the closest inside point
-    /// whose coordinates in millimetres have four decimals, as [`Point`] displays them.
+    /// The legal point nearest to `p` (both in metres), to be told to people: `p` itself if it is inside,
+    /// else the closest inside point whose coordinates in millimetres have four decimals, as [`Point`]
+    /// displays them.
     ///
     /// ```
     /// use unripple_core::{Outline, Point, Shape};
@@ -175,6 +177,7 @@ impl Outline {
             .map(|shape| shape.nearest_on_rim(p))
             .min_by(|a, b| a.distance(p).total_cmp(&b.distance(p)))
             .unwrap_or(p);
+        // Of the 25 places of four decimals of a millimetre around, the nearest that is inside.
         let rounded = Point::new((on_rim.x * 1e7).round(), (on_rim.y * 1e7).round());
         (0..25)
             .map(|i| (rounded.x + f64::from(i % 5 - 2), rounded.y + f64::from(i / 5 - 2)))
@@ -214,12 +217,12 @@ impl Outline {
         self.shape.perimeter() + self.holes.iter().map(|hole| hole.shape().perimeter()).sum::<f64>()
     }
 
-    /// Lengths of the outer sides, in the order that edges are listed in.
+    /// Lengths of the outer sides in metres, one per side, in the order that edges are listed in.
     pub fn side_lengths(&self) -> Vec<f64> {
         self.shape.sides().iter().map(Side::length).collect()
     }
 
-    /// How outer side `i` is held, counted as in [`Outline::side_lengths`].
+    /// How outer side `i` is held, the index counted as in [`Outline::side_lengths`].
     pub fn edge(&self, i: usize) -> Edge {
         self.edges.of(i)
     }
@@ -240,12 +243,13 @@ impl Outline {
         self.loops().iter().any(|rim| rim.sides.iter().any(|(_, edge)| fixed(*edge)))
     }
 
-    /// The outer rim as a closed polygon, round shapes in `steps` pieces per full turn; for drawing.
+    /// The outer rim as a closed polygon for drawing, points in metres, round shapes in `steps` pieces per
+    /// full turn.
     pub fn rim(&self, steps: usize) -> Vec<Point> {
         self.shape.flattened(steps)
     }
 
-    /// The rims of the holes as closed polygons; for drawing.
+    /// The rims of the holes as closed polygons for drawing, points in metres, `steps` pieces per full turn.
     pub fn hole_rims(&self, steps: usize) -> Vec<Vec<Point>> {
         self.holes.iter().map(|hole| hole.shape().flattened(steps)).collect()
     }

@@ -10,12 +10,12 @@ pub struct Point {
 }
 
 impl Point {
-    /// A point from metres.
+    /// A point from coordinates in metres.
     pub const fn new(x: f64, y: f64) -> Self {
         Self { x, y }
     }
 
-    /// A point from millimetres, as files and the command line write them.
+    /// A point from coordinates in millimetres, as files and the command line write them.
     pub fn from_mm(x: f64, y: f64) -> Self {
         Self { x: x / 1e3, y: y / 1e3 }
     }

@@ -1,9 +1,10 @@
-//! A damped oscillation: pole, impulse response, onset.
+//! A damped oscillator as a pole: natural frequency, decay rate, impulse response, onset.
 
 /// What an impulse does to an oscillation at first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Onset {
-    /// Sets its velocity to 1: an oscillator struck. Modes of a sheet that its damping does not couple are struck.
+    /// Sets its velocity to 1: an oscillator struck. Undamped normal modes, and modes whose damping is not
+    /// coupled, are struck.
     #[default]
     Velocity,
     /// Moves it by 1/ω, at rest: the quadrature, which modes coupled by damping need too. Their phase depends on the
@@ -25,17 +26,19 @@ pub struct Pole {
 }
 
 impl Pole {
-    /// An oscillation that an impulse sets going with velocity 1.
+    /// An oscillation of angular frequency `omega` (rad/s) and decay rate `sigma` (1/s) that an impulse sets
+    /// going with velocity 1.
     pub fn new(omega: f64, sigma: f64) -> Self {
         Self { omega, sigma, onset: Onset::Velocity }
     }
 
-    /// An oscillation that an impulse moves by 1/ω.
+    /// An oscillation of angular frequency `omega` (rad/s) and decay rate `sigma` (1/s) that an impulse moves
+    /// by 1/ω, at rest.
     pub fn moved(omega: f64, sigma: f64) -> Self {
         Self { omega, sigma, onset: Onset::Displacement }
     }
 
-    /// Displacement and velocity just after a unit impulse.
+    /// Displacement and velocity just after a unit impulse, per unit of modal input.
     pub fn kick(self) -> [f64; 2] {
         match self.onset {
             Onset::Velocity => [0.0, 1.0],
@@ -63,7 +66,8 @@ impl Pole {
         }
     }
 
-    /// Exact propagator over `dt` seconds: `[u, v]` becomes `[[a, b], [c, d]] [u, v]`.
+    /// Exact propagator (state-transition matrix) over `dt` seconds:
+    /// `[u, v]` becomes `[[a, b], [c, d]] [u, v]`.
     pub fn step(self, dt: f64) -> [[f64; 2]; 2] {
         let (c, s) = self.swing(dt);
         let (sigma, omega) = (self.sigma, self.omega);
@@ -76,6 +80,7 @@ impl Pole {
         let rate = square.abs().sqrt();
         let x = rate * t;
         let decay = (-self.sigma * t).exp();
+        // Near critical damping by their series, whose next terms are below rounding.
         if x.abs() < 1e-6 {
             let (c, s) = if square >= 0.0 {
                 (1.0 - x * x / 2.0, 1.0 - x * x / 6.0)

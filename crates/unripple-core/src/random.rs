@@ -16,28 +16,29 @@ pub struct Random {
 }
 
 impl Random {
-    /// The sequence that belongs to a seed.
+    /// The sequence that belongs to a seed, any integer: the same on every machine.
     pub fn seeded(seed: u64) -> Self {
         Self { state: seed }
     }
 
-    /// Evenly between 0 and 1, 1 left out.
+    /// A number evenly distributed between 0 and 1, 1 left out.
     pub fn uniform(&mut self) -> f64 {
         // The upper 53 bits fill a double's mantissa.
         (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Evenly between two numbers.
+    /// A number evenly distributed from `low` up to `high`, in their unit.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.uniform()
     }
 
-    /// Between two positive numbers, evenly in their logarithm.
+    /// A number between two positive ones, evenly distributed in its logarithm, in their unit.
     pub fn decades(&mut self, low: f64, high: f64) -> f64 {
         self.between(low.ln(), high.ln()).exp()
     }
 
-    /// Normally distributed, of unit variance, by Box and Muller's transform.
+    /// A normally distributed number of zero mean and unit variance, dimensionless, by the Box-Muller
+    /// transform.
     pub fn normal(&mut self) -> f64 {
         let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();
         radius * (TAU * self.uniform()).cos()

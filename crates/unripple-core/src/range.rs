@@ -15,14 +15,14 @@ use std::borrow::Cow;
 pub struct OutOfRange {
     /// What the number is, with its unit.
     pub what: Cow<'static, str>,
-    /// The legal values.
+    /// The legal values, in words for people.
     pub expected: Cow<'static, str>,
-    /// The value.
+    /// The value that was found.
     pub found: f64,
 }
 
 impl OutOfRange {
-    /// A number that is not among the legal values.
+    /// A number, in the unit that `what` names, that is not among the legal values.
     pub fn new(
         what: impl Into<Cow<'static, str>>,
         expected: impl Into<Cow<'static, str>>,

@@ -1,4 +1,4 @@
-//! Impulse responses from actuators to points, sampled or as modes.
+//! Impulse responses from actuators to points, sampled or as modes (poles and residues).
 
 use crate::{CoreError, Outline, Point, Pole};
 use faer::Mat;
@@ -14,7 +14,7 @@ pub enum Responses {
 }
 
 impl Responses {
-    /// Band, rate, λ_min and region.
+    /// Band, sample rate, shortest wavelength λ_min and region in which the responses hold.
     pub fn conditions(&self) -> &Conditions {
         match self {
             Self::Modal(r) => &r.conditions,
@@ -44,8 +44,10 @@ pub struct Conditions {
     pub outline: Outline,
 }
 
-/// Radius of the focal disc over the shortest wavelength: around its target, a focus has its main lobe and the first side lobe there, and only
-/// what lies beyond counts as outside.
+/// Radius of the focal disc over the shortest wavelength, dimensionless: around its target, a focus has its
+/// main lobe and the first side lobe there, and only what lies beyond counts as outside. Halved, the first
+/// side lobe would count as noise and every contrast would fall; doubled, less of the surface would be left
+/// to compare with.
 pub const FOCAL_RADIUS: f64 = 4.0 / 3.0;
 
 impl Conditions {
@@ -58,21 +60,21 @@ impl Conditions {
 /// An actuator as the responses know it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Port {
-    /// Its name.
+    /// Name of the actuator.
     pub name: String,
-    /// Where it acts.
+    /// Where it acts, in metres.
     pub at: Point,
 }
 
 /// Readout weights anywhere: mass-normalised mode shapes, or whatever stands for them. In 1/√kg.
 pub trait Shapes: Send + Sync + std::fmt::Debug {
-    /// Number of modes.
+    /// Number of modes n, the length of a row of weights.
     fn modes(&self) -> usize;
 
-    /// Weights of every mode at one point, into `row` of length [`Shapes::modes`].
+    /// Weights of every mode at one point (m), in 1/√kg, into `row` of length [`Shapes::modes`].
     fn at(&self, point: Point, row: &mut [f64]);
 
-    /// Weights at many points, as points x modes.
+    /// Weights at many points (m), in 1/√kg, as points x modes.
     fn at_all(&self, points: &[Point]) -> Mat<f64> {
         let mut weights = Mat::zeros(points.len(), self.modes());
         let mut row = vec![0.0; self.modes()];
@@ -87,33 +89,34 @@ pub trait Shapes: Send + Sync + std::fmt::Debug {
 /// Responses factored mode by mode: `h(t) = Σ_m input[a, m] · shapes[m](x) · velocity_m(t)`.
 #[derive(Clone, Debug)]
 pub struct ModalResponses {
-    /// The actuators.
+    /// The actuators, in channel order.
     pub ports: Vec<Port>,
     /// The decaying oscillations, frequencies ascending.
     pub poles: Vec<Pole>,
-    /// Input weights, actuators x modes.
+    /// Input weights of the actuators (force per mode and unit of drive), actuators x modes.
     pub input: Mat<f64>,
-    /// Readout weights at any point.
+    /// Readout weights at any point: mode shapes, in 1/√kg.
     pub shapes: Arc<dyn Shapes>,
-    /// Where they hold.
+    /// Band, rate and region in which they hold.
     pub conditions: Conditions,
 }
 
 /// Responses at fixed points, as float32 samples in the order `[point][actuator][sample]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SampledResponses {
-    /// The actuators.
+    /// The actuators, in channel order.
     pub ports: Vec<Port>,
-    /// The points.
+    /// The points, in the order of the samples.
     pub points: Vec<Point>,
-    /// Where they hold.
+    /// Band, rate and region in which they hold.
     pub conditions: Conditions,
     samples: usize,
     data: Vec<f32>,
 }
 
 impl SampledResponses {
-    /// Responses from `points · ports · samples` values.
+    /// Responses from `points · ports · samples` values in m/s per unit impulse, in the order
+    /// `[point][actuator][sample]`.
     ///
     /// # Errors
     /// [`CoreError::Size`] if `data` has another length.
@@ -131,18 +134,18 @@ impl SampledResponses {
         Ok(Self { ports, points, conditions, samples, data })
     }
 
-    /// Samples per response.
+    /// Number of samples in each response.
     pub fn samples(&self) -> usize {
         self.samples
     }
 
-    /// The response of one actuator at one point.
+    /// The response of one actuator at one point, by their indices: samples in m/s per unit impulse.
     pub fn response(&self, actuator: usize, point: usize) -> &[f32] {
         let start = (point * self.ports.len() + actuator) * self.samples;
         &self.data[start..start + self.samples]
     }
 
-    /// The responses at some of the points, by their indices, in that order.
+    /// The responses at some of the points, by their indices, in the order given.
     ///
     /// # Errors
     /// [`CoreError::Size`] for an index beyond the points.
@@ -179,7 +182,7 @@ impl SampledResponses {
         Ok(self)
     }
 
-    /// Index of the stored point nearest to a place; `None` without points.
+    /// Index of the stored point nearest to a place (m); `None` without points.
     pub fn nearest(&self, place: Point) -> Option<usize> {
         (0..self.points.len())
             .min_by(|&a, &b| self.points[a].distance(place).total_cmp(&self.points[b].distance(place)))

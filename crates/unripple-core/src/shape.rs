@@ -1,9 +1,10 @@
-//! Closed curves that outlines and holes have.
+//! Closed curves that bound outlines and holes: rectangle, circle, stadium, polygon, path.
 
 use crate::{Point, Side};
 use std::f64::consts::PI;
 
-/// Pieces a curved side is cut into where a polygon will do.
+/// Pieces that a curved side of a path is cut into where a polygon will do: for drawing, and for the test of
+/// inside near a corner. Doubled, such a polygon lies four times as near its curve.
 const FLAT: usize = 24;
 
 /// A closed curve, its bounding box cornered at the origin. Lengths in metres.
@@ -11,14 +12,14 @@ const FLAT: usize = 24;
 pub enum Shape {
     /// A rectangle with its lower-left corner at the origin.
     Rectangle {
-        /// Along x.
+        /// Length along x.
         width: f64,
-        /// Along y.
+        /// Length along y.
         height: f64,
     },
     /// A circle centred at (radius, radius).
     Circle {
-        /// Its radius.
+        /// Radius of the circle.
         radius: f64,
     },
     /// Two half circles joined by straight sides along x.
@@ -65,7 +66,7 @@ impl Shape {
         }
     }
 
-    /// What it is, for people: "a rectangle".
+    /// Name of the kind of shape, for people: "a rectangle".
     pub fn name(&self) -> &'static str {
         match self {
             Self::Rectangle { .. } => "a rectangle",
@@ -93,7 +94,7 @@ impl Shape {
         }
     }
 
-    /// Whether a point lies inside or on the curve.
+    /// Whether a point (m) lies inside or on the curve.
     pub fn contains(&self, p: Point) -> bool {
         if !p.is_finite() {
             return false;
@@ -112,7 +113,7 @@ impl Shape {
         }
     }
 
-    /// The point of the curve nearest to `p`.
+    /// The point of the curve nearest to `p`, both in metres.
     pub fn nearest_on_rim(&self, p: Point) -> Point {
         self.sides()
             .iter()
@@ -143,7 +144,8 @@ impl Shape {
         }
     }
 
-    /// As a closed polygon, round shapes in `steps` pieces per full turn and other curves in 24 a side; for drawing.
+    /// The curve as a closed polygon for drawing, points in metres: round shapes in `steps` pieces per full
+    /// turn, other curves in 24 a side.
     pub fn flattened(&self, steps: usize) -> Vec<Point> {
         let pieces = |side: &Side| match side {
             Side::Line { .. } => 1,
@@ -158,9 +160,13 @@ impl Shape {
     }
 }
 
-/// Within this distance of a side, in metres, a point is on it.
+/// Within this distance of a side, in metres, a point is on it: some thousand times the rounding of
+/// coordinates of a metre, and a hundred-thousandth of the last decimal that a file's millimetres are written
+/// with.
 const ON: f64 = 1e-12;
 
+/// Whether a polygon holds a point, by counting the sides that a ray to the right crosses; sides count as
+/// inside.
 fn polygon_contains(vertices: &[Point], p: Point) -> bool {
     let next = vertices.iter().cycle().skip(1);
     let mut inside = false;

@@ -28,11 +28,12 @@ pub enum Side {
     Cubic([Point; 4]),
 }
 
-/// A cubic's length is summed over this many pieces of Gauss quadrature.
+/// A cubic's length is summed over this many pieces of Gauss quadrature, each exact for a speed that is a
+/// polynomial of degree 7. Twice as many cost twice the evaluations and lower the error about 256-fold.
 const PIECES: usize = 8;
 
 impl Side {
-    /// The point at parameter `t`.
+    /// The point at parameter `t` (0 to 1), in metres.
     pub fn at(&self, t: f64) -> Point {
         match *self {
             Self::Line { from, to } => Point::new(from.x + (to.x - from.x) * t, from.y + (to.y - from.y) * t),
@@ -47,7 +48,7 @@ impl Side {
         }
     }
 
-    /// The first derivative by the parameter, in metres.
+    /// The first derivative by the parameter, in metres, at parameter `t` (0 to 1).
     pub fn derivative(&self, t: f64) -> Point {
         match *self {
             Self::Line { from, to } => Point::new(to.x - from.x, to.y - from.y),
@@ -63,7 +64,7 @@ impl Side {
         }
     }
 
-    /// The second derivative by the parameter, in metres.
+    /// The second derivative by the parameter, in metres, at parameter `t` (0 to 1).
     pub fn second_derivative(&self, t: f64) -> Point {
         match *self {
             Self::Line { .. } => Point::new(0.0, 0.0),
@@ -107,7 +108,7 @@ impl Side {
         matches!(self, Self::Line { .. })
     }
 
-    /// The same side the other way round.
+    /// The same side run through the other way round.
     pub fn reversed(self) -> Self {
         match self {
             Self::Line { from, to } => Self::Line { from: to, to: from },
@@ -118,7 +119,7 @@ impl Side {
         }
     }
 
-    /// The same side elsewhere.
+    /// The same side moved by a vector (m).
     pub fn moved(self, by: Point) -> Self {
         let shift = |p: Point| Point::new(p.x + by.x, p.y + by.y);
         match self {
@@ -130,7 +131,7 @@ impl Side {
         }
     }
 
-    /// The parameter of the point of the side nearest to `p`.
+    /// The parameter (0 to 1) of the point of the side nearest to `p` (m).
     pub fn nearest(&self, p: Point) -> f64 {
         match *self {
             Self::Line { from, to } => {
@@ -149,8 +150,10 @@ impl Side {
         }
     }
 
-    /// A search on a lattice of parameters, then Newton's method on the distance, held between its neighbours.
+    /// A search on a lattice of parameters, then Newton's method on the squared distance, held between the
+    /// lattice's neighbours.
     fn nearest_on_curve(&self, p: Point) -> f64 {
+        // Fine enough that Newton's method starts at the nearest of a cubic's few minima.
         const LATTICE: usize = 32;
         let from = |t: f64| self.at(t).distance(p);
         let best = (0..=LATTICE)
@@ -176,7 +179,7 @@ impl Side {
         if from(t) <= from(best) { t } else { best }
     }
 
-    /// Twice the area between the side and the origin, positive anticlockwise: ∫ x dy - y dx.
+    /// Twice the area between the side and the origin, in m², positive anticlockwise: ∫ x dy - y dx.
     pub(crate) fn doubled_area(&self) -> f64 {
         match *self {
             Self::Line { from, to } => from.x * to.y - to.x * from.y,
@@ -201,8 +204,10 @@ fn combine(points: &[Point; 4], weights: [f64; 4]) -> Point {
     Point::new(sum(|p| p.x), sum(|p| p.y))
 }
 
-/// The integral of `f` from `from` over `width` by Gauss-Legendre quadrature of four points.
+/// The integral of `f` from `from` over `width`, in the units of both, by Gauss-Legendre quadrature of four
+/// points.
 pub(crate) fn gauss(f: impl Fn(f64) -> f64, from: f64, width: f64) -> f64 {
+    // Nodes and weights on -1 to 1 (Abramowitz and Stegun, table 25.4), exact to degree 7.
     const RULE: [(f64, f64); 2] = [
         (0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
         (0.861_136_311_594_052_6, 0.347_854_845_137_453_86),

@@ -1,13 +1,13 @@
-//! The whole surface: sheet, outline, actuators, band, finger.
+//! The whole surface: sheet, outline, actuators, frequency band, finger.
 
 use crate::{Outline, Point, Uneven};
 
 /// A whole surface: sheet, rim, actuators, band and finger. What a surface file says, in SI.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
-    /// What people call it.
+    /// Name of the surface, for people.
     pub name: String,
-    /// The rim.
+    /// The rim, its edge conditions and its holes.
     pub outline: Outline,
     /// The sheet inside it.
     pub sheet: Sheet,
@@ -36,7 +36,7 @@ pub struct Sheet {
     pub thickness: f64,
     /// Tension R, in N/m; 0 for a plate.
     pub tension: f64,
-    /// How vibration dies out.
+    /// Damping: how vibration dies out.
     pub decay: Decay,
     /// Air that moves with the sheet.
     pub air: Air,
@@ -44,21 +44,21 @@ pub struct Sheet {
     pub uneven: Uneven,
 }
 
-/// How vibration dies out.
+/// How vibration dies out: the damping of the sheet.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Decay {
     /// One amplitude decay time for all modes, in seconds.
     Time(f64),
     /// Amplitude decay time against frequency: (Hz, s), frequencies ascending; held constant beyond both ends.
     Table(Vec<(f64, f64)>),
-    /// Loss factor η of the material; only bending dissipates.
+    /// Loss factor η of the material, dimensionless; only bending dissipates.
     LossFactor(f64),
 }
 
 /// Air beside the sheet, as added mass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Air {
-    /// Vacuum.
+    /// No air: the sheet vibrates in vacuum.
     None,
     /// Air on one side.
     OneSide,
@@ -67,7 +67,7 @@ pub enum Air {
 }
 
 impl Air {
-    /// Number of sides in contact with air.
+    /// Number of sides in contact with air: 0, 1 or 2.
     pub fn sides(self) -> f64 {
         match self {
             Self::None => 0.0,
@@ -90,7 +90,7 @@ pub struct Emission {
     pub rms_limit: Option<f64>,
 }
 
-/// A fingertip lumped into mass, damper and spring over a contact disc.
+/// A fingertip as a lumped mass, damper and spring over a contact disc (a mechanical impedance).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finger {
     /// Moving mass μ, in kg.
@@ -113,9 +113,9 @@ impl Default for Finger {
 /// A finger on the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
-    /// The centre of the disc it touches.
+    /// Where the centre of the disc is, in metres.
     pub at: Point,
-    /// What it is.
+    /// Mass, damping, stiffness and contact radius of the finger.
     pub finger: Finger,
 }
 
@@ -124,9 +124,9 @@ pub struct Contact {
 pub struct Actuator {
     /// Its name, unique on the surface.
     pub name: String,
-    /// Where it acts.
+    /// Where it acts, in metres.
     pub at: Point,
-    /// What it is.
+    /// Kind of transducer and its constants.
     pub kind: ActuatorKind,
     /// Radius of the disc that a force or a magnet acts on evenly, in metres; 0 for a point.
     pub contact_radius: f64,
@@ -162,7 +162,7 @@ pub enum ActuatorKind {
 }
 
 impl ActuatorKind {
-    /// The name surface files use.
+    /// The name of the kind that surface files use.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Force => "force",
@@ -172,16 +172,17 @@ impl ActuatorKind {
     }
 }
 
-/// What an amplifier holds on a coil.
+/// The quantity that an amplifier holds on a coil: a current source or a voltage source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CoilDrive {
-    /// The current.
+    /// Coil current, in A: the motor's back-EMF does not damp the sheet.
     Current,
-    /// The voltage.
+    /// Coil voltage, in V: the back-EMF drives a current that damps the sheet.
     Voltage,
 }
 
-/// Index n of the focal instant of a window: `round(window · rate)`; the window holds n + 1 samples.
+/// Index n of the focal instant of a window of `window` seconds at `rate` Hz: `round(window · rate)`, a
+/// number of samples. The window holds n + 1 samples.
 pub fn window_samples(window: f64, rate: f64) -> usize {
     (window * rate).round().max(0.0) as usize
 }

@@ -1,4 +1,4 @@
-//! What a finger just did.
+//! One touch event: which finger came, moved or left, where and when.
 
 use crate::Point;
 
@@ -14,7 +14,7 @@ use crate::Point;
 pub struct Touch {
     /// Which finger: the same from its `Down` to its `Up`, and nobody else's before or after.
     pub finger: u64,
-    /// What it did.
+    /// What it did: came, moved or left.
     pub phase: Phase,
     /// Where it is, in m on the surface, its origin at the lower-left corner. With `Up`, where it was last.
     pub at: Point,
@@ -24,13 +24,13 @@ pub struct Touch {
     pub force: Option<f64>,
 }
 
-/// What a finger did.
+/// The phase of a touch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
-    /// It came.
+    /// The finger came onto the surface.
     Down,
-    /// It moved, or pressed otherwise.
+    /// The finger moved, or pressed otherwise.
     Move,
-    /// It left.
+    /// The finger left the surface.
     Up,
 }

@@ -2,10 +2,10 @@
 
 use crate::Point;
 
-/// What makes a sheet other than uniform and isotropic. The default is nothing.
+/// What makes a sheet other than uniform and isotropic. The default is nothing: a uniform, isotropic sheet.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Uneven {
-    /// Other stiffness along another direction.
+    /// Orthotropy: another stiffness across the grain than along it.
     pub grain: Option<Grain>,
     /// Thickness over the surface, as a factor of the sheet's.
     pub thickness: Option<Profile>,
@@ -44,7 +44,8 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// A profile from rows of values, the lowest row first, each from left to right.
+    /// A profile from rows of values (factors, or kg/m² of added mass), the lowest row first, each from left
+    /// to right.
     ///
     /// Returns `None` without values, or if rows differ in length, or a value is not finite.
     pub fn new(rows: &[Vec<f64>]) -> Option<Self> {
@@ -54,19 +55,19 @@ impl Profile {
         (whole && values.iter().all(|v| v.is_finite())).then_some(Self { columns, values })
     }
 
-    /// The rows, the lowest first.
+    /// The rows of values, the lowest first, each from left to right.
     pub fn rows(&self) -> impl Iterator<Item = &[f64]> {
         self.values.chunks(self.columns)
     }
 
-    /// Least and greatest of the nodes' values.
+    /// Least and greatest of the nodes' values, in the unit of the profile.
     pub fn range(&self) -> (f64, f64) {
         let ends = (f64::INFINITY, f64::NEG_INFINITY);
         self.values.iter().fold(ends, |(low, high), v| (low.min(*v), high.max(*v)))
     }
 
-    /// The value at a point of an outline of that extent; places outside take the nearest border's. Held within the range of
-    /// the nodes.
+    /// The value, in the profile's unit, at a point (m) of an outline of that extent (width and height, m);
+    /// places outside take the nearest border's. Held within the range of the nodes.
     pub fn at(&self, point: Point, extent: (f64, f64)) -> f64 {
         let rows = self.values.len() / self.columns;
         let (columns, wx) = weights(point.x / extent.0, self.columns);
@@ -112,13 +113,13 @@ fn weights(place: f64, nodes: usize) -> ([usize; 4], [f64; 4]) {
 /// Something fixed to the sheet that scatters waves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scatterer {
-    /// Where its centre is.
+    /// Where its centre is, in metres.
     pub at: Point,
-    /// What it is.
+    /// What kind of thing it is, with its mass and stiffness.
     pub kind: ScattererKind,
 }
 
-/// What is fixed to a sheet.
+/// What is fixed to a sheet: a mass at a point or a disc.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ScattererKind {
     /// A mass at a point, in kg.

@@ -1,4 +1,4 @@
-//! Whether rims bound a sheet.
+//! The test whether rims bound a sheet: closed, without crossings, anticlockwise, holes inside and apart.
 
 use super::faults::OutlineFault;
 use super::meeting::{Endless, meetings};
@@ -6,9 +6,10 @@ use super::rims::Rims;
 use crate::{Edge, Outline, Side};
 use std::ops::Range;
 
-/// How far apart sides may end and start that are to meet, as a share of the extent.
+/// Largest gap between the end of a side and the start of the next, as a share of the extent: above the
+/// rounding of coordinates that were computed. Doubled, gaps twice as wide would count as closed.
 const OPEN: f64 = 1e-9;
-/// Least area, as a share of the extent squared.
+/// Least area of a sheet, as a share of the extent squared: less is a line run there and back.
 const AREA: f64 = 1e-9;
 
 impl Outline {
@@ -27,7 +28,8 @@ impl Outline {
     }
 }
 
-/// Faults of sides that cannot be cut into pieces.
+/// Faults of sides that cannot be cut into pieces: no sides, no finite coordinates, no length. `loops` holds
+/// the index range of each rim's sides.
 pub(super) fn sides(sides: &[(Side, Edge)], loops: &[Range<usize>]) -> Result<(), Vec<OutlineFault>> {
     let mut faults = Vec::new();
     for (rim, range) in loops.iter().enumerate() {
@@ -45,6 +47,7 @@ pub(super) fn sides(sides: &[(Side, Edge)], loops: &[Range<usize>]) -> Result<()
     if faults.is_empty() { Ok(()) } else { Err(faults) }
 }
 
+/// Whether a side has finite coordinates, and an arc a positive radius.
 fn is_whole(side: &Side) -> bool {
     match side {
         Side::Line { from, to } => from.is_finite() && to.is_finite(),
@@ -68,7 +71,7 @@ pub(super) fn rims(rims: &Rims) -> Result<(), Vec<OutlineFault>> {
         .iter()
         .map(|(pair, (sides, at))| OutlineFault::Meeting { rims: *pair, sides: sides.map(local), at: *at })
         .collect();
-    // What a rim that meets another encloses, nobody knows.
+    // What a rim that meets another encloses cannot be told.
     let apart: Vec<bool> =
         (0..rims.loops.len()).map(|rim| met.keys().all(|[_, later]| *later != rim)).collect();
     for rim in (0..rims.loops.len()).filter(|rim| apart[*rim]) {
@@ -77,6 +80,7 @@ pub(super) fn rims(rims: &Rims) -> Result<(), Vec<OutlineFault>> {
     faults.sort_by_key(OutlineFault::rim);
     if faults.is_empty() { Ok(()) } else { Err(faults) }
 }
+/// A fault for each side that starts farther from the end of the one before it than [`OPEN`] allows.
 
 fn open(rims: &Rims) -> Result<(), Vec<OutlineFault>> {
     let fault = |side: usize| {

@@ -9,30 +9,30 @@ use crate::Point;
 pub enum OutlineFault {
     /// A rim has no sides.
     Empty {
-        /// Which.
+        /// Index of the rim.
         rim: usize,
     },
     /// A side has a coordinate that is not finite, or a radius that is not positive.
     Unbounded {
-        /// Of which rim.
+        /// Index of the rim.
         rim: usize,
-        /// Which side.
+        /// Index of the side within its rim.
         side: usize,
     },
     /// A side has no length.
     Pointlike {
-        /// Of which rim.
+        /// Index of the rim.
         rim: usize,
-        /// Which side.
+        /// Index of the side within its rim.
         side: usize,
-        /// Where it is.
+        /// Where it is, in metres.
         at: Point,
     },
     /// A side does not start where the one before it ends.
     Open {
-        /// Of which rim.
+        /// Index of the rim.
         rim: usize,
-        /// Which side.
+        /// Index of the side within its rim.
         side: usize,
         /// Where the one before it ends.
         end: Point,
@@ -41,16 +41,16 @@ pub enum OutlineFault {
     },
     /// Sides touch, cross or run back over each other.
     Meeting {
-        /// Of which rims, the first in the order above first.
+        /// Indices of both rims, the first in the order above first.
         rims: [usize; 2],
-        /// Which sides.
+        /// Indices of both sides within their rims.
         sides: [usize; 2],
-        /// Where.
+        /// Where they meet, in metres.
         at: Point,
     },
     /// A rim encloses no area.
     Flat {
-        /// Which.
+        /// Index of the rim.
         rim: usize,
         /// What it encloses, in m².
         area: f64,
@@ -59,23 +59,23 @@ pub enum OutlineFault {
     },
     /// The sides of a rim are listed clockwise.
     Clockwise {
-        /// Which.
+        /// Index of the rim.
         rim: usize,
-        /// Where it starts.
+        /// Where it starts, in metres.
         at: Point,
     },
     /// A hole lies outside the outer rim.
     Outside {
-        /// Which rim.
+        /// Index of the rim.
         rim: usize,
         /// Where it starts.
         at: Point,
     },
     /// A hole lies within another.
     Nested {
-        /// Which rim.
+        /// Index of the rim that lies within.
         rim: usize,
-        /// Within which.
+        /// Index of the rim that it lies within.
         within: usize,
         /// Where it starts.
         at: Point,
@@ -85,7 +85,7 @@ pub enum OutlineFault {
 }
 
 impl OutlineFault {
-    /// What an outline has to be.
+    /// What an outline has to be, in words for people: the part of the message after "expected".
     pub fn expected(&self) -> &'static str {
         match self {
             Self::Empty { .. } => "rims of at least one side",
@@ -101,7 +101,7 @@ impl OutlineFault {
         }
     }
 
-    /// What was found, and where.
+    /// What was found and where, in words for people: the part of the message after "found".
     pub fn found(&self) -> String {
         match self {
             Self::Empty { rim } => format!("{} without sides", name(*rim)),
@@ -124,7 +124,7 @@ impl OutlineFault {
         }
     }
 
-    /// The rim at fault: of two that meet, the later one. Nothing if it is all of them.
+    /// Index of the rim at fault: of two that meet, the later one. Nothing if it is all of them.
     pub fn rim(&self) -> Option<usize> {
         match *self {
             Self::Empty { rim }

@@ -11,24 +11,30 @@ use std::f64::consts::PI;
 
 /// Pieces of one rim nearer than this share of the extent touch: a mesh of anything closer has more triangles than any memory holds.
 const TOUCH: f64 = 1e-7;
-/// Rims are at least this far apart, in metres.
+/// Least distance between different rims, in metres. Doubled, strips of sheet up to 2 µm wide would be
+/// refused as well.
 const CLEAR: f64 = 1e-6;
-/// Least angle between sides that meet, in radians.
+/// Least angle between sides that meet, in radians (0.6°): sharper corners would need needles for triangles.
+/// Doubled, corners up to 1.1° would be refused.
 const SHARPEST: f64 = 0.01;
-/// Halvings after which two pieces that cannot be told apart meet.
+/// Halvings after which two pieces that cannot be told apart are taken to meet: parameters then differ in the
+/// last bits only.
 const DEEPEST: u32 = 60;
-/// Chords are told from their curves to this share of the distance that is asked for.
+/// Chords are told from their curves to this share of the distance that is asked for: a verdict errs by a
+/// thousandth of it. Halved, curves that nearly touch take about one more halving.
 const BLUR: f64 = 1e-3;
-/// Most pairs of pieces that are compared, most times that pieces are halved, and most pairs of rims that meet: a second or so. What needs
-/// more has sides that lie along each other.
+/// Most pairs of pieces that are compared: with the two limits below, a second or so. What needs more has
+/// sides that lie along each other. Doubled, such outlines would be refused after twice the time.
 const MOST_PAIRS: u64 = 5_000_000;
+/// Most times that pieces are halved, for the same bound on time.
 const MOST_HALVINGS: u64 = 4_000_000;
+/// Most pairs of rims that meet before the search ends, for the same bound on time.
 const MOST_MEETINGS: usize = 10_000;
 
 /// Two sides that meet, by their places in their list, the smaller first; or that there is too much to compare.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Met {
-    /// These two, there.
+    /// These two sides meet, at this place (m).
     Sides([usize; 2], Point),
     /// Sides lie along each other in too many places.
     TooMany,
@@ -47,10 +53,10 @@ pub fn within(sides: &[Side]) -> Option<Met> {
 /// Where rims meet: for each pair of rims that do (a rim with itself too), two sides counted through all rims, and the place.
 pub(super) type Meetings = BTreeMap<[usize; 2], ([usize; 2], Point)>;
 
-/// There is too much to compare.
+/// There is too much to compare within the limits above.
 pub(super) struct Endless;
 
-/// What is left of the work that one question may take.
+/// What is left of the work that one search may take, in pairs compared and pieces halved.
 struct Work {
     pairs: u64,
     halvings: u64,
@@ -67,6 +73,7 @@ impl Work {
         self.halvings = self.halvings.saturating_sub(1);
     }
 
+    /// Whether the work allowed is used up.
     fn is_done(&self) -> bool {
         self.pairs == 0 || self.halvings == 0
     }
@@ -96,6 +103,7 @@ impl Search<'_> {
         self.work.is_done() || self.found.len() > MOST_MEETINGS
     }
 
+    /// Notes that two sides, counted through all rims, meet at a place.
     fn add(&mut self, one: usize, other: usize, at: Point) {
         let sides = [one.min(other), one.max(other)];
         let pair = sides.map(|side| self.rims.rim_of(side));
@@ -107,7 +115,7 @@ impl Search<'_> {
         }
     }
 
-    /// Pieces that follow each other and fold back.
+    /// Finds pieces that follow each other and fold back.
     fn joints(&mut self, touch: f64) {
         let rims = self.rims;
         for i in 0..rims.pieces.len() {
@@ -122,7 +130,7 @@ impl Search<'_> {
         }
     }
 
-    /// Pieces that do not follow each other. A rim that folds back is told of that alone.
+    /// Finds pieces that meet without following each other. A rim that folds back is told of that alone.
     fn others(&mut self, touch: f64, clear: f64) {
         let rims = self.rims;
         let folded: Vec<usize> = self.found.keys().map(|[rim, _]| *rim).collect();
@@ -155,7 +163,7 @@ impl Search<'_> {
         self.found.get(&sides.map(|side| self.rims.rim_of(side))).is_some_and(|known| known.0 <= sides)
     }
 
-    /// Curves that turn round in a point.
+    /// Finds cusps: places where a curve turns round in a point.
     fn cusps(&mut self) {
         let rims = self.rims;
         for piece in rims.pieces.iter().filter(|piece| piece.turn > PI - SHARPEST) {

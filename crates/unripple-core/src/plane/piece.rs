@@ -1,4 +1,4 @@
-//! Sides cut into short pieces.
+//! Sides cut into short pieces, each told from its chord by a known sagitta and turn.
 
 use super::tree::Bounds;
 use super::vector::{angle, cross, from_segment, minus, norm};
@@ -6,9 +6,12 @@ use crate::side::gauss;
 use crate::{Point, Side};
 use std::f64::consts::PI;
 
-/// Most that a piece turns, in radians.
+/// Most that a piece's tangent turns, in radians: so a circle has 63 pieces. Doubled, there would be half as
+/// many, each four times as far from its chord, and the search for meetings would halve them again where they
+/// come near.
 const TURN: f64 = 0.1;
-/// Halvings after which a cubic is cut no further: it has a cusp there.
+/// Halvings after which a cubic is cut no further: it has a cusp there. One more halving doubles the pieces
+/// at a cusp only.
 const DEEPEST: u32 = 24;
 
 /// A short piece of a side, told apart from its chord by no more than `sagitta`.
@@ -16,9 +19,9 @@ const DEEPEST: u32 = 24;
 pub struct Piece {
     /// Which side, counted through all rims.
     pub side: usize,
-    /// Parameters at both ends.
+    /// Parameters of the side at both ends, 0 to 1.
     pub span: [f64; 2],
-    /// Both ends.
+    /// Start and end, in metres.
     pub ends: [Point; 2],
     /// Greatest distance from the chord (a bound of it), in metres.
     pub sagitta: f64,
@@ -27,7 +30,7 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// The piece of a side between two parameters.
+    /// The piece of a side between two parameters (0 to 1); `index` is the side's, counted through all rims.
     pub fn new(side: &Side, index: usize, span: [f64; 2]) -> Self {
         let ends = span.map(|t| side.at(t));
         let (sagitta, turn) = match *side {
@@ -41,20 +44,22 @@ impl Piece {
         Self { side: index, span, ends, sagitta, turn }
     }
 
-    /// Its two halves.
+    /// Its two halves, cut at the middle of its parameters.
     pub fn halves(&self, side: &Side) -> [Self; 2] {
         let half = 0.5 * (self.span[0] + self.span[1]);
         [[self.span[0], half], [half, self.span[1]]].map(|span| Self::new(side, self.side, span))
     }
 
-    /// A box that holds it.
+    /// A box that holds the curve of the piece, widened by `margin` (m).
     pub fn bounds(&self, margin: f64) -> Bounds {
         Bounds::around(&self.ends, self.sagitta + margin)
     }
 
-    /// How often it winds around a point, as the angle that it is seen under (rad).
+    /// The angle that it is seen under from a point (rad, positive anticlockwise): summed over a rim, 2π
+    /// times its winding number.
     pub fn seen_from(&self, p: Point, side: &Side) -> f64 {
         let [a, b] = self.ends;
+        // Near the curve the chord does not tell on which side the point is: halves do, down to rounding.
         if self.sagitta > 0.0 && self.span[1] - self.span[0] > 1e-12 && from_segment(p, a, b) <= self.sagitta
         {
             return self.halves(side).iter().map(|half| half.seen_from(p, side)).sum();
@@ -62,7 +67,8 @@ impl Piece {
         angle(minus(a, p), minus(b, p))
     }
 
-    /// ∫ x dy - y dx along it, x and y from its start: four Gauss points, exact for a cubic.
+    /// Its part of twice the enclosed area (m²), ∫ x dy - y dx with x and y from its start: Gauss-Legendre
+    /// quadrature of four points, exact for a cubic.
     pub fn doubled_area(&self, side: &Side) -> f64 {
         let [from, to] = self.span;
         gauss(|t| cross(minus(side.at(t), self.ends[0]), side.derivative(t)), from, to - from)
@@ -79,13 +85,14 @@ fn hull(side: &Side, span: [f64; 2], ends: [Point; 2]) -> (f64, f64) {
     ];
     let polygon = [ends[0], inner[0], inner[1], ends[1]];
     let size = norm(minus(ends[1], ends[0])).max(norm(minus(inner[1], inner[0])));
+    // Control points that coincide have no direction between them.
     let legs: Vec<Point> =
         polygon.windows(2).map(|w| minus(w[1], w[0])).filter(|leg| norm(*leg) > 1e-9 * size).collect();
     let turn = legs.windows(2).map(|w| angle(w[0], w[1]).abs()).sum();
     (inner.iter().map(|p| from_segment(*p, ends[0], ends[1])).fold(0.0, f64::max), turn)
 }
 
-/// A side cut into pieces that turn little.
+/// A side cut into pieces that each turn by at most 0.1 rad; `index` is the side's, counted through all rims.
 pub fn pieces(side: &Side, index: usize) -> Vec<Piece> {
     match *side {
         Side::Line { .. } => vec![Piece::new(side, index, [0.0, 1.0])],

@@ -23,7 +23,7 @@ pub struct Rims {
     pub pieces: Vec<Piece>,
     /// The first piece of each side.
     firsts: Vec<usize>,
-    /// The boxes of the pieces.
+    /// Bounding boxes of the pieces, for searches.
     pub tree: Tree,
     /// The longer side of the bounding box, in metres.
     pub extent: f64,
@@ -46,7 +46,8 @@ impl Rims {
         Ok(rims)
     }
 
-    /// Rims of sound sides, whether or not they bound a sheet.
+    /// Rims of sound sides, whether or not they bound a sheet; `loops` holds the index range of each rim's
+    /// sides.
     pub(super) fn of(sides: Vec<(Side, Edge)>, loops: Vec<Range<usize>>) -> Self {
         let rims: Vec<usize> =
             loops.iter().enumerate().flat_map(|(rim, sides)| sides.clone().map(move |_| rim)).collect();
@@ -66,24 +67,24 @@ impl Rims {
         found
     }
 
-    /// The rim of a side.
+    /// Index of the rim that a side belongs to; sides are counted through all rims.
     pub fn rim_of(&self, side: usize) -> usize {
         self.rims.get(side).copied().unwrap_or(0)
     }
 
-    /// The side that follows on the same rim.
+    /// Index of the side that follows on the same rim.
     pub fn next(&self, side: usize) -> usize {
         let rim = &self.loops[self.rim_of(side)];
         if side + 1 < rim.end { side + 1 } else { rim.start }
     }
 
-    /// The side before on the same rim.
+    /// Index of the side before on the same rim.
     pub fn previous(&self, side: usize) -> usize {
         let rim = &self.loops[self.rim_of(side)];
         if side > rim.start { side - 1 } else { rim.end - 1 }
     }
 
-    /// The piece that follows on the same rim.
+    /// Index of the piece that follows on the same rim.
     pub(super) fn following(&self, piece: usize) -> usize {
         let side = self.pieces[piece].side;
         match self.pieces.get(piece + 1) {
@@ -108,7 +109,7 @@ impl Rims {
         0.5 * self.of_rim(rim).map(piece).sum::<f64>()
     }
 
-    /// How often a rim runs anticlockwise around a point that is not on it.
+    /// Winding number of a rim around a point (m) that is not on it, positive anticlockwise.
     pub(super) fn winding(&self, rim: usize, p: Point) -> i64 {
         let angle: f64 = self.of_rim(rim).map(|piece| piece.seen_from(p, &self.sides[piece.side].0)).sum();
         (angle / (2.0 * PI)).round() as i64
@@ -121,13 +122,15 @@ impl Rims {
         self.pieces[piece(sides.start)..piece(sides.end)].iter()
     }
 
+    /// Interior angle of the sheet at the start of a side, 0 to 2π.
     fn angle(&self, side: usize) -> f64 {
         let before = tangent(&self.sides[self.previous(side)].0, 1.0);
         PI - angle(before, tangent(&self.sides[side].0, 0.0))
     }
 
-    /// How far it is across the sheet from a place on a side along a direction, up to `most`; infinite if farther. What
-    /// the narrowing of the sheet towards a corner of the side lets expect does not count.
+    /// How far it is across the sheet, in metres, from the place `t` on a side along a direction, up to
+    /// `most` (m); infinite if farther. What the narrowing of the sheet towards a corner of the side lets
+    /// expect does not count.
     pub fn gap(&self, side: usize, t: f64, direction: Point, most: f64) -> f64 {
         let from = self.sides[side].0.at(t);
         let beam = Bounds::around(&[from, along(from, direction, most)], 0.0);
@@ -164,11 +167,13 @@ impl Rims {
     }
 }
 
-/// Direction of travel at a parameter, also where the derivative vanishes.
+/// Direction of travel at parameter `t` (0 to 1), a vector in metres of any length, also where the derivative
+/// vanishes.
 pub fn tangent(side: &Side, t: f64) -> Point {
     let d = side.derivative(t);
     if norm(d) > 1e-9 * side.length() {
         return d;
     }
+    // Where control points coincide a secant over a thousandth of the side stands for the tangent.
     minus(side.at((t + 1e-3).min(1.0)), side.at((t - 1e-3).max(0.0)))
 }

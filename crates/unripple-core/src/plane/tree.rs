@@ -1,8 +1,9 @@
-//! Boxes, and a tree of them for searches.
+//! Bounding boxes along the axes, and a tree of them (a bounding volume hierarchy) for searches.
 
 use crate::Point;
 
-/// Items in a leaf.
+/// Most items in a leaf: doubled, the tree has about half the nodes and each search compares more items;
+/// results stay the same.
 const LEAF: usize = 4;
 
 /// A box with sides along the axes.
@@ -15,7 +16,7 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// The box around some points, widened by a margin.
+    /// The box around some points, widened by `margin` (m) on each side.
     pub fn around(points: &[Point], margin: f64) -> Self {
         let mut bounds = Self {
             low: Point::new(f64::INFINITY, f64::INFINITY),
@@ -32,7 +33,7 @@ impl Bounds {
         Self::around(&[self.low, self.high, other.low, other.high], 0.0)
     }
 
-    /// Its centre.
+    /// Centre of the box, in metres.
     pub fn centre(&self) -> Point {
         Point::new(0.5 * (self.low.x + self.high.x), 0.5 * (self.low.y + self.high.y))
     }
@@ -45,14 +46,14 @@ impl Bounds {
             && other.low.y <= self.high.y
     }
 
-    /// Distance from another box; 0 if they meet.
+    /// Distance from another box, in metres; 0 if they meet.
     pub fn apart(&self, other: &Self) -> f64 {
         let x = (self.low.x - other.high.x).max(other.low.x - self.high.x).max(0.0);
         let y = (self.low.y - other.high.y).max(other.low.y - self.high.y).max(0.0);
         (x * x + y * y).sqrt()
     }
 
-    /// Distance from a point; 0 inside.
+    /// Distance from a point, in metres; 0 inside.
     pub fn distance(&self, p: Point) -> f64 {
         let x = (self.low.x - p.x).max(p.x - self.high.x).max(0.0);
         let y = (self.low.y - p.y).max(p.y - self.high.y).max(0.0);
@@ -80,7 +81,7 @@ pub struct Tree {
 }
 
 impl Tree {
-    /// A tree of boxes and weights.
+    /// A tree of boxes and weights; searches name items by their index here.
     pub fn new(items: &[(Bounds, f64)]) -> Self {
         let mut tree = Self { nodes: Vec::new(), order: (0..items.len()).collect() };
         if !items.is_empty() {
@@ -89,6 +90,8 @@ impl Tree {
         tree
     }
 
+    /// Grows the branch of the items `from..to` of the order: a leaf, or two halves along the box's longer
+    /// side.
     fn grow(&mut self, items: &[(Bounds, f64)], from: usize, to: usize) {
         let part = &mut self.order[from..to];
         let bounds = part.iter().map(|i| items[*i].0).reduce(Bounds::join);
@@ -108,7 +111,8 @@ impl Tree {
         self.nodes[index].after = self.nodes.len();
     }
 
-    /// Shows `item` all items of the branches that `open` lets through.
+    /// Gives `item` the index of each item in the branches that `open` lets through; `state` is handed to
+    /// both.
     pub fn search<S>(
         &self,
         state: &mut S,

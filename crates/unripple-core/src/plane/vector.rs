@@ -1,33 +1,33 @@
-//! Plane vectors.
+//! Vectors in the plane and their products, distances of segments, triangles. Lengths in metres.
 
 use crate::Point;
 
-/// a - b.
+/// The difference a - b, in metres.
 pub fn minus(a: Point, b: Point) -> Point {
     Point::new(a.x - b.x, a.y - b.y)
 }
 
-/// a + s·b.
+/// The sum a + s·b: a point moved along a vector by the factor `s`.
 pub fn along(a: Point, b: Point, s: f64) -> Point {
     Point::new(a.x + s * b.x, a.y + s * b.y)
 }
 
-/// The middle between two points.
+/// The middle between two points, in metres.
 pub fn middle(a: Point, b: Point) -> Point {
     Point::new(0.5 * (a.x + b.x), 0.5 * (a.y + b.y))
 }
 
-/// a·b.
+/// The scalar product a·b, in m².
 pub fn dot(a: Point, b: Point) -> f64 {
     a.x * b.x + a.y * b.y
 }
 
-/// a × b.
+/// The cross product a × b, in m²: positive if `b` points to the left of `a`.
 pub fn cross(a: Point, b: Point) -> f64 {
     a.x * b.y - a.y * b.x
 }
 
-/// Length of a vector.
+/// Length of a vector, in metres.
 pub fn norm(a: Point) -> f64 {
     dot(a, a).sqrt()
 }
@@ -38,24 +38,24 @@ pub fn turned(a: Point, angle: f64) -> Point {
     Point::new(a.x * c - a.y * s, a.x * s + a.y * c)
 }
 
-/// The angle from `a` to `b`, anticlockwise, -π to π.
+/// The angle from `a` to `b`, in radians, anticlockwise, -π to π.
 pub fn angle(a: Point, b: Point) -> f64 {
     cross(a, b).atan2(dot(a, b))
 }
 
-/// Twice the signed area of a triangle, positive anticlockwise.
+/// Twice the signed area of a triangle, in m², positive anticlockwise.
 pub fn doubled(a: Point, b: Point, c: Point) -> f64 {
     cross(minus(b, a), minus(c, a))
 }
 
-/// Distance from `p` to the segment from `a` to `b`.
+/// Distance from `p` to the segment from `a` to `b`, in metres.
 pub fn from_segment(p: Point, a: Point, b: Point) -> f64 {
     let (ab, ap) = (minus(b, a), minus(p, a));
     let t = (dot(ap, ab) / dot(ab, ab).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
     norm(along(ap, ab, -t))
 }
 
-/// Distance between two segments; 0 where they cross.
+/// Distance between two segments, in metres; 0 where they cross.
 pub fn between_segments([a, b]: [Point; 2], [c, d]: [Point; 2]) -> f64 {
     let apart = |p: f64, q: f64| (p > 0.0 && q > 0.0) || (p < 0.0 && q < 0.0);
     let cross = !apart(doubled(a, b, c), doubled(a, b, d)) && !apart(doubled(c, d, a), doubled(c, d, b));
@@ -68,7 +68,7 @@ pub fn between_segments([a, b]: [Point; 2], [c, d]: [Point; 2]) -> f64 {
     if cross && !level { 0.0 } else { nearest }
 }
 
-/// The circle through three points: centre and radius. Infinite where they are on a line.
+/// The circle through three points: centre and radius, in metres. Infinite where they are on a line.
 pub fn circumcircle(a: Point, b: Point, c: Point) -> (Point, f64) {
     let (u, v) = (minus(b, a), minus(c, a));
     let (uu, vv, d) = (dot(u, u), dot(v, v), 2.0 * cross(u, v));
@@ -76,7 +76,7 @@ pub fn circumcircle(a: Point, b: Point, c: Point) -> (Point, f64) {
     (along(a, offset, 1.0), norm(offset))
 }
 
-/// Cotangent of the least angle of a triangle; infinite if it is clockwise.
+/// Cotangent of the least angle of a triangle, dimensionless; infinite if it is clockwise.
 pub fn sharpness([a, b, c]: [Point; 3]) -> f64 {
     let (ab, bc, ca) = (minus(b, a), minus(c, b), minus(a, c));
     let area = cross(ab, bc);
