@@ -45,12 +45,13 @@ impl Convolver {
         }
     }
 
-    /// Samples of the transform, at least those asked for.
+    /// Number of samples of the transform, at least those asked for.
     pub fn size(&self) -> usize {
         self.size
     }
 
-    /// Spectrum of a signal, zero beyond its end; samples beyond the plan's size are ignored.
+    /// Spectrum of a signal, `size/2 + 1` lines, the signal zero beyond its end; samples beyond the plan's
+    /// size are ignored.
     pub fn spectrum(&self, signal: impl IntoIterator<Item = f64>) -> Vec<Complex<f64>> {
         let mut padded = self.forward.make_input_vec();
         padded.iter_mut().zip(signal).for_each(|(to, from)| *to = from);
@@ -95,7 +96,8 @@ pub fn convolve(signal: &[f64], response: &[f64]) -> Vec<f64> {
     plan.signal(product)
 }
 
-/// The smallest even size of at least `least` whose prime factors are 2, 3 and 5, where transforms are quick.
+/// The smallest even number of samples of at least `least` whose prime factors are 2, 3 and 5, where
+/// transforms are quick.
 pub fn smooth_size(least: usize) -> usize {
     let ceiling = least.max(2).next_power_of_two();
     let mut best = ceiling;

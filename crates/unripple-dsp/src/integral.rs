@@ -1,15 +1,18 @@
 //! Integration of sampled signals, sixth order.
 
-/// Weights, times 1440, of six neighbouring samples in the integral over the first, second and third of the five
-/// intervals between them; those of the fourth and fifth are the mirror images. Exact for quintics.
+/// Weights, times 1440, of six neighbouring samples in the integral over the first, second and third of the
+/// five intervals between them; those of the fourth and fifth are the mirror images. They integrate the
+/// quintic through the six samples, so that quintics are exact and the error falls with the sixth power of
+/// the sample interval.
 const INTERVALS: [[f64; 6]; 3] = [
     [475.0, 1427.0, -798.0, 482.0, -173.0, 27.0],
     [-27.0, 637.0, 1022.0, -258.0, 77.0, -11.0],
     [11.0, -93.0, 802.0, 802.0, -93.0, 11.0],
 ];
 
-/// Integral of a signal from its first sample, at every sample, to sixth order in the sample interval: within 0.3 % of a wave at
-/// an eighth of the sample rate, 0.004 % at a sixteenth.
+/// Integral of a signal (at `rate` samples per second) from its first sample, at every sample, in the
+/// signal's unit times seconds: sixth order in the sample interval, within 0.3 % of a wave at an eighth of
+/// the sample rate, 0.004 % at a sixteenth.
 ///
 /// ```
 /// let t: Vec<f32> = (0..8).map(|i| i as f32).collect();

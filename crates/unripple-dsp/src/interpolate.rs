@@ -1,9 +1,10 @@
-//! Polyphase interpolation in SIMD lanes.
+//! Polyphase interpolation of the modal sums from the reduced to the full sample rate, in SIMD lanes.
 
 use faer::traits::RealField;
 use pulp::NullaryFnOnce;
 
-/// Taps added at once.
+/// Taps added at once, so that a sum is read and written once for four multiplications; what remains of a
+/// kernel is added one by one. Doubled, sums are read half as often, but up to seven taps remain.
 const TAPS: usize = 4;
 
 /// A number that multiplies and adds in one instruction where the processor can.

@@ -1,4 +1,4 @@
-//! Weights that interpolate between samples.
+//! Weights that interpolate between samples: a polyphase Kaiser-windowed sinc.
 
 use crate::special::{kaiser, sinc};
 use faer::Mat;
@@ -18,7 +18,7 @@ pub(crate) struct Kernel {
 }
 
 impl Kernel {
-    /// A kernel of `2 · half` taps.
+    /// A kernel of `2 · half` taps for each of `step` phases, with a Kaiser window of shape `beta`.
     pub(crate) fn new(step: usize, half: usize, beta: f64) -> Self {
         let weights = Mat::from_fn(2 * half, step, |tap, phase| {
             let t = phase as f64 / step as f64 - (tap as f64 - half as f64 + 1.0);
@@ -27,18 +27,19 @@ impl Kernel {
         Self { step, weights }
     }
 
-    /// Number of taps.
+    /// Number of taps, the same in each phase.
     pub(crate) fn taps(&self) -> usize {
         self.weights.nrows()
     }
 
-    /// Reduced samples needed before the first.
+    /// Number of reduced samples needed before the first.
     pub(crate) fn lead(&self) -> usize {
         (self.taps() / 2).saturating_sub(1)
     }
 
-    /// Half the taps that bring the error of a signal up to `fill` of half the reduced rate down to `accuracy`, and the
-    /// window's β, by Kaiser's rules, shared among the images that fold onto it.
+    /// Number of taps, halved, that brings the error of a signal up to `fill` of half the reduced rate down
+    /// to the relative `accuracy`, and the window's β, by Kaiser's rules, shared among the images that fold
+    /// onto it.
     pub(crate) fn size(fill: f64, accuracy: f64) -> (usize, f64) {
         let attenuation = (-20.0 * (accuracy / 2.5).log10()).max(21.0);
         let beta = if attenuation > 50.0 {

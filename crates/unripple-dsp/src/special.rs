@@ -2,23 +2,25 @@
 
 use std::f64::consts::PI;
 
-/// sin(πt)/(πt), and 1 at 0 (Shannon, *Communication in the presence of noise*, 1949, theorem 1): what interpolates samples
-/// one apart.
+/// sin(πt)/(πt) of a dimensionless t, and 1 at 0 (Shannon, *Communication in the presence of noise*, 1949,
+/// theorem 1): what interpolates samples one apart.
 pub fn sinc(t: f64) -> f64 {
+    // Below, it is 1 to the last digit.
     if t.abs() < 1e-9 { 1.0 } else { (PI * t).sin() / (PI * t) }
 }
 
-/// The Kaiser window of shape `beta` at `u` of its half-width: 1 at the middle, 0 beyond the ends (Kaiser and Schafer, *On the use of the
-/// I0-sinh window for spectrum analysis*, 1980).
+/// The Kaiser window of shape `beta` at `u` of its half-width, both dimensionless: 1 at the middle, 0 beyond
+/// the ends (Kaiser and Schafer, *On the use of the I0-sinh window for spectrum analysis*, 1980).
 pub fn kaiser(u: f64, beta: f64) -> f64 {
     if u.abs() > 1.0 { 0.0 } else { bessel_i0(beta * (1.0 - u * u).sqrt()) / bessel_i0(beta) }
 }
 
-/// The modified Bessel function I_0, by its power series (Abramowitz and Stegun, *Handbook of Mathematical Functions*, 9.6.12): the profile
-/// of the Kaiser window.
+/// The modified Bessel function I_0 of a dimensionless `x`, by its power series (Abramowitz and Stegun,
+/// *Handbook of Mathematical Functions*, 9.6.12): the profile of the Kaiser window.
 pub fn bessel_i0(x: f64) -> f64 {
     let quarter = x * x / 4.0;
     let (mut term, mut sum, mut k) = (1.0, 1.0, 1.0);
+    // Terms below the rounding of the sum change nothing.
     while term > sum * 1e-17 {
         term *= quarter / (k * k);
         sum += term;
@@ -27,7 +29,7 @@ pub fn bessel_i0(x: f64) -> f64 {
     sum
 }
 
-/// The Bessel function of the first kind J_n, to the last digits (libm's).
+/// The Bessel function of the first kind J_n of a dimensionless `x`, to the last digits (libm's).
 ///
 /// ```
 /// // Abramowitz and Stegun, table 9.1.

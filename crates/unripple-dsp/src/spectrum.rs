@@ -2,7 +2,7 @@
 
 use realfft::RealFftPlanner;
 
-/// Share of the energy of `channels` that lies above `hz`, from 0 to 1; 0 for silence.
+/// Share of the energy of `channels` that lies above `hz` (Hz), from 0 to 1; 0 for silence.
 ///
 /// Each channel (any length, `rate` samples per second) is one whole Fourier transform without a window, so by
 /// Parseval's theorem the shares below and above add up to one. A line exactly at `hz` counts as below.
@@ -35,7 +35,7 @@ pub fn share_above(channels: &[Vec<f64>], rate: f64, hz: f64) -> f64 {
     if total > 0.0 { above / total } else { 0.0 }
 }
 
-/// Energy of a signal in so many bands of equal width from 0 to `top` Hz: what lies above is left out.
+/// Energy of a signal in `bands` bands of equal width from 0 to `top` Hz: what lies above is left out.
 ///
 /// One whole Fourier transform without a window, scaled so that the energies of all lines add up to the sum of the squares (Parseval).
 /// A line belongs to the band that holds its frequency; bands narrower than a line are empty.

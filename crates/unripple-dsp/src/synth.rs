@@ -10,16 +10,22 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use unripple_core::Pole;
 
-/// Rows worked on at once.
+/// Rows that one thread works on at once: so many share what is read of the velocities. Doubled, there are
+/// half as many tasks for the threads, and each holds twice the samples.
 const ROWS: usize = 128;
 
-/// From this many rows on, interpolation runs across rows rather than along time.
+/// From this many rows on, interpolation runs across rows, as a matrix product, rather than along time: fewer
+/// rows do not fill the product. Doubled, 24 to 47 rows go the other way; the sums stay the same but for
+/// rounding.
 const MANY: usize = 24;
 
-/// Reduced samples to a strip where it runs across rows.
+/// Reduced samples to a strip where it runs across rows: the product is taken with a band matrix of which
+/// `taps` of `taps + 5` rows are filled. Doubled, fewer products are made, of which more is multiplication by
+/// zero.
 const STRIP: usize = 6;
 
-/// The lowest reduced rate tried is this part of the full one.
+/// The lowest reduced rate tried is this part of the full one. Doubled, plans take twice as long and gain
+/// only where all modes lie below a 64th of half the sample rate.
 const MOST: usize = 64;
 
 /// Turns modal weights into sampled velocity responses: h = W · g, with g the velocity of each mode after an impulse.
@@ -87,7 +93,7 @@ impl ModalSynth {
         Self { samples, modes: poles.len(), single: double.narrowed(), double }
     }
 
-    /// Samples per response.
+    /// Number of samples in each response.
     pub fn samples(&self) -> usize {
         self.samples
     }
@@ -124,6 +130,7 @@ impl ModalSynth {
         Ok(())
     }
 
+    /// Refuses weights that are not rows x modes, or an output that is not rows x samples.
     fn check(&self, rows: usize, columns: usize, length: usize) -> Result<(), DspError> {
         if columns != self.modes {
             return Err(DspError::Size {
@@ -144,6 +151,7 @@ impl ModalSynth {
 }
 
 impl Tables<f64> {
+    /// The same tables rounded to single precision.
     fn narrowed(&self) -> Tables<f32> {
         let narrow = |m: &Mat<f64>| Mat::from_fn(m.nrows(), m.ncols(), |i, j| m[(i, j)] as f32);
         Tables {
@@ -158,6 +166,7 @@ impl Tables<f64> {
 }
 
 impl<T: Sample> Tables<T> {
+    /// Responses of all rows, those beyond [`ROWS`] shared among threads.
     fn respond(&self, weights: MatRef<'_, T>, out: &mut [T], samples: usize) {
         if samples == 0 || out.is_empty() {
             return;
@@ -249,6 +258,7 @@ fn plan(poles: &[Pole], rate: f64, samples: usize, accuracy: f64) -> (Kernel, Ve
             let sums = (samples.div_ceil(step) + 2 * half - 1) * poles.len();
             // Interpolation runs at about half the speed of the large product.
             let cost = sums + 2 * 2 * half * samples;
+            // Nearer to half the reduced rate, the transition takes more taps than it saves sums.
             if fill >= 0.98 || cost >= least {
                 break;
             }

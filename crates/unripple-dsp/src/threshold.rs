@@ -1,10 +1,12 @@
-//! The vibrotactile threshold of the fingertip against frequency.
+//! The vibrotactile detection threshold of the fingertip against frequency.
 
 use crate::DspError;
 use unripple_core::OutOfRange;
 
-/// Thresholds stay between these, in metres, however far a curve is continued.
+/// Thresholds stay between this and [`MOST`], in metres, however far a curve is continued: far beyond any
+/// measurement, but nowhere zero or infinite, so that levels above them stay finite.
 const LEAST: f64 = 1e-20;
+/// The largest threshold, in metres; see [`LEAST`].
 const MOST: f64 = 1e20;
 
 /// The least vibration that is felt: peak displacement in metres against frequency.
@@ -49,10 +51,12 @@ impl Default for Threshold {
 }
 
 impl Threshold {
-    /// How far thresholds of persons lie from the published curve, in dB, either way.
+    /// How far thresholds of persons lie from the published curve, in dB, either way. Doubled, levels that one
+    /// drive has for different persons would spread over 24 dB.
     pub const BETWEEN_PERSONS_DB: f64 = 6.0;
 
-    /// What a doubled area of contact adds to the threshold above 40 Hz, in dB.
+    /// What a doubled area of contact adds to the threshold above 40 Hz, in dB (Verrillo 1963): spatial
+    /// summation of the Pacinian channel.
     pub const PER_DOUBLED_AREA_DB: f64 = -3.0;
 
     /// A curve through knots of frequency (Hz, ascending) and peak displacement (m); a single knot is flat throughout.

@@ -43,11 +43,12 @@ impl Weighting {
         Self::of(threshold, rate, smooth_size(samples.saturating_add(rest).max(1)))
     }
 
-    /// A plan for signals that repeat after exactly `samples` samples.
+    /// A plan for signals that repeat after exactly `samples` samples, at `rate` per second.
     pub fn periodic(threshold: &Threshold, rate: f64, samples: usize) -> Self {
         Self::of(threshold, rate, samples.max(1))
     }
 
+    /// A plan of `size` samples: the gain of each line is 1/threshold at its frequency.
     fn of(threshold: &Threshold, rate: f64, size: usize) -> Self {
         let mut planner = RealFftPlanner::new();
         let gain = |line: usize| 1.0 / (threshold.at(line as f64 * rate / size as f64) * size as f64);
@@ -59,7 +60,7 @@ impl Weighting {
         }
     }
 
-    /// Samples of the transform.
+    /// Number of samples of the transform.
     pub fn size(&self) -> usize {
         self.size
     }
@@ -81,7 +82,7 @@ impl Weighting {
     }
 }
 
-/// Lines that have no phase are real; rounding may leave a trace of one.
+/// Makes the lines at 0 and at half the rate real, as they have no phase; rounding may leave a trace of one.
 fn real_ends(spectrum: &mut [Complex<f64>], size: usize) {
     if let Some(first) = spectrum.first_mut() {
         first.im = 0.0;
