@@ -4,10 +4,12 @@ use faer::c64;
 use std::f64::consts::{PI, TAU};
 use unripple_core::{Air, Sheet};
 
-/// Density of air ρ_0 at 20 °C, in kg/m³.
+/// Density of air ρ_0 at 20 °C and 1013 hPa, in kg/m³. Doubled, the added mass of the air beside a film would
+/// double.
 pub const AIR_DENSITY: f64 = 1.204;
 
-/// Celerity of sound in air c_0 at 20 °C, in m/s.
+/// Celerity of sound in dry air c_0 at 20 °C, in m/s. Doubled, a plate would radiate from four times the
+/// frequency on.
 pub const AIR_CELERITY: f64 = 343.2;
 
 /// What bending waves on a sheet see: mass, tension, stiffness and the air beside it.
@@ -48,7 +50,8 @@ pub struct Medium {
 }
 
 impl Medium {
-    /// The medium a sheet is.
+    /// The medium of a sheet where its profiles are 1: mass per area, tension, bending stiffness and sides in
+    /// air.
     pub fn of(sheet: &Sheet) -> Self {
         Self {
             areal_density: sheet.density * sheet.thickness,
@@ -58,7 +61,7 @@ impl Medium {
         }
     }
 
-    /// The same medium with air on the sides given.
+    /// The same medium with air on the sides given instead.
     pub fn with_air(mut self, air: Air) -> Self {
         self.air_sides = air.sides();
         self
@@ -108,7 +111,8 @@ impl Medium {
         if self.leaky(slow).is_none() { slow } else { root(0.0, slow, |k| self.omega(k) - omega) }
     }
 
-    /// Phase celerity c = ω/k, in m/s. At k = 0 it is the limit: √(R/ρ_s) in vacuum, 0 in air.
+    /// Phase celerity c = ω/k, in m/s, at the wavenumber `k` (rad/m). At k = 0 it is the limit: √(R/ρ_s) in
+    /// vacuum, 0 in air.
     pub fn phase_celerity(&self, k: f64) -> f64 {
         if k > 0.0 {
             self.omega(k) / k
@@ -119,7 +123,7 @@ impl Medium {
         }
     }
 
-    /// Group celerity dω/dk, in m/s; in vacuum (R + 2Dk²)k/(ρ_s ω).
+    /// Group celerity dω/dk, in m/s, at the wavenumber `k` (rad/m); in vacuum (R + 2Dk²)k/(ρ_s ω).
     pub fn group_celerity(&self, k: f64) -> f64 {
         if k <= 0.0 {
             return self.phase_celerity(k);
@@ -144,18 +148,20 @@ impl Medium {
         self.coincidence_wavenumber().map(|k| AIR_CELERITY * k / TAU)
     }
 
-    /// Shortest wavelength 2π/k of a band that ends at `top_hz`, in metres.
+    /// Shortest wavelength 2π/k of a band that ends at `top_hz` (Hz), in metres.
     pub fn lambda_min(&self, top_hz: f64) -> f64 {
         2.0 * PI / self.wavenumber(TAU * top_hz)
     }
 
-    /// Share of the elastic energy that is bending, D k²/(R + D k²): the share of the material's losses that a wave feels.
+    /// Share of the elastic energy that is bending, D k²/(R + D k²), from 0 to 1, at the wavenumber `k`
+    /// (rad/m): the share of the material's losses that a wave feels.
     pub fn bending_share(&self, k: f64) -> f64 {
         let bending = self.bending_stiffness * k * k;
         if bending > 0.0 { bending / (self.tension + bending) } else { 0.0 }
     }
 
-    /// Mass per area that moves, air included, in kg/m²; infinite where waves catch up with sound.
+    /// Mass per area that moves, air included, in kg/m², at the wavenumber `k` (rad/m) and angular frequency
+    /// `omega` (rad/s); infinite where waves catch up with sound.
     pub fn effective_density(&self, k: f64, omega: f64) -> f64 {
         if self.air_sides == 0.0 {
             return self.areal_density;
@@ -216,6 +222,7 @@ impl Medium {
         (square.conj() * rate).re / (2.0 * square.norm().powf(1.5))
     }
 
+    /// Wavenumber at which waves in vacuum are as fast as sound, in rad/m.
     fn coincidence_wavenumber(&self) -> Option<f64> {
         let excess = self.areal_density * AIR_CELERITY * AIR_CELERITY - self.tension;
         (excess > 0.0 && self.bending_stiffness > 0.0).then(|| (excess / self.bending_stiffness).sqrt())

@@ -1,4 +1,4 @@
-//! Why the physics of a surface could not be computed.
+//! Why the modes of a sheet could not be computed.
 
 use unripple_core::{OutOfRange, OutlineFault};
 
@@ -28,7 +28,7 @@ pub enum PhysicsError {
         max_hz: f64,
         /// The unknowns it takes.
         unknowns: usize,
-        /// The memory they take, in GiB.
+        /// The memory that they take, in GiB.
         needed_gib: f64,
         /// The memory allowed, in GiB.
         limit_gib: f64,
@@ -64,7 +64,7 @@ pub enum PhysicsError {
 }
 
 impl From<Vec<OutlineFault>> for PhysicsError {
-    /// The first of them.
+    /// The first of the faults, in words for people.
     fn from(faults: Vec<OutlineFault>) -> Self {
         let (expected, found) =
             faults.first().map_or(("a sheet", String::new()), |fault| (fault.expected(), fault.found()));

@@ -1,4 +1,4 @@
-//! What a sheet is made of, place by place.
+//! What a sheet is made of, place by place: mass per area, tension and bending stiffness.
 
 use crate::PhysicsError;
 use unripple_core::{Grain, Point, Profile, Scatterer, ScattererKind, Surface, require};
@@ -46,7 +46,7 @@ struct Layer {
 /// A disc glued to the sheet.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Disc {
-    /// Its centre.
+    /// Centre of the disc, in metres.
     pub(crate) at: Point,
     /// Its radius, in metres.
     pub(crate) radius: f64,
@@ -55,8 +55,11 @@ pub(crate) struct Disc {
     layer: Layer,
 }
 
+/// What a thickness, a mass or a radius has to be.
 const POSITIVE: &str = "a positive finite number";
+/// What a tension or a point mass has to be.
 const NOT_NEGATIVE: &str = "0 or more";
+/// What Poisson's ratio of an isotropic solid has to be.
 const POISSON: &str = "more than -1, at most 0.5";
 
 impl Fabric {
@@ -94,6 +97,7 @@ impl Fabric {
         Ok(fabric)
     }
 
+    /// Adds a scatterer: a mass at a point, or a disc glued on.
     fn fix(&mut self, scatterer: &Scatterer) -> Result<(), PhysicsError> {
         match scatterer.kind {
             ScattererKind::Mass(mass) => {
@@ -122,14 +126,15 @@ impl Fabric {
         self.nominal.bending.iter().any(|d| *d != 0.0)
     }
 
-    /// The sheet at a point, with what is glued on.
+    /// The sheet at a point (m), with what is glued on: mass in kg/m², tension in N/m, bending stiffness in
+    /// N·m.
     #[cfg(test)]
     pub(crate) fn at(&self, point: Point) -> Local {
         let on = self.discs.iter().filter(|disc| disc.at.distance(point) <= disc.radius);
         on.fold(self.bare(point), |sum, disc| sum.plus(&self.added_by(disc, point)))
     }
 
-    /// The bare sheet at a point.
+    /// The bare sheet at a point (m), in the same units.
     pub(crate) fn bare(&self, point: Point) -> Local {
         let factor = |p: &Option<Profile>| p.as_ref().map_or(1.0, |p| p.at(point, self.extent));
         let thickness = factor(&self.thickness);
@@ -141,7 +146,7 @@ impl Fabric {
         }
     }
 
-    /// What a disc adds to the bare sheet at a point under it.
+    /// What a disc adds to the bare sheet at a point (m) under it, in the same units.
     pub(crate) fn added_by(&self, disc: &Disc, point: Point) -> Local {
         let factor = self.thickness.as_ref().map_or(1.0, |p| p.at(point, self.extent));
         let sheet = Layer { thickness: self.layer.thickness * factor, ..self.layer };
@@ -149,7 +154,7 @@ impl Fabric {
         Local { mass: disc.mass, tension: 0.0, bending: std::array::from_fn(|i| both[i] - alone[i]) }
     }
 
-    /// The discs glued on.
+    /// The discs that are glued to the sheet.
     pub(crate) fn discs(&self) -> &[Disc] {
         &self.discs
     }

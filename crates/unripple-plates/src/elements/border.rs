@@ -2,13 +2,14 @@
 
 use unripple_core::{Edge, Point, Side};
 
-/// A turn of a curve, in radians, beyond which it is cut before it is integrated along.
+/// A turn of a curve, in radians, beyond which it is cut before it is integrated along. Doubled, a rule meets
+/// curves that turn by up to 1.6 rad, and converges the more slowly.
 const TURN: f64 = 0.8;
 
 /// One edge of a triangle, run through as a parameter goes from 0 to 1; the triangle lies to its left.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Border {
-    /// What it is a piece of.
+    /// The side of a rim, or the line, that it is a piece of.
     pub(crate) side: Side,
     /// The side's parameter where the border starts.
     pub(crate) from: f64,
@@ -19,12 +20,12 @@ pub(crate) struct Border {
 }
 
 impl Border {
-    /// A straight line inside the sheet.
+    /// A straight line inside the sheet, from one point to another (m).
     pub(crate) fn line(from: Point, to: Point) -> Self {
         Self { side: Side::Line { from, to }, from: 0.0, to: 1.0, held: None }
     }
 
-    /// The point at parameter `s`.
+    /// The point at parameter `s` (0 to 1), in metres.
     pub(crate) fn at(&self, s: f64) -> Point {
         self.side.at(self.from + s * (self.to - self.from))
     }
@@ -42,12 +43,12 @@ impl Border {
         ([d.x / size, d.y / size], [-d.y / size, d.x / size])
     }
 
-    /// Whether it is straight.
+    /// Whether it is straight, so that rules along it are exact.
     pub(crate) fn is_straight(&self) -> bool {
         self.side.is_straight()
     }
 
-    /// The piece of it between two of its parameters.
+    /// The piece of it between two of its parameters, 0 to 1.
     pub(crate) fn piece(&self, from: f64, to: f64) -> Self {
         let along = |s: f64| self.from + s * (self.to - self.from);
         Self { from: along(from), to: along(to), ..*self }

@@ -13,7 +13,8 @@ use super::topology::Topology;
 use crate::mesh::Mesh;
 use unripple_core::Edge;
 
-/// Part of a condition's size below which it adds nothing to those before it.
+/// Part of a condition's size, dimensionless, below which it adds nothing to those before it: between
+/// rounding and the angles at which sides meet. Doubled, conditions that differ by 2e-6 would count as one.
 const RANK: f64 = 1e-6;
 
 /// Sides that meet at an angle this near to a straight one, in radians, go on smoothly: a kink of rounded coordinates would
@@ -41,7 +42,7 @@ struct Meeting {
 }
 
 impl Corner {
-    /// The unknowns of a vertex; `bending` if the sheet resists it.
+    /// The unknowns of a vertex, by its index in the mesh; `bending` if the sheet resists it.
     pub(crate) fn of(mesh: &Mesh, topology: &Topology, vertex: usize, bending: bool) -> Self {
         let length = topology.lengths[vertex];
         let Some([leaves, arrives]) = topology.rim(vertex) else {
@@ -77,6 +78,7 @@ impl Corner {
         Self::held(length, rows, jumps.collect())
     }
 
+    /// A vertex inside the sheet: all six values are unknowns.
     fn whole(length: f64) -> Self {
         Self { count: 6, length, values: vec![(None, identity(6).concat())] }
     }
@@ -132,6 +134,7 @@ impl Meeting {
 
     /// Whether the rim goes on smoothly, held the same way.
     fn is_like(&self, other: &Self) -> bool {
+        // Equal but for the rounding of what two sides say of one vertex.
         let near = |a: f64, b: f64| (a - b).abs() < 1e-9;
         near(self.tangent[0], other.tangent[0])
             && near(self.tangent[1], other.tangent[1])
@@ -166,6 +169,7 @@ impl Meeting {
     }
 }
 
+/// The rows of an identity matrix, size x size.
 fn identity(size: usize) -> Vec<Vec<f64>> {
     (0..size).map(|i| (0..size).map(|j| f64::from(u8::from(i == j))).collect()).collect()
 }

@@ -16,9 +16,9 @@ use unripple_core::Point;
 pub(crate) struct Element {
     /// Where its monomials are centred.
     pub(crate) frame: Frame,
-    /// Its edges, anticlockwise.
+    /// Edges of the triangle, anticlockwise.
     pub(crate) borders: [Border; 3],
-    /// The unknowns it shares in.
+    /// Indices of the unknowns that its polynomials depend on.
     pub(crate) unknowns: Vec<usize>,
     /// Coefficients of the monomials, a row for each with a column for each unknown.
     pub(crate) basis: Vec<f64>,
@@ -27,13 +27,13 @@ pub(crate) struct Element {
 /// The middle of an edge: where the normal derivative is taken, and along what.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Middle {
-    /// The point.
+    /// Place of the edge's middle, in metres.
     pub(crate) at: Point,
     /// The unit normal, the same for the triangles on both sides.
     pub(crate) normal: [f64; 2],
     /// The edge's length, that makes the derivative dimensionless, in metres.
     pub(crate) length: f64,
-    /// The unknown; `None` where the derivative is zero.
+    /// Index of the unknown; `None` where the derivative is zero.
     pub(crate) unknown: Option<usize>,
 }
 
@@ -72,12 +72,12 @@ impl Element {
         Self { frame, borders, unknowns, basis }
     }
 
-    /// Number of monomials that its polynomials are made of.
+    /// Number of monomials that its polynomials are made of: 21 of a quintic, more along held curves.
     pub(crate) fn monomials(&self) -> usize {
         if self.unknowns.is_empty() { QUINTIC } else { self.basis.len() / self.unknowns.len() }
     }
 
-    /// What each unknown is multiplied by, from the monomials' values or derivatives at a point.
+    /// Weights of the unknowns, one number each, from the monomials' values or derivatives at a point.
     pub(crate) fn combine(&self, monomials: &[f64; COUNT]) -> Vec<f64> {
         let mut sums = vec![0.0; self.unknowns.len()];
         if sums.is_empty() {
@@ -115,7 +115,7 @@ fn functionals(frame: &Frame, vertices: &[Seen; 3], middles: &[Middle; 3]) -> [[
     rows
 }
 
-/// The inverse by Gauss and Jordan's elimination with partial pivoting.
+/// The inverse by Gauss-Jordan elimination with partial pivoting.
 fn inverse(mut a: [[f64; QUINTIC]; QUINTIC]) -> [[f64; QUINTIC]; QUINTIC] {
     let mut order = [0; QUINTIC];
     for k in 0..QUINTIC {

@@ -1,4 +1,4 @@
-//! Stiffness and mass of a whole sheet.
+//! Assembly of the stiffness and mass matrices of a whole sheet.
 
 use super::element::Element;
 use super::moments::{Form, Moments};
@@ -13,10 +13,11 @@ use pulp::{Arch, NullaryFnOnce};
 use rayon::prelude::*;
 use unripple_core::Edge;
 
-/// Triangles whose matrices are made before they are added up.
+/// Triangles whose matrices are made, by all threads, before one thread adds them up in order: so sums do not
+/// depend on the number of threads. Doubled, twice as many matrices are held at once.
 const BATCH: usize = 512;
 
-/// Unknowns taken at once.
+/// Unknowns taken at once: the numbers of a 512-bit register. Doubled, sums stay the same.
 const LANES: usize = 8;
 
 /// The symmetric forms of a sheet on a space's unknowns, all with the same pattern, both triangles of it.
@@ -87,6 +88,7 @@ fn add_point(mass: &mut [f64], weights: &[f64], added: f64) {
     }
 }
 
+/// Stiffness, bending and mass of one triangle, from its rules' points and the fabric there.
 fn shares(element: &Element, fabric: &Fabric, rules: &Rules) -> Shares {
     let frame = &element.frame;
     let mut moments = Moments::new(frame, element.monomials());

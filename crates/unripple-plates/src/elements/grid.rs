@@ -1,13 +1,15 @@
-//! Which triangle a point lies in.
+//! Point location: which triangle a point lies in.
 
 use super::element::Element;
 use crate::mesh::Mesh;
 use unripple_core::{Point, Side};
 
-/// A point this far outside, in units of a triangle's size, is on its edge.
+/// A point this far outside, in units of a triangle's size, is on its edge: some million times the rounding.
+/// Doubled, points twice as far outside keep their own place instead of the nearest of the rim.
 const ON: f64 = 1e-9;
 
 /// Points of a curve that a bounding box is made of, and the part of its size that lies beyond them at most.
+/// Doubled, boxes of curved triangles are tighter.
 const STEPS: usize = 8;
 
 /// Cells of a regular grid, each with the triangles whose bounding boxes meet it; and the rim by its sides.
@@ -58,7 +60,8 @@ impl Grid {
         [place(p.x - self.corner.x, self.columns), place(p.y - self.corner.y, self.rows)]
     }
 
-    /// The triangle a point lies in, and the point; of a point outside, the nearest of the rim.
+    /// Index of the triangle that a point (m) lies in, and the point; of a point outside, the nearest of the
+    /// rim.
     pub(crate) fn locate(&self, elements: &[Element], p: Point) -> (usize, Point) {
         let [i, j] = self.cell_of(p);
         let cell = j * self.columns + i;

@@ -1,4 +1,5 @@
-//! Continuously differentiable quintics on triangles, for tensioned plates of any outline.
+//! Finite elements of Argyris: continuously differentiable (C1) quintics on triangles, for tensioned plates
+//! of any outline.
 
 mod border;
 mod corner;

@@ -1,4 +1,4 @@
-//! Integrals of monomials times what the sheet is, and the forms of monomials made of them.
+//! Integrals of monomials times the sheet's mass, tension and stiffness, and the forms made of them.
 
 use super::monomials::{COUNT, EXPONENTS, Frame, HIGHEST};
 use crate::fabric::Local;
@@ -7,10 +7,10 @@ use unripple_core::Point;
 /// Integrals of x^a y^b, entry [a][b], in a triangle's own coordinates.
 type Table = [[f64; POWERS]; POWERS];
 
-/// Powers that products of two polynomials of the highest degree have.
+/// Number of powers that products of two polynomials of the highest degree have, from 0 to 14.
 const POWERS: usize = 2 * HIGHEST + 1;
 
-/// A form of monomials.
+/// A symmetric form of monomials, with an entry for each pair.
 pub(crate) type Form = [[f64; COUNT]; COUNT];
 
 /// The integrals that mass, tension and bending of one triangle are made of: mass per area, tension and D11, D12, D16, D22,
@@ -28,7 +28,7 @@ pub(crate) struct Moments {
 }
 
 impl Moments {
-    /// Nothing yet, for polynomials of so many monomials.
+    /// Nothing yet, for polynomials of `count` monomials.
     pub(crate) fn new(frame: &Frame, count: usize) -> Self {
         let none = [[0.0; POWERS]; POWERS];
         let [i, j] = EXPONENTS[count.clamp(1, COUNT) - 1];
@@ -36,7 +36,7 @@ impl Moments {
         Self { scale: frame.scale, count, degrees, mass: none, tension: none, bending: [none; 6] }
     }
 
-    /// Adds the integral over points and weights of a sheet that is the same everywhere.
+    /// Adds the integral over points (m) and weights (m²) of a sheet that is the same everywhere.
     pub(crate) fn add_even(&mut self, frame: &Frame, points: &[(Point, f64)], sheet: &Local) {
         let mut plain = [[0.0; POWERS]; POWERS];
         for (p, w) in points {
@@ -47,7 +47,7 @@ impl Moments {
         self.bending.iter_mut().zip(sheet.bending).for_each(|(table, d)| add(table, &plain, d));
     }
 
-    /// Adds the integral over points and weights of a sheet that varies.
+    /// Adds the integral over points (m) and weights (m²) of a sheet that varies.
     pub(crate) fn add_varying(
         &mut self,
         frame: &Frame,
@@ -64,12 +64,12 @@ impl Moments {
         }
     }
 
-    /// ∫ρ_s u v.
+    /// The form of kinetic energy, ∫ρ_s u v, in kg.
     pub(crate) fn mass(&self) -> Form {
         self.form(|[a, b], [c, d]| self.mass[a + c][b + d])
     }
 
-    /// ∫T ∇u·∇v.
+    /// The form of tension, ∫T ∇u·∇v, in J/m².
     pub(crate) fn tension(&self) -> Form {
         let unit = self.scale.powi(-2);
         let table = &self.tension;
@@ -80,7 +80,7 @@ impl Moments {
         })
     }
 
-    /// ∫κᵀ D κ, κ = (u_xx, u_yy, 2u_xy).
+    /// The form of bending, ∫κᵀ D κ with κ = (u_xx, u_yy, 2u_xy), in J/m².
     pub(crate) fn bending(&self) -> Form {
         let unit = self.scale.powi(-4);
         let curvatures = EXPONENTS.map(curvatures);
@@ -112,7 +112,8 @@ impl Moments {
     }
 }
 
-/// Which of D11, D12, D16, D22, D26, D66 stands between two curvatures.
+/// Index among D11, D12, D16, D22, D26, D66 of the one between two curvatures: Voigt's order of a symmetric
+/// matrix.
 const ENTRY: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
 
 /// Of a monomial, the factor and the exponents of u_xx, u_yy and 2u_xy.
@@ -125,6 +126,7 @@ fn curvatures([a, b]: [usize; 2]) -> [(f64, [usize; 2]); 3] {
     ]
 }
 
+/// Powers 0 to 14 of both coordinates.
 fn powers([x, y]: [f64; 2]) -> [[f64; POWERS]; 2] {
     let rise = |x: f64| {
         let mut p = [1.0; POWERS];

@@ -2,10 +2,11 @@
 
 use unripple_core::Point;
 
-/// The degree of a triangle's polynomials along held curves; of all others it is 5.
+/// The degree of a triangle's polynomials along held curves, by the bubbles that are added there; of all
+/// others it is 5.
 pub(crate) const HIGHEST: usize = 7;
 
-/// Number of monomials x^i y^j with i + j ≤ 5.
+/// Number of monomials x^i y^j with i + j ≤ 5: 21, as many as Argyris's values.
 pub(crate) const QUINTIC: usize = count(5);
 
 /// Number of monomials of the highest degree and less.
@@ -19,11 +20,12 @@ pub(crate) const fn count(degree: usize) -> usize {
     (degree + 1) * (degree + 2) / 2
 }
 
-/// Where the monomial of some exponents is among all.
+/// Index of the monomial of some exponents among all.
 pub(crate) const fn place([i, j]: [usize; 2]) -> usize {
     (i + j) * (i + j + 1) / 2 + j
 }
 
+/// All exponents, degree by degree.
 const fn exponents() -> [[usize; 2]; COUNT] {
     let mut all = [[0; 2]; COUNT];
     let (mut degree, mut next) = (0, 0);
@@ -41,9 +43,9 @@ const fn exponents() -> [[usize; 2]; COUNT] {
 /// Where a triangle's monomials are centred and the length they are scaled by.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
-    /// The centre.
+    /// Where the monomials are centred, in metres.
     pub(crate) centre: Point,
-    /// The length, in metres.
+    /// The length that coordinates are divided by, in metres.
     pub(crate) scale: f64,
 }
 
@@ -51,25 +53,26 @@ pub(crate) struct Frame {
 pub(crate) type Jets = [[f64; COUNT]; 6];
 
 impl Frame {
-    /// The frame of a straight triangle: its centroid, and the largest distance of a vertex from it.
+    /// The frame of a straight triangle: its centroid, and the largest distance of a vertex from it, in
+    /// metres.
     pub(crate) fn of(vertices: [Point; 3]) -> Self {
         let third = |f: fn(&Point) -> f64| vertices.iter().map(f).sum::<f64>() / 3.0;
         let centre = Point::new(third(|p| p.x), third(|p| p.y));
         Self { centre, scale: vertices.iter().map(|p| p.distance(centre)).fold(0.0, f64::max) }
     }
 
-    /// A point's coordinates in the frame.
+    /// A point's coordinates in the frame, dimensionless.
     pub(crate) fn local(&self, p: Point) -> [f64; 2] {
         [(p.x - self.centre.x) / self.scale, (p.y - self.centre.y) / self.scale]
     }
 
-    /// The monomials at a point.
+    /// Values of the monomials at a point (m), one per monomial.
     pub(crate) fn values(&self, p: Point) -> [f64; COUNT] {
         let [px, py] = self.local(p).map(powers);
         EXPONENTS.map(|[i, j]| px[i] * py[j])
     }
 
-    /// The monomials and their derivatives at a point, by metres.
+    /// The monomials and their derivatives by metres at a point (m): six rows of all monomials.
     pub(crate) fn jets(&self, p: Point) -> Jets {
         let [px, py] = self.local(p).map(derived);
         let product = |a: usize, b: usize| {

@@ -7,7 +7,8 @@ use crate::fabric::Disc;
 use std::f64::consts::TAU;
 use unripple_core::{Point, Side};
 
-/// Pieces of a curved edge among which crossings with a disc's rim are looked for.
+/// Pieces of a curved edge among which crossings with a disc's rim are looked for. Two crossings within one
+/// piece are missed; doubled, pieces are half as long.
 const PIECES: usize = 24;
 
 /// The pieces of borders, anticlockwise, around the part of a triangle under a disc; empty if there is none.

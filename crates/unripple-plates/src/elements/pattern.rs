@@ -1,4 +1,4 @@
-//! Which unknowns meet in a triangle.
+//! Sparsity pattern of the forms: which unknowns meet in a triangle.
 
 use super::space::Space;
 use faer::sparse::SymbolicSparseColMat;

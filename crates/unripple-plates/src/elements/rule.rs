@@ -31,7 +31,7 @@ impl Rules {
         Self { quintic: Rule::new(6 + more, 12 + more), higher: Rule::new(HIGHEST + 1 + more, 14 + more) }
     }
 
-    /// The rule for polynomials of so many monomials.
+    /// The rule for polynomials of a number of monomials.
     pub(crate) fn of(&self, monomials: usize) -> &Rule {
         if monomials <= QUINTIC { &self.quintic } else { &self.higher }
     }
@@ -56,7 +56,7 @@ impl Rule {
         points
     }
 
-    /// Points and weights over the region within closed borders, the region to their left.
+    /// Points (m) and weights (m²) over the region within closed borders, the region to their left.
     pub(crate) fn region(&self, borders: &[Border], points: &mut Vec<(Point, f64)>) {
         let share = 1.0 / borders.len().max(1) as f64;
         let mean = |f: fn(Point) -> f64| borders.iter().map(|b| share * f(b.at(0.0))).sum();
@@ -64,6 +64,7 @@ impl Rule {
         borders.iter().for_each(|border| self.cone(apex, border, points));
     }
 
+    /// Adds points and weights of the cone from an apex to a border, the weights signed.
     fn cone(&self, apex: Point, border: &Border, points: &mut Vec<(Point, f64)>) {
         for piece in border.pieces() {
             for &(s, ws) in if piece.is_straight() { &self.straight } else { &self.curved } {

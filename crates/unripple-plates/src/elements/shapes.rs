@@ -1,4 +1,4 @@
-//! Shapes of modes anywhere on a mesh.
+//! Mode shapes evaluated anywhere on a mesh.
 
 use super::space::Space;
 use faer::{Mat, MatRef};
@@ -6,10 +6,12 @@ use pulp::{Arch, NullaryFnOnce};
 use rayon::prelude::*;
 use unripple_core::{Point, Shapes};
 
-/// Modes summed at once.
+/// Modes summed at once: two cache lines of a row of coefficients. Doubled, more zeros are added to fill the
+/// last lanes.
 const LANES: usize = 16;
 
-/// Points whose shapes are taken by one thread at a time.
+/// Points whose shapes are taken by one thread at a time. Doubled, there are half as many tasks to share
+/// among threads.
 const POINTS: usize = 64;
 
 /// Mode shapes as combinations of a space's unknowns, in 1/√kg.

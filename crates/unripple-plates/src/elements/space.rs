@@ -1,4 +1,4 @@
-//! The space of continuously differentiable piecewise quintics on a mesh.
+//! The finite-element space of continuously differentiable (C1) piecewise quintics on a mesh.
 
 use super::border::Border;
 use super::corner::Corner;
@@ -15,7 +15,9 @@ use unripple_core::{Edge, Point};
 /// derivatives at the vertices and at points between. Eigenvalues converge as h⁸, of membranes as h¹⁰, on curved rims too.
 #[derive(Clone, Debug)]
 pub(crate) struct Space {
+    /// The triangles with their quintics, in the mesh's order.
     pub(super) elements: Vec<Element>,
+    /// The grid by which a point's triangle is found.
     pub(super) grid: Grid,
     unknowns: usize,
 }
@@ -62,17 +64,19 @@ impl Space {
         Self { elements, grid, unknowns }
     }
 
-    /// Number of unknowns.
+    /// Number of unknowns n: the size of all forms.
     pub(crate) fn unknowns(&self) -> usize {
         self.unknowns
     }
 
-    /// The triangle a point lies in, and the point; of a point outside, the nearest of the rim.
+    /// Index of the triangle that a point (m) lies in, and the point; of a point outside, the nearest of the
+    /// rim.
     pub(crate) fn locate(&self, point: Point) -> (usize, Point) {
         self.grid.locate(&self.elements, point)
     }
 
-    /// The unknowns that make u at a point, and what each is multiplied by. Of a point outside, the nearest of the rim.
+    /// Indices of the unknowns that make u at a point (m), and the weight of each. Of a point outside, the
+    /// nearest of the rim.
     pub(crate) fn weights(&self, point: Point) -> (&[usize], Vec<f64>) {
         let (element, point) = self.locate(point);
         let Some(element) = self.elements.get(element) else { return (&[], Vec::new()) };
@@ -80,7 +84,7 @@ impl Space {
     }
 
     #[cfg(test)]
-    /// As [`Space::weights`], for u, u_x, u_y, u_xx, u_xy and u_yy.
+    /// As [`Space::weights`], for u, u_x, u_y (1/m), u_xx, u_xy and u_yy (1/m²): six rows of weights.
     pub(crate) fn derivatives(&self, point: Point) -> (&[usize], [Vec<f64>; 6]) {
         let (element, point) = self.locate(point);
         let Some(element) = self.elements.get(element) else { return (&[], Default::default()) };

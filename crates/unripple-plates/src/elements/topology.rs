@@ -1,8 +1,8 @@
-//! What lies beside what in a mesh.
+//! Neighbours in a mesh: the triangles beside each edge, the fan around each vertex.
 
 use crate::mesh::Mesh;
 
-/// Neighbours within a mesh.
+/// Neighbours within a mesh: triangles beside edges, edges around vertices.
 #[derive(Debug)]
 pub(crate) struct Topology {
     /// Of each edge, the triangles on its sides.
@@ -16,7 +16,7 @@ pub(crate) struct Topology {
 /// A triangle at a vertex, and the edge by which the next one anticlockwise is reached.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct FanStep {
-    /// The triangle.
+    /// Index of the triangle.
     pub(crate) triangle: usize,
     /// The other end of the edge that leads on.
     pub(crate) towards: usize,
@@ -48,13 +48,14 @@ impl Topology {
         Self { beside, rims, lengths }
     }
 
-    /// The rim's edges that leave a vertex and arrive at it; `None` inside.
+    /// Indices of the rim's edges that leave a vertex and arrive at it; `None` inside.
     pub(crate) fn rim(&self, vertex: usize) -> Option<[usize; 2]> {
         let [leaves, arrives] = self.rims[vertex];
         Some([leaves?, arrives?])
     }
 
-    /// The triangles at a vertex of a rim, anticlockwise from the rim's edge that leaves it.
+    /// The triangles at a vertex of a rim, given by its index, anticlockwise from the rim's edge that leaves
+    /// it.
     pub(crate) fn fan(&self, mesh: &Mesh, vertex: usize) -> Vec<FanStep> {
         let mut steps = Vec::new();
         let mut next = self.rims[vertex][0].and_then(|e| self.beside[e][0]);

@@ -1,4 +1,4 @@
-//! Polynomials that hold a triangle down along curves.
+//! Bubble polynomials that impose the edge conditions along curved edges.
 //!
 //! A quintic that is held at two vertices of a curve only nearly vanishes between them, by the curve's distance from its chord times
 //! a slope, and a solution takes advantage of it: frequencies come out low, by h³ for a membrane. Polynomials
@@ -13,10 +13,12 @@ use faer::Mat;
 use unripple_core::{Edge, Point};
 use unripple_linalg::solve_lu;
 
-/// Points of a curve at which u vanishes, by their parameter from -1 to 1: zeros to the weight (1 - x²)³.
+/// Points of a curve at which u vanishes, by their parameter from -1 to 1: zeros of the Jacobi polynomial of
+/// degree 2 to the weight (1 - x²)³.
 const VALUES: [f64; 2] = [-1.0 / 3.0, 1.0 / 3.0];
 
-/// Points at which ∂u/∂n vanishes where it is held: zeros to the weight (1 - x²)², √(1/3).
+/// Points at which ∂u/∂n vanishes where it is held: zeros of the Jacobi polynomial of degree 3 to the weight
+/// (1 - x²)², 0 and √(1/3) by its equation.
 const SLOPES: [f64; 3] = [-0.577_350_269_189_625_8, 0.0, 0.577_350_269_189_625_8];
 
 /// A polynomial's coefficients.

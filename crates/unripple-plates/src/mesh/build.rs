@@ -13,19 +13,26 @@ use crate::PhysicsError;
 use unripple_core::plane::{Rims, circumcircle, cross, doubled, middle, minus, norm};
 use unripple_core::{Outline, Point};
 
-/// A circle through a triangle's vertices wider than this share of the edge length has room for another vertex.
+/// A circle through a triangle's vertices wider than this share of the edge length has room for another
+/// vertex: that of an equilateral triangle is 0.58 of it. Larger, more wide triangles stay; at 0.58 even good
+/// ones would be filled.
 const WIDE: f64 = 0.8;
-/// Least distance from others, as a share of the way across, of a vertex put halfway between rims.
+/// Least distance from others, as a share of the way across, of a vertex put halfway between rims: 0.5 is the
+/// middle between two. Above 0.5 none would ever be put there, and triangles would reach from rim to rim.
 const BETWEEN: f64 = 0.4;
-/// Rounds of filling, and of smoothing.
+/// Rounds of filling at most, each on triangles anew; it ends before if a round finds no room.
 const FILLS: usize = 3;
+/// Rounds of smoothing, each on triangles anew. Doubled, meshes take longer and triangles change little.
 const ROUNDS: usize = 4;
-/// How often rims are cut finer when triangles fail.
+/// How often rims are cut, twice as fine each time where curves or narrow places ask for it, before triangles
+/// are given up.
 const TRIES: i32 = 4;
 
 /// Triangles and where their vertices are.
 pub(super) struct Sketch {
+    /// Places of the vertices, in metres: those of the rims first.
     pub(super) points: Vec<Point>,
+    /// Indices of each triangle's vertices, anticlockwise.
     pub(super) triangles: Vec<[usize; 3]>,
 }
 
@@ -105,7 +112,8 @@ fn key([a, b]: [usize; 2]) -> (usize, usize) {
     (a.min(b), a.max(b))
 }
 
-/// Least share of a triangle's height that is left where its curved edge bulges into it.
+/// Least share of a triangle's height that is left where its curved edge bulges into it: above 0 the weights
+/// of the cone from the opposite vertex are positive, half is a margin. At 1 only straight edges would pass.
 const CLEAR: f64 = 0.5;
 
 /// Whether a triangle over a curved edge can be swept from the vertex opposite: that lies well to the left of all tangents.

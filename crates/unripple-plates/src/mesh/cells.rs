@@ -1,4 +1,4 @@
-//! A spatial hash of vertices and rim edges.
+//! A spatial hash of vertices and rim edges: what is near a place, in constant time.
 
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
@@ -50,9 +50,9 @@ struct Site {
 /// What is too near a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Near {
-    /// Nothing.
+    /// Nothing is that near.
     Nothing,
-    /// A vertex, the nearest.
+    /// The index of the nearest vertex.
     Vertex(usize),
     /// An edge of a rim.
     Rim,
@@ -65,6 +65,7 @@ pub(super) struct Cells {
     levels: Vec<i32>,
 }
 
+/// The power of two of a cell for edges of some length (m).
 fn level(size: f64) -> i32 {
     size.log2().ceil() as i32
 }
@@ -79,13 +80,16 @@ impl Cells {
         self.push(Site { at, vertex: Some(vertex), clear: 0.0 }, size);
     }
 
-    /// Adds a rim's edge: nothing may come into the circle around it.
+    /// Adds a rim's edge between two points (m): nothing may come into the circle around it.
     pub(super) fn guard(&mut self, a: Point, b: Point) {
         let length = a.distance(b);
         let at = Point::new(0.5 * (a.x + b.x), 0.5 * (a.y + b.y));
+        // A little more than the circle over the edge: a vertex in it would see the edge under an obtuse
+        // angle.
         self.push(Site { at, vertex: None, clear: 0.55 * length }, length);
     }
 
+    /// Puts a site into its cell of the level of edges of `size` (m).
     fn push(&mut self, site: Site, size: f64) {
         let level = level(size);
         let w = width(level);

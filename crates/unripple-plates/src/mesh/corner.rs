@@ -1,4 +1,4 @@
-//! Corners of an outline and the singularity there (Williams 1952).
+//! Corners of an outline and the singularity there (Williams 1952): how small edges must be.
 
 use super::williams::exponent;
 use crate::PhysicsError;
@@ -6,12 +6,16 @@ use std::f64::consts::PI;
 use unripple_core::plane::Rims;
 use unripple_core::{Edge, Outline};
 
-/// Edges are never made shorter than this share of the local size.
+/// Edges are never made shorter than this share of the local size: there coordinates have about seven digits
+/// left. Halved, the weakest corners get one more ring or two of triangles.
 const FLOOR: f64 = 1e-9;
-/// Powers up to which an element at a corner errs by the share `LOOSE` of the singular energy it holds, and by how much
-/// that share shrinks per power beyond, as e to the minus. See [`missed`].
+/// Up to this power an element at a corner errs by the share [`LOOSE`] of the singular energy it holds. See
+/// [`missed`].
 const ROUGH: f64 = 0.6;
+/// The share of the singular energy that an element at a corner misses at low powers, measured; see
+/// [`missed`].
 const LOOSE: f64 = 0.2;
+/// By how much that share shrinks per power beyond [`ROUGH`], as e to the minus, measured; see [`missed`].
 const DECAY: f64 = 5.0;
 
 /// A corner where two sides meet.
@@ -74,6 +78,7 @@ fn membrane(angle: f64, edges: [Edge; 2], most: f64) -> f64 {
     let step = PI / angle;
     let first = if edges[0].moves() == edges[1].moves() { step } else { 0.5 * step };
     let powers = (0..32).map(|k| first + f64::from(k) * step);
+    // Whole powers are polynomials, which elements hold exactly.
     powers.take_while(|p| *p < most).find(|p| (p - p.round()).abs() > 1e-5).unwrap_or(f64::INFINITY)
 }
 

@@ -1,12 +1,12 @@
-//! Triangles between given points, by `spade`.
+//! Constrained Delaunay triangulation of given points, by `spade`.
 
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 use unripple_core::Point;
 
 type Triangles = ConstrainedDelaunayTriangulation<Point2<f64>>;
 
-/// The constrained Delaunay triangles to the left of closed chains of edges, anticlockwise; `None` if points coincide or
-/// edges cross.
+/// The constrained Delaunay triangles to the left of closed chains of edges, anticlockwise, as indices of
+/// points (m); `None` if points coincide or edges cross.
 pub(super) fn triangulate(points: &[Point], rims: &[[usize; 2]]) -> Option<Vec<[usize; 3]>> {
     let places = points.iter().map(|p| Point2::new(p.x, p.y)).collect();
     let mut crossed = false;

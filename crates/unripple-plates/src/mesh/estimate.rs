@@ -9,12 +9,15 @@ use std::f64::consts::PI;
 use unripple_core::plane::{Bounds, Rims};
 use unripple_core::{Edge, OutOfRange, Outline, Point};
 
-/// Halvings of a cell after which its middle speaks for it.
+/// Halvings of a cell after which its middle speaks for it: 30 along each direction, a billionth of the
+/// outline. One more doubles the cells only where edges are wanted shorter than that.
 const DEEPEST: u32 = 60;
 
-/// Vertices that are counted one by one; of more, what rims and places ask for is only added up.
+/// Vertices that are counted one by one; of more, what rims and places ask for is only added up, so that an
+/// estimate takes little time.
 const COUNTED: f64 = 1e6;
-/// Most vertices of a mesh.
+/// Most vertices of a mesh: more would not fit into the memory that modes are allowed. Doubled, such a mesh
+/// is refused after it was estimated rather than at once.
 const MOST: f64 = 1e7;
 
 impl Mesh {
@@ -39,7 +42,7 @@ impl Mesh {
     }
 }
 
-/// A typed error if a mesh would have more vertices than can be handled.
+/// A typed error if a mesh of an area (m²) would have more vertices than can be handled.
 pub(super) fn check_count(rims: &Rims, area: f64, sizing: &Sizing) -> Result<(), PhysicsError> {
     let count = rough(rims, area, sizing);
     if count <= MOST {

@@ -6,7 +6,7 @@ use unripple_core::plane::{Bounds, Node, Tree};
 /// Where edges of some length are wanted.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Source {
-    /// The place.
+    /// Place around which the length is wanted, in metres.
     pub(super) at: Point,
     /// How far around it the length holds, in metres.
     pub(super) reach: f64,
@@ -23,12 +23,14 @@ pub(super) struct Field {
 }
 
 /// By how much edges grow per distance: along a line to a source each is e^0.65 = 1.9 times the one before.
+/// Doubled, meshes have fewer triangles, of worse shape.
 pub(super) const GROWTH: f64 = 0.65;
-/// A source that wants nearly the common length, as a share of it, is none.
+/// A source that wants nearly the common length, as a share of it, is none: it would cost a search at every
+/// place for edges 15 % shorter.
 const NEARLY: f64 = 0.85;
 
 impl Field {
-    /// A field of edges no longer than `size`.
+    /// A field of edges no longer than `size` (m).
     pub(super) fn new(size: f64, sources: impl IntoIterator<Item = Source>) -> Self {
         let sources: Vec<Source> = sources.into_iter().filter(|s| s.edge < NEARLY * size).collect();
         let boxes: Vec<(Bounds, f64)> =
@@ -36,7 +38,7 @@ impl Field {
         Self { size, tree: Tree::new(&boxes), sources }
     }
 
-    /// The edge length wanted at a point.
+    /// The edge length wanted at a point (m), in metres.
     pub(super) fn at(&self, p: Point) -> f64 {
         let mut least = self.size;
         let open = |least: &f64, node: &Node| node.least + GROWTH * node.bounds.distance(p) < *least;

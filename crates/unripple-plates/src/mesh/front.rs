@@ -11,13 +11,14 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use unripple_core::Point;
 use unripple_core::plane::{Rims, along, doubled, middle, minus, norm, turned};
 
-/// A vertex nearer than this share of the edge length is taken for the one wanted.
+/// A vertex nearer than this share of the edge length is taken for the one wanted. Doubled (above 1), no new
+/// vertex would ever be far enough from the one before.
 const SAME: f64 = 0.72;
 
 /// Points that become vertices; those of the rims come first, and then those that must stay in place.
 #[derive(Clone, Debug)]
 pub(super) struct Cloud {
-    /// Where they are.
+    /// Places of the points, in metres.
     pub(super) points: Vec<Point>,
     /// Edges wanted there, in metres.
     pub(super) sizes: Vec<f64>,
@@ -27,7 +28,9 @@ pub(super) struct Cloud {
 
 /// A cloud while it grows.
 pub(super) struct Front<'a> {
+    /// The points so far.
     pub(super) cloud: Cloud,
+    /// The points by where they are, for what is too near.
     pub(super) cells: Cells,
     field: &'a Field,
     region: &'a Region,
@@ -37,7 +40,7 @@ pub(super) struct Front<'a> {
 }
 
 impl<'a> Front<'a> {
-    /// The rims and the places wanted.
+    /// A front of the rims, with vertices at the places wanted (m).
     pub(super) fn new(rims: &Rims, cut: &'a Cut, region: &'a Region, places: &[Point]) -> Self {
         let points: Vec<Point> = cut.vertices.iter().map(|v| v.at).collect();
         let mut sizes = vec![f64::INFINITY; points.len()];
@@ -105,12 +108,12 @@ impl<'a> Front<'a> {
         }
     }
 
-    /// Adds a point, unless it is outside or too near others.
+    /// Adds a point (m) and returns its index, unless it is outside or too near others.
     pub(super) fn put(&mut self, p: Point) -> Result<usize, Near> {
         self.put_apart(p, SAME * self.field.at(p))
     }
 
-    /// Adds a point, unless it is outside or others are nearer than a distance (m).
+    /// Adds a point (m) and returns its index, unless it is outside or others are nearer than `apart` (m).
     pub(super) fn put_apart(&mut self, p: Point, apart: f64) -> Result<usize, Near> {
         let size = self.field.at(p);
         match self.cells.near(p, size, apart) {
@@ -125,6 +128,7 @@ impl<'a> Front<'a> {
         }
     }
 
+    /// Puts a pair of points in line for a third, unless it was there before.
     fn wait(&mut self, pair: [usize; 2]) {
         let [a, b] = pair.map(|i| self.cloud.points[i]);
         let (length, size) = (a.distance(b), self.field.at(middle(a, b)));
@@ -134,7 +138,7 @@ impl<'a> Front<'a> {
         }
     }
 
-    /// Fills the region.
+    /// Fills the region, the shortest pairs first.
     pub(super) fn advance(&mut self) {
         while let Some(Reverse((_, _, pair))) = self.waiting.pop() {
             let third = match self.put(self.apex(pair)) {

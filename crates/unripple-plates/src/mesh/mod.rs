@@ -1,4 +1,4 @@
-//! Triangles that cover a sheet, small where they must be.
+//! Triangular meshes that cover a sheet: graded, and small where they must be.
 
 mod build;
 mod cells;
@@ -27,9 +27,9 @@ pub(crate) struct Mesh {
     pub(crate) sides: Vec<(Side, Edge)>,
     /// The vertices; those on a rim lie on their sides exactly.
     pub(crate) vertices: Vec<Vertex>,
-    /// The edges.
+    /// Edges of the triangles, each once.
     pub(crate) edges: Vec<MeshEdge>,
-    /// The triangles.
+    /// Triangles, anticlockwise, that cover the sheet.
     pub(crate) triangles: Vec<Triangle>,
 }
 
@@ -56,7 +56,7 @@ pub(crate) struct MeshEdge {
 /// A piece of a side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Span {
-    /// Which side.
+    /// Index of the side among [`Mesh::sides`].
     pub(crate) side: usize,
     /// Parameter at the edge's first end.
     pub(crate) from: f64,

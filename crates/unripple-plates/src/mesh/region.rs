@@ -11,13 +11,13 @@ pub(super) struct Region {
 }
 
 impl Region {
-    /// The region to the left of chords that close.
+    /// The region to the left of chords (m) that close.
     pub(super) fn new(chords: Vec<[Point; 2]>) -> Self {
         let boxes: Vec<(Bounds, f64)> = chords.iter().map(|ends| (Bounds::around(ends, 0.0), 0.0)).collect();
         Self { tree: Tree::new(&boxes), chords }
     }
 
-    /// Whether a point lies within.
+    /// Whether a point (m) lies within.
     pub(super) fn contains(&self, p: Point) -> bool {
         let mut inside = false;
         let open = |_: &bool, node: &Node| {

@@ -1,4 +1,4 @@
-//! Rims cut into edges.
+//! Rims cut into edges as the sizing, curvature and narrow places ask.
 
 use super::field::{Field, Source};
 use super::sizing::Sizing;
@@ -7,15 +7,18 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use unripple_core::plane::{Rims, norm, turned};
 use unripple_core::{Edge, Point};
 
-/// Most that a rim's edge turns, in radians: a small hole gets at least 14 edges.
+/// Most that a rim's edge turns, in radians: a small hole gets at least 14 edges. Doubled, 7.
 const TURN: f64 = 0.45;
-/// Most that a rim's edge measures of the way across the sheet.
+/// Most that a rim's edge measures of the way across the sheet. Doubled, edges would be longer than narrow
+/// places are wide.
 const GAP: f64 = 0.7;
-/// Steps per edge when the length of a side is measured in edges.
+/// Steps per edge when the length of a side is measured in edges: so the wanted length is sampled six times
+/// along each. Doubled, cutting takes twice as long.
 const STEPS: f64 = 6.0;
 /// Shortest edge there is, as a share of the extent: above what coordinates resolve.
 const SHORTEST: f64 = 1e-12;
-/// Rounds in which short edges on one side shorten those nearby.
+/// Rounds in which short edges on one side shorten those nearby. More change edges far from short ones only,
+/// and little.
 const ROUNDS: usize = 3;
 
 /// The rims cut into edges.
@@ -85,6 +88,7 @@ impl Wanted<'_> {
         let inward = turned(Point::new(d.x / norm(d), d.y / norm(d)), FRAC_PI_2);
         let share = GAP / self.finer;
         let gap = self.rims.gap(side, t, inward, held / share) * share;
+        // Where curvature is infinite or a gap nothing, edges still have some length.
         let least = 1e-7 * self.rims.extent;
         held.min(bend.max(least)).min(gap.max(least))
     }
@@ -109,6 +113,7 @@ impl Wanted<'_> {
         let step_to = |t: f64, length: f64| (t + length / norm(curve.derivative(t)).max(1e-9)).min(1.0);
         while t < 1.0 {
             let here = self.limit(side, t).min(field.at(curve.at(t)));
+            // No step passes over more than a twentieth of the side's parameter.
             let mut end = step_to(t, here.max(least) / STEPS).min(t + 0.05);
             end = if end > 1.0 - 1e-14 || end <= t { 1.0 } else { end };
             let half = 0.5 * (t + end);
@@ -119,6 +124,7 @@ impl Wanted<'_> {
         }
         let rim = self.rims.loops.iter().find(|rim| rim.contains(&side)).map_or(3, |rim| rim.len());
         let fewest = if rim < 3 { 4 / rim } else { 1 };
+        // A tenth of an edge that is left over is spread over the others.
         let count = ((edges - 0.1).ceil() as usize).max(fewest);
         let places: Vec<f64> = (0..=count).map(|i| place(&table, edges, i, count)).collect();
         places.windows(2).map(|w| Span { side, from: w[0], to: w[1] }).collect()
@@ -164,7 +170,7 @@ fn join(rims: &Rims, spans: &[Vec<Span>], field: impl Fn(&mut dyn Iterator<Item 
     Cut { vertices, edges, starts, field }
 }
 
-/// How many triangles meet best at a corner of some angle.
+/// Number of triangles that meet best at a corner of some angle (rad): about 60° each.
 pub(super) fn fan(angle: f64) -> usize {
     ((angle / (PI / 3.0)).round() as usize).max(1)
 }

@@ -20,13 +20,14 @@ pub(crate) struct Sizing {
 }
 
 impl Sizing {
-    /// Edges of one length everywhere.
+    /// Edges of one length `size` (m) everywhere.
     #[cfg(test)]
     pub(crate) fn even(size: f64) -> Self {
         Self { size, near: Vec::new(), corners: Vec::new(), edge_size: None }
     }
 
-    /// The same with edges short enough at the corners of an outline for eigenvalues of some relative accuracy.
+    /// The same with edges short enough at the corners of an outline for eigenvalues of the relative
+    /// `accuracy`.
     pub(crate) fn refined(mut self, corners: &[Corner], bending: bool, accuracy: f64) -> Self {
         let smallest = |corner: &Corner| {
             let share = smallest_edge(corner.angle, corner.edges, bending, accuracy);

@@ -4,13 +4,15 @@ use faer::c64;
 use std::f64::consts::PI;
 use unripple_core::Edge;
 
-/// Poisson's ratio where an edge is free. The powers change little with it.
+/// Poisson's ratio where an edge is free, a common one: the powers change little with it.
 const POISSON: f64 = 0.3;
-/// Powers this near to a whole number are taken for it: the solution is a polynomial.
+/// Powers this near to a whole number are taken for it: the solution is a polynomial, which elements hold
+/// exactly. Above the error of Newton's method, 1e-9.
 const WHOLE: f64 = 1e-5;
-/// Spacing of the places where roots are looked for, along the real and the imaginary axis.
+/// Spacing of the places where roots are looked for, along the real and the imaginary axis. Doubled, Newton's
+/// method may pass from two neighbours to the same root and miss one between.
 const STEP: [f64; 2] = [0.1, 0.4];
-/// How many of them along the imaginary axis.
+/// How many of them along the imaginary axis: up to 1.2. More find roots that oscillate faster.
 const ROWS: u32 = 4;
 
 /// The least real part of z > 0, z no whole number, below `most`, so that a deflection as r^(z + 1) satisfies the
@@ -25,6 +27,7 @@ pub(super) fn exponent(angle: f64, edges: [Edge; 2], most: f64) -> f64 {
         for i in 0..ROWS {
             if let Some(z) = root(angle, edges, c64::new(from, f64::from(i) * STEP[1])) {
                 let whole = z.im.abs() < WHOLE && (z.re - z.re.round()).abs() < WHOLE;
+                // At z = 0 the deflection is a rigid rotation.
                 if z.re > 0.01 && z.re < best && !whole {
                     best = z.re;
                 }
@@ -44,6 +47,7 @@ fn supported(angle: f64, most: f64) -> f64 {
 
 /// The root that Newton's method finds from a place.
 fn root(angle: f64, edges: [Edge; 2], from: c64) -> Option<c64> {
+    // Half the step of a central difference: its error is 1e-10, that of rounding 1e-11.
     const D: f64 = 1e-5;
     let f = |z: c64| determinant(angle, edges, z);
     let mut z = from;
@@ -53,6 +57,7 @@ fn root(angle: f64, edges: [Edge; 2], from: c64) -> Option<c64> {
         if !step.norm().is_finite() {
             return None;
         }
+        // Short steps keep Newton's method near the place it started from.
         z -= step * (0.3 / step.norm()).min(1.0);
         if (z - from).norm() > 1.0 {
             return None;

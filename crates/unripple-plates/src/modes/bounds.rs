@@ -10,7 +10,7 @@ use unripple_core::{Decay, Surface, require};
 pub(crate) struct Bounds {
     /// The sheet, with its air.
     pub(crate) medium: Medium,
-    /// Poisson's ratio.
+    /// Poisson's ratio of the sheet, dimensionless.
     pub(crate) poisson: f64,
     /// Top frequency, in Hz.
     pub(crate) max_hz: f64,
@@ -21,7 +21,7 @@ pub(crate) struct Bounds {
 }
 
 impl Bounds {
-    /// The bounds of a surface's modes.
+    /// The bounds of a surface's modes up to `max_hz` (Hz), to a relative `accuracy` of their frequencies.
     ///
     /// # Errors
     /// [`PhysicsError::Range`] for values that cannot be.

@@ -1,8 +1,8 @@
-//! Gauss-Legendre quadrature.
+//! Gauss-Legendre quadrature: nodes and weights by Newton's method.
 
 use std::f64::consts::PI;
 
-/// Gauss–Legendre nodes and weights on [-1, 1], exact for polynomials of degree 2·`count` - 1.
+/// Gauss-Legendre nodes and weights on [-1, 1], `count` pairs, exact for polynomials of degree 2·`count` - 1.
 ///
 /// Newton's method on the three-term recurrence from the cosine estimate (Davis and Rabinowitz, *Methods of Numerical
 /// Integration*, 1984).

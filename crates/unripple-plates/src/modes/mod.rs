@@ -1,4 +1,4 @@
-//! Modes of any sheet.
+//! Normal modes of any sheet: natural frequencies, decay rates and mass-normalised shapes.
 
 mod bounds;
 pub(crate) mod eigen;
@@ -15,8 +15,10 @@ use unripple_core::{Point, Pole, Shapes, Surface};
 
 pub use legendre::gauss;
 
-/// Memory that a solution may take, in bytes.
+/// Memory that a solution may take, in bytes. Doubled, top frequencies may be about 1.4 times as high before
+/// they are refused.
 const MEMORY: f64 = 4.0 * GIB;
+/// Bytes of a GiB, 2³⁰ by definition.
 const GIB: f64 = (1u64 << 30) as f64;
 
 /// The modes of a surface: frequencies, decay and mass-normalised shapes.
@@ -119,7 +121,7 @@ impl Modes {
         &self.bending_shares
     }
 
-    /// Largest relative error of a frequency, as estimated; 0 where modes are exact.
+    /// Largest relative error of a frequency, dimensionless, as estimated; 0 where modes are exact.
     pub fn error(&self) -> f64 {
         self.error
     }

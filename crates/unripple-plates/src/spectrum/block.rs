@@ -1,4 +1,4 @@
-//! Some eigenpairs, and their residuals.
+//! A block of eigenpairs, and their residuals.
 
 use super::panel::{LANES, Panel, Row};
 use super::pencil::Pencil;
@@ -8,10 +8,10 @@ use faer::prelude::ReborrowMut;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Some eigenpairs.
+/// A block of eigenpairs found at one shift, ascending.
 #[derive(Debug, Default)]
 pub(super) struct EigenBlock {
-    /// λ of each.
+    /// Eigenvalues λ, ascending.
     pub(super) values: Vec<f64>,
     /// Norm in M of (K - σM)⁻¹Mx - x/(λ-σ), times abs(λ-σ), of each.
     pub(super) residuals: Vec<f64>,
@@ -24,18 +24,19 @@ pub(super) struct EigenBlock {
 }
 
 impl EigenBlock {
-    /// Eigenpairs ascending, their vectors one after the other in panels.
+    /// Eigenpairs ascending, their vectors one after the other in panels; `left` is the number of values
+    /// below the shift.
     pub(super) fn new(values: Vec<f64>, residuals: Vec<f64>, panels: Vec<Panel>, left: usize) -> Self {
         let places = (0..values.len()).map(|i| (i / LANES, i % LANES)).collect();
         Self { values, residuals, places, panels, left }
     }
 
-    /// Values above the shift.
+    /// Eigenvalues λ above the shift, ascending.
     pub(super) fn right(&self) -> &[f64] {
         &self.values[self.left..]
     }
 
-    /// Forgets the eigenpairs outside a range of numbers.
+    /// Forgets the eigenpairs outside a range of indices.
     pub(super) fn keep(&mut self, range: Range<usize>) {
         let mut used = vec![[0.0; LANES]; self.panels.len()];
         self.places[range.clone()].iter().for_each(|(panel, lane)| used[*panel][*lane] = 1.0);
@@ -75,7 +76,8 @@ impl EigenBlock {
     }
 }
 
-/// All values below `top`, ascending, and their vectors in the given order and scale of unknowns.
+/// All values λ below `top`, ascending, and their vectors, unknowns x pairs, in the given order and scale of
+/// unknowns.
 pub(super) fn gather(pencil: &Pencil, pieces: &[EigenBlock], top: f64) -> (Vec<f64>, Mat<f64>) {
     let mut pairs: Vec<(f64, usize, (usize, usize))> = Vec::new();
     for (p, piece) in pieces.iter().enumerate() {
@@ -87,6 +89,7 @@ pub(super) fn gather(pencil: &Pencil, pieces: &[EigenBlock], top: f64) -> (Vec<f
     let mut rows = vec![0; n];
     pencil.order.iter().enumerate().for_each(|(new, old)| rows[*old] = new);
     let mut vectors = Mat::zeros(n, pairs.len());
+    // Rows per task: small enough to share among threads, large enough that a task is worth starting.
     const ROWS: usize = 128;
     vectors.as_mut().par_row_chunks_mut(ROWS).zip(rows.par_chunks(ROWS)).for_each(|(mut vectors, rows)| {
         for (column, (_, piece, (panel, lane))) in vectors.rb_mut().col_iter_mut().zip(&pairs) {

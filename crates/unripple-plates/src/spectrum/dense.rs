@@ -10,7 +10,8 @@ use faer::linalg::solvers::Llt;
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
 use faer::{Mat, Par, Side};
 
-/// The shift below zero, as a part of the bound: K may be singular, K + τM is not.
+/// The shift below zero, as a part of the bound: K may be singular, K + τM is not. Rounding is of the scale
+/// of λ + τ: doubled, it doubles for the lowest λ; much smaller, K + τM is singular but for rounding.
 const SHIFT: f64 = 1e-3;
 
 /// All eigenpairs below a bound, or a little above where factors there are better.

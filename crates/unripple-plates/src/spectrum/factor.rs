@@ -15,13 +15,14 @@ use faer::sparse::linalg::cholesky::supernodal::{
 /// K - σM = L D Lᵀ, without exchange of rows or columns but those of the pencil's order.
 #[derive(Debug)]
 pub(super) struct Factor<'a> {
-    /// σ.
+    /// The shift σ at which it was factorised.
     pub(super) shift: f64,
     /// Number of negative pivots: by Sylvester's law of inertia that of eigenvalues below σ.
     pub(super) below: usize,
     /// How far |L||D||Lᵀ| exceeds the matrix's diagonal, where most: rounding changes the matrix by that much more than
     /// its own.
     pub(super) growth: f64,
+    /// L and D, supernode by supernode.
     pub(super) nodes: Nodes<'a>,
 }
 
@@ -35,7 +36,7 @@ pub(super) struct Nodes<'a> {
     inverse_pivots: Vec<f64>,
 }
 
-/// One supernode.
+/// One supernode: columns of L that share their pattern of rows.
 pub(super) struct Node<'a> {
     /// Its first column.
     pub(super) start: usize,
@@ -47,12 +48,12 @@ pub(super) struct Node<'a> {
     pub(super) top: &'a [[f64; TILE]],
     /// The rows below; each tile has all columns.
     pub(super) below: &'a [[f64; TILE]],
-    /// 1/D.
+    /// Inverses 1/D of the pivots, one per column.
     pub(super) inverse_pivots: &'a [f64],
 }
 
 impl<'a> Factor<'a> {
-    /// Factors at one shift; `None` if a pivot is zero or not finite.
+    /// Factors at one shift σ (in λ's unit, 1/s²); `None` if a pivot is zero or not finite.
     ///
     /// # Errors
     /// [`SpectrumError::Matrices`] if memory does not hold them.
@@ -107,6 +108,7 @@ fn pivots(factor: SupernodalLdltRef<usize, f64>, diagonal: &[f64]) -> Option<(us
 }
 
 impl<'a> Nodes<'a> {
+    /// Copies a factor, column by column, into tiles of rows.
     fn new(supernodes: &'a SymbolicSupernodalCholesky<usize>, factor: SupernodalLdltRef<usize, f64>) -> Self {
         let mut tiles = Vec::with_capacity(factor.values().len().div_ceil(TILE) * 9 / 8);
         let (mut starts, mut inverse_pivots) = (Vec::new(), Vec::new());
@@ -145,7 +147,7 @@ impl<'a> Nodes<'a> {
         self.starts.len() - 1
     }
 
-    /// One supernode.
+    /// One supernode, by its index.
     #[inline(always)]
     pub(super) fn at(&self, s: usize) -> Node<'_> {
         let start = self.supernodes.supernode_begin()[s];

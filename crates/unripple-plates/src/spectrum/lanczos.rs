@@ -10,16 +10,20 @@ use crate::modes::eigen::{Method, symmetric};
 use faer::Mat;
 use unripple_core::Random;
 
-/// Ratio of the smallest to the largest pivot of a panel's Gram matrix, its columns scaled to one, below which rounding
-/// calls for another pass.
+/// Ratio of the smallest to the largest pivot of a panel's Gram matrix, its columns scaled to one, below
+/// which rounding calls for another pass: above it two digits are lost at most. Nearer to 1, panels take more
+/// passes.
 const WELL: f64 = 1e-2;
-/// The ratio below which that pass goes over all panels.
+/// The ratio below which that pass goes over all panels and not over the panel alone.
 const ILL: f64 = 1e-4;
-/// Passes at most.
+/// Passes at most, of Gram-Schmidt orthogonalisation: more than two are taken where vectors are nearly
+/// dependent or replaced.
 const PASSES: usize = 6;
-/// Part of a vector that may be taken from it without weighing it again.
+/// Part of a vector that may be taken from it without weighing it again (multiplying it by M): some hundred
+/// roundings. Smaller, nearly every pass would multiply by M.
 const ROUNDING: f64 = 1e-13;
-/// What remains of a vector, relatively, if it lay among the others but for rounding.
+/// What remains of a vector, relatively, if it lay among the others but for rounding: a random one takes its
+/// place.
 const NOTHING: f64 = 1e-14;
 
 /// Block Lanczos iteration on (K - σM)⁻¹M (Grimes, Lewis and Simon, *SIAM J. Matrix Anal. Appl.* 15, 228, 1994), a panel
@@ -55,7 +59,7 @@ pub(super) struct Ritz {
 }
 
 impl<'a> Lanczos<'a> {
-    /// A basis of one panel, M-orthogonal to known eigenvectors.
+    /// A basis of one panel, M-orthogonal to known eigenvectors; `seed` gives its random numbers.
     ///
     /// # Errors
     /// [`SpectrumError::Matrices`] if M is not positive definite.
@@ -88,7 +92,7 @@ impl<'a> Lanczos<'a> {
         self.diagonal.len() * LANES
     }
 
-    /// Number of vectors there is no room beside.
+    /// Number of vectors that are taken, so that no others fit beside: the known ones and the basis.
     pub(super) fn taken(&self) -> usize {
         self.panels.len() * LANES
     }
@@ -115,8 +119,8 @@ impl<'a> Lanczos<'a> {
         Ok(())
     }
 
-    /// Makes a panel M-orthonormal, also to all others, and appends it. What comes back are the coefficients of the panel
-    /// given in the one appended.
+    /// Makes a panel M-orthonormal, also to all others, by block Gram-Schmidt with reorthogonalisation, and
+    /// appends it. What comes back are the coefficients of the panel given in the one appended.
     fn append(&mut self, mut new: Panel) -> Result<Square, SpectrumError> {
         let (arch, pencil) = (self.pencil.arch, self.pencil);
         let mut coefficients = identity();
@@ -196,7 +200,8 @@ impl<'a> Lanczos<'a> {
         Some(Ritz { residuals: residuals.collect(), inverses, vectors })
     }
 
-    /// Vectors of the space from those in the basis, numbered; the last panel is filled up with zeros.
+    /// Vectors of the space from those in the basis, by their indices; the last panel is filled up with
+    /// zeros.
     pub(super) fn vectors(&self, ritz: &Ritz, numbers: &[usize]) -> Vec<Panel> {
         let panels = &self.panels[self.known..][..self.diagonal.len()];
         let mut out = Vec::new();

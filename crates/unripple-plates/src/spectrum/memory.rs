@@ -1,10 +1,12 @@
-//! Memory that an eigenvalue problem will take.
+//! Memory that an eigenvalue problem will take, estimated before any is taken.
 
 use super::plan::{KEPT, SHARE};
 
-/// Entries of the matrices in each row, about.
+/// Entries of the matrices in each row, about: those of quintic elements on a surface. Doubled, small problems
+/// would be taken for twice as large.
 const ROW: f64 = 45.0;
-/// Vectors of a basis for a whole share of eigenpairs.
+/// Vectors of a basis for a whole share of eigenpairs: 160 and what the iteration takes beyond. Doubled,
+/// problems would be refused that fit.
 const BASIS: f64 = 300.0;
 
 /// Bytes that [`below`](super::below) takes for `wanted` eigenpairs of `n` unknowns, roughly.

@@ -3,25 +3,28 @@
 use super::small::Square;
 use pulp::{Arch, NullaryFnOnce};
 
-/// Vectors of a panel.
+/// Vectors of a panel: the numbers of a 512-bit register. Doubled, a matrix is read half as often, and bases
+/// grow in coarser steps than eigenpairs ask for.
 pub(super) const LANES: usize = 8;
 
 /// One entry of each vector of a panel.
 pub(super) type Row = [f64; LANES];
 
-/// [`LANES`] vectors.
+/// A block of [`LANES`] vectors, row by row.
 pub(super) type Panel = Vec<Row>;
 
-/// A row of zeros.
+/// A row of zeros, where sums start.
 pub(super) const NONE: Row = [0.0; LANES];
 
-/// Rows of a panel that stay in the processor's nearest cache.
+/// Rows of a panel that stay in the processor's nearest cache: 8 KiB of each of two panels. Doubled, results
+/// stay the same but for rounding.
 const CHUNK: usize = 128;
 
-/// Rows that are worked on at once.
+/// Rows that are worked on at once, so that their sums stay in registers: eight of AVX2's sixteen. Doubled,
+/// they would take all.
 pub(super) const TILE: usize = 4;
 
-/// sum ← sum + factor · row.
+/// Adds a row times a factor: sum ← sum + factor · row.
 #[inline(always)]
 pub(super) fn add(sum: &mut Row, factor: f64, row: &Row) {
     for (s, r) in sum.iter_mut().zip(row) {
@@ -29,7 +32,7 @@ pub(super) fn add(sum: &mut Row, factor: f64, row: &Row) {
     }
 }
 
-/// XᵀZ for each X of some panels.
+/// Gram matrices XᵀZ of each X of some panels, each lanes x lanes.
 pub(super) fn project<'a>(arch: Arch, panels: impl IntoIterator<Item = &'a Panel>, z: &[Row]) -> Vec<Square> {
     let panels: Vec<&Panel> = panels.into_iter().collect();
     arch.dispatch(Project { panels: &panels, z })
@@ -40,7 +43,7 @@ pub(super) fn subtract(arch: Arch, panels: &[Panel], factors: &[Square], w: &mut
     arch.dispatch(Subtract { panels, factors, w });
 }
 
-/// W ← W C.
+/// Replaces W by W C, a panel times a small matrix.
 pub(super) fn transform(arch: Arch, factor: &Square, w: &mut [Row]) {
     arch.dispatch(Transform { factor, w });
 }

@@ -34,8 +34,11 @@ pub(super) struct Pencil {
 /// Lower triangles of two symmetric matrices, column by column.
 #[derive(Debug)]
 pub(super) struct Lower {
+    /// The pattern of both.
     pub(super) pattern: SymbolicSparseColMat<usize>,
+    /// Entries of K, in the pattern's order.
     pub(super) stiffness: Vec<f64>,
+    /// Entries of M, in the pattern's order.
     pub(super) mass: Vec<f64>,
 }
 
@@ -82,12 +85,12 @@ impl Pencil {
         Ok(Self { order, scale, lower, rows, symbolic, arch: Arch::new() })
     }
 
-    /// Number of unknowns.
+    /// Number of unknowns n: the size of both matrices.
     pub(super) fn len(&self) -> usize {
         self.order.len()
     }
 
-    /// The structure of the factors, always one of supernodes.
+    /// Structure of the factors, n x n, always one of supernodes.
     pub(super) fn supernodes(&self) -> Result<&SymbolicSupernodalCholesky<usize>, SpectrumError> {
         match self.symbolic.raw() {
             SymbolicCholeskyRaw::Supernodal(supernodes) => Ok(supernodes),
@@ -95,17 +98,17 @@ impl Pencil {
         }
     }
 
-    /// Bytes of the factors at one shift.
+    /// Number of bytes of the factors at one shift.
     pub(super) fn factor_bytes(&self) -> usize {
         self.supernodes().map_or(0, |s| s.len_val() * size_of::<f64>())
     }
 
-    /// What is wrong if memory does not hold the factors.
+    /// The error for factors that memory does not hold.
     pub(super) fn too_large(&self) -> SpectrumError {
         too_large(self.len())
     }
 
-    /// Z = M W.
+    /// The product Z = M W, rows x lanes.
     pub(super) fn weigh(&self, w: &[Row], z: &mut [Row]) {
         self.arch.dispatch(Weigh { rows: &self.rows, w, z });
     }
@@ -168,6 +171,7 @@ impl Lower {
         Ok(Self { pattern, stiffness: k, mass: m })
     }
 
+    /// All of M, row by row, from its lower triangle.
     fn mass_rows(&self) -> Rows {
         let n = self.pattern.ncols();
         let lower = || {
@@ -226,7 +230,7 @@ fn check(
     if n >= u32::MAX as usize { Err(too_large(n)) } else { Ok(()) }
 }
 
-/// What is wrong with a mass matrix that gives this as xᵀMx.
+/// The error for a mass matrix that gives this number as xᵀMx.
 pub(super) fn indefinite(found: f64) -> SpectrumError {
     SpectrumError::Matrices {
         what: "square of a norm in M",

@@ -1,4 +1,4 @@
-//! Shifts that cut a spectrum into shares.
+//! Shifts that cut a spectrum into shares (spectrum slicing).
 
 use super::SpectrumError;
 use super::factor::Factor;
@@ -6,24 +6,29 @@ use super::pencil::Pencil;
 use faer::Par;
 use rayon::prelude::*;
 
-/// Eigenpairs that a shift is asked for, about.
+/// Eigenpairs that a shift is asked for, about. Doubled, there are half as many factorisations, and bases of
+/// about twice the vectors, each of which is made orthogonal to all before.
 pub(super) const SHARE: usize = 160;
 /// Growth of the factors, for each eigenvalue below, beyond which another shift is tried.
 const GROWTH: f64 = 16.0;
-/// Shifts tried.
+/// Shifts tried, each a little above the one before; the one of least growth is taken if none passes.
 const TRIES: usize = 6;
-/// How far apart, relatively.
+/// Relative step from one shift tried to the next. Doubled, shifts may stand 1 % from where they were wanted.
 pub(super) const STEP: f64 = 1e-3;
-/// Rounds of placing shifts.
+/// Rounds of placing shifts: each factorises those that stand too far from their places. More only even out
+/// the shares.
 const ROUNDS: usize = 4;
-/// How far a shift may stand from its place, as a part of the eigenpairs of each.
+/// How far a shift may stand from its place, as a part of the eigenpairs of each. Doubled, fewer shifts are
+/// placed anew, and shares are less even.
 const SLACK: f64 = 0.1;
-/// Bytes that factors may take while they wait for their use.
+/// Bytes that factors may take while they wait for their use, a quarter of a GiB; beyond, they are made
+/// again. Doubled, fewer are made twice for more memory.
 pub(super) const KEPT: usize = 1 << 28;
 
 /// A shift and what is known there.
 #[derive(Debug)]
 pub(super) struct Shift<'a> {
+    /// The shift σ.
     pub(super) at: f64,
     /// Number of eigenvalues below.
     pub(super) below: usize,
@@ -34,13 +39,15 @@ pub(super) struct Shift<'a> {
 /// Shifts, ascending, each with about as many eigenvalues from one to the next, and half as many at the ends.
 #[derive(Debug)]
 pub(super) struct Plan<'a> {
+    /// The shifts, ascending.
     pub(super) shifts: Vec<Shift<'a>>,
     /// The bound, itself no eigenvalue, and the number of eigenvalues below.
     pub(super) top: f64,
+    /// Number of eigenvalues below the bound.
     pub(super) below: usize,
 }
 
-/// Factors at a shift or, where pivots come close to zero, a little above.
+/// Factors at a shift σ or, where pivots come close to zero, at one up to five times `step` above.
 ///
 /// The growth of factors goes with the number of eigenvalues below, but for shifts where it is far larger by chance. Those
 /// are passed over: growth is lost accuracy.
@@ -115,6 +122,7 @@ fn guess(known: &[Shift], place: f64) -> f64 {
     let above = known.iter().position(|(_, count)| *count > place).unwrap_or(known.len() - 1);
     let (at, count) = known[above];
     let other = if above > 0 { known.get(above - 1) } else { known.get(above + 1) };
+    // By Weyl's law λ grows as the count to the power 1 on a membrane and 2 on a plate.
     let power = other.map_or(1.3, |other| (at / other.0).ln() / (count / other.1).ln());
     at * (place / count).powf(power.clamp(0.2, 4.0))
 }

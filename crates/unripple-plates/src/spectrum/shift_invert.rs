@@ -8,27 +8,36 @@ use super::panel::{LANES, NONE, Panel, project, subtract};
 use super::pencil::Pencil;
 use super::solve::solve;
 
-/// Relative residual of an eigenpair that counts as found.
+/// Relative residual of an eigenpair that counts as found: its eigenvalue's error is about the square of it,
+/// below rounding. Ten times more saves one or two steps.
 const FOUND: f64 = 1e-9;
-/// Relative residual that it may turn out to have when checked.
+/// Relative residual that it may turn out to have when checked: ten times what the iteration thinks, as
+/// rounding adds to it.
 const CHECKED: f64 = 1e-8;
-/// Steps until the first eigenpairs of an interior are found, about.
+/// Steps until the first eigenpairs of an interior are found, about: fewer, and the small eigenproblem is
+/// solved in vain; more, and steps are taken in vain.
 const START: usize = 17;
-/// Steps for each panel of eigenpairs then, about.
+/// Steps for each panel of eigenpairs then, about. Doubled, more steps are taken than needed; halved, the
+/// small eigenproblem is solved in vain.
 const PACE: f64 = 1.5;
-/// Decades that the residual of an eigenpair falls with each step once it is small.
+/// Decades that the residual of an eigenpair falls with each step once it is small, about. Doubled, the next
+/// look comes too early; halved, too late.
 const DECADES: f64 = 0.7;
-/// Steps at most, over those expected.
+/// Steps at most, over those expected: what is not found by then has more vectors of one eigenvalue than the
+/// iteration can tell apart, and is found otherwise. Doubled, that is noticed later.
 const PATIENCE: usize = 3;
 
 /// Number of eigenpairs wanted next to a shift, on either side.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Wanted {
+    /// Number below the shift.
     pub(super) left: usize,
+    /// Number above the shift.
     pub(super) right: usize,
 }
 
-/// The eigenpairs nearest to a shift, as many as wanted on either side, or fewer if they are not found.
+/// The eigenpairs nearest to a shift, as many as wanted on either side, or fewer if they are not found;
+/// `seed` gives the first vectors.
 ///
 /// # Errors
 /// [`SpectrumError::Matrices`] if M is not positive definite.
@@ -94,7 +103,7 @@ fn residuals(pencil: &Pencil, factor: &Factor, inverses: &[f64], panels: &[Panel
 }
 
 impl Ritz {
-    /// Steps until as many as wanted are found, about.
+    /// Number of steps until as many as wanted are found, about.
     fn steps_to(&self, wanted: Wanted) -> usize {
         let count = self.residuals.len();
         let sides = self.residuals[..wanted.left.min(count)]

@@ -1,4 +1,4 @@
-//! Eigenpairs of several shifts joined, none twice and none missed.
+//! Spectrum slicing: eigenpairs of several shifts joined, none twice and none missed.
 
 use super::SpectrumError;
 use super::block::EigenBlock;
@@ -10,12 +10,17 @@ use super::small::transposed;
 use rayon::prelude::*;
 
 /// Eigenpairs asked for beyond those that a shift is meant to give, so that clusters need not be parted.
+/// Doubled, shifts find two more each for nothing.
 const MARGIN: usize = 2;
-/// Part of an interval that must lie free between the eigenvalues of one shift and those of the next.
+/// Part of an interval that must lie free between the eigenvalues of one shift and those of the next: nearer
+/// ones may be the same, and the interval gets a shift of its own. Doubled, that happens the more often.
 const CLEAR: f64 = 1e-6;
-/// Rounds of looking for eigenvectors of the same eigenvalue, each as many as a panel holds.
+/// Rounds of looking for eigenvectors of the same eigenvalue, each as many as a panel holds: up to 320. More
+/// are an error.
 const ROUNDS: usize = 40;
-/// Panels on either side of a boundary that are made orthogonal to each other.
+/// Panels on either side of a boundary that are made orthogonal to each other: those of the nearest
+/// eigenvalues, whose vectors rounding mixes. Doubled, vectors that are orthogonal already are compared as
+/// well.
 const NEIGHBOURS: usize = 3;
 
 /// An interval between two shifts, or at the ends.
@@ -100,6 +105,7 @@ fn wanted(pair: &[Gap], i: usize, count: usize) -> Wanted {
     }
 }
 
+/// The eigenpairs nearest to one shift; factors that were not kept are made again.
 fn shift_invert(
     pencil: &Pencil,
     shift: Shift,

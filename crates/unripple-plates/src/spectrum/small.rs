@@ -1,4 +1,4 @@
-//! Small Gram matrices between blocks of vectors.
+//! Small Gram matrices between blocks of vectors, and their Cholesky factors.
 
 use super::SpectrumError;
 use super::panel::{LANES, NONE, Row};
@@ -7,35 +7,38 @@ use super::pencil::indefinite;
 /// A small matrix between two panels, row by row.
 pub(super) type Square = [Row; LANES];
 
-/// Least pivot of a Gram matrix with ones on its diagonal that is not rounding.
+/// Least pivot of a Gram matrix with ones on its diagonal that is not rounding: smaller ones are lifted to
+/// it, so that R has an inverse.
 const LEAST: f64 = 1e-14;
 
-/// Ones on the diagonal.
+/// The identity matrix, ones on the diagonal.
 pub(super) fn identity() -> Square {
     std::array::from_fn(|i| std::array::from_fn(|j| f64::from(i == j)))
 }
 
-/// Rows and columns exchanged.
+/// The transposed matrix, rows and columns exchanged.
 pub(super) fn transposed(a: &Square) -> Square {
     std::array::from_fn(|i| std::array::from_fn(|j| a[j][i]))
 }
 
-/// A B.
+/// The matrix product A B.
 pub(super) fn product(a: &Square, b: &Square) -> Square {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..LANES).map(|k| a[i][k] * b[k][j]).sum()))
 }
 
-/// A Gram matrix as RᵀR.
+/// The Cholesky factor R of a Gram matrix RᵀR, and its inverse.
 pub(super) struct Triangle {
-    /// R.
+    /// The upper triangle R.
     pub(super) upper: Square,
-    /// R⁻¹.
+    /// Its inverse R⁻¹.
     pub(super) inverse: Square,
     /// Least pivot over the largest, the diagonal scaled to one; pivots that are rounding are lifted.
     pub(super) ratio: f64,
 }
 
 impl Triangle {
+    /// The Cholesky factorisation of a Gram matrix.
+    ///
     /// # Errors
     /// [`SpectrumError::Matrices`] if the diagonal is not positive.
     pub(super) fn of(gram: &Square) -> Result<Self, SpectrumError> {

@@ -1,4 +1,4 @@
-//! Triangular solves with many right-hand sides.
+//! Triangular solves with the sparse factors, for a panel of right-hand sides.
 
 use super::factor::{Factor, Node};
 use super::panel::{NONE, Row, TILE, add};

@@ -8,22 +8,28 @@ use crate::modes::bounds::Bounds;
 use std::f64::consts::PI;
 use unripple_core::{Edge, Outline, Point, ScattererKind, Surface};
 
-/// Edge length times wavenumber at the top of the band for which frequencies are right to 1e-3.
+/// Edge length times wavenumber at the top of the band for which frequencies are right to 1e-3: edges of 0.56
+/// wavelengths. Halved, the first mesh has four times the triangles.
 const FILL: f64 = 3.5;
 
-/// The order that errors fall with inside.
+/// The order that errors fall with inside: by it an accuracy becomes an edge length. Were it lower, first
+/// meshes would be finer than needed.
 const ORDER: f64 = 8.0;
 
-/// The least and largest edge in wavenumbers.
+/// The least and largest edge in wavenumbers, whatever accuracy is asked for: 21 and 1.6 edges per
+/// wavelength. What that does not resolve, refinements must.
 const FILLS: [f64; 2] = [0.3, 4.0];
 
-/// Unknowns for each vertex: six of its own and the middles of three edges.
+/// Unknowns for each vertex: six of its own and the middles of three edges, of which there are three per
+/// vertex.
 const UNKNOWNS: f64 = 9.0;
 
-/// Edges along a held rim, in lengths √(D/T) of the layer where bending gives way to tension, at an accuracy of 1e-3.
+/// Edges along a held rim, in lengths √(D/T) of the layer where bending gives way to tension, at an accuracy
+/// of 1e-3. Doubled, the layer is resolved half as well, and a refinement follows.
 const LAYER: f64 = 4.0;
 
-/// Places along each side of the bounding box where the fabric is looked at.
+/// Places along each side of the bounding box where the fabric is looked at. What varies within a
+/// thirty-second of a side may be passed over, and costs a refinement.
 const LOOKS: usize = 33;
 
 /// How finely a surface is meshed for an accuracy.
@@ -82,14 +88,14 @@ impl Plan {
         })
     }
 
-    /// What the mesh is asked for.
+    /// The sizing that the mesh is asked for.
     pub(super) fn sizing(&self) -> Sizing {
         let edge_size = (self.layer < 1.0).then_some(self.layer * self.size);
         let sizing = Sizing { size: self.size, near: self.near.clone(), corners: Vec::new(), edge_size };
         sizing.refined(&self.corners, self.bends, self.accuracy)
     }
 
-    /// A plan with edges so many times longer.
+    /// A plan with edges `ratio` times longer.
     pub(super) fn coarser(&self, ratio: f64) -> Self {
         let near = self.near.iter().map(|(at, reach, size)| (*at, *reach, size * ratio)).collect();
         Self {
@@ -101,29 +107,32 @@ impl Plan {
         }
     }
 
-    /// A plan likely to be accurate, after one that was off by `error`; finer by no more than half.
+    /// A plan likely to be accurate to `wanted`, after one that was off by `error`, both relative; finer by
+    /// no more than half.
     pub(super) fn refined(&self, error: f64, wanted: f64) -> Self {
+        // Somewhat finer than the error asks for; at least 1.25, so that the next difference tells something,
+        // at most 2, which is four times the triangles.
         let ratio = (1.3 * error / wanted).powf(1.0 / (ORDER - 1.0)).clamp(1.25, 2.0);
         Self { ratio, accuracy: 0.25 * self.accuracy, ..self.coarser(1.0 / ratio) }
     }
 
-    /// How many times finer it is than the plan before.
+    /// The factor by which it is finer than the plan before.
     pub(super) fn ratio(&self) -> f64 {
         self.ratio
     }
 
-    /// The same for a top wavenumber lower by a factor.
+    /// The same for a top wavenumber lower by the factor `share`.
     pub(super) fn lower(&self, share: f64) -> Self {
         let share = share.max(1e-6);
         Self { wavenumber: self.wavenumber * share, ..self.coarser(1.0 / share) }
     }
 
-    /// About how many unknowns it takes on an outline.
+    /// About the number of unknowns that it takes on an outline.
     pub(super) fn unknowns(&self, outline: &Outline) -> Result<usize, PhysicsError> {
         Ok((UNKNOWNS * Mesh::estimate(outline, &self.sizing())? as f64) as usize)
     }
 
-    /// About how many modes there are (Weyl 1911, rims aside).
+    /// About the number of modes (Weyl 1911, rims aside).
     pub(super) fn modes(&self) -> usize {
         (self.area * self.wavenumber.powi(2) / (4.0 * PI)) as usize + 10
     }

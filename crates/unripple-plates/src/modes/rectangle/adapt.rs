@@ -12,13 +12,15 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use unripple_core::Edge;
 
-/// How often the polynomials may be added to.
+/// How often the polynomials may be added to, each time by at most 1.6 times. More would change nothing but
+/// how late an accuracy out of reach is given up.
 const ROUNDS: usize = 12;
 
-/// The share of the least error so far that a round must fall below to count as progress.
+/// The share of the least error so far that a round must fall below to count as progress. At 1, rounding
+/// would count as progress by chance.
 const STALLED: f64 = 0.7;
 
-/// Rounds without progress after which the accuracy is out of reach.
+/// Rounds without progress after which the accuracy is out of reach. Doubled, that is found two rounds later.
 const PATIENCE: usize = 2;
 
 /// A solution as accurate as was asked for.
@@ -69,6 +71,7 @@ fn step(accuracy: f64, counts: [usize; 2], error: f64, before: &mut Option<(f64,
         Some((smaller, larger)) if larger.is_finite() && error < larger => {
             (larger / error).ln() / (size / smaller).ln()
         }
+        // Not known yet: a steep power, so that the first step is small.
         _ => 40.0,
     };
     let factor = if error.is_finite() { (error / accuracy).powf(1.0 / power) } else { 1.15 };
@@ -101,6 +104,7 @@ fn further(count: usize) -> usize {
     (count / 4).max(4).next_multiple_of(2)
 }
 
+/// The plate's energy in so many functions along each side, and some further ones that measure the error.
 fn plate(problem: &Problem, counts: [usize; 2]) -> Plate {
     let line = |axis: usize| {
         let [low, high] = problem.edges[axis];
@@ -120,6 +124,7 @@ fn plate(problem: &Problem, counts: [usize; 2]) -> Plate {
     }
 }
 
+/// The modes of every symmetry class, shared among threads; `None` if one does not converge.
 fn solve_blocks(plate: &Plate, counts: [usize; 2], top: f64) -> Option<Vec<BlockModes>> {
     let classes = [0, 1].map(|axis| plate.lines[axis].classes(counts[axis]));
     let symmetries = Symmetry::all(&classes[0], &classes[1], plate.square);

@@ -10,11 +10,11 @@ use unripple_core::Edge;
 #[derive(Clone, Debug)]
 pub(crate) struct Line {
     functions: Functions,
-    /// ∫f' g'.
+    /// Slope integrals ∫f' g', functions x functions.
     pub(crate) slope: Mat<f64>,
-    /// ∫f'' g''.
+    /// Curvature integrals ∫f'' g'', functions x functions.
     pub(crate) curvature: Mat<f64>,
-    /// ∫f'' g, first index differentiated.
+    /// Integrals ∫f'' g, functions x functions, the first index differentiated.
     pub(crate) mixed: Mat<f64>,
 }
 
@@ -56,6 +56,7 @@ impl Line {
         line
     }
 
+    /// The first `count` sines, whose integrals are diagonal.
     fn sines(count: usize) -> Self {
         let diagonal = |f: &dyn Fn(f64) -> f64| {
             Mat::from_fn(count, count, |i, j| if i == j { f((i + 1) as f64 * FRAC_PI_2) } else { 0.0 })
@@ -68,7 +69,7 @@ impl Line {
         }
     }
 
-    /// Number of functions.
+    /// Number of functions n: the size of all integrals.
     pub(crate) fn count(&self) -> usize {
         self.slope.nrows()
     }
@@ -81,7 +82,7 @@ impl Line {
         }
     }
 
-    /// Degree of function `n` if it is a polynomial.
+    /// Degree of function `n` (an index) if it is a polynomial.
     pub(crate) fn degree(&self, n: usize) -> Option<usize> {
         match &self.functions {
             Functions::Sines => None,
@@ -124,18 +125,19 @@ impl Class {
         self.end.saturating_sub(self.first).div_ceil(self.step)
     }
 
-    /// The i-th index.
+    /// The index at place `i` of the class.
     pub(crate) fn index(self, i: usize) -> usize {
         self.first + i * self.step
     }
 
-    /// The same class continued up to `end`.
+    /// The same class continued up to the index `end`.
     pub(crate) fn until(self, end: usize) -> Self {
         Self { end, ..self }
     }
 }
 
-/// sin(nθ), n = 1, 2, …, by complex rotation restarted often enough to stay at machine precision.
+/// sin(nθ), n = 1, 2, …, into `values`, by complex rotation restarted often enough to stay at machine
+/// precision; θ in radians.
 pub(crate) fn sines(theta: f64, values: &mut [f64]) {
     let (s, c) = theta.sin_cos();
     for (chunk, slots) in values.chunks_mut(16).enumerate() {

@@ -1,4 +1,4 @@
-//! Modes of rectangles: products of one function along each side.
+//! Modes of rectangles by the Rayleigh-Ritz method: products of one function along each side.
 
 mod adapt;
 mod line;
@@ -20,7 +20,7 @@ use unripple_core::{Point, Shapes};
 
 pub(super) use problem::Problem;
 
-/// Modes of a rectangle.
+/// Modes of a rectangle: exact where they are products of waves, Ritz sums elsewhere.
 pub(super) fn solve(problem: &Problem) -> Result<Found, PhysicsError> {
     if problem.separable() { separable(problem) } else { ritz(problem) }
 }
@@ -69,6 +69,7 @@ impl Shapes for Rectangle {
     }
 }
 
+/// Exact modes: products of one wave along each side.
 fn separable(problem: &Problem) -> Result<Found, PhysicsError> {
     Separable::guard(problem)?;
     let waves = problem.edges.map(|[low, high]| Wave::of(low, high));
@@ -82,6 +83,7 @@ fn separable(problem: &Problem) -> Result<Found, PhysicsError> {
     Ok(Found { omegas, bending_shares, shapes: Box::new(shapes), error: 0.0 })
 }
 
+/// Modes as Ritz sums, in order of frequency, with the air's mass and their sign.
 fn ritz(problem: &Problem) -> Result<Found, PhysicsError> {
     let adapt::Solution { lines, blocks, error } = adapt::solve(problem)?;
     let (squares, places) = order::ascending(&blocks);

@@ -3,7 +3,9 @@
 use super::ritz::BlockModes;
 use faer::ColRef;
 
-/// Frequencies closer than this, relatively in ω², are taken for one.
+/// Frequencies closer than this, relatively in ω², are taken for one: above rounding, below any splitting
+/// that an accuracy can show. Doubled, pairs twice as far apart would be ordered by symmetry instead of
+/// frequency.
 const DOUBLE: f64 = 1e-9;
 
 /// Ascending squares and the block and column of each mode; equal ones are ordered by block, then column.
@@ -21,7 +23,7 @@ pub(crate) fn ascending(blocks: &[BlockModes]) -> (Vec<f64>, Vec<(usize, usize)>
     (squares, modes.iter().map(|m| (m.1, m.2)).collect())
 }
 
-/// +1 or -1, to make positive the first coefficient that is at least half the largest.
+/// The factor +1 or -1 that makes positive the first coefficient that is at least half the largest.
 pub(crate) fn sign(coefficients: ColRef<f64>) -> f64 {
     let largest = coefficients.iter().fold(0.0, |a: f64, c| a.max(c.abs()));
     coefficients.iter().find(|c| c.abs() >= 0.5 * largest).map_or(1.0, |c| c.signum())

@@ -18,7 +18,7 @@ pub(crate) struct Plate {
     pub(crate) tension: [f64; 2],
     /// D/ρ_s · (2/side)⁴, in 1/s².
     pub(crate) bending: [f64; 2],
-    /// Poisson's ratio.
+    /// Poisson's ratio of the sheet, dimensionless.
     pub(crate) poisson: f64,
     /// Whether x and y may be exchanged.
     pub(crate) square: bool,
@@ -52,12 +52,13 @@ impl Plate {
         (self.bending[0] * self.bending[1]).sqrt()
     }
 
-    /// The energy matrix between two sets of products.
+    /// The energy matrix between two sets of products, rows x columns, in 1/s².
     pub(crate) fn stiffness(&self, rows: &[Product], columns: &[Product]) -> Mat<f64> {
         Mat::from_fn(rows.len(), columns.len(), |r, c| self.element(rows[r], columns[c]))
     }
 
-    /// The energy matrix of one set of products, minus `shift` times the identity; the lower triangle alone is filled.
+    /// The energy matrix of one set of n products, n x n in 1/s², minus `shift` (1/s²) times the identity;
+    /// the lower triangle alone is filled.
     pub(crate) fn lower_stiffness(&self, products: &[Product], shift: f64) -> Mat<f64> {
         let n = products.len();
         let mut matrix = Mat::zeros(n, n);

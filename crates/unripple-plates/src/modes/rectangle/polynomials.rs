@@ -16,7 +16,7 @@ pub(crate) struct Polynomials {
     recurrence: Vec<(f64, f64)>,
 }
 
-/// Order of the zero that an end imposes on the deflection.
+/// Order of the zero that an end imposes on the deflection: 0, 1 or 2, a number without unit.
 pub(crate) fn order(edge: Edge) -> i32 {
     match edge {
         Edge::Free | Edge::Elastic { .. } => 0,
@@ -34,12 +34,12 @@ impl Polynomials {
         Self { low, high, first: 1.0 / weight_mass(2 * low, 2 * high).sqrt(), recurrence }
     }
 
-    /// How many there are.
+    /// Number of polynomials that there are.
     pub(crate) fn count(&self) -> usize {
         self.recurrence.len() - 1
     }
 
-    /// Degree of the n-th.
+    /// Degree of the n-th, an index.
     pub(crate) fn degree(&self, n: usize) -> usize {
         n + (self.low + self.high) as usize
     }

@@ -25,7 +25,7 @@ impl Product {
         }
     }
 
-    /// Its mirror image.
+    /// Its mirror image in the diagonal, x and y exchanged.
     pub(crate) fn mirrored(self) -> Self {
         Self { x: self.y, y: self.x, ..self }
     }
@@ -66,7 +66,7 @@ pub(crate) struct Symmetry {
 }
 
 impl Symmetry {
-    /// Its products, x-major.
+    /// Its products, those of one function along x after the other.
     pub(crate) fn products(self) -> impl Iterator<Item = Product> {
         let Self { x, y, mirror } = self;
         (0..x.len())

@@ -10,10 +10,12 @@ use pulp::{Arch, NullaryFnOnce};
 use rayon::prelude::*;
 use unripple_core::Point;
 
-/// Points whose shapes are taken together.
+/// Points whose shapes are taken together, by one thread: more are shared among threads. Doubled, there are
+/// half as many tasks.
 const POINTS: usize = 128;
 
-/// Modes whose coefficients are stored together.
+/// Modes whose coefficients are stored together: two lines of cache. Doubled, more zeros are added to fill
+/// the last lanes.
 const LANES: usize = 16;
 
 /// Evaluates Ritz shapes: sums of products of one function along each side.
@@ -122,6 +124,7 @@ impl Readout {
 }
 
 impl ReadoutBlock {
+    /// The readout of one class, each mode's coefficients times its factor.
     fn new(block: BlockModes, ranks: Vec<usize>, factors: &[f64]) -> Self {
         let BlockModes { products, mut coefficients, .. } = block;
         for (m, factor) in factors.iter().enumerate() {

@@ -9,13 +9,15 @@ use faer::linalg::solvers::{DenseSolveCore, Llt};
 use faer::{Accum, Mat, Par, Side};
 use unripple_linalg::solve_cholesky;
 
-/// How far above the top's ω², relatively, modes are still computed, so that what is left out keeps clear of it.
+/// How far above the top's ω², relatively, modes are still computed, so that what is left out keeps clear of
+/// it. Halved, energies that are left out come nearer, and each sweep takes less of them away.
 const ABOVE: f64 = 0.3;
 
-/// How often the inverse is applied to the vectors.
+/// How often the inverse is applied to the vectors (subspace iteration). Each time what rounding left of high
+/// energies shrinks by their ratio to the top's; one more changes the last digits only.
 const SWEEPS: usize = 2;
 
-/// Modes within one symmetry class.
+/// Modes within one symmetry class, ascending.
 #[derive(Debug)]
 pub(crate) struct BlockModes {
     /// The products that shapes are sums of.

@@ -9,10 +9,11 @@ use rayon::prelude::*;
 use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 use unripple_core::{Edge, Point};
 
-/// What a mode takes while they are sought and kept.
+/// Bytes that a mode takes while they are sought and kept, about: by it more modes are refused than memory is
+/// allowed for.
 const BYTES_PER_MODE: f64 = 80.0;
 
-/// Points to one task.
+/// Points to one task. Doubled, there are half as many tasks to share among threads.
 const CHUNK: usize = 64;
 
 /// Exact modes that are one sine or cosine along each side: any sides of a membrane, or a plate supported all round.
