@@ -1,4 +1,4 @@
-//! Impulse responses of a surface, by modal superposition.
+//! Impulse responses of a surface, by modal superposition (poles and residues).
 
 use crate::{Footprint, Load, Loaded, Medium, Modes, PhysicsError, Transducer, transducers};
 use faer::{Mat, MatRef};
@@ -12,13 +12,17 @@ use unripple_core::{
 use unripple_dsp::ModalSynth;
 use unripple_plates::decay_rate;
 
-/// Points of a library worked on at once.
+/// Points of a library worked on at once, by one thread. Doubled, there are half as many tasks to share among
+/// threads.
 const POINTS: usize = 64;
 
-/// Error of a library's samples before rounding to single precision.
+/// Error of a library's samples before rounding to single precision, relative to the sum of the magnitudes of
+/// modal weights. Ten times more would show beside that rounding.
 const LIBRARY_ACCURACY: f64 = 1e-6;
 
-/// Loaded modes are kept one by one up to this multiple of the top frequency.
+/// Loaded modes are kept one by one up to this multiple of the top frequency: what lies above is off
+/// resonance within the band. Doubled, eigenvalue problems have up to four times the coordinates, and take 64
+/// times as long.
 const DYNAMIC: f64 = 1.1;
 
 /// How responses are made from a surface.
@@ -29,7 +33,7 @@ pub struct ResponseOptions {
     pub max_hz: Option<f64>,
     /// Relative accuracy of the frequencies.
     pub accuracy: f64,
-    /// Fingers on the surface.
+    /// Fingers that rest on the surface, as loads.
     pub contacts: Vec<Contact>,
     /// Loads feel the compliance of modes up to this multiple of the top frequency, at least 1.1; unused without loads.
     pub reach: f64,
@@ -115,6 +119,7 @@ struct Asked {
 }
 
 impl Asked {
+    /// Checks what is asked for, and makes transducers and fingers of it.
     fn of(surface: &Surface, options: &ResponseOptions) -> Result<Self, PhysicsError> {
         let emission = &surface.emission;
         let [low, high] = emission.band;
@@ -145,6 +150,7 @@ impl Asked {
         Modes::solve(surface, top, self.accuracy)
     }
 
+    /// The responses from modes, with all loads on.
     fn responses(&self, surface: &Surface, modes: Arc<Modes>) -> Result<Responses, PhysicsError> {
         let emission = &surface.emission;
         let [low, high] = emission.band;

@@ -4,12 +4,16 @@ use faer::{Mat, Side};
 use unripple_dsp::kaiser;
 use unripple_linalg::{solve_cholesky, solve_lu};
 
-/// Samples on either side that a derivative is made from, and the window's β: right to 1e-4 up to 0.42 of the rate.
+/// Samples on either side that a derivative is made from; with [`BETA`] it is right to 1e-4 up to 0.42 of the
+/// rate. Doubled, that is so up to about 0.46, and twice as many samples at each end are made by other taps.
 const HALF: usize = 32;
+/// Shape of the Kaiser window over them: side lobes below -110 dB. Doubled, the band in which it is right
+/// shrinks.
 const BETA: f64 = 12.0;
 
-/// Power outside the band that taps near an end may take in, over the error inside: keeps them small, costs 3e-4 at the very end of a
-/// signal that reaches a tenth of the rate.
+/// Power outside the band that taps near an end may take in, over the error inside: keeps them small, costs
+/// 3e-4 at the very end of a signal that reaches a tenth of the rate. Doubled, taps are a little smaller and
+/// errors larger.
 const OUTSIDE: f64 = 1e-9;
 
 /// Takes derivatives of signals up to a frequency.
@@ -26,7 +30,7 @@ pub(super) struct Derivative {
 }
 
 impl Derivative {
-    /// Of signals at a rate that reach `top` (Hz).
+    /// For signals at `rate` samples per second that reach `top` (Hz).
     pub fn new(rate: f64, top: f64) -> Self {
         let tap = |k: usize| {
             let share = k as f64 / (HALF + 1) as f64;
@@ -42,7 +46,8 @@ impl Derivative {
         }
     }
 
-    /// The derivative; of signals shorter than the taps at both ends, silence goes on beyond what is there.
+    /// The derivative of a signal, sample by sample, in its unit per second; of signals shorter than the taps
+    /// at both ends, silence goes on beyond what is there.
     pub fn of(&self, signal: &[f64]) -> Vec<f64> {
         let last = signal.len().saturating_sub(1);
         let at = |i: Option<usize>| i.and_then(|i| signal.get(i)).copied().unwrap_or(0.0);

@@ -1,4 +1,4 @@
-//! An ideal force actuator.
+//! An ideal force actuator: force in newtons in proportion to the drive.
 
 use super::{Entry, Transducer};
 use crate::Footprint;

@@ -1,4 +1,4 @@
-//! Actuators as they are: what each kind is to the sheet.
+//! Actuators: the contact, force and load that each kind is to the sheet.
 //!
 //! Every kind of actuator is one file that turns its data into a [`Transducer`]: where it touches, what force it makes of its
 //! drive, and what it hangs on the sheet. To add a kind, add its variant to
@@ -16,7 +16,7 @@ pub use sensor::{Sensor, sensed, sensors};
 use crate::{Footprint, Load, PhysicsError};
 use unripple_core::{Actuator, ActuatorKind, Outline, Surface, require};
 
-/// How a drive gets into the sheet.
+/// How a drive enters the sheet: as a force, or through a coil's voltage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Entry {
     /// As a force in step with the drive.
@@ -29,16 +29,16 @@ pub enum Entry {
 /// motion into a signal, that of its [`Sensor`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transducer {
-    /// Where it acts.
+    /// Contact through which it acts, as points and weights.
     pub footprint: Footprint,
     /// Force (N) or moment functional (N·m) per unit of drive, through the footprint; for [`Entry::Voltage`], force per
     /// ampere in the coil.
     pub gain: f64,
-    /// How the drive gets in.
+    /// How the drive enters: as a force or as a coil's voltage.
     pub entry: Entry,
     /// What hangs on the sheet because of it.
     pub load: Option<Load>,
-    /// Unit of the drive.
+    /// Unit of the drive: N, A or V.
     pub unit: &'static str,
 }
 

@@ -7,9 +7,10 @@ use unripple_core::{Actuator, ActuatorKind, CoilDrive, Outline};
 /// A magnet that rides on the sheet in a fixed coil: force bl·i, electromotive force bl·v, coil R + Ls
 /// (Beranek, *Acoustics*, 1954, chapter 3, for a coil that moves in a fixed magnet's field, which is the same).
 ///
-/// An amplifier that holds the current lets the coil do what it likes: force bl per ampere, and the sheet bears the mass
-/// alone. One that holds the voltage lets the sheet's motion drive a current, L di/dt + R i = V - bl·v: the coil is part of
-/// the load, and damps the sheet by (bl)²/(R + Ls). What either hears is said by [`Sensor`](super::Sensor).
+/// With a current source the coil's voltage is free: force bl per ampere, and the sheet carries the magnet's
+/// mass alone. With a voltage source the sheet's motion drives a current, L di/dt + R i = V - bl·v: the coil is
+/// part of the load, and damps the sheet by (bl)²/(R + Ls). What is sensed either way, [`Sensor`](super::Sensor)
+/// says.
 pub(super) fn transducer(actuator: &Actuator, outline: &Outline) -> Transducer {
     let ActuatorKind::MovingMagnet { force_constant, resistance, inductance, moving_mass, driven_by } =
         actuator.kind

@@ -1,4 +1,4 @@
-//! What an actuator hears of the sheet when it listens.
+//! Actuators as sensors: the signal that the sheet's motion makes at their terminals.
 
 use super::derivative::Derivative;
 use super::{Entry, Transducer};
@@ -23,19 +23,20 @@ use unripple_core::{ActuatorKind, ModalResponses, Surface};
 /// (L. L. Foldy and H. Primakoff, *J. Acoust. Soc. Am.* 17, 109, 1945.)
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensor {
-    /// Where it listens.
+    /// Contact at which it senses, as points and weights.
     pub footprint: Footprint,
     /// What is heard per m/s, through the footprint; with a closed circuit, the volts that drive the current.
     pub gain: f64,
     /// The circuit that the motion drives a current through, if its terminals are held at a voltage.
     pub circuit: Option<Circuit>,
-    /// Unit of what is heard.
+    /// Unit of the signal: m/s, V or A.
     pub unit: &'static str,
     /// Whether it hears the velocity of a place, as a patch does not.
     placed: bool,
 }
 
 impl Sensor {
+    /// The sensing role of a transducer of some kind.
     pub(super) fn of(transducer: &Transducer, kind: &ActuatorKind) -> Self {
         let circuit = match transducer.entry {
             Entry::Voltage => transducer.load.as_ref().and_then(|load| load.circuit),
@@ -50,17 +51,19 @@ impl Sensor {
         Self { footprint: transducer.footprint.clone(), gain: transducer.gain, circuit, unit, placed }
     }
 
-    /// Whether what it hears tells the velocity under its contact; a patch hears how the sheet bends.
+    /// Whether what it hears tells the velocity under its contact; a patch hears how the sheet bends instead.
     pub fn tells_velocity(&self) -> bool {
         self.placed && self.gain != 0.0
     }
 
-    /// What is heard per m/s at the complex frequency `s` (1/s).
+    /// Sensitivity: signal per m/s under the contact, in the sensor's unit, at the complex frequency `s`
+    /// (1/s).
     pub fn per_velocity(&self, s: c64) -> c64 {
         self.circuit.map_or(c64::new(1.0, 0.0), |circuit| circuit.admittance(s)) * self.gain
     }
 
-    /// What is heard of a velocity (m/s) under its contact, sample by sample: a line between samples.
+    /// The signal, in the sensor's unit, of a velocity (m/s) under its contact at `rate` samples per second,
+    /// sample by sample: a line between samples.
     pub fn hear(&self, velocity: &[f64], rate: f64) -> Vec<f64> {
         let Some(Circuit { resistance, inductance, .. }) = self.circuit else {
             return velocity.iter().map(|v| self.gain * v).collect();
@@ -99,8 +102,9 @@ impl Sensor {
     }
 }
 
-/// What of a current is left after a step, and what a voltage over resistance before and after it drives, by a straight line, for
-/// θ = R dt/L.
+/// Weights of one step of the current in an R-L circuit, exact for a voltage that is a straight line between
+/// samples, for θ = R dt/L: what is left of the current, and what the voltage over resistance before and
+/// after the step drives.
 fn held(theta: f64) -> [f64; 3] {
     let left = (-theta).exp();
     let mean = -(-theta).exp_m1() / theta;

@@ -1,13 +1,15 @@
-//! Modes grouped by frequency into those that loads feel and those they do not.
+//! Modes grouped by frequency into those that couple to loads and those that do not.
 
 use super::span::Span;
 use faer::MatRef;
 use unripple_core::Pole;
 
-/// Modes whose frequencies and decay rates differ by less than this share are one oscillation in several shapes.
+/// Modes whose frequencies and decay rates differ by less than this share are one oscillation in several
+/// shapes: some hundred roundings. Larger, modes that are split would be taken for one.
 const SAME: f64 = 1e-13;
 
-/// A mode that loads feel less than this share of the one they feel most, they do not feel.
+/// A mode that loads feel less than this share of the one they feel most, they do not feel: rounding of its
+/// shape. Larger, modes near a node of theirs would lose their damping by the load.
 const UNFELT: f64 = 1e-12;
 
 /// A combination of modes of one frequency: one oscillation.

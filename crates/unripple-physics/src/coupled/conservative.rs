@@ -5,8 +5,9 @@ use crate::{Load, PhysicsError};
 use faer::Mat;
 use unripple_linalg::singular;
 
-/// Rigid motion is given a restoring force at this share of the highest frequency, so that displacement is known from the
-/// state: far below anything that is heard or felt.
+/// Rigid motion is given a restoring force at this share of the highest frequency, so that displacement is
+/// known from the state: far below anything that is heard or felt. Doubled, it swings at twice that
+/// frequency.
 const RIGID: f64 = 1e-8;
 
 /// Modes of the sheet with the masses and springs of its loads, no damping yet: q = Ψz, z̈ + C ż + Λz = Ψᵀ(force).
@@ -23,7 +24,8 @@ pub(super) struct Conservative {
 }
 
 impl Conservative {
-    /// Takes the loads' masses, springs, dampers and coils without inductance into account.
+    /// Takes the loads' masses, springs, dampers and coils without inductance into account; `max_hz` (Hz) is
+    /// for messages alone.
     ///
     /// # Errors
     /// [`PhysicsError::NotConverged`] if a decomposition fails.

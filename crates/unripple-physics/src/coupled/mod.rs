@@ -1,4 +1,4 @@
-//! A sheet's modes coupled by what hangs on the sheet.
+//! A sheet's modes coupled by what hangs on the sheet: dynamic substructuring.
 //!
 //! The displacement is u = Σ_m φ_m q_m with q̈ + 2Σq̇ + Ω²q = Φ_Aᵀ f - Wᵀ F: loads feel the velocities W q̇ at their footprints and
 //! answer with the forces F = Z(s) W q̇. Masses and springs only change the frequencies and shapes; dampers and coils make

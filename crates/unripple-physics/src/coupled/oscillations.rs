@@ -12,7 +12,8 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use unripple_core::{Pole, Shapes};
 
-/// A part of an oscillation that is less than this share of it has vanished.
+/// A part of an oscillation that is less than this share of it has vanished: rounding. Larger, weak parts
+/// that are heard at a node of the others would be lost.
 const VANISHED: f64 = 1e-12;
 
 /// Decaying oscillations with real weights: what modal responses are made of.
@@ -22,7 +23,7 @@ pub struct Oscillations {
     pub poles: Vec<Pole>,
     /// Input weights, transducers x oscillations.
     pub input: Mat<f64>,
-    /// Readout weights.
+    /// Readout weights at any point, in 1/√kg.
     pub shapes: Arc<dyn Shapes>,
 }
 
@@ -57,6 +58,7 @@ impl Loaded {
         let (active, passive) = split(&self.poles, self.felt.as_ref());
         let mut parts = Parts::default();
         let [low, high] = band.map(|hz| TAU * hz);
+        // A mode at the very top stays in, whatever was rounded.
         let within = move |omega: f64| omega >= low && omega <= high * (1.0 + 1e-9);
         for shape in passive.iter().filter(|shape| within(shape.pole.omega)) {
             parts.alone(shape, self);
@@ -81,6 +83,7 @@ impl Loaded {
         Ok(parts.whole(self, kept, &basis))
     }
 
+    /// Where each transducer's drive enters: as a force on the modes, or as the voltage on its coil.
     fn drives(&self, active: &Active, modes: &Conservative) -> Drives {
         let basis = &active.map * &modes.shapes;
         let mut forces = &self.driven * &basis;

@@ -1,4 +1,4 @@
-//! Residual flexibility: what loads feel of the modes above those kept.
+//! Residual flexibility: the response to loads of the modes above those kept.
 
 use super::remainder::{Profile, Remainder};
 use crate::{Footprint, Load, Medium};
@@ -7,7 +7,8 @@ use std::sync::Arc;
 use unripple_core::{Point, Pole, Shapes};
 use unripple_linalg::symmetric;
 
-/// A combination whose inertia is less than this share of the largest is one that others make too.
+/// A combination whose inertia is less than this share of the largest is one that others make too. Larger,
+/// contacts that lie close to each other would be taken for one.
 const ALIKE: f64 = 1e-9;
 
 /// Modes, and after them what loads feel of all the modes above, as if these were a few more modes.
@@ -53,6 +54,7 @@ impl WithRest {
         let places = contacts
             .iter()
             .map(|(at, radius)| {
+                // Contacts of one size share a profile.
                 let known = profiles.iter().find(|(r, _)| (r / radius - 1.0).abs() < 1e-9);
                 let profile = known.map_or_else(|| Arc::new(remainder.profile(*radius)), |(_, p)| p.clone());
                 profiles.push((*radius, profile.clone()));

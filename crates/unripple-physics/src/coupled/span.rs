@@ -3,14 +3,15 @@
 /// Orthonormal vectors, gathered one by one.
 #[derive(Debug, Default)]
 pub(super) struct Span {
-    /// The vectors.
+    /// The orthonormal vectors so far.
     pub vectors: Vec<Vec<f64>>,
 }
 
 impl Span {
-    /// Adds what of a vector is new, unless that is less than the part `least` of it; says whether it was added.
+    /// Adds what of a vector is new, unless that is less than the share `least` of it; says whether it was
+    /// added.
     ///
-    /// Gram and Schmidt, twice, which is enough (Giraud et al., *Numer. Math.* 101, 87, 2005).
+    /// Gram-Schmidt orthogonalisation, twice, which is enough (Giraud et al., *Numer. Math.* 101, 87, 2005).
     pub fn add(&mut self, mut vector: Vec<f64>, least: f64) -> bool {
         let whole = norm(&vector);
         if !(whole > 0.0 && whole.is_finite()) {

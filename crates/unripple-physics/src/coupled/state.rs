@@ -7,7 +7,8 @@ use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, MatRef, c64};
 use unripple_linalg::{General, general};
 
-/// Damping off the diagonal that is less than this share of the largest on it does not couple.
+/// Damping off the diagonal that is less than this share of the largest on it does not couple: some hundred
+/// roundings. Larger, weakly coupled modes would be taken for normal modes.
 const PROPORTIONAL: f64 = 1e-13;
 
 /// An exponential e^{st} of the coupled system: displacement Σ_m shape_m ψ_m · input_a · e^{st} per unit impulse of drive.
@@ -16,7 +17,7 @@ const PROPORTIONAL: f64 = 1e-13;
 pub(super) struct Root {
     /// Complex frequency s, in 1/s.
     pub s: c64,
-    /// Displacement of the conservative modes.
+    /// Displacement of each conservative mode, a complex number.
     pub shape: Vec<c64>,
     /// What a unit impulse of each drive puts in.
     pub input: Vec<c64>,
@@ -41,7 +42,8 @@ pub(super) fn proportional(modes: &Conservative, loads: &[Load]) -> bool {
     alone && loads.iter().all(|load| load.inductive_coil().is_none())
 }
 
-/// All exponentials of the coupled system.
+/// All exponentials of the coupled system, from the eigenvalues of its state matrix; `max_hz` (Hz) is for
+/// messages alone.
 ///
 /// The state is √Λ z, ż and √L i of every inductive coil, so that the sum of its squares is twice the energy and the matrix is
 /// skew but for what dissipates: its own scale is the best balance there is.
@@ -68,6 +70,7 @@ pub(super) fn roots(
     Ok((0..matrix.nrows()).filter(|k| values[*k].im >= 0.0).map(root).collect())
 }
 
+/// The state matrix: rates of √Λ z, ż and √L i, in 1/s.
 fn matrix(modes: &Conservative, coils: &[(usize, Circuit)]) -> Mat<f64> {
     let count = modes.omegas.len();
     let mut matrix = Mat::zeros(2 * count + coils.len(), 2 * count + coils.len());

@@ -6,7 +6,8 @@ use std::f64::consts::{PI, TAU};
 use unripple_core::{FOCAL_RADIUS, Outline, Shape, Surface};
 use unripple_plates::decay_rate;
 
-/// Frequencies that a band is divided into.
+/// Slices that a band is divided into, evenly in wavenumber: their sum stands for an integral over the band.
+/// Doubled, the midpoint rule errs a quarter as much.
 const BINS: usize = 400;
 
 /// A surface as the statistics of focusing see it: how many modes ring at each frequency, how long, and how strongly.
@@ -48,9 +49,9 @@ pub struct Cavity {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Bin {
     hz: f64,
-    /// Modes in it.
+    /// Number of modes in it.
     modes: f64,
-    /// Modes in it as a point away from the rim counts them.
+    /// Number of modes in it as a point away from the rim counts them.
     local: f64,
     /// Modes per hertz.
     density: f64,
@@ -79,7 +80,7 @@ impl Bin {
 }
 
 impl Cavity {
-    /// The statistics of a surface in a band that ends at `top_hz`, from Weyl's law.
+    /// The statistics of a surface in a band that ends at `top_hz` (Hz), from Weyl's law.
     pub fn of(surface: &Surface, top_hz: f64) -> Self {
         let medium = Medium::of(&surface.sheet);
         let [low_hz, _] = surface.emission.band;
@@ -108,7 +109,7 @@ impl Cavity {
         Self { bins, scatter, exposure: exposure(TAU * FOCAL_RADIUS), bandwidth: top_hz - low_hz }
     }
 
-    /// The same with the modes scaled to an exact count.
+    /// The same with the modes scaled so that there are `modes` of them, an exact count.
     pub fn counted(mut self, modes: f64) -> Self {
         let ratio = modes / self.modes();
         if ratio.is_finite() && ratio > 0.0 {
@@ -126,12 +127,12 @@ impl Cavity {
         self
     }
 
-    /// Modes in the band, M.
+    /// Number of modes M in the band.
     pub fn modes(&self) -> f64 {
         self.bins.iter().map(|bin| bin.modes).sum()
     }
 
-    /// Modes as a point away from the rim counts them, S k²/4π.
+    /// Number of modes as a point away from the rim counts them, S k²/4π.
     pub fn local_modes(&self) -> f64 {
         self.bins.iter().map(|bin| bin.local).sum()
     }
@@ -151,7 +152,8 @@ impl Cavity {
         self.modes() / self.sum(|bin| bin.modes * bin.sigma)
     }
 
-    /// Exponent p of a mode density that grows as f^p from the bottom of the band, with the same mean frequency.
+    /// Exponent p of a mode density that grows as f^p from the bottom of the band, with the same mean
+    /// frequency; dimensionless.
     pub fn growth(&self) -> f64 {
         let top = self.bins.last().map_or(1.0, |bin| bin.hz);
         let low = top - self.bandwidth;
@@ -159,12 +161,13 @@ impl Cavity {
         ((2.0 * mean - 1.0) / (1.0 - mean)).clamp(0.0, 4.0)
     }
 
-    /// Contrast of one focus of `actuators` actuators and a window in seconds.
+    /// Contrast, a ratio of amplitudes, of one focus of `actuators` actuators and a window in seconds.
     pub fn contrast(&self, actuators: f64, window: f64) -> f64 {
         self.noise(actuators, window, |_| 0.0, |_| 0.0).powf(-0.5)
     }
 
-    /// Contrast of a focus repeated every `period` seconds, once as many pulses came before as matter and more follow.
+    /// Contrast of a focus repeated every `period` seconds, with as many pulses before and after it as
+    /// matter.
     ///
     /// With x = e^{-2T_r/τ}, the field at a focal instant holds, beside that pulse,
     /// - from the pulse k periods before: its leakage times x^k, for each pair of modes in a new phase;
@@ -193,8 +196,8 @@ impl Cavity {
         self.noise(actuators, window, leakage, echo).powf(-0.5)
     }
 
-    /// Contrast when the responses were recorded, or the drive emitted, with noise of `ratio` times their rms over the
-    /// window, both within the band.
+    /// Contrast, for a window in s, when the responses were recorded, or the drive emitted, with noise of
+    /// `ratio` times their rms over the window, both within the band.
     pub fn noisy(&self, actuators: f64, window: f64, ratio: f64) -> f64 {
         let noise = super::closed::noise_share(actuators, self.bandwidth, window, ratio);
         let heard = self.modes() / self.local_modes();
@@ -225,6 +228,7 @@ impl Cavity {
         noise / (peak * peak)
     }
 
+    /// Sum of a number over all bins.
     fn sum(&self, f: impl Fn(&Bin) -> f64) -> f64 {
         self.bins.iter().map(f).sum()
     }
@@ -235,22 +239,25 @@ pub(super) fn signed_perimeter(outline: &Outline) -> f64 {
     outline.perimeter() - 2.0 * outline.free_length()
 }
 
-/// Modes per unit wavenumber, dM/dk = (2Sk - P)/4π, P the fixed rim minus the free.
+/// Modes per unit wavenumber, dM/dk = (2Sk - P)/4π in metres at the wavenumber `k` (rad/m), P the fixed rim
+/// minus the free.
 pub(super) fn modes_per_wavenumber(outline: &Outline, k: f64) -> f64 {
     weyl(outline.area(), signed_perimeter(outline), k)
 }
 
-/// The same of an area S and a rim P.
+/// The same of an area S (m²) and a rim P (m).
 fn weyl(area: f64, rim: f64, k: f64) -> f64 {
     (2.0 * area * k - rim) / (4.0 * PI)
 }
 
-/// Modes below wavenumber `k` by Weyl's law, M = Sk²/4π - Pk/4π, P the fixed rim minus the free.
+/// Number of modes below wavenumber `k` (rad/m) by Weyl's law, M = Sk²/4π - Pk/4π, P the fixed rim minus the
+/// free.
 pub(super) fn modes_below(outline: &Outline, k: f64) -> f64 {
     (outline.area() * k - signed_perimeter(outline)) * k / (4.0 * PI)
 }
 
 /// ∫_0^T e^{-rate·t} dt, also for no decay.
 fn ring(rate: f64, window: f64) -> f64 {
+    // Below, the quotient loses digits, and the integral is the window.
     if rate * window > 1e-9 { -(-rate * window).exp_m1() / rate } else { window }
 }

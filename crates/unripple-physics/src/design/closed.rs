@@ -27,7 +27,8 @@ pub fn effective_window(window: f64, decay_time: f64) -> f64 {
     if decay_time.is_finite() { decay_time * (window / decay_time).tanh() } else { window }
 }
 
-/// Contrast C_TR of time reversal, the tail of the focus apart: C_TR² = 2NBτ / (coth(T/τ) + 4τ/n̄).
+/// Contrast C_TR of time reversal, a ratio, the tail of the focus apart: C_TR² = 2NBτ / (coth(T/τ) + 4τ/n̄),
+/// B in Hz, τ and T in s.
 ///
 /// Its limits are 2NBT (the √(NT) law of section 3.1 with its constant), 2NBτ for long windows and NM/2 for long decay.
 pub fn contrast_tr(actuators: f64, bandwidth: f64, decay_time: f64, window: f64, modes: f64) -> f64 {
@@ -36,19 +37,20 @@ pub fn contrast_tr(actuators: f64, bandwidth: f64, decay_time: f64, window: f64,
     (2.0 * actuators * bandwidth * reach / (1.0 + 4.0 * reach / heisenberg)).sqrt()
 }
 
-/// Contrast C of time reversal outside the focal disc: 1/C² = 1/C_TR² + e/M.
+/// Contrast C of time reversal outside the focal disc, a ratio: 1/C² = 1/C_TR² + e/M, B in Hz, τ and T in s.
 pub fn contrast(actuators: f64, bandwidth: f64, decay_time: f64, window: f64, modes: f64) -> f64 {
     let noise = contrast_tr(actuators, bandwidth, decay_time, window, modes).powi(-2);
     (noise + exposure(TAU * FOCAL_RADIUS) / modes).powf(-0.5)
 }
 
-/// Contrast of each of `foci` equal foci made at once: their backgrounds add in power.
+/// Contrast, a ratio, of each of `foci` equal foci made at once: their backgrounds add in power, so it falls
+/// as √foci.
 pub fn foci(contrast: f64, foci: f64) -> f64 {
     contrast / foci.sqrt()
 }
 
-/// Contrast of a focus repeated every `period`, in the simplest form, with q = coth(T_r/τ):
-/// 1/C² = q/C_TR² + e/M + (q - 1)/2M.
+/// Contrast of a focus repeated every `period` (s), in the simplest form, with q = coth(T_r/τ): 1/C² =
+/// q/C_TR² + e/M + (q - 1)/2M, B in Hz, τ and T in s.
 ///
 /// It counts every later pulse in full and adds the echoes of both as if they swung apart; [`super::Cavity::repeated`] is the better form.
 pub fn repeated(
@@ -64,7 +66,8 @@ pub fn repeated(
     (q * noise + exposure(TAU * FOCAL_RADIUS) / modes + (q - 1.0) / (2.0 * modes)).powf(-0.5)
 }
 
-/// What noise adds to 1/C²: r²/2NBT, r the rms of the noise over that of a response, both in the band and over T.
+/// What noise adds to 1/C², dimensionless: r²/2NBT, r the rms of the noise over that of a response, both in
+/// the band (Hz) and over T (s).
 ///
 /// The drive is a matched filter: white noise of density r² h²_rms/2B on each of N responses of energy T h²_rms reaches
 /// the surface through those responses with variance N (r² h²_rms/2B) T h²_rms, against a peak of N T h²_rms. It is the same whether the noise came in
@@ -73,18 +76,20 @@ pub fn noise_share(actuators: f64, bandwidth: f64, window: f64, ratio: f64) -> f
     ratio * ratio / (2.0 * actuators * bandwidth * window)
 }
 
-/// e = J_0²(x) + J_1²(x): share of the energy of a focus 2J_1(kr)/kr beyond r = x/k; about 2/πx.
+/// Share e = J_0²(x) + J_1²(x) of the energy of a focus 2J_1(kr)/kr beyond r = x/k; about 2/πx.
 pub fn exposure(x: f64) -> f64 {
     bessel_j(0, x).powi(2) + bessel_j(1, x).powi(2)
 }
 
 /// Full width at half maximum of a focus of one wavelength, J_0(kr): 0.484 λ, in metres.
 pub fn spot_of_one_frequency(wavelength: f64) -> f64 {
+    // J_0(x) is a half at x = 1.521.
     wavelength * 1.521_0 / PI
 }
 
 /// Full width at half maximum of a focus whose band fills the k-plane evenly, 2J_1(kr)/kr: 0.705 λ_min, in metres.
 pub fn spot_diameter(lambda_min: f64) -> f64 {
+    // 2J_1(x)/x is a half at x = 2.2151.
     lambda_min * 2.215_1 / PI
 }
 

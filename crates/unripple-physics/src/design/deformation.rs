@@ -4,10 +4,12 @@ use crate::Medium;
 use std::f64::consts::{PI, TAU};
 use unripple_core::{Sheet, Surface};
 
-/// Amplitudes of a focus that are tabulated, in metres; the last two are the paper's.
+/// Amplitudes of a focus that are tabulated, in metres; the last two are the paper's. Others would be other
+/// rows of the table.
 const AMPLITUDES: [f64; 3] = [10e-6, 40e-6, 200e-6];
 
-/// Change of tension, as a share of the tension, at which linear theory is said to end.
+/// Change of tension, as a share of the tension, at which linear theory is said to end: modes then shift by 5
+/// %. Doubled, the limit of displacement grows by √2.
 pub(super) const TENSION_CHANGE: f64 = 0.1;
 
 /// What a displacement does to the sheet.
@@ -17,7 +19,7 @@ pub struct Deformation {
     pub yield_strain: Option<f64>,
     /// Strain by the tension at rest, (1 - ν) R/Eh.
     pub tension_strain: f64,
-    /// One row per amplitude.
+    /// Strains and slopes, a row per amplitude.
     pub rows: Vec<Bend>,
     /// Amplitude at which the strain reaches yield, in metres.
     pub yield_amplitude_m: Option<f64>,
@@ -39,7 +41,7 @@ pub struct Bend {
     pub bending_radius_m: f64,
     /// Radius of bending 4/Ak² at the top of a focus 2J_1(kr)/kr, in metres.
     pub focus_bending_radius_m: f64,
-    /// Steepest slope Ak.
+    /// Steepest slope Ak, dimensionless.
     pub slope: f64,
     /// Strain on the faces by bending, Ak² h/2.
     pub bending_strain: f64,
@@ -47,7 +49,7 @@ pub struct Bend {
     pub stretching_strain: f64,
     /// Strain of tension, bending and stretching together.
     pub strain: f64,
-    /// That strain over the strain at yield.
+    /// That strain over the strain at yield, as a share.
     pub share_of_yield: Option<f64>,
     /// Whether linear theory still holds: below both limits.
     pub linear: bool,

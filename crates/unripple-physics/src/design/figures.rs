@@ -7,13 +7,13 @@ use super::{ByBand, ByNoise, ByRate, ByWindow, Deformation, Note, Touch, Wave, c
 use super::{deformation::deformation, touch::own_touches, waves::waves};
 use std::f64::consts::TAU;
 
-/// Rows of the dispersion table.
+/// Rows of the dispersion table, evenly spaced in frequency. Doubled, it has twice the rows.
 const WAVES: usize = 12;
 
 /// The tradeoffs of a surface: what `unripple design` prints. SI units.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Design {
-    /// The surface's name.
+    /// Name of the surface, for people.
     pub surface: String,
     /// Number of actuators N.
     pub actuators: usize,
@@ -29,7 +29,7 @@ pub struct Design {
     pub lambda_min_m: f64,
     /// Frequency above which waves outrun sound in air and radiate, in Hz.
     pub coincidence_hz: Option<f64>,
-    /// Waves over the band.
+    /// The dispersion relation: waves over the band.
     pub dispersion: Vec<Wave>,
     /// Modes in the band, counted; `None` where modes cannot be computed.
     pub mode_count_exact: Option<usize>,
@@ -61,15 +61,15 @@ pub struct Design {
     pub contrast_endless: f64,
     /// Contrast against window and number of actuators.
     pub contrast_by_window: Vec<ByWindow>,
-    /// Contrast against bandwidth, N and T kept.
+    /// Contrast against bandwidth, number of actuators and window kept.
     pub contrast_by_band: Vec<ByBand>,
-    /// Contrast against noise, N and T kept.
+    /// Contrast against noise, number of actuators and window kept.
     pub contrast_by_noise: Vec<ByNoise>,
     /// The decay time that section 3.2 aims for, T/N, in seconds.
     pub decay_time_paper_s: f64,
     /// Contrast of a single focus with that decay time.
     pub contrast_at_papers_decay: f64,
-    /// Contrast against rate of repetition, N and T kept.
+    /// Contrast against rate of repetition, number of actuators and window kept.
     pub contrast_by_rate: Vec<ByRate>,
     /// Full width at half maximum of a focus, in metres.
     pub spot_diameter_m: f64,
@@ -83,7 +83,7 @@ pub struct Design {
     pub table1: Vec<Touch>,
     /// The same for this sheet, at 15 mm and at its shortest wavelength.
     pub touch: Vec<Touch>,
-    /// Where the paper slips.
+    /// Where the paper's numbers contradict each other or ours.
     pub notes: Vec<Note>,
 }
 

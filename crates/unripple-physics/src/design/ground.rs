@@ -7,25 +7,29 @@ use crate::{Medium, Modes, PhysicsError};
 use std::f64::consts::{PI, TAU};
 use unripple_core::{OutOfRange, Surface};
 
-/// Relative accuracy of the frequencies that are counted.
+/// Relative accuracy of the frequencies that are counted: 0.3 Hz at 3 kHz, so that a count is wrong by one at
+/// most where modes are hertz apart. Smaller, counts take longer and hardly change.
 const ACCURACY: f64 = 1e-4;
 
 /// What every figure of a design stands on.
 pub(super) struct Ground<'a> {
+    /// The surface that is designed.
     pub surface: &'a Surface,
+    /// Its waves: mass, tension, stiffness and air.
     pub medium: Medium,
     /// Statistics of the band, its modes scaled to the exact count where there is one.
     pub cavity: Cavity,
     /// Exact mode count over Weyl's.
     pub scale: f64,
-    /// Modes in the band, counted, or why they are not.
+    /// Number of modes in the band, counted, or why they are not.
     pub counted: Result<usize, String>,
+    /// The first mode, in Hz.
     pub first_mode_hz: f64,
     /// Wavenumber at the top of the band, in rad/m.
     pub k_top: f64,
     /// Number of actuators.
     pub actuators: f64,
-    /// The window recommended.
+    /// The window that is recommended.
     pub window: Recommended,
 }
 
@@ -66,39 +70,41 @@ impl<'a> Ground<'a> {
         })
     }
 
-    /// Weyl's count from the bottom to the top of the band.
+    /// Number of modes by Weyl's law from the bottom to the top of the band.
     pub fn weyl_count(&self) -> f64 {
         let below = |hz: f64| modes_below(&self.surface.outline, self.medium.wavenumber(TAU * hz)).max(0.0);
         below(self.surface.emission.band[1]) - below(self.surface.emission.band[0])
     }
 
-    /// Modes per hertz at the top of the band.
+    /// Number of modes per hertz at the top of the band.
     pub fn density_at_top(&self) -> f64 {
         let density = TAU * modes_per_wavenumber(&self.surface.outline, self.k_top);
         density.max(0.0) / self.medium.group_celerity(self.k_top)
     }
 
-    /// Phase celerity at the bottom of the band, or at the first mode where it is 0 at the bottom.
+    /// Phase celerity at the bottom of the band, in m/s, or at the first mode where it is 0 at the bottom.
     pub fn celerity_min(&self) -> f64 {
         let at = |hz: f64| self.medium.phase_celerity(self.medium.wavenumber(TAU * hz));
         let bottom = at(self.surface.emission.band[0]);
         if bottom > 0.0 { bottom } else { at(self.first_mode_hz) }
     }
 
-    /// The paper's window (2S k_max + P)/(2 N c_min), k_max = 2π/15 mm.
+    /// The paper's window (2S k_max + P)/(2 N c_min), in s, with k_max = 2π/15 mm.
     pub fn window_paper(&self) -> f64 {
         let (area, rim) = (self.surface.outline.area(), self.surface.outline.perimeter());
         (2.0 * area * TAU / WAVELENGTH + rim) / (2.0 * self.actuators * self.celerity_min())
     }
 
-    /// Exponent of T in the contrast around the window.
+    /// Exponent of T in the contrast around the window, dimensionless; ½ is the √T law.
     pub fn exponent(&self) -> f64 {
+        // A central difference over 1 % to either side.
         let (step, window) = (1.01, self.window.seconds);
         let at = |window: f64| self.cavity.contrast(self.actuators, window);
         (at(window * step) / at(window / step)).ln() / (2.0 * f64::ln(step))
     }
 }
 
+/// Refuses a surface without actuators or with an empty band.
 fn check(surface: &Surface) -> Result<(), PhysicsError> {
     let [low, top] = surface.emission.band;
     if !(low >= 0.0 && top > low && top.is_finite()) {
@@ -132,7 +138,7 @@ pub(super) fn counted(surface: &Surface, modes: &Modes) -> (usize, Option<f64>) 
     (inside, frequencies.iter().copied().find(|hz| *hz > 0.0))
 }
 
-/// The wavenumber below which Weyl's law counts one mode.
+/// The wavenumber below which Weyl's law counts one mode, in rad/m.
 pub(super) fn first_wavenumber(surface: &Surface) -> f64 {
     let (area, rim) = (surface.outline.area(), signed_perimeter(&surface.outline));
     (rim + (rim * rim + 16.0 * PI * area).sqrt()) / (2.0 * area)

@@ -5,6 +5,7 @@ use super::deformation::TENSION_CHANGE;
 use unripple_core::Surface;
 
 /// Share of what each bound of linear theory bears that is used: half the thickness is well within it.
+/// Doubled, fields may go to the bounds themselves.
 const SHARE: f64 = 0.5;
 
 /// What ends linear theory first.
@@ -24,7 +25,7 @@ pub enum LinearBound {
 pub struct LinearLevel {
     /// Factor on the field that brings it there.
     pub factor: f64,
-    /// What decides it.
+    /// The bound that is reached first.
     pub bound: LinearBound,
 }
 

@@ -8,7 +8,7 @@ use unripple_core::Surface;
 pub struct Linearity {
     /// Largest displacement over the sheet's thickness; from about 1 on the sheet stretches as much as it bends.
     pub displacement_over_thickness: f64,
-    /// Largest slope |∇u|.
+    /// Largest slope |∇u|, dimensionless.
     pub slope: f64,
     /// Strain on the faces by bending, curvature · h/2.
     pub bending_strain: f64,

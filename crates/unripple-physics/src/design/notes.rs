@@ -1,4 +1,4 @@
-//! Slips in the paper, and the right values.
+//! Slips in the paper, and the right values: what readers who compare should know.
 
 use super::Design;
 use unripple_core::Surface;
@@ -6,11 +6,11 @@ use unripple_core::Surface;
 /// A slip in the paper, and the right value.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Note {
-    /// What it is about.
+    /// What the slip is about.
     pub topic: String,
     /// What the paper says.
     pub paper: String,
-    /// What holds, here.
+    /// The right value, for this surface.
     pub here: String,
 }
 
@@ -37,6 +37,7 @@ pub(super) fn notes(surface: &Surface, design: &Design) -> Vec<Note> {
     notes
 }
 
+/// Slips about counts of modes, windows and contrast.
 fn modal_notes(design: &Design) -> [Note; 5] {
     [
         note(
@@ -82,6 +83,7 @@ fn modal_notes(design: &Design) -> [Note; 5] {
     ]
 }
 
+/// Slips about reflection, impedances and power.
 fn wave_notes(design: &Design) -> [Note; 3] {
     let film = design.touch.last();
     let (strip, finger) = film.map_or((0.0, 0.0), |t| (t.impedance_n_s_per_m, t.finger_impedance_n_s_per_m));

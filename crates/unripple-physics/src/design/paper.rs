@@ -5,13 +5,16 @@ use unripple_core::{
     Actuator, ActuatorKind, Air, Decay, Emission, Finger, Outline, Point, Shape, Sheet, Surface, Uneven,
 };
 
-/// Where the paper's table and window are taken: a wavelength of 15 mm.
+/// Where the paper's table and window are taken: a wavelength of 15 mm, in metres. Doubled, celerities of the
+/// table would be others than those printed.
 pub(super) const WAVELENGTH: f64 = 15e-3;
 
-/// Width of the contact in the paper's table, in metres.
+/// Width of the contact in the paper's table, in metres. Doubled, strips and powers would be twice those
+/// printed.
 pub(super) const CONTACT: f64 = 10e-3;
 
-/// Displacement of the finger in the paper's table, in metres.
+/// Displacement of the finger in the paper's table, in metres. Doubled, powers would be four times those
+/// printed.
 pub(super) const DISPLACEMENT: f64 = 10e-6;
 
 /// The paper's membrane, with eight ideal force actuators placed without symmetry: the built-in `hudin-2012`.

@@ -31,9 +31,9 @@ pub struct Strip {
 pub struct Scattering {
     /// Frequency, in Hz.
     pub frequency_hz: f64,
-    /// abs(A_R/A_I).
+    /// Reflection coefficient abs(A_R/A_I), dimensionless.
     pub reflection: f64,
-    /// abs(A_T/A_I).
+    /// Transmission coefficient abs(A_T/A_I), dimensionless.
     pub transmission: f64,
     /// Share of the power that goes back.
     pub reflected_power: f64,
@@ -53,12 +53,12 @@ impl Strip {
         }
     }
 
-    /// Celerity c = √((R_l + D_l k²)/ρ_l), in m/s (equation 5).
+    /// Celerity c = √((R_l + D_l k²)/ρ_l), in m/s (equation 5), at the wavenumber `k` (rad/m).
     pub fn celerity(&self, k: f64) -> f64 {
         (self.stretch(k) / self.linear_density).sqrt()
     }
 
-    /// Impedance Z_S = √(ρ_l (R_l + D_l k²)), in N·s/m (equation 5).
+    /// Impedance Z_S = √(ρ_l (R_l + D_l k²)), in N·s/m (equation 5), at the wavenumber `k` (rad/m).
     pub fn impedance(&self, k: f64) -> f64 {
         (self.linear_density * self.stretch(k)).sqrt()
     }

@@ -9,7 +9,7 @@ use unripple_core::{Finger, Surface};
 /// What it takes to move a finger by 10 µm through a strip of sheet as wide as the contact.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Touch {
-    /// Which strip.
+    /// Name of the strip, for people.
     pub strip: String,
     /// Wavelength, in metres.
     pub wavelength_m: f64,
@@ -51,6 +51,7 @@ pub(super) fn own_touches(surface: &Surface, lambda_min: f64) -> Vec<Touch> {
         .to_vec()
 }
 
+/// What it takes at the wavenumber `k` (rad/m).
 fn touch(name: &str, strip: &Strip, finger: &Finger, k: f64) -> Touch {
     let hz = k * strip.celerity(k) / TAU;
     let (resistance, reactance) = finger_impedance(finger, TAU * hz);

@@ -5,19 +5,20 @@ use super::closed;
 use crate::Medium;
 use unripple_core::Surface;
 
-/// Numbers of actuators that are tabulated.
+/// Numbers of actuators that are tabulated, doubling, as contrast grows with their square root.
 pub const ACTUATORS: [usize; 6] = [1, 2, 4, 8, 16, 32];
 
-/// Windows that are tabulated, in seconds.
+/// Windows that are tabulated, in seconds, from too short for most surfaces to longer than most decay.
 pub const WINDOWS: [f64; 8] = [0.005, 0.010, 0.020, 0.030, 0.050, 0.075, 0.100, 0.150];
 
-/// Shares of the band that are tabulated.
+/// Shares of the band that are tabulated; 1 is the surface's own, more shows what a wider one would give.
 const BANDS: [f64; 6] = [0.125, 0.25, 0.5, 0.75, 1.0, 1.5];
 
-/// Rates of repetition that are tabulated, in Hz.
+/// Rates of repetition that are tabulated, in Hz, from single foci to pulses that overlap on most surfaces.
 const RATES: [f64; 7] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0];
 
-/// Noise over responses, as a ratio of rms, that is tabulated.
+/// Noise over responses, as a ratio of rms, that is tabulated: from clean recordings to noise three times the
+/// signal.
 const NOISES: [f64; 5] = [0.01, 0.1, 0.3, 1.0, 3.0];
 
 /// Predicted contrast against window and number of actuators.
@@ -62,17 +63,18 @@ pub struct ByRate {
 pub struct ByNoise {
     /// Rms of the noise over rms of a response, in the band and over the window.
     pub noise_ratio: f64,
-    /// Contrast.
+    /// Contrast that is predicted, a ratio.
     pub contrast: f64,
 }
 
-/// Contrast for every tabulated window and number of actuators.
+/// Contrast (a ratio) for every tabulated window and number of actuators.
 pub(super) fn by_window(cavity: &Cavity) -> Vec<ByWindow> {
     let row = |window: f64| ACTUATORS.map(|n| cavity.contrast(n as f64, window)).to_vec();
     WINDOWS.iter().map(|&window_s| ByWindow { window_s, contrast: row(window_s) }).collect()
 }
 
-/// Contrast for bands of other widths, below half the sample rate; `scale` is the exact mode count over Weyl's.
+/// Contrast for bands of other widths, below half the sample rate, with a window in s; `scale` is the exact
+/// mode count over Weyl's.
 pub(super) fn by_band(surface: &Surface, scale: f64, actuators: f64, window: f64) -> Vec<ByBand> {
     let [low, top] = surface.emission.band;
     let medium = Medium::of(&surface.sheet);
@@ -95,7 +97,7 @@ pub(super) fn by_band(surface: &Surface, scale: f64, actuators: f64, window: f64
         .collect()
 }
 
-/// Contrast for the tabulated rates, with the surface's decay and with another.
+/// Contrast for the tabulated rates, with the surface's decay and with another; window and decay time in s.
 pub(super) fn by_rate(cavity: &Cavity, actuators: f64, window: f64, decay_time: f64) -> Vec<ByRate> {
     let dead = cavity.clone().with_decay_time(decay_time);
     RATES
@@ -108,7 +110,7 @@ pub(super) fn by_rate(cavity: &Cavity, actuators: f64, window: f64, decay_time: 
         .collect()
 }
 
-/// Contrast for the tabulated levels of noise.
+/// Contrast (a ratio) for the tabulated levels of noise, with a window in s.
 pub(super) fn by_noise(cavity: &Cavity, actuators: f64, window: f64) -> Vec<ByNoise> {
     let row =
         |&noise_ratio: &f64| ByNoise { noise_ratio, contrast: cavity.noisy(actuators, window, noise_ratio) };

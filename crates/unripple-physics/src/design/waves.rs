@@ -25,7 +25,7 @@ pub struct Wave {
     pub decay_time_s: f64,
 }
 
-/// The waves at `steps` even frequencies up to the top of the band.
+/// The waves at `steps` even frequencies (a number) up to the top of the band.
 pub(super) fn waves(surface: &Surface, steps: usize) -> Vec<Wave> {
     let [low, top] = surface.emission.band;
     (0..=steps)
@@ -35,6 +35,7 @@ pub(super) fn waves(surface: &Surface, steps: usize) -> Vec<Wave> {
         .collect()
 }
 
+/// The wave of one frequency (Hz).
 fn wave(surface: &Surface, hz: f64) -> Wave {
     let medium = Medium::of(&surface.sheet);
     let k = medium.wavenumber(TAU * hz);

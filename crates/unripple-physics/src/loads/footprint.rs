@@ -3,12 +3,16 @@
 use std::f64::consts::{PI, TAU};
 use unripple_core::{Outline, Point, Shapes};
 
-/// Radii of a disc's quadrature, as Gauss points of the area, and directions on each.
+/// Radii of a disc's quadrature, as Gauss points of the area. Doubled, it would be exact to degree 19, for
+/// twice the points.
 const RADII: usize = 5;
+/// Directions on each radius, staggered from one to the next. Doubled, twice the points for waves that are
+/// shorter.
 const DIRECTIONS: usize = 16;
 
-/// Rings of a rim's slope inside it, its own included, and directions on each.
+/// Rings of a rim's slope inside it, its own included. More bear shorter waves, for points in proportion.
 const RINGS: usize = 9;
+/// Directions on each ring; so many make the mean around it exact for waves up to k·radius = 8 or so.
 const RAYS: usize = 24;
 
 /// How something touches the sheet: points and weights, so that the force per mode is `Σ_i weight_i φ_m(x_i)` times
@@ -20,7 +24,7 @@ pub struct Footprint {
 }
 
 impl Footprint {
-    /// A single point.
+    /// A single point (m), of weight 1.
     pub fn point(at: Point) -> Self {
         Self { points: vec![(at, 1.0)] }
     }
@@ -87,7 +91,7 @@ impl Footprint {
         Self { points: squares.iter().zip(slopes).flat_map(ring).collect() }
     }
 
-    /// What it feels of every mode: `Σ_i weight_i φ_m(x_i)`.
+    /// Mode shapes averaged over the contact: `Σ_i weight_i φ_m(x_i)`, one weight per mode, in 1/√kg.
     pub fn weights(&self, shapes: &dyn Shapes) -> Vec<f64> {
         Self::all_weights(std::slice::from_ref(self), shapes).row(0).iter().copied().collect()
     }

@@ -8,14 +8,15 @@ use crate::PhysicsError;
 use faer::c64;
 use unripple_core::{Contact, Outline, require};
 
-/// From this R/L on, in 1/s, a coil's current follows its voltage at once; at 3 kHz that is an error of 2e-5 of its share.
+/// From this R/L on, in 1/s, a coil's current follows its voltage at once; at 3 kHz that is an error of 2e-5
+/// of its share. Doubled, the error is half as large.
 const AT_ONCE: f64 = 1e9;
 
 /// A mass, a damper and a spring to the ground, and perhaps a coil, all moving with the sheet at a footprint. Its
 /// impedance is Z(s) = μs + β + κ/s + (bl)²/(R + Ls): passive, whatever the values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Load {
-    /// Where and how it touches.
+    /// Contact with the sheet, as points and weights.
     pub footprint: Footprint,
     /// Mass μ, in kg.
     pub mass: f64,
@@ -30,7 +31,7 @@ pub struct Load {
 /// A coil moving in a magnet's field, its terminals held at a voltage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Circuit {
-    /// Force constant bl, in N/A.
+    /// Force constant bl, in N/A, which is also the electromotive force per velocity, in V·s/m.
     pub force_constant: f64,
     /// Resistance R, in Ω; positive.
     pub resistance: f64,

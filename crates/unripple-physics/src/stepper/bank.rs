@@ -1,21 +1,27 @@
-//! Loads in the time-stepper: masses, springs and coils at a point.
+//! Loads in the time-stepper: masses, springs, dampers and coils at ports, eight at a time.
 
 use super::small::{Inverse, OCT, Oct, Small, Solution, add, get, octs, registers, set};
 use crate::Circuit;
 use pulp::Simd;
 
-/// How fast the two-step form of a mass forgets, per step: a root at -0.8.
+/// How fast the two-step form of a mass forgets, per step: a root at -0.8. Nearer to 1, an alternation from
+/// sample to sample dies out more slowly.
 const MEMORY: f64 = 0.8;
 
-/// A current that is less than this (A) has died away.
+/// A current that is less than this (A) has died away: so none becomes denormal, which is slow to
+/// compute with. Nothing hears the difference.
 const DEAD: f64 = 1e-200;
 
 /// What of a load matters to the sheet: a mass, a damper and a spring to the ground, and perhaps a coil.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Burden {
+    /// Mass μ, in kg.
     pub(super) mass: f64,
+    /// Damping β, in N·s/m.
     pub(super) damping: f64,
+    /// Stiffness κ to the ground, in N/m.
     pub(super) stiffness: f64,
+    /// A coil on a voltage, where there is one.
     pub(super) circuit: Option<Circuit>,
 }
 
@@ -69,6 +75,7 @@ pub(super) struct Bank {
 }
 
 impl Bank {
+    /// Room for loads at `size` ports, with steps of `dt` seconds; `shared` if masses share impulses at once.
     pub(super) fn new(size: usize, dt: f64, shared: bool) -> Self {
         let zeros = vec![[0.0; OCT]; octs(size)];
         Self {
@@ -84,7 +91,7 @@ impl Bank {
         }
     }
 
-    /// Puts a load at rest on a port.
+    /// Puts a load at rest on a port, given by its index.
     pub(super) fn set(&mut self, port: usize, burden: &Burden) {
         let (dt, shared) = (self.dt, self.shared);
         let (loads, lane) = (&mut self.loads[port / OCT], port % OCT);
@@ -127,19 +134,19 @@ impl Bank {
         }
     }
 
-    /// D, port by port.
+    /// The factor D of each port, the square root of its stiffness over a step, in √(N/m).
     #[inline(always)]
     pub(super) fn depth(&self) -> &[f64] {
         self.depth.as_flattened()
     }
 
-    /// √μ where impulses are shared, port by port.
+    /// The factor √μ of each port, in √kg, where impulses are shared.
     #[inline(always)]
     pub(super) fn heft(&self) -> &[f64] {
         self.heft.as_flattened()
     }
 
-    /// Raises the current of a port's coil.
+    /// Raises the current of a port's coil by `current` (A).
     #[inline(always)]
     pub(super) fn induce(&mut self, port: usize, current: f64) {
         self.loads[port / OCT].still[port % OCT] += current;
@@ -161,15 +168,17 @@ impl Bank {
         }
     }
 
+    /// Extension of a port's spring, in m.
     pub(super) fn extension(&self, port: usize) -> f64 {
         self.loads[port / OCT].extension[port % OCT]
     }
 
+    /// Work done on a port's load since it was last set to zero, in J.
     pub(super) fn work(&self, port: usize) -> f64 {
         self.loads[port / OCT].work[port % OCT]
     }
 
-    /// Force on the sheet at all ports.
+    /// Force on the sheet of each port, in N.
     #[inline(always)]
     pub(super) fn forces(&self) -> &[f64] {
         self.forces.scaled.as_flattened()
@@ -217,7 +226,7 @@ impl Bank {
         (impulse, change)
     }
 
-    /// Finds the forces over the next step, `free` being what the ports would move by without them.
+    /// Finds the forces over the next step, `free` being what the ports would move by without them, in m.
     #[inline(always)]
     pub(super) fn solve<S: Simd>(
         &mut self,
@@ -291,6 +300,7 @@ impl Bank {
 }
 
 impl Loads {
+    /// All numbers that each port has, for what is done to all of them.
     fn fields(&mut self) -> [&mut Oct; 19] {
         let [r0, r1] = &mut self.recall;
         let [m0, m1, m2] = &mut self.masses;
@@ -326,6 +336,7 @@ struct Coil {
 }
 
 impl Coil {
+    /// A coil over steps of `dt` (s).
     fn of(circuit: &Circuit, dt: f64) -> Self {
         let Circuit { force_constant: bl, resistance, inductance } = *circuit;
         let theta = resistance * dt / inductance;

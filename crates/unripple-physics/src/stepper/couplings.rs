@@ -10,8 +10,11 @@ use pulp::Simd;
 /// A port that does not move has one row and column; both stand there twice, with one share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Part {
+    /// Indices of the two rows of weights.
     pub(super) rows: [usize; 2],
+    /// Indices of their columns in the tiles.
     pub(super) columns: [usize; 2],
+    /// Share of each, from 0 to 1.
     pub(super) shares: [f64; 2],
 }
 
@@ -24,6 +27,7 @@ pub(super) struct Couplings {
     rows: usize,
     /// The same between ports.
     between: [Small; 3],
+    /// What each port is made of.
     pub(super) parts: Vec<Part>,
     /// Ports that never change, the first ones.
     fixed: usize,
@@ -48,23 +52,26 @@ impl Couplings {
         }
     }
 
-    /// Ports by now.
+    /// Number of ports by now.
     #[inline(always)]
     pub(super) fn ports(&self) -> usize {
         self.parts.len()
     }
 
-    /// Velocity after impulses, displacement after impulses, displacement after held forces.
+    /// Matrices, ports x ports: velocity after impulses, displacement after impulses, displacement after held
+    /// forces.
     #[inline(always)]
     pub(super) fn between(&self) -> &[Small; 3] {
         &self.between
     }
 
+    /// The inverse for the loads' forces.
     #[inline(always)]
     pub(super) fn forces(&self) -> &Inverse {
         &self.forces
     }
 
+    /// The inverse for impulses shared with masses.
     #[inline(always)]
     pub(super) fn impulses(&self) -> &Inverse {
         &self.impulses
@@ -101,7 +108,7 @@ impl Couplings {
         self.follow(simd, bank);
     }
 
-    /// Computes anew what a port does to all ports.
+    /// Computes anew what a port, given by its index, does to all ports.
     #[inline(always)]
     pub(super) fn couple(&mut self, port: usize) {
         let part = self.parts[port];

@@ -1,4 +1,4 @@
-//! The time-stepper: modes advanced exactly, loads solved implicitly.
+//! The time-stepper: modes advanced by their exact propagator, loads solved implicitly.
 
 use super::bank::{Bank, Burden};
 use super::couplings::{Couplings, Part};
@@ -18,17 +18,24 @@ use unripple_core::{Finger, Pole};
 /// There is a row of weights for every port that never changes, and two for the ends of every finger's movement.
 #[derive(Clone, Debug)]
 pub(super) struct Engine {
+    /// Displacement and velocity of all modes.
     pub(super) field: Field,
+    /// The loads at all ports.
     pub(super) bank: Bank,
+    /// Where each channel leads, in channel order.
     pub(super) leads: Vec<Lead>,
+    /// The fingers that are down, coming or going.
     pub(super) touches: Vec<Touch>,
+    /// What ports do to each other over a step.
     pub(super) couplings: Couplings,
+    /// Rows of weights, rows x modes.
     pub(super) weights: Rows,
     /// The rows in use once more, as the sweep over modes wants them: those of the ports that never change, then one or
     /// two for each finger.
     pub(super) tiles: Tiles,
-    /// Forces and impulses on the tiles' columns.
+    /// Forces on the tiles' columns, in N.
     pub(super) forces: Vec<f64>,
+    /// Impulses on the tiles' columns, in N·s.
     pub(super) impulses: Vec<f64>,
     /// Whether the impulses are still to be laid on.
     pub(super) pending: bool,
@@ -40,25 +47,39 @@ pub(super) struct Engine {
     pub(super) sharing: bool,
     free_slots: Vec<usize>,
     fingers: usize,
+    /// Length of a step, in s.
     pub(super) dt: f64,
+    /// Number of steps per sample.
     pub(super) substeps: usize,
+    /// Share of a finger's coming or going that passes in one step.
     pub(super) fade: f64,
+    /// Share of a finger's movement that passes in one step.
     pub(super) glide: f64,
-    /// Velocity of the ports before impulses, what they would move by without forces, and room to work in.
+    /// Velocity of the ports before impulses, in m/s.
     pub(super) velocity: Vec<Oct>,
+    /// What the ports would move by without forces, in m.
     pub(super) motion: Vec<Oct>,
+    /// Impulses on the ports, in N·s.
     pub(super) impulse: Vec<Oct>,
+    /// What impulses change of the ports' velocity (m/s) or displacement (m): room to work in.
     pub(super) change: Vec<Oct>,
+    /// What the ports would move by without forces, impulses included, in m.
     pub(super) free: Vec<Oct>,
+    /// Places that are listened to.
     pub(super) probes: Probes,
-    /// Samples so far.
+    /// Number of samples so far.
     pub(super) samples: u64,
     /// Whether weights or poles have changed since forces were found.
     pub(super) stale: bool,
+    /// What the processor can do at once.
     pub(super) arch: Arch,
 }
 
 impl Engine {
+    /// An engine at rest for a plant and its channels at `rate` samples per second.
+    ///
+    /// # Errors
+    /// [`PhysicsError::Unsupported`] for a channel driven by a voltage without a coil.
     pub(super) fn new(
         plant: &Plant,
         channels: &[Channel],
@@ -150,7 +171,8 @@ impl Engine {
         self.stale = true;
     }
 
-    /// Puts a finger down; `false` if there are as many as there may be.
+    /// Puts a finger down, `weights` being those of its contact, one per mode; `false` if there are as many
+    /// as there may be.
     pub(super) fn put(&mut self, id: u64, finger: Finger, weights: &[f64]) -> bool {
         let Some(slot) = self.free_slots.pop() else { return false };
         let touch = Touch::new(id, finger, slot);
@@ -166,7 +188,8 @@ impl Engine {
         true
     }
 
-    /// Starts a finger's way from where it is felt now to elsewhere.
+    /// Starts the way of a finger, by its index, from where it is felt now to a contact of other weights, one
+    /// per mode.
     pub(super) fn shift(&mut self, finger: usize, weights: &[f64]) {
         let touch = self.touches[finger];
         let [from, to] = self.ends(touch.slot);
@@ -182,14 +205,14 @@ impl Engine {
         self.stale = true;
     }
 
-    /// Gives a port without load other weights.
+    /// Gives a port without load, by its index, other weights, one per mode.
     pub(super) fn reseat(&mut self, port: usize, weights: &[f64]) {
         self.weights.fill(port, weights);
         self.measure(port..port + 1);
         self.stale = true;
     }
 
-    /// Forgets a finger; [`Engine::renew_now`] must follow.
+    /// Forgets a finger, given by its index; [`Engine::renew_now`] must follow.
     #[cold]
     pub(super) fn drop_finger(&mut self, finger: usize) {
         let port = self.fixed + finger;
@@ -199,7 +222,7 @@ impl Engine {
         self.free_slots.push(touch.slot);
     }
 
-    /// Rows of the place a finger comes from and of the place it goes to.
+    /// Indices of the rows of the place a finger comes from and of the place it goes to.
     pub(super) fn ends(&self, slot: usize) -> [usize; 2] {
         [self.fixed + 2 * slot, self.fixed + 2 * slot + 1]
     }
@@ -237,6 +260,7 @@ struct Wiring {
 }
 
 impl Wiring {
+    /// Sorts channels: ports without load first, then one for each load.
     fn of(plant: &Plant, channels: &[Channel], rate: f64, dt: f64) -> Result<Self, PhysicsError> {
         channels.iter().try_for_each(Channel::check)?;
         let channels: Vec<Channel> = channels.iter().map(|channel| channel.settled(rate)).collect();

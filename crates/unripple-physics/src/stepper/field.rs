@@ -6,10 +6,10 @@ use super::lanes::{
 use pulp::{Simd, as_arrays, as_arrays_mut};
 use unripple_core::Pole;
 
-/// Terms of the series for slow modes: the last is below 1e-20 of the first.
+/// Terms of the series for slow modes: the last is below 1e-20 of the first. Doubled, sums stay the same.
 const TERMS: usize = 30;
 
-/// Groups of modes that are swept over together.
+/// Groups of modes that are swept over together, as many as the nearest cache holds with their tiles.
 const TOGETHER: usize = 8;
 
 /// Below this, motion is put to rest: numbers far smaller would slow the processor down.
@@ -19,14 +19,15 @@ const SILENCE: f64 = 1e-200;
 ///
 /// With the force `f` held and `p = f - ω² u`: `u⁺ = u + strike·v + push·p` and `v⁺ = hold·v + strike·p`.
 pub(super) mod step {
-    /// ω².
+    /// The squared angular frequency ω², in 1/s².
     pub(in super::super) const SQUARE: usize = 0;
     /// Displacement after a unit impulse, and velocity after a unit force.
     pub(in super::super) const STRIKE: usize = 1;
-    /// Velocity after a unit velocity.
+    /// Velocity after a unit velocity, dimensionless.
     pub(in super::super) const HOLD: usize = 2;
     /// Displacement after a unit force.
     pub(in super::super) const PUSH: usize = 3;
+    /// Number of values for each mode.
     pub(in super::super) const ROWS: usize = 4;
 }
 
@@ -38,7 +39,9 @@ struct ModeBlock([Lanes; TOGETHER]);
 /// What ports feel: displacement over the step to come without forces, and velocity, sixteen parts of each sum.
 #[derive(Clone, Debug)]
 pub(super) struct PortSums {
+    /// Sums of displacement, one per column.
     pub(super) motion: Vec<Lanes>,
+    /// Sums of velocity, one per column.
     pub(super) velocity: Vec<Lanes>,
     /// The first ports, which carry no load and do not care for motion.
     pub(super) plain: usize,
@@ -99,14 +102,14 @@ pub(super) struct Probes {
 }
 
 impl Probes {
-    /// Listens to displacement or velocity, given the places' weights.
+    /// Probes of displacement or velocity, given the places' weights, places x modes.
     pub(super) fn new(rows: &[Vec<f64>], displaced: Vec<bool>) -> Self {
         let mut weights = Rows::zeros(rows.len(), rows.first().map_or(0, Vec::len));
         rows.iter().enumerate().for_each(|(row, values)| weights.fill(row, values));
         Self { weights, displaced, sums: vec![[0.0; LANES]; rows.len()], heard: vec![0.0; rows.len()] }
     }
 
-    /// Gives a place other weights.
+    /// Gives a probe, by its index, other weights, one per mode.
     pub(super) fn place(&mut self, probe: usize, weights: &[f64]) {
         self.weights.fill(probe, weights);
     }
@@ -123,7 +126,7 @@ impl Probes {
         }
     }
 
-    /// Adds up what was heard.
+    /// Adds up what was heard: one number per probe, in m/s or m.
     #[inline(always)]
     pub(super) fn reduce<S: Simd>(&mut self, simd: S) -> &[f64] {
         total(simd, &self.sums, &mut self.heard);
@@ -142,7 +145,7 @@ pub(super) struct Field {
 }
 
 impl Field {
-    /// Everything at rest.
+    /// Everything at rest; `dt` is the length of a step, in s.
     pub(super) fn new(poles: &[Pole], dt: f64) -> Self {
         let modes = poles.len();
         let [displacement, velocity] = [(); 2].map(|()| Rows::zeros(1, modes));
@@ -152,7 +155,7 @@ impl Field {
         field
     }
 
-    /// Sets the poles, displacement and velocity kept.
+    /// Sets the poles for steps of `dt` (s), displacement and velocity kept.
     pub(super) fn tune(&mut self, poles: impl Iterator<Item = Pole>, dt: f64) {
         for (m, pole) in poles.enumerate() {
             let [[_, strike], [_, hold]] = pole.step(dt);
@@ -170,17 +173,19 @@ impl Field {
         }
     }
 
+    /// Displacement of every mode, in m·√kg.
     #[inline(always)]
     pub(super) fn displacement(&self) -> &[f64] {
         self.displacement.row(0)
     }
 
+    /// Velocity of every mode, in √J.
     #[inline(always)]
     pub(super) fn velocity(&self) -> &[f64] {
         self.velocity.row(0)
     }
 
-    /// Strikes the modes and listens to them.
+    /// Strikes the modes with `impulses`, one per column in N·s, and listens to them.
     #[inline(always)]
     pub(super) fn settle<S: Simd>(
         &mut self,
@@ -253,7 +258,7 @@ impl Field {
         }
     }
 
-    /// Puts to rest what no longer matters; it takes energy away, if anything.
+    /// Sets motion that is too small to matter to zero; energy can only fall by it.
     #[inline(always)]
     pub(super) fn silence(&mut self) {
         for x in self.displacement.row_mut(0).iter_mut().chain(self.velocity.row_mut(0)) {
@@ -303,8 +308,8 @@ fn advance<S: Simd, const MOVE: bool>(
     }
 }
 
-/// Displacement after `dt` of a unit force held from rest, for unit modal mass: `∫_0^dt g = (1 - a)/ω²`, g the displacement
-/// after an impulse.
+/// Displacement after `dt` (s) of a unit force held from rest, for unit modal mass: `∫_0^dt g = (1 - a)/ω²`
+/// in s², g the displacement after an impulse.
 ///
 /// Without cancellation in any regime: by its series where ω dt and σ dt are small, from the two real exponents where it
 /// is slow and strongly damped.

@@ -23,6 +23,7 @@ pub struct History {
 }
 
 impl History {
+    /// A ring of `most` states of so many modes, one after every `stride` samples, begun at sample `now`.
     pub(super) fn new(modes: usize, stride: usize, most: usize, now: u64) -> Result<Self, PhysicsError> {
         require("samples from one state to the next", stride > 0, "at least 1", stride as f64)?;
         let room = (1..=1 << 20).contains(&most);
@@ -32,12 +33,12 @@ impl History {
         Ok(Self { modes, stride, most, wait: stride, newest: now, count: 0, displacement: zeros, velocity })
     }
 
-    /// Samples from each state to the next.
+    /// Number of samples from each state to the next.
     pub fn stride(&self) -> usize {
         self.stride
     }
 
-    /// States that can be read.
+    /// Number of states that can be read.
     pub fn len(&self) -> usize {
         self.count.min(self.most as u64) as usize
     }
@@ -47,12 +48,13 @@ impl History {
         self.count == 0
     }
 
-    /// Samples that the surface had taken in at the newest state.
+    /// Number of samples that the surface had taken in at the newest state.
     pub fn newest(&self) -> u64 {
         self.newest
     }
 
-    /// Displacement and velocity of every mode so many states before the newest; `None` beyond what is remembered.
+    /// Displacement (m·√kg) and velocity (√J) of every mode, `back` states before the newest; `None` beyond
+    /// what is remembered.
     pub fn state(&self, back: usize) -> Option<(&[f32], &[f32])> {
         if back >= self.len() {
             return None;
@@ -61,12 +63,12 @@ impl History {
         Some((&self.displacement[slot..slot + self.modes], &self.velocity[slot..slot + self.modes]))
     }
 
-    /// Samples that may pass until a state is due.
+    /// Number of samples that may pass until a state is due.
     pub(super) fn wait(&self) -> usize {
         self.wait
     }
 
-    /// Takes in a state so many samples after the last, and keeps it if it is due.
+    /// Takes in a state `frames` samples after the last, and keeps it if it is due.
     pub(super) fn take(&mut self, frames: usize, displacement: &[f64], velocity: &[f64]) {
         self.wait -= frames.min(self.wait);
         if self.wait > 0 {

@@ -5,13 +5,14 @@
 
 use pulp::{Simd, as_arrays};
 
-/// Modes that are worked on together; rows are padded with zeros to a multiple of this.
+/// Modes that are worked on together: two lines of cache. Rows are padded with zeros to a multiple of this;
+/// doubled, more zeros are worked on.
 pub(super) const LANES: usize = 16;
 
 /// A value for each of so many modes.
 pub(super) type Lanes = [f64; LANES];
 
-/// Rows begin where a cache line does.
+/// Rows begin where a cache line does, of 64 bytes: reads across two lines cost twice.
 const LINE: usize = 64;
 
 /// Rows of values for each mode, padded with zeros.
@@ -23,7 +24,7 @@ pub(super) struct Rows {
 }
 
 impl Rows {
-    /// So many rows of zeros for so many modes.
+    /// Rows of zeros, rows x modes.
     pub(super) fn zeros(rows: usize, modes: usize) -> Self {
         let length = modes.next_multiple_of(LANES);
         let data = vec![0.0; rows * length + LINE / size_of::<f64>()];
@@ -31,11 +32,13 @@ impl Rows {
         Self { data, first, length }
     }
 
+    /// One row, by its index, padded with zeros.
     #[inline(always)]
     pub(super) fn row(&self, row: usize) -> &[f64] {
         &self.data[self.first + row * self.length..][..self.length]
     }
 
+    /// One row, by its index, to be changed.
     #[inline(always)]
     pub(super) fn row_mut(&mut self, row: usize) -> &mut [f64] {
         &mut self.data[self.first + row * self.length..][..self.length]
@@ -73,7 +76,7 @@ impl Tiles {
         self.columns = columns;
     }
 
-    /// Columns in use.
+    /// Number of columns in use.
     #[inline(always)]
     pub(super) fn columns(&self) -> usize {
         self.columns
@@ -220,7 +223,7 @@ pub(super) fn accumulate<S: Simd>(
     }
 }
 
-/// As [`accumulate`] does, for two kinds of motion at once.
+/// As [`accumulate`] does, for two kinds of motion (m and m/s per column) and their sums at once.
 #[inline(always)]
 pub(super) fn accumulate_both<S: Simd>(
     simd: S,
@@ -269,7 +272,7 @@ pub(super) fn read_out<S: Simd>(simd: S, row: &[Lanes], x: &[Lanes], to: &mut La
     keep::<S>(&sum, to);
 }
 
-/// What was added up by [`accumulate`].
+/// What was added up by [`accumulate`]: one number per column.
 #[inline(always)]
 pub(super) fn total<S: Simd>(simd: S, sums: &[Lanes], out: &mut [f64]) {
     for (out, sum) in out.iter_mut().zip(sums) {
@@ -282,7 +285,7 @@ pub(super) fn total<S: Simd>(simd: S, sums: &[Lanes], out: &mut [f64]) {
     }
 }
 
-/// Registers that hold sixteen values.
+/// Number of registers that hold sixteen values.
 #[inline(always)]
 pub(super) fn vectors<S: Simd>() -> usize {
     LANES / S::F64_LANES

@@ -1,9 +1,9 @@
-//! Where a channel leads: what a drive does there, and what is heard.
+//! Channels as the stepper knows them: what a drive does at a port, and what its sensor reads.
 
 use super::Channel;
 use crate::Circuit;
 
-/// Where a channel leads.
+/// Where a channel leads: its port, and the factors of drive and sensor there.
 ///
 /// A coil of inductance L on a voltage V makes the force bl·i with L di/dt + R i = V - bl·v. What is heard of the motion is
 /// what the motion alone drives through the coil, j with L dj/dt + R j = bl·v: a state of its own beside the current that the drive
@@ -13,12 +13,15 @@ use crate::Circuit;
 /// current is slow. Drive and sensor share it alike, which keeps responses reciprocal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lead {
+    /// Index of the port that it leads to.
     pub(super) port: usize,
-    /// Impulse (N·s) per unit of drive in one sample, and what is heard per velocity (m/s) of the port.
+    /// Impulse (N·s) per unit of drive in one sample.
     pub(super) strike: f64,
+    /// What is heard per velocity (m/s) of the port.
     pub(super) felt: f64,
-    /// Jump of the coil's current (A) per unit of drive in one sample, and what is heard per ampere driven by the motion.
+    /// Jump of the coil's current (A) per unit of drive in one sample.
     pub(super) jump: f64,
+    /// What is heard per ampere driven by the motion.
     pub(super) driven: f64,
 }
 
@@ -50,7 +53,8 @@ impl Lead {
         self.strike != 0.0
     }
 
-    /// What is heard, from the port's velocity (m/s) and the current that motion drives through its coil, against the drive's (A).
+    /// What is heard, in the sensor's unit, from the port's velocity (m/s) and the current that motion drives
+    /// through its coil, against the drive's (A).
     #[inline(always)]
     pub(super) fn hears(&self, velocity: f64, driven: f64) -> f64 {
         self.felt * velocity - self.driven * driven

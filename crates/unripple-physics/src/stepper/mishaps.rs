@@ -100,8 +100,8 @@ impl Misbehaving {
         })
     }
 
-    /// The same, the last `spare` channels being forces that no wire leads to, taps for example: nothing happens to their
-    /// drive, and their sensors are as told.
+    /// The same, the last `spare` (a number) channels being forces that no wire leads to, taps for example:
+    /// nothing happens to their drive, and their sensors are as told.
     ///
     /// # Errors
     /// [`PhysicsError::Range`] for more of them than channels, or if a mishap happens to one.
@@ -126,12 +126,13 @@ impl Misbehaving {
         &mut self.surface
     }
 
-    /// Blocks lost so far.
+    /// Number of blocks lost so far.
     pub fn lost(&self) -> usize {
         self.lost
     }
 
-    /// As [`VirtualSurface::process`], with all that goes wrong. Never allocates.
+    /// As [`VirtualSurface::process`], planes of `frames` samples each, with all that goes wrong. Never
+    /// allocates.
     ///
     /// # Errors
     /// Those of [`VirtualSurface::process`]; [`PhysicsError::Range`] for a block longer than was said.

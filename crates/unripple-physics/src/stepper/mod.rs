@@ -1,4 +1,4 @@
-//! The surface in the time domain: drive in, sensors and probes out, fingers on it, block by block.
+//! Time-domain simulation of the surface, block by block: drive in, sensors and probes out, fingers on it.
 //!
 //! # The scheme
 //!

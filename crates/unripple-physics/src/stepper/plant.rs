@@ -7,16 +7,21 @@ use std::sync::Arc;
 use unripple_core::{ModalResponses, Onset, Outline, Point, Pole, Shapes, Surface, require};
 use unripple_plates::decay_rate;
 
-/// What is added to modes may oscillate at this share of half the rate: faster, samples would show it as something slower.
+/// What is added to modes may oscillate at this share of half the rate: faster, samples would show it as
+/// something slower. At 1, it would alternate from sample to sample.
 const FASTEST: f64 = 0.9;
 
 /// A sheet as the stepper knows it: oscillations, their shapes and the rim. Cheap to clone, so that another thread can
 /// prepare footings.
 #[derive(Clone, Debug)]
 pub struct Plant {
+    /// The decaying oscillations, one per mode.
     pub(super) poles: Arc<[Pole]>,
+    /// Bending's share of each mode's elastic energy, 0 to 1.
     pub(super) bending_shares: Arc<[f64]>,
+    /// Mode shapes at any point, in 1/√kg.
     pub(super) shapes: Arc<dyn Shapes>,
+    /// The rim within which discs are cut off.
     pub(super) outline: Arc<Outline>,
 }
 
@@ -36,9 +41,11 @@ pub struct Channel {
     pub voltage: bool,
 }
 
-/// What a disc on the sheet feels of every mode: made by [`Plant::footing`], wherever there is time for it.
+/// The weights of every mode under a disc on the sheet: made by [`Plant::footing`], on any thread that has
+/// time for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Footing {
+    /// One weight per mode, in 1/√kg.
     pub(super) weights: Vec<f64>,
 }
 
@@ -143,16 +150,17 @@ impl Plant {
         Ok(Footing { weights: self.weights(&Footprint::disc(at, radius, &self.outline))? })
     }
 
-    /// What points read of every mode, in 1/√kg: points x modes.
+    /// Mode shapes at points (m), in 1/√kg: points x modes.
     pub fn readout(&self, points: &[Point]) -> Mat<f64> {
         self.shapes.at_all(points)
     }
 
-    /// Number of modes.
+    /// Number of modes of the sheet.
     pub fn modes(&self) -> usize {
         self.poles.len()
     }
 
+    /// Weights of a footprint, one per mode in 1/√kg; an error unless they are finite.
     pub(super) fn weights(&self, footprint: &Footprint) -> Result<Vec<f64>, PhysicsError> {
         let weights = footprint.weights(&*self.shapes);
         for weight in &weights {
@@ -198,6 +206,7 @@ impl Channel {
         channel
     }
 
+    /// A typed error unless gain and load are those of a passive thing.
     pub(super) fn check(&self) -> Result<(), PhysicsError> {
         require("gain of a channel", true, "a finite number", self.gain)?;
         if let Some(load) = &self.load {

@@ -28,7 +28,7 @@ impl Default for StepperOptions {
     }
 }
 
-/// What a probe reads.
+/// The quantity that a probe reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reading {
     /// Velocity, in m/s.
@@ -64,6 +64,7 @@ pub struct FingerMotion {
 /// A surface that runs: drive in, sensors and probes out, with fingers on it. See [the module](crate::stepper) for the scheme.
 #[derive(Clone, Debug)]
 pub struct VirtualSurface {
+    /// Modes, loads and fingers in time.
     pub(super) engine: Engine,
     plant: Plant,
     rate: f64,
@@ -73,7 +74,7 @@ pub struct VirtualSurface {
 }
 
 impl VirtualSurface {
-    /// A surface at rest, at so many samples per second.
+    /// A surface at rest, at `rate` samples per second.
     ///
     /// # Errors
     /// [`PhysicsError::Range`] for values that cannot be; [`PhysicsError::Unsupported`] for a channel driven by a voltage
@@ -108,27 +109,27 @@ impl VirtualSurface {
         &self.plant
     }
 
-    /// Samples per second.
+    /// Sample rate, in samples per second.
     pub fn rate(&self) -> f64 {
         self.rate
     }
 
-    /// Number of channels.
+    /// Number of channels, each a drive and a sensor.
     pub fn channels(&self) -> usize {
         self.engine.leads.len()
     }
 
-    /// Number of probes.
+    /// Number of probes, in the order they were set.
     pub fn probes(&self) -> usize {
         self.engine.probes.heard.len()
     }
 
-    /// Samples taken in so far.
+    /// Number of samples taken in so far.
     pub fn samples(&self) -> u64 {
         self.engine.samples
     }
 
-    /// Listens at these points from now on, instead of any before. Allocates.
+    /// Listens at these points (m) from now on, instead of any before. Allocates.
     ///
     /// # Errors
     /// [`PhysicsError::Range`] for a point that is not finite.
@@ -226,11 +227,12 @@ impl VirtualSurface {
         Ok(())
     }
 
-    /// What is remembered.
+    /// The states that are remembered, if any are.
     pub fn history(&self) -> Option<&History> {
         self.history.as_ref()
     }
 
+    /// Runs the samples of some planes, checked before.
     pub(super) fn run(&mut self, planes: Planes) {
         let arch = self.engine.arch;
         arch.dispatch(Block { engine: &mut self.engine, planes });
@@ -247,7 +249,7 @@ impl VirtualSurface {
         self.touch_on(id, &contact.finger, &footing)
     }
 
-    /// Puts a finger down on a footing made before. Allocates nothing unless it fails.
+    /// Puts a finger down on a footing made before (one weight per mode). Allocates nothing unless it fails.
     ///
     /// # Errors
     /// Those of [`VirtualSurface::touch`].
@@ -282,7 +284,7 @@ impl VirtualSurface {
         self.move_onto(id, &footing)
     }
 
-    /// Moves a finger onto a footing made before. Allocates nothing unless it fails.
+    /// Moves a finger onto a footing made before (one weight per mode). Allocates nothing unless it fails.
     ///
     /// # Errors
     /// Those of [`VirtualSurface::move_to`].
@@ -293,8 +295,7 @@ impl VirtualSurface {
         Ok(())
     }
 
-    /// Lifts a finger, which goes within [`StepperOptions::fade`]. Its name is free at once. Allocates nothing unless it
-    /// fails.
+    /// Lifts a finger, which goes within [`StepperOptions::fade`]; its name is free at once. Errors alone allocate.
     ///
     /// # Errors
     /// [`PhysicsError::Unsupported`] if no such finger is down.
@@ -304,7 +305,7 @@ impl VirtualSurface {
         Ok(())
     }
 
-    /// How a finger that is down moves, and what it gets.
+    /// How a finger that is down moves, and what it gets: force in N, motion in m and m/s, power in W.
     pub fn finger_motion(&self, id: u64) -> Option<FingerMotion> {
         let finger = self.find(id)?;
         let (engine, port) = (&self.engine, self.engine.fixed + finger);
@@ -362,8 +363,7 @@ impl VirtualSurface {
         Snapshot { displacement: read(displacement), velocity: read(velocity) }
     }
 
-    /// Energy of the sheet and of all that hangs on it, in J: kinetic, elastic and magnetic. Without drive it never grows,
-    /// unless tension does.
+    /// Energy of the sheet and its loads, in J: kinetic, elastic, magnetic. Without drive only tension lets it grow.
     pub fn energy(&self) -> f64 {
         self.engine.field.energy() + self.engine.bank.energy()
     }
@@ -389,7 +389,7 @@ impl VirtualSurface {
     }
 }
 
-/// A typed error unless a slice is as long as expected, or empty where that will do.
+/// A typed error unless a slice has the length expected, or is empty where that will do.
 pub(super) fn size(what: &str, found: usize, expected: usize, or_none: bool) -> Result<(), PhysicsError> {
     if found == expected || (or_none && found == 0) {
         return Ok(());

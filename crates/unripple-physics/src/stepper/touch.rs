@@ -6,19 +6,22 @@ use unripple_core::Finger;
 /// A finger that is coming, there, or going.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Touch {
+    /// Name that whoever put it down gave it.
     pub(super) id: u64,
+    /// Its mass, damping, stiffness and contact radius.
     pub(super) finger: Finger,
     /// Which of the rows kept for fingers are its own.
     pub(super) slot: usize,
-    /// Progress of coming, 0 to 1, and of moving to its newest place, 0 to 1.
+    /// Progress of coming, 0 to 1.
     pub(super) coming: f64,
+    /// Progress of moving to its newest place, 0 to 1.
     pub(super) moving: f64,
     /// Whether it has been lifted.
     pub(super) lifted: bool,
 }
 
 impl Touch {
-    /// A finger that is not felt yet.
+    /// A finger that is not felt yet; `slot` is the index of its two rows of weights.
     pub(super) fn new(id: u64, finger: Finger, slot: usize) -> Self {
         Self { id, finger, slot, coming: 0.0, moving: 1.0, lifted: false }
     }
@@ -29,7 +32,7 @@ impl Touch {
         self.lifted || self.coming < 1.0 || self.moving < 1.0
     }
 
-    /// Goes on by these shares of its fade and its glide.
+    /// Goes on by these shares of its fade and its glide, 0 to 1 each.
     #[inline(always)]
     pub(super) fn go_on(&mut self, fade: f64, glide: f64) {
         let fade = if self.lifted { -fade } else { fade };
@@ -47,10 +50,11 @@ impl Touch {
     #[inline(always)]
     pub(super) fn grip(&self) -> f64 {
         let x = self.coming;
+        // 6x⁵ - 15x⁴ + 10x³: its first two derivatives vanish at both ends.
         x * x * x * (10.0 + x * (6.0 * x - 15.0))
     }
 
-    /// Shares of the place it leaves and the place it goes to.
+    /// Shares, 0 to 1, of the place it leaves and the place it goes to.
     #[inline(always)]
     pub(super) fn shares(&self) -> [f64; 2] {
         let grip = self.grip();

@@ -12,33 +12,39 @@ use rayon::prelude::*;
 use std::f64::consts::TAU;
 use unripple_core::{Responses, Surface};
 
-/// Share of the largest contrast at which more window is no longer worth its wait.
+/// Share of the largest contrast at which more window is no longer worth its wait. At 1, the window of the
+/// largest contrast would be recommended, however long it is.
 pub(super) const WORTHWHILE: f64 = 0.9;
 
-/// How often waves cross the surface in a window at least, along the mean chord. In a shorter one waves have not been everywhere: parts of the surface
-/// are silent, and contrast says how many rather than how good the focus is.
+/// How often waves cross the surface in a window at least, along the mean chord. In a shorter one waves have
+/// not been everywhere: parts of the surface are silent, and contrast says how many rather than how good the
+/// focus is. Doubled, small surfaces would get windows twice as long.
 const CROSSINGS: f64 = 3.0;
 
-/// What is said of a window of so many crossings.
+/// How a window of three crossings is described.
 const CROSSED: &str =
     "in which waves cross the surface three times, the shortest that leaves no part of it silent";
 
-/// The longest window that is considered, in seconds. A focus comes a window after it was asked for; past this nobody waits. Where
-/// losses grow with frequency contrast may creep on for minutes, as the lowest modes outlive the others.
+/// The longest window that is considered, in seconds. A focus comes a window after it was asked for; past
+/// this nobody waits. Where losses grow with frequency contrast may creep on for minutes, as the lowest modes
+/// outlive the others. Doubled, such surfaces get longer windows.
 const LONGEST: f64 = 0.5;
 
-/// Share of the largest contrast that is as good as it: the window named for it is the shortest that has that much.
+/// Share of the largest contrast that is as good as it: the window named for it is the shortest that has that
+/// much. At 1, that window would move with the last digits of a curve that is nearly flat.
 const AS_GOOD: f64 = 0.995;
 
-/// Windows considered to each doubling: contrast changes by 6 % at most from one to the next, and is interpolated.
+/// Windows considered to each doubling: contrast changes by 6 % at most from one to the next, and is
+/// interpolated. Doubled, the curve takes twice as long.
 const PER_DOUBLING: f64 = 6.0;
 
-/// Relative accuracy of the frequencies. The contrast of a mean over targets does not ask where each mode is, only for as many
-/// modes as alike as the surface's own.
+/// Relative accuracy of the frequencies. The contrast of a mean over targets does not ask where each mode is,
+/// only for as many modes as alike as the surface's own. Smaller, modes take longer and contrast stays the
+/// same.
 const ACCURACY: f64 = 1e-3;
 
-/// Modes below the top of the band up to which they are solved for. The work grows as their square; the statistics of so many
-/// modes are good.
+/// Modes below the top of the band up to which they are solved for. The work grows as their square; the
+/// statistics of so many modes are good. Doubled, the largest surfaces take four times as long.
 const MOST_MODES: f64 = 2000.0;
 
 /// Contrast of a time-reversed focus against its window, T, for the actuators of a surface.
@@ -135,6 +141,7 @@ impl Windows {
         Self::along(surface, Some(reason.into()), |window| cavity.contrast(actuators, window))
     }
 
+    /// The curve of a function of contrast by window, in s, over the windows that are considered.
     fn along(surface: &Surface, statistics: Option<String>, contrast: impl Fn(f64) -> f64 + Sync) -> Self {
         let shortest = CROSSINGS * Cavity::of(surface, surface.emission.band[1]).crossing();
         let longest = LONGEST.max(4.0 * shortest);
@@ -149,7 +156,7 @@ impl Windows {
         self.shortest(WORTHWHILE)
     }
 
-    /// The shortest window whose contrast is a share, 0 to 1, of the largest.
+    /// The shortest window whose contrast is the share `share`, 0 to 1, of the largest.
     pub fn shortest(&self, share: f64) -> Recommended {
         let known = self.curve.iter().map(|(_, c)| *c).filter(|c| c.is_finite());
         let Some(largest) = known.max_by(f64::total_cmp) else {
@@ -175,7 +182,8 @@ impl Windows {
         Recommended { seconds, contrast: self.contrast(seconds), largest, largest_at, at_floor, why }
     }
 
-    /// Contrast to be expected with a window, in s; between the shortest and the longest considered.
+    /// Contrast (a ratio) to be expected with a window, in s; between the shortest and the longest
+    /// considered.
     pub fn contrast(&self, window: f64) -> f64 {
         let after = self.curve.partition_point(|(t, _)| *t < window);
         match (after.checked_sub(1).and_then(|i| self.curve.get(i)), self.curve.get(after)) {
@@ -189,6 +197,7 @@ impl Windows {
         self.curve.first().map_or(0.0, |(t, _)| *t)
     }
 
+    /// Why a window is recommended, in words.
     fn why(&self, share: f64, at_floor: bool, (largest_at, largest): (f64, f64)) -> String {
         let peak = format!("{largest:.1} at {:.1} ms", 1e3 * largest_at);
         let longest = self.curve.last().map_or(0.0, |(t, _)| *t);
@@ -210,19 +219,20 @@ impl Windows {
     }
 }
 
-/// A window in milliseconds as it is told: three digits.
+/// A window, given in s, in milliseconds as it is told: three digits.
 pub fn milliseconds(seconds: f64) -> String {
     let ms = 1e3 * seconds;
     let decimals = (2.0 - ms.log10().floor()).clamp(0.0, 6.0) as usize;
     format!("{ms:.decimals$}")
 }
 
-/// Three digits, upwards: a window reads as it is, and reaches what it was chosen for.
+/// Three digits, upwards, of a window in s: it reads as it is, and reaches what it was chosen for.
 fn rounded_up(seconds: f64) -> f64 {
     if !(seconds > 0.0 && seconds.is_finite()) {
         return seconds;
     }
     // In units of a power of ten below one, so that the digits are those of a decimal number.
     let unit = 10f64.powi(2 - seconds.log10().floor() as i32);
+    // A hair less, so that a number of three digits stays what it is.
     (seconds * unit * (1.0 - 1e-9)).ceil() / unit
 }

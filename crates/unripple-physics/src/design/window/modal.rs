@@ -30,7 +30,7 @@ struct Term {
 }
 
 impl Modal {
-    /// Lays it out.
+    /// Lays out the exponentials, gains, targets and points of modal responses.
     ///
     /// # Errors
     /// In words, why no contrast can be told from these responses.
