@@ -64,7 +64,7 @@ pub enum FocusError {
         /// All names.
         expected: String,
     },
-    /// Samples do not tell what single modes do.
+    /// What was asked for needs modal responses: samples do not tell what single modes do.
     #[error("{0}: expected modal responses, found sampled ones")]
     NeedsModes(&'static str),
     /// Two targets are so close that their levels cannot differ.

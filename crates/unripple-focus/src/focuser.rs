@@ -7,13 +7,14 @@ use crate::settle::settle;
 use crate::{FeltPlan, FocusError, LossCorrection, Method, Options, Target, Timing, target};
 use unripple_core::{Drive, Point, Responses, require, window_samples};
 
-/// Decay after which the past no longer matters to a repeated drive, in nepers: to 1/1000.
+/// Decay after which the past no longer matters to a repeated drive, in nepers: to 1/1000. Doubled, repeated
+/// drives last longer by as much, and are periodic to 1e-6.
 const SETTLED: f64 = 6.9;
 
 /// A drive and when it focuses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Focused {
-    /// What is to be sent.
+    /// The drive that is to be sent.
     pub drive: Drive,
     /// When each target is in focus.
     pub timing: Vec<Timing>,
@@ -22,7 +23,7 @@ pub struct Focused {
     pub period: Option<usize>,
     /// The points each target was focused on: those asked for, or the nearest ones whose responses are stored.
     pub points: Vec<Vec<Point>>,
-    /// How it was made.
+    /// The method that it was made by.
     pub method: Method,
     /// Whether the limits gave the drive its shape, and not its size alone.
     pub shaped: bool,
@@ -50,7 +51,7 @@ pub struct Focuser<'r> {
     window: usize,
 }
 
-/// How drives are made.
+/// How drives are made: by reversal, by seeking a state, or by keeping down what is felt elsewhere.
 #[derive(Debug)]
 enum Maker<'r> {
     /// By playing responses backwards.
@@ -219,6 +220,7 @@ impl<'r> Focuser<'r> {
         Ok((points, shaped))
     }
 
+    /// When each target is in focus.
     fn schedule(&self, targets: &[Target]) -> Result<Schedule, FocusError> {
         let rate = self.responses.conditions().rate;
         let rates: Vec<_> = targets.iter().map(|target| target.rate_hz).collect();
@@ -232,6 +234,7 @@ impl<'r> Focuser<'r> {
         Schedule::plan(&rates, conditions)
     }
 
+    /// Raises responses by e^{+t/τ}, if the options say so.
     fn correct(&self, recording: &mut Recording) {
         if let LossCorrection::Uniform(tau) = self.options.loss {
             let step = 1.0 / (tau * self.responses.conditions().rate);
@@ -241,6 +244,7 @@ impl<'r> Focuser<'r> {
         }
     }
 
+    /// Adds responses played backwards, so that their first sample falls on `instant`.
     fn add_reversed(&self, recording: &Recording, gain: f64, instant: usize, channels: &mut [Vec<f64>]) {
         for (channel, row) in channels.iter_mut().zip(recording.samples.chunks_exact(self.window + 1)) {
             let first = instant - self.window;

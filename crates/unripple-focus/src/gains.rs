@@ -11,8 +11,8 @@ use unripple_linalg::solve_cholesky;
 /// Response k is played backwards so that its sample 0 falls on `instants[k]`, over samples 0 and later of the drive. The velocity
 /// at focus k is then `Σ_l G_kl c_l / rate` with `G_kl = Σ_a Σ_j h_ak[f_k − j] h_al[f_l − j]`, the Gram matrix of the reversed
 /// responses, so that the drive `Σ_k c_k h_ak[f_k − j]` is the one of least energy among all that reach these levels. `ridge`,
-/// as a share of the mean of the diagonal, keeps foci finite that lie too close to differ; recordings hold `[actuator][sample]` with
-/// as many samples each.
+/// as a share of the mean of the diagonal, keeps foci finite that lie too close to differ (Tikhonov
+/// regularisation); recordings hold `[actuator][sample]` with as many samples each.
 ///
 /// # Errors
 /// [`FocusError::Range`] where no finite gains meet the levels.
@@ -50,7 +50,7 @@ pub(crate) fn gains(
     Ok(gains)
 }
 
-/// Σab in eight independent sums, as far as the shorter goes.
+/// The sum Σab in eight independent sums, as far as the shorter goes.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let length = a.len().min(b.len());
     let (a, b) = (&a[..length], &b[..length]);

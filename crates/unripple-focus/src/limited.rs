@@ -7,19 +7,21 @@ use faer::linalg::solvers::PartialPivLu;
 use faer::{Mat, MatRef};
 use unripple_linalg::{product, solve_lu};
 
-/// Steps of Newton's method.
+/// Most steps of Newton's method. Doubled, a problem that does not converge takes twice as long to fail.
 const STEPS: usize = 80;
 
-/// The duality gap it stops at, as a share of the objective.
+/// The duality gap it stops at, as a share of the objective: that is how far the drive may be from the best.
+/// Smaller, it takes a step or two more.
 pub(crate) const GAP: f64 = 1e-6;
 
-/// Times that several targets are brought half way back to what is surely within reach.
+/// Times that several targets are brought half way back to what is surely within reach. Doubled, targets that
+/// do not reach their levels together may be brought down to a 4000th of the way instead of a 64th.
 const RETREATS: usize = 6;
 
-/// Halvings of a step.
+/// Halvings of a step at most: a billionth of Newton's. Doubled, what does not descend takes longer to fail.
 const HALVINGS: usize = 30;
 
-/// Bisections for the multiplier of an rms limit.
+/// Bisections for the multiplier of an rms limit: to the last bits. More change nothing.
 const BISECTIONS: usize = 60;
 
 /// What each actuator may do at most, and how far towards it the target is pushed.
@@ -29,7 +31,9 @@ const BISECTIONS: usize = 60;
 /// clipped lines, and Newton's method solves it (semismooth: the clipped samples drop out of the slope).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limits {
+    /// Largest magnitude of each sample, in the drive's unit.
     pub peak: f64,
+    /// Largest rms of each channel, in the drive's unit.
     pub rms: Option<f64>,
     /// Of all channels together: √(Σ mean d²).
     pub total_rms: Option<f64>,
@@ -38,6 +42,7 @@ pub(crate) struct Limits {
     pub push: f64,
     /// The level wanted, as a share of that one.
     pub share: f64,
+    /// Number of samples of each channel.
     pub samples: usize,
 }
 
@@ -168,6 +173,7 @@ impl Limits {
 }
 
 impl Program<'_> {
+    /// The best drive, by damped Newton steps from the state that is best without limits.
     fn solve(&self, free: Mat<f64>) -> Result<Vec<f64>, FocusError> {
         // Without limits `ε d = Wᵀ(P μ - B η)` at η = W d.
         let force = &free * faer::Scale(self.energy) + product(self.matrix.as_ref(), free.as_ref());
@@ -187,6 +193,7 @@ impl Program<'_> {
             for _ in 0..HALVINGS {
                 let moved = trial.dual.iter().zip(&step).map(|(x, s)| x + share * s).collect();
                 let candidate = self.at(moved);
+                // A value that is lower by rounding alone still counts as no worse.
                 if candidate.value >= trial.value - 1e-13 * trial.value.abs() {
                     next = Some(candidate);
                     break;

@@ -7,16 +7,20 @@ use faer::{Mat, MatRef};
 use unripple_core::{ModalResponses, Onset, Point, Pole};
 use unripple_dsp::ModalSynth;
 
-/// Values of responses that are held at once while their energies are summed.
+/// Values of responses that are held at once while their energies are summed, 32 MiB of them. Doubled, twice
+/// the memory; sums differ by rounding.
 const VALUES_AT_ONCE: usize = 1 << 22;
 
-/// A shape weight below this share of those elsewhere on the surface is rounding error, not motion.
+/// A shape weight below this share of those elsewhere on the surface is rounding error, not motion. Larger,
+/// targets close to a held edge would be refused.
 pub(crate) const REST: f64 = 1e-9;
 
-/// Accuracy for which single precision is enough.
+/// Accuracy for which single precision is enough: its rounding adds about as much. Larger, single precision
+/// would be used less.
 const SINGLE: f64 = 1e-6;
 
-/// Modes times samples of the largest synthesis that is planned ahead rather than summed block by block.
+/// Modes times samples of the largest synthesis that is planned ahead rather than summed block by block:
+/// tables of up to three quarters of a GiB. Doubled, plans may take twice the memory.
 const PLANNED: usize = 1 << 26;
 
 /// Synthesises responses from modes.
@@ -34,6 +38,7 @@ pub(crate) struct ModalRecorder<'r> {
 }
 
 impl<'r> ModalRecorder<'r> {
+    /// Plans recordings of `length` samples.
     pub fn plan(responses: &'r ModalResponses, length: usize, options: &Options) -> Self {
         let usual = usual(responses);
         let (lossless, accuracy) = (options.loss == LossCorrection::PerMode, options.accuracy);
@@ -108,6 +113,7 @@ impl<'r> ModalRecorder<'r> {
 
     /// The sum that defines modal responses, in blocks of samples: `Σ_m weights[row, m] · velocity_m(i / rate)`.
     fn sum(&self, weights: MatRef<'_, f64>, rows: &mut [f64]) {
+        // So few samples at once that the modes' velocities stay in the cache while all rows are summed.
         const BLOCK: usize = 512;
         let (poles, rate) = (&self.responses.poles, self.responses.conditions.rate);
         for first in (0..self.length).step_by(BLOCK) {
@@ -131,6 +137,7 @@ impl<'r> ModalRecorder<'r> {
 pub(crate) fn usual(responses: &ModalResponses) -> f64 {
     let (width, height) = responses.conditions.outline.extent();
     let lattice = (0..25).map(|i| {
+        // Off the middle, where odd modes are at rest.
         let at = |cell: usize| (cell as f64 + 0.4) / 5.0;
         Point::new(width * at(i % 5), height * at(i / 5))
     });
@@ -138,6 +145,7 @@ pub(crate) fn usual(responses: &ModalResponses) -> f64 {
     largest(responses.shapes.at_all(&inside).as_ref())
 }
 
+/// The largest magnitude of some weights, points x modes.
 pub(crate) fn largest(weights: MatRef<'_, f64>) -> f64 {
     (0..weights.ncols())
         .flat_map(|m| (0..weights.nrows()).map(move |p| weights[(p, m)].abs()))

@@ -9,23 +9,25 @@ use unripple_core::{Conditions, Point};
 use unripple_linalg::{product, solve_cholesky};
 
 /// Share of energy in the objective that always stays, so that a drive of least velocity outside exists.
+/// Larger, the strongest concentration is less strong; smaller, A is singular but for rounding.
 const LEAST: f64 = 1e-9;
 
-/// Share of the diagonal added to the system of levels, for points closer to each other than waves can tell apart.
+/// Share of the diagonal added to the system of levels, for points closer to each other than waves can tell
+/// apart (Tikhonov regularisation). Larger, levels of such points are met less well.
 const RIDGE: f64 = 1e-9;
 
 /// Levels wanted at readouts of a state: `Pᵀ y = γ`.
 #[derive(Debug)]
 pub(crate) struct Levels {
-    /// P, rank x levels.
+    /// Readouts P, rank x levels.
     pub readout: Mat<f64>,
     /// γ, in m/s.
     pub wanted: Vec<f64>,
-    /// Where they are.
+    /// The points of the readouts, in metres.
     pub points: Vec<Point>,
 }
 
-/// What states cost: `yᵀ A y = κ · velocity² + (1 - κ) · e · energy`.
+/// What states cost, velocity regularised by energy (Tikhonov): `yᵀ A y = κ · velocity² + (1 - κ) · e · energy`.
 ///
 /// κ is 0 for time reversal and 1 for nothing but velocity, the mean square over cells and plants. With `K = Σ x xᵀ` over the
 /// whole nominal surface, x the readouts of its cells, `e = tr K² / tr K` is what velocity costs on average for the drive
@@ -77,7 +79,7 @@ impl Objective {
         Ok(Self { whole, factor, energy, cells, points: places, radius })
     }
 
-    /// A for targets, the cells in their discs left out; the lower triangle.
+    /// The matrix A for targets (m), rank x rank, the cells in their discs left out; the lower triangle.
     pub fn around(&self, targets: &[Point]) -> Mat<f64> {
         let inside: Vec<usize> = (0..self.points.len())
             .filter(|c| targets.iter().any(|at| at.distance(self.points[*c]) <= self.radius))
@@ -137,7 +139,7 @@ fn level(states: Mat<f64>, levels: &Levels) -> Result<Mat<f64>, FocusError> {
     Ok(product(states.as_ref(), factors.as_ref()))
 }
 
-/// `Pᵀ y`.
+/// Reads a state: `Pᵀ y`, one number per level.
 pub(crate) fn read(readout: MatRef<'_, f64>, y: MatRef<'_, f64>) -> Vec<f64> {
     (readout.transpose() * y).col_as_slice(0).to_vec()
 }

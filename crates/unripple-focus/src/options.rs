@@ -13,7 +13,8 @@ pub enum Method {
     /// The sign of time reversal at the limit: the highest peak for a given drive limit. Where time reversal is
     /// exactly zero, so is this.
     OneBit,
-    /// The least-energy drive of a band-limited delta at the focal instant.
+    /// The least-energy drive of a band-limited delta at the focal instant: the spatio-temporal inverse
+    /// filter.
     Inverse,
     /// The least velocity outside the targets' discs at the focal instant, for the energy it takes.
     Concentrate,
@@ -50,7 +51,8 @@ impl Method {
         }
     }
 
-    /// The strength that is used unless another is asked for; 0 where strength means nothing.
+    /// The strength that is used unless another is asked for, a number from 0 to 1; 0 where strength means
+    /// nothing.
     pub fn strength(self) -> f64 {
         match self {
             Self::TimeReversal | Self::OneBit | Self::Felt => 0.0,
@@ -96,10 +98,10 @@ pub enum LossCorrection {
     PerMode,
 }
 
-/// How to focus.
+/// How to focus: method, window, limits and their details.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// How the drive is made.
+    /// The method by which the drive is made.
     pub method: Method,
     /// Window T, in seconds: samples 0 … n of each response are used, n = round(T · rate).
     pub window: f64,
@@ -119,7 +121,8 @@ pub struct Options {
     pub spread: f64,
     /// Of [`Method::Inverse`]: whether the displacement of every mode is brought to zero as well.
     pub rest: bool,
-    /// Of [`Method::Felt`]: from the mean of what is felt elsewhere (0) to its worst spot (1).
+    /// Of [`Method::Felt`]: the balance between the mean of what is felt elsewhere (0) and its worst spot
+    /// (1).
     pub worst: f64,
     /// Of [`Method::Felt`]: weight of the drive's energy, above 0.
     pub economy: f64,
@@ -159,7 +162,7 @@ impl Default for Options {
 }
 
 impl Options {
-    /// Those of [`Method::Felt`].
+    /// The options of [`Method::Felt`].
     pub(crate) fn felt(&self) -> FeltOptions {
         FeltOptions {
             window: self.window,
@@ -172,7 +175,7 @@ impl Options {
         }
     }
 
-    /// Refuses numbers without meaning.
+    /// Refuses options out of their range.
     pub(crate) fn check(&self) -> Result<(), FocusError> {
         let positive = |x: f64| x.is_finite() && x > 0.0;
         require("window (s)", positive(self.window), "a positive number", self.window)?;

@@ -4,16 +4,17 @@ use crate::FocusError;
 use std::f64::consts::PI;
 use unripple_core::{Point, require};
 
-/// Most points that a pattern is sampled into.
+/// Most points that a pattern is sampled into: each has responses of its own. Doubled, the largest patterns
+/// take twice the time.
 const MOST_POINTS: usize = 100_000;
 
-/// Chords of a circle.
+/// Chords of a circle, of a degree each: within 4e-5 of its radius. Doubled, within 1e-5.
 const CHORDS: usize = 360;
 
 /// A line in the plane, in metres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// Its vertices.
+    /// Its vertices, in metres.
     pub points: Vec<Point>,
     /// Whether it returns to its first vertex.
     pub closed: bool,
@@ -33,19 +34,19 @@ pub struct Line {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pattern {
-    /// Its lines.
+    /// The lines that it is made of.
     pub lines: Vec<Line>,
     /// Whether what they enclose (by the even-odd rule) is meant, rather than the lines themselves.
     pub filled: bool,
 }
 
 impl Pattern {
-    /// The outline of a polygon.
+    /// The outline of a polygon of these vertices, in metres.
     pub fn polygon(points: Vec<Point>) -> Self {
         Self { lines: vec![Line { points, closed: true }], filled: false }
     }
 
-    /// The outline of a circle.
+    /// The outline of a circle of centre and radius in metres.
     pub fn circle(centre: Point, radius: f64) -> Self {
         let on_rim = |i: usize| {
             let (sin, cos) = (2.0 * PI * i as f64 / CHORDS as f64).sin_cos();
@@ -54,7 +55,8 @@ impl Pattern {
         Self::polygon((0..CHORDS).map(on_rim).collect())
     }
 
-    /// The outline of an equilateral triangle of this side length, its centroid at `centre`, one corner up.
+    /// The outline of an equilateral triangle of this side length (m), its centroid at `centre` (m), one
+    /// corner up.
     pub fn triangle(centre: Point, side: f64) -> Self {
         let radius = side / 3.0_f64.sqrt();
         let corner = |i: u8| {
@@ -64,7 +66,7 @@ impl Pattern {
         Self::polygon((0..3).map(corner).collect())
     }
 
-    /// The same lines, filled.
+    /// The same lines, and what they enclose.
     pub fn filled(self) -> Self {
         Self { filled: true, ..self }
     }
@@ -110,6 +112,7 @@ impl Pattern {
         }
         within_bounds(length / pitch)?;
         let mut points: Vec<Point> = self.lines.iter().flat_map(|line| stroke(line, pitch)).collect();
+        // Points that neighbouring lines share come once.
         points.dedup_by(|a, b| a.distance(*b) < 1e-9 * pitch);
         Ok(points)
     }
@@ -127,6 +130,7 @@ impl Pattern {
         })
     }
 
+    /// The points of a square lattice that the lines enclose.
     fn lattice(&self, pitch: f64) -> Result<Vec<Point>, FocusError> {
         let bound = |pick: fn(f64, f64) -> f64, start: f64, of: fn(&Point) -> f64| {
             self.lines.iter().flat_map(|line| &line.points).map(of).fold(start, pick)

@@ -7,7 +7,8 @@ use crate::{FocusError, Method, Options, Target};
 use faer::Mat;
 use unripple_core::{Onset, Point, Responses, require};
 
-/// Accuracy of drives that modes are summed to.
+/// Accuracy of drives that modes are summed to, relative to the sum of their magnitudes: the drive is made of
+/// small differences. Larger, what concentrates would be summed less well than it was sought.
 const ACCURACY: f64 = 1e-9;
 
 /// Drives made from the state at the focal instant, for one window or one period.
@@ -76,6 +77,7 @@ impl<'r> Planned<'r> {
         Ok(Sought { drive, points, shaped })
     }
 
+    /// The levels wanted at all points of some targets, and the points that stand for them.
     fn levels(&self, targets: &[(usize, &Target)]) -> Result<(Levels, Vec<Vec<Point>>), FocusError> {
         let mut used = Vec::with_capacity(targets.len());
         let mut parts = Vec::with_capacity(targets.len());

@@ -6,10 +6,11 @@ use crate::settle::settle;
 use crate::{FocusError, Options, Target, level, target};
 use unripple_core::{Drive, Point, Responses, require, window_samples};
 
-/// Decay, in nepers, after which the past no longer matters to a level: to 1/10 000.
+/// Decay, in nepers, after which the past no longer matters to a level: to 1/10 000. Doubled, recordings are
+/// twice as long for levels that are right to 1e-8.
 const FORGOTTEN: f64 = 9.2;
 
-/// Most samples of all recordings together.
+/// Most samples of all recordings together, half a GiB of them. Doubled, a GiB.
 const MOST_VALUES: usize = 1 << 26;
 
 /// A focus at an instant, with the level it is to have.
@@ -24,18 +25,19 @@ pub struct Pulse {
 }
 
 impl Pulse {
-    /// One point, as early as can be.
+    /// One point (m) at a level (m/s), as early as can be.
     pub fn at(point: Point, level: f64) -> Self {
         Self { points: vec![point], instant: 0.0, level }
     }
 }
 
-/// How pulses are struck.
+/// How pulses are struck: window, regularisation and limits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PulseOptions {
     /// Seconds that the drive begins before the earliest focus can be.
     pub window: f64,
-    /// What keeps foci finite that lie too close to differ, as a share of the mean energy of a response.
+    /// Tikhonov regularisation: what keeps foci finite that lie too close to differ, as a share of the mean
+    /// energy of a response.
     pub ridge: f64,
     /// Largest drive per actuator, in the drive's unit. A drive above it is scaled down as a whole.
     pub limit: f64,
@@ -55,7 +57,7 @@ impl Default for PulseOptions {
 /// A drive that strikes pulses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Struck {
-    /// What is to be sent. It ends with the last focus.
+    /// The drive that is to be sent. It ends with the last focus.
     pub drive: Drive,
     /// Sample of the drive at which each pulse is in focus.
     pub instants: Vec<usize>,

@@ -16,7 +16,9 @@ pub(crate) struct Recording {
 /// Records responses over one window, whatever they are kept in.
 #[derive(Debug)]
 pub(crate) enum Recorder<'r> {
+    /// From modes, by synthesis.
     Modal(Box<ModalRecorder<'r>>),
+    /// From samples, as they are stored.
     Sampled(SampledRecorder<'r>),
 }
 
@@ -36,7 +38,8 @@ impl<'r> Recorder<'r> {
         }
     }
 
-    /// The responses at all points together, scaled to the mean level of the points one by one.
+    /// The responses at all points (m) together, actuators x samples, scaled to the mean level of the points
+    /// one by one.
     pub fn record(&self, target: usize, points: &[Point]) -> Result<Recording, FocusError> {
         let (mut samples, energies, points) = match self {
             Self::Modal(modal) => {
@@ -68,7 +71,7 @@ pub(crate) fn energy(samples: &[f64]) -> f64 {
     rest + sums.iter().sum::<f64>()
 }
 
-/// Largest magnitude, in eight independent searches; NaN is passed over.
+/// Largest magnitude of samples, in their unit, in eight independent searches; NaN is passed over.
 pub(crate) fn peak(samples: &[f64]) -> f64 {
     let larger = |best: f64, h: f64| if h.abs() > best { h.abs() } else { best };
     let mut peaks = [0.0; 8];
@@ -121,8 +124,8 @@ impl<'r> SampledRecorder<'r> {
     }
 }
 
-/// Index of the stored point that stands for a place: the nearest, at most λ_min/4 away, where a focus still has most of
-/// its height.
+/// Index of the stored point that stands for a place (m): the nearest, at most λ_min/4 away, where a focus
+/// still has most of its height.
 pub(crate) fn locate(responses: &SampledResponses, target: usize, at: Point) -> Result<usize, FocusError> {
     let reach = responses.conditions.lambda_min / 4.0;
     let stored = responses.nearest(at).ok_or(FocusError::Count {

@@ -3,10 +3,11 @@
 use crate::FocusError;
 use unripple_core::require;
 
-/// Most samples of a drive over all channels.
+/// Most samples of a drive over all channels: 400 MB of them. Doubled, drives of twice the length.
 pub(crate) const MOST_SAMPLES: usize = 50_000_000;
 
-/// A common period may be this many times the longest one; beyond, the longest stands for it.
+/// A common period may be this many times the longest one; beyond, the longest stands for it. Doubled, drives
+/// of odd rates are up to twice as long, and exact where they would have been cut.
 const MOST_PERIODS: usize = 8;
 
 /// When a target's focus falls.
@@ -21,9 +22,9 @@ pub struct Timing {
 /// When every target is in focus, and how long the drive is.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Schedule {
-    /// Samples per channel.
+    /// Number of samples in each channel.
     pub length: usize,
-    /// One per target.
+    /// When each target is in focus.
     pub timing: Vec<Timing>,
     /// The period after which everything repeats; `None` without repetition.
     pub period: Option<usize>,
@@ -96,6 +97,7 @@ fn period(hz: f64, rate: f64) -> Result<usize, FocusError> {
     Ok(period as usize)
 }
 
+/// The period after which all repeat, in samples.
 fn common_period(periods: impl Iterator<Item = usize> + Clone) -> Option<usize> {
     let longest = periods.clone().max()?;
     let multiple = periods
@@ -112,6 +114,7 @@ fn gcd(a: usize, b: usize) -> usize {
     if b == 0 { a } else { gcd(b, a % b) }
 }
 
+/// The least length, in samples, after which the last full period is steady.
 fn steady_length(common: usize, conditions: Conditions) -> Result<usize, FocusError> {
     let Some(settle) = conditions.settle else {
         let expected = "one, since a mode without losses never becomes steady".to_owned();

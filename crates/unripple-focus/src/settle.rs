@@ -3,7 +3,8 @@
 use crate::schedule::MOST_SAMPLES;
 use unripple_core::{Pole, Responses};
 
-/// Samples until the slowest mode has decayed by so many nepers, or responses end; `None` for modes that never do.
+/// Number of samples until the slowest mode has decayed by so many nepers, or responses end; `None` for modes
+/// that never do.
 pub(crate) fn settle(responses: &Responses, nepers: f64) -> Option<usize> {
     match responses {
         Responses::Modal(modal) => {

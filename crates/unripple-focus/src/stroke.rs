@@ -30,7 +30,7 @@ pub struct Stroke {
 }
 
 impl Stroke {
-    /// 200 pulses of 1 m/s per second along a path.
+    /// 200 pulses of 1 m/s per second along a path, `speed` in m/s.
     pub fn along(path: Pattern, speed: f64) -> Self {
         Self { path, speed, level: 1.0, rate_hz: 200.0, alternating: false }
     }
@@ -40,7 +40,7 @@ impl Stroke {
         self.sides().map(|(a, b)| a.distance(b)).sum::<f64>() / self.speed
     }
 
-    /// Where it is at a time (s) after its start.
+    /// Where it is, in m, at a time (s) after its start.
     pub fn place(&self, time: f64) -> Point {
         let mut left = (time * self.speed).max(0.0);
         let mut end = Point::default();
@@ -83,6 +83,7 @@ impl Stroke {
             format!("at most {fastest}"),
             self.rate_hz,
         )?;
+        // A hair less, so that rounding adds no step.
         let steps = (duration * rate - 1e-9).ceil().max(1.0) as usize;
         let pulse = |i: usize| {
             let instant = duration * i as f64 / steps as f64;

@@ -3,7 +3,8 @@
 use crate::FocusError;
 use unripple_core::{Outline, Point, require};
 
-/// Most points over all targets.
+/// Most points over all targets: each has responses of its own. Doubled, the largest targets take twice the
+/// time.
 const MOST_POINTS: usize = 100_000;
 
 /// What is to be felt: a point, or a set of points that moves as one.
@@ -22,22 +23,22 @@ pub struct Target {
 }
 
 impl Target {
-    /// One point, once, at gain 1.
+    /// One point (m), once, at gain 1.
     pub fn at(point: Point) -> Self {
         Self::of(vec![point])
     }
 
-    /// A set of points, once, at gain 1.
+    /// A set of points (m), once, at gain 1.
     pub fn of(points: Vec<Point>) -> Self {
         Self { points, gain: 1.0, rate_hz: None }
     }
 
-    /// The same target at another gain.
+    /// The same target at another gain, a factor without unit.
     pub fn with_gain(self, gain: f64) -> Self {
         Self { gain, ..self }
     }
 
-    /// The same target repeated.
+    /// The same target repeated at a rate in Hz.
     pub fn repeated(self, rate_hz: f64) -> Self {
         Self { rate_hz: Some(rate_hz), ..self }
     }

@@ -4,7 +4,8 @@ use super::lines::Lines;
 use faer::{Accum, Mat, MatRef, Par, linalg::matmul::matmul};
 use realfft::num_complex::Complex;
 
-/// Values that are held at once while lines are summed.
+/// Values that are held at once while lines are summed, 32 MiB of them. Doubled, twice the memory and half
+/// the blocks, whose sums differ by rounding.
 const VALUES_AT_ONCE: usize = 1 << 22;
 
 /// What the actuators' splines do to the modes.
@@ -116,7 +117,7 @@ impl Actuation<'_> {
     }
 }
 
-/// Σ a·b.
+/// The sum Σ a·b over entries, as far as the shorter goes.
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     // Eight sums side by side, which a compiler may keep in one register.
     let mut sums = [0.0; 8];

@@ -4,11 +4,12 @@ use faer::linalg::solvers::Llt;
 use faer::{Mat, Side};
 use unripple_linalg::solve_cholesky;
 
-/// Slopes below this share of the largest count as zero.
+/// Slopes below this share of the largest count as zero: above rounding. Doubled, multipliers stop a little
+/// earlier.
 const LEVEL: f64 = 1e-9;
 
-/// The λ ≥ 0 that minimises ½ λᵀQλ − bᵀλ for a positive definite Q, from a first guess: an active set as in Lawson and Hanson
-/// (1974), Solving Least Squares Problems, chapter 23.
+/// The λ ≥ 0, one number per bound, that minimises ½ λᵀQλ − bᵀλ for a positive definite Q, from a first
+/// guess: an active set as in Lawson and Hanson (1974), Solving Least Squares Problems, chapter 23.
 ///
 /// `form` gives the elements of Q. Where rounding would let the set go round in circles, what was reached is kept: every λ ≥ 0
 /// is a lower bound of the ceiling.

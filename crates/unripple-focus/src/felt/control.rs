@@ -4,10 +4,12 @@ use super::reduced::Reduced;
 use faer::Mat;
 use unripple_core::{Outline, Point};
 
-/// Points whose shape weights are computed at once.
+/// Points whose shape weights are computed at once. Doubled, twice the memory for them; results stay the
+/// same.
 const AT_ONCE: usize = 1024;
 
-/// Every so many points of the lattice, along each side, one belongs to the coarse lattice.
+/// Every so many points of the lattice, along each side, one belongs to the coarse lattice. Doubled, the
+/// lattice near targets and actuators has four times the points.
 const COARSE: usize = 3;
 
 /// Points at which what is felt is looked at, on a lattice over the outline's bounding box.
@@ -60,8 +62,8 @@ impl Lattice {
 }
 
 impl Control {
-    /// Reads the shapes that are `watched` on the lattice, and the means over the surface of the products of any two that are
-    /// `heard`.
+    /// Reads the shapes that are `watched` on the lattice, and the means over the surface of the products of
+    /// any two that are `heard`, modes x modes.
     pub fn read(
         outline: &Outline,
         lattice: Lattice,
@@ -92,7 +94,8 @@ impl Control {
         self.pitch * COARSE as f64
     }
 
-    /// The points farther than `radius` from all of `targets`: those of the coarse lattice, and all that are hardly farther.
+    /// Indices of the points farther than `radius` (m) from all of `targets`: those of the coarse lattice,
+    /// and all that are hardly farther.
     pub fn outside(&self, targets: &[Point], radius: f64) -> Vec<usize> {
         let nearest = |p: &Point| targets.iter().map(|t| t.distance(*p)).fold(f64::INFINITY, f64::min);
         let apart = |i: &usize| {

@@ -6,16 +6,20 @@ use std::sync::Arc;
 use unripple_core::Pole;
 use unripple_dsp::Threshold;
 
-/// What is felt at a frequency this far below what is felt best does not count: 40 dB.
+/// What is felt at a frequency this far below what is felt best does not count: 40 dB. Doubled (46 dB), lines
+/// reach to higher frequencies, and plans take longer.
 const UNFELT: f64 = 100.0;
 
-/// Frequencies looked at for the top of what is felt.
+/// Frequencies looked at for the top of what is felt, evenly in the logarithm over four decades: 0.5 % apart.
+/// Doubled, the top is found twice as closely.
 const LOOKED_AT: i32 = 2000;
 
-/// Nepers by which oscillations have died out where the transform wraps around.
+/// Nepers by which oscillations have died out where the transform wraps around: to 1/55. Doubled, to 1/3000,
+/// for a transform up to twice as long.
 const DIED_OUT: f64 = 4.0;
 
-/// Most samples of the transform beyond what the drive itself needs.
+/// Most samples of the transform beyond what the drive itself needs: modes that ring longer are made to decay
+/// faster. Doubled, transforms may be twice as long.
 const MOST_DECAY: usize = 1 << 16;
 
 /// The highest frequency, in Hz, that is felt at less than 40 dB below the best one; at most `limit`.
@@ -58,12 +62,12 @@ impl Lines {
         Self { rate, size, gains, exact: 2 * window, transform }
     }
 
-    /// Number of lines.
+    /// Number of lines, from 0 Hz to the top.
     pub fn count(&self) -> usize {
         self.gains.len()
     }
 
-    /// How much of a signal each line makes: x[i] = Σ share · Re(X e^{jωi}).
+    /// The factor by which each line counts in a signal: x[i] = Σ share · Re(X e^{jωi}).
     pub fn share(&self, line: usize) -> f64 {
         if line == 0 { 1.0 / self.size as f64 } else { 2.0 / self.size as f64 }
     }

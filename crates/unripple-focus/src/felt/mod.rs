@@ -1,4 +1,5 @@
-//! Drives that are felt at the targets and hardly elsewhere.
+//! Drives that are felt at the targets and hardly elsewhere: regularised (Tikhonov) least squares in felt
+//! displacement.
 
 mod background;
 mod ceiling;

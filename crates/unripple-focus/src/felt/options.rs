@@ -1,4 +1,4 @@
-//! Weights of the felt-contrast method.
+//! Weights of the method that keeps down what is felt elsewhere.
 
 use crate::FocusError;
 use unripple_core::require;
@@ -16,8 +16,8 @@ pub struct FeltOptions {
     pub limit: f64,
     /// Largest rms per actuator over the whole drive, in the drive's unit. A drive above it is scaled down as a whole.
     pub rms_limit: Option<f64>,
-    /// From the mean of what is felt elsewhere (0) to its worst spot (1). The square of the worst spot is much larger than
-    /// the mean square, so that little is enough.
+    /// Balance between the mean of what is felt elsewhere (0) and its worst spot (1). The square of the worst
+    /// spot is much larger than the mean square, so that little is enough.
     pub worst: f64,
     /// Weight of the drive's energy, above 0. At 1 a drive of white noise costs as much by its energy as by what is felt
     /// of it; what is felt of a good drive is much less than that.
@@ -43,7 +43,7 @@ impl Default for FeltOptions {
 }
 
 impl FeltOptions {
-    /// Refuses numbers without meaning.
+    /// Refuses options out of their range.
     pub(crate) fn check(&self) -> Result<(), FocusError> {
         let positive = |x: f64| x.is_finite() && x > 0.0;
         require("window (s)", positive(self.window), "a positive number", self.window)?;

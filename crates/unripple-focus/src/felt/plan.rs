@@ -17,19 +17,23 @@ use std::f64::consts::{PI, TAU};
 use unripple_core::{Drive, ModalResponses, OutOfRange, Point, Responses, require, window_samples};
 use unripple_linalg::{product, solve_lower};
 
-/// Most coefficients of a drive, over all actuators.
+/// Most coefficients of a drive, over all actuators: their form is a square matrix, half a GiB at this size.
+/// Doubled, four times the memory and eight times the time.
 const MOST_COEFFICIENTS: usize = 8000;
 
-/// Most values of a plan.
+/// Most values of a plan, up to a GiB of them. Doubled, a plan may take twice that.
 const MOST_VALUES: usize = 1 << 27;
 
-/// Modes below this multiple of the highest frequency felt matter for what is felt one by one, all others as springs.
+/// Modes below this multiple of the highest frequency felt matter for what is felt one by one, all others as
+/// springs. Doubled, more modes are read for motion that the springs give already.
 const HEARD: f64 = 2.0;
 
-/// The same where the worst spot is looked for.
+/// The same where the worst spot is looked for: less, for speed; what is left out is within the slack there.
+/// Doubled, more is looked at, for memory in proportion.
 const WATCHED: f64 = 0.8;
 
-/// A shape weight below this share of the largest is rounding error, not motion.
+/// A shape weight below this share of the largest is rounding error, not motion. Larger, targets close to a
+/// held edge would be refused.
 const REST: f64 = 1e-9;
 
 /// A plan that turns targets into drives that are felt there and hardly elsewhere: what does not depend on the targets is
@@ -201,6 +205,7 @@ impl<'r> FeltPlan<'r> {
     }
 }
 
+/// Sizes of a plan, refused before anything of them is allocated.
 fn sizes(responses: &ModalResponses, options: &FeltOptions) -> Result<Sizes, FocusError> {
     let conditions = &responses.conditions;
     let count =

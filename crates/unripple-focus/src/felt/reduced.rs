@@ -13,14 +13,14 @@ use unripple_core::{ModalResponses, Onset, Point, Pole, Port};
 #[derive(Clone, Debug)]
 pub(crate) struct Reduced<'r> {
     responses: &'r ModalResponses,
-    /// Modes kept one by one.
+    /// Number of modes kept one by one.
     pub kept: usize,
     /// What the others yield per drive, modes x actuators.
     yields: Mat<f64>,
 }
 
 impl<'r> Reduced<'r> {
-    /// The first `kept` modes and the springs of the others.
+    /// The first `kept` (a number) modes and the springs of the others: static residual flexibility.
     pub fn new(responses: &'r ModalResponses, kept: usize) -> Self {
         let others = &responses.poles[kept..];
         let yields = Mat::from_fn(others.len(), responses.ports.len(), |m, a| {
@@ -29,12 +29,12 @@ impl<'r> Reduced<'r> {
         Self { responses, kept, yields }
     }
 
-    /// The actuators.
+    /// The actuators, in channel order.
     pub fn ports(&self) -> &[Port] {
         &self.responses.ports
     }
 
-    /// Modes and springs.
+    /// Number of modes and springs.
     pub fn count(&self) -> usize {
         self.kept + self.yields.ncols()
     }
@@ -59,7 +59,7 @@ impl<'r> Reduced<'r> {
         })
     }
 
-    /// Displacement per drive of modes and springs, at the lines.
+    /// Displacement per drive of modes and springs, each at the lines: (modes and springs) x lines.
     pub fn lines(&self, lines: &Lines) -> Vec<Vec<Complex<f64>>> {
         let modes = self.responses.poles[..self.kept].iter().map(|pole| lines.of_pole(*pole));
         let springs = (0..self.yields.ncols()).map(|_| vec![Complex::new(1.0, 0.0); lines.count()]);

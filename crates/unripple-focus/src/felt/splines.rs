@@ -1,4 +1,4 @@
-//! Drives as cubic B-splines.
+//! Drives as cubic B-splines: smooth signals of few coefficients.
 
 use faer::Mat;
 use std::ops::Range;
@@ -13,7 +13,7 @@ pub(crate) struct Splines {
 }
 
 impl Splines {
-    /// One per knot; the last knot is at or after the last sample.
+    /// Number of splines, one per knot; the last knot is at or after the last sample.
     pub fn count(self) -> usize {
         (self.samples.max(1) - 1).div_ceil(self.step) + 1
     }
@@ -25,6 +25,7 @@ impl Splines {
         centre.saturating_sub(reach)..(centre + reach + 1).min(self.samples)
     }
 
+    /// The value of one spline at a sample: 2/3 at its knot, 0 from two knots away.
     fn value(self, knot: usize, sample: usize) -> f64 {
         let x = (sample as f64 - (knot * self.step) as f64).abs() / self.step as f64;
         match x {
@@ -41,7 +42,7 @@ impl Splines {
         signal
     }
 
-    /// Their sum with these coefficients.
+    /// Their sum with these coefficients, one number per sample of the drive.
     pub fn sum(self, coefficients: &[f64]) -> Vec<f64> {
         let mut signal = vec![0.0; self.samples];
         for (knot, c) in coefficients.iter().enumerate() {

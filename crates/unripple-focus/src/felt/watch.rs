@@ -5,18 +5,23 @@ use super::control::Control;
 use faer::{Accum, Mat, MatRef, Par, linalg::matmul::matmul};
 use unripple_linalg::solve_lower;
 
-/// Of neighbouring maxima of one sign, only the largest is taken at once: within this many periods of the top of what is
-/// felt, and this many points of the coarse lattice.
+/// Of neighbouring maxima of one sign, only the largest is taken at once: within this many periods of the top
+/// of what is felt, and this many points of the coarse lattice. Doubled, fewer bounds at once and more
+/// rounds.
 const APART: [f64; 2] = [0.85, 1.5];
 
-/// Most maxima that are taken at once.
+/// Most maxima that are taken at once: each is a row of the dual problem. Doubled, rounds are fewer and
+/// problems larger.
 const AT_ONCE: usize = 24;
 
 /// Where and when what is felt is looked at: one point of the control lattice at one of the times, and its sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Sample {
+    /// Index of the control point.
     pub point: usize,
+    /// Index among the times.
     pub time: usize,
+    /// The sign of what is felt there, 1 or -1.
     pub sign: f64,
 }
 
@@ -46,7 +51,8 @@ impl Watch {
         each.map(|i| i * step).collect()
     }
 
-    /// `factor` is the lower triangular one that whitens coefficients.
+    /// What each mode does per spline and per whitened coefficient, at the times around sample `focal`;
+    /// `factor` is the lower triangular one that whitens coefficients, `top` in Hz.
     pub fn new(actuation: &Actuation<'_>, factor: MatRef<'_, f64>, focal: usize, top: f64) -> Self {
         let modes = actuation.modes.len();
         let times = Self::times(actuation.lines.rate, top);
@@ -102,8 +108,9 @@ impl Watch {
         row.iter().map(|x| sample.sign * f64::from(*x)).collect()
     }
 
-    /// The largest magnitude of a field, and its maxima above `least(largest)` that are not yet known, the largest first.
-    /// Columns of the field belong to `chosen` points.
+    /// The largest magnitude of a field (times x points, in units of the threshold), and its maxima above
+    /// `least(largest)` that are not yet known, the largest first. Columns of the field belong to `chosen`
+    /// points.
     pub fn peaks(
         &self,
         field: &Mat<f32>,

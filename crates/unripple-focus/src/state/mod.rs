@@ -14,20 +14,22 @@ use std::borrow::Cow;
 use unripple_core::{Point, require};
 use unripple_linalg::{product, symmetric};
 
-/// Directions of the drive that move the surface less than this share of the strongest are left alone, in energy.
+/// Directions of the drive that move the surface less than this share of the strongest are left alone, in
+/// energy: rounding of the Gram matrix. Larger, weak directions that can be driven would be lost.
 const FAINT: f64 = 1e-13;
 
-/// Most coordinates of a state: decompositions take the cube of it.
+/// Most coordinates of a state: decompositions take the cube of it. Doubled, four times the memory and eight
+/// times the time.
 const MOST_COORDINATES: usize = 4000;
 
 /// A surface under a drive over one window or period: the coordinates of its velocity at the focal instant.
 #[derive(Debug)]
 pub(crate) enum Plant<'r> {
-    /// Velocities of modes.
+    /// A state of the velocities of modes.
     Modal(Box<ModalPlant<'r>>),
-    /// Velocities of independent shapes.
+    /// A state of the velocities of independent shapes, where modes share shapes.
     Reduced(Box<ReducedPlant<'r>>),
-    /// Velocities at stored points.
+    /// A state of the velocities at stored points, of sampled responses.
     Sampled(SampledPlant<'r>),
 }
 
@@ -147,17 +149,17 @@ impl<'r> State<'r> {
         Ok(Self { plants, length, channels, white, back, energies })
     }
 
-    /// Samples of a drive.
+    /// Number of samples of a drive.
     pub fn length(&self) -> usize {
         self.length
     }
 
-    /// Coordinates of unit energy.
+    /// Number of coordinates of unit energy.
     pub fn rank(&self) -> usize {
         self.energies.len()
     }
 
-    /// How many plants there are.
+    /// Number of plants that there are.
     pub fn plants(&self) -> usize {
         self.plants.len()
     }
@@ -212,6 +214,7 @@ impl<'r> State<'r> {
     }
 }
 
+/// Where each of some blocks begins, one behind the other.
 fn starts(sizes: &[usize]) -> Vec<usize> {
     sizes
         .iter()

@@ -6,13 +6,14 @@ use faer::{Accum, Mat, Par};
 use unripple_core::{ModalResponses, Point, Pole};
 use unripple_dsp::ModalSynth;
 
-/// Cells per shortest wavelength along each side, where velocity is kept low.
+/// Cells per shortest wavelength along each side, where velocity is kept low. Doubled, there are four times
+/// the cells, and their mean stays the same.
 const CELLS: f64 = 6.0;
 
 /// What a coordinate of a mode is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Keeps {
-    /// Its velocity.
+    /// The velocity of the mode.
     Velocity,
     /// Its displacement times its angular frequency: to be brought to rest.
     Displacement,
@@ -29,7 +30,8 @@ pub(crate) struct ModalPlant<'r> {
 }
 
 impl<'r> ModalPlant<'r> {
-    /// Under drives of one window of `length` samples, the last of which is the focal instant; frequencies times `stretch`.
+    /// Modes under drives of one window of `length` samples, the last of which is the focal instant; their
+    /// frequencies are multiplied by `stretch`.
     pub fn once(
         responses: &'r ModalResponses,
         length: usize,
@@ -49,7 +51,8 @@ impl<'r> ModalPlant<'r> {
         Self { responses, table, synth }
     }
 
-    /// Under drives that come again every `length` samples for ever; the last sample of a period is the focal instant.
+    /// Modes under drives that come again every `length` samples for ever; the last sample of a period is the
+    /// focal instant.
     ///
     /// # Errors
     /// [`FocusError::Count`] if a mode never becomes steady.
@@ -57,6 +60,7 @@ impl<'r> ModalPlant<'r> {
         Ok(Self { responses, table: steady(responses, length, stretch)?, synth: None })
     }
 
+    /// Number of modes.
     pub fn modes(&self) -> usize {
         self.table.ncols()
     }
@@ -68,7 +72,7 @@ impl<'r> ModalPlant<'r> {
         Mat::from_fn(self.modes(), other.modes(), |i, j| inputs[(i, j)] * tables[(i, j)])
     }
 
-    /// Adds the drive of the weights z of modes.
+    /// Adds the drive of the weights `z` of modes to the channels, a row of samples each.
     pub fn emit(&self, z: &[f64], channels: &mut [f64]) -> Result<(), FocusError> {
         let input = &self.responses.input;
         let (length, rate) = (self.table.nrows(), self.responses.conditions.rate);
@@ -89,6 +93,7 @@ impl<'r> ModalPlant<'r> {
         Ok(())
     }
 
+    /// Weights that read the velocity at points, modes x points.
     pub fn readout(&self, points: &[Point]) -> Mat<f64> {
         let &[point] = points else { return self.responses.shapes.at_all(points).transpose().to_owned() };
         let mut row = vec![0.0; self.responses.shapes.modes()];
@@ -96,6 +101,7 @@ impl<'r> ModalPlant<'r> {
         Mat::from_fn(row.len(), 1, |m, _| row[m])
     }
 
+    /// Weights that read the velocity all over the surface, modes x cells, and where the cells are (m).
     pub fn cells(&self) -> (Mat<f64>, Vec<Point>) {
         let points = lattice(self.responses);
         (self.readout(&points), points)
@@ -110,7 +116,7 @@ impl<'r> ModalPlant<'r> {
     }
 }
 
-/// Cells all over a surface, where velocity is kept low.
+/// Cells all over a surface, where velocity is kept low: their centres, in metres.
 pub(super) fn lattice(responses: &ModalResponses) -> Vec<Point> {
     let conditions = &responses.conditions;
     let (width, height) = conditions.outline.extent();
@@ -145,6 +151,7 @@ pub(super) fn steady(
     for (m, pole) in poles.iter().enumerate() {
         let [[a, b], [c, d]] = pole.step(length as f64 / rate);
         let determinant = (1.0 - a) * (1.0 - d) - b * c;
+        // 1 - A is singular for a mode that keeps its energy for ever.
         if determinant.is_nan() || determinant.abs() <= 1e-12 {
             let expected = "one, since a mode without losses never becomes steady".to_owned();
             return Err(FocusError::Count { what: "duration of a repeated drive", expected, found: 0 });

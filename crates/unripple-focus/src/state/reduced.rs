@@ -1,4 +1,4 @@
-//! The same for modes that share shapes, with as many coordinates as are independent.
+//! States of modes that share shapes, with as many coordinates as are independent.
 
 use super::modal::{lattice, ringing, steady};
 use crate::FocusError;
@@ -7,7 +7,8 @@ use faer::{Accum, Mat, MatRef, Par};
 use unripple_core::{ModalResponses, Point};
 use unripple_linalg::{product, symmetric};
 
-/// Shapes that add less than this share of the strongest to the surface, in energy, are the others' combinations.
+/// Shapes that add less than this share of the strongest to the surface, in energy, are the others'
+/// combinations. Larger, shapes of their own would be lost; smaller, rounding would count as a shape.
 const ALIKE: f64 = 1e-12;
 
 /// Oscillations that share shapes under a drive of one window: the velocities of as many independent shapes as there are.
@@ -24,7 +25,8 @@ pub(crate) struct ReducedPlant<'r> {
 }
 
 impl<'r> ReducedPlant<'r> {
-    /// Under drives of one window of `length` samples, the last of which is the focal instant, or of such a period.
+    /// Independent shapes under drives of one window of `length` samples, the last of which is the focal
+    /// instant, or of such a period.
     ///
     /// # Errors
     /// [`FocusError::Decomposition`]; [`FocusError::Count`] if an oscillation never becomes steady.
@@ -56,25 +58,28 @@ impl<'r> ReducedPlant<'r> {
         Ok(Self { responses, basis, map })
     }
 
+    /// Number of independent shapes.
     pub fn shapes(&self) -> usize {
         self.basis.ncols()
     }
 
-    /// Samples of all channels x coordinates.
+    /// The map from drives to the state, transposed: samples of all channels x coordinates.
     pub fn map(&self) -> &Mat<f64> {
         &self.map
     }
 
-    /// Adds the drive of the weights z of shapes.
+    /// Adds the drive of the weights `z` of shapes to the channels, a row of samples each.
     pub fn emit(&self, z: &[f64], channels: &mut [f64]) {
         let made = product(self.map.as_ref(), MatRef::from_column_major_slice(z, z.len(), 1));
         channels.iter_mut().zip(made.col_as_slice(0)).for_each(|(d, made)| *d += made);
     }
 
+    /// Weights that read the velocity at points, shapes x points.
     pub fn readout(&self, points: &[Point]) -> Mat<f64> {
         product(self.basis.transpose(), self.responses.shapes.at_all(points).transpose())
     }
 
+    /// Weights that read the velocity all over the surface, shapes x cells, and where the cells are (m).
     pub fn cells(&self) -> (Mat<f64>, Vec<Point>) {
         let points = lattice(self.responses);
         (self.readout(&points), points)

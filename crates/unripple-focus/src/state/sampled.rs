@@ -6,7 +6,8 @@ use faer::{Mat, MatRef};
 use unripple_core::{Point, SampledResponses};
 use unripple_linalg::product;
 
-/// Most values of responses that are held at once.
+/// Most values of responses that are held at once, a GiB of them. Doubled, libraries of twice the size take
+/// twice the memory.
 const MOST_VALUES: usize = 1 << 27;
 
 /// Stored points under a drive of one window: their velocities at the focal instant.
@@ -18,7 +19,7 @@ pub(crate) struct SampledPlant<'r> {
 }
 
 impl<'r> SampledPlant<'r> {
-    /// Under drives of one window of `length` samples, the last of which is the focal instant.
+    /// Stored points under drives of one window of `length` samples, the last of which is the focal instant.
     ///
     /// # Errors
     /// [`FocusError::Count`] if the responses are shorter, or too many.
@@ -38,21 +39,23 @@ impl<'r> SampledPlant<'r> {
         Ok(Self { responses, map })
     }
 
+    /// Number of stored points.
     pub fn points(&self) -> usize {
         self.map.ncols()
     }
 
-    /// Samples of all channels x points.
+    /// The map from drives to the state, transposed: samples of all channels x points.
     pub fn map(&self) -> &Mat<f64> {
         &self.map
     }
 
-    /// Adds the drive of the weights z of points.
+    /// Adds the drive of the weights `z` of points to the channels, a row of samples each.
     pub fn emit(&self, z: &[f64], channels: &mut [f64]) {
         let made = product(self.map.as_ref(), MatRef::from_column_major_slice(z, z.len(), 1));
         channels.iter_mut().zip(made.col_as_slice(0)).for_each(|(d, made)| *d += made);
     }
 
+    /// Weights that read the velocity at points, stored points x points, and the points that stand for them.
     pub fn readout(&self, target: usize, points: &[Point]) -> Result<(Mat<f64>, Vec<Point>), FocusError> {
         let stored =
             points.iter().map(|at| locate(self.responses, target, *at)).collect::<Result<Vec<_>, _>>()?;
@@ -60,6 +63,7 @@ impl<'r> SampledPlant<'r> {
         Ok((weights, stored.iter().map(|p| self.responses.points[*p]).collect()))
     }
 
+    /// Weights that read the velocity all over the surface, an identity matrix, and where its points are (m).
     pub fn cells(&self) -> (Mat<f64>, Vec<Point>) {
         let count = self.points();
         (Mat::identity(count, count), self.responses.points.clone())

@@ -1,4 +1,4 @@
-//! Desired waveforms, band-limited, as spectra on the drive's clock.
+//! Waveforms that are asked for, band-limited, as spectra on the drive's clock.
 
 use super::Waveform;
 use super::plan::Plan;
@@ -14,6 +14,7 @@ pub(crate) struct Asked {
 }
 
 impl Asked {
+    /// The spectra of waveforms within the plan's band.
     pub fn new(waveforms: &[Waveform], plan: &Plan) -> Self {
         let (spectra, lost) =
             waveforms.iter().zip(&plan.starts).map(|(w, start)| within(w, *start, plan)).unzip();
@@ -36,7 +37,7 @@ impl Asked {
         rows
     }
 
-    /// The waveforms in time, for as long as the drive lasts, times `scale`.
+    /// The waveforms in time, targets x samples of the drive, times `scale`.
     pub fn signals(&self, plan: &Plan, scale: f64) -> Vec<Vec<f64>> {
         let signal = |own: &Vec<Complex<f64>>| {
             let mut spectrum = vec![Complex::default(); plan.convolver.size() / 2 + 1];

@@ -1,4 +1,5 @@
-//! Drives that make places move as asked: any waveform at each of several targets, silence at others.
+//! Drives that make places move as asked (crosstalk cancellation): any waveform at each of several targets,
+//! silence at others.
 
 mod asked;
 mod plan;
@@ -26,12 +27,12 @@ pub struct Waveform {
 }
 
 impl Waveform {
-    /// One point, without delay.
+    /// One point (m), without delay, and its samples in m or m/s.
     pub fn at(point: Point, samples: Vec<f64>) -> Self {
         Self { points: vec![point], samples, delay: 0.0 }
     }
 
-    /// The same waveform, later.
+    /// The same waveform, later by `delay` seconds.
     pub fn delayed(self, delay: f64) -> Self {
         Self { delay, ..self }
     }
@@ -47,10 +48,10 @@ pub enum Quantity {
     Velocity,
 }
 
-/// How waveforms are played.
+/// How waveforms are played: quantity, band, regularisation and limits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlayOptions {
-    /// What the samples are.
+    /// What the samples are: displacement or velocity.
     pub quantity: Quantity,
     /// Lowest and highest frequency that is played, in Hz; the responses' band where `None`. The highest tenth fades out.
     pub band: Option<[f64; 2]>,
@@ -65,7 +66,7 @@ pub struct PlayOptions {
     pub rms_limit: Option<f64>,
     /// Largest residual of the optimum, as a share of what is asked, both as spectra over the usual response.
     pub tolerance: f64,
-    /// Most passes of the solution.
+    /// Most iterations of the conjugate gradients.
     pub passes: usize,
 }
 
@@ -103,7 +104,7 @@ impl PlayOptions {
 /// A drive that plays waveforms, and what it was asked to do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Played {
-    /// What is to be sent.
+    /// The drive that is to be sent.
     pub drive: Drive,
     /// Sample of the drive at which each waveform starts.
     pub starts: Vec<usize>,
@@ -130,8 +131,9 @@ pub struct Played {
 ///
 /// with p(t) = 1 for as long as the drive may last, falling smoothly to nothing at its ends. It is found from the K rows of its
 /// dual, `(H p Hᴴ / g + energy_weight) y = w / √g`, `d = p Hᴴ y / √g`, by conjugate gradients preconditioned with the solution
-/// for a drive without end, a K x K system per frequency (regularised multichannel inversion: Kirkeby, Nelson, Hamada and
-/// Orduña-Bustamante, IEEE Trans. Speech Audio Process. 6, 1998). More than N points are met in the least-squares sense.
+/// for a drive without end, a K x K system per frequency (Tikhonov-regularised multichannel inversion:
+/// Kirkeby, Nelson, Hamada and Orduña-Bustamante, IEEE Trans. Speech Audio Process. 6, 1998). More than N
+/// points are met in the least-squares sense.
 ///
 /// # Errors
 /// [`FocusError::Outside`], [`FocusError::Unknown`] and [`FocusError::Still`] for points that cannot be reached,

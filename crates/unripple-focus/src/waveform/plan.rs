@@ -8,19 +8,23 @@ use std::ops::Range;
 use unripple_core::{Responses, require, window_samples};
 use unripple_dsp::Convolver;
 
-/// Decay, in nepers, after which what wraps round the transform no longer matters: to 1/10 000.
+/// Decay, in nepers, after which what wraps round the transform no longer matters: to 1/10 000. Doubled,
+/// transforms are longer by as much.
 const FORGOTTEN: f64 = 9.2;
 
-/// Most values of a transfer function: lines x points x actuators.
+/// Most values of a transfer function, 2 GiB of them: lines x points x actuators. Doubled, problems of twice
+/// the size.
 const MOST_VALUES: usize = 1 << 27;
 
-/// Most samples of the transform.
+/// Most samples of the transform: 349 s at 48 kHz. Doubled, drives of twice the length.
 const MOST_SAMPLES: usize = 1 << 24;
 
-/// Periods of the highest frequency over which a drive rises at its start and falls at its end.
+/// Periods of the highest frequency over which a drive rises at its start and falls at its end. Doubled,
+/// edges make less that lies outside the band, and drives follow later.
 const EDGE: f64 = 8.0;
 
-/// Share of the band over which it fades out at its top.
+/// Share of the band over which it fades out at its top. Doubled, less of the band is followed, and waveforms
+/// ring less at its edge.
 const FADE: f64 = 0.1;
 
 /// Times and frequencies of a solution.
@@ -41,6 +45,7 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
+    /// The lines, starts and edges for some waveforms and a number of `silent` points.
     pub fn new(
         responses: &Responses,
         waveforms: &[Waveform],
@@ -83,12 +88,13 @@ impl Plan {
         Ok(Self { rate, starts, taper, lines, fade, convolver })
     }
 
-    /// What a line counts in sums over all frequencies, negative ones included.
+    /// The factor by which a line counts in sums over all frequencies, negative ones included: 1 or 2.
     pub fn multiplicity(&self, line: usize) -> f64 {
         if self.lines.start + line == 0 { 1.0 } else { 2.0 }
     }
 }
 
+/// The band that is played, in Hz, within that of the responses.
 fn band(responses: &Responses, options: &PlayOptions) -> Result<[f64; 2], FocusError> {
     let own = responses.conditions().band;
     let [low, high] = options.band.unwrap_or(own);

@@ -4,13 +4,15 @@ use crate::FocusError;
 use std::f64::consts::{PI, TAU};
 use unripple_core::require;
 
-/// Most samples of a waveform that is made here.
+/// Most samples of a waveform that is made here: 208 s at 48 kHz. Doubled, twice as long.
 const MOST_SAMPLES: f64 = 1e7;
 
-/// Zero crossings of the interpolating kernel on each side.
+/// Zero crossings of the interpolating kernel on each side. Doubled, the transition at half the rate is half
+/// as wide, for twice the multiplications.
 const REACH: f64 = 32.0;
 
-/// A sine of `hz` that lasts `seconds`, with raised-cosine edges of two periods, at most a quarter of it each.
+/// A sine of `hz` (Hz) and amplitude `level` that lasts `seconds`, at `rate` samples per second, with
+/// raised-cosine edges of two periods, at most a quarter of it each.
 ///
 /// # Errors
 /// [`FocusError::Range`] for numbers that are not positive, or too long.
@@ -27,7 +29,8 @@ pub fn sine(hz: f64, seconds: f64, level: f64, rate: f64) -> Result<Vec<f64>, Fo
     Ok((0..count).map(|i| level * share(i) * (TAU * hz * i as f64 / rate).sin()).collect())
 }
 
-/// A burst of whole or broken cycles of `hz` under one arch of a raised cosine.
+/// A burst of whole or broken cycles of `hz` (Hz) and amplitude `level` under one arch of a raised cosine, at
+/// `rate` samples per second.
 ///
 /// # Errors
 /// As [`sine`].
@@ -44,7 +47,8 @@ pub fn burst(hz: f64, cycles: f64, level: f64, rate: f64) -> Result<Vec<f64>, Fo
     Ok(arch.iter().enumerate().map(|(i, a)| a * (TAU * hz * (i as f64 - middle) / rate).sin()).collect())
 }
 
-/// A click: one arch of a raised cosine, `seconds` from foot to foot.
+/// A click of height `level`: one arch of a raised cosine, `seconds` from foot to foot, at `rate` samples per
+/// second.
 ///
 /// # Errors
 /// As [`sine`].
@@ -53,7 +57,8 @@ pub fn click(seconds: f64, level: f64, rate: f64) -> Result<Vec<f64>, FocusError
     Ok((0..count).map(|i| level * (PI * (i as f64 + 0.5) / count as f64).sin().powi(2)).collect())
 }
 
-/// A recording at another sample rate: interpolated band-limitedly, by a sinc under a raised cosine of 32 crossings a side.
+/// A recording at another sample rate (both in Hz): interpolated band-limitedly, by a sinc under a raised
+/// cosine of 32 crossings a side.
 ///
 /// # Errors
 /// [`FocusError::Range`] for rates that are not positive, or too long a result.
@@ -81,6 +86,7 @@ pub fn resampled(signal: &[f64], from: f64, to: f64) -> Result<Vec<f64>, FocusEr
     Ok((0..count).map(at).collect())
 }
 
+/// A duration (s) as a number of samples, refused if none or too many.
 fn samples(seconds: f64, rate: f64) -> Result<usize, FocusError> {
     let count = (seconds * rate).round();
     let legal = (1.0..=MOST_SAMPLES).contains(&count);

@@ -7,7 +7,7 @@ use unripple_dsp::Complex;
 
 type Lines = Vec<Complex<f64>>;
 
-/// The channels of the drive of least cost, by conjugate gradients on its dual.
+/// The channels of the drive of least cost, actuators x samples, by conjugate gradients on its dual.
 pub(crate) fn solve(transfer: &Transfer, asked: &Lines, plan: &Plan, options: &PlayOptions) -> Vec<Vec<f64>> {
     let system = System { transfer, plan, ridge: options.energy_weight };
     let endless = Endless::new(transfer, options.energy_weight);
@@ -72,6 +72,7 @@ impl System<'_> {
         signal
     }
 
+    /// The system times a dual: each row's waves through the drive that it makes, and the ridge.
     fn apply(&self, dual: &Lines) -> Lines {
         let Transfer { rows, ports, values, .. } = self.transfer;
         let mut image: Lines = dual.iter().map(|y| y * self.ridge).collect();
@@ -95,6 +96,7 @@ struct Endless {
 }
 
 impl Endless {
+    /// Inverts the smaller matrix at every line.
     fn new(transfer: &Transfer, ridge: f64) -> Self {
         let Transfer { rows, ports, values, .. } = transfer;
         let size = *rows.min(ports);
@@ -115,6 +117,7 @@ impl Endless {
         Self { size, ridge, inverses }
     }
 
+    /// The preconditioner times some lines.
     fn apply(&self, transfer: &Transfer, lines: &Lines) -> Lines {
         let Transfer { rows, ports, values, .. } = transfer;
         let mut out = Vec::with_capacity(lines.len());
@@ -140,7 +143,7 @@ fn product(row: &[Complex<f64>], column: &[Complex<f64>]) -> Complex<f64> {
     row.iter().zip(column).map(|(a, b)| a * b).sum()
 }
 
-/// Inverts a Hermitian positive definite matrix in place, by Gauss and Jordan; pivots stay positive.
+/// Inverts a Hermitian positive definite matrix in place, by Gauss-Jordan elimination; pivots stay positive.
 fn invert(a: &mut [Complex<f64>], size: usize) {
     for k in 0..size {
         let pivot = 1.0 / a[k * size + k].re;

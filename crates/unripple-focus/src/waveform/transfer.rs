@@ -11,20 +11,22 @@ use unripple_core::{ModalResponses, Point, Pole, Responses, SampledResponses};
 use unripple_dsp::{Complex, integral};
 use unripple_linalg::product;
 
-/// Modes times lines of the block that is summed at once.
+/// Modes times lines of the block that is summed at once, 16 MiB. Doubled, twice the memory; sums differ by
+/// rounding.
 const AT_ONCE: usize = 1 << 20;
 
-/// The band is this many times as wide as what the usual response is averaged over.
+/// The band is this many times as wide as what the usual response is averaged over. Doubled, the error's
+/// weight follows single resonances more closely.
 const SMOOTH: usize = 30;
 
 /// Responses of all points to all actuators over the lines of the band, over the root of the usual response g(f).
 #[derive(Debug)]
 pub(crate) struct Transfer {
-    /// Points.
+    /// Number of points.
     pub rows: usize,
-    /// Actuators.
+    /// Number of actuators.
     pub ports: usize,
-    /// `[line][row][port]`.
+    /// The transfer functions, `[line][row][port]`.
     pub values: Vec<Complex<f64>>,
     /// 1/√g of each line.
     pub weights: Vec<f64>,
@@ -33,6 +35,8 @@ pub(crate) struct Transfer {
 }
 
 impl Transfer {
+    /// The transfer functions of sets of points, of which those from the `moving`-th (an index) on are to be
+    /// silent.
     pub fn new(
         responses: &Responses,
         sets: &[&[Point]],
@@ -129,6 +133,7 @@ struct Ring {
 }
 
 impl Ring {
+    /// The quotient for a pole at `rate` samples per second.
     fn of(pole: Pole, rate: f64, quantity: Quantity) -> Self {
         let [[a, b], [c, d]] = pole.step(1.0 / rate);
         let [u, v] = pole.kick();
@@ -146,6 +151,7 @@ impl Ring {
     }
 }
 
+/// The transforms of stored responses, and the points that stand for those asked for.
 fn fill_sampled(
     sampled: &SampledResponses,
     sets: &[&[Point]],
