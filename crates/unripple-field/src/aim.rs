@@ -15,13 +15,13 @@ pub struct Aim {
 }
 
 impl Aim {
-    /// One point.
+    /// One point (m) in focus at an instant (s).
     pub fn at(point: Point, instant: f64) -> Self {
         Self { points: vec![point], instant }
     }
 }
 
-/// How to measure.
+/// How to measure: period, grid and threshold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasureOptions {
     /// Period of a repeated drive, in seconds: figures are then those of its last full period, the last samples of the
@@ -54,7 +54,8 @@ pub(crate) struct Resolved {
 }
 
 impl Resolved {
-    /// The span of a single pulse is [0, 2T], cut where responses end; that of a repeated drive its last full period.
+    /// The span of a single pulse is [0, 2T] in samples, cut where responses end; that of a repeated drive
+    /// its last full period.
     pub fn of(aim: &Aim, field: &Field<'_>, period: Option<usize>) -> Result<Self, FieldError> {
         if aim.points.is_empty() {
             return Err(FieldError::Count {
@@ -88,7 +89,7 @@ pub(crate) fn last_period(field: &Field<'_>, period: usize) -> Range<usize> {
     end.saturating_sub(period)..end
 }
 
-/// Cuts spans at each other's ends: every span is then a union of the segments.
+/// Cuts spans (of samples) at each other's ends: every span is then a union of the segments.
 pub(crate) fn segments(spans: &[Range<usize>]) -> Vec<Range<usize>> {
     let mut ends: Vec<usize> = spans.iter().flat_map(|span| [span.start, span.end]).collect();
     ends.sort_unstable();

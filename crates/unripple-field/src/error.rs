@@ -71,7 +71,7 @@ pub enum FieldError {
         /// How many there are.
         found: usize,
     },
-    /// A value could not be made.
+    /// A drive or a set of responses could not be made: sizes, rate or samples do not fit.
     #[error(transparent)]
     Core(#[from] CoreError),
 }

@@ -8,7 +8,8 @@ use rayon::prelude::*;
 use std::ops::Range;
 use unripple_linalg::product;
 
-/// Values of weighed modes that are held at once.
+/// Values of weighed modes that are held at once, 128 MiB of them. Doubled, twice the memory and half the
+/// passes; results stay the same.
 const HELD: usize = 1 << 25;
 
 /// How a modal field is felt: every mode's displacement is weighed over the whole passage, then all that matter are read out
@@ -29,6 +30,7 @@ struct Block {
 }
 
 impl<'a> Feeling<'a> {
+    /// The field of a passage, as it is felt.
     pub fn of(field: &'a ModalField<'a>, passage: &'a Passage) -> Self {
         let mut own = vec![Vec::new(); field.points.len().div_ceil(POINTS)];
         field.for_chunks(&mut own, |weights, own| {
@@ -39,6 +41,7 @@ impl<'a> Feeling<'a> {
         Self { field, passage, reach: (0..field.modes()).map(most).collect() }
     }
 
+    /// What is felt at every point, in units of the threshold.
     pub fn weighed(&self) -> Weighed {
         let span = &self.passage.span;
         let stride = (HELD / self.field.modes().max(1)).max(1);

@@ -7,7 +7,8 @@ use std::ops::Range;
 use unripple_core::Point;
 use unripple_dsp::Weighting;
 
-/// By how much of the level at the target what is felt elsewhere may be off.
+/// By how much of the level at the target what is felt elsewhere may be off: 80 dB below it. Ten times more
+/// would leave out modes that worst spots 60 dB down consist of.
 const SLACK: f64 = 1e-4;
 
 /// One target's figures as felt, in dB; `None` where there is nothing to compare, and in silence.
@@ -17,18 +18,18 @@ pub(crate) struct Felt {
     pub level_db: Option<f64>,
     /// The sample at which that is.
     pub extreme: usize,
-    /// Over the rms of the outside points at that sample.
+    /// The level over the rms of the outside points at that sample.
     pub contrast_db: Option<f64>,
-    /// Over the rms of the outside points and the span.
+    /// The level over the rms of the outside points and the span.
     pub background_db: Option<f64>,
-    /// Over the largest magnitude of the outside points and the span.
+    /// The level over the largest magnitude of the outside points and the span.
     pub worst_spot_db: Option<f64>,
 }
 
 /// What is felt of a field.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct AllFelt {
-    /// One per aim.
+    /// What is felt at each aim.
     pub targets: Vec<Felt>,
     /// Largest magnitude at every point over all spans, in units of the threshold.
     pub peak: Vec<f32>,
@@ -104,6 +105,7 @@ fn own<'a>(
     traces.iter().map(|trace| largest(&weighting.weigh(trace.of(Quantity::Displacement)))).collect()
 }
 
+/// One target's figures, from its own level and what is felt elsewhere.
 fn figures(
     (extreme, level): (usize, f64),
     then: &[f32],
@@ -127,7 +129,7 @@ fn figures(
     }
 }
 
-/// 20 log10 of a ratio.
+/// The level 20 log10 of a ratio of amplitudes, in dB.
 pub(crate) fn decibels(ratio: f64) -> f64 {
     20.0 * ratio.log10()
 }

@@ -7,7 +7,7 @@ use crate::{FieldError, Grid, Trace};
 use unripple_core::{Conditions, Drive, Point, Responses, require};
 use unripple_dsp::Threshold;
 
-/// Values that snapshots or traces may hold in all.
+/// Values that snapshots or traces may hold in all: 800 MB of traces. Doubled, twice the memory.
 const MOST_VALUES: usize = 100_000_000;
 
 /// What a drive does to a surface: velocity and displacement anywhere, at any time.
@@ -15,9 +15,13 @@ const MOST_VALUES: usize = 100_000_000;
 /// Modal responses are read on the cells of a [`Grid`], sampled ones on their own points. Velocity is
 /// `v[i] = Σ_j h[i−j] d[j] / rate` with `h[0]` whole; displacement is its exact integral over time, from rest.
 pub struct Field<'a> {
+    /// Where velocity and displacement are read: modes or samples.
     pub(crate) source: Box<dyn Source + 'a>,
+    /// Band, rate and region of the responses.
     pub(crate) conditions: &'a Conditions,
+    /// What was sent.
     pub(crate) drive: &'a Drive,
+    /// The least vibration that is felt.
     pub(crate) threshold: Threshold,
     grid: Option<Grid>,
 }
@@ -66,7 +70,7 @@ impl<'a> Field<'a> {
         self
     }
 
-    /// The points that snapshots and maps have values for.
+    /// The points (m) that snapshots and maps have values for.
     pub fn points(&self) -> &[Point] {
         self.source.points()
     }
@@ -76,7 +80,7 @@ impl<'a> Field<'a> {
         self.grid.as_ref()
     }
 
-    /// Samples per second.
+    /// Sample rate of drive and responses, in samples per second.
     pub fn rate(&self) -> f64 {
         self.drive.rate()
     }
@@ -112,6 +116,7 @@ impl<'a> Field<'a> {
         Ok(samples.iter().zip(found).map(|(sample, values)| self.snapshot(*sample, values)).collect())
     }
 
+    /// A snapshot at a sample, of velocity (m/s) and displacement (m) at every point.
     pub(crate) fn snapshot(&self, sample: usize, [velocity, displacement]: [Vec<f32>; 2]) -> Snapshot {
         Snapshot { instant: sample as f64 / self.drive.rate(), velocity, displacement }
     }
@@ -128,7 +133,7 @@ impl<'a> Field<'a> {
         Err(FieldError::Instant { found: instant, first: 0.0, last: last / rate, why })
     }
 
-    /// Spot diameters, for [`crate::measure()`].
+    /// Spot diameters in metres, for [`crate::measure()`].
     pub(crate) fn spots(&self, requests: &[(Point, usize, Quantity)]) -> Vec<Option<f64>> {
         self.source.spots(requests)
     }
@@ -154,6 +159,7 @@ fn check(responses: &Responses, drive: &Drive) -> Result<(), FieldError> {
     }
     let rate = responses.conditions().rate;
     require("sample rate of the responses (Hz)", rate.is_finite() && rate > 0.0, "a positive number", rate)?;
+    // The same rate, but for what rounding in files leaves.
     if (drive.rate() / rate - 1.0).abs() > 1e-9 {
         return Err(FieldError::Rate { expected: rate, found: drive.rate() });
     }

@@ -7,9 +7,9 @@ use unripple_core::Point;
 /// All figures of a drive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Measured {
-    /// One per aim.
+    /// Figures of each target, in the order of the aims.
     pub targets: Vec<TargetFigures>,
-    /// What was sent.
+    /// Figures of the drive that was sent.
     pub drive: DriveFigures,
     /// Shortest wavelength of the band, in metres.
     pub lambda_min_m: f64,
@@ -74,15 +74,15 @@ pub struct TargetFigures {
     pub peak_displacement_m: f64,
     /// When that is, in seconds. The figures below are those above in displacement, at this instant.
     pub displacement_peak_time_s: f64,
-    /// As `contrast`.
+    /// The same as `contrast`, in displacement at that instant.
     pub displacement_contrast: Option<f64>,
-    /// As `background_contrast`.
+    /// The same as `background_contrast`, in displacement.
     pub displacement_background_contrast: Option<f64>,
-    /// As `worst_spot`.
+    /// The same as `worst_spot`, in displacement.
     pub displacement_worst_spot: Option<f64>,
-    /// As `spot_diameter_m`.
+    /// The same as `spot_diameter_m`, in displacement.
     pub displacement_spot_diameter_m: Option<f64>,
-    /// As `pulse_duration_s`.
+    /// The same as `pulse_duration_s`, in displacement.
     pub displacement_pulse_duration_s: Option<f64>,
     /// Largest magnitude of the weighed displacement at the target within the span, in dB above the threshold; `None` in
     /// silence. Weighed is displacement filtered by 1/threshold(f) without delay, in units of the threshold; the figures
@@ -92,9 +92,9 @@ pub struct TargetFigures {
     pub felt_peak_time_s: f64,
     /// The level over the rms of the weighed displacement of the outside points at that instant.
     pub felt_contrast_db: Option<f64>,
-    /// Over the rms of the outside points and the span.
+    /// The level over the rms of the weighed displacement of the outside points and the span.
     pub felt_background_db: Option<f64>,
-    /// Over the largest magnitude of the outside points and the span.
+    /// The level over the largest magnitude of the weighed displacement of the outside points and the span.
     pub felt_worst_spot_db: Option<f64>,
     /// Least and greatest velocity over a set of points at T, in m/s; `None` for one point.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -122,7 +122,7 @@ pub struct DriveFigures {
 /// Pictures of the field: one value per point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Maps {
-    /// Where the values are.
+    /// Places of the values, in metres.
     pub points: Vec<Point>,
     /// The grid the points are on; `None` on a library.
     pub grid: Option<Grid>,

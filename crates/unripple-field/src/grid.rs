@@ -3,7 +3,7 @@
 use crate::FieldError;
 use unripple_core::{Conditions, Point, require};
 
-/// Most cells of a grid.
+/// Most cells of a grid: each is read at every sample. Doubled, the largest fields take twice the time.
 const MOST_CELLS: f64 = 4e6;
 
 /// Cells over the bounding box of a surface; the points of a field are the centres of those inside the outline.
@@ -54,13 +54,13 @@ impl Grid {
         Ok(grid)
     }
 
-    /// Centre of a cell.
+    /// Centre of a cell, given by its index, in metres.
     pub fn centre(&self, cell: usize) -> Point {
         let (column, row) = (cell % self.columns, cell / self.columns);
         Point::new((column as f64 + 0.5) * self.width, (row as f64 + 0.5) * self.height)
     }
 
-    /// The points of the grid: centres of the cells inside the outline.
+    /// The points of the grid, in metres: centres of the cells inside the outline.
     pub fn points(&self) -> Vec<Point> {
         self.inside.iter().map(|cell| self.centre(*cell)).collect()
     }

@@ -1,4 +1,4 @@
-//! A field at its focal instant alone: what a focus is worth where nothing else of it is asked.
+//! The field at the focal instant alone: the contrast of a focus where no other figure is asked for.
 
 use crate::{Field, FieldError};
 use unripple_core::Point;
@@ -13,7 +13,8 @@ pub struct Instant {
 }
 
 impl Instant {
-    /// Magnitude of the velocity at the target over the rms outside; `None` where nothing moves outside.
+    /// Contrast: magnitude of the velocity at the target over the rms outside, a ratio; `None` where nothing
+    /// moves outside.
     pub fn contrast(&self) -> Option<f64> {
         (self.rms_outside > 0.0).then(|| self.velocity.abs() / self.rms_outside)
     }

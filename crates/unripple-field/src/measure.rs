@@ -28,7 +28,8 @@ pub fn measure(
 }
 
 impl Field<'_> {
-    /// All figures of this field at `aims`, as [`measure`](crate::measure()) gives them; `period` as in [`MeasureOptions`].
+    /// All figures of this field at `aims`, as [`measure`](crate::measure()) gives them; `period` (s) as in
+    /// [`MeasureOptions`].
     ///
     /// # Errors
     /// [`FieldError::Outside`], [`FieldError::Unknown`] and [`FieldError::Instant`] for aims, [`FieldError::Range`] for a
@@ -74,7 +75,7 @@ impl Field<'_> {
     }
 }
 
-/// A period in samples.
+/// A period (s) as a whole number of samples.
 pub(crate) fn whole_period(period: f64, drive: &Drive) -> Result<usize, FieldError> {
     let samples = (period * drive.rate()).round();
     let legal = (1.0..=drive.samples() as f64).contains(&samples);
@@ -83,6 +84,7 @@ pub(crate) fn whole_period(period: f64, drive: &Drive) -> Result<usize, FieldErr
     Ok(samples as usize)
 }
 
+/// The samples over which each aim is measured; without aims, those of a focus at the drive's last sample.
 pub(crate) fn spans(aims: &[Resolved], field: &Field<'_>, period: Option<usize>) -> Vec<Range<usize>> {
     if !aims.is_empty() {
         return aims.iter().map(|aim| aim.span.clone()).collect();
@@ -121,6 +123,7 @@ pub(crate) struct Peaks {
 }
 
 impl Peaks {
+    /// Reads a trace whose first sample is `first`.
     pub fn of(aim: &Resolved, first: usize, trace: &Trace) -> Self {
         let largest = |values: &[f64]| {
             let span = aim.span.start - first..aim.span.end - first;
@@ -181,6 +184,7 @@ struct Surroundings {
 }
 
 impl Judge<'_> {
+    /// The figures of the target of an index.
     fn figures(&self, index: usize, spots: [Option<f64>; 2]) -> TargetFigures {
         let (aim, resolved, peaks) = (&self.aims[index], &self.resolved[index], &self.peaks[index]);
         let rate = self.field.drive.rate();
@@ -222,6 +226,7 @@ impl Judge<'_> {
         }
     }
 
+    /// What a level at the target of an index is compared with, in velocity (0) or displacement (1).
     fn surroundings(&self, index: usize, quantity: usize) -> Surroundings {
         let span = &self.resolved[index].span;
         let snapshot = &self.survey.snapshots[index + quantity * self.aims.len()][quantity];
@@ -259,6 +264,7 @@ fn ratio(level: f64, surroundings: f64) -> Option<f64> {
     (surroundings > 0.0).then(|| level.abs() / surroundings)
 }
 
+/// What was sent: all of it, or the last `period` samples.
 fn drive_figures(field: &Field<'_>, period: Option<usize>) -> DriveFigures {
     let drive = field.drive;
     let first = period.map_or(0, |period| last_period(field, period).start);
@@ -280,6 +286,7 @@ fn loudest(felt: &[f32], outside: &[bool]) -> Option<f64> {
     Some(levels.fold(0.0, f64::max)).filter(|level| *level > 0.0).map(decibels)
 }
 
+/// The pictures of a survey.
 fn maps(
     field: &Field<'_>,
     survey: Survey,

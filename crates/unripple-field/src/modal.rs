@@ -12,24 +12,30 @@ use std::sync::OnceLock;
 use unripple_core::{Drive, ModalResponses, Point};
 use unripple_linalg::product;
 
-/// Most samples from the start of a drive.
+/// Most samples from the start of a drive: 7 minutes at 48 kHz. Doubled, twice as long.
 const MOST_SAMPLES: usize = 20_000_000;
 
-/// Points and samples of a block of the field: small enough to stay in cache while it is tallied.
+/// Points of a block of the field: small enough to stay in cache, with [`SAMPLES`], while it is tallied.
+/// Doubled, blocks of 256 KiB may fall out of it.
 pub(crate) const POINTS: usize = 256;
+/// Samples of a block of the field; see [`POINTS`].
 const SAMPLES: usize = 128;
 
-/// Values of states (modes x samples) that are held at once.
+/// Values of states (modes x samples) that are held at once, up to 32 MiB of them. Doubled, twice the memory.
 pub(crate) const STATES: usize = 1 << 22;
 
-/// Readout weights that are kept between surveys; more are computed again for each block of time.
+/// Readout weights that are kept between surveys, half a GiB of them; more are computed again for each block
+/// of time. Doubled, a GiB.
 const KEPT: usize = 1 << 27;
 
 /// The field of a modal system: states of all modes over time, read out in blocks and never stored as a whole.
 #[derive(Debug)]
 pub(crate) struct ModalField<'a> {
+    /// Poles, input weights and shapes.
     pub(crate) responses: &'a ModalResponses,
+    /// What is sent.
     pub(crate) drive: &'a Drive,
+    /// The points that it is read at, in metres.
     pub(crate) points: Vec<Point>,
     readout: OnceLock<Vec<Mat<f32>>>,
 }
@@ -51,15 +57,17 @@ impl State {
 }
 
 impl<'a> ModalField<'a> {
+    /// The field at points (m) of responses under a drive.
     pub fn new(responses: &'a ModalResponses, drive: &'a Drive, points: Vec<Point>) -> Self {
         Self { responses, drive, points, readout: OnceLock::new() }
     }
 
+    /// Number of modes.
     pub(crate) fn modes(&self) -> usize {
         self.responses.poles.len()
     }
 
-    /// Samples whose states are held at once.
+    /// Number of samples whose states are held at once.
     pub(crate) fn samples_at_once(&self) -> usize {
         (STATES / self.modes().max(1)).max(SAMPLES)
     }
@@ -70,7 +78,8 @@ impl<'a> ModalField<'a> {
         Mat::from_fn(exact.nrows(), exact.ncols(), |p, m| exact[(p, m)] as f32)
     }
 
-    /// Applies `work` to the weights of every chunk of points and what belongs to it, in parallel.
+    /// Applies `work` to the weights (points x modes) of every chunk of points and what belongs to it, in
+    /// parallel.
     pub(crate) fn for_chunks<T: Send>(&self, owned: &mut [T], work: impl Fn(&Mat<f32>, &mut T) + Sync) {
         if self.points.len() * self.modes() > KEPT {
             let chunks = self.points.par_chunks(POINTS);
@@ -98,6 +107,7 @@ impl<'a> ModalField<'a> {
         states
     }
 
+    /// Velocity and displacement at every point, at some samples.
     fn snapshots(&self, instants: &[usize]) -> Vec<[Vec<f32>; 2]> {
         let states = self.states(instants);
         let both = Mat::from_fn(self.modes(), 2 * states.len(), |m, column| {
@@ -219,7 +229,7 @@ fn states<T: faer::traits::ComplexField>(
     both
 }
 
-/// Adds the field of a block of states to a tally.
+/// Adds the field of a block of states (modes x samples), read by weights (points x modes), to a tally.
 pub(crate) fn add_to(tally: &mut Tally, weights: MatRef<'_, f32>, states: MatRef<'_, f32>) {
     let mut field = Mat::<f32>::zeros(weights.nrows(), SAMPLES.min(states.ncols()));
     let mut squares = vec![0.0_f32; weights.nrows()];

@@ -29,7 +29,7 @@ impl<'a> Motion<'a> {
         Self::of(responses, drive, 0..responses.poles.len())
     }
 
-    /// The same for some of the modes.
+    /// The same for some of the modes, by their indices.
     pub fn of(responses: &ModalResponses, drive: &'a Drive, modes: Range<usize>) -> Self {
         let rate = drive.rate();
         let poles = &responses.poles[modes.clone()];
@@ -53,12 +53,13 @@ impl<'a> Motion<'a> {
         self.next
     }
 
-    /// Displacement and velocity of every mode at the sample before the next.
+    /// Displacement (m·√kg) and velocity (√J) of every mode at the sample before the next.
     pub fn state(&self) -> (&[f64], &[f64]) {
         (&self.displacement, &self.velocity)
     }
 
-    /// Steps through the next `count` samples and shows displacement and velocity of every mode at each.
+    /// Steps through the next `count` samples and shows displacement (m·√kg) and velocity (√J) of every mode
+    /// at each.
     pub fn advance(&mut self, count: usize, mut show: impl FnMut(&[f64], &[f64])) {
         let momenta = self.momenta(self.next..self.next + count);
         for offset in 0..count {
@@ -94,6 +95,7 @@ impl<'a> Motion<'a> {
         momenta
     }
 
+    /// Lets all modes ring freely over one sample.
     fn ring(&mut self) {
         let [a, b, c, d] = &self.step;
         let modes = self.velocity.iter_mut().zip(&mut self.displacement);

@@ -20,6 +20,7 @@ pub(crate) struct SampledField<'a> {
 }
 
 impl<'a> SampledField<'a> {
+    /// The field of sampled responses under a drive.
     pub fn new(responses: &'a SampledResponses, drive: &'a Drive) -> Self {
         Self { responses, drive }
     }
@@ -41,6 +42,7 @@ impl<'a> SampledField<'a> {
         }
     }
 
+    /// The mean trace over a set of places.
     fn mean(&self, set: &[Point], player: &Player<'_>) -> Trace {
         let indices: Vec<usize> = set.iter().filter_map(|p| self.index(*p).ok()).collect();
         let traces: Vec<Trace> = indices.par_iter().map(|i| player.play(*i)).collect();
@@ -52,6 +54,7 @@ impl<'a> SampledField<'a> {
         Trace { velocity: mean(Quantity::Velocity), displacement: mean(Quantity::Displacement) }
     }
 
+    /// The spot diameter around a place (m), by a fit to the library's points.
     fn spot(&self, at: Point, player: &Player<'_>, quantity: Quantity) -> Option<f64> {
         let wavelength = self.responses.conditions.lambda_min;
         let value = |i: usize| player.play(i).of(quantity).first().copied();
@@ -168,6 +171,7 @@ struct Player<'a> {
 type Complex = unripple_dsp::Complex<f64>;
 
 impl<'a> Player<'a> {
+    /// Makes the drive ready for a range of samples.
     fn plan(field: &SampledField<'a>, range: Range<usize>) -> Self {
         let length = field.responses.samples();
         let first = (range.start + 1).saturating_sub(length).min(field.drive.samples());

@@ -1,14 +1,16 @@
-//! What a field is read from: modes or samples.
+//! What a field is read from: modal or sampled responses.
 
 use crate::FieldError;
 use std::ops::Range;
 use unripple_core::Point;
 use unripple_dsp::Weighting;
 
-/// Velocity or displacement.
+/// The quantity that is read: velocity or displacement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Quantity {
+    /// Normal velocity, in m/s.
     Velocity,
+    /// Normal displacement, in metres.
     Displacement,
 }
 
@@ -22,7 +24,7 @@ pub struct Trace {
 }
 
 impl Trace {
-    /// One of the two.
+    /// One of the two, a number per sample in m/s or m.
     pub(crate) fn of(&self, quantity: Quantity) -> &[f64] {
         match quantity {
             Quantity::Velocity => &self.velocity,
@@ -34,13 +36,14 @@ impl Trace {
 /// What one quantity does at every point of a field over a segment of time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Tally {
-    /// Largest magnitude.
+    /// Largest magnitude at each point.
     pub peak: Vec<f32>,
     /// Sum of squares over the samples.
     pub squares: Vec<f64>,
 }
 
 impl Tally {
+    /// Nothing tallied yet at so many points, a number.
     pub fn zeros(points: usize) -> Self {
         Self { peak: vec![0.0; points], squares: vec![0.0; points] }
     }
@@ -49,9 +52,9 @@ impl Tally {
 /// The field over segments of time and at instants, at every one of its points; velocity and displacement.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Survey {
-    /// One pair per segment.
+    /// Tallies of velocity and displacement, a pair per segment.
     pub tallies: Vec<[Tally; 2]>,
-    /// One pair per instant.
+    /// Velocity and displacement at every point, a pair per instant.
     pub snapshots: Vec<[Vec<f32>; 2]>,
 }
 
@@ -73,18 +76,18 @@ pub(crate) struct Passage {
 /// What is felt at every point of a field during a passage, in units of the threshold.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Weighed {
-    /// Over the span.
+    /// What is felt at every point over the span.
     pub tally: Tally,
-    /// One per instant.
+    /// What is felt at every point, one list per instant.
     pub snapshots: Vec<Vec<f32>>,
 }
 
 /// A field under a drive, whatever its responses are kept in. Samples count from the drive's first.
 pub(crate) trait Source: Send + Sync {
-    /// The points it is taken on.
+    /// The points (m) it is taken on.
     fn points(&self) -> &[Point];
 
-    /// The point that stands for a place.
+    /// The point that stands for a place, both in metres.
     fn locate(&self, place: Point) -> Result<Point, FieldError>;
 
     /// How many samples are known, from the drive's first.
@@ -93,7 +96,8 @@ pub(crate) trait Source: Send + Sync {
     /// Traces over a range of samples, each the mean over a set of points.
     fn traces(&self, sets: &[Vec<Point>], range: Range<usize>) -> Vec<Trace>;
 
-    /// Tallies over segments (ascending, apart from each other) and snapshots at instants.
+    /// Tallies over segments of samples (ascending, apart from each other) and snapshots at instants, both at
+    /// every point.
     fn survey(&self, segments: &[Range<usize>], instants: &[usize]) -> Survey;
 
     /// What is felt during a passage.

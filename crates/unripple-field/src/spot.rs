@@ -1,18 +1,20 @@
-//! Diameter of the focal spot.
+//! Diameter of the focal spot: full width at half maximum.
 
 use std::f64::consts::PI;
 use unripple_core::{Outline, Point};
 
-/// Directions in which a spot is measured: opposite pairs make the diameters that are averaged.
+/// Directions in which a spot is measured: opposite pairs make the diameters that are averaged. Doubled,
+/// twice the readouts for a mean that hardly changes.
 const DIRECTIONS: usize = 16;
 
-/// Steps that bring a crossing to well under a thousandth of the wavelength.
+/// Steps of the regula falsi that bring a crossing to well under a thousandth of the wavelength. Doubled,
+/// digits that no figure shows.
 const REFINEMENTS: usize = 3;
 
 /// Where a spot is measured.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Around<'a> {
-    /// Its middle.
+    /// Its middle, in metres.
     pub at: Point,
     /// The region that holds the field.
     pub outline: &'a Outline,
@@ -119,12 +121,14 @@ pub(crate) fn fitted_diameter(values: &[(f64, f64)], wavelength: f64) -> Option<
         let (aa, ab, bb) = (sum(|s, _| s * s), sum(|s, _| s * s * s), sum(|s, _| s.powi(4)));
         let (ay, by) = (sum(|s, y| s * (1.0 - y)), sum(|s, y| s * s * (1.0 - y)));
         let determinant = aa * bb - ab * ab;
+        // Distances too much alike do not tell r² from r⁴.
         if determinant <= 1e-12 * aa * bb {
             return None;
         }
         let (a, b) = ((ay * bb - by * ab) / determinant, (ay * ab - by * aa) / determinant);
         let root = (a * a - 2.0 * b).max(0.0).sqrt();
         let square = 1.0 / (a + root);
+        // The crossing lies within nine tenths of the radius: 0.9² = 0.81.
         let crosses = a > 0.0 && a * a >= 2.0 * b && square > 0.0 && square <= 0.81;
         crosses.then(|| 2.0 * square.sqrt() * radius)
     })

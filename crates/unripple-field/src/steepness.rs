@@ -6,7 +6,7 @@ use serde::Serialize;
 /// How steep and how bent the surface is: what decides whether small deflections are small. From displacements alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Steepness {
-    /// Largest slope |∇u|.
+    /// Largest slope |∇u|, dimensionless.
     pub slope: f64,
     /// Mean square of the slope over the surface.
     pub mean_square_slope: f64,
@@ -14,8 +14,10 @@ pub struct Steepness {
     pub curvature: f64,
 }
 
-/// First and second derivatives from five samples, fourth order (per step and step²).
+/// First derivative from five samples, central differences of fourth order (per step): Fornberg, *Math.
+/// Comp.* 51, 699 (1988), table 1.
 const FIRST: [f64; 5] = [1.0 / 12.0, -8.0 / 12.0, 0.0, 8.0 / 12.0, -1.0 / 12.0];
+/// Second derivative from the same, likewise of fourth order (per step²), as in the table.
 const SECOND: [f64; 5] = [-1.0 / 12.0, 16.0 / 12.0, -30.0 / 12.0, 16.0 / 12.0, -1.0 / 12.0];
 
 impl Steepness {
@@ -32,6 +34,7 @@ impl Steepness {
     }
 }
 
+/// Slopes and curvature of one snapshot; `None` without a grid.
 fn one(maps: &Maps, snapshot: &Snapshot) -> Option<Steepness> {
     let grid = maps.grid.as_ref()?;
     let cells = grid.spread(&snapshot.displacement);

@@ -39,7 +39,7 @@ pub struct WaveformFigures {
 /// How still a point of silence is.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SilenceFigures {
-    /// Where, in metres.
+    /// Place of the point of silence, in metres.
     pub at_m: [f64; 2],
     /// Its rms over that of the strongest waveform asked for, in dB.
     pub level_db: f64,
@@ -76,6 +76,7 @@ impl Field<'_> {
     }
 }
 
+/// How well the target of an index follows what it was asked.
 fn figures(index: usize, wanted: &[Wanted], found: &[Vec<f64>]) -> WaveformFigures {
     let Wanted { points, samples } = &wanted[index];
     let own = energy(samples);
