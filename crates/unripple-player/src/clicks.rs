@@ -31,7 +31,7 @@ struct Expected {
 }
 
 impl Clicks {
-    /// For so many outputs in blocks of so many samples.
+    /// A listener for so many outputs, in blocks of so many samples.
     pub fn new(outputs: usize, block: usize) -> Self {
         Self { block, last: vec![0.0; outputs], expected: Vec::new() }
     }
@@ -50,7 +50,8 @@ impl Clicks {
         self.expected.push(Expected { start, end: start + drive.samples() as u64, steps });
     }
 
-    /// Hears a planar block that begins at `clock`; says how many steps are larger than what is announced allows.
+    /// Hears a planar block (outputs x samples) that begins at sample `clock`; returns the number of steps
+    /// that are larger than what is announced allows.
     pub fn hear(&mut self, clock: u64, emitted: &[f32]) -> usize {
         self.expected.retain(|held| held.end >= clock);
         let mut clicks = 0;

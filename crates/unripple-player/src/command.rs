@@ -7,7 +7,7 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Voice(pub u64);
 
-/// When a command acts.
+/// When a command acts, by the player's clock.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum At {
     /// At the first sample of the next block.
@@ -21,11 +21,11 @@ pub enum At {
 /// [`Hold`](crate::Hold).
 #[derive(Clone, Debug)]
 pub enum Command {
-    /// Starts a drive.
+    /// Starts a drive: once, as a comb or as a loop.
     Start {
-        /// Its name.
+        /// Name by which the voice is changed and reported.
         voice: Voice,
-        /// What is played.
+        /// The drive that is played.
         drive: Arc<Prepared>,
         /// When its first sample sounds.
         at: At,
@@ -38,28 +38,28 @@ pub enum Command {
     /// Gives a comb or loop another drive: each start at or after `at` plays that, while the last copies of the old ring out.
     /// Passes of a loop overlap by its fade, so this is a crossfade of that length.
     Swap {
-        /// Which.
+        /// Name of the comb or loop.
         voice: Voice,
         /// What is played from then on. The period stays.
         drive: Arc<Prepared>,
-        /// From when.
+        /// From when on starts play it.
         at: At,
     },
     /// Gives the copies of a comb or loop that start at or after `at` another gain.
     Gain {
-        /// Which.
+        /// Name of the comb or loop.
         voice: Voice,
-        /// Factor.
+        /// Factor on the drive; the limiter may lower it.
         gain: f32,
-        /// From when.
+        /// From when on starts have it.
         at: At,
     },
     /// Gives an input its responses to all outputs. What entered before keeps the old responses to its end, what enters during the
     /// fade goes through both in turning shares.
     SetFilters {
-        /// Which input.
+        /// Index of the input.
         input: usize,
-        /// The responses.
+        /// Its responses to all outputs.
         filters: Arc<PreparedFilters>,
         /// From the block that holds this sample.
         at: At,
@@ -68,9 +68,9 @@ pub enum Command {
     },
     /// Plays a prepared waveform into an input.
     Wave {
-        /// Its name.
+        /// Name by which the waveform is reported.
         voice: Voice,
-        /// Which input.
+        /// Index of the input.
         input: usize,
         /// Responses that the input gets for this waveform, and samples of the fade from those it has: both come or neither. When
         /// the waveform is over, the input has none. `None` leaves the input as it is.
@@ -79,15 +79,15 @@ pub enum Command {
         samples: Arc<[f32]>,
         /// When its first sample enters.
         at: At,
-        /// Factor.
+        /// Factor on the waveform.
         gain: f32,
-        /// For ever, or once.
+        /// Whether it plays for ever, or once.
         looped: bool,
     },
 }
 
 impl Command {
-    /// When it acts.
+    /// When it acts, by the player's clock.
     pub fn at(&self) -> At {
         match self {
             Self::Start { at, .. }
@@ -112,7 +112,7 @@ impl Command {
         matches!(self, Self::Start { .. } | Self::Wave { .. }) && !self.goes_on()
     }
 
-    /// Whom it is about.
+    /// The voice that it is about; none of filters.
     pub fn voice(&self) -> Option<Voice> {
         match self {
             Self::Start { voice, .. }
@@ -124,59 +124,59 @@ impl Command {
     }
 }
 
-/// What a player says.
+/// What a player reports to its desk.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Report {
     /// A copy of a drive, or a waveform, starts.
     Started {
-        /// Whose.
+        /// Name of the voice.
         voice: Voice,
-        /// At which sample of the clock.
+        /// Sample of the clock at which it starts.
         sample: u64,
-        /// With which gain, after limiting.
+        /// Factor that it starts with, after limiting.
         gain: f32,
     },
     /// The last copy, or the waveform, is over.
     Ended {
-        /// Whose.
+        /// Name of the voice.
         voice: Voice,
         /// First sample of silence.
         sample: u64,
     },
-    /// A copy was scaled down, as a whole.
+    /// A copy of a drive was scaled down as a whole, to stay within a limit.
     Limited {
-        /// Whose.
+        /// Name of the voice.
         voice: Voice,
         /// The gain that was asked for is multiplied by this.
         scale: f32,
-        /// By which limit.
+        /// The limit that decided.
         which: Which,
-        /// Of which actuator.
+        /// Index of the actuator.
         output: usize,
     },
     /// All waveforms together begin to be scaled down.
     WavesLimited {
-        /// In the block that begins here.
+        /// First sample of the block in which that begins.
         sample: u64,
-        /// Down to this, at its end.
+        /// The gain at the end of that block.
         gain: f32,
-        /// By which limit.
+        /// The limit that decided.
         which: Which,
-        /// Of which actuator.
+        /// Index of the actuator.
         output: usize,
     },
     /// The asked sample had passed, or its block was full of work: it acts now.
     Late {
-        /// Whose; none for filters.
+        /// Name of the voice; none for filters.
         voice: Option<Voice>,
-        /// By how many samples.
+        /// Number of samples that it is late by.
         by: u64,
     },
-    /// Nothing was done.
+    /// A command was refused: nothing was done.
     Refused {
-        /// Whose; none for filters.
+        /// Name of the voice; none for filters.
         voice: Option<Voice>,
-        /// Why.
+        /// The reason, which says whether it may pass another time.
         why: Why,
     },
 }
@@ -184,11 +184,11 @@ pub enum Report {
 /// Which limit of an actuator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Which {
-    /// The largest sample.
+    /// The limit on the largest sample.
     Peak,
-    /// The running rms over a short time.
+    /// The limit on the running rms over a short time.
     Rms,
-    /// The running rms over a long time.
+    /// The limit on the running rms over a long time.
     Thermal,
 }
 
@@ -201,7 +201,7 @@ pub enum Why {
     Copies,
     /// As many commands wait for their sample as may.
     Pending,
-    /// No such voice repeats.
+    /// No voice of that name repeats.
     Unknown,
     /// A drive of another number of outputs, or filters of another plan.
     Outputs,

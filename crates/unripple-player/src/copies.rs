@@ -4,24 +4,31 @@ use crate::events::Whose;
 use crate::shelf::Shelf;
 use crate::{Prepared, kernels};
 
-/// A drive that sounds.
+/// A copy of a drive that sounds now.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sounding {
+    /// Voice and command that it goes back to.
     pub(crate) whose: Whose,
-    /// Its place on the shelf.
+    /// Index of its drive on the shelf.
     pub(crate) drive: usize,
+    /// Sample of the clock at which it starts.
     pub(crate) start: u64,
+    /// Number of samples that it lasts.
     pub(crate) samples: u64,
-    /// After limiting.
+    /// Factor on its samples, after limiting.
     pub(crate) gain: f32,
+    /// Its end before its last sample, where there is one.
     pub(crate) fade: Option<Fade>,
 }
 
 /// A straight line from `level` just before sample `from` to nothing at sample `from + length`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fade {
+    /// Sample of the clock at which it begins to fall.
     pub(crate) from: u64,
+    /// Number of samples until it is silent.
     pub(crate) length: u32,
+    /// Weight just before it falls, from 0 to 1.
     pub(crate) level: f32,
 }
 
@@ -36,11 +43,13 @@ impl Fade {
         self.level * (left / (self.length as f32 + 1.0))
     }
 
+    /// First sample of silence.
     pub(crate) fn end(&self) -> u64 {
         self.from + u64::from(self.length)
     }
 
-    /// The fade that begins at `from` where this one may be under way: whichever ends first.
+    /// The fade over `length` samples that begins at sample `from` where this one may be under way: whichever
+    /// ends first.
     pub(crate) fn after(held: Option<Self>, from: u64, length: u32) -> Self {
         let level = held.map_or(1.0, |held| held.weight(from.saturating_sub(1)));
         let fade = Self { from, length, level };
@@ -58,7 +67,7 @@ impl Sounding {
         self.fade.map_or(whole, |fade| whole.min(fade.end()))
     }
 
-    /// Adds the block that begins at `clock` to planar `out`.
+    /// Adds the block that begins at sample `clock` to planar `out` (outputs x samples).
     #[inline(always)]
     pub(crate) fn mix(&self, shelf: &Shelf<Prepared>, clock: u64, block: usize, out: &mut [f32]) {
         let (from, to) = (self.start.max(clock), self.end().min(clock + block as u64));

@@ -10,23 +10,35 @@ use std::sync::Arc;
 /// The end of a [`Player`](crate::Player) that lives off the audio thread: sends commands, hears reports, and frees what is no
 /// longer played.
 pub struct Desk {
+    /// Commands on their way to the player.
     pub(crate) commands: Producer<Sent>,
     /// Commands sent so far.
     pub(crate) sent: u64,
+    /// Reports on their way from it.
     pub(crate) reports: Consumer<Report>,
+    /// What is to be freed here.
     pub(crate) garbage: Consumer<Garbage>,
+    /// Rings of samples, one per input.
     pub(crate) feeds: Vec<Producer<f32>>,
+    /// How responses are made ready; none without waveforms.
     pub(crate) plan: Option<FilterPlan>,
+    /// What is counted.
     pub(crate) meters: Arc<Meters>,
+    /// What is wanted of the player at any time.
     pub(crate) standing: Arc<Standing>,
+    /// Number of outputs.
     pub(crate) outputs: usize,
+    /// Samples from an input to the outputs.
     pub(crate) wave_delay: usize,
 }
 
 /// A command on its way, with its number.
 pub(crate) struct Sent {
+    /// Its number: how many were sent up to it.
     pub(crate) id: u64,
+    /// What is asked for.
     pub(crate) command: Command,
+    /// What keeps it going, if it goes on.
     pub(crate) held: Option<Arc<Held>>,
 }
 
@@ -57,6 +69,7 @@ impl Desk {
         self.push(command, Some(held.clone())).map(|()| Hold(held))
     }
 
+    /// Sends a command with its number; gives it back if there is no room.
     fn push(&mut self, command: Command, held: Option<Arc<Held>>) -> Result<(), Box<Command>> {
         self.collect();
         let sent = Sent { id: self.sent + 1, command, held };
@@ -125,7 +138,7 @@ impl Desk {
         self.plan.as_ref()
     }
 
-    /// Samples from an input to the outputs, besides the responses' own.
+    /// Number of samples from an input to the outputs, besides the responses' own.
     pub fn wave_delay(&self) -> usize {
         self.wave_delay
     }

@@ -8,7 +8,7 @@ pub enum PlayerError {
     /// A value is out of its range.
     #[error(transparent)]
     Range(#[from] OutOfRange),
-    /// Sizes do not agree.
+    /// Two sizes that must agree do not.
     #[error("{what}: expected {expected}, found {found}")]
     Size {
         /// What is counted.
@@ -25,11 +25,11 @@ pub enum PlayerError {
     Sample {
         /// What the sample is of.
         what: &'static str,
-        /// The channel, from 0.
+        /// Index of the channel, from 0.
         channel: usize,
-        /// The sample, from 0.
+        /// Index of the sample, from 0.
         sample: usize,
-        /// The value.
+        /// The value that was found.
         found: f32,
     },
 }
@@ -42,7 +42,7 @@ pub(crate) fn count(what: &'static str, found: usize, least: usize, most: usize)
     Ok(require(what, (least..=most).contains(&found), format!("{least} to {most}"), found as f64)?)
 }
 
-/// A typed error unless two counts agree.
+/// A typed error unless two numbers of things agree.
 pub(crate) fn same(what: &'static str, found: usize, expected: usize) -> Result<(), PlayerError> {
     if found == expected { Ok(()) } else { Err(PlayerError::Size { what, expected, found }) }
 }

@@ -10,7 +10,8 @@ use pulp::Arch;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// Blocks of the ledger that are made anew per block, where something stopped early.
+/// Blocks of the ledger that are made anew per block, where something stopped early: a bound on the work.
+/// Doubled, room that was given up is free again in half the time.
 const REFILLS: u64 = 4;
 
 /// Drives: those that repeat, those that sound, and the ledger of what is committed.
@@ -21,6 +22,7 @@ pub(crate) struct Events {
     /// How many of them sounded before this block.
     older: usize,
     put_off: VecDeque<PutOff>,
+    /// What is committed of the limits.
     pub(crate) ledger: Ledger,
     /// Blocks of the ledger that hold more than what still sounds.
     stale: Option<(u64, u64)>,
@@ -33,7 +35,9 @@ pub(crate) struct Events {
 /// A name, and the number of the command that it goes back to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Whose {
+    /// Name of the voice.
     pub(crate) voice: Voice,
+    /// Number of the command.
     pub(crate) id: u64,
 }
 
@@ -60,6 +64,7 @@ struct PutOff {
 }
 
 impl Events {
+    /// Nothing that sounds yet, with room for what the options allow.
     pub(crate) fn new(options: &Options) -> Self {
         Self {
             shelf: Shelf::new(Self::places(options)),
@@ -75,12 +80,12 @@ impl Events {
         }
     }
 
-    /// Most drives held at once.
+    /// Number of drives that may be held at once.
     pub(crate) fn places(options: &Options) -> usize {
         options.voices + 2 * options.copies + 2
     }
 
-    /// Begins what the block before had no time for.
+    /// Begins, at sample `clock`, what the block before had no time for.
     pub(crate) fn resume(&mut self, clock: u64, outlet: &mut Outlet) {
         self.left = self.options.work;
         for _ in 0..self.put_off.len() {
@@ -101,7 +106,7 @@ impl Events {
         }
     }
 
-    /// Starts a drive; whether anything came of it.
+    /// Starts a drive at a sample of the clock; whether anything came of it.
     pub(crate) fn start(
         &mut self,
         (whose, drive): (Whose, Arc<Prepared>),
@@ -140,6 +145,7 @@ impl Events {
         }
     }
 
+    /// Gives a repetition another drive.
     pub(crate) fn swap(&mut self, voice: Voice, drive: Arc<Prepared>, outlet: &mut Outlet) {
         if let Some(why) = self.unfit(&drive) {
             self.refuse(voice, drive, why, outlet);
@@ -165,6 +171,7 @@ impl Events {
         self.release(old, outlet);
     }
 
+    /// Gives the copies of a repetition to come another gain, a factor.
     pub(crate) fn gain(&mut self, voice: Voice, gain: f32, outlet: &mut Outlet) {
         match self.repeating.iter_mut().find(|held| held.whose.voice == voice) {
             _ if !gain.is_finite() => outlet.refuse(Some(voice), Why::Gain),
@@ -173,7 +180,8 @@ impl Events {
         }
     }
 
-    /// Ends what a command began; what fades already does so from the start of the block.
+    /// Ends what the command of number `id` began, from a sample on; what fades already does so from the
+    /// start of the block.
     pub(crate) fn stop(&mut self, id: u64, sample: u64, fade: Option<u32>, outlet: &mut Outlet) {
         if let Some(at) = self.repeating.iter().position(|held| held.whose.id == id) {
             let voice = self.end(at, outlet);
@@ -207,7 +215,7 @@ impl Events {
         self.repeating.iter().enumerate().map(|(at, held)| (held.next(), at)).min()
     }
 
-    /// Begins the next copy of a repetition.
+    /// Begins the next copy of the repetition of index `at`.
     pub(crate) fn repeat(&mut self, at: usize, outlet: &mut Outlet) {
         let held = &mut self.repeating[at];
         let sample = held.next();
@@ -217,8 +225,9 @@ impl Events {
         self.ask(whose, drive, sample, gain, outlet);
     }
 
-    /// Adds the block that begins at `clock` to planar `out`, which is silent. What sounded before comes first, then what `kept` adds, then
-    /// what begins in this block: the order in which the ledger was told of them.
+    /// Adds the block that begins at sample `clock` to `out` (outputs x samples), which is silent. What
+    /// sounded before comes first, then what `kept` adds, then what begins in this block: the order in which
+    /// the ledger was told of them.
     pub(crate) fn mix(&mut self, clock: u64, out: &mut [f32], kept: impl FnOnce(&mut [f32])) {
         self.refill(clock);
         let (older, newer) = self.sounding.split_at(self.older);
@@ -235,7 +244,7 @@ impl Events {
         ));
     }
 
-    /// Ends the block that begins at `clock`.
+    /// Ends the block that begins at sample `clock`, of which this was emitted (outputs x samples).
     pub(crate) fn settle(&mut self, clock: u64, emitted: &[f32], outlet: &mut Outlet) {
         let ledger = &mut self.ledger;
         self.arch.dispatch(Wide(
@@ -263,7 +272,7 @@ impl Events {
         self.sounding.is_empty() && self.repeating.is_empty() && self.put_off.is_empty()
     }
 
-    /// Whether anything of what a command began sounds, repeats or waits.
+    /// Whether anything of what the command of number `id` began sounds, repeats or waits.
     pub(crate) fn holds(&self, id: u64) -> bool {
         self.any(|whose| whose.id == id)
     }
@@ -310,6 +319,7 @@ impl Events {
         true
     }
 
+    /// Judges a copy, enters it into the ledger, and lets it sound with the gain that is left.
     fn begin(&mut self, whose: Whose, place: usize, sample: u64, asked: f32, outlet: &mut Outlet) {
         let Some(drive) = self.shelf.get(place) else { return };
         let (ledger, samples) = (&mut self.ledger, drive.samples());

@@ -1,13 +1,13 @@
-//! What goes on sounds only as long as it is held.
+//! Holds: a comb, loop or looped waveform sounds only as long as its hold is kept.
 
 use crate::At;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::Acquire, Ordering::Relaxed, Ordering::Release};
 
-/// No sample: nobody has said so yet.
+/// No sample: nobody has said so yet. The largest there is, so that "before" needs no special case.
 const NEVER: u64 = u64::MAX;
 
-/// In the place of a fade: begun copies of a drive ring out.
+/// In the place of a fade: begun copies of a drive ring out. No fade is as long.
 const RING: u32 = u32::MAX;
 
 /// Keeps something in the player going; once it is stopped or dropped, the player ends it. Nothing is sent for that and nothing has to find
@@ -73,18 +73,22 @@ pub(crate) struct Held {
 }
 
 impl Held {
+    /// Held without end, and not over yet.
     pub(crate) fn new() -> Self {
         Self { until: AtomicU64::new(NEVER), fade: AtomicU32::new(RING), over: AtomicU64::new(NEVER) }
     }
 
+    /// Sample of the clock from which on it is not wanted any more.
     pub(crate) fn until(&self) -> u64 {
         self.until.load(Acquire)
     }
 
+    /// Samples of its fade; `None` to ring out.
     pub(crate) fn fade(&self) -> Option<u32> {
         Some(self.fade.load(Relaxed)).filter(|fade| *fade != RING)
     }
 
+    /// Says from which sample on it is silent.
     pub(crate) fn set_over(&self, sample: u64) {
         self.over.store(sample.min(NEVER - 1), Release);
     }

@@ -1,8 +1,10 @@
-//! Loops over samples of one actuator, widened by the compiler to what the machine has.
+//! Loops over samples of one actuator, vectorised by the compiler (SIMD).
 
 use crate::power::Energies;
 use pulp::NullaryFnOnce;
 
+/// Samples worked on at once: the float32 numbers of a 512-bit register. Doubled, results of sums differ by
+/// rounding.
 const LANES: usize = 16;
 
 /// Work for [`pulp::Arch::dispatch`]: a closure that changes what it captures, itself `#[inline(always)]`, is compiled for what the
@@ -20,7 +22,7 @@ impl<R, F: FnMut() -> R> NullaryFnOnce for Wide<F> {
 
 type Lanes = [f32; LANES];
 
-/// Largest of the two bounds once `gain` times the drive has come on top.
+/// Largest of the two bounds (samples in the actuator's unit) once `gain` times the drive has come on top.
 #[inline(always)]
 pub(crate) fn highest(positive: &[f32], negative: &[f32], drive: &[f32], gain: f32) -> f32 {
     fold3(
@@ -54,7 +56,7 @@ pub(crate) fn room(positive: &[f32], negative: &[f32], drive: &[f32], sign: f32,
     )
 }
 
-/// Puts `gain` times a drive on top of the bounds.
+/// Puts `gain` times a drive (samples in the actuator's unit) on top of the bounds.
 #[inline(always)]
 pub(crate) fn enter(positive: &mut [f32], negative: &mut [f32], drive: &[f32], gain: f32) {
     for ((p, n), &d) in positive.iter_mut().zip(negative).zip(drive) {
@@ -64,7 +66,7 @@ pub(crate) fn enter(positive: &mut [f32], negative: &mut [f32], drive: &[f32], g
     }
 }
 
-/// Energy of the larger of the two bounds.
+/// Energy of the larger of the two bounds, sample by sample: a sum of squares.
 #[inline(always)]
 pub(crate) fn bound_energy(positive: &[f32], negative: &[f32]) -> f64 {
     f64::from(fold2(
@@ -79,7 +81,8 @@ pub(crate) fn bound_energy(positive: &[f32], negative: &[f32]) -> f64 {
     ))
 }
 
-/// Energy of a drive, and the sum of its magnitudes times the larger of the two bounds.
+/// Energy of a drive (a sum of squares over samples), and the sum of its magnitudes times the larger of the
+/// two bounds.
 #[inline(always)]
 pub(crate) fn energies(positive: &[f32], negative: &[f32], drive: &[f32]) -> Energies {
     let own = energy(drive);
@@ -88,7 +91,7 @@ pub(crate) fn energies(positive: &[f32], negative: &[f32], drive: &[f32]) -> Ene
     Energies { own, cross: f64::from(cross) }
 }
 
-/// Energy of samples.
+/// Energy of samples: the sum of their squares.
 #[inline(always)]
 pub(crate) fn energy(samples: &[f32]) -> f64 {
     f64::from(fold2(samples, samples, 0.0, |sum, x, _| sum + x * x, |a, b| a + b))
@@ -100,33 +103,37 @@ pub(crate) fn weighted_energy(samples: &[f32], weights: &[f32]) -> f64 {
     f64::from(fold2(samples, weights, 0.0, |sum, x, w| sum + w * (x * x), |a, b| a + b))
 }
 
-/// Largest magnitude.
+/// Largest magnitude of some samples.
 #[inline(always)]
 pub(crate) fn peak(samples: &[f32]) -> f32 {
     fold2(samples, samples, 0.0, |worst, x, _| larger(worst, x.abs()), larger)
 }
 
-/// Adds `gain` times samples.
+/// Adds `gain` times some samples to others, sample by sample.
 #[inline(always)]
 pub(crate) fn add(to: &mut [f32], from: &[f32], gain: f32) {
     to.iter_mut().zip(from).for_each(|(to, &from)| *to += gain * from);
 }
 
+/// The number, or 0 if it is negative.
 #[inline(always)]
 pub(crate) fn above(x: f32) -> f32 {
     larger(x, 0.0)
 }
 
+/// The larger of two numbers, the first where that cannot be told.
 #[inline(always)]
 pub(crate) fn larger(a: f32, b: f32) -> f32 {
     if b > a { b } else { a }
 }
 
+/// The smaller of two numbers, the first where that cannot be told.
 #[inline(always)]
 pub(crate) fn smaller(a: f32, b: f32) -> f32 {
     if b < a { b } else { a }
 }
 
+/// A fold over two slices in lanes, joined at the end, as far as the shorter goes.
 #[inline(always)]
 fn fold2(
     a: &[f32],
@@ -146,6 +153,7 @@ fn fold2(
     join(rest, joined(lanes, join))
 }
 
+/// The same over three slices.
 #[inline(always)]
 fn fold3(
     a: &[f32],

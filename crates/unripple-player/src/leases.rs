@@ -1,4 +1,4 @@
-//! All that sounds only as long as it is held, on the audio thread.
+//! The holds as the audio thread knows them: what each keeps going, and what is let go.
 
 use crate::hold::Held;
 use crate::outlet::Outlet;
@@ -21,21 +21,26 @@ struct Lease {
 /// Something that is let go.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LetGo {
+    /// Number of the command that began it.
     pub(crate) id: u64,
+    /// Sample of the clock at which it is let go.
     pub(crate) sample: u64,
+    /// Samples of its fade; `None` to ring out.
     pub(crate) fade: Option<u32>,
 }
 
 impl Leases {
-    /// For so many at once.
+    /// Room for a number `most` of them at once.
     pub(crate) fn new(most: usize) -> Self {
         Self { all: Vec::with_capacity(most), most }
     }
 
+    /// Whether there are as many as may be.
     pub(crate) fn is_full(&self) -> bool {
         self.all.len() >= self.most
     }
 
+    /// Notes what the command of number `id` began.
     pub(crate) fn put(&mut self, id: u64, held: Arc<Held>) {
         self.all.push(Lease { id, held, ended: false });
     }
@@ -48,7 +53,7 @@ impl Leases {
         (sample < end).then(|| LetGo { id: lease.id, sample, fade: lease.held.fade() })
     }
 
-    /// Notes that one was let go.
+    /// Notes that what the command of number `id` began was let go.
     pub(crate) fn let_go(&mut self, id: u64) {
         self.all.iter_mut().filter(|lease| lease.id == id).for_each(|lease| lease.ended = true);
     }

@@ -32,15 +32,17 @@ pub(crate) struct Ledger {
     powers: Powers,
 }
 
-/// What a drive gets.
+/// The gain that a drive gets, and what kept it from more.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Verdict {
+    /// The gain that it gets.
     pub(crate) gain: f32,
-    /// What kept it from more.
+    /// The limit and the output that kept it from more.
     pub(crate) by: Option<(Which, usize)>,
 }
 
-/// Share of a limited gain that is kept off, so that rounding cannot pass the limit.
+/// Factor on a limited gain, so that rounding cannot pass the limit: four last places below 1. With twice as
+/// many, gains would be lower by as much more.
 const GUARD: f32 = 1.0 - 4.0 * f32::EPSILON;
 
 /// The part of an event within one block: where in the ring, where in the drive, and which block of the ring.
@@ -51,6 +53,7 @@ struct Piece {
 }
 
 impl Ledger {
+    /// Nothing committed yet.
     pub(crate) fn new(options: &Options) -> Self {
         let blocks = options.longest.div_ceil(options.block) + 2;
         let span = blocks * options.block;
@@ -80,7 +83,7 @@ impl Ledger {
         verdict
     }
 
-    /// Puts a judged drive into the future.
+    /// Puts a judged drive into the future, from sample `start` of the clock on, times `gain`.
     #[inline(always)]
     pub(crate) fn enter(&mut self, drive: &Prepared, start: u64, gain: f32) {
         for output in 0..self.outputs {
@@ -90,6 +93,7 @@ impl Ledger {
         self.powers.look_back(self.clock / self.block as u64, last / self.block as u64);
     }
 
+    /// Puts one channel of a drive into the future.
     #[inline(always)]
     fn enter_channel(&mut self, channel: &[f32], output: usize, start: u64, gain: f32) {
         for piece in self.pieces(channel.len(), start) {
@@ -106,7 +110,8 @@ impl Ledger {
         }
     }
 
-    /// Empties a future block, to be filled again by [`Ledger::refill`] with every copy in the order of mixing.
+    /// Empties a future block, by its number, to be filled again by [`Ledger::refill`] with every copy in the
+    /// order of mixing.
     pub(crate) fn clear(&mut self, block: u64) {
         let at = (block * self.block as u64 % self.span as u64) as usize;
         for output in 0..self.outputs {
@@ -116,7 +121,7 @@ impl Ledger {
         }
     }
 
-    /// Puts the part of a copy that lies within one block, and before `end`, back.
+    /// Puts the part of a copy that lies within one block, and before sample `end`, back.
     #[inline(always)]
     pub(crate) fn refill(&mut self, block: u64, drive: &Prepared, start: u64, end: u64, gain: f32) {
         let first = block * self.block as u64;
@@ -134,7 +139,8 @@ impl Ledger {
         }
     }
 
-    /// Brings the running powers up to date after [`Ledger::refill`].
+    /// Brings the running powers of a block up to date after [`Ledger::refill`]; blocks are counted from the
+    /// clock's start.
     #[inline(always)]
     pub(crate) fn weigh_block(&mut self, block: u64) {
         if self.powers.count() == 0 {
@@ -147,7 +153,8 @@ impl Ledger {
         self.powers.look_back(self.clock / self.block as u64, block);
     }
 
-    /// Adds magnitudes of one sign or the other, planar, to the present block: what waveforms may take of it.
+    /// Adds magnitudes of one sign or the other (outputs x samples) to the present block: what waveforms may
+    /// take of it.
     #[inline(always)]
     pub(crate) fn reserve(&mut self, magnitudes: &[f32]) {
         let at = (self.clock % self.span as u64) as usize;
@@ -168,15 +175,17 @@ impl Ledger {
         (&self.positive[at..at + self.block], &self.negative[at..at + self.block])
     }
 
+    /// Largest magnitude of a sample that an output may emit, in its unit.
     pub(crate) fn peak(&self, output: usize) -> f32 {
         self.peaks[output]
     }
 
+    /// The running powers, and what limits leave of them.
     pub(crate) fn powers(&self) -> &Powers {
         &self.powers
     }
 
-    /// Ends the block that was emitted.
+    /// Ends the block that was emitted (outputs x samples).
     #[inline(always)]
     pub(crate) fn settle(&mut self, emitted: &[f32]) {
         let block = self.clock / self.block as u64;
@@ -192,6 +201,7 @@ impl Ledger {
         self.powers.set_energy(output, slot, kernels::bound_energy(p, n));
     }
 
+    /// Lowers the gain to what the peak leaves a channel.
     #[inline(always)]
     fn judge_peak(&self, channel: &[f32], output: usize, start: u64, verdict: &mut Verdict) {
         let limit = self.peaks[output];
@@ -217,6 +227,7 @@ impl Ledger {
         *verdict = Verdict { gain, by: Some((Which::Peak, output)) };
     }
 
+    /// Lowers the gain to what the limits on the power leave a channel.
     #[inline(always)]
     fn judge_power(&self, drive: &Prepared, output: usize, start: u64, verdict: &mut Verdict) {
         let channel = drive.channel(output);
@@ -241,6 +252,7 @@ impl Ledger {
         }
     }
 
+    /// The parts of an event of so many samples, block by block.
     #[inline(always)]
     fn pieces(&self, samples: usize, start: u64) -> impl Iterator<Item = Piece> + use<> {
         let (block, span) = (self.block, self.span);

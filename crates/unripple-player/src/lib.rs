@@ -1,4 +1,4 @@
-//! Drives into blocks, in real time.
+//! A real-time player: drives and waveforms into blocks of samples, within limits.
 //!
 //! [`player`] makes two ends. The [`Player`] lives on the audio thread and turns commands into blocks; the [`Desk`] lives anywhere
 //! else, sends the commands, hears reports, and frees what is no longer played. Between them are rings without locks.

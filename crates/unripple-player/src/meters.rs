@@ -14,9 +14,10 @@ pub struct Meters {
     counts: [AtomicU64; COUNTS],
 }
 
+/// Number of things counted: one per variant of [`Count`].
 const COUNTS: usize = 9;
 
-/// Something counted.
+/// Something counted since the player was made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Count {
     /// Copies of drives, and waveforms, started.
@@ -29,7 +30,7 @@ pub enum Count {
     Late,
     /// Starts put off because their block was full of work.
     PutOff,
-    /// Commands refused.
+    /// Commands that were refused.
     Refused,
     /// Reports that found no room on their way to the desk.
     ReportsLost,
@@ -40,6 +41,7 @@ pub enum Count {
 }
 
 impl Meters {
+    /// Nothing counted yet, of a number of outputs.
     pub(crate) fn new(outputs: usize) -> Self {
         Self {
             clock: AtomicU64::new(0),
@@ -68,7 +70,7 @@ impl Meters {
         f32::from_bits(self.load.load(Relaxed))
     }
 
-    /// Tells the load.
+    /// Tells the load, a share of the period.
     pub fn set_load(&self, share: f32) {
         self.load.store(share.to_bits(), Relaxed);
     }
@@ -78,7 +80,7 @@ impl Meters {
         f32::from_bits(self.wave_gain.load(Relaxed))
     }
 
-    /// Largest magnitude that an output emitted since this was last asked.
+    /// Largest magnitude that an output, by its index, emitted since this was last asked, in its unit.
     pub fn take_peak(&self, output: usize) -> f32 {
         self.peaks.get(output).map_or(0.0, |peak| f32::from_bits(peak.swap(0, Relaxed)))
     }
@@ -88,27 +90,32 @@ impl Meters {
         self.heats.get(output).map_or(0.0, |heat| f32::from_bits(heat.load(Relaxed)))
     }
 
-    /// How often something has happened so far.
+    /// Number of times that something has happened so far.
     pub fn count(&self, what: Count) -> u64 {
         self.counts[what as usize].load(Relaxed)
     }
 
+    /// Counts one event more of a kind.
     pub(crate) fn add(&self, what: Count) {
         self.counts[what as usize].fetch_add(1, Relaxed);
     }
 
+    /// Tells the first sample of the next block.
     pub(crate) fn set_clock(&self, clock: u64) {
         self.clock.store(clock, Relaxed);
     }
 
+    /// Tells whether all is silent and nothing is to come.
     pub(crate) fn set_silent(&self, silent: bool) {
         self.silent.store(silent, Relaxed);
     }
 
+    /// Tells the factor on all waveforms.
     pub(crate) fn set_wave_gain(&self, gain: f32) {
         self.wave_gain.store(gain.to_bits(), Relaxed);
     }
 
+    /// Tells the share of its limits that an output has used up.
     pub(crate) fn set_heat(&self, output: usize, heat: f32) {
         if let Some(held) = self.heats.get(output) {
             held.store(heat.to_bits(), Relaxed);

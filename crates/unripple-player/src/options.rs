@@ -7,13 +7,13 @@ use unripple_core::require;
 /// What a player is made for; all of it is allocated once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// Actuators.
+    /// Number of actuators.
     pub outputs: usize,
     /// Samples per block, per output.
     pub block: usize,
     /// Samples per second.
     pub rate: f64,
-    /// What each actuator bears: one limit per output, or a single one for all.
+    /// Limits of the actuators: one per output, or a single one for all.
     pub limits: Vec<Limit>,
     /// Most repeating voices at once.
     pub voices: usize,
@@ -48,7 +48,7 @@ impl Default for Options {
     }
 }
 
-/// What an actuator bears, in its own unit.
+/// The limits of an actuator, in its own unit: peak, short-term and thermal rms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit {
     /// Largest magnitude of a sample.
@@ -97,11 +97,12 @@ impl Default for WaveOptions {
     }
 }
 
-/// Most of anything that options may ask for.
+/// Most of anything that options may ask for: a bound on what is allocated. Doubled, options of twice the
+/// size are taken.
 const MOST: usize = 1 << 20;
 
 impl Options {
-    /// The limit of an output.
+    /// The limit of an output, by its index, in its unit.
     pub fn limit(&self, output: usize) -> Limit {
         let which = if self.limits.len() == 1 { 0 } else { output };
         self.limits.get(which).copied().unwrap_or_default()

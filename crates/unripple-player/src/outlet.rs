@@ -12,11 +12,12 @@ pub(crate) struct Outlet {
     /// What found no room in the ring yet. Never more than twice what the player can hold at once.
     trash: Vec<Garbage>,
     most: usize,
+    /// Where losses are counted.
     pub(crate) meters: Arc<Meters>,
 }
 
 impl Outlet {
-    /// An outlet for a player that holds at most so many shared data at once.
+    /// An outlet for a player that holds at most `held` (a number) shared data at once.
     pub(crate) fn new(
         reports: Producer<Report>,
         garbage: Producer<Garbage>,
@@ -37,12 +38,14 @@ impl Outlet {
         self.trash.len() <= self.most
     }
 
+    /// Sends data away to be freed.
     pub(crate) fn discard(&mut self, garbage: Garbage) {
         if let Err(rtrb::PushError::Full(garbage)) = self.garbage.push(garbage) {
             self.trash.push(garbage);
         }
     }
 
+    /// Sends a report, or counts that it found no room.
     pub(crate) fn report(&mut self, report: Report) {
         match report {
             Report::Started { .. } => self.meters.add(Count::Started),
@@ -56,11 +59,13 @@ impl Outlet {
         }
     }
 
+    /// Reports that nothing was done, and why.
     pub(crate) fn refuse(&mut self, voice: Option<Voice>, why: Why) {
         self.report(Report::Refused { voice, why });
     }
 
-    /// Says what a copy got of what it asked for; a last bit or two is not worth a word.
+    /// Reports the gain (a factor) that a copy got, and whether that is less than it asked for by more than
+    /// rounding.
     pub(crate) fn started(
         &mut self,
         voice: Voice,

@@ -14,7 +14,8 @@ use crate::{At, Command, Count, Desk, Meters, Options, PlayerError, Report, Why,
 use rtrb::{Consumer, RingBuffer};
 use std::sync::Arc;
 
-/// Seconds over which a player fades out whose desk is gone.
+/// Seconds over which a player fades out whose desk is gone: short, and without a click. Doubled, it sounds
+/// on for as much longer.
 const ABANDONED: f64 = 0.02;
 
 /// The end that lives on the audio thread: turns commands into blocks, and never allocates, frees, locks, waits or fails.
@@ -182,7 +183,7 @@ impl Player {
         self.clock
     }
 
-    /// What is counted.
+    /// The counters, which may be shared with any thread.
     pub fn meters(&self) -> &Arc<Meters> {
         &self.outlet.meters
     }
@@ -298,6 +299,7 @@ impl Player {
         false
     }
 
+    /// Refuses a command: reports why, and sends back what came with it.
     fn refuse(&mut self, sent: Sent, why: Why) {
         self.outlet.refuse(sent.command.voice(), why);
         if let Some(held) = sent.held {

@@ -1,10 +1,11 @@
-//! Running rms of each actuator, kept below its limit.
+//! Running rms of each actuator, kept below its limit: peak, short-term and thermal.
 
 use crate::kernels;
 use crate::{Options, Which};
 use std::ops::Range;
 
-/// Share of a limit on the power that waveforms may use up, for drives to find some left.
+/// Share of a limit on the power that waveforms may use up, for drives to find some left. Halved, waveforms
+/// alone reach 3 dB less of such a limit; at 1, drives that come beside them would find nothing.
 const WAVES_SHARE: f64 = 0.75;
 
 /// Running powers of all actuators that have a limit on them, and how far each may have come at the start of each future
@@ -35,6 +36,7 @@ struct Track {
 }
 
 impl Powers {
+    /// Powers of nothing emitted yet, over a ring of a number of blocks.
     pub(crate) fn new(options: &Options, blocks: usize) -> Self {
         let (mut tracks, mut whose) = (Vec::new(), vec![0]);
         for output in 0..options.outputs {
@@ -63,20 +65,22 @@ impl Powers {
         Self { blocks, tracks, whose, energies }
     }
 
+    /// Number of limits on the power, over all outputs.
     pub(crate) fn count(&self) -> usize {
         self.tracks.len()
     }
 
-    /// Kind and output of a limit.
+    /// Kind and output of a limit, by its index.
     pub(crate) fn whose(&self, which: usize) -> (Which, usize) {
         (self.tracks[which].kind, self.tracks[which].output)
     }
 
+    /// Sets the energy of max(P, N) of an output over a block of the ring: a sum of squares.
     pub(crate) fn set_energy(&mut self, output: usize, slot: usize, energy: f64) {
         self.energies[output * self.blocks + slot] = energy;
     }
 
-    /// Brings the ceilings up to date from the changed block `last` back to the present one.
+    /// Brings the ceilings up to date from the changed block of number `last` back to the present one.
     #[inline(always)]
     pub(crate) fn look_back(&mut self, now: u64, last: u64) {
         let blocks = self.blocks as u64;
@@ -91,25 +95,26 @@ impl Powers {
         }
     }
 
-    /// Which limits an output has.
+    /// Indices of the limits that an output has.
     pub(crate) fn of(&self, output: usize) -> Range<usize> {
         self.whose[output]..self.whose[output + 1]
     }
 
-    /// Share of its limits that an output has used up, as rms.
+    /// Share of its limits that an output, by its index, has used up, as rms: 0 to 1.
     pub(crate) fn used(&self, output: usize) -> f32 {
         let share = |track: &Track| (track.power / track.most).sqrt() as f32;
         self.tracks[self.of(output)].iter().map(share).fold(0.0, f32::max)
     }
 
-    /// Goes through future blocks from the present power, with something new of this gain.
+    /// Goes through future blocks from the present power, for the limit of an index, with something new of
+    /// this gain (a factor).
     pub(crate) fn walk(&self, which: usize, gain: f64) -> Walk<'_> {
         let track = &self.tracks[which];
         let energies = &self.energies[track.output * self.blocks..(track.output + 1) * self.blocks];
         Walk::new(track, energies, gain)
     }
 
-    /// Ends a block: powers of what was emitted, planar.
+    /// Ends a block: powers of what was emitted (outputs x samples).
     #[inline(always)]
     pub(crate) fn settle(&mut self, emitted: &[f32], block: usize, index: u64) {
         let slot = (index % self.blocks as u64) as usize;
@@ -143,18 +148,20 @@ impl Powers {
 /// Energies of waveforms over the block at hand and the next.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WaveEnergies {
-    /// Of what this block holds whatever the gain will be.
+    /// Energy of what this block emits whatever the gain will be.
     pub(crate) held: f64,
-    /// Of what rises with the gain, beside that.
+    /// Energies of what rises with the gain, beside that.
     pub(crate) rising: Energies,
-    /// Of what the next block may hold, beside what is committed.
+    /// Energies of what the next block may emit, beside what is committed.
     pub(crate) falling: Energies,
 }
 
 /// Energy of something, and the sum of its products with what is there already, both as magnitudes.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Energies {
+    /// Sum of its own squares.
     pub(crate) own: f64,
+    /// Sum of its products with what is there.
     pub(crate) cross: f64,
 }
 
@@ -171,7 +178,7 @@ impl<'a> Walk<'a> {
         Self { track, energies, power: [track.power, 0.0, 0.0], gain }
     }
 
-    /// Passes a block of the ring to which something new brings so much.
+    /// Passes a block of the ring, by its index, to which something new brings so much energy.
     #[inline(always)]
     pub(crate) fn pass(&mut self, slot: usize, new: Energies) {
         let Track { share, decay, most, .. } = *self.track;
@@ -182,7 +189,7 @@ impl<'a> Walk<'a> {
         self.power = end;
     }
 
-    /// The largest gain up to that asked for, given that block `next` follows.
+    /// The largest gain (a factor) up to that asked for, given that the block of number `next` follows.
     pub(crate) fn room(mut self, next: u64) -> f64 {
         let ceilings = &self.track.ceilings;
         let most = ceilings[(next % ceilings.len() as u64) as usize];

@@ -67,17 +67,17 @@ impl Prepared {
         Ok(Self { outputs, samples: length + fade, data, every: Some(length) })
     }
 
-    /// Channels.
+    /// Number of channels, one per output.
     pub fn outputs(&self) -> usize {
         self.outputs
     }
 
-    /// Samples per channel; of a loop, one pass and a fade.
+    /// Number of samples in each channel; of a loop, one pass and a fade.
     pub fn samples(&self) -> usize {
         self.samples
     }
 
-    /// Samples from one pass to the next, of a loop.
+    /// Number of samples from one pass to the next, of a loop.
     pub fn every(&self) -> Option<usize> {
         self.every
     }

@@ -42,11 +42,12 @@ impl Ord for Waiting {
 }
 
 impl Schedule {
+    /// Room for a number of commands.
     pub(crate) fn new(most: usize) -> Self {
         Self { heap: BinaryHeap::with_capacity(most), most }
     }
 
-    /// Lets a command wait; gives it back if as many wait as may.
+    /// Lets a command wait for a sample of the clock; gives it back if as many wait as may.
     pub(crate) fn push(&mut self, sample: u64, sent: Sent) -> Result<(), Sent> {
         if self.heap.len() >= self.most {
             return Err(sent);
@@ -55,6 +56,7 @@ impl Schedule {
         Ok(())
     }
 
+    /// Whether no command waits.
     pub(crate) fn is_empty(&self) -> bool {
         self.heap.is_empty()
     }
@@ -64,7 +66,7 @@ impl Schedule {
         self.heap.peek().map(|Reverse(waiting)| waiting.sample)
     }
 
-    /// Takes the next.
+    /// Takes the next, with the sample at which it acts.
     pub(crate) fn pop(&mut self) -> Option<(u64, Sent)> {
         self.heap.pop().map(|Reverse(waiting)| (waiting.sample, waiting.sent))
     }

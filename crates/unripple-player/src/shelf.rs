@@ -8,9 +8,13 @@ use std::sync::Arc;
 #[derive(Debug)]
 #[expect(dead_code, reason = "held to be dropped")]
 pub(crate) enum Garbage {
+    /// A drive that no longer sounds.
     Drive(Arc<Prepared>),
+    /// Filters through which nothing goes any more.
     Filters(Arc<PreparedFilters>),
+    /// A waveform that is over.
     Samples(Arc<[f32]>),
+    /// What held something that is over.
     Held(Arc<Held>),
 }
 
@@ -21,11 +25,12 @@ pub(crate) struct Shelf<T: ?Sized> {
 }
 
 impl<T: ?Sized> Shelf<T> {
+    /// Room for a number of data.
     pub(crate) fn new(places: usize) -> Self {
         Self { places: (0..places).map(|_| None).collect(), free: (0..places).rev().collect() }
     }
 
-    /// Takes data in with one use; gives it back if there is no place.
+    /// Takes data in with one use, and returns its index; gives it back if there is no place.
     pub(crate) fn put(&mut self, data: Arc<T>) -> Result<usize, Arc<T>> {
         match self.free.pop() {
             Some(place) => {
@@ -36,18 +41,19 @@ impl<T: ?Sized> Shelf<T> {
         }
     }
 
+    /// The data at a place, given by its index.
     pub(crate) fn get(&self, place: usize) -> Option<&T> {
         self.places.get(place)?.as_ref().map(|(data, _)| &**data)
     }
 
-    /// One use more.
+    /// Counts one use more of the data at an index.
     pub(crate) fn hold(&mut self, place: usize) {
         if let Some(Some((_, uses))) = self.places.get_mut(place) {
             *uses += 1;
         }
     }
 
-    /// One use less; after the last, the data itself.
+    /// Counts one use less of the data at an index; after the last, returns the data itself.
     pub(crate) fn release(&mut self, place: usize) -> Option<Arc<T>> {
         let held = self.places.get_mut(place)?;
         let (_, uses) = held.as_mut()?;

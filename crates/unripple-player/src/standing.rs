@@ -14,29 +14,32 @@ pub(crate) struct Standing {
 }
 
 impl Standing {
-    /// Takes back what was sent with numbers up to this.
+    /// Takes back what was sent with numbers up to `number`.
     pub(crate) fn withdraw(&self, number: u64) {
         self.withdrawn.store(number, Release);
     }
 
+    /// The number up to which all was taken back.
     pub(crate) fn withdrawn(&self) -> u64 {
         self.withdrawn.load(Acquire)
     }
 
-    /// Asks the player to end.
+    /// Asks the player to end with a fade of so many samples.
     pub(crate) fn end(&self, fade: u32) {
         self.fade.store(fade.max(1), Release);
     }
 
-    /// The fade that was asked for, if the player is to end.
+    /// Samples of the fade that was asked for, if the player is to end.
     pub(crate) fn ending(&self) -> Option<u32> {
         Some(self.fade.load(Acquire)).filter(|fade| *fade > 0)
     }
 
+    /// Says that the player has faded out.
     pub(crate) fn set_over(&self) {
         self.over.store(true, Release);
     }
 
+    /// Whether the player has faded out.
     pub(crate) fn is_over(&self) -> bool {
         self.over.load(Acquire)
     }

@@ -7,21 +7,28 @@ use realfft::num_complex::Complex;
 use realfft::{RealFftPlanner, RealToComplex};
 use std::sync::Arc;
 
-/// Lanes that spectra are grouped in.
+/// Lanes that spectra are grouped in: the float32 numbers of a 512-bit register. Doubled, more empty lanes
+/// are worked on.
 pub(crate) const LANES: usize = 16;
 
-/// Outputs that are summed up together.
+/// Outputs that are summed up together, so that an input's spectrum is read once for all of them. Doubled,
+/// sums no longer fit the registers.
 pub(crate) const OUTPUTS: usize = 4;
 
 /// How responses are made ready for a convolver; costly, but not bound to a thread.
 #[derive(Clone)]
 pub struct FilterPlan {
+    /// Number of outputs.
     pub(crate) outputs: usize,
+    /// Samples of the longest response, at the full rate.
     pub(crate) taps: usize,
     /// Samples of a block at the lower rate.
     pub(crate) low: usize,
+    /// Number of partitions, each of a block at the lower rate.
     pub(crate) partitions: usize,
+    /// Takes responses to the lower rate.
     pub(crate) filter: LowPass,
+    /// The Fourier transform of two blocks.
     pub(crate) forward: Arc<dyn RealToComplex<f32>>,
 }
 
@@ -37,10 +44,12 @@ impl std::fmt::Debug for FilterPlan {
 pub struct PreparedFilters {
     /// Group of outputs x group of lanes x partition x output in the group x (real, imaginary) x lane.
     pub(crate) spectra: Vec<f32>,
+    /// Groups of outputs, groups of lanes, partitions.
     pub(crate) shape: [usize; 3],
 }
 
 impl FilterPlan {
+    /// A plan for responses of up to `taps` samples in blocks of `block` samples, both at the full rate.
     pub(crate) fn new(outputs: usize, taps: usize, block: usize, filter: LowPass) -> Self {
         let low = block / filter.factor;
         // The low-pass filter that takes responses to the lower rate reaches its half length to either side.
@@ -49,11 +58,12 @@ impl FilterPlan {
         Self { outputs, taps, low, partitions: low_taps.div_ceil(low), filter, forward }
     }
 
-    /// Groups of lanes that a spectrum takes.
+    /// Number of groups of lanes that a spectrum takes.
     pub(crate) fn groups(&self) -> usize {
         self.low.div_ceil(LANES)
     }
 
+    /// The shape of spectra: numbers of groups of outputs, groups of lanes and partitions.
     pub(crate) fn shape(&self) -> [usize; 3] {
         [self.outputs.div_ceil(OUTPUTS), self.groups(), self.partitions]
     }

@@ -6,8 +6,9 @@ use crate::shelf::{Garbage, Shelf};
 use realfft::num_complex::Complex;
 use std::sync::Arc;
 
-/// Floats of a group of lanes of an input's spectrum: the real parts; the imaginary, lane 0 without; the real, with the highest
-/// frequency in lane 0.
+/// Floats of a group of lanes of an input's spectrum: the real parts; the imaginary, lane 0 without; the
+/// real, with the highest frequency in lane 0: three times the lanes, so that the product needs no special
+/// case for lane 0.
 pub(crate) const SPECTRUM: usize = 3 * LANES;
 
 /// What entered one input in the last blocks, as spectra, and through which filters each block goes.
@@ -33,11 +34,14 @@ struct Turning {
 
 /// Sharing of a block among the filters of now and those that come: linear from one weight to the other.
 pub(crate) struct Shares {
+    /// Weight of the filters that come, from 0 to 1, at the block's start and end.
     pub(crate) new: [f32; 2],
+    /// Whether filters are being turned at all.
     pub(crate) turning: bool,
 }
 
 impl History {
+    /// Silence, through no filters, of a number of partitions and groups of lanes.
     pub(crate) fn new(partitions: usize, groups: usize) -> Self {
         Self {
             spectra: vec![0.0; partitions * 2 * groups * SPECTRUM],
@@ -51,12 +55,13 @@ impl History {
         }
     }
 
-    /// Most filters held at once.
+    /// Number of filters that may be held at once.
     pub(crate) fn places(partitions: usize) -> usize {
         partitions + 4
     }
 
-    /// Turns to other filters over some blocks, after a turn that is under way. What waited for that is given back.
+    /// Turns to other filters over a number of blocks, after a turn that is under way. What waited for that
+    /// is given back.
     pub(crate) fn turn(
         &mut self,
         filters: Arc<PreparedFilters>,
@@ -65,6 +70,7 @@ impl History {
         self.waits.replace((filters, blocks.max(1))).map(|(filters, _)| filters)
     }
 
+    /// Whether it turns to other filters, or will.
     pub(crate) fn is_turning(&self) -> bool {
         self.turning.is_some() || self.waits.is_some()
     }

@@ -1,8 +1,10 @@
-//! Continuous waveforms: every input convolved into every output, at the rate that the band needs.
+//! Continuous waveforms: uniformly partitioned convolution of every input into every output, at the rate that
+//! the band needs.
 //!
 //! Inputs are taken to the lower rate, cut into blocks and transformed, once per input and block. Responses are cut into
 //! partitions of a block. Products of the spectra of the last blocks with those of the partitions are summed per output,
-//! transformed back once, overlapped, added and taken back to the full rate. Every block does the same work.
+//! transformed back once, overlapped and added (overlap-add), and taken back to the full rate. Every block
+//! does the same work.
 //!
 //! Each block of an input keeps the filters that it entered under until it has passed the last partition: filters are
 //! exchanged without cutting off what rings, and at no more cost than the blocks of the fade, which have two shares.
@@ -121,7 +123,7 @@ impl Convolver {
         &self.plan
     }
 
-    /// By how much the rate is lower inside.
+    /// The factor by which the rate is lower inside.
     pub fn factor(&self) -> usize {
         self.plan.filter.factor
     }
@@ -132,19 +134,20 @@ impl Convolver {
         3 * self.plan.filter.half
     }
 
-    /// Samples for which the filter down still gives out what has entered it.
+    /// Number of samples for which the filter down still gives out what has entered it.
     pub(crate) fn lag(&self) -> usize {
         2 * self.plan.filter.half + 1
     }
 
-    /// Takes an input's filters away, from the next block on. What entered before keeps those that it entered through.
+    /// Takes the filters of an input, by its index, away, from the next block on. What entered before keeps
+    /// those that it entered through.
     pub(crate) fn clear(&mut self, input: usize, leave: impl FnMut(Garbage)) {
         if let Some(input) = self.inputs.get_mut(input) {
             input.history.clear(leave);
         }
     }
 
-    /// Blocks after which nothing is left of what entered, here and in what leaves.
+    /// Number of blocks after which nothing is left of what entered, here and in what leaves.
     pub(crate) fn memory(&self) -> usize {
         // Besides the partitions: the block at hand, what the last overlaps into, and the filters down and up.
         self.plan.partitions + 2 + (4 * self.plan.filter.half + 2).div_ceil(self.block)
@@ -155,13 +158,14 @@ impl Convolver {
         self.inputs.iter().any(|input| input.history.is_turning())
     }
 
-    /// Most filters held at once.
+    /// Number of filters that may be held at once.
     pub(crate) fn places(&self) -> usize {
         self.inputs.len() * (History::places(self.plan.partitions) + 1)
     }
 
-    /// Turns an input to other filters over some blocks, from the next block on, or after the turn that is under way. Gives back
-    /// what is not used: filters of another plan, for an input that there is not, or those that waited and are overtaken.
+    /// Turns an input to other filters over a number of blocks, from the next block on, or after the turn
+    /// that is under way. Gives back what is not used: filters of another plan, for an input that there is
+    /// not, or those that waited and are overtaken.
     pub fn turn(
         &mut self,
         input: usize,
@@ -174,13 +178,13 @@ impl Convolver {
         }
     }
 
-    /// Convolves a block: planar inputs in, planar outputs out. Of slices of a wrong size nothing is used. Filters that are no
-    /// longer used are dropped.
+    /// Convolves a block: planar inputs in, planar outputs out (channels x samples). Of slices of a wrong
+    /// size nothing is used. Filters that are no longer used are dropped.
     pub fn process(&mut self, input: &[f32], output: &mut [f32]) {
         self.process_leaving(input, output, drop);
     }
 
-    /// The same, where filters that are no longer used are handed over.
+    /// The same, planar samples in and out, where filters that are no longer used are handed over.
     pub(crate) fn process_leaving(
         &mut self,
         input: &[f32],

@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 use unripple_dsp::{bessel_i0, sinc};
 
-/// Attenuation that the low-pass filters are made for, in dB; their ripple is as small.
+/// Attenuation that the low-pass filters are made for, in dB; their ripple is as small. Doubled, filters are
+/// twice as long for what float32 cannot hold.
 const ATTENUATION: f64 = 100.0;
 
 /// The low-pass filter of a change of rate by `factor`, of 2 · `half` + 1 taps about its middle, with a sum of 1: a sinc under a
@@ -12,14 +13,17 @@ const ATTENUATION: f64 = 100.0;
 /// It passes frequencies up to the top of the band, and stops what would fold onto them.
 #[derive(Clone, Debug)]
 pub(crate) struct LowPass {
+    /// Samples of the full rate for each of the lower.
     pub(crate) factor: usize,
-    /// A multiple of the factor.
+    /// Taps to each side of the middle: a multiple of the factor.
     pub(crate) half: usize,
+    /// The taps, in order, 2 · `half` + 1 of them.
     pub(crate) taps: Vec<f64>,
 }
 
 impl LowPass {
-    /// For a band up to `top` times the full rate, of at most a third of the lower rate.
+    /// For a change by `factor` and a band up to `top` times the full rate (a ratio), of at most a third of
+    /// the lower rate.
     pub(crate) fn new(factor: usize, top: f64) -> Self {
         if factor == 1 {
             return Self { factor, half: 0, taps: vec![1.0] };
@@ -59,6 +63,7 @@ pub(crate) struct Decimator {
 }
 
 impl Decimator {
+    /// Silence before the first block, of so many samples at the full rate.
     pub(crate) fn new(filter: &LowPass, block: usize) -> Self {
         let taps: Vec<f32> = filter.taps.iter().rev().map(|&tap| tap as f32).collect();
         Self { history: vec![0.0; taps.len() - 1 + block], factor: filter.factor, taps }
@@ -88,6 +93,7 @@ pub(crate) struct Interpolator {
 }
 
 impl Interpolator {
+    /// Silence before the first block, of so many samples at the lower rate.
     pub(crate) fn new(filter: &LowPass, low_block: usize) -> Self {
         let factor = filter.factor;
         let length = 2 * filter.half / factor + 1;
@@ -102,7 +108,7 @@ impl Interpolator {
         }
     }
 
-    /// A block at the lower rate in, one at the full rate out.
+    /// A block of samples at the lower rate in, one at the full rate out.
     #[inline(always)]
     pub(crate) fn process(&mut self, input: &[f32], output: &mut [f32]) {
         let (low, factor) = (self.wide.len(), self.phases.len());

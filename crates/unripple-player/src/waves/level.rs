@@ -13,13 +13,15 @@ use crate::outlet::Outlet;
 use crate::power::WaveEnergies;
 use crate::{Count, Options, Report, Which, kernels};
 
-/// Seconds that the gain takes to rise from nothing to 1.
+/// Seconds that the gain takes to rise from nothing to 1. Doubled, waveforms come back half as fast after
+/// drives took their room; shorter, their level follows each drive more noticeably.
 const RISE: f64 = 0.1;
 
 /// Shares of the peak that are kept off the waveforms, so that the rounding of a sum cannot pass the limit: in the block at hand and,
 /// where a gain is rounded besides, in the next.
 const GUARDS: [f32; 2] = [1e-6, 1e-5];
 
+/// The gain of all waveforms, and what it needs from block to block.
 pub(crate) struct Level {
     block: usize,
     gain: f32,
@@ -36,6 +38,7 @@ pub(crate) struct Level {
 type Limited = Option<(Which, usize)>;
 
 impl Level {
+    /// A gain of 1, nothing reserved.
     pub(crate) fn new(options: &Options) -> Self {
         let block = options.block;
         Self {
@@ -51,7 +54,8 @@ impl Level {
         }
     }
 
-    /// Tells the ledger what waveforms take of this block if they fall as fast as they may.
+    /// Tells the ledger what waveforms (outputs x samples) take of this block if they fall as fast as they
+    /// may.
     #[inline(always)]
     pub(crate) fn reserve(&mut self, now: &[f32], ledger: &mut Ledger) {
         let (block, gain) = (self.block, self.gain);
@@ -74,7 +78,8 @@ impl Level {
         }
     }
 
-    /// Chooses the gain at the end of this block, and adds what rises with it. Says what kept the gain below 1 and from rising.
+    /// Chooses the gain (a factor) at the end of this block, and adds what rises with it. Says what kept the
+    /// gain below 1 and from rising.
     #[inline(always)]
     pub(crate) fn mix(
         &mut self,
@@ -122,7 +127,7 @@ impl Level {
         outlet.meters.set_wave_gain(self.gain);
     }
 
-    /// Reports that waveforms begin to be limited.
+    /// Reports that waveforms begin to be limited, in the block that begins at sample `clock`.
     pub(crate) fn tell(&mut self, clock: u64, by: Limited, outlet: &mut Outlet) {
         outlet.meters.set_wave_gain(self.gain);
         if let Some((which, output)) = by {
@@ -145,6 +150,7 @@ impl Level {
             let (along, back) = (self.along[i], 1.0 - self.along[i]);
             let here = (free - out[i].abs()) / (along * now[i].abs());
             let held = later - kernels::larger(positive[i], negative[i]);
+            // A guard for the rounding of the quotient and of the two sums.
             let there = held / (back * next[i].abs() * (1.0 + 3e-5));
             // Nothing to play leaves room for anything; the quotient may be 0 / 0.
             let here = if now[i] == 0.0 { f32::INFINITY } else { here };
@@ -154,6 +160,7 @@ impl Level {
         least
     }
 
+    /// Energies of an output over this block and the next, for the limits on its power.
     #[inline(always)]
     fn energies(&mut self, [now, next, out]: [&[f32]; 3], ledger: &Ledger, output: usize) -> WaveEnergies {
         for i in 0..self.block {

@@ -1,4 +1,4 @@
-//! Waveforms that go on and on: what enters the convolver, and how loud what leaves it may be.
+//! Continuous waveforms in the player: what enters the convolver, and how loud what leaves it may be.
 
 mod level;
 
@@ -50,6 +50,7 @@ struct Sound {
 }
 
 impl Waves {
+    /// Nothing that sounds yet; `feeds` are the rings of samples, one per input.
     pub(crate) fn new(
         options: &Options,
         waves: WaveOptions,
@@ -73,11 +74,12 @@ impl Waves {
         })
     }
 
+    /// What the inputs are convolved by.
     pub(crate) fn convolver(&self) -> &Convolver {
         &self.convolver
     }
 
-    /// Most shared data held at once.
+    /// Number of shared data that may be held at once.
     pub(crate) fn places(&self) -> usize {
         self.convolver.places() + self.options.sounds
     }
@@ -100,7 +102,7 @@ impl Waves {
         ));
     }
 
-    /// Turns an input to other filters.
+    /// Turns an input, by its index, to other filters over `fade` samples.
     pub(crate) fn turn(
         &mut self,
         input: usize,
@@ -122,7 +124,8 @@ impl Waves {
         }
     }
 
-    /// Starts a waveform, through filters of its own if it has some; whether anything came of it.
+    /// Starts a waveform at a sample of the clock, through filters of its own if it has some; whether
+    /// anything came of it.
     pub(crate) fn start(
         &mut self,
         (whose, input): (Whose, usize),
@@ -165,7 +168,7 @@ impl Waves {
         filters.shape == self.convolver.plan().shape()
     }
 
-    /// Fades out what a command began.
+    /// Fades out what the command of number `id` began, from a sample on over `fade` samples.
     pub(crate) fn stop(&mut self, id: u64, sample: u64, fade: Option<u32>) {
         let length = fade.unwrap_or(0).max(self.block as u32);
         for sound in self.sounds.iter_mut().filter(|sound| sound.whose.id == id) {
@@ -174,7 +177,7 @@ impl Waves {
         }
     }
 
-    /// Convolves what enters in the block that begins at `clock`.
+    /// Convolves what enters in the block that begins at sample `clock`.
     pub(crate) fn render(&mut self, clock: u64, outlet: &mut Outlet) {
         for (feed, entering) in self.feeds.iter_mut().zip(self.entering.chunks_exact_mut(self.block)) {
             entering.iter_mut().for_each(|to| *to = feed.pop().map_or(0.0, playable));
@@ -213,12 +216,13 @@ impl Waves {
         }
     }
 
-    /// Whether anything of what a command began still enters.
+    /// Whether anything of what the command of number `id` began still enters.
     pub(crate) fn holds(&self, id: u64) -> bool {
         self.sounds.iter().any(|sound| sound.whose.id == id)
     }
 
-    /// Adds to the drives that sounded before what was kept for the waveforms, ahead of the drives that begin in this block.
+    /// Adds to the drives that sounded before (outputs x samples) what was kept for the waveforms, ahead of
+    /// the drives that begin in this block.
     pub(crate) fn fall(&self, out: &mut [f32]) {
         if self.is_idle() {
             return;
@@ -230,7 +234,8 @@ impl Waves {
         ));
     }
 
-    /// Adds the rest of the waveforms to the drives of the block, as loud as leaves all within limits.
+    /// Adds the rest of the waveforms to the drives of the block (outputs x samples), as loud as leaves all
+    /// within limits.
     pub(crate) fn mix(&mut self, clock: u64, ledger: &Ledger, out: &mut [f32], outlet: &mut Outlet) {
         if self.is_idle() {
             return self.level.rest(outlet);
@@ -243,6 +248,7 @@ impl Waves {
         self.level.tell(clock, limited, outlet);
     }
 
+    /// Sample of the clock from which on nothing of a waveform enters.
     fn end(&self, at: usize) -> u64 {
         let sound = &self.sounds[at];
         let whole = match self.shelf.get(sound.samples) {
@@ -253,6 +259,7 @@ impl Waves {
         sound.fade.map_or(whole, |fade| whole.min(fade.end()))
     }
 
+    /// Adds a waveform to what enters its input in the block that begins at `clock`.
     fn enter(&mut self, at: usize, clock: u64) {
         let sound = &self.sounds[at];
         let Some(samples) = self.shelf.get(sound.samples) else { return };
