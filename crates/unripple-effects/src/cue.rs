@@ -11,11 +11,11 @@ use unripple_core::Point;
 /// voice refer to what that voice last started.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cue {
-    /// The voice.
+    /// Number of the voice, from contact, effect and part.
     pub voice: u64,
     /// When, in s of the touches' clock. What lies in the past is due at once.
     pub at: f64,
-    /// What.
+    /// What the voice does then.
     pub act: Act,
 }
 
@@ -25,29 +25,29 @@ pub struct Cue {
 /// the voice was sounding.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Act {
-    /// One focused pulse.
+    /// One focused pulse at a place.
     Pulse {
-        /// Where.
+        /// Where it is focused, in m.
         place: Point,
-        /// How strong.
+        /// How strong, as a share or in dB.
         gain: Level,
     },
     /// A focus repeated until it is stopped.
     Comb {
-        /// Where.
+        /// Where it is focused, in m.
         place: Point,
         /// Pulses per second.
         rate: f64,
-        /// How strong each is.
+        /// How strong each pulse is.
         gain: Level,
     },
     /// A waveform at a place.
     Wave {
-        /// Where.
+        /// Where it is felt, in m.
         place: Point,
         /// The waveform; its full scale, 1, is the level.
         wave: Wave,
-        /// How strong.
+        /// How strong it is at full scale.
         gain: Level,
         /// Whether it starts over at its end, until it is stopped. Such a waveform meets itself without a step.
         looped: bool,
@@ -56,19 +56,19 @@ pub enum Act {
     },
     /// One focused pulse on many points at once.
     Shape {
-        /// Where.
+        /// Where, in m: all points at once.
         points: Arc<[Point]>,
         /// How strong, all points together.
         gain: Level,
     },
     /// The voice's place from now on.
     Move {
-        /// Where.
+        /// The new place, in m.
         place: Point,
     },
     /// The voice's level from now on.
     Gain {
-        /// How strong.
+        /// The new level, of what sounds too.
         gain: Level,
     },
     /// The voice ends. Its acts that were cued for later times are not played.

@@ -22,7 +22,8 @@ pub struct Curve {
 }
 
 impl Curve {
-    /// The curve through some points, whose abscissae (called `what` in messages) do not run back.
+    /// The curve through points of (abscissa, value), whose abscissae (called `what` in messages) do not run
+    /// back; `along` and `values` are the ranges they may have, in the curve's own units.
     ///
     /// # Errors
     /// If there are none or too many, if they run back, or if a coordinate is out of its range.
@@ -43,11 +44,12 @@ impl Curve {
         Ok(Self::through(points))
     }
 
-    /// The same value everywhere.
+    /// The same value everywhere, in the curve's unit.
     pub fn constant(value: f64) -> Self {
         Self::through(vec![(0.0, value)])
     }
 
+    /// The curve through points that were checked, with its integral at each.
     fn through(points: Vec<(f64, f64)>) -> Self {
         let mut area = vec![0.0; points.len()];
         for i in 1..points.len() {
@@ -57,7 +59,7 @@ impl Curve {
         Self { points, area }
     }
 
-    /// The points, as given.
+    /// The points (abscissa, value) as given, in the curve's units.
     pub fn points(&self) -> &[(f64, f64)] {
         &self.points
     }
@@ -67,12 +69,12 @@ impl Curve {
         self.points.iter().all(|(_, y)| *y == self.points[0].1)
     }
 
-    /// Place of the last point.
+    /// Abscissa of the last point, in its unit: where the curve ends.
     pub fn end(&self) -> f64 {
         self.points[self.points.len() - 1].0
     }
 
-    /// Its value.
+    /// The value at an abscissa, in the curve's unit.
     pub fn at(&self, x: f64) -> f64 {
         let after = self.points.partition_point(|p| p.0 <= x);
         match after {
@@ -85,7 +87,8 @@ impl Curve {
         }
     }
 
-    /// Integral from the first point to `x`, negative before it.
+    /// Integral from the first point to `x`, negative before it, in the value's unit times that of the
+    /// abscissa.
     pub fn integral(&self, x: f64) -> f64 {
         let n = self.points.partition_point(|p| p.0 <= x).saturating_sub(1);
         let (x0, y0) = self.points[n];

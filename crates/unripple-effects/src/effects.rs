@@ -7,9 +7,10 @@ use crate::{Cue, EffectSet, EffectsError, Kind, Level, Region, Start, limits};
 use std::collections::BTreeMap;
 use unripple_core::{Outline, Phase, Point, Touch};
 
-/// Largest time taken for one, in s.
+/// Largest time taken for one, in s: there rounding is a tenth of a millisecond. Doubled, it is two tenths.
 const LARGEST_TIME: f64 = 1e12;
-/// Bits of a voice below the contact: eight for the effect, eight for its part.
+/// Bits of a voice below the contact: eight for the effect, eight for its part. So a set may have 256
+/// effects, of which [`limits::MOST_EFFECTS`] leaves 64.
 const EFFECT_BITS: u32 = 8;
 
 /// A set of effects in use: touches and time in, cues out.
@@ -113,7 +114,7 @@ impl Effects {
         self.dropped += budget.dropped;
     }
 
-    /// Adds the cues of everything timed that is due up to and with `until`.
+    /// Adds the cues of everything timed that is due up to and with `until` (s).
     ///
     /// `until` may lie ahead of the clock, so that cues come before they are due; a finger that then lifts stops what
     /// was cued ahead. What is overdue by more than [`limits::LATEST`] is skipped.
@@ -128,7 +129,8 @@ impl Effects {
         self.dropped += budget.dropped;
     }
 
-    /// Starts a score by the name of its effect, at a time and a place; without a place, in the middle of the sheet.
+    /// Starts a score by the name of its effect, at a time (s) and a place (m); without a place, in the
+    /// middle of the sheet.
     ///
     /// # Errors
     /// [`EffectsError::NoScore`] if no effect of that name is such a score, [`EffectsError::Range`] if the time or the
@@ -145,7 +147,7 @@ impl Effects {
         Ok(())
     }
 
-    /// Stops every run of a score that was started by name.
+    /// Stops every run of a score that was started by name, at a time (s).
     ///
     /// # Errors
     /// As [`Effects::start`].
@@ -169,21 +171,22 @@ impl Effects {
         self.has_begun && self.fingers.is_empty() && self.running.is_empty()
     }
 
-    /// Fingers on the surface now.
+    /// Number of fingers on the surface now.
     pub fn fingers(&self) -> usize {
         self.fingers.len()
     }
 
-    /// Cues left out so far because a call gave too many.
+    /// Number of cues left out so far because a call gave too many.
     pub fn dropped(&self) -> u64 {
         self.dropped
     }
 
-    /// Touches and ticks refused so far: at no place or time, or one finger too many.
+    /// Number of touches and ticks refused so far: at no place or time, or one finger too many.
     pub fn refused(&self) -> u64 {
         self.refused
     }
 
+    /// Index of the score that is started by a name.
     fn named(&self, name: &str) -> Result<usize, EffectsError> {
         let scores = || self.effects.iter().enumerate().filter(|(_, ready)| ready.start == Start::Name);
         let found = scores().find(|(_, ready)| ready.name == name).map(|(effect, _)| effect);
@@ -205,6 +208,7 @@ impl Effects {
         }
     }
 
+    /// Starts a score without a finger.
     fn run(&mut self, effect: usize, time: f64, place: Option<Point>) {
         let (width, height) = self.outline.extent();
         let at = place.unwrap_or_else(|| self.outline.nearest(Point::new(width / 2.0, height / 2.0)));
@@ -222,6 +226,7 @@ impl Effects {
         self.contacts
     }
 
+    /// A finger comes down.
     fn land(
         &mut self,
         id: u64,
@@ -251,6 +256,7 @@ impl Effects {
         self.fingers.insert(id, finger);
     }
 
+    /// A finger moves, or presses otherwise.
     fn slide(
         &mut self,
         id: u64,
@@ -281,6 +287,7 @@ impl Effects {
         finger.last = to;
     }
 
+    /// A finger leaves, and with it what it set off.
     fn lift(&mut self, id: u64, time: f64, cues: &mut Vec<Cue>, budget: &mut Budget) {
         let Some(mut finger) = self.fingers.remove(&id) else { return };
         let now = Moment { time, ..finger.last };
@@ -292,6 +299,7 @@ impl Effects {
         }
     }
 
+    /// Adds what is timed, of all fingers and scores.
     fn due(&mut self, until: f64, cues: &mut Vec<Cue>, budget: &mut Budget) {
         for finger in self.fingers.values_mut() {
             for (effect, (under, ready)) in finger.plays.iter_mut().zip(&self.effects).enumerate() {
@@ -310,6 +318,7 @@ impl Effects {
 }
 
 impl Ready {
+    /// Where a play of this effect puts its cues.
     fn out<'o>(
         &self,
         voice: u64,

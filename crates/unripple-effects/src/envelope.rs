@@ -4,9 +4,11 @@ use crate::error::within;
 use crate::{Curve, EffectsError, Wave, limits};
 use std::f64::consts::{PI, TAU};
 
-/// Time over which a waveform that would end abruptly falls, in s.
+/// Time over which a waveform that would end abruptly falls, in s: so that its end does not click. Doubled,
+/// waveforms fade more audibly.
 const EDGE: f64 = 2e-3;
 /// Least time of a steady tone's loop, in s: its frequency is off by at most half a sample in that time.
+/// Doubled, half as much, for twice the memory.
 const LOOP: f64 = 0.25;
 
 /// Amplitude and frequency over time, both piecewise linear: how a waveform is drawn.
@@ -37,7 +39,7 @@ impl Envelope {
         Ok(Self { amplitude, frequency })
     }
 
-    /// A whole number of periods of a sine, at least a quarter of a second.
+    /// A whole number of periods of a sine of a frequency in Hz, at least a quarter of a second.
     ///
     /// # Errors
     /// If the frequency is out of its range.
@@ -67,8 +69,9 @@ impl Envelope {
         self.frequency.integral(time) - self.frequency.integral(0.0)
     }
 
-    /// The waveform played once, its first sample at its start and its last at its end:
-    /// a(t) sin 2π∫f dt. It begins at zero; if the amplitude does not end at zero, it falls over the last 2 ms.
+    /// The waveform played once, at `rate` samples per second, its first sample at its start and its last at
+    /// its end: a(t) sin 2π∫f dt. It begins at zero; if the amplitude does not end at zero, it falls over the
+    /// last 2 ms.
     ///
     /// # Errors
     /// If the rate is out of its range.
@@ -87,8 +90,8 @@ impl Envelope {
         Ok(Wave { samples: (0..count).map(sample).collect(), rate })
     }
 
-    /// The waveform as a loop: its frequency moves by less than half a period in its duration, so that it meets itself
-    /// at a zero.
+    /// The waveform as a loop at `rate` samples per second: its frequency moves by less than half a period in
+    /// its duration, so that it meets itself at a zero.
     ///
     /// # Errors
     /// If the rate is out of its range.

@@ -21,7 +21,7 @@ pub enum EffectsError {
     /// The points of a curve run backwards.
     #[error("{what}: expected points in ascending order, found {found} after {before}")]
     Order {
-        /// What runs along the curve.
+        /// What runs along the curve, for messages.
         what: &'static str,
         /// The larger one that comes first.
         before: f64,
@@ -31,13 +31,13 @@ pub enum EffectsError {
     /// Two effects have one name.
     #[error("effect names: expected each once, found `{name}` twice")]
     Twice {
-        /// The name.
+        /// The name that both have.
         name: String,
     },
     /// An edge is felt nowhere.
     #[error("edge `{name}`: expected a line, or a region with a border, found neither")]
     Nowhere {
-        /// The effect.
+        /// Name of the effect.
         name: String,
     },
     /// No score of a set is started by that name.
@@ -50,7 +50,7 @@ pub enum EffectsError {
     },
 }
 
-/// A typed error unless a value is within limits.
+/// A typed error unless a value is within limits, in the same unit.
 pub(crate) fn within(
     what: &'static str,
     found: f64,
@@ -75,7 +75,7 @@ pub(crate) fn counted(
     Err(EffectsError::Size { what, expected: format!("{least} to {most}"), found })
 }
 
-/// A typed error unless a place is on some surface.
+/// A typed error unless a place (m) is on some surface.
 pub(crate) fn place(what: &'static str, at: unripple_core::Point) -> Result<(), EffectsError> {
     within(what, at.x, crate::limits::PLACE)?;
     within(what, at.y, crate::limits::PLACE)

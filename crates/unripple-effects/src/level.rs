@@ -1,6 +1,6 @@
 //! How strong an effect is: a gain, or dB above threshold.
 
-/// How strong something is.
+/// How strong something is: a share of full level, or a level above threshold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Level {
     /// Share of the full level, 0 to 1: of what whoever plays takes for full.
@@ -10,7 +10,7 @@ pub enum Level {
 }
 
 impl Level {
-    /// The level whose amplitude is `gain` times this one's; nothing at all for a gain of 0.
+    /// The level whose amplitude is `gain` (a factor) times this one's; nothing at all for a gain of 0.
     ///
     /// ```
     /// use unripple_effects::Level;

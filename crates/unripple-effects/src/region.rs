@@ -4,23 +4,23 @@ use crate::error::{counted, place, within};
 use crate::{EffectsError, limits};
 use unripple_core::Point;
 
-/// Where an effect holds.
+/// The region of the surface where an effect holds.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Region {
-    /// The whole sheet.
+    /// The whole sheet, wherever it is touched.
     Everywhere,
     /// A rectangle along the axes.
     Rectangle {
-        /// Its lower-left corner.
+        /// Its lower-left corner, in m.
         corner: Point,
         /// Along x, in m.
         width: f64,
         /// Along y, in m.
         height: f64,
     },
-    /// A disc.
+    /// A disc of some radius.
     Circle {
-        /// Its centre.
+        /// Its centre, in m.
         centre: Point,
         /// Its radius, in m.
         radius: f64,
@@ -30,7 +30,7 @@ pub enum Region {
 }
 
 impl Region {
-    /// Whether a place lies in it.
+    /// Whether a place (m) lies in it.
     ///
     /// ```
     /// use unripple_core::Point;
@@ -56,7 +56,7 @@ impl Region {
         }
     }
 
-    /// Where the way from one place to another crosses the border, as shares of the way, ascending.
+    /// Where the way from one place to another (m) crosses the border, as shares of the way, ascending.
     pub fn crossings(&self, from: Point, to: Point) -> Vec<f64> {
         let mut found: Vec<f64> = match self {
             Self::Everywhere => Vec::new(),
@@ -72,6 +72,7 @@ impl Region {
         found
     }
 
+    /// Refuses a region that is nowhere, or has too few or too many corners.
     pub(crate) fn check(&self) -> Result<(), EffectsError> {
         match self {
             Self::Everywhere => Ok(()),
@@ -92,7 +93,8 @@ impl Region {
     }
 }
 
-/// Where the way from one place to another crosses a straight line between two points, as a share of the way.
+/// Where the way from one place to another (m) crosses a straight line between two points (m), as a share of
+/// the way.
 pub(crate) fn crossing((a, b): (Point, Point), from: Point, to: Point) -> Option<f64> {
     let side = |p: Point| (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
     let (before, after) = (side(from), side(to));
@@ -107,7 +109,7 @@ pub(crate) fn crossing((a, b): (Point, Point), from: Point, to: Point) -> Option
     (0.0..length).contains(&along).then_some(share)
 }
 
-/// The point at a share of the way.
+/// The point at a share of the way, all in m: linear interpolation.
 pub(crate) fn lerp(from: Point, to: Point, share: f64) -> Point {
     Point::new(from.x + share * (to.x - from.x), from.y + share * (to.y - from.y))
 }
@@ -117,6 +119,7 @@ fn ring(corners: &[Point], from: Point, to: Point) -> Vec<f64> {
     corners.iter().zip(next).filter_map(|(a, b)| crossing((*a, *b), from, to)).collect()
 }
 
+/// Where a way crosses a circle, as shares of the way.
 fn circle(centre: Point, radius: f64, from: Point, to: Point) -> Vec<f64> {
     let (d, f) = ((to.x - from.x, to.y - from.y), (from.x - centre.x, from.y - centre.y));
     let (a, b) = (d.0 * d.0 + d.1 * d.1, f.0 * d.0 + f.1 * d.1);

@@ -4,10 +4,10 @@ use crate::error::{counted, within};
 use crate::{EffectsError, Kind, Level, Region, limits};
 use std::collections::HashSet;
 
-/// What is felt on a surface.
+/// A set of effects: what is felt on a surface, and where.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EffectSet {
-    /// What it is called.
+    /// What it is called, for people.
     pub name: String,
     /// What it is like, in a line; may be empty.
     pub about: String,
@@ -20,11 +20,11 @@ pub struct EffectSet {
 pub struct Effect {
     /// Its name, its own within the set.
     pub name: String,
-    /// Where it holds.
+    /// The region where it holds.
     pub region: Region,
     /// How strong it is at a gain of 1.
     pub level: Level,
-    /// What it does.
+    /// Kind of the effect, with its own values.
     pub kind: Kind,
 }
 

@@ -4,13 +4,15 @@ use crate::error::within;
 use crate::play::{Maker, Moment, Out, Play};
 use crate::{EffectsError, limits};
 
-/// Force at which a button lets go again, as a share of that at which it was pressed.
+/// Force at which a button lets go again, as a share of that at which it was pressed: hysteresis, so that a
+/// force that trembles clicks once. At 1 there would be none.
 const LET_GO: f64 = 0.7;
 
 /// Clicks at the finger: one when pressed, another when let go.
 ///
 /// Pressed means put down in the region, or pressed harder than a force; let go means lifted or slid out of the region,
-/// or pressed with less than 0.7 of that force. A finger whose force nobody knows never presses a button with a force.
+/// or pressed with less than 0.7 of that force. A finger whose force is not known never presses such a
+/// button.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Button {
     /// Force at which it is pressed, in N; the touch itself without.
@@ -20,11 +22,13 @@ pub struct Button {
 }
 
 impl Button {
+    /// Refuses a force or gain that is not legal.
     pub(super) fn check(&self) -> Result<(), EffectsError> {
         within("gain of the release", self.release, limits::SHARE)?;
         self.press_force.map_or(Ok(()), |force| within("force of a press", force, limits::FORCE))
     }
 
+    /// What plays it under a finger.
     pub(super) fn maker(&self) -> Maker {
         let button = *self;
         Box::new(move |_| Box::new(Pressing { button, pressed: false }))
@@ -37,6 +41,7 @@ struct Pressing {
 }
 
 impl Pressing {
+    /// Presses or lets go as the force says.
     fn by_force(&mut self, now: &Moment, out: &mut Out) {
         let (Some(threshold), Some(force)) = (self.button.press_force, now.force) else { return };
         if !self.pressed && force >= threshold {

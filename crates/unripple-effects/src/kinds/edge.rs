@@ -6,8 +6,8 @@ use crate::region::{crossing, lerp};
 use crate::{EffectsError, Region, limits};
 use unripple_core::Point;
 
-/// How far a finger goes from where it crossed before another crossing counts, in m: a finger that trembles on the line
-/// is felt once.
+/// How far a finger goes from where it crossed before another crossing counts, in m: a finger that trembles
+/// on the line is felt once. Doubled, it has to go 2 mm away to feel the line again.
 const AWAY: f64 = 1e-3;
 
 /// A pulse where the finger crosses a line, or the border of its region.
@@ -20,13 +20,14 @@ pub struct Edge {
 /// A straight line from one point to another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
-    /// One end.
+    /// One end, in m.
     pub from: Point,
-    /// The other.
+    /// The other end, in m.
     pub to: Point,
 }
 
 impl Edge {
+    /// Refuses a line that is not on any surface.
     pub(super) fn check(&self) -> Result<(), EffectsError> {
         let Some(line) = self.line else { return Ok(()) };
         place("end of a line", line.from)?;
@@ -34,6 +35,7 @@ impl Edge {
         within("length of a line", line.from.distance(line.to), [limits::LENGTH[0], 4.0 * limits::LENGTH[1]])
     }
 
+    /// What plays it under a finger, the effect's region being the border without a line.
     pub(super) fn maker(&self, region: Region) -> Maker {
         let line = self.line;
         Box::new(move |_| Box::new(Crossing { line, region: region.clone(), last: None }))

@@ -21,29 +21,29 @@ pub use train::Train;
 use crate::play::Maker;
 use crate::{Effect, EffectsError};
 
-/// What an effect does.
+/// The kinds of effects, each with its values.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Kind {
-    /// Clicks at the finger.
+    /// Clicks at the finger, when pressed and let go.
     Button(Button),
     /// Grains along the finger's path.
     Texture(Texture),
     /// A pulse where a line or a border is crossed.
     Edge(Edge),
-    /// Detents along an axis.
+    /// Detents along an axis, as of a ruler.
     Notch(Notch),
     /// Pulses in time while touched.
     Train(Train),
     /// A shape drawn on a resting hand.
     Shape(Traced),
-    /// A waveform while touched.
+    /// A steady waveform while touched.
     Hum(Hum),
-    /// Events over time.
+    /// A score: pulses and waveforms over time.
     Score(Score),
 }
 
 impl Kind {
-    /// What files call it.
+    /// The name of the kind that files use.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Button(_) => "button",
@@ -57,6 +57,7 @@ impl Kind {
         }
     }
 
+    /// Refuses values that are not legal.
     pub(crate) fn check(&self) -> Result<(), EffectsError> {
         match self {
             Self::Button(button) => button.check(),
@@ -70,7 +71,7 @@ impl Kind {
         }
     }
 
-    /// Seconds of waveforms that it keeps.
+    /// Seconds of waveforms that it keeps in memory.
     pub(crate) fn sounding(&self) -> f64 {
         match self {
             Self::Hum(hum) => hum.sounding(),

@@ -16,13 +16,14 @@ pub struct Notch {
     pub pitch: f64,
     /// Direction of the axis, in rad anticlockwise from x.
     pub axis: f64,
-    /// A place where a detent lies.
+    /// A place where a detent lies, in m.
     pub origin: Point,
     /// How far beyond the middle the next one begins, as a share of the pitch.
     pub hysteresis: f64,
 }
 
 impl Notch {
+    /// Refuses a pitch, axis, origin or hysteresis that is not legal.
     pub(super) fn check(&self) -> Result<(), EffectsError> {
         within("pitch of notches", self.pitch, limits::PITCH)?;
         within("axis of notches", self.axis, limits::ANGLE)?;
@@ -30,6 +31,7 @@ impl Notch {
         place("origin of notches", self.origin)
     }
 
+    /// What plays it under a finger.
     pub(super) fn maker(&self) -> Maker {
         let notch = *self;
         Box::new(move |_| Box::new(Sliding { notch, on: 0.0 }))

@@ -6,17 +6,20 @@ use crate::{Act, EffectsError, Envelope, Wave, limits};
 use std::sync::Arc;
 use unripple_core::Point;
 
-/// Time over which a waveform of a score falls when the score is stopped, in s.
+/// Time over which a waveform of a score falls when the score is stopped, in s: short, and without a click.
+/// Doubled, it is heard for as much longer.
 const FADE: f64 = 0.01;
-/// How far ahead events may be cued and still be stopped, once all of them are, in s.
+/// How far ahead events may be cued and still be stopped, once all of them are, in s. Doubled, scores that
+/// are over are kept a second longer.
 const AHEAD: f64 = 1.0;
-/// Voices of a score that sound at once.
+/// Voices of a score that sound at once: parts 1 to 255 of its voice, 0 being the effect's own. The next
+/// event takes the first's place.
 const PARTS: usize = 255;
 
-/// Events over time.
+/// A score: pulses and waveforms over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Score {
-    /// What starts it.
+    /// What starts it: a touch, the first touch or tick at all, or its name.
     pub start: Start,
     /// Period after which it starts over, in s; without, it plays once.
     pub period: Option<f64>,
@@ -24,7 +27,7 @@ pub struct Score {
     pub events: Vec<Event>,
 }
 
-/// What starts a score.
+/// What starts a score: a touch, the first touch or tick at all, or its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Start {
     /// A finger that comes into the region. It ends when the finger leaves.
@@ -44,7 +47,7 @@ pub struct Event {
     pub gain: f64,
     /// Where; without, at the finger, or where the score was started.
     pub place: Option<Point>,
-    /// What.
+    /// What it sounds like.
     pub sound: Sound,
 }
 
@@ -53,7 +56,7 @@ pub struct Event {
 pub enum Sound {
     /// One focused pulse.
     Pulse,
-    /// A waveform, once.
+    /// A waveform, played once.
     Wave(Envelope),
 }
 
@@ -68,6 +71,7 @@ impl Sound {
 }
 
 impl Score {
+    /// Refuses times, gains and places that are not legal.
     pub(super) fn check(&self) -> Result<(), EffectsError> {
         counted("events of a score", self.events.len(), 1, limits::MOST_EVENTS)?;
         for event in &self.events {
@@ -80,10 +84,12 @@ impl Score {
         self.period.map_or(Ok(()), |period| within("period of a score", period, [least, limits::PERIOD[1]]))
     }
 
+    /// Seconds of waveforms that it keeps.
     pub(super) fn sounding(&self) -> f64 {
         self.events.iter().map(|event| event.sound.duration()).sum()
     }
 
+    /// What plays it, waveforms at `rate` samples per second.
     pub(super) fn maker(&self, rate: f64) -> Result<Maker, EffectsError> {
         let note = |event: &Event| {
             let wave = match &event.sound {
@@ -140,6 +146,7 @@ impl Playing {
         })
     }
 
+    /// Cues one event, a waveform in the next free part.
     fn play(&mut self, index: usize, at: f64, finger: Point, out: &mut Out) {
         let note = &self.notes[index];
         let place = note.place.unwrap_or(finger);

@@ -16,7 +16,7 @@ pub struct Traced {
     pub closed: bool,
     /// What the corners count from.
     pub anchor: Anchor,
-    /// How it is drawn.
+    /// How it is drawn: by a moving point, or all at once.
     pub trace: Trace,
     /// Pulses per second.
     pub rate: f64,
@@ -27,7 +27,7 @@ pub struct Traced {
 pub enum Anchor {
     /// The place where the finger came down. It stays there.
     Finger,
-    /// The surface's origin.
+    /// The surface's origin, its lower-left corner.
     Surface,
 }
 
@@ -97,6 +97,7 @@ impl Traced {
         self.sides().flat_map(cut).chain(end).collect()
     }
 
+    /// What draws it under a finger.
     pub(super) fn maker(&self) -> Maker {
         let shape = Arc::new(self.clone());
         Box::new(move |_| Box::new(Drawing { shape: shape.clone(), on: None }))

@@ -15,18 +15,20 @@ pub struct Texture {
     pub pitch: f64,
     /// How irregular they are: distances vary by this share to either side, and gains fall by up to this share.
     pub grain: f64,
-    /// Which irregularity.
+    /// Seed of the irregularity: the same gives the same grains.
     pub seed: u64,
     /// Gain over speed in m/s.
     pub speed_gain: Curve,
 }
 
 impl Texture {
+    /// Refuses a pitch, grain or curve that is not legal.
     pub(super) fn check(&self) -> Result<(), EffectsError> {
         within("pitch of a texture", self.pitch, limits::PITCH)?;
         within("grain of a texture", self.grain, limits::SHARE)
     }
 
+    /// What plays it under a finger.
     pub(super) fn maker(&self) -> Maker {
         let texture = self.clone();
         Box::new(move |contact| {

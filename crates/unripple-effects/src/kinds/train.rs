@@ -19,11 +19,12 @@ pub struct Train {
     pub jitter: f64,
     /// How far from the finger they fall, evenly over the disc, in m.
     pub scatter: f64,
-    /// Which irregularity.
+    /// Seed of the irregularity: the same gives the same pulses.
     pub seed: u64,
 }
 
 impl Train {
+    /// Refuses a rate, count, curve or share that is not legal.
     pub(super) fn check(&self) -> Result<(), EffectsError> {
         within("rate of a pulse train", self.rate, limits::RATE)?;
         within("jitter of a pulse train", self.jitter, limits::SHARE)?;
@@ -37,6 +38,7 @@ impl Train {
         self.count.is_none() && self.envelope.is_none() && self.jitter == 0.0 && self.scatter == 0.0
     }
 
+    /// What plays it under a finger.
     pub(super) fn maker(&self) -> Maker {
         let train = self.clone();
         Box::new(move |contact| {
