@@ -1,5 +1,6 @@
 //! Eigenvalues and eigenvectors.
 
+use crate::Entry;
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{
@@ -13,21 +14,26 @@ use faer::{Auto, Mat, MatRef, Par, c64};
 /// triangle, by divide and conquer; `None` if the iteration does not converge, as where entries are not finite.
 ///
 /// Vectors may be off by 1e-5 where eigenvalues differ by orders of magnitude; see [`exact_symmetric`].
-pub fn symmetric<T: ComplexField>(matrix: MatRef<'_, T>) -> Option<(Vec<T::Real>, Mat<T>)> {
-    decomposed(matrix, Auto::<T>::auto())
+pub fn symmetric<T: Entry>(matrix: MatRef<'_, T>) -> Option<(Vec<f64>, Mat<T>)> {
+    T::symmetric(matrix)
 }
 
 /// The same by QR iteration, to machine precision of the largest eigenvalue.
-pub fn exact_symmetric<T: ComplexField>(matrix: MatRef<'_, T>) -> Option<(Vec<T::Real>, Mat<T>)> {
-    let mut params: SelfAdjointEvdParams = Auto::<T>::auto();
+pub fn exact_symmetric(matrix: MatRef<'_, f64>) -> Option<(Vec<f64>, Mat<f64>)> {
+    let mut params: SelfAdjointEvdParams = Auto::<f64>::auto();
     params.recursion_threshold = usize::MAX;
     decomposed(matrix, params)
 }
 
-fn decomposed<T: ComplexField>(
+/// What [`symmetric`] does.
+pub(crate) fn divided<T: ComplexField<Real = f64>>(matrix: MatRef<'_, T>) -> Option<(Vec<f64>, Mat<T>)> {
+    decomposed(matrix, Auto::<T>::auto())
+}
+
+fn decomposed<T: ComplexField<Real = f64>>(
     matrix: MatRef<'_, T>,
     params: SelfAdjointEvdParams,
-) -> Option<(Vec<T::Real>, Mat<T>)> {
+) -> Option<(Vec<f64>, Mat<T>)> {
     let n = matrix.nrows();
     let (mut values, mut vectors) = (Diag::<T>::zeros(n), Mat::zeros(n, n));
     let needed = self_adjoint_evd_scratch::<T>(n, ComputeEigenvectors::Yes, Par::Seq, params.into());
@@ -46,16 +52,9 @@ pub struct General {
     pub vectors: Mat<c64>,
 }
 
-/// Numbers whose matrices [`general`] decomposes: f64 and c64.
-pub trait Entry: ComplexField {
-    /// The decomposition on one thread.
-    #[doc(hidden)]
-    fn decompose(matrix: MatRef<'_, Self>) -> Option<General>;
-}
-
 /// The eigenvalues and right eigenvectors of an n x n matrix; `None` if the iteration does not converge, as where entries are not finite.
 pub fn general<T: Entry>(matrix: MatRef<'_, T>) -> Option<General> {
-    T::decompose(matrix)
+    T::general(matrix)
 }
 
 fn scratch<T: ComplexField>(n: usize) -> Option<MemBuffer> {
@@ -63,30 +62,28 @@ fn scratch<T: ComplexField>(n: usize) -> Option<MemBuffer> {
     MemBuffer::try_new(evd_scratch::<T>(n, left, right, Par::Seq, Default::default())).ok()
 }
 
-impl Entry for c64 {
-    fn decompose(matrix: MatRef<'_, Self>) -> Option<General> {
-        let n = matrix.nrows();
-        let (mut values, mut vectors) = (Diag::<c64>::zeros(n), Mat::zeros(n, n));
-        let mut buffer = scratch::<c64>(n)?;
-        let stack = MemStack::new(&mut buffer);
-        let to = Some(vectors.as_mut());
-        evd_cplx(matrix, values.as_mut(), None, to, Par::Seq, stack, Default::default()).ok()?;
-        Some(General { values: values.column_vector().iter().copied().collect(), vectors })
-    }
+/// [`general`] of a complex matrix, on one thread.
+pub(crate) fn general_complex(matrix: MatRef<'_, c64>) -> Option<General> {
+    let n = matrix.nrows();
+    let (mut values, mut vectors) = (Diag::<c64>::zeros(n), Mat::zeros(n, n));
+    let mut buffer = scratch::<c64>(n)?;
+    let stack = MemStack::new(&mut buffer);
+    let to = Some(vectors.as_mut());
+    evd_cplx(matrix, values.as_mut(), None, to, Par::Seq, stack, Default::default()).ok()?;
+    Some(General { values: values.column_vector().iter().copied().collect(), vectors })
 }
 
-impl Entry for f64 {
-    fn decompose(matrix: MatRef<'_, Self>) -> Option<General> {
-        let n = matrix.nrows();
-        let (mut re, mut im) = (Diag::<f64>::zeros(n), Diag::<f64>::zeros(n));
-        let mut real = Mat::zeros(n, n);
-        let mut buffer = scratch::<f64>(n)?;
-        let (stack, to) = (MemStack::new(&mut buffer), Some(real.as_mut()));
-        evd_real(matrix, re.as_mut(), im.as_mut(), None, to, Par::Seq, stack, Default::default()).ok()?;
-        let pairs = re.column_vector().iter().zip(im.column_vector().iter());
-        let values: Vec<c64> = pairs.map(|(re, im)| c64::new(*re, *im)).collect();
-        Some(General { vectors: joined(&values, real.as_ref()), values })
-    }
+/// [`general`] of a real matrix, on one thread.
+pub(crate) fn general_real(matrix: MatRef<'_, f64>) -> Option<General> {
+    let n = matrix.nrows();
+    let (mut re, mut im) = (Diag::<f64>::zeros(n), Diag::<f64>::zeros(n));
+    let mut real = Mat::zeros(n, n);
+    let mut buffer = scratch::<f64>(n)?;
+    let (stack, to) = (MemStack::new(&mut buffer), Some(real.as_mut()));
+    evd_real(matrix, re.as_mut(), im.as_mut(), None, to, Par::Seq, stack, Default::default()).ok()?;
+    let pairs = re.column_vector().iter().zip(im.column_vector().iter());
+    let values: Vec<c64> = pairs.map(|(re, im)| c64::new(*re, *im)).collect();
+    Some(General { vectors: joined(&values, real.as_ref()), values })
 }
 
 /// Complex eigenvectors from real ones: of a complex pair, whose first has the positive imaginary part, the first column holds the real

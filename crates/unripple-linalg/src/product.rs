@@ -1,17 +1,117 @@
 //! Products of matrices.
 
-use faer::linalg::matmul::matmul;
-use faer::traits::ComplexField;
-use faer::{Accum, Mat, MatRef, Par};
+use crate::Number;
+use faer::linalg::matmul::matmul_with_conj;
+use faer::linalg::matmul::triangular::{self, BlockStructure};
+use faer::sparse::SparseColMatRef;
+use faer::{Accum, Col, ColRef, Conj, Mat, MatMut, MatRef, Par, c64};
+
+/// `out = factor · left · right`, or that added to it: m x n from m x k and k x n, on as many threads as `par` says.
+///
+/// With threads, sums of a single column or row depend on how many there are; see [`product`].
+///
+/// # Panics
+/// If sizes do not match.
+pub fn multiply<T: Number>(
+    out: MatMut<'_, T>,
+    accum: Accum,
+    left: MatRef<'_, T>,
+    right: MatRef<'_, T>,
+    factor: T,
+    par: Par,
+) {
+    T::multiply(out, accum, left, right, factor, par);
+}
 
 /// The product of two matrices, m x k and k x n, as m x n. Shared among threads but for a single column, whose sums faer would cut in as
 /// many parts as there are threads.
 ///
 /// # Panics
 /// If the number of columns of `left` is not that of rows of `right`.
-pub fn product<T: ComplexField>(left: MatRef<'_, T>, right: MatRef<'_, T>) -> Mat<T> {
+pub fn product<T: Number>(left: MatRef<'_, T>, right: MatRef<'_, T>) -> Mat<T> {
     let mut out = Mat::zeros(left.nrows(), right.ncols());
     let par = if left.nrows().min(right.ncols()) > 1 { Par::rayon(0) } else { Par::Seq };
-    matmul(out.as_mut(), Accum::Replace, left, right, T::one_impl(), par);
+    T::multiply(out.as_mut(), Accum::Replace, left, right, T::one_impl(), par);
     out
+}
+
+/// The product of two matrices, m x k and k x n, shared among threads whatever their sizes, as faer's operator `*` has it. It is that of
+/// [`product`] but for a single column or row out of a matrix of 65 536 entries or more, whose last bits depend on the number of threads.
+///
+/// # Panics
+/// If the number of columns of `left` is not that of rows of `right`.
+pub fn times<T: Number>(left: MatRef<'_, T>, right: MatRef<'_, T>) -> Mat<T> {
+    let mut out = Mat::zeros(left.nrows(), right.ncols());
+    T::multiply(out.as_mut(), Accum::Replace, left, right, T::one_impl(), faer::get_global_parallelism());
+    out
+}
+
+/// The same with a column as such, m x k by k.
+///
+/// # Panics
+/// If the number of columns of `left` is not that of rows of `right`.
+pub fn times_column<T: Number>(left: MatRef<'_, T>, right: ColRef<'_, T>) -> Col<T> {
+    let mut out = Col::zeros(left.nrows());
+    let (to, par) = (out.as_mut().as_mat_mut(), faer::get_global_parallelism());
+    T::multiply(to, Accum::Replace, left, right.as_mat(), T::one_impl(), par);
+    out
+}
+
+/// Aᴴ B of complex matrices, k x m and k x n, as m x n.
+///
+/// # Panics
+/// If the numbers of rows differ.
+pub fn adjoint_times(left: MatRef<'_, c64>, right: MatRef<'_, c64>) -> Mat<c64> {
+    conjugated(left.transpose(), Conj::Yes, right, Conj::No)
+}
+
+/// A Bᴴ of complex matrices, m x k and n x k, as m x n.
+///
+/// # Panics
+/// If the numbers of columns differ.
+pub fn times_adjoint(left: MatRef<'_, c64>, right: MatRef<'_, c64>) -> Mat<c64> {
+    conjugated(left, Conj::No, right.transpose(), Conj::Yes)
+}
+
+fn conjugated(left: MatRef<'_, c64>, one: Conj, right: MatRef<'_, c64>, other: Conj) -> Mat<c64> {
+    let mut out = Mat::zeros(left.nrows(), right.ncols());
+    let (unit, par) = (c64::new(1.0, 0.0), faer::get_global_parallelism());
+    matmul_with_conj(out.as_mut(), Accum::Replace, left, one, right, other, unit, par);
+    out
+}
+
+/// Adds `factor · A Aᵀ` to the lower triangle of a symmetric matrix, A being n x k, on one thread.
+///
+/// # Panics
+/// If `out` is not n x n.
+pub fn add_square(out: MatMut<'_, f64>, factor: f64, a: MatRef<'_, f64>) {
+    triangular::matmul(
+        out,
+        BlockStructure::TriangularLower,
+        Accum::Add,
+        a,
+        BlockStructure::Rectangular,
+        a.transpose(),
+        BlockStructure::Rectangular,
+        factor,
+        Par::Seq,
+    );
+}
+
+/// The product of a sparse matrix, m x k, and a dense one, k x n, as m x n.
+///
+/// # Panics
+/// If sizes do not match.
+pub fn sparse_times(left: SparseColMatRef<'_, usize, f64>, right: MatRef<'_, f64>) -> Mat<f64> {
+    left * right
+}
+
+/// Σ|a|² over all entries.
+pub fn squared_norm(matrix: MatRef<'_, f64>) -> f64 {
+    matrix.squared_norm_l2()
+}
+
+/// √Σ|a|² over all entries.
+pub fn norm(matrix: MatRef<'_, f64>) -> f64 {
+    matrix.norm_l2()
 }

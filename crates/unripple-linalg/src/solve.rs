@@ -4,9 +4,8 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt;
 use faer::linalg::lu::partial_pivoting;
 use faer::linalg::solvers::{Llt, PartialPivLu};
-use faer::linalg::triangular_solve;
 use faer::traits::ComplexField;
-use faer::{MatMut, MatRef, Par};
+use faer::{MatMut, Par};
 
 /// How many threads share right-hand sides: a single one would have its sums cut in as many parts.
 fn shared<T>(right: &MatMut<'_, T>) -> Par {
@@ -35,13 +34,4 @@ pub fn solve_lu<T: ComplexField>(factors: &PartialPivLu<T>, right: MatMut<'_, T>
     let mut buffer = MemBuffer::new(needed);
     let (lower, upper, order) = (factors.L(), factors.U(), factors.P());
     partial_pivoting::solve::solve_in_place(lower, upper, order, right, par, MemStack::new(&mut buffer));
-}
-
-/// Replaces right-hand sides, n x k, by the solutions of L x = b, L lower triangular.
-///
-/// # Panics
-/// If there are not n rows.
-pub fn solve_lower<T: ComplexField>(lower: MatRef<'_, T>, right: MatMut<'_, T>) {
-    let par = shared(&right);
-    triangular_solve::solve_lower_triangular_in_place(lower, right, par);
 }
