@@ -1,8 +1,8 @@
 //! The dispersion relation of a tensioned plate with air at its sides.
 
-use faer::c64;
 use std::f64::consts::{PI, TAU};
 use unripple_core::{Air, Sheet};
+use unripple_linalg::c64;
 
 /// Density of air ρ_0 at 20 °C and 1013 hPa, in kg/m³. Doubled, the added mass of the air beside a film would
 /// double.

@@ -8,10 +8,10 @@ use super::pattern::pattern;
 use super::rule::{Rule, Rules};
 use super::space::Space;
 use crate::fabric::Fabric;
-use faer::sparse::SparseColMat;
 use pulp::{Arch, NullaryFnOnce};
 use rayon::prelude::*;
 use unripple_core::Edge;
+use unripple_linalg::sparse::SparseColMat;
 
 /// Triangles whose matrices are made, by all threads, before one thread adds them up in order: so sums do not
 /// depend on the number of threads. Doubled, twice as many matrices are held at once.

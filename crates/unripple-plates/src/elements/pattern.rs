@@ -1,7 +1,7 @@
 //! Sparsity pattern of the forms: which unknowns meet in a triangle.
 
 use super::space::Space;
-use faer::sparse::SymbolicSparseColMat;
+use unripple_linalg::sparse::SymbolicSparseColMat;
 
 /// The symmetric pattern of all forms on a space, both triangles of it, rows ascending.
 pub(crate) fn pattern(space: &Space) -> SymbolicSparseColMat<usize> {

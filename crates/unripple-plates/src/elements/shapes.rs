@@ -1,10 +1,10 @@
 //! Mode shapes evaluated anywhere on a mesh.
 
 use super::space::Space;
-use faer::{Mat, MatRef};
 use pulp::{Arch, NullaryFnOnce};
 use rayon::prelude::*;
 use unripple_core::{Point, Shapes};
+use unripple_linalg::{Mat, MatRef};
 
 /// Modes summed at once: two cache lines of a row of coefficients. Doubled, more zeros are added to fill the
 /// last lanes.
@@ -79,7 +79,7 @@ impl Shapes for MeshShapes {
 
     fn at_all(&self, points: &[Point]) -> Mat<f64> {
         let mut weights = Mat::zeros(points.len(), self.modes);
-        let fill = |(points, mut weights): (&[Point], faer::MatMut<f64>)| {
+        let fill = |(points, mut weights): (&[Point], unripple_linalg::MatMut<f64>)| {
             let mut rows = vec![0.0; points.len() * self.modes];
             for (point, row) in points.iter().zip(rows.chunks_exact_mut(self.modes.max(1))) {
                 self.at(*point, row);

@@ -9,9 +9,8 @@
 
 use super::border::Border;
 use super::monomials::{COUNT, EXPONENTS, Frame, HIGHEST, place};
-use faer::Mat;
 use unripple_core::{Edge, Point};
-use unripple_linalg::solve_lu;
+use unripple_linalg::{Lu, Mat};
 
 /// Points of a curve at which u vanishes, by their parameter from -1 to 1: zeros of the Jacobi polynomial of
 /// degree 2 to the weight (1 - x²)³.
@@ -72,7 +71,7 @@ pub(crate) fn trim(
     let of_bubbles = Mat::from_fn(size, size, |i, j| dot(&conditions[i], &|m| bubbles[j][m]));
     basis.resize(COUNT * unknowns, 0.0);
     let mut taken = Mat::from_fn(size, unknowns, |i, u| dot(&conditions[i], &|m| basis[m * unknowns + u]));
-    solve_lu(&of_bubbles.partial_piv_lu(), taken.as_mut());
+    Lu::new(of_bubbles.as_ref()).solve(taken.as_mut());
     for (m, row) in basis.chunks_exact_mut(unknowns).enumerate() {
         for (u, b) in row.iter_mut().enumerate() {
             *b -= bubbles.iter().enumerate().map(|(j, bubble)| bubble[m] * taken[(j, u)]).sum::<f64>();

@@ -1,8 +1,8 @@
 //! Powers of the distance by which a plate's bending is singular at a corner (Williams, *J. Appl. Mech.* 19, 526, 1952).
 
-use faer::c64;
 use std::f64::consts::PI;
 use unripple_core::Edge;
+use unripple_linalg::c64;
 
 /// Poisson's ratio where an edge is free, a common one: the powers change little with it.
 const POISSON: f64 = 0.3;

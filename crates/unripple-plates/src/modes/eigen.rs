@@ -1,6 +1,6 @@
 //! Symmetric eigenvalue problems, and matrices of nearly orthonormal columns.
 
-use faer::{Accum, Mat, MatRef, Par, linalg::matmul::matmul};
+use unripple_linalg::{Accum, Mat, MatRef, Par, multiply};
 
 /// How a symmetric matrix is decomposed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +23,7 @@ pub(crate) fn symmetric(matrix: MatRef<f64>, method: Method) -> Option<(Vec<f64>
 /// The product of two matrices.
 pub(crate) fn product(left: MatRef<f64>, right: MatRef<f64>, par: Par) -> Mat<f64> {
     let mut out = Mat::zeros(left.nrows(), right.ncols());
-    matmul(out.as_mut(), Accum::Replace, left, right, 1.0, par);
+    multiply(out.as_mut(), Accum::Replace, left, right, 1.0, par);
     out
 }
 

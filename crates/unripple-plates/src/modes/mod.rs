@@ -8,10 +8,10 @@ mod rectangle;
 
 use crate::PhysicsError;
 use bounds::Bounds;
-use faer::Mat;
 use rectangle::Problem;
 use std::f64::consts::TAU;
 use unripple_core::{Point, Pole, Shapes, Surface};
+use unripple_linalg::Mat;
 
 pub use legendre::gauss;
 

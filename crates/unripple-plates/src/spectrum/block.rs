@@ -3,10 +3,9 @@
 use super::panel::{LANES, Panel, Row};
 use super::pencil::Pencil;
 use super::rayleigh::quotients;
-use faer::Mat;
-use faer::prelude::ReborrowMut;
 use rayon::prelude::*;
 use std::ops::Range;
+use unripple_linalg::Mat;
 
 /// A block of eigenpairs found at one shift, ascending.
 #[derive(Debug, Default)]
@@ -92,7 +91,7 @@ pub(super) fn gather(pencil: &Pencil, pieces: &[EigenBlock], top: f64) -> (Vec<f
     // Rows per task: small enough to share among threads, large enough that a task is worth starting.
     const ROWS: usize = 128;
     vectors.as_mut().par_row_chunks_mut(ROWS).zip(rows.par_chunks(ROWS)).for_each(|(mut vectors, rows)| {
-        for (column, (_, piece, (panel, lane))) in vectors.rb_mut().col_iter_mut().zip(&pairs) {
+        for (column, (_, piece, (panel, lane))) in vectors.as_mut().col_iter_mut().zip(&pairs) {
             let panel: &[Row] = &pieces[*piece].panels[*panel];
             column.iter_mut().zip(rows).for_each(|(x, row)| *x = panel[*row][*lane] * pencil.scale[*row]);
         }

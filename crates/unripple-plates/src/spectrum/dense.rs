@@ -6,9 +6,7 @@ use super::panel::LANES;
 use super::pencil::{Pencil, indefinite};
 use super::plan::{STEP, factor_near};
 use crate::modes::eigen::{Method, product, symmetric};
-use faer::linalg::solvers::Llt;
-use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
-use faer::{Mat, Par, Side};
+use unripple_linalg::{Cholesky, Mat, Par, Scale, norm, solve_lower_alone, solve_upper_alone};
 
 /// The shift below zero, as a part of the bound: K may be singular, K + τM is not. Rounding is of the scale
 /// of λ + τ: doubled, it doubles for the lowest λ; much smaller, K + τM is singular but for rounding.
@@ -28,10 +26,10 @@ pub(super) fn all(pencil: &Pencil, top: f64) -> Result<EigenBlock, SpectrumError
     let shift = SHIFT * top;
     let mass = full(pencil, |_, m| m);
     let shifted = full(pencil, |k, m| k + shift * m);
-    let mass = Llt::new(mass.as_ref(), Side::Lower).map_err(|_| indefinite(-1.0))?;
-    let stiff = Llt::new(shifted.as_ref(), Side::Lower).map_err(|_| indefinite(-1.0))?;
-    let mut ratio = mass.L().to_owned();
-    solve_lower_triangular_in_place(stiff.L(), ratio.as_mut(), Par::Seq);
+    let mass = Cholesky::new(mass.as_ref()).ok_or_else(|| indefinite(-1.0))?;
+    let stiff = Cholesky::new(shifted.as_ref()).ok_or_else(|| indefinite(-1.0))?;
+    let mut ratio = mass.lower().to_owned();
+    solve_lower_alone(stiff.lower(), ratio.as_mut());
     let inverse = product(ratio.transpose(), ratio.as_ref(), Par::Seq);
     let missed = |found| SpectrumError::Missed { top: bound.shift, expected: bound.below, found };
     let (inverses, vectors) = symmetric(inverse.as_ref(), Method::Exact).ok_or_else(|| missed(0))?;
@@ -44,10 +42,10 @@ pub(super) fn all(pencil: &Pencil, top: f64) -> Result<EigenBlock, SpectrumError
     let rest = product(inverse.as_ref(), chosen.as_ref(), Par::Seq);
     let residuals = (0..found).map(|j| {
         let inverse = inverses[n - 1 - j];
-        (rest.col(j) - chosen.col(j) * faer::Scale(inverse)).norm_l2() / inverse
+        norm((rest.col(j) - chosen.col(j) * Scale(inverse)).as_mat()) / inverse
     });
     let residuals = residuals.collect();
-    solve_upper_triangular_in_place(mass.L().transpose(), chosen.as_mut(), Par::Seq);
+    solve_upper_alone(mass.lower().transpose(), chosen.as_mut());
     let entry = |i: usize, j: usize| if j < found { chosen[(i, j)] } else { 0.0 };
     let panel = |first: usize| (0..n).map(|i| std::array::from_fn(|lane| entry(i, first + lane))).collect();
     let panels = (0..found).step_by(LANES).map(panel).collect();

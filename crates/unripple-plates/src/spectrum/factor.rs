@@ -3,13 +3,9 @@
 use super::SpectrumError;
 use super::panel::TILE;
 use super::pencil::Pencil;
-use faer::Par;
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
-use faer::sparse::SparseColMatRef;
-use faer::sparse::linalg::cholesky::supernodal::{
-    SupernodalLdltRef, SymbolicSupernodalCholesky, factorize_supernodal_numeric_ldlt,
-    factorize_supernodal_numeric_ldlt_scratch,
+use unripple_linalg::Par;
+use unripple_linalg::sparse::{
+    SparseColMatRef, SupernodalLdltRef, SymbolicSupernodalCholesky, Unfactored, factor_ldlt,
 };
 
 /// K - σM = L D Lᵀ, without exchange of rows or columns but those of the pencil's order.
@@ -62,17 +58,11 @@ impl<'a> Factor<'a> {
         let lower = &pencil.lower;
         let shifted: Vec<f64> = lower.stiffness.iter().zip(&lower.mass).map(|(k, m)| k - shift * m).collect();
         let matrix = SparseColMatRef::new(lower.pattern.as_ref(), &shifted);
-        let mut values = vec![0.0; supernodes.len_val()];
-        let needed =
-            factorize_supernodal_numeric_ldlt_scratch::<usize, f64>(supernodes, par, Default::default());
-        let mut buffer = MemBuffer::try_new(needed).map_err(|_| pencil.too_large())?;
-        let stack = MemStack::new(&mut buffer);
-        let (none, params) = (LdltRegularization::default(), Default::default());
-        let done =
-            factorize_supernodal_numeric_ldlt(&mut values, matrix, none, supernodes, par, stack, params);
-        if done.is_err() {
-            return Ok(None);
-        }
+        let values = match factor_ldlt(supernodes, matrix, par) {
+            Ok(values) => values,
+            Err(Unfactored::Pivot) => return Ok(None),
+            Err(Unfactored::Memory) => return Err(pencil.too_large()),
+        };
         let factor = SupernodalLdltRef::new(supernodes, &values);
         let starts = &lower.pattern.col_ptr()[..pencil.len()];
         let sizes = starts.iter().map(|at| lower.stiffness[*at] + shift.abs() * lower.mass[*at]);

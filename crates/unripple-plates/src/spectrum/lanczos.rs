@@ -7,8 +7,8 @@ use super::pencil::Pencil;
 use super::small::{Square, Triangle, identity, product, transposed};
 use super::solve::solve;
 use crate::modes::eigen::{Method, symmetric};
-use faer::Mat;
 use unripple_core::Random;
+use unripple_linalg::Mat;
 
 /// Ratio of the smallest to the largest pivot of a panel's Gram matrix, its columns scaled to one, below
 /// which rounding calls for another pass: above it two digits are lost at most. Nearer to 1, panels take more

@@ -22,12 +22,12 @@ mod solve;
 #[cfg(test)]
 mod tests;
 pub(crate) use error::SpectrumError;
-use faer::Mat;
-use faer::sparse::SparseColMatRef;
 pub(crate) use memory::estimate_bytes;
 use pencil::Pencil;
 use plan::Plan;
 use rayon::prelude::*;
+use unripple_linalg::Mat;
+use unripple_linalg::sparse::SparseColMatRef;
 
 /// Relative step by which a shift moves that meets an eigenvalue of K or of a part of it: some ten thousand
 /// roundings. Doubled, a count may take in eigenvalues up to 1.4e-10 above the bound.
@@ -98,7 +98,7 @@ pub(crate) fn count_below(
     let pencil = Pencil::new(stiffness, mass)?;
     let factor = (0..8).find_map(|nudge| {
         let shift = sigma + nudge as f64 * NUDGE * sigma.abs().max(f64::MIN_POSITIVE);
-        factor::Factor::new(&pencil, shift, faer::Par::Seq).transpose()
+        factor::Factor::new(&pencil, shift, unripple_linalg::Par::Seq).transpose()
     });
     factor.unwrap_or(Err(SpectrumError::Factors { shift: sigma })).map(|factor| factor.below)
 }

@@ -2,15 +2,11 @@
 
 use super::SpectrumError;
 use super::panel::{NONE, Row, add};
-use faer::Side;
-use faer::sparse::linalg::SupernodalThreshold;
-use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
-use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
-    factorize_symbolic_cholesky,
-};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use pulp::{Arch, NullaryFnOnce};
+use unripple_linalg::sparse::{
+    SparseColMatRef, SymbolicCholesky, SymbolicCholeskyRaw, SymbolicSparseColMat, SymbolicSupernodalCholesky,
+    analyse,
+};
 
 /// The pencil K x = λ M x with its unknowns scaled and ordered: K ← SPᵀKPS, and M likewise.
 ///
@@ -67,17 +63,7 @@ impl Pencil {
         if let Some(bad) = diagonal.iter().find(|d| **d <= 0.0) {
             return Err(indefinite(*bad));
         }
-        let params = CholeskySymbolicParams {
-            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-            ..Default::default()
-        };
-        let symbolic = factorize_symbolic_cholesky(
-            unscaled.pattern.as_ref(),
-            Side::Lower,
-            SymmetricOrdering::Amd,
-            params,
-        )
-        .map_err(|_| too_large(n))?;
+        let symbolic = analyse(unscaled.pattern.as_ref()).ok_or_else(|| too_large(n))?;
         let order = symbolic.perm().map_or(given, |p| p.arrays().0.to_vec());
         let scale: Vec<f64> = order.iter().map(|i| (-0.5 * diagonal[*i].log2()).round().exp2()).collect();
         let lower = Lower::new(stiffness, mass, &order, &scale)?;

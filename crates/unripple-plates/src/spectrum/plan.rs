@@ -3,8 +3,8 @@
 use super::SpectrumError;
 use super::factor::Factor;
 use super::pencil::Pencil;
-use faer::Par;
 use rayon::prelude::*;
+use unripple_linalg::Par;
 
 /// Eigenpairs that a shift is asked for, about. Doubled, there are half as many factorisations, and bases of
 /// about twice the vectors, each of which is made orthogonal to all before.

@@ -97,7 +97,7 @@ fn the_mass_of_discs_across_triangles_is_exact() {
 }
 
 /// The form of u = 1, its vertices' first unknowns being u, on a mesh without held rims.
-fn whole(form: &faer::sparse::SparseColMat<usize, f64>) -> f64 {
+fn whole(form: &unripple_linalg::sparse::SparseColMat<usize, f64>) -> f64 {
     let vertices = 61;
     let is_value = |u: usize| u < 6 * vertices && u.is_multiple_of(6);
     form.triplet_iter().filter(|t| is_value(t.row) && is_value(t.col)).map(|t| t.val).sum()

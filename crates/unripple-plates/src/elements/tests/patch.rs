@@ -55,7 +55,7 @@ fn value(space: &Space, unknowns: &[f64], p: Point) -> [f64; 6] {
 }
 
 /// uᵀ F u.
-pub(super) fn energy(form: &faer::sparse::SparseColMat<usize, f64>, u: &[f64]) -> f64 {
+pub(super) fn energy(form: &unripple_linalg::sparse::SparseColMat<usize, f64>, u: &[f64]) -> f64 {
     form.triplet_iter().map(|t| u[t.row] * u[t.col] * t.val).sum()
 }
 

@@ -3,10 +3,10 @@
 use super::meshes;
 use super::solve::{fabric, modes};
 use crate::elements::{MeshShapes, Space};
-use faer::Mat;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 use unripple_core::{Edge, Point, Shapes};
+use unripple_linalg::Mat;
 
 #[test]
 fn shapes_of_a_supported_square_are_sines() {

@@ -3,8 +3,8 @@
 use crate::elements::{Forms, Space};
 use crate::fabric::Fabric;
 use crate::modes::eigen::{Method, symmetric};
-use faer::{Mat, Side};
 use unripple_core::*;
+use unripple_linalg::{Cholesky, Mat, Scale, solve_lower, solve_upper_alone};
 
 /// A sheet of unit mass per area with a bending stiffness and a tension on a square outline of some size.
 pub(super) fn surface(size: f64, bending: f64, tension: f64, poisson: f64) -> Surface {
@@ -40,15 +40,15 @@ pub(super) fn fabric(bending: f64, tension: f64, poisson: f64) -> Fabric {
 pub(super) fn modes(forms: &Forms, shift: f64) -> (Vec<f64>, Mat<f64>) {
     let mass = forms.mass.to_dense();
     let n = mass.nrows();
-    let stiff = forms.stiffness.to_dense() + faer::Scale(shift) * &mass;
-    let factor = stiff.llt(Side::Lower).unwrap();
-    let lower = factor.L();
+    let stiff = forms.stiffness.to_dense() + Scale(shift) * &mass;
+    let factor = Cholesky::new(stiff.as_ref()).unwrap();
+    let lower = factor.lower();
     let mut left = mass.clone();
-    lower.solve_lower_triangular_in_place(&mut left);
+    solve_lower(lower, left.as_mut());
     let mut both = left.transpose().to_owned();
-    lower.solve_lower_triangular_in_place(&mut both);
+    solve_lower(lower, both.as_mut());
     let (values, mut vectors) = symmetric(both.as_ref(), Method::Fast).unwrap();
-    lower.transpose().solve_upper_triangular_in_place(&mut vectors);
+    solve_upper_alone(lower.transpose(), vectors.as_mut());
     let squares: Vec<f64> = values.iter().rev().map(|v| 1.0 / v - shift).collect();
     let shapes = Mat::from_fn(n, n, |i, m| vectors[(i, n - 1 - m)] / values[n - 1 - m].sqrt());
     (squares, shapes)

@@ -9,9 +9,9 @@ use crate::elements::{MeshShapes, Space};
 use crate::fabric::Fabric;
 use crate::mesh::Mesh;
 use crate::spectrum::{self, Pairs};
-use faer::{ColRef, Mat};
 use sizing::Plan;
 use unripple_core::Surface;
+use unripple_linalg::{ColRef, Mat, sparse_times};
 
 /// How often the mesh may be refined: each time by 1.25 to 2, so that the last is up to 32 times finer than
 /// the first. More would change nothing but how late an accuracy out of reach is given up.
@@ -78,7 +78,7 @@ fn modes(surface: &Surface, fabric: &Fabric, bounds: &Bounds, plan: &Plan) -> Re
         return Err(PhysicsError::Solver { max_hz: bounds.max_hz, found });
     }
     let pairs = settled(pairs, bounds);
-    let bent = &forms.bending * &pairs.vectors;
+    let bent = sparse_times(forms.bending.as_ref(), pairs.vectors.as_ref());
     let share = |m: usize| {
         let energy: f64 = bent.col(m).iter().zip(pairs.vectors.col(m).iter()).map(|(b, x)| b * x).sum();
         let square = pairs.values[m];

@@ -7,10 +7,10 @@ use super::product::{Product, Symmetry};
 use super::ritz::{BlockModes, solve_block};
 use super::{GIB, MEMORY};
 use crate::PhysicsError;
-use faer::{Mat, Par};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use unripple_core::Edge;
+use unripple_linalg::{Mat, Par};
 
 /// How often the polynomials may be added to, each time by at most 1.6 times. More would change nothing but
 /// how late an accuracy out of reach is given up.

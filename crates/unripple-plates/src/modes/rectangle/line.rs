@@ -2,9 +2,9 @@
 
 use super::super::legendre::gauss;
 use super::polynomials::Polynomials;
-use faer::Mat;
 use std::f64::consts::FRAC_PI_2;
 use unripple_core::Edge;
+use unripple_linalg::Mat;
 
 /// One direction of a rectangle, on ξ in [-1, 1]: orthonormal functions and the integrals that energies are made of.
 #[derive(Clone, Debug)]

@@ -13,10 +13,10 @@ mod separable;
 
 use super::{Found, GIB, MEMORY};
 use crate::{Medium, PhysicsError};
-use faer::Mat;
 use readout::Readout;
 use separable::{Separable, Wave};
 use unripple_core::{Point, Shapes};
+use unripple_linalg::Mat;
 
 pub(super) use problem::Problem;
 

@@ -1,7 +1,7 @@
 //! Modes in order of frequency, with one convention of sign.
 
 use super::ritz::BlockModes;
-use faer::ColRef;
+use unripple_linalg::ColRef;
 
 /// Frequencies closer than this, relatively in ω², are taken for one: above rounding, below any splitting
 /// that an accuracy can show. Doubled, pairs twice as far apart would be ordered by symmetry instead of

@@ -2,7 +2,7 @@
 
 use super::line::Line;
 use super::product::{Product, Symmetry};
-use faer::Mat;
+use unripple_linalg::Mat;
 
 /// A rectangle's elastic energy per mass, in products of one function along x and one along y, both on [-1, 1].
 ///

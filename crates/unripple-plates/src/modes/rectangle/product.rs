@@ -1,8 +1,8 @@
 //! Symmetrised products of basis functions along x and y.
 
 use super::line::Class;
-use faer::{ColMut, Mat};
 use std::f64::consts::FRAC_1_SQRT_2;
+use unripple_linalg::{ColMut, Mat};
 
 /// A deflection of norm 1: one function along x times one along y, alone or with its mirror image in the diagonal.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,12 +3,10 @@
 use super::line::Line;
 use super::product::Product;
 use super::ritz::BlockModes;
-use faer::linalg::matmul::matmul;
-use faer::prelude::ReborrowMut;
-use faer::{Accum, Mat, MatMut, Par};
 use pulp::{Arch, NullaryFnOnce};
 use rayon::prelude::*;
 use unripple_core::Point;
+use unripple_linalg::{Accum, Mat, MatMut, Par, multiply};
 
 /// Points whose shapes are taken together, by one thread: more are shared among threads. Doubled, there are
 /// half as many tasks.
@@ -115,9 +113,10 @@ impl Readout {
                 product.fill(&functions, column);
             }
             let mut shapes = Mat::zeros(points.len(), block.ranks.len());
-            matmul(shapes.as_mut(), Accum::Replace, &deflections, &block.coefficients, 1.0, Par::Seq);
+            let (deflections, coefficients) = (deflections.as_ref(), block.coefficients.as_ref());
+            multiply(shapes.as_mut(), Accum::Replace, deflections, coefficients, 1.0, Par::Seq);
             for (column, rank) in block.ranks.iter().enumerate() {
-                weights.rb_mut().col_mut(*rank).copy_from(shapes.col(column));
+                weights.as_mut().col_mut(*rank).copy_from(shapes.col(column));
             }
         }
     }

@@ -4,10 +4,7 @@ use super::super::eigen::{Method, orthonormalised, product, symmetric};
 use super::line::Class;
 use super::plate::Plate;
 use super::product::{Product, Symmetry};
-use faer::linalg::matmul::matmul;
-use faer::linalg::solvers::{DenseSolveCore, Llt};
-use faer::{Accum, Mat, Par, Side};
-use unripple_linalg::solve_cholesky;
+use unripple_linalg::{Accum, Cholesky, Mat, Par, multiply};
 
 /// How far above the top's ω², relatively, modes are still computed, so that what is left out keeps clear of
 /// it. Halved, energies that are left out come nearer, and each sweep takes less of them away.
@@ -101,7 +98,7 @@ fn lowest(energy: &Mat<f64>, top: f64, par: Par) -> Option<(Vec<f64>, Mat<f64>)>
     let n = energy.nrows();
     let mut shifted = energy.clone();
     (0..n).for_each(|i| shifted[(i, i)] += top);
-    let inverse = -Llt::new(shifted.as_ref(), Side::Lower).ok()?.inverse();
+    let inverse = -Cholesky::new(shifted.as_ref())?.inverse();
     let (values, vectors) = symmetric(inverse.as_ref(), Method::Fast)?;
     let kept = values.partition_point(|v| -1.0 / v - top <= top * (1.0 + ABOVE));
     let mut vectors = vectors.subcols(0, kept).to_owned();
@@ -139,15 +136,16 @@ fn missing(
     let both = [products, further].concat();
     let mut lifted = plate.lower_stiffness(&both, top);
     let inner = lifted.as_mut().submatrix_mut(0, 0, n, n);
-    matmul(inner, Accum::Add, coefficients, coefficients.transpose(), 2.0 * top, par);
-    let Ok(factor) = Llt::new(lifted.as_ref(), Side::Lower) else {
+    multiply(inner, Accum::Add, coefficients.as_ref(), coefficients.transpose(), 2.0 * top, par);
+    let Some(factor) = Cholesky::new(lifted.as_ref()) else {
         return f64::INFINITY;
     };
     let mut force = Mat::zeros(all, squares.len());
     let rest = force.as_mut().subrows_mut(n, further.len());
-    matmul(rest, Accum::Replace, plate.stiffness(further, products), coefficients, 1.0, par);
+    let between = plate.stiffness(further, products);
+    multiply(rest, Accum::Replace, between.as_ref(), coefficients.as_ref(), 1.0, par);
     let mut response = force.clone();
-    solve_cholesky(&factor, response.as_mut());
+    factor.solve(response.as_mut());
     let inside = squares.partition_point(|square| *square <= top);
     (0..inside)
         .map(|m| {

@@ -4,10 +4,10 @@ use super::line::sines;
 use super::problem::Problem;
 use super::{GIB, MEMORY};
 use crate::PhysicsError;
-use faer::Mat;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 use unripple_core::{Edge, Point};
+use unripple_linalg::Mat;
 
 /// Bytes that a mode takes while they are sought and kept, about: by it more modes are refused than memory is
 /// allowed for.

@@ -2,18 +2,16 @@
 
 use super::*;
 use crate::modes::eigen::{Method, symmetric};
-use faer::linalg::solvers::Llt;
-use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
-use faer::{Par, Side};
 use proptest::prelude::*;
+use unripple_linalg::{Cholesky, solve_lower_alone};
 
 /// λ of all eigenpairs, ascending, by M = LLᵀ and L⁻¹KL⁻ᵀ.
 fn dense(stiffness: &Sparse, mass: &Sparse) -> Vec<f64> {
     let (mut ratio, mass) = (stiffness.to_dense(), mass.to_dense());
-    let factor = Llt::new(mass.as_ref(), Side::Lower).expect("positive definite");
-    solve_lower_triangular_in_place(factor.L(), ratio.as_mut(), Par::Seq);
+    let factor = Cholesky::new(mass.as_ref()).expect("positive definite");
+    solve_lower_alone(factor.lower(), ratio.as_mut());
     let mut turned = ratio.transpose().to_owned();
-    solve_lower_triangular_in_place(factor.L(), turned.as_mut(), Par::Seq);
+    solve_lower_alone(factor.lower(), turned.as_mut());
     symmetric(turned.as_ref(), Method::Exact).expect("eigenvalues").0
 }
 
