@@ -1,7 +1,6 @@
 //! Impulse responses of a surface, by modal superposition (poles and residues).
 
 use crate::{Footprint, Load, Loaded, Medium, Modes, PhysicsError, Transducer, transducers};
-use faer::{Mat, MatRef};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -10,6 +9,7 @@ use unripple_core::{
     require,
 };
 use unripple_dsp::ModalSynth;
+use unripple_linalg::{Mat, MatRef};
 use unripple_plates::decay_rate;
 
 /// Points of a library worked on at once, by one thread. Doubled, there are half as many tasks to share among

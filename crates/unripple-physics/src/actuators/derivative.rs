@@ -1,8 +1,7 @@
 //! The derivative of a signal that is limited to a band and cut at its ends.
 
-use faer::{Mat, Side};
 use unripple_dsp::kaiser;
-use unripple_linalg::{solve_cholesky, solve_lu};
+use unripple_linalg::{Cholesky, Lu, Mat};
 
 /// Samples on either side that a derivative is made from; with [`BETA`] it is right to 1e-4 up to 0.42 of the
 /// rate. Doubled, that is so up to about 0.46, and twice as many samples at each end are made by other taps.
@@ -80,9 +79,9 @@ fn taps(before: usize, after: usize, top: f64) -> Vec<f64> {
         even(place(j) - place(k)) + if j == k { OUTSIDE * top } else { 0.0 }
     });
     let mut found = Mat::from_fn(count, 1, |j, _| odd(place(j)));
-    match matrix.llt(Side::Lower) {
-        Ok(factor) => solve_cholesky(&factor, found.as_mut()),
-        Err(_) => solve_lu(&matrix.partial_piv_lu(), found.as_mut()),
+    match Cholesky::new(matrix.as_ref()) {
+        Some(factor) => factor.solve(found.as_mut()),
+        None => Lu::new(matrix.as_ref()).solve(found.as_mut()),
     }
     found.col(0).iter().copied().collect()
 }

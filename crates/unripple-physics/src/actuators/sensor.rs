@@ -3,8 +3,8 @@
 use super::derivative::Derivative;
 use super::{Entry, Transducer};
 use crate::{Circuit, Footprint};
-use faer::{Mat, c64};
 use unripple_core::{ActuatorKind, ModalResponses, Surface};
+use unripple_linalg::{Mat, c64};
 
 /// An actuator in its sensing role: what the motion of the sheet, and it alone, makes at the terminals.
 ///

@@ -2,8 +2,7 @@
 
 use super::Loaded;
 use crate::Footprint;
-use faer::{Mat, c64};
-use unripple_linalg::solve_lu;
+use unripple_linalg::{Lu, Mat, c64};
 
 impl Loaded {
     /// Velocity felt by a footprint per unit of a transducer's drive at the complex frequency `s` (1/s), all loads on; jω for
@@ -39,7 +38,7 @@ impl Loaded {
             impedances[j] * dot(j, &answers[k]) + if j == k { 1.0 } else { 0.0 }
         });
         let mut forces = Mat::from_fn(count, 1, |j, _| impedances[j] * dot(j, &moved));
-        solve_lu(&system.partial_piv_lu(), forces.as_mut());
+        Lu::new(system.as_ref()).solve(forces.as_mut());
         let back = |k: usize| -> c64 { read.iter().zip(&answers[k]).map(|(r, v)| v * *r).sum() };
         direct - (0..count).map(|k| back(k) * forces[(k, 0)]).sum::<c64>()
     }

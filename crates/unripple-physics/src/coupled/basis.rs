@@ -1,8 +1,8 @@
 //! Modes grouped by frequency into those that couple to loads and those that do not.
 
 use super::span::Span;
-use faer::MatRef;
 use unripple_core::Pole;
+use unripple_linalg::MatRef;
 
 /// Modes whose frequencies and decay rates differ by less than this share are one oscillation in several
 /// shapes: some hundred roundings. Larger, modes that are split would be taken for one.
@@ -23,7 +23,7 @@ pub(super) struct Shape {
 
 impl Shape {
     /// Its weight, from those of the modes.
-    pub fn weight(&self, row: faer::RowRef<'_, f64>) -> f64 {
+    pub fn weight(&self, row: unripple_linalg::RowRef<'_, f64>) -> f64 {
         self.parts.iter().map(|(mode, part)| part * row[*mode]).sum()
     }
 }
@@ -74,7 +74,7 @@ fn same(a: Pole, b: Pole) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use faer::mat;
+    use unripple_linalg::mat;
 
     #[test]
     fn one_load_is_felt_by_one_of_each_frequency() {

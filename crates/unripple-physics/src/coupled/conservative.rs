@@ -2,8 +2,7 @@
 
 use super::active::Active;
 use crate::{Load, PhysicsError};
-use faer::Mat;
-use unripple_linalg::singular;
+use unripple_linalg::{Mat, singular, times};
 
 /// Rigid motion is given a restoring force at this share of the highest frequency, so that displacement is
 /// known from the state: far below anything that is heard or felt. Doubled, it swings at twice that
@@ -33,15 +32,19 @@ impl Conservative {
         let failed = || PhysicsError::NotConverged { max_hz, expected: 1e-12, found: f64::INFINITY };
         let unweighted = lightened(active, loads).ok_or_else(failed)?;
         let springs = weighted(&active.felt, loads, |load| load.stiffness);
-        let stiffness = &unweighted * (&active.stiffness + springs) * &unweighted;
+        let whole = &active.stiffness + springs;
+        let half = times(unweighted.as_ref(), whole.as_ref());
+        let stiffness = times(half.as_ref(), unweighted.as_ref());
         let (squares, vectors) = unripple_linalg::exact_symmetric(stiffness.as_ref()).ok_or_else(failed)?;
         let top = squares.last().map_or(0.0, |square| square.max(0.0).sqrt());
-        let shapes = unweighted * vectors;
+        let shapes = times(unweighted.as_ref(), vectors.as_ref());
         let dampers = weighted(&active.felt, loads, |load| load.damping + load.direct_coil_damping());
-        let damping = shapes.transpose() * (&active.damping + dampers) * &shapes;
+        let whole = &active.damping + dampers;
+        let half = times(shapes.transpose(), whole.as_ref());
+        let damping = times(half.as_ref(), shapes.as_ref());
         Ok(Self {
             omegas: squares.iter().map(|square| square.max(0.0).sqrt().max(RIGID * top)).collect(),
-            felt: &active.felt * &shapes,
+            felt: times(active.felt.as_ref(), shapes.as_ref()),
             shapes,
             damping,
         })
@@ -62,12 +65,12 @@ fn lightened(active: &Active, loads: &[Load]) -> Option<Mat<f64>> {
     let factors: Vec<f64> = svd.values.iter().map(|s| 1.0 / (1.0 + s * s).sqrt() - 1.0).collect();
     let directions = &svd.left;
     let scaled = Mat::from_fn(count, factors.len(), |i, j| directions[(i, j)] * factors[j]);
-    root += &scaled * directions.transpose();
+    root += times(scaled.as_ref(), directions.transpose());
     Some(root)
 }
 
 /// Σ value·w wᵀ over the loads.
 fn weighted(felt: &Mat<f64>, loads: &[Load], value: impl Fn(&Load) -> f64) -> Mat<f64> {
     let scaled = Mat::from_fn(felt.nrows(), felt.ncols(), |j, i| felt[(j, i)] * value(&loads[j]));
-    felt.transpose() * scaled
+    times(felt.transpose(), scaled.as_ref())
 }

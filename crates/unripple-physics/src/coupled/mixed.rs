@@ -1,8 +1,8 @@
 //! Mode shapes as linear combinations of others.
 
-use faer::Mat;
 use std::sync::Arc;
 use unripple_core::{Point, Shapes};
+use unripple_linalg::{Mat, times};
 
 /// Shapes that are combinations of others.
 #[derive(Debug)]
@@ -30,7 +30,7 @@ impl Shapes for Mixed {
     }
 
     fn at_all(&self, points: &[Point]) -> Mat<f64> {
-        let mixed = self.base.at_all(points) * &self.mixing;
+        let mixed = times(self.base.at_all(points).as_ref(), self.mixing.as_ref());
         Mat::from_fn(points.len(), self.columns.len(), |p, m| mixed[(p, self.columns[m])])
     }
 }

@@ -25,11 +25,11 @@ mod state;
 pub use oscillations::Oscillations;
 
 use crate::{Entry, Footprint, Load, Medium, PhysicsError, Transducer};
-use faer::Mat;
 use remainder::Remainder;
 use rest::WithRest;
 use std::sync::Arc;
 use unripple_core::{Onset, Pole, Shapes};
+use unripple_linalg::Mat;
 
 /// A sheet's modes with its actuators and with what hangs on it.
 #[derive(Clone, Debug)]

@@ -7,10 +7,10 @@ use super::conservative::Conservative;
 use super::mixed::Mixed;
 use super::state::{Drives, Root, proportional, roots};
 use crate::PhysicsError;
-use faer::{Mat, c64};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use unripple_core::{Pole, Shapes};
+use unripple_linalg::{Mat, c64, times};
 
 /// A part of an oscillation that is less than this share of it has vanished: rounding. Larger, weak parts
 /// that are heard at a node of the others would be lost.
@@ -79,14 +79,14 @@ impl Loaded {
                 }
             }
         }
-        let basis = &active.map * &modes.shapes;
+        let basis = times(active.map.as_ref(), modes.shapes.as_ref());
         Ok(parts.whole(self, kept, &basis))
     }
 
     /// Where each transducer's drive enters: as a force on the modes, or as the voltage on its coil.
     fn drives(&self, active: &Active, modes: &Conservative) -> Drives {
-        let basis = &active.map * &modes.shapes;
-        let mut forces = &self.driven * &basis;
+        let basis = times(active.map.as_ref(), modes.shapes.as_ref());
+        let mut forces = times(self.driven.as_ref(), basis.as_ref());
         let coils: Vec<Option<usize>> = (0..self.transducers.len()).map(|t| self.driven_coil(t)).collect();
         for (drive, load) in coils.iter().enumerate() {
             let Some(load) = *load else { continue };

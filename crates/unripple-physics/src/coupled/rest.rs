@@ -2,10 +2,9 @@
 
 use super::remainder::{Profile, Remainder};
 use crate::{Footprint, Load, Medium};
-use faer::Mat;
 use std::sync::Arc;
 use unripple_core::{Point, Pole, Shapes};
-use unripple_linalg::symmetric;
+use unripple_linalg::{Mat, symmetric, times};
 
 /// A combination whose inertia is less than this share of the largest is one that others make too. Larger,
 /// contacts that lie close to each other would be taken for one.
@@ -113,7 +112,11 @@ fn pencil(stiffness: &Mat<f64>, mass: &Mat<f64>) -> Option<(Vec<f64>, Mat<f64>)>
     let kept: Vec<usize> = (0..values.len()).filter(|i| values[*i] > ALIKE * most).collect();
     let normal =
         Mat::from_fn(mass.nrows(), kept.len(), |j, i| vectors[(j, kept[i])] / values[kept[i]].sqrt());
-    let reduced = normal.transpose() * stiffness * &normal;
+    let half = times(normal.transpose(), stiffness.as_ref());
+    let reduced = times(half.as_ref(), normal.as_ref());
     let (squares, modes) = symmetric(reduced.as_ref())?;
-    squares.iter().all(|square| *square > 0.0 && square.is_finite()).then(|| (squares, normal * modes))
+    squares
+        .iter()
+        .all(|square| *square > 0.0 && square.is_finite())
+        .then(|| (squares, times(normal.as_ref(), modes.as_ref())))
 }

@@ -3,9 +3,7 @@
 use super::conservative::Conservative;
 use crate::loads::Circuit;
 use crate::{Load, PhysicsError};
-use faer::linalg::solvers::DenseSolveCore;
-use faer::{Mat, MatRef, c64};
-use unripple_linalg::{General, general};
+use unripple_linalg::{General, Lu, Mat, MatRef, c64, general};
 
 /// Damping off the diagonal that is less than this share of the largest on it does not couple: some hundred
 /// roundings. Larger, weakly coupled modes would be taken for normal modes.
@@ -61,7 +59,7 @@ pub(super) fn roots(
         loads.iter().enumerate().filter_map(|(j, load)| Some((j, load.inductive_coil()?))).collect();
     let matrix = matrix(modes, &coils);
     let General { values, vectors: right } = general(matrix.as_ref()).ok_or_else(failed)?;
-    let left = right.partial_piv_lu().inverse();
+    let left = Lu::new(right.as_ref()).inverse();
     let root = |k: usize| Root {
         s: values[k],
         shape: displacement(modes, right.as_ref(), k, values[k]),

@@ -97,10 +97,10 @@ impl Footprint {
     }
 
     /// What several footprints feel of every mode, footprints x modes, the shapes read once.
-    pub fn all_weights(footprints: &[Self], shapes: &dyn Shapes) -> faer::Mat<f64> {
+    pub fn all_weights(footprints: &[Self], shapes: &dyn Shapes) -> unripple_linalg::Mat<f64> {
         let places: Vec<Point> = footprints.iter().flat_map(|f| f.points.iter().map(|(p, _)| *p)).collect();
         let values = shapes.at_all(&places);
-        let mut weights = faer::Mat::zeros(footprints.len(), shapes.modes());
+        let mut weights = unripple_linalg::Mat::zeros(footprints.len(), shapes.modes());
         let mut first = 0;
         for (row, footprint) in footprints.iter().enumerate() {
             for m in 0..shapes.modes() {

@@ -5,8 +5,8 @@ mod footprint;
 pub use footprint::Footprint;
 
 use crate::PhysicsError;
-use faer::c64;
 use unripple_core::{Contact, Outline, require};
+use unripple_linalg::c64;
 
 /// From this R/L on, in 1/s, a coil's current follows its voltage at once; at 3 kHz that is an error of 2e-5
 /// of its share. Doubled, the error is half as large.

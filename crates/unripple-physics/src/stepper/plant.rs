@@ -1,10 +1,10 @@
 //! The sheet as the time-stepper knows it: oscillations, shapes, rim.
 
 use crate::{Entry, Footprint, Load, Loaded, Medium, Modes, PhysicsError, Transducer, transducers};
-use faer::Mat;
 use std::f64::consts::PI;
 use std::sync::Arc;
 use unripple_core::{ModalResponses, Onset, Outline, Point, Pole, Shapes, Surface, require};
+use unripple_linalg::Mat;
 use unripple_plates::decay_rate;
 
 /// What is added to modes may oscillate at this share of half the rate: faster, samples would show it as

@@ -3,9 +3,8 @@
 //! L di/dt + R i = V - bl·v and F = bl·i - m dv/dt at each coil, v = Y F with the modal sum Y: nothing of the stepper is in here.
 
 use crate::stepper_common;
+use unripple_linalg::{Lu, Mat, c64};
 
-use faer::linalg::solvers::Solve;
-use faer::{Mat, c64};
 use std::f64::consts::{PI, TAU};
 use stepper_common::*;
 use unripple_core::*;
@@ -73,7 +72,8 @@ fn exact(inductance: f64, mass: f64, hz: f64) -> [c64; 3] {
     let push = current(0) * circuits[0].force_constant;
     let system = Mat::from_fn(2, 2, |i, j| between(i, j) * hung(j) + if i == j { 1.0 } else { 0.0 });
     let right = Mat::from_fn(2, 1, |i, _| between(i, 0) * push);
-    let moved = system.partial_piv_lu().solve(&right);
+    let mut moved = right.clone();
+    Lu::new(system.as_ref()).solve(moved.as_mut());
     let probe = between(2, 0) * push - (0..2).map(|j| between(2, j) * hung(j) * moved[(j, 0)]).sum::<c64>();
     let sensed = [0, 1].map(|c| current(c) * circuits[c].force_constant * moved[(c, 0)]);
     let mut impulse = [0.0; 2];

@@ -2,9 +2,9 @@
 
 use crate::coupled_common;
 use crate::modes_common;
+use unripple_linalg::c64;
 
 use coupled_common::*;
-use faer::c64;
 use modes_common::*;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;

@@ -2,9 +2,9 @@
 
 use crate::coupled_common;
 use crate::modes_common;
+use unripple_linalg::c64;
 
 use coupled_common::*;
-use faer::c64;
 use modes_common::*;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
@@ -76,7 +76,7 @@ fn loaded(decay: Decay, sources: &[Point], loads: &[Load]) -> Loaded {
 }
 
 /// All oscillations, and what they read at points.
-fn whole(loaded: &Loaded, at: &[Point]) -> (Oscillations, faer::Mat<f64>) {
+fn whole(loaded: &Loaded, at: &[Point]) -> (Oscillations, unripple_linalg::Mat<f64>) {
     let found = loaded.oscillations(1e9, [0.0, 1e9]).unwrap();
     let read = found.shapes.at_all(at);
     (found, read)

@@ -1,9 +1,9 @@
 //! Loaded surfaces that tests share.
 #![allow(dead_code)]
 
-use faer::c64;
 use std::sync::Arc;
 use unripple_core::*;
+use unripple_linalg::c64;
 use unripple_physics::*;
 
 /// Transfer of an oscillation at the complex frequency s: velocity per impulse of drive, as the derivative of displacement.
@@ -18,7 +18,7 @@ pub fn transfer(pole: &Pole, s: c64) -> c64 {
 /// Transfer of modal responses from an actuator to what a footprint feels.
 pub fn modal_transfer(
     poles: &[Pole],
-    input: faer::MatRef<f64>,
+    input: unripple_linalg::MatRef<f64>,
     actuator: usize,
     read: &[f64],
     s: c64,

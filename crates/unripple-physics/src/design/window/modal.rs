@@ -1,9 +1,8 @@
 //! Contrast of time reversal against its window in closed form, from modal responses.
 
 use super::places::{grid, targets};
-use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatRef, Par, c64};
 use unripple_core::{ModalResponses, Onset, Point, Pole};
+use unripple_linalg::{Accum, Mat, MatRef, Par, c64, multiply};
 
 /// A surface laid out for the contrast of time reversal at many windows.
 ///
@@ -152,7 +151,7 @@ fn terms(mode: usize, pole: Pole) -> Vec<Term> {
 /// The matrix product on one core, which sums in one order: the same surface has the same window to the last bit.
 fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     let mut sum = Mat::zeros(a.nrows(), b.ncols());
-    matmul(sum.as_mut(), Accum::Replace, a, b, 1.0, Par::Seq);
+    multiply(sum.as_mut(), Accum::Replace, a, b, 1.0, Par::Seq);
     sum
 }
 
