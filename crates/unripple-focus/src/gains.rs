@@ -2,9 +2,8 @@
 
 use crate::FocusError;
 use crate::recording::Recording;
-use faer::{Mat, Side};
 use unripple_core::{OutOfRange, require};
-use unripple_linalg::solve_cholesky;
+use unripple_linalg::{Cholesky, Mat};
 
 /// Gains of reversed responses that bring every focus to its own level, whatever they do to each other.
 ///
@@ -41,10 +40,10 @@ pub(crate) fn gains(
     (0..count).for_each(|k| gram[(k, k)] += ridge * mean);
     let mut found = Mat::from_fn(count, 1, |k, _| levels[k] * rate);
     let unreachable = || "foci far enough apart for their levels to differ, or a larger ridge".to_owned();
-    let Ok(factors) = gram.llt(Side::Lower) else {
+    let Some(factors) = Cholesky::new(gram.as_ref()) else {
         return Err(FocusError::Range(OutOfRange::new("ridge", unreachable(), ridge)));
     };
-    solve_cholesky(&factors, found.as_mut());
+    factors.solve(found.as_mut());
     let gains: Vec<f64> = (0..count).map(|k| found[(k, 0)]).collect();
     require("ridge", gains.iter().all(|c| c.is_finite()), unreachable(), ridge)?;
     Ok(gains)

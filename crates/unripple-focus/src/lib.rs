@@ -10,7 +10,7 @@
 //! whole waveforms, [`strike`] gives many pulses their levels, and a [`Stroke`] is the pulses of a focus that moves.
 //!
 //! ```
-//! use faer::Mat;
+//! use unripple_linalg::Mat;
 //! use std::sync::Arc;
 //! use unripple_core::{Conditions, ModalResponses, Outline, Point, Pole, Port, Responses, Shape, Shapes};
 //! use unripple_focus::{Options, Target, focus};

@@ -3,9 +3,7 @@
 use crate::FocusError;
 use crate::objective::{Levels, read};
 use crate::state::State;
-use faer::linalg::solvers::PartialPivLu;
-use faer::{Mat, MatRef};
-use unripple_linalg::{product, solve_lu};
+use unripple_linalg::{Lu, Mat, MatRef, Scale, product, times};
 
 /// Most steps of Newton's method. Doubled, a problem that does not converge takes twice as long to fail.
 const STEPS: usize = 80;
@@ -101,7 +99,7 @@ impl Limits {
                 break;
             }
             program.wanted = levels.wanted.iter().map(|wanted| wanted * level).collect();
-            match program.solve(free * faer::Scale(level)) {
+            match program.solve(free * Scale(level)) {
                 Err(FocusError::Gap { .. }) if levels.wanted.len() > 1 => rise *= 0.5,
                 found => return Ok((found?, true)),
             }
@@ -126,12 +124,12 @@ impl Limits {
     /// The level that one-bit drives reach, all targets together: the smallest multiple of the levels wanted.
     fn highest(&self, map: &Mat<f64>, levels: &Levels) -> f64 {
         let wanted = Mat::from_fn(levels.wanted.len(), 1, |k, _| levels.wanted[k]);
-        let together = map.transpose() * product(levels.readout.as_ref(), wanted.as_ref());
+        let together = times(map.transpose(), product(levels.readout.as_ref(), wanted.as_ref()).as_ref());
         let hard: Vec<f64> = together.col_as_slice(0).iter().map(|d| self.peak * d.signum()).collect();
         let fit = self.scale(&hard).min(1.0);
         let reached = read(
             levels.readout.as_ref(),
-            (map * MatRef::from_column_major_slice(&hard, hard.len(), 1)).as_ref(),
+            times(map.as_ref(), MatRef::from_column_major_slice(&hard, hard.len(), 1)).as_ref(),
         );
         let ratios = reached.iter().zip(&levels.wanted).filter(|(_, wanted)| **wanted != 0.0);
         fit * ratios.map(|(reached, wanted)| reached / wanted).fold(f64::INFINITY, f64::min)
@@ -176,10 +174,10 @@ impl Program<'_> {
     /// The best drive, by damped Newton steps from the state that is best without limits.
     fn solve(&self, free: Mat<f64>) -> Result<Vec<f64>, FocusError> {
         // Without limits `ε d = Wᵀ(P μ - B η)` at η = W d.
-        let force = &free * faer::Scale(self.energy) + product(self.matrix.as_ref(), free.as_ref());
-        let gram = self.levels.readout.transpose() * &self.levels.readout;
+        let force = &free * Scale(self.energy) + product(self.matrix.as_ref(), free.as_ref());
+        let gram = times(self.levels.readout.transpose(), self.levels.readout.as_ref());
         let mut mu = product(self.levels.readout.transpose(), force.as_ref());
-        solve_lu(&PartialPivLu::new(gram.as_ref()), mu.as_mut());
+        Lu::new(gram.as_ref()).solve(mu.as_mut());
         let mut dual = free.col_as_slice(0).to_vec();
         dual.extend_from_slice(mu.col_as_slice(0));
         let mut trial = self.at(dual);
@@ -215,7 +213,7 @@ impl Program<'_> {
         let eta = MatRef::from_column_major_slice(eta, rank, 1);
         let omega = product(self.matrix.as_ref(), eta);
         let push = product(self.levels.readout.as_ref(), mu) - &omega;
-        let forced = self.map.transpose() * &push;
+        let forced = times(self.map.transpose(), push.as_ref());
         let mut drive = forced.col_as_slice(0).to_vec();
         let mut slopes = vec![0.0; drive.len()];
         let (samples, peak) = (self.limits.samples, self.limits.peak);
@@ -227,9 +225,9 @@ impl Program<'_> {
             }
         }
         let state = product(self.map.as_ref(), MatRef::from_column_major_slice(&drive, drive.len(), 1));
-        let cost = -0.5 * (eta.transpose() * &omega)[(0, 0)];
+        let cost = -0.5 * times(eta.transpose(), omega.as_ref())[(0, 0)];
         let energy: f64 = 0.5 * self.energy * drive.iter().map(|d| d * d).sum::<f64>();
-        let work: f64 = (push.transpose() * &state)[(0, 0)];
+        let work: f64 = times(push.transpose(), state.as_ref())[(0, 0)];
         let levels: f64 = mu.col(0).iter().zip(&self.wanted).map(|(mu, wanted)| mu * wanted).sum();
         let value = cost + energy - work + levels;
         Trial { dual, drive, slopes, state, value }
@@ -241,8 +239,8 @@ impl Program<'_> {
         let missed = read(self.levels.readout.as_ref(), trial.state.as_ref());
         let missed =
             missed.iter().zip(&self.wanted).zip(mu).map(|((got, wanted), mu)| (mu * (got - wanted)).abs());
-        let cost = 0.5
-            * (trial.state.transpose() * product(self.matrix.as_ref(), trial.state.as_ref()))[(0, 0)]
+        let forces = product(self.matrix.as_ref(), trial.state.as_ref());
+        let cost = 0.5 * times(trial.state.transpose(), forces.as_ref())[(0, 0)]
             + 0.5 * self.energy * trial.drive.iter().map(|d| d * d).sum::<f64>();
         ((cost - trial.value).abs() + missed.sum::<f64>()) / cost
     }
@@ -252,8 +250,10 @@ impl Program<'_> {
         let (rank, count) = (self.matrix.nrows(), self.wanted.len());
         let slope = self.slope(trial);
         let readout = &self.levels.readout;
-        let (costs, levels) = (&slope * &self.matrix, product(slope.as_ref(), readout.as_ref()));
-        let (read_costs, read_levels) = (readout.transpose() * &costs, readout.transpose() * &levels);
+        let costs = times(slope.as_ref(), self.matrix.as_ref());
+        let levels = product(slope.as_ref(), readout.as_ref());
+        let read_costs = times(readout.transpose(), costs.as_ref());
+        let read_levels = times(readout.transpose(), levels.as_ref());
         let system = Mat::from_fn(rank + count, rank + count, |i, j| match (i < rank, j < rank) {
             (true, true) => f64::from(i == j) + costs[(i, j)],
             (true, false) => -levels[(i, j - rank)],
@@ -265,7 +265,7 @@ impl Program<'_> {
             true => trial.state[(i, 0)] - trial.dual[i],
             false => self.wanted[i - rank] - got[i - rank],
         });
-        solve_lu(&PartialPivLu::new(system.as_ref()), step.as_mut());
+        Lu::new(system.as_ref()).solve(step.as_mut());
         step.col_as_slice(0).to_vec()
     }
 
@@ -278,6 +278,6 @@ impl Program<'_> {
             let column = weighed.col_as_slice_mut(to);
             column.iter_mut().zip(self.map.col_as_slice(*from)).for_each(|(to, w)| *to = root * w);
         }
-        &weighed * weighed.transpose()
+        times(weighed.as_ref(), weighed.transpose())
     }
 }

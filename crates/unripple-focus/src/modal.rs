@@ -2,10 +2,9 @@
 
 use crate::recording::energy;
 use crate::{FocusError, LossCorrection, Options};
-use faer::traits::ComplexField;
-use faer::{Mat, MatRef};
 use unripple_core::{ModalResponses, Onset, Point, Pole};
 use unripple_dsp::ModalSynth;
+use unripple_linalg::{Mat, MatRef, Number, times};
 
 /// Values of responses that are held at once while their energies are summed, 32 MiB of them. Doubled, twice
 /// the memory; sums differ by rounding.
@@ -97,7 +96,7 @@ impl<'r> ModalRecorder<'r> {
     }
 
     /// Weights of the modes in every response, (points · actuators) x modes.
-    fn weights<T: ComplexField>(&self, readout: MatRef<'_, f64>, convert: impl Fn(f64) -> T) -> Mat<T> {
+    fn weights<T: Number>(&self, readout: MatRef<'_, f64>, convert: impl Fn(f64) -> T) -> Mat<T> {
         let input = &self.responses.input;
         let mut weights = Mat::zeros(readout.nrows() * input.nrows(), input.ncols());
         for m in 0..input.ncols() {
@@ -122,7 +121,7 @@ impl<'r> ModalRecorder<'r> {
                 let t = (first + i) as f64 / rate;
                 if self.lossless { undamped(poles[m], t) } else { poles[m].velocity(t) }
             });
-            let block = weights * ringing;
+            let block = times(weights, ringing.as_ref());
             for (row, samples) in rows.chunks_exact_mut(self.length).enumerate() {
                 samples[first..first + count]
                     .iter_mut()

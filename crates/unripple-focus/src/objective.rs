@@ -2,11 +2,8 @@
 
 use crate::FocusError;
 use crate::state::State;
-use faer::linalg::matmul::triangular::{self, BlockStructure};
-use faer::linalg::solvers::Llt;
-use faer::{Accum, Mat, MatRef, Par, Side};
 use unripple_core::{Conditions, Point};
-use unripple_linalg::{product, solve_cholesky};
+use unripple_linalg::{Cholesky, Mat, MatRef, Scale, add_square, product, squared_norm, times};
 
 /// Share of energy in the objective that always stays, so that a drive of least velocity outside exists.
 /// Larger, the strongest concentration is less strong; smaller, A is singular but for rounding.
@@ -36,7 +33,7 @@ pub(crate) struct Levels {
 pub(crate) struct Objective {
     /// A with nothing left out, rank x rank, and its factor.
     whole: Mat<f64>,
-    factor: Llt<f64>,
+    factor: Cholesky,
     /// `(1 - κ) e`.
     pub(crate) energy: f64,
     /// Readouts of the cells, scaled so that A loses `q qᵀ` for each one that is left out: rank x cells, for every plant.
@@ -62,19 +59,19 @@ impl Objective {
         for plant in 0..state.plants() {
             let (readout, points) = state.cells(plant);
             let share = 1.0 / (points.len() * state.plants()) as f64;
-            let scaled = readout * faer::Scale(share.sqrt());
-            let square = &scaled * scaled.transpose();
+            let scaled = readout * Scale(share.sqrt());
+            let square = times(scaled.as_ref(), scaled.transpose());
             if plant == 0 {
                 let trace = (0..rank).map(|i| square[(i, i)]).sum::<f64>();
-                unit = state.plants() as f64 * square.squared_norm_l2() / trace;
+                unit = state.plants() as f64 * squared_norm(square.as_ref()) / trace;
                 places = points;
             }
-            whole += square * faer::Scale(strength);
-            cells.push(scaled * faer::Scale(strength.sqrt()));
+            whole += square * Scale(strength);
+            cells.push(scaled * Scale(strength.sqrt()));
         }
         let energy = (1.0 - strength).max(LEAST) * unit;
         (0..rank).for_each(|i| whole[(i, i)] += energy);
-        let factor = Llt::new(whole.as_ref(), Side::Lower).map_err(|_| FocusError::Decomposition)?;
+        let factor = Cholesky::new(whole.as_ref()).ok_or(FocusError::Decomposition)?;
         let radius = if all { -1.0 } else { conditions.focal_radius() };
         Ok(Self { whole, factor, energy, cells, points: places, radius })
     }
@@ -90,17 +87,7 @@ impl Objective {
             for (to, from) in inside.iter().enumerate() {
                 left.col_as_slice_mut(to).copy_from_slice(cells.col_as_slice(*from));
             }
-            triangular::matmul(
-                matrix.as_mut(),
-                BlockStructure::TriangularLower,
-                Accum::Add,
-                left.as_ref(),
-                BlockStructure::Rectangular,
-                left.transpose(),
-                BlockStructure::Rectangular,
-                -1.0,
-                Par::Seq,
-            );
+            add_square(matrix.as_mut(), -1.0, left.as_ref());
         }
         matrix
     }
@@ -112,11 +99,11 @@ impl Objective {
     pub fn least(&self, levels: &Levels) -> Result<Mat<f64>, FocusError> {
         let mut solved = levels.readout.clone();
         if self.radius < 0.0 {
-            solve_cholesky(&self.factor, solved.as_mut());
+            self.factor.solve(solved.as_mut());
         } else {
             let matrix = self.around(&levels.points);
-            let factor = Llt::new(matrix.as_ref(), Side::Lower).map_err(|_| FocusError::Decomposition)?;
-            solve_cholesky(&factor, solved.as_mut());
+            let factor = Cholesky::new(matrix.as_ref()).ok_or(FocusError::Decomposition)?;
+            factor.solve(solved.as_mut());
         }
         level(solved, levels)
     }
@@ -127,19 +114,19 @@ impl Objective {
 /// # Errors
 /// [`FocusError::Decomposition`] if no combination meets them.
 fn level(states: Mat<f64>, levels: &Levels) -> Result<Mat<f64>, FocusError> {
-    let mut system = levels.readout.transpose() * &states;
+    let mut system = times(levels.readout.transpose(), states.as_ref());
     let count = system.nrows();
     let mean = (0..count).map(|k| system[(k, k)]).sum::<f64>() / count.max(1) as f64;
     if count > 1 {
         (0..count).for_each(|k| system[(k, k)] += RIDGE * mean);
     }
-    let factor = Llt::new(system.as_ref(), Side::Lower).map_err(|_| FocusError::Decomposition)?;
+    let factor = Cholesky::new(system.as_ref()).ok_or(FocusError::Decomposition)?;
     let mut factors = Mat::from_fn(count, 1, |k, _| levels.wanted[k]);
-    solve_cholesky(&factor, factors.as_mut());
+    factor.solve(factors.as_mut());
     Ok(product(states.as_ref(), factors.as_ref()))
 }
 
 /// Reads a state: `Pᵀ y`, one number per level.
 pub(crate) fn read(readout: MatRef<'_, f64>, y: MatRef<'_, f64>) -> Vec<f64> {
-    (readout.transpose() * y).col_as_slice(0).to_vec()
+    times(readout.transpose(), y).col_as_slice(0).to_vec()
 }

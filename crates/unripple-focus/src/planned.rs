@@ -4,8 +4,8 @@ use crate::limited::Limits;
 use crate::objective::{Levels, Objective};
 use crate::state::{Keeps, ModalPlant, Plant, ReducedPlant, SampledPlant, State};
 use crate::{FocusError, Method, Options, Target};
-use faer::Mat;
 use unripple_core::{Onset, Point, Responses, require};
+use unripple_linalg::{Mat, norm};
 
 /// Accuracy of drives that modes are summed to, relative to the sum of their magnitudes: the drive is made of
 /// small differences. Larger, what concentrates would be summed less well than it was sought.
@@ -92,7 +92,7 @@ impl<'r> Planned<'r> {
         let columns = parts.iter().flat_map(|part| (0..part.ncols()).map(move |k| part.col_as_slice(k)));
         columns.enumerate().for_each(|(k, column)| readout.col_as_slice_mut(k).copy_from_slice(column));
         let points: Vec<Point> = used.iter().flatten().copied().collect();
-        let moved = (0..wanted.len()).map(|k| readout.col(k).norm_l2());
+        let moved = (0..wanted.len()).map(|k| norm(readout.col(k).as_mat()));
         let most = self.state.energies.last().copied().unwrap_or(0.0).sqrt();
         if let Some(k) = moved.into_iter().position(|norm| norm.is_nan() || norm <= 1e-9 * most) {
             let target = targets.iter().scan(0, |end, (index, target)| {

@@ -1,8 +1,8 @@
 //! Quadratic form of what is felt outside the targets, in the drive's coefficients.
 
 use super::lines::Lines;
-use faer::{Accum, Mat, MatRef, Par, linalg::matmul::matmul};
 use realfft::num_complex::Complex;
+use unripple_linalg::{Accum, Mat, MatRef, Par, multiply};
 
 /// Values that are held at once while lines are summed, 32 MiB of them. Doubled, twice the memory and half
 /// the blocks, whose sums differ by rounding.
@@ -48,7 +48,7 @@ impl Actuation<'_> {
                     if i < lines { turned.re } else { turned.im }
                 });
                 let block = form.as_mut().submatrix_mut(a * splines, b * splines, splines, splines);
-                matmul(block, Accum::Replace, parts.transpose(), &turned, 1.0, Par::rayon(0));
+                multiply(block, Accum::Replace, parts.transpose(), turned.as_ref(), 1.0, Par::rayon(0));
             }
         }
         // Exactly symmetric, whatever was rounded.
@@ -75,7 +75,7 @@ impl Actuation<'_> {
                 self.input[(at % ports, m)] * if imaginary == 0 { mode.re } else { mode.im }
             });
             let mut spread = Mat::zeros(modes, motion.ncols());
-            matmul(spread.as_mut(), Accum::Replace, products, &motion, 1.0, Par::rayon(0));
+            multiply(spread.as_mut(), Accum::Replace, products, motion.as_ref(), 1.0, Par::rayon(0));
             let dot = |i: usize, j: usize| dot(motion.col_as_slice(i), spread.col_as_slice(j));
             for at in 0..count {
                 let (line, share) = (first + at, self.lines.share(first + at) / self.lines.rate);
@@ -112,7 +112,7 @@ impl Actuation<'_> {
             weight * if i < lines { value.re } else { value.im }
         });
         let mut motion = Mat::zeros(phases.nrows(), self.splines.len());
-        matmul(motion.as_mut(), Accum::Replace, phases, &turned, 1.0, Par::rayon(0));
+        multiply(motion.as_mut(), Accum::Replace, phases.as_ref(), turned.as_ref(), 1.0, Par::rayon(0));
         motion
     }
 }

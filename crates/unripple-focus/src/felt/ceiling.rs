@@ -1,8 +1,6 @@
 //! A non-negative quadratic programme by an active-set method.
 
-use faer::linalg::solvers::Llt;
-use faer::{Mat, Side};
-use unripple_linalg::solve_cholesky;
+use unripple_linalg::{Cholesky, Mat};
 
 /// Slopes below this share of the largest count as zero: above rounding. Doubled, multipliers stop a little
 /// earlier.
@@ -48,9 +46,9 @@ impl<F: Fn(usize, usize) -> f64> Descent<'_, F> {
         while !self.free.is_empty() {
             let free = &self.free;
             let form = Mat::from_fn(free.len(), free.len(), |i, j| (self.form)(free[i], free[j]));
-            let Ok(factor) = Llt::new(form.as_ref(), Side::Lower) else { return };
+            let Some(factor) = Cholesky::new(form.as_ref()) else { return };
             let mut optimum = Mat::from_fn(free.len(), 1, |i, _| self.slope[free[i]]);
-            solve_cholesky(&factor, optimum.as_mut());
+            factor.solve(optimum.as_mut());
             let low = (0..free.len()).filter(|i| optimum[(*i, 0)] <= 0.0);
             let reach = |i: usize| {
                 let from = self.value[free[i]];

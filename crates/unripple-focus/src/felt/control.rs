@@ -1,8 +1,8 @@
 //! Control points where what is felt outside is bounded.
 
 use super::reduced::Reduced;
-use faer::Mat;
 use unripple_core::{Outline, Point};
+use unripple_linalg::{Mat, Scale, times};
 
 /// Points whose shape weights are computed at once. Doubled, twice the memory for them; results stay the
 /// same.
@@ -79,13 +79,13 @@ impl Control {
         let mut products = Mat::zeros(heard.count(), heard.count());
         for (chunk, some) in points.chunks(AT_ONCE).enumerate() {
             let read = heard.at_all(some);
-            products += read.transpose() * &read;
+            products += times(read.transpose(), read.as_ref());
             let read = watched.at_all(some);
             for p in 0..some.len() {
                 (0..watched.count()).for_each(|m| shapes[(m, chunk * AT_ONCE + p)] = read[(p, m)] as f32);
             }
         }
-        products *= faer::Scale(1.0 / points.len().max(1) as f64);
+        products *= Scale(1.0 / points.len().max(1) as f64);
         (Self { points, shapes, pitch: lattice.pitch, coarse }, products)
     }
 

@@ -11,11 +11,9 @@ use super::watch::Watch;
 use crate::recording::{energy, peak};
 use crate::schedule::MOST_SAMPLES;
 use crate::{FocusError, Focused, Method, Target, Timing, target};
-use faer::linalg::solvers::Llt;
-use faer::{Mat, MatRef, Side};
 use std::f64::consts::{PI, TAU};
 use unripple_core::{Drive, ModalResponses, OutOfRange, Point, Responses, require, window_samples};
-use unripple_linalg::{product, solve_lower};
+use unripple_linalg::{Cholesky, Mat, MatRef, product, solve_lower};
 
 /// Most coefficients of a drive, over all actuators: their form is a square matrix, half a GiB at this size.
 /// Doubled, four times the memory and eight times the time.
@@ -274,15 +272,14 @@ fn factor(
             form[(i, j)] = (1.0 - options.worst) * form[(i, j)] / span + weight * energy;
         }
     }
-    let found = Llt::new(form.as_ref(), Side::Lower);
-    let factor = found.map_err(|_| {
+    let factor = Cholesky::new(form.as_ref()).ok_or_else(|| {
         FocusError::Range(OutOfRange::new(
             "economy",
             "more, so that the drive is determined",
             options.economy,
         ))
     })?;
-    Ok(factor.L().to_owned())
+    Ok(factor.lower().to_owned())
 }
 
 /// What is felt of each mode at the focal instant, per whitened coefficient.

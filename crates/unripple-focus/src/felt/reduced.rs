@@ -1,9 +1,9 @@
 //! A reduced model: low modes one by one, high ones as static flexibility.
 
 use super::lines::Lines;
-use faer::{Accum, Mat, Par, linalg::matmul::matmul};
 use realfft::num_complex::Complex;
 use unripple_core::{ModalResponses, Onset, Point, Pole, Port};
+use unripple_linalg::{Accum, Mat, Par, multiply};
 
 /// The first modes of a surface one by one, and all others as springs: what each actuator bends at once, without delay.
 ///
@@ -46,7 +46,7 @@ impl<'r> Reduced<'r> {
         shapes.as_mut().subcols_mut(0, self.kept).copy_from(all.subcols(0, self.kept));
         let springs = shapes.as_mut().subcols_mut(self.kept, self.yields.ncols());
         let others = all.subcols(self.kept, self.yields.nrows());
-        matmul(springs, Accum::Replace, others, &self.yields, 1.0, Par::Seq);
+        multiply(springs, Accum::Replace, others, self.yields.as_ref(), 1.0, Par::Seq);
         shapes
     }
 

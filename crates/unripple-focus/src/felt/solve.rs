@@ -5,8 +5,7 @@ use super::ceiling::multipliers;
 use super::control::Control;
 use super::watch::{Sample, Watch};
 use crate::FocusError;
-use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
-use faer::{Mat, MatRef, Par};
+use unripple_linalg::{Mat, MatRef, solve_upper_alone};
 
 /// By how much of the ceiling the worst spot may still be above it: 0.26 dB. Halved, about one more round
 /// finds what is left.
@@ -140,7 +139,7 @@ impl Programme<'_> {
 
     fn coefficients(&self, z: &[f64]) -> Vec<f64> {
         let mut column = Mat::from_fn(z.len(), 1, |i, _| z[i]);
-        solve_upper_triangular_in_place(self.factor.transpose(), column.as_mut(), Par::Seq);
+        solve_upper_alone(self.factor.transpose(), column.as_mut());
         column.col_as_slice(0).to_vec()
     }
 }

@@ -1,7 +1,7 @@
 //! Drives as cubic B-splines: smooth signals of few coefficients.
 
-use faer::Mat;
 use std::ops::Range;
+use unripple_linalg::Mat;
 
 /// Cubic B-splines with equally spaced knots, the first at sample 0, cut off outside the samples of the drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

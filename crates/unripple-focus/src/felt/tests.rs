@@ -6,9 +6,9 @@ mod common;
 use super::{FeltOptions, FeltPlan};
 use crate::Target;
 use common::Membrane;
-use faer::Mat;
 use unripple_core::{Drive, ModalResponses, Point, Responses};
 use unripple_dsp::Weighting;
+use unripple_linalg::{Lu, Mat, times};
 
 /// Weighed displacement at a point, at every sample of the drive and twice as long again.
 pub fn felt(modal: &ModalResponses, drive: &Drive, at: Point, options: &FeltOptions) -> Vec<f64> {
@@ -84,7 +84,7 @@ impl Sums {
                 let felt = weighting.weigh(&whole[..length]);
                 motion.col_as_slice_mut(k).copy_from_slice(&felt[..length]);
             }
-            let squares = motion.transpose() * &motion;
+            let squares = times(motion.transpose(), motion.as_ref());
             for i in 0..size {
                 let weight = |i: usize| modal.input[(i / count, m)];
                 level[i] += row[m] * weight(i) * motion[(before + plan.focal, i % count)];
@@ -128,8 +128,8 @@ fn no_drive_is_felt_less_on_average() {
         let found = plan.coefficients(&[Target::at(at)]).unwrap();
         let sums = Sums::of(&plan, &modal, &membrane, at);
         let right = Mat::from_fn(found.len(), 1, |i, _| sums.level[i]);
-        let best = faer::linalg::solvers::PartialPivLu::new(sums.form.as_ref());
-        let best = faer::linalg::solvers::Solve::solve(&best, &right);
+        let mut best = right.clone();
+        Lu::new(sums.form.as_ref()).solve(best.as_mut());
         let level = |c: &[f64]| c.iter().zip(&sums.level).map(|(c, g)| c * g).sum::<f64>();
         let price = |c: &[f64]| sums.cost(c) / level(c).powi(2);
         let (ours, least) = (price(&found), price(best.col_as_slice(0)));

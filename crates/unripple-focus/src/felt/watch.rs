@@ -2,8 +2,7 @@
 
 use super::background::Actuation;
 use super::control::Control;
-use faer::{Accum, Mat, MatRef, Par, linalg::matmul::matmul};
-use unripple_linalg::solve_lower;
+use unripple_linalg::{Accum, Mat, MatRef, Par, multiply, solve_lower};
 
 /// Of neighbouring maxima of one sign, only the largest is taken at once: within this many periods of the top
 /// of what is felt, and this many points of the coarse lattice. Doubled, fewer bounds at once and more
@@ -92,7 +91,7 @@ impl Watch {
             }
         }
         let mut field = Mat::zeros(times, shapes.ncols());
-        matmul(field.as_mut(), Accum::Replace, &motion, shapes, 1.0, Par::Seq);
+        multiply(field.as_mut(), Accum::Replace, motion.as_ref(), shapes.as_ref(), 1.0, Par::Seq);
         field
     }
 

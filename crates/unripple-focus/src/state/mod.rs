@@ -9,10 +9,9 @@ pub(crate) use reduced::ReducedPlant;
 pub(crate) use sampled::SampledPlant;
 
 use crate::FocusError;
-use faer::{Mat, MatRef};
 use std::borrow::Cow;
 use unripple_core::{Point, require};
-use unripple_linalg::{product, symmetric};
+use unripple_linalg::{Mat, MatRef, product, symmetric, times};
 
 /// Directions of the drive that move the surface less than this share of the strongest are left alone, in
 /// energy: rounding of the Gram matrix. Larger, weak directions that can be driven would be lost.
@@ -46,7 +45,7 @@ impl Plant<'_> {
     fn gram(&self, other: &Self) -> Mat<f64> {
         match (self, other) {
             (Self::Modal(one), Self::Modal(other)) => one.gram(other),
-            (one, other) => one.map().transpose() * &*other.map(),
+            (one, other) => times(one.map().transpose(), other.map().as_ref().as_ref()),
         }
     }
 
@@ -181,7 +180,7 @@ impl<'r> State<'r> {
 
     fn whiten(&self, plant: usize, weights: MatRef<'_, f64>) -> Mat<f64> {
         let first: usize = self.plants[..plant].iter().map(Plant::coordinates).sum();
-        self.white.as_ref().subcols(first, weights.nrows()) * weights
+        times(self.white.as_ref().subcols(first, weights.nrows()), weights)
     }
 
     /// The drive `Wᵀ y`, a row of samples per channel, one behind the other.

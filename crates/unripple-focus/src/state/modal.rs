@@ -1,10 +1,9 @@
 //! Modal states at the focal instant as a linear function of the drive.
 
 use crate::FocusError;
-use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, Par};
 use unripple_core::{ModalResponses, Point, Pole};
 use unripple_dsp::ModalSynth;
+use unripple_linalg::{Accum, Mat, Par, multiply, times};
 
 /// Cells per shortest wavelength along each side, where velocity is kept low. Doubled, there are four times
 /// the cells, and their mean stays the same.
@@ -67,8 +66,8 @@ impl<'r> ModalPlant<'r> {
 
     /// `(BᵀB') ∘ (VᵀV')` with B the input weights and V the tables.
     pub fn gram(&self, other: &Self) -> Mat<f64> {
-        let inputs = self.responses.input.transpose() * &other.responses.input;
-        let tables = self.table.transpose() * &other.table;
+        let inputs = times(self.responses.input.transpose(), other.responses.input.as_ref());
+        let tables = times(self.table.transpose(), other.table.as_ref());
         Mat::from_fn(self.modes(), other.modes(), |i, j| inputs[(i, j)] * tables[(i, j)])
     }
 
@@ -86,7 +85,7 @@ impl<'r> ModalPlant<'r> {
             return Ok(());
         }
         let mut made = Mat::<f64>::zeros(length, input.nrows());
-        matmul(made.as_mut(), Accum::Replace, self.table.as_ref(), weights.transpose(), 1.0, Par::Seq);
+        multiply(made.as_mut(), Accum::Replace, self.table.as_ref(), weights.transpose(), 1.0, Par::Seq);
         for (a, channel) in channels.chunks_exact_mut(length).enumerate() {
             channel.iter_mut().zip(made.col_as_slice(a)).for_each(|(d, made)| *d += made);
         }

@@ -2,10 +2,8 @@
 
 use super::modal::{lattice, ringing, steady};
 use crate::FocusError;
-use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatRef, Par};
 use unripple_core::{ModalResponses, Point};
-use unripple_linalg::{product, symmetric};
+use unripple_linalg::{Accum, Mat, MatRef, Par, multiply, product, symmetric, times};
 
 /// Shapes that add less than this share of the strongest to the surface, in energy, are the others'
 /// combinations. Larger, shapes of their own would be lost; smaller, rounding would count as a shape.
@@ -37,7 +35,7 @@ impl<'r> ReducedPlant<'r> {
         again: bool,
     ) -> Result<Self, FocusError> {
         let shapes = responses.shapes.at_all(&lattice(responses));
-        let gram = shapes.transpose() * &shapes;
+        let gram = times(shapes.transpose(), shapes.as_ref());
         let (values, vectors) = symmetric(gram.as_ref()).ok_or(FocusError::Decomposition)?;
         let count = values.len();
         let most = values[count - 1];
@@ -53,7 +51,7 @@ impl<'r> ReducedPlant<'r> {
             let weighed =
                 Mat::from_fn(basis.nrows(), basis.ncols(), |m, i| responses.input[(a, m)] * basis[(m, i)]);
             let part = map.as_mut().subrows_mut(a * length, length);
-            matmul(part, Accum::Replace, ringing.as_ref(), weighed.as_ref(), 1.0, Par::rayon(0));
+            multiply(part, Accum::Replace, ringing.as_ref(), weighed.as_ref(), 1.0, Par::rayon(0));
         }
         Ok(Self { responses, basis, map })
     }

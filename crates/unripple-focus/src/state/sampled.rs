@@ -2,9 +2,8 @@
 
 use crate::FocusError;
 use crate::recording::{SampledRecorder, locate};
-use faer::{Mat, MatRef};
 use unripple_core::{Point, SampledResponses};
-use unripple_linalg::product;
+use unripple_linalg::{Mat, MatRef, product};
 
 /// Most values of responses that are held at once, a GiB of them. Doubled, libraries of twice the size take
 /// twice the memory.

@@ -162,10 +162,9 @@ fn invert(a: &mut [Complex<f64>], size: usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use faer::Mat;
-    use faer::linalg::solvers::Solve;
     use std::f64::consts::TAU;
     use unripple_dsp::Convolver;
+    use unripple_linalg::{Lu, Mat, times};
 
     /// A system of arbitrary transfer functions.
     fn system(rows: usize, ports: usize) -> (Transfer, Plan, Lines) {
@@ -197,9 +196,11 @@ mod tests {
             part(i, transfer.values[i / 2 * transfer.ports + port] * turn)
         });
         let right = Mat::from_fn(2 * equations, 1, |i, _| part(i, asked[i / 2]));
-        let mut normal = matrix.transpose() * &matrix;
+        let mut normal = times(matrix.transpose(), matrix.as_ref());
         (0..normal.nrows()).for_each(|j| normal[(j, j)] += ridge / plan.taper[j % support]);
-        normal.partial_piv_lu().solve(matrix.transpose() * right)
+        let mut found = times(matrix.transpose(), right.as_ref());
+        Lu::new(normal.as_ref()).solve(found.as_mut());
+        found
     }
 
     #[test]

@@ -5,11 +5,10 @@ use super::plan::Plan;
 use crate::FocusError;
 use crate::modal::{REST, largest, usual};
 use crate::recording::locate;
-use faer::Mat;
 use std::f64::consts::TAU;
 use unripple_core::{ModalResponses, Point, Pole, Responses, SampledResponses};
 use unripple_dsp::{Complex, integral};
-use unripple_linalg::product;
+use unripple_linalg::{Mat, product};
 
 /// Modes times lines of the block that is summed at once, 16 MiB. Doubled, twice the memory; sums differ by
 /// rounding.

@@ -1,10 +1,9 @@
 //! Every method's drive against the same problem written out sample by sample and solved at once.
 
 use crate::common;
+use unripple_linalg::{Lu, Mat, MatRef, Scale, times};
 
 use common::Membrane;
-use faer::linalg::solvers::{PartialPivLu, Solve};
-use faer::{Mat, MatRef};
 use unripple_core::{Drive, ModalResponses, Point, Pole};
 use unripple_focus::{Focuser, Method, Options, Target, focus};
 
@@ -37,11 +36,21 @@ fn weights(modal: &ModalResponses, at: Point) -> Mat<f64> {
     modal.shapes.at_all(&[at]).transpose().to_owned()
 }
 
+/// A B.
+fn by(a: &Mat<f64>, b: &Mat<f64>) -> Mat<f64> {
+    times(a.as_ref(), b.as_ref())
+}
+
+/// Aᵀ B.
+fn within(a: &Mat<f64>, b: &Mat<f64>) -> Mat<f64> {
+    times(a.transpose(), b.as_ref())
+}
+
 /// `tr K² / tr K` with K the mean of x xᵀ over all cells, x the response of a cell to every sample.
 fn unit(modal: &ModalResponses, map: &Mat<f64>) -> f64 {
-    let cost = &cells(modal, &[]) * (map * map.transpose());
+    let cost = by(&cells(modal, &[]), &times(map.as_ref(), map.transpose()));
     let trace = |m: &Mat<f64>| (0..m.nrows()).map(|i| m[(i, i)]).sum::<f64>();
-    trace(&(&cost * &cost)) / trace(&cost)
+    trace(&by(&cost, &cost)) / trace(&cost)
 }
 
 /// Sum of φφᵀ over the cells outside the targets' discs, over the count of all cells.
@@ -63,11 +72,13 @@ fn cells(modal: &ModalResponses, targets: &[Point]) -> Mat<f64> {
         .filter(|c| targets.iter().all(|at| at.distance(*c) > 4.0 / 3.0 * lambda))
         .collect();
     let far = modal.shapes.at_all(&far);
-    (far.transpose() * &far) * faer::Scale(1.0 / cells.len() as f64)
+    within(&far, &far) * Scale(1.0 / cells.len() as f64)
 }
 
 fn solve(matrix: &Mat<f64>, right: &Mat<f64>) -> Mat<f64> {
-    PartialPivLu::new(matrix.as_ref()).solve(right)
+    let mut found = right.clone();
+    Lu::new(matrix.as_ref()).solve(found.as_mut());
+    found
 }
 
 fn identity(n: usize, factor: f64) -> Mat<f64> {
@@ -93,9 +104,9 @@ fn inverse_is_the_least_energy_drive_of_a_delta() {
             &options(Method::Inverse, strength),
         );
         let energy = (1.0 - strength).max(1e-9) * unit(&modal, &map);
-        let whole = map.transpose() * (cells(&modal, &[]) * &map) * faer::Scale(strength)
-            + identity(map.ncols(), energy);
-        let right = solve(&whole, &(map.transpose() * weights(&modal, target())));
+        let whole =
+            within(&map, &by(&cells(&modal, &[]), &map)) * Scale(strength) + identity(map.ncols(), energy);
+        let right = solve(&whole, &within(&map, &weights(&modal, target())));
         agrees("inverse", &drive.unwrap().drive, &right);
     }
 }
@@ -107,9 +118,9 @@ fn least(modal: &ModalResponses, stretches: &[f64], strength: f64) -> Mat<f64> {
     let cost = cells(modal, &[target()]);
     let mut whole = identity(nominal.ncols(), (1.0 - strength) * unit(modal, &nominal));
     for map in &maps {
-        whole += map.transpose() * (&cost * map) * faer::Scale(strength / maps.len() as f64);
+        whole += within(map, &by(&cost, map)) * Scale(strength / maps.len() as f64);
     }
-    solve(&whole, &(nominal.transpose() * weights(modal, target())))
+    solve(&whole, &within(&nominal, &weights(modal, target())))
 }
 
 #[test]
@@ -135,14 +146,14 @@ fn robust_leaves_least_over_all_plants() {
 fn limited_is_optimal_within_its_limits() {
     let modal = Membrane::small().modal();
     let (map, strength) = (map(&modal, 1.0), 0.95);
-    let whole = map.transpose() * (cells(&modal, &[target()]) * &map) * faer::Scale(strength)
+    let whole = within(&map, &by(&cells(&modal, &[target()]), &map)) * Scale(strength)
         + identity(map.ncols(), (1.0 - strength) * unit(&modal, &map));
-    let reading = map.transpose() * weights(&modal, target());
+    let reading = within(&map, &weights(&modal, target()));
     for push in [0.1, 0.4, 0.7, 0.9] {
         let options = Options { push, limit: 0.3, ..options(Method::Limited, strength) };
         let drive = focus(&Membrane::small().responses(), &[Target::at(target())], &options).unwrap().drive;
         let samples = column(drive.channels().iter().flatten().copied().collect());
-        let slope = &whole * &samples;
+        let slope = by(&whole, &samples);
         let pairs: Vec<(f64, f64, f64)> =
             (0..samples.nrows()).map(|i| (samples[(i, 0)], slope[(i, 0)], reading[(i, 0)])).collect();
         let free = || pairs.iter().filter(|(d, ..)| d.abs() < 0.3 * (1.0 - 1e-9));
@@ -170,7 +181,7 @@ fn limited_at_a_level_is_solved_for_it() {
     let level = |drive: &Drive| {
         let map = map(&Membrane::small().modal(), 1.0);
         let samples = column(drive.channels().iter().flatten().copied().collect());
-        (weights(&Membrane::small().modal(), target()).transpose() * (map * samples))[(0, 0)]
+        within(&weights(&Membrane::small().modal(), target()), &by(&map, &samples))[(0, 0)]
     };
     let unit_peak = |drive: &Drive| drive.clone().scaled(1.0 / drive.peak());
     let (lowest, highest) = (with(0.0), with(0.8));
@@ -224,9 +235,9 @@ fn periodic_drives_are_least_in_their_steady_state() {
         modal.input[(a, m)] * sum / rate
     });
     let strength = 0.9;
-    let whole = steady.transpose() * (cells(&modal, &[target()]) * &steady) * faer::Scale(strength)
+    let whole = within(&steady, &by(&cells(&modal, &[target()]), &steady)) * Scale(strength)
         + identity(steady.ncols(), (1.0 - strength) * unit(&modal, &steady));
-    let right = solve(&whole, &(steady.transpose() * weights(&modal, target())));
+    let right = solve(&whole, &within(&steady, &weights(&modal, target())));
     let hz = rate / period as f64;
     let focused = focus(
         &Membrane::small().responses(),

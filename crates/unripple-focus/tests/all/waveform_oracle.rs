@@ -1,10 +1,9 @@
 //! Waveforms and pulses against the sums that define what a drive does.
 
 use crate::common;
+use unripple_linalg::{Lu, Mat};
 
 use common::{Membrane, responses_at, velocity};
-use faer::Mat;
-use faer::linalg::solvers::Solve;
 use std::f64::consts::TAU;
 use unripple_core::{Drive, ModalResponses, Point, Responses, SampledResponses};
 use unripple_focus::waveform::{burst, click};
@@ -190,7 +189,8 @@ fn pulses_reach_their_levels_with_the_least_energy() {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let gram = Mat::from_fn(rows.len(), rows.len(), |k, l| dot(&rows[k], &rows[l]));
     let levels = Mat::from_fn(rows.len(), 1, |k, _| wanted[k].2 * membrane.rate);
-    let gains = gram.partial_piv_lu().solve(&levels);
+    let mut gains = levels.clone();
+    Lu::new(gram.as_ref()).solve(gains.as_mut());
     let exact: Vec<f64> =
         (0..rows[0].len()).map(|j| (0..rows.len()).map(|k| gains[(k, 0)] * rows[k][j]).sum()).collect();
     let found = struck.drive.channels().concat();
