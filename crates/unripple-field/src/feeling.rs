@@ -3,10 +3,9 @@
 use crate::modal::{ModalField, POINTS, STATES, add_to};
 use crate::motion::Motion;
 use crate::source::{Passage, Tally, Weighed};
-use faer::Mat;
 use rayon::prelude::*;
 use std::ops::Range;
-use unripple_linalg::product;
+use unripple_linalg::{Mat, product};
 
 /// Values of weighed modes that are held at once, 128 MiB of them. Doubled, twice the memory and half the
 /// passes; results stay the same.

@@ -9,7 +9,7 @@
 //! focus should be; [`measure()`] judges it, in velocity, in displacement and as felt above a [`Threshold`].
 //!
 //! ```
-//! use faer::Mat;
+//! use unripple_linalg::Mat;
 //! use std::sync::Arc;
 //! use unripple_core::{Conditions, Drive, ModalResponses, Outline, Point, Pole, Port, Responses, Shape, Shapes};
 //! use unripple_field::{Aim, MeasureOptions, measure};

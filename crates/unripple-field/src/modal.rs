@@ -5,12 +5,11 @@ use crate::motion::Motion;
 use crate::source::{Passage, Quantity, Source, Survey, Tally, Trace, Weighed};
 use crate::spot::Around;
 use crate::{FieldError, spot};
-use faer::{Accum, Mat, MatRef, Par, linalg::matmul::matmul};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::OnceLock;
 use unripple_core::{Drive, ModalResponses, Point};
-use unripple_linalg::product;
+use unripple_linalg::{Accum, Mat, MatRef, Number, Par, multiply, product};
 
 /// Most samples from the start of a drive: 7 minutes at 48 kHz. Doubled, twice as long.
 const MOST_SAMPLES: usize = 20_000_000;
@@ -208,7 +207,7 @@ impl Source for ModalField<'_> {
 }
 
 /// States over the next `count` samples, modes x samples: velocity and displacement.
-fn states<T: faer::traits::ComplexField>(
+fn states<T: Number>(
     motion: &mut Motion<'_>,
     count: usize,
     modes: usize,
@@ -236,7 +235,7 @@ pub(crate) fn add_to(tally: &mut Tally, weights: MatRef<'_, f32>, states: MatRef
     for first in (0..states.ncols()).step_by(SAMPLES) {
         let count = SAMPLES.min(states.ncols() - first);
         let mut block = field.as_mut().subcols_mut(0, count);
-        matmul(block.as_mut(), Accum::Replace, weights, states.subcols(first, count), 1.0, Par::Seq);
+        multiply(block.as_mut(), Accum::Replace, weights, states.subcols(first, count), 1.0, Par::Seq);
         squares.fill(0.0);
         for column in 0..count {
             let values = field.col_as_slice(column);

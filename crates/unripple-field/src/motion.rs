@@ -1,8 +1,8 @@
 //! Modal coordinates under a drive, advanced exactly from sample to sample.
 
-use faer::{Accum, Mat, Par, linalg::matmul::matmul};
 use std::ops::Range;
 use unripple_core::{Drive, ModalResponses};
+use unripple_linalg::{Accum, Mat, Par, multiply};
 
 /// How every mode moves under a drive, stepped exactly from sample to sample.
 ///
@@ -91,7 +91,7 @@ impl<'a> Motion<'a> {
         let count = end.saturating_sub(samples.start);
         let sent = Mat::from_fn(channels.len(), count, |a, i| channels[a][samples.start + i]);
         let mut momenta = Mat::zeros(self.velocity.len(), count);
-        matmul(momenta.as_mut(), Accum::Replace, self.input.as_ref(), sent.as_ref(), 1.0, Par::Seq);
+        multiply(momenta.as_mut(), Accum::Replace, self.input.as_ref(), sent.as_ref(), 1.0, Par::Seq);
         momenta
     }
 

@@ -1,9 +1,9 @@
 //! Fields and figures against closed forms, the defining sums, and another kind of responses.
 
 use crate::common;
+use unripple_linalg::{Mat, times};
 
 use common::{Film, displacement, drive, reversed, velocity};
-use faer::Mat;
 use std::f64::consts::PI;
 use std::ops::Range;
 use unripple_core::{ModalResponses, Point, Pole, Responses, SampledResponses};
@@ -42,7 +42,8 @@ fn library(modal: &ModalResponses, points: Vec<Point>, samples: usize) -> Respon
     let ports = modal.ports.len();
     let rows = Mat::from_fn(points.len() * ports, ringing.nrows(), |row, m| {
         weights[(row / ports, m)] * modal.input[(row % ports, m)]
-    }) * ringing;
+    });
+    let rows = times(rows.as_ref(), ringing.as_ref());
     let data = (0..rows.nrows() * samples).map(|i| rows[(i / samples, i % samples)] as f32).collect();
     Responses::Sampled(
         SampledResponses::new(modal.ports.clone(), points, modal.conditions.clone(), samples, data).unwrap(),

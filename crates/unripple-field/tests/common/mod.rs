@@ -1,11 +1,11 @@
 //! A simply supported film under tension, from its closed form, and drives made by hand.
 
-use faer::Mat;
 use std::f64::consts::PI;
 use std::sync::Arc;
 use unripple_core::{
     Conditions, Drive, ModalResponses, Outline, Point, Pole, Port, Responses, Shape, Shapes,
 };
+use unripple_linalg::{Mat, times};
 
 /// Sine products on a rectangle, mass-normalised.
 #[derive(Clone, Debug)]
@@ -146,7 +146,7 @@ pub fn reversed(modal: &ModalResponses, at: Point, n: usize) -> Drive {
     let ringing = Mat::from_fn(row.len(), n + 1, |m, i| {
         modal.poles[m].velocity((n - i) as f64 / modal.conditions.rate)
     });
-    let all = weights * ringing;
+    let all = times(weights.as_ref(), ringing.as_ref());
     drive(modal, (0..modal.ports.len()).map(|a| (0..=n).map(|i| all[(a, i)]).collect()).collect())
 }
 
