@@ -4,9 +4,9 @@ use super::medium::Waves;
 use super::spectra::Spectra;
 use super::system::{System, distances};
 use crate::CalibrateError;
-use faer::Mat;
 use rayon::prelude::*;
 use unripple_core::Point;
+use unripple_linalg::Mat;
 
 /// Points around a place and what they say of every place near it: (K + N)⁻¹ h for each bin and actuator.
 #[derive(Debug)]

@@ -1,11 +1,11 @@
 //! The weak test signal, sent between effects, by which tension is followed.
 
 use crate::CalibrateError;
-use faer::Mat;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 use unripple_core::{ModalResponses, Outline, Point, require};
 use unripple_dsp::{Threshold, Weighting};
+use unripple_linalg::{Mat, times};
 
 /// Points looked at for each shortest wavelength.
 const DENSE: f64 = 2.0;
@@ -152,7 +152,8 @@ fn felt_most(responses: &ModalResponses, drive: &[Vec<f64>], threshold: &Thresho
     let points = places(&conditions.outline, conditions.lambda_min / DENSE);
     let shapes = responses.shapes.at_all(&points);
     let columns = rows.first().map_or(0, Vec::len);
-    let field = shapes * Mat::from_fn(rows.len(), columns, |m, i| rows[m][i]);
+    let motion = Mat::from_fn(rows.len(), columns, |m, i| rows[m][i]);
+    let field = times(shapes.as_ref(), motion.as_ref());
     let most = |p: usize| field.row(p).iter().fold(0.0, |most: f64, u| most.max(u.abs()));
     let all = points.iter().enumerate().map(|(p, at)| (most(p), *at));
     all.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, Point::new(0.0, 0.0)))

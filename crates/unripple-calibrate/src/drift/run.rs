@@ -1,8 +1,8 @@
 //! Modal responses run in time under a tension that drifts.
 
 use super::warp::tuned;
-use faer::Mat;
 use unripple_core::Pole;
+use unripple_linalg::Mat;
 
 /// Seconds over which the tension counts as even while a stretch of time is run.
 const EVEN: f64 = 5e-3;

@@ -4,8 +4,8 @@ use super::run::{Course, Instants, Motion, Sheet};
 use super::warp::warped;
 use super::{Drift, Tracking};
 use crate::CalibrateError;
-use faer::Mat;
 use unripple_core::{ModalResponses, require};
+use unripple_linalg::{Mat, Scale, squared_norm};
 
 /// Tension's change by which slopes are taken.
 const SMALL: f64 = 1e-5;
@@ -25,7 +25,7 @@ const GUESS: f64 = 1e-3;
 /// ratio and rate).
 ///
 /// ```
-/// use faer::Mat;
+/// use unripple_linalg::Mat;
 /// use std::sync::Arc;
 /// use unripple_calibrate::{Drift, Tracker, Tracking};
 /// use unripple_core::{Conditions, ModalResponses, Outline, Point, Pole, Port, Shape, Shapes};
@@ -264,12 +264,12 @@ impl Tracker {
         let mut spread = self.spread;
         for _ in 0..STEPS {
             let residual = heard.signals - &model;
-            let excess = (residual.squared_norm_l2() / count).sqrt() / noise;
+            let excess = (squared_norm(residual.as_ref()) / count).sqrt() / noise;
             let weight = 1.0 / (noise * excess.max(1.0)).powi(2);
             let moved = [(small[0], 0.0), (0.0, small[1])]
                 .map(|(m, r)| Course { middle: course.middle + m, rate: course.rate + r });
             let slopes: [Mat<f64>; 2] =
-                std::array::from_fn(|i| (self.run(heard, moved[i]).0 - &model) * faer::Scale(1.0 / small[i]));
+                std::array::from_fn(|i| (self.run(heard, moved[i]).0 - &model) * Scale(1.0 / small[i]));
             let offset = [course.middle - self.state[0], course.rate - self.state[1]];
             let system = std::array::from_fn(|i| {
                 std::array::from_fn(|j| weight * dot(&slopes[i], &slopes[j]) + prior[i][j])
@@ -284,7 +284,7 @@ impl Tracker {
             let next =
                 Course { middle: course.middle + share * step[0], rate: course.rate + share * step[1] };
             let (after, moved) = self.run(heard, next);
-            let size = (heard.signals - &after).squared_norm_l2();
+            let size = squared_norm((heard.signals - &after).as_ref());
             if size >= last || !size.is_finite() {
                 break;
             }
@@ -293,7 +293,7 @@ impl Tracker {
                 break;
             }
         }
-        let excess = ((heard.signals - &model).squared_norm_l2() / count).sqrt() / noise;
+        let excess = (squared_norm((heard.signals - &model).as_ref()) / count).sqrt() / noise;
         Estimate { course, spread, excess, motion }
     }
 
@@ -303,7 +303,7 @@ impl Tracker {
 
     /// Standard deviation of what the model cannot know: noise, and its own error as a share of what is heard.
     fn noise(&self, signals: &Mat<f64>) -> f64 {
-        let power = signals.squared_norm_l2() / (signals.nrows() * signals.ncols()).max(1) as f64;
+        let power = squared_norm(signals.as_ref()) / (signals.nrows() * signals.ncols()).max(1) as f64;
         (self.options.noise.powi(2) + self.options.model.powi(2) * power).sqrt()
     }
 
@@ -314,7 +314,7 @@ impl Tracker {
         let miss = |n: i32| {
             let course = Course { middle: 1.0 + f64::from(n) * GUESS, rate: self.state[1] };
             let miss = heard.signals - self.run(heard, course).0;
-            (miss.squared_norm_l2(), course.middle)
+            (squared_norm(miss.as_ref()), course.middle)
         };
         let all: Vec<(f64, f64)> = (-count..=count).into_par_iter().map(miss).collect();
         all.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map_or(self.state[0], |best| best.1)

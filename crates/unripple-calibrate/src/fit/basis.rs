@@ -3,11 +3,11 @@
 use super::coil::Coil;
 use super::quadrature;
 use crate::CalibrateError;
-use faer::{Mat, MatRef};
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use unripple_core::{Outline, Point, Shapes, Surface};
+use unripple_linalg::{Mat, MatRef, times};
 use unripple_physics::{Entry, Footprint, Medium, Modes, Transducer, sensors, transducers};
 
 /// Half the distance over which slopes are taken, in metres: of a wave of 1000 rad/m, to 2e-7.
@@ -122,5 +122,5 @@ fn slopes(modes: &Modes, points: &[(Point, f64)]) -> [Mat<f64>; 2] {
 /// Σ_p value · slope slopeᵀ, times a factor.
 fn gram(slopes: MatRef<'_, f64>, values: &[f64], factor: f64) -> Mat<f64> {
     let weighed = Mat::from_fn(slopes.nrows(), slopes.ncols(), |p, m| factor * values[p] * slopes[(p, m)]);
-    slopes.transpose() * weighed
+    times(slopes.transpose(), weighed.as_ref())
 }

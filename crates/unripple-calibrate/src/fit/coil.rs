@@ -1,6 +1,6 @@
 //! What the circuit of a coil on a voltage is to a fit.
 
-use faer::c64;
+use unripple_linalg::c64;
 use unripple_physics::{Entry, Sensor, Transducer};
 
 /// A coil whose terminals are held at a voltage V: its force is bl V/(R + Ls), it hears bl v/(R + Ls) of a velocity v, and it damps with

@@ -9,8 +9,8 @@ use super::residual::Case;
 use super::solve::Found;
 use crate::signals::Band;
 use crate::{CalibrateError, Tracker, Tracking};
-use faer::Mat;
 use unripple_core::{Conditions, ModalResponses, Point, Port, Responses, Surface};
+use unripple_linalg::{Mat, Scale};
 use unripple_physics::Medium;
 
 /// The share of what was measured that neither model nor noise explains from which a model is doubted.
@@ -286,7 +286,7 @@ impl Fitted {
     pub fn scaled(mut self, gain: f64) -> Self {
         let reached = self.reached.as_mut().map(|reached| &mut reached.responses);
         for responses in [&mut self.responses, &mut self.beyond].into_iter().chain(reached) {
-            responses.input = &responses.input * faer::Scale(gain);
+            responses.input = &responses.input * Scale(gain);
         }
         self
     }

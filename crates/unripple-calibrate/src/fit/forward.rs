@@ -3,11 +3,10 @@
 use super::basis::Basis;
 use super::layout::{Unknown, around};
 use super::system::System;
-use faer::linalg::solvers::DenseSolveCore;
-use faer::{Mat, MatRef, Par, c64};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 use unripple_core::Shapes;
+use unripple_linalg::{Accum, Lu, Mat, MatRef, Par, c64, multiply, times};
 
 /// Frequencies to one task.
 const CHUNK: usize = 8;
@@ -63,7 +62,7 @@ impl System {
     ) -> Vec<Look> {
         let count = self.sheet.squares.len();
         let shapes = basis.modes.at_all(candidates);
-        let shapes = self.sheet.turn.transpose() * shapes.subcols(0, count).transpose();
+        let shapes = times(self.sheet.turn.transpose(), shapes.subcols(0, count).transpose());
         let look = |s: &c64| {
             let point = self.point(*s);
             let own = |c: usize| {
@@ -141,8 +140,9 @@ impl System {
             let impedance = s * self.masses[p] + self.resistances[p] + added;
             (0..places).for_each(|q| system[(p, q)] += impedance * alone[(p, q)]);
         }
-        let shared = system.partial_piv_lu().inverse();
-        Point { s, moved: &free * &shared, admittance: &alone * &shared, shared }
+        let shared = Lu::new(system.as_ref()).inverse();
+        let moved = times(free.as_ref(), shared.as_ref());
+        Point { s, moved, admittance: times(alone.as_ref(), shared.as_ref()), shared }
     }
 
     /// Derivatives by all that changes the stiffness, at each of some frequencies.
@@ -170,8 +170,8 @@ impl System {
                 let part = |m: &Mat<f64>, from: usize| m.subcols(from, places).to_owned();
                 let (a, b, f, g) =
                     (part(&nominal, re), part(&nominal, im), part(&forces, re), part(&forces, im));
-                let (real, imaginary) =
-                    (a.transpose() * &f - b.transpose() * &g, a.transpose() * &g + b.transpose() * &f);
+                let meet = |a: &Mat<f64>, b: &Mat<f64>| times(a.transpose(), b.as_ref());
+                let (real, imaginary) = (meet(&a, &f) - meet(&b, &g), meet(&a, &g) + meet(&b, &f));
                 let factor = -point.s.inv() * *scale;
                 found[i].push(Mat::from_fn(places, places, |p, q| {
                     factor * c64::new(real[(p, q)], imaginary[(p, q)])
@@ -246,5 +246,5 @@ fn transposed_real(a: &Mat<f64>, b: &Mat<c64>) -> Mat<c64> {
 
 /// On one thread: frequencies run side by side.
 fn product(out: &mut Mat<f64>, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
-    faer::linalg::matmul::matmul(out.as_mut(), faer::Accum::Replace, a, b, 1.0, Par::Seq);
+    multiply(out.as_mut(), Accum::Replace, a, b, 1.0, Par::Seq);
 }

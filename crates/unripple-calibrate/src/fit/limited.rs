@@ -6,10 +6,10 @@ use super::loaded::LoadedModes;
 use super::system::System;
 use crate::CalibrateError;
 use crate::signals::{Band, shift};
-use faer::{Mat, c64};
 use realfft::RealFftPlanner;
 use std::f64::consts::TAU;
 use unripple_dsp::ModalSynth;
+use unripple_linalg::{Mat, c64};
 
 /// Error of the synthesis, over the sum of magnitudes.
 const ACCURACY: f64 = 1e-6;

@@ -5,10 +5,10 @@ use super::layout::Values;
 use super::sheet::{decay_rate, eigen};
 use super::system::System;
 use crate::CalibrateError;
-use faer::{ColRef, Mat, Side};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use unripple_core::{Point, Pole, Shapes};
+use unripple_linalg::{Cholesky, ColRef, Mat, solve_lower_alone, times};
 use unripple_physics::Modes;
 
 /// The modes of a fitted sheet with all that hangs on it.
@@ -66,32 +66,32 @@ impl LoadedModes {
                 }
             }
         });
-        let weighed = |by: &[f64]| Mat::from_fn(all, loaded, |m, p| felt[(m, p)] * by[p]) * felt.transpose();
+        let weighed = |by: &[f64]| {
+            let scaled = Mat::from_fn(all, loaded, |m, p| felt[(m, p)] * by[p]);
+            times(scaled.as_ref(), felt.transpose())
+        };
         let mut mass = weighed(&values.masses.iter().map(|m| m.max(0.0)).collect::<Vec<_>>());
         (0..all).for_each(|m| mass[(m, m)] += 1.0);
         let squares: Vec<f64> =
             (0..all).map(|m| system.sheet.squares.get(m).copied().unwrap_or(system.rest.square)).collect();
-        let factor = mass.llt(Side::Lower).map_err(|_| CalibrateError::Unsolvable {
+        let factor = Cholesky::new(mass.as_ref()).ok_or_else(|| CalibrateError::Unsolvable {
             what: "mass of the fitted sheet",
             expected: "a positive mass everywhere",
             found: "a negative one".into(),
         })?;
         // With B = L Lᵀ and x = L⁻ᵀ y, K x = λ B x is L⁻¹ K L⁻ᵀ y = λ y.
         let mut inverse = Mat::<f64>::identity(all, all);
-        faer::linalg::triangular_solve::solve_lower_triangular_in_place(
-            factor.L(),
-            inverse.as_mut(),
-            faer::Par::Seq,
-        );
-        let stiff = Mat::from_fn(all, all, |i, m| inverse[(i, m)] * squares[m]) * inverse.transpose();
+        solve_lower_alone(factor.lower(), inverse.as_mut());
+        let scaled = Mat::from_fn(all, all, |i, m| inverse[(i, m)] * squares[m]);
+        let stiff = times(scaled.as_ref(), inverse.transpose());
         let (found, vectors) = eigen(&stiff)?;
-        let vectors = inverse.transpose() * vectors;
+        let vectors = times(inverse.transpose(), vectors.as_ref());
         let low = found.partition_point(|square| square.max(0.0).sqrt() < TAU * band[0]);
         let high = found.partition_point(|square| square.max(0.0).sqrt() <= TAU * band[1] * (1.0 + 1e-9));
         let vectors = vectors.subcols(low, high.saturating_sub(low)).to_owned();
-        let mixing = &system.sheet.turn * vectors.subrows(0, modes);
-        let bent = &system.sheet.bending * &mixing;
-        let loads = felt.transpose() * &vectors;
+        let mixing = times(system.sheet.turn.as_ref(), vectors.subrows(0, modes));
+        let bent = times(system.sheet.bending.as_ref(), mixing.as_ref());
+        let loads = times(felt.transpose(), vectors.as_ref());
         let near_energy = system.rest.square * system.rest.bending_share;
         let (mut poles, mut bending_shares) = (Vec::new(), Vec::new());
         for (m, square) in found[low..high].iter().enumerate() {

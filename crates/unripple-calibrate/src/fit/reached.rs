@@ -1,10 +1,10 @@
 //! A fitted model through the band of the measurement that it was fitted to.
 
 use crate::signals::Band;
-use faer::Mat;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use unripple_core::{ModalResponses, Point, Shapes};
+use unripple_linalg::Mat;
 
 /// Highest mode that is sampled, over the sample rate.
 const FASTEST: f64 = 0.45;

@@ -7,8 +7,8 @@ use super::layout::{Layout, Unknown, Values};
 use super::spectra::Spectra;
 use super::system::System;
 use crate::CalibrateError;
-use faer::{Mat, c64};
 use rayon::prelude::*;
+use unripple_linalg::{Mat, c64};
 
 /// Model less measurement, in standard deviations of the noise, and its derivatives by the unknowns in units of their spreads.
 #[derive(Clone, Debug)]

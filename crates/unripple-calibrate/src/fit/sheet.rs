@@ -3,9 +3,8 @@
 use super::basis::Basis;
 use super::layout::{Values, around};
 use crate::CalibrateError;
-use faer::Mat;
 use std::f64::consts::TAU;
-use unripple_linalg::symmetric;
+use unripple_linalg::{Mat, symmetric};
 
 /// The sheet of some values, without what hangs on it: its modes as combinations of the nominal ones.
 #[derive(Clone, Debug)]

@@ -3,10 +3,8 @@
 use super::layout::Values;
 use super::residual::{Case, Residual};
 use crate::CalibrateError;
-use faer::linalg::solvers::DenseSolveCore;
-use faer::{Mat, Side};
 use unripple_core::Point;
-use unripple_linalg::solve_cholesky;
+use unripple_linalg::{Cholesky, Mat, times};
 
 /// Steps of one descent, and what share of the cost its change is when it ends: on the way, and in the end, where it is far less than
 /// what a standard error more would cost.
@@ -89,9 +87,9 @@ impl Case<'_> {
     /// JᵀJ/κ² + 1 and -(Jᵀr/κ² + z).
     pub fn normal(&self, residual: &Residual, offsets: &[f64], excess: f64) -> (Mat<f64>, Mat<f64>) {
         let weight = 1.0 / excess.powi(2);
-        let mut system = weight * (residual.slopes.transpose() * &residual.slopes);
+        let mut system = weight * times(residual.slopes.transpose(), residual.slopes.as_ref());
         let values = Mat::from_fn(residual.values.len(), 1, |i, _| residual.values[i]);
-        let mut downhill = -weight * (residual.slopes.transpose() * values);
+        let mut downhill = -weight * times(residual.slopes.transpose(), values.as_ref());
         for (i, offset) in offsets.iter().enumerate() {
             system[(i, i)] += 1.0;
             downhill[(i, 0)] -= offset;
@@ -110,7 +108,7 @@ impl Case<'_> {
         let excess = found.excess.max(LEAST) * self.spectra.overlap.sqrt();
         let unknowns = found.residual.slopes.ncols();
         let (system, _) = self.normal(&found.residual, &vec![0.0; unknowns], excess);
-        let inverse = system.llt(Side::Lower).map_err(|_| singular())?.inverse();
+        let inverse = Cholesky::new(system.as_ref()).ok_or_else(singular)?.inverse();
         let apart = [0, 1].map(|way| pulled_apart(&found.residual, way, &inverse, excess));
         let variance = |u: usize| {
             // What was thought before has its own share in what groups say.
@@ -148,7 +146,7 @@ fn pulled_apart(residual: &Residual, way: usize, inverse: &Mat<f64>, excess: f64
             pulls[(u, row[way])] += residual.slopes[(i, u)] * value / excess.powi(2);
         });
     }
-    let moved = inverse * pulls;
+    let moved = times(inverse.as_ref(), pulls.as_ref());
     (0..unknowns).map(|u| FEW * (0..groups).map(|b| moved[(u, b)].powi(2)).sum::<f64>()).collect()
 }
 
@@ -173,7 +171,7 @@ pub(super) fn solve(system: &Mat<f64>, right: &Mat<f64>, damping: f64) -> Result
     let mut damped = system.clone();
     (0..damped.nrows()).for_each(|i| damped[(i, i)] *= 1.0 + damping);
     let mut found = right.clone();
-    solve_cholesky(&damped.llt(Side::Lower).map_err(|_| singular())?, found.as_mut());
+    Cholesky::new(damped.as_ref()).ok_or_else(singular)?.solve(found.as_mut());
     Ok(found)
 }
 

@@ -2,10 +2,10 @@
 
 use super::limited::{DERIVATIVES, Limited};
 use super::measured::Measured;
-use faer::c64;
 use realfft::RealFftPlanner;
 use std::f64::consts::{PI, TAU};
 use unripple_core::Point;
+use unripple_linalg::c64;
 
 /// Nepers of decay that the window has to give by the end of the signals.
 const ENDED: f64 = 6.0;

@@ -5,9 +5,8 @@ use super::layout::Unknown;
 use super::residual::Case;
 use super::solve::{Found, solve};
 use crate::CalibrateError;
-use faer::Mat;
 use unripple_core::{Outline, Point};
-use unripple_linalg::product;
+use unripple_linalg::{Mat, Scale, product, times};
 
 /// Masses that are tried at every place, in kg.
 const TRIED: [f64; 3] = [3e-6, 10e-6, 30e-6];
@@ -37,9 +36,9 @@ impl Case<'_> {
             for mass in TRIED {
                 let answers: Vec<Answer> = looks.iter().map(|look| look.with(mass)).collect();
                 let signatures = self.columns(&found.values, &answers, &vec![Unknown::Mass(0); batch.len()]);
-                let known = slopes.transpose() * &signatures * faer::Scale(1.0 / excess.powi(2));
+                let known = times(slopes.transpose(), signatures.as_ref()) * Scale(1.0 / excess.powi(2));
                 let explained = product(slopes.as_ref(), solve(&normal, &known, 0.0)?.as_ref());
-                let along = signatures.transpose() * &left;
+                let along = times(signatures.transpose(), left.as_ref());
                 for (n, place) in batch.iter().enumerate() {
                     let column = signatures.col(n);
                     let own: f64 = column.iter().zip(explained.col(n).iter()).map(|(v, e)| v * (v - e)).sum();

@@ -5,8 +5,8 @@ use super::coil::Coil;
 use super::layout::{Layout, Values};
 use super::sheet::Sheet;
 use crate::CalibrateError;
-use faer::Mat;
 use unripple_core::Point;
+use unripple_linalg::{Mat, Scale, times};
 use unripple_physics::{Footprint, Medium};
 
 /// Half the distance over which slopes of shapes are taken, in metres.
@@ -56,7 +56,7 @@ impl System {
         let sheet = Sheet::new(basis, values, count, top)?;
         let read = |footprints: &[Footprint]| {
             let all = Footprint::all_weights(footprints, basis.modes.as_ref());
-            sheet.turn.transpose() * all.subcols(0, count).transpose()
+            times(sheet.turn.transpose(), all.subcols(0, count).transpose())
         };
         let touching = |d: Point| -> Vec<Footprint> {
             let places = values.places.iter().enumerate();
@@ -67,7 +67,7 @@ impl System {
         let shapes = read(&all);
         let slopes = [Point::new(STEP, 0.0), Point::new(0.0, STEP)].map(|d| {
             let back = Point::new(-d.x, -d.y);
-            (read(&touching(d)) - read(&touching(back))) * faer::Scale(0.5 / STEP)
+            (read(&touching(d)) - read(&touching(back))) * Scale(0.5 / STEP)
         });
         let medium = Medium {
             tension: basis.medium.tension * values.tension.exp(),

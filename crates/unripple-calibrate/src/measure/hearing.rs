@@ -1,8 +1,8 @@
 //! What actuators hear of each other and of themselves, as a model says.
 
 use crate::CalibrateError;
-use faer::Mat;
 use unripple_core::{ModalResponses, Onset, Surface};
+use unripple_linalg::Mat;
 use unripple_physics::{Sensor, sensed, sensors};
 
 /// A model of what a surface's actuators hear of each other, each in the unit of its [`Sensor`].

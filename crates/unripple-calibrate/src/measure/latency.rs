@@ -4,10 +4,10 @@ use super::Hearing;
 use super::tones::{Heard, Part, Tone, tones};
 use crate::CalibrateError;
 use crate::signals::{Band, Delay};
-use faer::c64;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 use unripple_dsp::DspError;
+use unripple_linalg::c64;
 use unripple_physics::Sensor;
 
 /// Actuators that are looked at, at most.

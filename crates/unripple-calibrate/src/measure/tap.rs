@@ -2,9 +2,7 @@
 
 use crate::CalibrateError;
 use crate::signals::{Band, Deconvolver, Inversion, Stimulus};
-use faer::linalg::solvers::Llt;
-use faer::{Mat, Side};
-use unripple_linalg::{product, solve_cholesky};
+use unripple_linalg::{Cholesky, Mat, product, squared_norm, times};
 
 /// What is known of taps beforehand.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -141,7 +139,7 @@ fn force(
                 .for_each(|k| design[(a * early + i, k)] = moved[i - k * step]);
         }
     }
-    let mut normal = design.transpose() * &design;
+    let mut normal = times(design.transpose(), design.as_ref());
     let ridge = 1e-4 * (0..knots).map(|k| normal[(k, k)]).sum::<f64>() / knots as f64;
     (0..knots).for_each(|k| normal[(k, k)] += ridge);
     let unsolvable = || CalibrateError::Recording {
@@ -149,11 +147,11 @@ fn force(
         expected: "a model that moves at the place".into(),
         found: "one at rest".into(),
     };
-    let factor = Llt::new(normal.as_ref(), Side::Lower).map_err(|_| unsolvable())?;
+    let factor = Cholesky::new(normal.as_ref()).ok_or_else(unsolvable)?;
     let mut found = product(design.transpose(), sound.as_ref());
-    solve_cholesky(&factor, found.as_mut());
-    let left = (&sound - product(design.as_ref(), found.as_ref())).squared_norm_l2()
-        / sound.squared_norm_l2().max(f64::MIN_POSITIVE);
+    factor.solve(found.as_mut());
+    let left = squared_norm((&sound - product(design.as_ref(), found.as_ref())).as_ref())
+        / squared_norm(sound.as_ref()).max(f64::MIN_POSITIVE);
     let mut force = vec![0.0; span + 2 * step];
     for k in 0..knots {
         hat.iter().enumerate().for_each(|(j, f)| force[k * step + j] += f * found[(k, 0)]);

@@ -1,9 +1,8 @@
 //! The decaying tones that a surface's responses are made of, found in what is left once their beginning has passed.
 
-use faer::{Mat, c64};
 use realfft::RealFftPlanner;
 use std::f64::consts::{FRAC_PI_2, TAU};
-use unripple_linalg::{General, general, product, solve_lu, symmetric};
+use unripple_linalg::{General, Lu, Mat, adjoint_times, c64, general, product, symmetric, times_adjoint};
 
 /// What a part of the band rings for at its soft edges, times their width in Hz: a thousandth is left.
 const RINGING: f64 = 2.5;
@@ -144,7 +143,7 @@ fn directions(instants: &[Mat<c64>], blocks: usize) -> Option<(Vec<c64>, Mat<c64
     let (rows, starts) = (count * blocks, instants.len() - blocks + 1);
     let stacked =
         Mat::from_fn(rows, count * starts, |r, c| instants[r / count + c / count][(r % count, c % count)]);
-    let gram = &stacked * stacked.adjoint();
+    let gram = times_adjoint(stacked.as_ref(), stacked.as_ref());
     let (powers, directions) = symmetric(gram.as_ref())?;
     let mut order: Vec<usize> = (0..rows).collect();
     order.sort_unstable_by(|a, b| powers[*b].total_cmp(&powers[*a]));
@@ -159,8 +158,8 @@ fn directions(instants: &[Mat<c64>], blocks: usize) -> Option<(Vec<c64>, Mat<c64
     let span = Mat::from_fn(rows, kept.len(), |r, c| directions[(r, kept[c])]);
     let before = span.subrows(0, rows - count);
     let after = span.subrows(count, rows - count);
-    let mut turn = before.adjoint() * after;
-    solve_lu(&(before.adjoint() * before).partial_piv_lu(), turn.as_mut());
+    let mut turn = adjoint_times(before, after);
+    Lu::new(adjoint_times(before, before).as_ref()).solve(turn.as_mut());
     let General { values: poles, vectors } = general(turn.as_ref())?;
     let shapes = product(span.subrows(0, count), vectors.as_ref());
     Some((poles, shapes))
@@ -173,7 +172,8 @@ fn amplitudes(baseband: &Baseband, shapes: &Mat<c64>, tones: &[(usize, c64)]) ->
     let going =
         Mat::from_fn(baseband.times.len(), tones_found, |i, m| (tones[m].1 * baseband.times[i]).exp());
     let places = Mat::from_fn(count, tones_found, |b, m| shapes[(b, tones[m].0)]);
-    let (time, place) = (going.adjoint() * &going, places.adjoint() * &places);
+    let time = adjoint_times(going.as_ref(), going.as_ref());
+    let place = adjoint_times(places.as_ref(), places.as_ref());
     let size = |m: usize| (time[(m, m)].re * place[(m, m)].re).max(f64::MIN_POSITIVE).sqrt();
     let sizes: Vec<f64> = (0..tones_found).map(size).collect();
     let normal = Mat::from_fn(tones_found, tones_found, |m, n| {
@@ -182,14 +182,14 @@ fn amplitudes(baseband: &Baseband, shapes: &Mat<c64>, tones: &[(usize, c64)]) ->
     });
     let mut right = Mat::<c64>::zeros(tones_found, count);
     for (i, instant) in baseband.instants.iter().enumerate() {
-        let seen = places.adjoint() * instant;
+        let seen = adjoint_times(places.as_ref(), instant.as_ref());
         for m in 0..tones_found {
             let weight = going[(i, m)].conj() / sizes[m];
             (0..count).for_each(|a| right[(m, a)] += weight * seen[(m, a)]);
         }
     }
     let mut found = right;
-    solve_lu(&normal.partial_piv_lu(), found.as_mut());
+    Lu::new(normal.as_ref()).solve(found.as_mut());
     // Twice, since the negative frequencies are left out.
     let own = |m: usize| (0..count).map(|a| places[(a, m)] * found[(m, a)] * (2.0 / sizes[m])).collect();
     (0..tones_found).map(own).collect()

@@ -1,8 +1,7 @@
 //! A model's responses at any place, compared with measured ones frequency by frequency.
 
-use faer::{Mat, c64};
 use unripple_core::{ModalResponses, Point, Pole};
-use unripple_linalg::product;
+use unripple_linalg::{Mat, c64, product, times};
 
 /// What a model says between its actuators and any place, ready to be compared with what was heard there.
 ///
@@ -53,8 +52,8 @@ impl<'a> Checker<'a> {
                 (both[(m, 2 * n)], both[(m, 2 * n + 1)]) = (mobilities[(m, n)].re, mobilities[(m, n)].im);
             }
         }
-        let mut gram = &both * both.transpose();
-        let driven = model.input.transpose() * &model.input;
+        let mut gram = times(both.as_ref(), both.transpose());
+        let driven = times(model.input.transpose(), model.input.as_ref());
         for m in 0..modes {
             for n in 0..modes {
                 gram[(m, n)] *= driven[(m, n)];
@@ -93,7 +92,7 @@ impl<'a> Checker<'a> {
 
     /// Power of the model at each of some places, from their shapes (places x modes).
     pub fn powers(&self, shapes: &Mat<f64>) -> Vec<f64> {
-        let all = shapes * &self.gram;
+        let all = times(shapes.as_ref(), self.gram.as_ref());
         (0..shapes.nrows()).map(|p| (0..shapes.ncols()).map(|m| all[(p, m)] * shapes[(p, m)]).sum()).collect()
     }
 

@@ -3,9 +3,9 @@
 use super::checker::Checker;
 use super::verdict::VerifyOptions;
 use crate::fit::{FitOptions, Fitted, Measured, Spectra, fit, lag};
-use faer::c64;
 use std::f64::consts::{PI, TAU};
 use unripple_core::{Point, SampledResponses, Surface};
+use unripple_linalg::c64;
 use unripple_physics::Medium;
 
 /// Actuators that are enough: more make the fit slow, and tell no more of a point.

@@ -1,10 +1,9 @@
 //! Where on the sheet, and how late, a response fits the model best.
 
 use super::checker::{Checker, Match, Projected};
-use faer::Mat;
 use std::f64::consts::TAU;
 use unripple_core::{Outline, Point};
-use unripple_linalg::product;
+use unripple_linalg::{Mat, product};
 
 /// Places along the shortest wave looked at: likeness has fallen to 0.9 half a step from where it is best.
 const DENSE: f64 = 7.0;

@@ -5,13 +5,13 @@
 #[path = "../fit_truth/mod.rs"]
 pub mod fit_truth;
 
-use faer::Mat;
 use fit_truth::{Faults, Truth};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use unripple_calibrate::{Drift, FitOptions, Fitted, Hold, Ping, PingOptions, Tracker, Tracking, fit};
 use unripple_core::{ModalResponses, Point, Responses, Shapes, Surface};
 use unripple_focus::{Focuser, Method, Options, Target};
+use unripple_linalg::Mat;
 use unripple_physics::design::papers_surface;
 use unripple_physics::stepper::{Misbehaving, Mishaps};
 use unripple_physics::{Modes, ResponseOptions, StepperOptions, VirtualSurface, responses};

@@ -2,7 +2,6 @@
 
 #![allow(dead_code)]
 
-use faer::Mat;
 use std::sync::Arc;
 use unripple_calibrate::signals::Band;
 use unripple_calibrate::{Measured, Tap};
@@ -12,6 +11,7 @@ use unripple_core::{
 };
 use unripple_field::Field;
 use unripple_focus::{Focuser, Method, Options, Target};
+use unripple_linalg::Mat;
 use unripple_physics::design::papers_surface;
 use unripple_physics::{Medium, Modes, sample};
 

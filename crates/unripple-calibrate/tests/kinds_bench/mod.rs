@@ -221,7 +221,8 @@ fn modal_of(plant: &Responses, surface: &Surface) -> ModalResponses {
     let Responses::Modal(plant) = plant else { panic!() };
     let top = std::f64::consts::TAU * surface.emission.band[1];
     let kept: Vec<usize> = (0..plant.poles.len()).filter(|m| plant.poles[*m].omega <= top).collect();
-    let input = faer::Mat::from_fn(plant.ports.len(), kept.len(), |a, m| plant.input[(a, kept[m])]);
+    let input =
+        unripple_linalg::Mat::from_fn(plant.ports.len(), kept.len(), |a, m| plant.input[(a, kept[m])]);
     ModalResponses {
         ports: plant.ports.clone(),
         poles: kept.iter().map(|m| plant.poles[*m]).collect(),
