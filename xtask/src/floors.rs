@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-const FLOORS: &[(&str, u8)] = &[
+const FLOORS: &[(&str, i8)] = &[
+    ("unripple-linalg", -1),
     ("unripple-core", 0),
-    ("unripple-linalg", 0),
     ("unripple-dsp", 1),
     ("unripple-plates", 1),
     ("unripple-physics", 2),
@@ -25,7 +25,7 @@ const FLOORS: &[(&str, u8)] = &[
     ("unripple-cli", 7),
 ];
 
-fn floor(name: &str) -> Option<u8> {
+fn floor(name: &str) -> Option<i8> {
     FLOORS.iter().find(|(n, _)| *n == name).map(|(_, floor)| *floor)
 }
 

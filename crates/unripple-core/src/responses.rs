@@ -1,8 +1,8 @@
 //! Impulse responses from actuators to points, sampled or as modes (poles and residues).
 
 use crate::{CoreError, Outline, Point, Pole};
-use faer::Mat;
 use std::sync::Arc;
+use unripple_linalg::Mat;
 
 /// What the surface does: a linear system seen from outside, sampled or factored into decaying oscillations.
 #[derive(Clone, Debug)]

@@ -1,14 +1,14 @@
 //! Polyphase interpolation of the modal sums from the reduced to the full sample rate, in SIMD lanes.
 
-use faer::traits::RealField;
 use pulp::NullaryFnOnce;
+use unripple_linalg::Number;
 
 /// Taps added at once, so that a sum is read and written once for four multiplications; what remains of a
 /// kernel is added one by one. Doubled, sums are read half as often, but up to seven taps remain.
 const TAPS: usize = 4;
 
 /// A number that multiplies and adds in one instruction where the processor can.
-pub(crate) trait Sample: RealField + Copy {
+pub(crate) trait Sample: Number {
     /// `sum + self · factor`.
     fn added(self, factor: Self, sum: Self) -> Self;
 }

@@ -1,9 +1,9 @@
 //! Weights that interpolate between samples: a polyphase Kaiser-windowed sinc.
 
 use crate::special::{kaiser, sinc};
-use faer::Mat;
 use std::f64::consts::PI;
 use unripple_core::Pole;
+use unripple_linalg::Mat;
 
 /// Interpolation between samples taken at a `step`-th of the rate: `taps` weights for each of `step` phases.
 ///

@@ -3,12 +3,11 @@
 use crate::DspError;
 use crate::interpolate::{Rows, Sample};
 use crate::kernel::Kernel;
-use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatMut, MatRef, Par};
 use pulp::Arch;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use unripple_core::Pole;
+use unripple_linalg::{Accum, Mat, MatMut, MatRef, Par, multiply};
 
 /// Rows that one thread works on at once: so many share what is read of the velocities. Doubled, there are
 /// half as many tasks for the threads, and each holds twice the samples.
@@ -35,7 +34,7 @@ const MOST: usize = 64;
 /// are too damped or too high for that are summed directly.
 ///
 /// ```
-/// use faer::mat;
+/// use unripple_linalg::mat;
 /// use unripple_core::Pole;
 /// use unripple_dsp::ModalSynth;
 ///
@@ -224,7 +223,7 @@ impl<T: Sample> Tables<T> {
             let height = width.div_ceil(step) + taps - 1;
             let strip = self.strip.submatrix(0, 0, height, width);
             let out = out.as_mut().subcols_mut(first, width);
-            matmul(out, Accum::Replace, x.subcols(block, height), strip, T::one_impl(), Par::Seq);
+            multiply(out, Accum::Replace, x.subcols(block, height), strip, T::one_impl(), Par::Seq);
         }
     }
 }
@@ -239,10 +238,10 @@ fn product<T: Sample>(
 ) {
     let out = MatMut::from_row_major_slice_mut(out, weights.nrows(), velocities.nrows());
     if modes.len() == weights.ncols() {
-        matmul(out, accum, weights, velocities.transpose(), T::one_impl(), Par::Seq);
+        multiply(out, accum, weights, velocities.transpose(), T::one_impl(), Par::Seq);
     } else {
         let some = Mat::from_fn(weights.nrows(), modes.len(), |r, m| weights[(r, modes[m])]);
-        matmul(out, accum, some, velocities.transpose(), T::one_impl(), Par::Seq);
+        multiply(out, accum, some.as_ref(), velocities.transpose(), T::one_impl(), Par::Seq);
     }
 }
 

@@ -1,8 +1,8 @@
 //! Truth: the sum that defines modal responses, taken term by term in double precision.
 
-use faer::Mat;
 use unripple_core::Pole;
 use unripple_dsp::{DspError, ModalSynth};
+use unripple_linalg::Mat;
 
 /// Modes of a film-like spectrum up to `top_hz`, decaying with `sigma`.
 fn poles(count: usize, top_hz: f64, sigma: f64) -> Vec<Pole> {
