@@ -6,11 +6,11 @@ use common::machine::{introduce, load, product_rate};
 use common::table::{Table, none, number};
 use common::times::Times;
 use common::{Fault, Outcome, modal, peers, place, surface};
-use faer::{Mat, Par};
 use std::hint::black_box;
 use unripple::core::{ModalResponses, Point, Responses, Surface};
 use unripple::dsp::ModalSynth;
 use unripple::focus::{Focuser, Options, Target};
+use unripple_linalg::{Mat, Par};
 
 /// Points, all different.
 const POINTS: usize = 4000;
@@ -22,7 +22,7 @@ const SAMPLES: usize = 1441;
 const DECAY: f64 = 0.07;
 
 fn main() -> Outcome {
-    // One core: faer and rayon see a pool of one thread.
+    // One core: products and rayon see a pool of one thread.
     rayon::ThreadPoolBuilder::new().num_threads(1).build()?.install(run)
 }
 

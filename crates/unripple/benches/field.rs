@@ -6,11 +6,11 @@ use common::machine::{introduce, load, product_rate, threads};
 use common::table::{Table, number};
 use common::times::Times;
 use common::{Outcome, modal, surface};
-use faer::Par;
 use std::hint::black_box;
 use unripple::core::{Point, Responses};
 use unripple::field::{Aim, Field, MeasureOptions, measure};
 use unripple::focus::{Options, Target, focus};
+use unripple_linalg::Par;
 
 fn main() -> Outcome {
     let modal = modal(&surface())?;

@@ -6,11 +6,11 @@ use common::machine::{introduce, load, product_rate, threads};
 use common::table::{Table, none, number};
 use common::times::Times;
 use common::{Outcome, modal, peers, place, surface};
-use faer::Par;
 use std::hint::black_box;
 use unripple::core::Point;
 use unripple::dsp::ModalSynth;
 use unripple::physics::sample;
+use unripple_linalg::Par;
 
 /// Points of the library.
 const POINTS: usize = 10_000;

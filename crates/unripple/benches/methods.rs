@@ -6,11 +6,11 @@ use common::machine::{introduce, load, product_rate};
 use common::table::{Table, none, number};
 use common::times::Times;
 use common::{Outcome, modal, peers, place, surface};
-use faer::Par;
 use std::hint::black_box;
 use std::time::Instant;
 use unripple::core::{Responses, Surface};
 use unripple::focus::{Focuser, Method, Options, Target};
+use unripple_linalg::Par;
 
 /// Samples of a response: 30 ms at 48 kHz, both ends.
 const SAMPLES: usize = 1441;
@@ -22,7 +22,7 @@ const DECAY: f64 = 0.07;
 const DRIVES: [usize; 2] = [400, 5];
 
 fn main() -> Outcome {
-    // One core: faer and rayon see a pool of one thread.
+    // One core: products and rayon see a pool of one thread.
     rayon::ThreadPoolBuilder::new().num_threads(1).build()?.install(run)
 }
 

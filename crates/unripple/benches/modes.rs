@@ -6,10 +6,10 @@ use common::machine::{self, introduce, product_rate};
 use common::table::{Table, none, number};
 use common::times::Times;
 use common::{Outcome, peers, surface};
-use faer::Par;
 use std::hint::black_box;
 use unripple::core::Surface;
 use unripple::physics::{Modes, PhysicsError};
+use unripple_linalg::Par;
 
 /// Modes asked for.
 const COUNT: usize = 350;

@@ -6,11 +6,11 @@ use common::machine::{introduce, load, product_rate};
 use common::table::{Table, number};
 use common::times::Times;
 use common::{Fault, Outcome, modal, place, surface};
-use faer::Par;
 use std::hint::black_box;
 use unripple::core::{Contact, Finger, ModalResponses, Point};
 use unripple::physics::stepper::{Channel, Plant, Reading, StepperOptions, VirtualSurface};
 use unripple::physics::{Circuit, Footprint, Load};
+use unripple_linalg::Par;
 
 /// Modes stepped.
 const MODES: usize = 300;

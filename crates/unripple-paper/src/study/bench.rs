@@ -2,13 +2,13 @@
 
 use super::Replay;
 use super::replay::{product, rings};
-use faer::{Mat, MatRef};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use unripple_core::{
     Conditions, ModalResponses, Outline, Point, Pole, Port, Responses, Shapes, Surface, window_samples,
 };
 use unripple_field::{FieldError, Grid};
+use unripple_linalg::{Mat, MatRef};
 use unripple_physics::{Medium, Modes, PhysicsError};
 
 /// Relative accuracy of the frequencies of the modes.
@@ -220,7 +220,7 @@ impl Shapes for Leading {
     }
 }
 
-fn dot(a: faer::ColRef<'_, f64>, b: faer::ColRef<'_, f64>) -> f64 {
+fn dot(a: unripple_linalg::ColRef<'_, f64>, b: unripple_linalg::ColRef<'_, f64>) -> f64 {
     a.iter().zip(b.iter()).map(|(x, y)| x * y).sum()
 }
 

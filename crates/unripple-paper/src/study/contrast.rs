@@ -1,9 +1,9 @@
 //! Simulated contrast beside the closed forms, one parameter varied at a time.
 
 use super::{Bench, Draw, Random, Replay, Sampling, StudyError};
-use faer::{Mat, MatRef};
 use rayon::prelude::*;
 use unripple_core::{Point, Surface};
+use unripple_linalg::{Mat, MatRef, times};
 use unripple_physics::design::{Cavity, closed};
 
 /// A simulated contrast beside what is predicted for it.
@@ -142,7 +142,7 @@ fn noise_state(
     random: &mut Random,
 ) -> Vec<f64> {
     let noise = Mat::from_fn(rings.nrows(), inputs.nrows(), |_, _| random.normal());
-    let left = rings.transpose() * noise;
+    let left = times(rings.transpose(), noise.as_ref());
     let rate = bench.conditions().rate;
     (0..rings.ncols())
         .map(|m| (0..inputs.nrows()).map(|a| inputs[(a, m)] * left[(m, a)]).sum::<f64>() / rate)

@@ -1,8 +1,7 @@
 //! Time reversal mode by mode: the matrix of residual amplitudes at the focal instant.
 
-use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatRef, Par, c64};
 use unripple_core::{Pole, window_samples};
+use unripple_linalg::{Accum, Mat, MatRef, Par, Scale, c64, multiply};
 
 /// What a replayed response leaves of every mode at the focal instant: `I_mn = Σ_i heard_m[i] g_n[i] / rate`.
 ///
@@ -74,7 +73,7 @@ impl Replay {
     }
 
     fn of(mut heard: Mat<f64>, rings: Mat<f64>, rate: f64) -> Self {
-        heard *= faer::Scale(1.0 / rate);
+        heard *= Scale(1.0 / rate);
         if 2 * rings.nrows() < rings.ncols() {
             Self(Form::Factors { heard, rings })
         } else {
@@ -107,7 +106,7 @@ pub(super) fn rings(poles: &[Pole], rate: f64, last: usize) -> Mat<f64> {
 /// The matrix product, on all cores.
 pub(super) fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     let mut sum = Mat::zeros(a.nrows(), b.ncols());
-    matmul(sum.as_mut(), Accum::Replace, a, b, 1.0, Par::rayon(0));
+    multiply(sum.as_mut(), Accum::Replace, a, b, 1.0, Par::rayon(0));
     sum
 }
 

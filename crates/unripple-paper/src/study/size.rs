@@ -2,9 +2,9 @@
 
 use super::contrast::{mean, over};
 use super::{Bench, Sampling};
-use faer::{ColRef, Mat, MatRef};
 use std::f64::consts::TAU;
 use unripple_core::{Point, Surface, window_samples};
+use unripple_linalg::{ColRef, Mat, MatRef, times, times_column};
 use unripple_physics::design::{Cavity, closed};
 
 /// Directions in which a spot is measured.
@@ -68,7 +68,7 @@ fn spot(bench: &Bench, target: Point, state: ColRef<'_, f64>) -> f64 {
     };
     let places: Vec<Point> =
         (0..DIRECTIONS).flat_map(|d| (0..=RADII).map(move |r| (d, r))).map(|(d, r)| place(d, r)).collect();
-    let field = bench.shapes_at(&places) * state;
+    let field = times_column(bench.shapes_at(&places).as_ref(), state);
     let radius = |d: usize| {
         let ray: Vec<f64> = (0..=RADII).map(|r| field[d * (RADII + 1) + r]).collect();
         step * half_at(&ray)
@@ -87,7 +87,7 @@ fn pulse(
     lag: usize,
 ) -> f64 {
     let weights = Mat::from_fn(rings.ncols(), inputs.nrows(), |m, a| inputs[(a, m)] * target[(0, m)]);
-    let responses = rings * weights;
+    let responses = times(rings, weights.as_ref());
     let last = responses.nrows() - 1 - lag;
     let sum = |range: std::ops::RangeInclusive<usize>, s: usize| -> f64 {
         let product =

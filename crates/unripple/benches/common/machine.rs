@@ -1,10 +1,9 @@
 //! What the machine can do, measured in the same run.
 
 use super::times::Times;
-use faer::linalg::matmul::matmul;
-use faer::traits::RealField;
-use faer::{Accum, Mat, Par};
 use std::hint::black_box;
+use std::ops::Neg;
+use unripple_linalg::{Accum, Mat, Number, Par, multiply};
 
 /// Prints what a benchmark is about, on how many threads, and how busy the machine is.
 pub fn introduce(title: &str, threads: usize) {
@@ -26,13 +25,17 @@ pub fn threads() -> usize {
 /// Best rate of the product of a `rows` x `inner` and an `inner` x `columns` matrix, in flop/s, over a few runs.
 ///
 /// The right factor and the result lie row by row, as in a library of responses.
-pub fn product_rate<T: RealField + Copy>([rows, inner, columns]: [usize; 3], par: Par, unit: T) -> f64 {
+pub fn product_rate<T: Number + Neg<Output = T>>(
+    [rows, inner, columns]: [usize; 3],
+    par: Par,
+    unit: T,
+) -> f64 {
     let left = Mat::from_fn(rows, inner, |i, j| if (3 * i + 7 * j) % 5 < 2 { unit } else { -unit });
     let right = Mat::from_fn(columns, inner, |i, j| if (5 * i + 3 * j) % 7 < 3 { unit } else { -unit });
     let mut result = Mat::zeros(columns, rows);
     let times = Times::of(5, |_| {
         let out = result.transpose_mut();
-        matmul(out, Accum::Replace, &left, right.transpose(), unit, par);
+        multiply(out, Accum::Replace, left.as_ref(), right.transpose(), unit, par);
         black_box(&result);
     });
     2.0 * (rows * inner * columns) as f64 / times.best()

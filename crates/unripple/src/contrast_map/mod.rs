@@ -5,11 +5,9 @@ mod reversal;
 use crate::act::ActError;
 use crate::core::{Conditions, ModalResponses, Point, Responses, window_samples};
 use crate::field::Grid;
-use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatRef, Par};
 use rayon::prelude::*;
 use unripple_core::OutOfRange;
-use unripple_linalg::product;
+use unripple_linalg::{Accum, Mat, MatRef, Par, multiply, product};
 
 /// Points of the field read at once: their values fit a cache.
 const POINTS: usize = 128;
@@ -149,7 +147,7 @@ fn outside(
     let exact = modal.shapes.at_all(points);
     let weights = Mat::from_fn(exact.nrows(), exact.ncols(), |p, m| exact[(p, m)] as f32);
     let mut field = Mat::<f32>::zeros(points.len(), targets.len());
-    matmul(field.as_mut(), Accum::Replace, weights.as_ref(), state, 1.0, Par::Seq);
+    multiply(field.as_mut(), Accum::Replace, weights.as_ref(), state, 1.0, Par::Seq);
     let one = |(target, field): (&Point, &[f32])| {
         let outside = points.iter().zip(field).filter(|(point, _)| {
             let (x, y) = (point.x - target.x, point.y - target.y);

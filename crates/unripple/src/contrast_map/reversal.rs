@@ -1,8 +1,8 @@
 //! Time reversal to every place at once, in modal coordinates.
 
 use crate::core::{ModalResponses, Pole};
-use faer::Mat;
 use rayon::prelude::*;
+use unripple_linalg::{Mat, times};
 
 /// A two by two matrix, by rows.
 type Square = [[f64; 2]; 2];
@@ -12,7 +12,7 @@ type Square = [[f64; 2]; 2];
 pub(super) fn map(modal: &ModalResponses, samples: usize) -> Mat<f64> {
     let (poles, rate) = (&modal.poles, modal.conditions.rate);
     let sums = Sums::plan(poles, rate, samples);
-    let inputs = modal.input.transpose() * &modal.input;
+    let inputs = times(modal.input.transpose(), modal.input.as_ref());
     let modes = poles.len();
     let rows: Vec<Vec<f64>> = (0..modes)
         .into_par_iter()
