@@ -4,6 +4,7 @@ mod circles;
 mod docs;
 mod floors;
 mod openings;
+mod seeds;
 mod sizes;
 mod words;
 
@@ -35,6 +36,7 @@ fn main() -> ExitCode {
 fn tidy(root: &Path) -> Vec<String> {
     let mut faults = floors::check(root);
     faults.extend(openings::check(root));
+    faults.extend(seeds::check(root));
     faults.extend(sizes::check(root));
     faults.extend(words::check(root));
     faults

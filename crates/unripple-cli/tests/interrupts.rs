@@ -332,6 +332,7 @@ fn a_second_ctrl_c_does_not_wait() {
 #[test]
 fn killed_runs_lose_nothing_and_the_next_one_tidies_up() {
     let (rounds, seed) = (number("UNRIPPLE_INTERRUPTS", 4), number("UNRIPPLE_SEED", 1));
+    println!("seed {seed}, {rounds} rounds");
     let mut dice = Dice(seed);
     let scratch = Scratch::new("killed");
     let film = scratch.file("film.toml", FILM);

@@ -169,6 +169,7 @@ fn every_sitting_ends_in_silence() {
     let (began, mut told) = (Instant::now(), Instant::now());
     let mut day = Day::default();
     while day.played_s < wanted && began.elapsed().as_secs_f64() < most {
+        println!("sitting of seed {}", day.sittings);
         let mut random = Random::seeded(day.sittings);
         let mut sitting = Sitting::new(&mut random);
         let length = random.between(1.0, 40.0);

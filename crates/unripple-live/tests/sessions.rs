@@ -186,6 +186,7 @@ fn no_sitting_passes_a_limit_or_clicks() {
     let mut watch = Watch::new(&film());
     let mut total = (0, 0);
     for seed in 0..sittings {
+        println!("sitting of seed {seed}");
         let (started, limited) = sitting(seed, &mut watch);
         total = (total.0 + started, total.1 + limited);
     }

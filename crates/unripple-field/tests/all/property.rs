@@ -50,7 +50,7 @@ fn same(a: &[f64], b: &[f64], tolerance: f64) -> Result<(), TestCaseError> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
 
     #[test]
     fn fields_add_up((film, at, one, other) in scenes(), factor in -3.0..3.0) {

@@ -35,7 +35,7 @@ fn values(drive: &Drive) -> impl Iterator<Item = f64> + '_ {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 32, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 32, ..ProptestConfig::default() })]
 
     #[test]
     fn every_drive_just_keeps_the_limit((membrane, targets) in scenes(), limit in 1e-3..1e3) {
