@@ -1,4 +1,4 @@
-//! House rules and documentation checks: `cargo xtask tidy`, `cargo xtask docs` and `cargo xtask circles`.
+//! House rules, tests and documentation checks: `cargo xtask tidy`, `test`, `docs` and `circles`.
 
 mod circles;
 mod docs;
@@ -6,16 +6,22 @@ mod floors;
 mod openings;
 mod seeds;
 mod sizes;
+mod suite;
 mod words;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+/// The profile in which everything is built that tests, the page and the documentation's commands use.
+const PROFILE: &str = "checked";
+
 fn main() -> ExitCode {
-    let task = std::env::args().nth(1).unwrap_or_default();
+    let mut arguments = std::env::args().skip(1);
+    let task = arguments.next().unwrap_or_default();
     let root = root();
     let faults = match task.as_str() {
         "tidy" => tidy(&root),
+        "test" => suite::run(&root, &arguments.collect::<Vec<_>>()),
         "docs" => docs::run_all(&root),
         "circles" => {
             let circles = circles::find(&root);
@@ -24,7 +30,9 @@ fn main() -> ExitCode {
             return ExitCode::SUCCESS;
         }
         _ => {
-            eprintln!("usage: cargo xtask tidy | docs | circles");
+            eprintln!(
+                "usage: cargo xtask tidy | test [--built FILE | OPTIONS OF CARGO TEST] | docs | circles"
+            );
             return ExitCode::from(2);
         }
     };
