@@ -5,9 +5,15 @@ use std::process::Command;
 
 /// Runs the ```sh blocks of README.md and docs/*.md, each page in a folder of its own; returns those that failed.
 ///
-/// README blocks run at the top of the checkout; guide blocks run with `unripple` on the path.
+/// README blocks run at the top of the checkout; guide blocks run with `unripple` on the path. Both use the program that was built beside
+/// this one: `cargo run --release -- …` there is that program with those arguments ([`SHIM`]), so that nothing is compiled a second time in
+/// another profile. All other commands of cargo are cargo's own.
 pub fn run_all(root: &Path) -> Vec<String> {
     let scratch = root.join("target/docs");
+    let path = match search_path(&scratch) {
+        Ok(path) => path,
+        Err(reason) => return vec![reason],
+    };
     let mut faults = Vec::new();
     let mut count = 0;
     let mut pages = vec![root.join("README.md")];
@@ -19,7 +25,7 @@ pub fn run_all(root: &Path) -> Vec<String> {
         for block in blocks(&text, "sh") {
             count += 1;
             eprintln!("{}:\n{block}", page.file_name().unwrap_or_default().to_string_lossy());
-            if let Err(reason) = run(&block, &folder, root) {
+            if let Err(reason) = run(&block, &folder, &path) {
                 faults.push(format!("{}: {reason}\n{block}", page.display()));
             }
         }
@@ -28,6 +34,46 @@ pub fn run_all(root: &Path) -> Vec<String> {
         faults.push("no shell block was found in README.md or docs".into());
     }
     faults
+}
+
+/// Stands for `cargo` while the blocks run.
+const SHIM: &str = r#"#!/bin/sh
+# cargo, but for `cargo run --release -- ...`: that is the program that is built already.
+if [ "$1 $2 $3" = "run --release --" ]; then
+    shift 3
+    exec "$UNRIPPLE" "$@"
+fi
+PATH=$UNRIPPLE_PATH exec cargo "$@"
+"#;
+
+/// Where the shell finds the program of the documentation, and a `cargo` that runs it.
+struct SearchPath {
+    /// The program.
+    program: PathBuf,
+    /// As it was.
+    before: String,
+    /// With the folders of both before all others.
+    path: String,
+}
+
+fn search_path(scratch: &Path) -> Result<SearchPath, String> {
+    let said = |error: std::io::Error| error.to_string();
+    let built = std::env::current_exe().and_then(|own| own.canonicalize()).map_err(said)?;
+    let built = built.parent().ok_or("xtask is in no folder")?;
+    let program = built.join(format!("unripple{}", std::env::consts::EXE_SUFFIX));
+    if !program.is_file() {
+        return Err(format!("no {}: cargo build --profile {} makes it", program.display(), crate::PROFILE));
+    }
+    let folder = scratch.join("path");
+    std::fs::create_dir_all(&folder).map_err(said)?;
+    let shim = folder.join("cargo");
+    std::fs::write(&shim, SHIM).map_err(said)?;
+    #[cfg(unix)]
+    std::fs::set_permissions(&shim, std::os::unix::fs::PermissionsExt::from_mode(0o755)).map_err(said)?;
+    let folder = folder.canonicalize().map_err(said)?;
+    let before = std::env::var("PATH").unwrap_or_default();
+    let path = format!("{}:{}:{before}", folder.display(), built.display());
+    Ok(SearchPath { program, before, path })
 }
 
 fn page_folder(scratch: &Path, page: &Path) -> PathBuf {
@@ -59,13 +105,13 @@ fn blocks(text: &str, language: &str) -> Vec<String> {
     found
 }
 
-fn run(block: &str, folder: &Path, root: &Path) -> Result<(), String> {
-    let binaries = root.join("target/release").canonicalize().map_err(|e| e.to_string())?;
-    let path = format!("{}:{}", binaries.display(), std::env::var("PATH").unwrap_or_default());
+fn run(block: &str, folder: &Path, search: &SearchPath) -> Result<(), String> {
     let status = Command::new("sh")
         .args(["-e", "-c", block])
         .current_dir(folder)
-        .env("PATH", path)
+        .env("PATH", &search.path)
+        .env("UNRIPPLE", &search.program)
+        .env("UNRIPPLE_PATH", &search.before)
         .env("UNRIPPLE_INSIDE_CHECK", "1")
         .stdout(std::process::Stdio::null())
         .status()
