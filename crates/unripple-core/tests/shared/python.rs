@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The system's Python if that has the modules, or that of an environment of this name in the target folder, made when needed; why
-/// there is none.
+/// The system's Python if that has the modules, or that of an environment of this name in the target folder; why there is none.
+///
+/// The environment is made, with packages from the network, where no test may be skipped: with `CI` or `UNRIPPLE_NOTHING_SKIPPED=1`.
 pub fn python(name: &str, modules: &str, packages: &[&str]) -> Result<PathBuf, String> {
     let has = |python: &Path| {
         let found = Command::new(python).args(["-c", &format!("import {modules}")]).output();
@@ -17,6 +18,13 @@ pub fn python(name: &str, modules: &str, packages: &[&str]) -> Result<PathBuf, S
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().ok_or("no target folder")?;
     let folder = target.join(name);
     let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+    if has(&python) {
+        return Ok(python);
+    }
+    let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    if !set("CI") && !std::env::var_os("UNRIPPLE_NOTHING_SKIPPED").is_some_and(|value| value == "1") {
+        return Err("only ./check --all installs it".into());
+    }
     let run = |command: &mut Command| match command.output() {
         Ok(output) if output.status.success() => Ok(()),
         Ok(output) => {
@@ -31,10 +39,8 @@ pub fn python(name: &str, modules: &str, packages: &[&str]) -> Result<PathBuf, S
         let pip = ["-m", "pip", "install", "--quiet", "--retries", "3", "--timeout", "20"];
         run(Command::new(python).args(pip).args(packages))
     };
-    if !has(&python) {
-        // Anew each time: one that was cut short may have a Python without a `pip`.
-        run(Command::new("python3").args(["-m", "venv", "--clear"]).arg(&folder))?;
-        pip(&python)?;
-    }
+    // Anew each time: one that was cut short may have a Python without a `pip`.
+    run(Command::new("python3").args(["-m", "venv", "--clear"]).arg(&folder))?;
+    pip(&python)?;
     if has(&python) { Ok(python) } else { Err(format!("after installing {packages:?}: no {modules}")) }
 }
