@@ -8,6 +8,8 @@ mod seeds;
 mod sizes;
 mod suite;
 mod words;
+#[cfg(test)]
+mod workflows;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
