@@ -29,11 +29,11 @@ const BUILTINS: &[BuiltinEffects] = &[
     builtin!("two-stage-button", "a shutter button: a soft click when touched, a hard one when pressed"),
     builtin!("sandpaper", "irregular grains, harder the faster the finger goes"),
     builtin!("corduroy", "even ribs every 2 mm"),
-    builtin!("edge", "the rim of a square that can be felt when crossed"),
+    builtin!("edge", "the border of a square, felt as a click when the finger crosses it"),
     builtin!("ruler-notches", "a detent every 5 mm from left to right, a stronger one every 50 mm"),
     builtin!("heartbeat", "two beats, over and over, while touched"),
     builtin!("rain", "drops around the finger, now here, now there"),
-    builtin!("drawn-triangle", "a triangle drawn on a resting palm by a running point"),
+    builtin!("drawn-triangle", "a point that draws a triangle on a resting palm"),
     builtin!("purr", "a rough hum that grows when stroked"),
 ];
 

@@ -84,7 +84,7 @@ fn ranges_are_those_of_the_reader() {
 fn ready_ones_are_listed() {
     let listed: Vec<(String, &str)> = rows(GUIDE)
         .into_iter()
-        .filter(|(section, _)| *section == "Use a ready one")
+        .filter(|(section, _)| *section == "Ready-made effects")
         .map(|(_, cells)| (cells[0].trim_matches('`').to_owned(), cells[1]))
         .collect();
     let there: Vec<(String, &str)> = builtin_effects().iter().map(|b| (b.name.to_owned(), b.about)).collect();
