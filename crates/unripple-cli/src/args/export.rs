@@ -6,9 +6,9 @@ use std::path::PathBuf;
 /// Formats that libraries are exported to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum FormatName {
-    /// A folder: a WAV file of float32 for each point, a channel for each actuator, and library.json.
+    /// A folder with a float32 WAV file for each point, one channel per actuator, and library.json.
     Wav,
-    /// One file: AES69, convention GeneralFIR-E, points as measurements and actuators as emitters.
+    /// One SOFA file: AES69, convention GeneralFIR-E, with points as measurements and actuators as emitters.
     Sofa,
 }
 
@@ -28,19 +28,19 @@ impl FormatName {
 pub struct ExportOptions {
     /// A library of responses.
     pub library: String,
-    /// A folder for WAV, or a file for SOFA. An earlier export is replaced.
+    /// Folder for WAV, or file for SOFA. An earlier export is replaced.
     #[arg(short, long, value_name = "DIR|FILE")]
     pub output: PathBuf,
-    /// What to write; by default SOFA to a name that ends in .sofa, WAV to one without an ending.
+    /// Format; by default SOFA if the name ends in .sofa, WAV if it has no ending.
     #[arg(long, value_enum)]
     pub format: Option<FormatName>,
-    /// SOFA: whom to ask about it, with an address.
+    /// SOFA: author to contact, with an address.
     #[arg(long, value_name = "TEXT")]
     pub author: Option<String>,
     /// SOFA: where it was measured or computed.
     #[arg(long, value_name = "TEXT")]
     pub organization: Option<String>,
-    /// SOFA: under what terms it may be used.
+    /// SOFA: licence of the data.
     #[arg(long, value_name = "TEXT")]
     pub license: Option<String>,
 }

@@ -2,17 +2,17 @@
 
 use clap::ValueEnum;
 
-/// Where drives go and what is heard comes from.
+/// Where drives are sent and recordings come from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum DeviceName {
-    /// The surface computed in time, microphone included.
+    /// The simulated surface, with a probe.
     #[default]
     Virtual,
     /// A JACK server, or PipeWire.
     Jack,
     /// A sound card without a sound server, in a build with the feature `cards`.
     Card,
-    /// WAV files: what is to be played is written, what was recorded of it elsewhere is brought back.
+    /// WAV files: the program writes a file to play, and reads recordings of it that were made elsewhere.
     Tape,
 }
 
@@ -29,13 +29,13 @@ impl DeviceName {
     }
 }
 
-/// How a place is measured.
+/// How a point is measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum WayName {
-    /// A vibrometer, accelerometer or microphone at the place, actuators driving.
+    /// With a vibrometer, accelerometer or microphone at the point, while actuators drive.
     #[default]
     Probe,
-    /// Taps at the place, actuators listening.
+    /// With taps at the point, while actuators sense.
     Tap,
 }
 
@@ -44,17 +44,17 @@ pub enum WayName {
 pub enum MethodName {
     /// The response from every actuator to the target, played backwards.
     TimeReversal,
-    /// The sign of time reversal, at the limit throughout.
+    /// The sign of the time-reversed response, every sample at the limit.
     OneBit,
-    /// The least-energy drive of a delta: more contrast for more energy.
+    /// The sharpest peak that the band allows, by regularised least squares: more contrast for more energy.
     Inverse,
-    /// The least velocity elsewhere at the focal instant: several times the contrast of time reversal.
+    /// Least velocity elsewhere at the focal instant: several times the contrast of time reversal.
     Concentrate,
-    /// The same within each actuator's limit, pushed towards the highest peak.
+    /// As `concentrate`, with every sample within the drive limit, for higher peaks.
     Limited,
-    /// The same over a spread of frequencies: for a sheet that warms.
+    /// As `concentrate`, for a range of natural frequencies at once: for a sheet whose tension drifts.
     Robust,
-    /// The least that a fingertip feels elsewhere, over all time.
+    /// Least level felt elsewhere, over the whole time, by the fingertip's threshold.
     Felt,
 }
 
@@ -74,14 +74,14 @@ impl MethodName {
     }
 }
 
-/// What stands for a place between the points of a library.
+/// How responses are interpolated between the points of a library.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum BetweenName {
-    /// The nearest point.
+    /// The response of the nearest point.
     Nearest,
-    /// A line between the points around it.
+    /// Linear interpolation between the points around it.
     Linear,
-    /// The most likely field of waves.
+    /// Gaussian-process regression (kriging) for a diffuse wave field.
     #[default]
     Kernel,
 }
@@ -98,13 +98,13 @@ impl BetweenName {
     }
 }
 
-/// How the decay of what is played back is made up for.
+/// How the decay of waves is compensated in the drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum LossName {
-    /// Not at all: the paper's time reversal.
+    /// No compensation: the paper's time reversal.
     None,
-    /// By e^{+t/τ} with the surface's one decay time.
+    /// Multiply the response by e^{+t/τ}, with the one decay time of the surface.
     Uniform,
-    /// Mode by mode, by e^{+t/τ} with each mode's own decay time.
+    /// Multiply each mode by e^{+t/τ}, with its own decay time.
     PerMode,
 }

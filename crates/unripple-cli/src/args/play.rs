@@ -12,41 +12,43 @@ pub struct PlayOptions {
     /// A surface file, the name of a built-in surface, or a library of responses.
     #[arg(value_name = "SURFACE|LIBRARY")]
     pub surface: String,
-    /// What plays and listens.
+    /// The device that plays and records.
     #[command(flatten)]
     pub device: DeviceOptions,
-    /// What touches set off: the name of built-in effects, a TOML file, or a .haptic, .ahap or .hjif file.
+    /// Effect that a touch triggers: the name of a built-in one, a TOML file, or a .haptic, .ahap or .hjif file.
     #[arg(long, value_name = "NAME|FILE", default_value = "click-button")]
     pub effect: String,
     /// Where touches come from.
     #[command(flatten)]
     pub touch: TouchOptions,
-    /// How drives are made.
+    /// Method of focusing.
     #[arg(long, value_enum, default_value = "time-reversal")]
     pub method: MethodName,
-    /// Window T in ms, which is the delay of every focus; by default the shortest with three quarters of the largest contrast.
+    /// Window T in ms, by which every focus comes after the touch; by default the shortest with three quarters of the largest
+    /// contrast.
     #[arg(long, value_name = "MS", allow_negative_numbers = true)]
     pub window_ms: Option<f64>,
-    /// Samples of a block.
+    /// Samples per block.
     #[arg(long, value_name = "N", default_value_t = 64)]
     pub block: usize,
-    /// Seconds to play; without it until interrupted, or until a recorded session is over.
+    /// Seconds to play; by default until interrupted, or until the recorded session ends.
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub seconds: Option<f64>,
-    /// Let a gain of 1 be the surface's own drive limit, however far that moves the sheet; by default it is felt as much as a pulse
-    /// that moves the sheet by half its thickness.
+    /// Let a gain of 1 be the surface's drive limit, however far that moves the sheet. By default a gain of 1 has the felt level
+    /// of a pulse that moves the sheet by half its thickness.
     #[arg(long)]
     pub full_limit: bool,
-    /// Follow the tension of the sheet while playing, by what the actuators hear.
+    /// Follow the tension of the sheet while playing, from the sensor signals of the actuators.
     #[arg(long)]
     pub follow_tension: bool,
-    /// Play by the clock on the wall even where nothing needs it.
+    /// Play in real time even where nothing requires it.
     #[arg(long)]
     pub real_time: bool,
-    /// Virtual: the tension drifts by so many per cent, up and down within a minute.
+    /// Virtual: let the tension drift by this many per cent, up and down within a minute.
     #[arg(long, value_name = "PERCENT", allow_negative_numbers = true)]
     pub drift_percent: Option<f64>,
-    /// Keep all that was driven, as a WAV file in the actuators' unit; at most a minute. One that was kept earlier is replaced.
+    /// Store everything that was played, at most a minute, as a WAV file in the actuators' unit. The file of an earlier run is
+    /// replaced.
     #[arg(long, value_name = "WAV")]
     pub keep_drive: Option<PathBuf>,
 }
@@ -54,25 +56,25 @@ pub struct PlayOptions {
 /// Where touches come from.
 #[derive(Debug, Args)]
 pub struct TouchOptions {
-    /// Fingers that are not there, tapping and sliding; 2 where nothing else touches.
+    /// Number of simulated fingers that tap and slide; 2 if there is no other source of touches.
     #[arg(long, value_name = "N")]
     pub fingers: Option<usize>,
-    /// Another seed, other fingers.
+    /// Seed of the simulated fingers.
     #[arg(long, value_name = "SEED", default_value_t = 1)]
     pub seed: u64,
-    /// Hear TUIO 1.1, TUIO 2.0 and OSC at this UDP port; 3333 is theirs.
+    /// Receive TUIO 1.1, TUIO 2.0 and OSC at this UDP port; the usual one is 3333.
     #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "3333")]
     pub tuio: Option<u16>,
-    /// Hear WebSocket clients at this port.
+    /// Accept WebSocket clients at this port.
     #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "8765")]
     pub websocket: Option<u16>,
-    /// Address to listen at; by default this machine alone.
+    /// Address to listen at; by default only this machine can connect.
     #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1")]
     pub listen: IpAddr,
     /// A multi-touch screen, such as /dev/input/event5. Repeatable.
     #[arg(long, value_name = "DEVICE")]
     pub screen: Vec<PathBuf>,
-    /// A recorded session, played again.
+    /// Play a recorded session.
     #[arg(long, value_name = "FILE")]
     pub session: Option<PathBuf>,
     /// Record all touches to a new file, for --session.
@@ -102,13 +104,13 @@ pub struct DoctorOptions {
     /// A surface file, or the name of a built-in surface.
     #[arg(default_value = "hudin-2012")]
     pub surface: String,
-    /// The device to be looked at.
+    /// The device to check.
     #[command(flatten)]
     pub device: DeviceOptions,
-    /// UDP port that touches would come to.
+    /// UDP port at which touches would arrive.
     #[arg(long, value_name = "PORT", default_value_t = 3333)]
     pub tuio: u16,
-    /// Address that would be listened at.
+    /// Address at which the port would be opened.
     #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1")]
     pub listen: IpAddr,
 }
