@@ -44,7 +44,7 @@ pub fn seen<T>(
 ) -> Result<T, TaskError> {
     go_on(progress)?;
     if length > LONG {
-        progress.stage(&format!("measuring {length:.2} s of the whole surface"));
+        progress.stage(&format!("evaluating {length:.2} s of the whole surface"));
     }
     let done = work()?;
     go_on(progress)?;

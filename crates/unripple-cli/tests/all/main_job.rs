@@ -106,9 +106,9 @@ fn a_level_as_felt_is_met_and_what_is_felt_elsewhere_is_said() {
     let scratch = Scratch::new("felt");
     let out = scratch.join("out");
     for (level, at, said) in [
-        ("2", "62,90", "below threshold or more: nothing is felt but at the foci"),
+        ("2", "62,90", "below threshold: nothing is felt except at the foci"),
         ("-6", "62,90", "nothing is felt, not even at the foci"),
-        ("20", "40,50", "too high by that for nothing to be felt but at the foci"),
+        ("20", "40,50", "dB above threshold: it may be felt elsewhere than at the foci"),
     ] {
         let report =
             json(&["focus", "hudin-2012", "--at", at, "--felt-db", level, "--window-ms", "30", "-o", &out]);

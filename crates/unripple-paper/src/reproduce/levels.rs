@@ -153,7 +153,7 @@ fn compared(bed: &Bed, levels: &[Level], limits: &Deformation, reversed: &Played
         "same contrast",
         format!("linear up to {:.0} µm at most", end_of_linear(limits) * 1e6),
         format!(
-            "the sheet is {:.0} µm thick: beyond that it stretches as much as it bends, tension and celerity rise with the \
+            "the sheet is {:.0} µm thick: beyond that it stretches as much as it bends, tension and wave speed rise with the \
              displacement, and the focus comes early and weaker than the scaled one",
             limits.linear_limit_thickness_m * 1e6
         ),

@@ -64,13 +64,13 @@ fn waves(surface: &Surface, design: &Design) -> Vec<Compared> {
             ),
         ),
         Compared::new(
-            "celerity of long waves",
+            "phase velocity of long waves",
             "34 m/s",
             format!("{:.2} m/s", design.celerity_min_m_s),
             "agrees: √(R/ρ_s)",
         ),
         Compared::new(
-            format!("celerity at {:.0} mm", wavelength * 1e3),
+            format!("phase velocity at {:.0} mm", wavelength * 1e3),
             "43 m/s",
             format!("{:.2} m/s", design.celerity_at_15mm_m_s),
             format!("agrees; at the top of the band it is {:.2} m/s", design.celerity_max_m_s),

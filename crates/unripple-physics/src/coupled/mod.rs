@@ -61,7 +61,7 @@ impl Loaded {
     ) -> Result<Self, PhysicsError> {
         if poles.len() != shapes.modes() || poles.iter().any(|pole| pole.onset != Onset::Velocity) {
             return Err(PhysicsError::Unsupported {
-                what: "modes to hang loads on",
+                what: "modes to attach loads to",
                 expected: "a struck oscillation for each shape",
                 found: format!("{} poles and {} shapes", poles.len(), shapes.modes()),
             });

@@ -50,9 +50,9 @@ fn modal_notes(design: &Design) -> [Note; 5] {
         ),
         note(
             "mode spacing",
-            "2c/(2Sk + P) with the phase celerity, then its least value",
+            "2c/(2Sk + P) with the phase velocity, then its least value",
             format!(
-                "2c_g/(2Sk - P) with the group celerity: {:.3} modes per Hz at the top of the band",
+                "2c_g/(2Sk - P) with the group velocity: {:.3} modes per Hz at the top of the band",
                 design.heisenberg_time_top_s
             ),
         ),

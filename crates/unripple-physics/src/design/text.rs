@@ -33,11 +33,11 @@ fn line(f: &mut Formatter<'_>, name: &str, value: &str) -> Result {
 fn waves(d: &Design, f: &mut Formatter<'_>) -> Result {
     section(f, "Waves")?;
     let (low, top) = (d.celerity_min_m_s, d.celerity_max_m_s);
-    line(f, "phase celerity, bottom to top", &format!("{low:.2} to {top:.2} m/s"))?;
+    line(f, "phase velocity, bottom to top", &format!("{low:.2} to {top:.2} m/s"))?;
     line(f, "at a wavelength of 15 mm", &format!("{:.2} m/s", d.celerity_at_15mm_m_s))?;
     line(f, "shortest wavelength", &format!("{:.2} mm", d.lambda_min_m * 1e3))?;
     if let Some(hz) = d.coincidence_hz {
-        line(f, "outruns sound in air above", &format!("{hz:.0} Hz"))?;
+        line(f, "coincidence with sound in air", &format!("{hz:.0} Hz"))?;
     }
     line(f, "spot, full width at half maximum", &format!("{:.1} mm", d.spot_diameter_m * 1e3))?;
     line(f, "pulse, full width at half maximum", &format!("{:.3} ms", d.pulse_duration_s * 1e3))?;
@@ -157,9 +157,9 @@ fn deformation(d: &Design, f: &mut Formatter<'_>) -> Result {
         )?;
     }
     let thickness = d.deformation.linear_limit_thickness_m * 1e6;
-    line(f, "linear up to the thickness", &format!("{thickness:.0} µm"))?;
+    line(f, "linear theory up to (thickness)", &format!("{thickness:.0} µm"))?;
     if let Some(limit) = d.deformation.linear_limit_tension_m {
-        line(f, "a focus adds a tenth of tension at", &format!("{:.0} µm", limit * 1e6))?;
+        line(f, "tension rises by a tenth at", &format!("{:.0} µm", limit * 1e6))?;
     }
     Ok(())
 }
@@ -190,6 +190,6 @@ fn touch(d: &Design, f: &mut Formatter<'_>) -> Result {
 }
 
 fn notes(d: &Design, f: &mut Formatter<'_>) -> Result {
-    section(f, "Where the paper slips")?;
-    d.notes.iter().try_for_each(|n| writeln!(f, "  {}: it says {}; {}", n.topic, n.paper, n.here))
+    section(f, "Where this model differs from the paper")?;
+    d.notes.iter().try_for_each(|n| writeln!(f, "  {}: the paper has {}; {}", n.topic, n.paper, n.here))
 }

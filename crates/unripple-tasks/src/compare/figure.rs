@@ -34,9 +34,9 @@ pub fn draw(rows: &[Row], fronts: &[Front], felt: &[Row]) -> Figure {
         columns: 2,
         panels: vec![energy.into(), level.into(), quiet(felt).into()],
         letters: true,
-        description: "Contrast of every method against the energy that the same peak takes and against the peak that the \
-                      drive limit allows, each method's knob turned from end to end; what is felt elsewhere against the drive \
-                      that a felt level takes"
+        description: "Contrast of every method against the energy that the same peak takes and against the peak that the drive \
+            limit allows, with the parameter of each method varied from end to end; what is felt elsewhere against the drive \
+            that a felt level takes"
             .into(),
         ..Figure::default()
     }
@@ -55,7 +55,7 @@ fn plot(label: &str, fronts: &[Front], drawn: Drawn, marks: (Vec<f64>, Vec<f64>)
     }
     let (x, y) = marks;
     layers.push(
-        Points { x, y, label: "as they come".into(), ink: Ink::Palette(7), ..Points::default() }.into(),
+        Points { x, y, label: "default parameters".into(), ink: Ink::Palette(7), ..Points::default() }.into(),
     );
     Plot { x: Axis::log(label), y: Axis::log("Contrast"), layers, ..Plot::default() }
 }

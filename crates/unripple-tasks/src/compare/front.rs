@@ -53,7 +53,7 @@ pub(super) fn felt(ground: &Ground<'_>, progress: &mut dyn Progress) -> Result<V
 
 /// The fronts of all methods that have a knob.
 pub(super) fn all(ground: &Ground<'_>, progress: &mut dyn Progress) -> Result<Vec<Front>, TaskError> {
-    progress.stage("what the methods' knobs trade");
+    progress.stage("the tradeoffs of the methods' parameters");
     let reversal = trade(ground, ground.options)?;
     let strong = |method, values: &[f64]| front(ground, reversal, method, "strength", values, progress);
     Ok(vec![

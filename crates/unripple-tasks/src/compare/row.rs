@@ -201,9 +201,9 @@ impl std::fmt::Display for Conditions {
         };
         write!(
             f,
-            "Window {} ms, first target, {level}, judged on modes to {:.0} Hz. Energy for the same peak and peak at the drive limit \
-             are relative to time reversal's; felt: dB above threshold, and below the target's level; drive for the same felt level \
-             in dB over time reversal's.",
+            "Window {} ms, first target, {level}, simulated with modes up to {:.0} Hz. Energy for the same peak and peak at \
+             the drive limit are relative to time reversal's; felt: dB above threshold, and below the target's level; drive \
+             for the same felt level in dB over time reversal's.",
             unripple::physics::design::milliseconds(self.window),
             self.judged_to
         )

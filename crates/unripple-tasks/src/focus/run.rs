@@ -182,6 +182,6 @@ fn aware(ask: &Ask, surface: &Surface) -> Result<Aware, TaskError> {
 
 /// What figures are of, where that is not what the drive was made from.
 fn judged_on(surface: &Surface, hz: Option<f64>) -> String {
-    let modes = hz.map_or(String::new(), |hz| format!(", modes to {hz} Hz"));
+    let modes = hz.map_or(String::new(), |hz| format!(", modes up to {hz} Hz"));
     format!("{}{modes}", surface.name)
 }

@@ -74,7 +74,7 @@ pub(crate) fn judge(
     let asked = Strength::of(&played.drive, &limits, DecidedBy::Asked);
     let by = if asked.below_limit > 1.0 + HELD { DecidedBy::Asked } else { DecidedBy::Limit };
     report.level = Some(Strength { decided_by: by, ..asked });
-    report.judged_on = Some(format!("{}, modes to {judge_hz} Hz", plant.name));
+    report.judged_on = Some(format!("{}, modes up to {judge_hz} Hz", plant.name));
     report.waveforms = played.waveforms;
     report.silent = played.silent;
     report.stroke = played.stroke;

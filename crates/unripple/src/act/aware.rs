@@ -84,8 +84,8 @@ impl Aware {
         Ok(Some(Note {
             topic: "fingers",
             text: format!(
-                "the drive was made for the surface under the fingers: at the limit the first target is {:.1} dB below that of the bare \
-                 surface, where a drive that does not know of them leaves it {:.1} dB below",
+                "the drive was made for the surface under the fingers: at the limit the first target is {:.1} dB below that of \
+                 the bare surface, where a drive computed without them gives {:.1} dB less",
                 below(restored),
                 below(lost)
             ),

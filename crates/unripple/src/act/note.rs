@@ -25,7 +25,7 @@ pub fn nearby(focused: &Focused, targets: &[Target]) -> Vec<Note> {
         (apart > 1e-9).then(|| Note {
             topic: "library",
             text: format!(
-                "{stored} stands for {asked}, {:.2} mm away: the nearest finished point",
+                "{stored} is used for {asked}, {:.2} mm away: it is the nearest finished point",
                 apart * 1e3
             ),
         })
@@ -39,7 +39,8 @@ pub(super) fn all(surface: &Surface, measured: &Measured, largest: f64, found: &
     if measured.targets.iter().any(|target| !target.span_complete) {
         notes.push(Note {
             topic: "span",
-            text: "the responses end before twice the focal instant: background figures are those of the part known".into(),
+            text: "the responses end before twice the focal instant: background contrast and worst spot are those of the known \
+                part".into(),
         });
     }
     notes
@@ -60,8 +61,8 @@ fn linear_theory(surface: &Surface, largest: f64, found: &Linearity) -> Vec<Note
     }
     if let Some(change) = found.tension_change.filter(|change| *change > 0.1) {
         note(format!(
-            "slopes of up to {:.3} add {:.1} N/m to the tension, {:.0} % of it: above 10 %, waves run faster where they are \
-             high, and linear theory does not hold",
+            "slopes of up to {:.3} add {:.1} N/m to the tension, {:.0} % of it: above 10 %, the wave speed depends on the \
+             amplitude, and linear theory does not hold",
             found.slope,
             found.tension_added_n_per_m,
             100.0 * change

@@ -92,7 +92,7 @@ impl Strength {
                 linear(format!("nothing moves by more than about half the sheet's thickness ({half} µm)"))
             }
             DecidedBy::Tension => linear("slopes add at most a twentieth to the tension".into()),
-            DecidedBy::Yield => linear("strain goes at most half way from rest to yield".into()),
+            DecidedBy::Yield => linear("strain uses at most half of the margin from rest to yield".into()),
             DecidedBy::Limit => "as strong as the limits allow".into(),
             DecidedBy::PeakUm => "the displacement asked for".into(),
             DecidedBy::FeltDb => "the level asked for as felt".into(),
@@ -101,9 +101,9 @@ impl Strength {
         let limits: Vec<String> = self.limits.iter().map(|limit| limit.text(unit)).collect();
         let more = match (self.decided_by, self.linear_theory_allows) {
             (DecidedBy::Thickness | DecidedBy::Tension | DecidedBy::Yield, _) => {
-                " (--full-limit goes there)".into()
+                " (--full-limit drives at the limit)".into()
             }
-            (_, Some(factor)) => format!(" (linear theory would bear {} times as much)", round(factor)),
+            (_, Some(factor)) => format!(" (linear theory would allow {} times as much)", round(factor)),
             _ => String::new(),
         };
         format!("level: {what}; {}{more}", limits.join(", "))

@@ -37,8 +37,8 @@ pub fn figures(design: &Design) -> Vec<Figure> {
         figure("contrast_endless", "the same, at the best window", d.contrast_endless, "", 1),
         figure("window_recommended", "window recommended", d.window_recommended_s * 1e3, "ms", 1),
         figure("modes", by, modes, "", 0),
-        figure("celerity_min", "phase celerity, bottom of the band", d.celerity_min_m_s, "m/s", 2),
-        figure("celerity_max", "phase celerity, top of the band", d.celerity_max_m_s, "m/s", 2),
+        figure("celerity_min", "phase velocity, bottom of the band", d.celerity_min_m_s, "m/s", 2),
+        figure("celerity_max", "phase velocity, top of the band", d.celerity_max_m_s, "m/s", 2),
         figure("lambda_min", "shortest wavelength", d.lambda_min_m * 1e3, "mm", 2),
         figure("spot_diameter", "spot, full width at half maximum", d.spot_diameter_m * 1e3, "mm", 1),
         figure("pulse_duration", "pulse, full width at half maximum", d.pulse_duration_s * 1e3, "ms", 3),
@@ -54,9 +54,15 @@ pub fn figures(design: &Design) -> Vec<Figure> {
         all.push(figure("finger_power", label, touch.power_w, "W", 3));
     }
     let thickness = d.deformation.linear_limit_thickness_m * 1e6;
-    all.push(figure("linear_limit_thickness", "linear up to the thickness", thickness, "µm", 0));
+    all.push(figure(
+        "linear_limit_thickness",
+        "linear theory up to a displacement of (thickness)",
+        thickness,
+        "µm",
+        0,
+    ));
     if let Some(limit) = d.deformation.linear_limit_tension_m {
-        let label = "a focus adds a tenth of tension at";
+        let label = "a focus raises the tension by a tenth at";
         all.push(figure("linear_limit_tension", label, limit * 1e6, "µm", 0));
     }
     all

@@ -23,7 +23,7 @@ const CROSSINGS: f64 = 3.0;
 
 /// How a window of three crossings is described.
 const CROSSED: &str =
-    "in which waves cross the surface three times, the shortest that leaves no part of it silent";
+    "in which waves cross the surface three times, the shortest in which they reach every part of it";
 
 /// The longest window that is considered, in seconds. A focus comes a window after it was asked for; past
 /// this nobody waits. Where losses grow with frequency contrast may creep on for minutes, as the lowest modes
@@ -161,7 +161,7 @@ impl Windows {
         let known = self.curve.iter().map(|(_, c)| *c).filter(|c| c.is_finite());
         let Some(largest) = known.max_by(f64::total_cmp) else {
             let seconds = rounded_up(self.floor());
-            let why = format!("{CROSSED}: no contrast is to be had here that would tell windows apart");
+            let why = format!("{CROSSED}: no contrast can be computed here to compare windows");
             let (largest, at_floor) = (f64::NAN, true);
             return Recommended { seconds, contrast: largest, largest, largest_at: seconds, at_floor, why };
         };

@@ -96,9 +96,9 @@ impl Report {
         for file in self.files.iter().filter(|file| file.ends_with(".png")) {
             let _ = write!(text, "\n![{}]({file})\n", file.trim_end_matches(".png"));
         }
-        text += "\nContrast: the peak over the rms outside every focal disc at the same instant. Background contrast: over the rms \
-                 there during the whole span measured. Worst spot: over the largest magnitude there. As felt: in displacement weighed \
-                 by the threshold of touch, in dB above it; ratios in dB.\n";
+        text += "\nContrast: the peak over the rms outside every focal disc at the same instant. Background contrast: the peak \
+            over the rms there during the whole time evaluated. Worst spot: the peak over the largest magnitude there during \
+            that time. As felt: displacement weighted by the threshold of touch, in dB above it; ratios in dB.\n";
         text
     }
 
@@ -107,7 +107,7 @@ impl Report {
         parts.extend(self.method.map(|method| format!(", {method}")));
         parts.extend(self.window_s.map(|window| format!(", window {:.3} ms", window * 1e3)));
         parts.extend(self.period_s.map(|period| format!(", period {:.3} ms", period * 1e3)));
-        parts.extend(self.judged_on.iter().map(|surface| format!(", judged on {surface}")));
+        parts.extend(self.judged_on.iter().map(|surface| format!(", simulated on {surface}")));
         parts.concat()
     }
 
@@ -116,16 +116,14 @@ impl Report {
         let outside = self.felt_outside_db?;
         let reached = self.targets.iter().any(|target| target.felt_level_db.is_some_and(|level| level > 0.0));
         let what = if outside > 0.0 {
-            format!(
-                "up to {outside:.2} dB above threshold, too high by that for nothing to be felt but at the foci"
-            )
+            format!("up to {outside:.2} dB above threshold: it may be felt elsewhere than at the foci")
         } else {
-            let but = if reached { " but at the foci" } else { ", not even at the foci" };
-            format!("{:.2} dB below threshold or more: nothing is felt{but}", -outside)
+            let but = if reached { " except at the foci" } else { ", not even at the foci" };
+            format!("at least {:.2} dB below threshold: nothing is felt{but}", -outside)
         };
         let persons = Threshold::BETWEEN_PERSONS_DB;
         Some(format!(
-            "felt outside the focal discs: {what} (thresholds of persons differ by about ±{persons} dB)"
+            "felt outside the focal discs: {what} (thresholds differ between persons by about ±{persons} dB)"
         ))
     }
 
@@ -162,8 +160,8 @@ fn prefixed(value: f64) -> String {
 fn finger_line(finger: &Felt) -> String {
     let Touch { at_m: [x, y], peak_displacement_m, peak_force_n, peak_power_w, energy_j, .. } = finger.loaded;
     format!(
-        "finger ({:.2}, {:.2}) mm: {:.2} µm, {:.3} N, {:.4} W at most, {:.3e} J taken; without it the waves would be {:.2} times \
-         as fast and {:.2} times as high there",
+        "finger ({:.2}, {:.2}) mm: {:.2} µm, {:.3} N, {:.4} W at most, {:.3e} J absorbed; without it the velocity there would \
+         be {:.2} times and the displacement {:.2} times as large",
         x * 1e3,
         y * 1e3,
         peak_displacement_m * 1e6,
