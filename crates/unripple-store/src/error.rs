@@ -59,7 +59,7 @@ pub enum StoreError {
         found: String,
     },
     /// An output would take the place of what the same work reads.
-    #[error("will not write to {}: expected nothing there that is read, found {}; name another output", path.display(), read.display())]
+    #[error("will not write to {}: expected no file that this command reads, found {}; name another output", path.display(), read.display())]
     Reads {
         /// The output.
         path: PathBuf,

@@ -112,7 +112,7 @@ pub fn check_new_file(path: impl AsRef<Path>) -> Result<(), StoreError> {
     let path = path.as_ref();
     let occupied = |found: &str| StoreError::Occupied {
         path: path.into(),
-        expected: "no such file yet, since what it holds cannot be made again",
+        expected: "a file that does not exist yet, since recordings are never overwritten",
         found: found.into(),
     };
     match fs::metadata(path) {

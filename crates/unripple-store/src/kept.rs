@@ -72,7 +72,7 @@ pub fn check_kept_wav(path: impl AsRef<Path>, reads: &[PathBuf]) -> Result<bool,
         sweep(&real);
         return Ok(true);
     }
-    let expected = "no such file yet, or a drive that an earlier sitting kept, unchanged";
+    let expected = "a file that does not exist yet, or the unchanged drive of an earlier run";
     let found = if kind.is_file() { "another file" } else { "something that is not a file" };
     Err(StoreError::Occupied { path: path.into(), expected, found: found.into() })
 }

@@ -183,7 +183,7 @@ fn earlier(folder: &Path) -> Result<(), StoreError> {
         Ok(Said::Files(files)) => files,
         Ok(Said::Nothing) => return Err(refuse(folder, "a folder with other things in it")),
         Ok(Said::Unfinished) => {
-            return Err(refuse(folder, "what a run that was ended had begun; move it away or delete it"));
+            return Err(refuse(folder, "what an interrupted run had begun; move it away or delete it"));
         }
         Ok(Said::Unlisted) => {
             let found = "one of an earlier version of this program, which did not list what it wrote; move it away or delete it";

@@ -138,7 +138,7 @@ fn holes(root: &Section, rim: &Rim, fetch: &Fetch, faults: &mut Faults) -> (Vec<
 fn held(rim: &Rim, holes: &[Hole], sheet: Option<&Sheet>, faults: &mut Faults) {
     let Some(outline) = rim.edges.as_ref().and_then(|_| rim.outline(holes)) else { return };
     if !outline.holds() && sheet.is_some_and(|sheet| sheet.young == 0.0) {
-        let found = "no edge fixed and no stiffness: nothing keeps the sheet, so it has no rest";
+        let found = "no edge fixed and no stiffness: nothing holds the sheet";
         let expected = "an edge that is clamped, supported or on springs with lift_n_per_mm2 above 0, or a sheet with \
                         young_gpa above 0";
         faults.add("outline.edge", rim.edge_span.clone(), found, expected, Some("\"clamped\"".into()));

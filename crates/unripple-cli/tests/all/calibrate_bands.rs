@@ -172,7 +172,10 @@ fn a_figure_has_a_folder_of_its_own() {
     };
     assert!(with(&library, 2).contains("a folder of its own"));
     assert!(with(&full, 1).contains("other things in it"));
-    assert!(with(&scratch.join(""), 2).contains("nothing there that is read"), "that of the surface's file");
+    assert!(
+        with(&scratch.join(""), 2).contains("no file that this command reads"),
+        "that of the surface's file"
+    );
     assert!(!Path::new(&library).exists());
     let levels =
         ["calibrate", &film, "--at", "52,47", "-o", &library, "--check-levels", "--figure", &library];

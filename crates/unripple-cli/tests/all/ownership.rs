@@ -162,7 +162,7 @@ fn files_named_as_outputs_are_not_overwritten() {
     let recorded = with(&["--record"], &taps);
     let recorded: Vec<&str> = recorded.iter().map(String::as_str).collect();
     assert!(run(&recorded).status.success());
-    kept(&scratch, &recorded, 1, &["taps.jsonl", "cannot be made again"]);
+    kept(&scratch, &recorded, 1, &["taps.jsonl", "recordings are never overwritten"]);
     kept(&scratch, &["play", &film, "--session", &taps, "--record", &taps], 1, &["taps.jsonl"]);
     let driven = with(&["--keep-drive"], &drive);
     let driven: Vec<&str> = driven.iter().map(String::as_str).collect();

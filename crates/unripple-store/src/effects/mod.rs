@@ -166,7 +166,7 @@ fn name(
     };
     let span = entry.map_or(section.span.clone(), |entry| entry.span);
     let found = format!("\"{name}\", which is also the name of effect[{first}]");
-    faults.add(&format!("{}.name", section.key), span, found, "a name of its own", None);
+    faults.add(&format!("{}.name", section.key), span, found, "a unique name", None);
     None
 }
 

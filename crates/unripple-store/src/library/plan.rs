@@ -80,7 +80,7 @@ impl LibraryPlan {
         if let Some(port) = self.ports.iter().find(|p| p.name.is_empty() || !names.insert(p.name.as_str())) {
             return Err(StoreError::content(
                 file,
-                "a name of its own per actuator",
+                "a different name for each actuator",
                 format!("`{}`", port.name),
             ));
         }
@@ -133,7 +133,7 @@ impl LibraryPlan {
                 told("surface", name(self), name(found))
             })
             .or_else(|| {
-                (self.surface != found.surface).then(|| "a surface of the same name, but another".into())
+                (self.surface != found.surface).then(|| "a different surface of the same name".into())
             })
             .or_else(|| provenance(&self.provenance, &found.provenance))
     }

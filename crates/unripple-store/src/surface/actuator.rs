@@ -206,7 +206,7 @@ impl Names {
             return Some(name);
         };
         let found = format!("\"{name}\", which is also the name of actuator[{first}]");
-        faults.add(&named.key, named.span.clone(), found, "a name of its own", None);
+        faults.add(&named.key, named.span.clone(), found, "a unique name", None);
         None
     }
 }

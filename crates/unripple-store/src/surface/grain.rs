@@ -65,7 +65,7 @@ fn bounded(section: &Section, stuff: &MaterialProperties, across: f64, faults: &
     // Four digits, below the limit however they are rounded.
     let below = decimal::plain(&format!("{:.3e}", most / 1e9 * (1.0 - 1e-3)));
     let expected = format!(
-        "a number below young_gpa / poisson_ratio², which is {:.4} GPa: with more, the sheet would give way by itself",
+        "a number below young_gpa / poisson_ratio², which is {:.4} GPa: with more, the stiffness is not positive definite",
         most / 1e9
     );
     entry.refuse(expected, Some(below), faults);

@@ -74,12 +74,12 @@ fn pulled_back(
     }
     if tension == 0.0 {
         let span = section.get("tension_n_per_m").map_or(section.span.clone(), |entry| entry.span);
-        let expected = "a positive tension_n_per_m or young_gpa: nothing else pulls the sheet back";
+        let expected = "a positive tension_n_per_m or young_gpa: nothing else restores the sheet";
         faults.add("sheet.tension_n_per_m", span, "neither tension nor stiffness", expected, None);
     } else if let (Some(entry), Some(profile)) = (section.get(UNEVEN_KEYS[1]), profile)
         && profile.range().0 == 0.0
     {
-        let expected = "positive factors, or a positive young_gpa: nothing else pulls the sheet back there";
+        let expected = "positive factors, or a positive young_gpa: nothing else restores the sheet there";
         faults.add(&entry.key, entry.span, "places with neither tension nor stiffness", expected, None);
     }
 }

@@ -83,7 +83,7 @@ fn each_in_its_words() {
     one(
         "kind = \"button\"\nname = \"a\"\n[[effect]]\nkind = \"button\"\nname = \"a\"",
         "effect[1].name",
-        "of its own",
+        "a unique name",
     );
 }
 

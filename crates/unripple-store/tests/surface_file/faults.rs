@@ -119,8 +119,8 @@ fn materials() {
 fn nothing_pulls_back() {
     assert_eq!(
         says("tension_n_per_m = 200", "tension_n_per_m = 0\nyoung_gpa = 0"),
-        "9:19: sheet.tension_n_per_m: expected a positive tension_n_per_m or young_gpa: nothing else pulls the sheet \
-         back, found neither tension nor stiffness"
+        "9:19: sheet.tension_n_per_m: expected a positive tension_n_per_m or young_gpa: nothing else restores the sheet, found \
+         neither tension nor stiffness"
     );
 }
 
@@ -263,7 +263,7 @@ fn actuator_names() {
     let twice = faults(&format!("{GOOD}[[actuator]]\nname = \"left\"\nat_mm = [20, 20]\n"));
     assert_eq!(
         twice[0].to_string(),
-        "actuator[1].name: expected a name of its own, found \"left\", which is also the name of actuator[0]"
+        "actuator[1].name: expected a unique name, found \"left\", which is also the name of actuator[0]"
     );
     let default = faults(&format!("{}[[actuator]]\nat_mm = [20, 20]\n", GOOD.replace("\"left\"", "\"a2\"")));
     assert_eq!(default[0].key, "actuator[1].name");

@@ -74,9 +74,8 @@ fn nothing_keeps_the_sheet() {
     let limp = |edge: &str| {
         GOOD.replace("material = \"BoPET\"", "material = \"BoPET\"\nyoung_gpa = 0").replace(EDGE, edge)
     };
-    let expected = "outline.edge: expected an edge that is clamped, supported or on springs with lift_n_per_mm2 above 0, \
-                    or a sheet with young_gpa above 0, found no edge fixed and no stiffness: nothing keeps the sheet, so \
-                    it has no rest (nearest: \"clamped\")";
+    let expected = "outline.edge: expected an edge that is clamped, supported or on springs with lift_n_per_mm2 above 0, or a \
+        sheet with young_gpa above 0, found no edge fixed and no stiffness: nothing holds the sheet (nearest: \"clamped\")";
     for edge in ["edge = \"free\"", "edge = { lift_n_per_mm2 = 0, tilt_n = 9 }"] {
         let list = faults(&limp(edge));
         assert_eq!((list.len(), list[0].line, list[0].column), (1, 5, 8));

@@ -32,8 +32,8 @@ fn grains() {
     let stiff = sheet("young_across_gpa = 50");
     assert_eq!(
         stiff,
-        "sheet.young_across_gpa: expected a number below young_gpa / poisson_ratio², which is 44.4444 GPa: with more, \
-         the sheet would give way by itself, found 50 (nearest: 44.4)"
+        "sheet.young_across_gpa: expected a number below young_gpa / poisson_ratio², which is 44.4444 GPa: with more, the \
+         stiffness is not positive definite, found 50 (nearest: 44.4)"
     );
     assert_eq!(faults(&GOOD.replace("air = \"none\"", "young_across_gpa = 44.4")), []);
     let limp = sheet("young_across_gpa = 5\nyoung_gpa = 0");
@@ -87,8 +87,8 @@ fn profiles() {
 fn nothing_pulls_back_in_places() {
     assert_eq!(
         sheet("young_gpa = 0\ntension_profile = [[1, 0]]"),
-        "sheet.tension_profile: expected positive factors, or a positive young_gpa: nothing else pulls the sheet back \
-         there, found places with neither tension nor stiffness"
+        "sheet.tension_profile: expected positive factors, or a positive young_gpa: nothing else restores the sheet there, \
+         found places with neither tension nor stiffness"
     );
     assert_eq!(faults(&GOOD.replace("air = \"none\"", "tension_profile = [[1, 0]]")), []);
 }
