@@ -103,7 +103,7 @@ impl Perturbation {
         require("misplacement of actuators in m", self.misplacement >= 0.0, "0 or more", self.misplacement)?;
         require("signal-to-noise in dB", true, "a finite number", self.snr_db)?;
         for mass in self.masses.iter().chain([&self.actuator_mass]) {
-            require("stray mass in kg", *mass >= 0.0, "0 or more", *mass)?;
+            require("unknown point mass in kg", *mass >= 0.0, "0 or more", *mass)?;
         }
         let mut random = Random::seeded(self.seed);
         let mut truth = surface.clone();

@@ -326,8 +326,8 @@ impl Fitted {
 fn verdict(found: &Found, unexplained: f64, far: &[String]) -> Verdict {
     if unexplained > DOUBTED {
         let why = format!(
-            "{:.1} % of what was heard is not the model's, nor noise, in a residual of {:.1} times the noise: the surface has \
-             something that the model has not, or changed while it was measured",
+            "{:.1} % of the signal amplitude is explained neither by the model nor by noise, in a residual of {:.1} times the \
+             noise: the surface has something that the model has not, or changed while it was measured",
             100.0 * unexplained,
             found.excess
         );

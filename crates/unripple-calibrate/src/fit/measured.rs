@@ -85,7 +85,7 @@ impl Measured {
         let mut all: Vec<f64> = responses.iter().enumerate().filter_map(off).collect();
         all.sort_unstable_by(f64::total_cmp);
         let noise = all.get(all.len() / 2).copied().ok_or(CalibrateError::Count {
-            what: "actuators that hear each other both ways",
+            what: "actuators with responses between them both ways",
             expected: "at least 2".into(),
             found: 0,
         })?;

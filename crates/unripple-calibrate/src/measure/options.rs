@@ -175,8 +175,8 @@ impl MeasureOptions {
         }
         if let Some([unlike, all]) = channel.account.unlike {
             return Some(format!(
-                "sensors heard {unlike} of {all} sweeps otherwise than in the first recording, and noise is not why (samples lost, clocks far \
-                 apart, a latency that jitters, or a surface that changed or is touched)"
+                "sensors heard {unlike} of {all} sweeps otherwise than in the first recording, and noise does not explain it \
+                 (samples lost, clocks far apart, a latency that jitters, or a surface that changed or is touched)"
             ));
         }
         let one = |(index, quality): (usize, &Quality)| {

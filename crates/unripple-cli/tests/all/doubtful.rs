@@ -37,7 +37,7 @@ fn doubts_are_told_by_every_command() {
     let output = bench.focus(&["--json"]);
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(
-        output.status.success() && said.contains("doubtful: what actuators hear of each other"),
+        output.status.success() && said.contains("doubtful: the responses between actuators differ"),
         "{said}"
     );
     let focus: Value = serde_json::from_slice(&output.stdout).unwrap();

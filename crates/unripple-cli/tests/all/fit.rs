@@ -285,7 +285,7 @@ fn what_cannot_be_fitted_is_refused() {
     assert!(refused(&["fit", &scratch.join("nothing")], 2).contains("expected a library"));
     let modelled = scratch.join("modelled");
     json(&["respond", &file, "--grid-mm", "50", "--length-ms", "10", "-o", &modelled]);
-    assert!(refused(&["fit", &modelled], 2).contains("hear of each other"));
+    assert!(refused(&["fit", &modelled], 2).contains("responses between"));
     assert!(refused(&["fit", &modelled, "--strays", "99"], 2).contains("--strays"));
     assert!(refused(&["fit", &modelled, "-o", &scratch.join("out")], 2).contains("--grid-mm"));
     assert!(refused(&["fit", &modelled, "--at", "1,1"], 2).contains("--output"));

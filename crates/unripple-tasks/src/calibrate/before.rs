@@ -25,8 +25,8 @@ pub fn apply(ask: &Ask, surface: &Surface, settings: &mut MeasureOptions) -> Res
         // What is no measurement is refused for what it is.
         return match plan.provenance.contains_key(SWEEP) {
             true => Err(TaskError::Work(format!(
-                "{}: expected a library that says what it was swept with (`{SWEPT}`), found one of an earlier version without: whether \
-                 other points would go with its own is not known; measure into another library",
+                "{}: expected a library that records the band of its sweeps (`{SWEPT}`), found one of an earlier version that \
+                 does not: new points may not fit its own; measure into another library",
                 library.path().display()
             ))),
             false => Ok(()),

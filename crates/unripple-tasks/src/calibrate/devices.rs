@@ -48,7 +48,7 @@ fn virtual_surface(options: &DeviceAsk, surface: &Surface) -> Result<Opened, Tas
 /// Unknowns in words.
 fn said(unknowns: &Perturbation) -> String {
     format!(
-        "signal to noise {} dB, gains off by {} %, actuators by {} mm, tension by {} %, {} stray masses, other damping",
+        "signal to noise {} dB, gains off by {} %, actuators by {} mm, tension by {} %, {} unknown point masses, other damping",
         unknowns.snr_db,
         unknowns.gain * 100.0,
         unknowns.misplacement * 1e3,

@@ -59,8 +59,8 @@ impl<'a> Known<'a> {
             return Ok(found);
         }
         Err(TaskError::Work(format!(
-            "`figure`: expected a library that knows signal to noise by bands, found none in {}: nothing in it was measured by sweeps, or \
-             an earlier version of this program did; measure it anew into another folder",
+            "`figure`: expected a library with signal-to-noise ratios by band, found none in {}: nothing in it was measured \
+             with sweeps, or an earlier version of this program measured it; measure again into another folder",
             library.path().display()
         )))
     }
@@ -88,7 +88,7 @@ impl<'a> Known<'a> {
         let numbers = (1..=self.probed.len()).map(|number| number.to_string()).collect();
         panels.extend(self.worst(&self.probed, numbers, "Point", "The worst actuator at each point"));
         let names = self.library.plan().ports.iter().map(|port| port.name.clone()).collect();
-        let title = "The worst actuator that each sensor hears";
+        let title = "The worst actuator at each sensor";
         panels.extend(self.worst(&self.own, names, "Sensor of", title));
         let library = self.library.path().display();
         Figure {

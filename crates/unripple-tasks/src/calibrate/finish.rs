@@ -50,7 +50,7 @@ pub fn begin(campaign: &Campaign<'_>, library: &mut Library) -> Result<(), TaskE
     }
     let stopped = Doubt::of(
         UNFINISHED,
-        "the measurement was not finished: expected all that was measured to be checked at its end, found none; run calibrate again",
+        "the measurement was not finished: expected a check of everything measured at its end, found none; run calibrate again",
     );
     Ok(library.set_doubts(UNFINISHED, vec![stopped])?)
 }
@@ -135,8 +135,9 @@ fn reciprocity(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskErr
         doubts.push(Doubt::of(
             CHECK,
             format!(
-                "what actuators hear of each other differs by {:.0} % both ways, expected at most {:.0} %: the surface or its tension \
-                 changed meanwhile, samples were lost, clocks run apart, or a sensor hears something else; measure it again",
+                "the responses between actuators differ by {:.0} % both ways, expected at most {:.0} %: the surface or its \
+                 tension changed meanwhile, samples were lost, clocks run apart, or a sensor hears something else; measure it \
+                 again",
                 100.0 * beyond,
                 100.0 * RECIPROCITY
             ),
@@ -175,8 +176,8 @@ fn spread(campaign: &Campaign<'_>, shelf: &mut Shelf, latency: Option<[f64; 2]>)
         Doubt::of(
             CHECK,
             format!(
-                "actuators disagree on the latency by {spread:.1} samples, expected at most {most:.1}: samples were lost, or the surface \
-                 is far from its file; measure it again, or mend the file"
+                "actuators disagree on the latency by {spread:.1} samples, expected at most {most:.1}: samples were lost, or \
+                 the surface is far from its file; measure it again, or correct the file"
             ),
         )
     });
@@ -213,8 +214,8 @@ fn lacking(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> 
         Doubt::of(
             OWN,
             format!(
-                "the own points of {} are missing or bad, expected those of all actuators that listen: what they hear of each other tells \
-                 whether the rest is sound; measure them again",
+                "the own points of {} are missing or bad, expected those of all actuators with sensors: the responses between \
+                 them are the basis of all other checks; measure them again",
                 names.join(", ")
             ),
         )
@@ -258,8 +259,8 @@ fn sensors(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> 
             "over_probe": apart,
             "left_out": true,
             "said": format!(
-                "sensors are {apart:.3} times as loud as the probe, in another unit: the actuators' own points count in no figure \
-                 (`input_scales` says what they hear)"
+                "sensors are {apart:.3} times as loud as the probe, in another unit: the actuators' own points are used in no \
+                 metric (`input_scales` gives their scale)"
             ),
         }),
         Some(apart) => json!({ "over_probe": apart, "left_out": false }),

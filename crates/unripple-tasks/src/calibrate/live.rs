@@ -139,8 +139,8 @@ fn same_dead(known: &Campaign<'_>, library: &Library) -> Result<(), TaskError> {
         }
     };
     Err(TaskError::Work(format!(
-        "{}: expected the same actuators left out as when its points were measured ({}), found {}; use `without` as then, mend what \
-         broke since, or use another library",
+        "{}: expected the same actuators left out as when its points were measured ({}), found {}; use `without` as then, \
+         repair what failed since, or use another library",
         library.path().display(),
         named(&there),
         named(here)
@@ -158,7 +158,7 @@ fn wiring(
     let sensing = layout.inputs.len() >= layout.outputs.len();
     if !sensing || layout.outputs.len() != model.ports.len() || !ask.wires.is_empty() {
         known.tell(
-            "wiring: not tried, since channels do not correspond to actuators and their sensors by name",
+            "wiring: not tested, since channels do not correspond to actuators and their sensors by name",
         );
         return Ok(Found { dead: known.settings.without.clone(), ..Found::default() });
     }

@@ -111,13 +111,13 @@ impl Report {
                 writeln!(text, "  latency          {late:.2} samples (actuators agree within {spread:.2})");
         }
         if let Some(error) = self.reciprocity_error {
-            let _ = writeln!(text, "  reciprocity      {:.2} % error, gains free", error * 100.0);
+            let _ = writeln!(text, "  reciprocity      {:.2} % error, with gains fitted", error * 100.0);
         }
         for note in &self.notes {
             let _ = writeln!(text, "  note             {note}");
         }
         if let Some(truth) = &self.truth {
-            let _ = writeln!(text, "  not told         {truth}");
+            let _ = writeln!(text, "  true surface     {truth}");
         }
         text
     }

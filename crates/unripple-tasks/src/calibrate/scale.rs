@@ -66,7 +66,7 @@ impl Scales {
             lacking.push("`output_scale`, drive at full scale");
         }
         (!lacking.is_empty()).then(|| {
-            format!("level unknown: no µm and no m/s, until `calibrate` is told {}", lacking.join(", and "))
+            format!("level unknown: no µm and no m/s, unless `calibrate` is given {}", lacking.join(", and "))
         })
     }
 

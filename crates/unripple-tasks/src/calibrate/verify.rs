@@ -180,7 +180,7 @@ fn correct(
         let take = Take { point: points[n], samples: &samples, quality: &quality, bands: &bands, state };
         library.put_all(&[take])?;
     }
-    let said = |delay| format!("{} (`probe_delay_s` says what it is)", comes(delay));
+    let said = |delay| format!("{} (`probe_delay_s` sets it)", comes(delay));
     let said = all.map_or(Value::Null, |delay| json!({ "delay_s": delay, "said": said(delay) }));
     Ok(library.log(PROBE, said)?)
 }
@@ -235,7 +235,7 @@ fn say(shelf: &mut Shelf, points: &[usize], found: &Verified, asked: bool) -> Re
             json!({
                 "checked": false,
                 "said": format!(
-                    "not checked against a model ({why}): a recording of another place is not told from a good one"
+                    "not checked against a model ({why}): a recording of another place would not be recognised"
                 ),
             })
         }

@@ -63,7 +63,7 @@ fn plan(
     let about = [
         ("device", "fitted model".to_owned()),
         ("fitted to", source.path().display().to_string()),
-        ("measured points blended in", probed.points.len().to_string()),
+        ("corrected by measured points", probed.points.len().to_string()),
         ("verdict", verdict),
         ("modes", fitted.modal().poles.len().to_string()),
         ("software", format!("unripple {}", env!("CARGO_PKG_VERSION"))),

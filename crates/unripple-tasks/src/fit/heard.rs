@@ -46,8 +46,8 @@ impl Heard {
         let own: Vec<Option<usize>> = surface.actuators.iter().map(|actuator| place(actuator.at)).collect();
         if own.iter().flatten().count() < 2 || all.ports.len() != count {
             return Err(TaskError::Input(format!(
-                "{}: expected what {count} actuators hear of each other, found {} of them that listen \
-                 (measure with `unripple calibrate` on a device with an input for each actuator's sensor)",
+                "{}: expected the responses between {count} actuators, found {} of them with sensors (measure with `unripple \
+                 calibrate` on a device with an input for each actuator's sensor)",
                 library.path().display(),
                 own.iter().flatten().count(),
             )));

@@ -122,7 +122,7 @@ impl Load {
         let _ = write!(text, "; mass {} mg", self.mass_kg.text(1e6, 2));
         let _ = write!(text, ", damping {} mN·s/m", self.damping_n_s_per_m.text(1e3, 2));
         if let (Some(drive), Some(sense)) = (self.drive_gain, self.sense_gain) {
-            let _ = write!(text, ", drive x {:.4}, sense x {:.4}", drive.value, sense.value);
+            let _ = write!(text, ", drive gain {:.4}, sensor gain {:.4}", drive.value, sense.value);
         }
         text
     }
@@ -187,7 +187,7 @@ impl crate::Report for Report {
         }
         let _ = writeln!(
             text,
-            "\n  unexplained  {:.2} % of what was heard, residual {:.1} times the noise",
+            "\n  unexplained  {:.2} % of the signal amplitude, residual {:.1} times the noise",
             100.0 * self.unexplained,
             self.residual_over_noise
         );
@@ -195,7 +195,12 @@ impl crate::Report for Report {
         let _ = writeln!(text, "  anisotropy   {} %", self.anisotropy.text(100.0, 3));
         let _ = writeln!(text, "  bending      {} mN·m", self.bending_stiffness_n_m.text(1e3, 4));
         if let Some(most) = self.profile.iter().map(|t| t.share.value.abs()).max_by(f64::total_cmp) {
-            let _ = writeln!(text, "  uneven       {} terms, to {:.2} %", self.profile.len(), 100.0 * most);
+            let _ = writeln!(
+                text,
+                "  uneven       {} terms of tension, up to {:.2} %",
+                self.profile.len(),
+                100.0 * most
+            );
         }
         for decay in &self.decay {
             let _ = writeln!(

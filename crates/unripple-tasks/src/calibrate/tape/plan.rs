@@ -76,7 +76,7 @@ impl Rig for Recorder {
     }
 
     fn tap(&mut self, number: usize, _at: Point, _attempt: u64) -> Result<(), CalibrateError> {
-        Err(CalibrateError::Rig { number, why: "a tape cannot tap".into() })
+        Err(CalibrateError::Rig { number, why: "recordings made elsewhere cannot be taps".into() })
     }
 }
 

@@ -225,7 +225,7 @@ impl Tried {
             like as f64 >= BELIEVED * report.inputs.len() as f64
         };
         if !found.iter().all(believed) {
-            self.notes.push("wires: not held against the model, which the surface is too far from".into());
+            self.notes.push("wires: not compared with the model, which is too far from the surface".into());
             return Ok(());
         }
         let leads = found.iter().flat_map(|report| report.outputs.iter().chain(&report.inputs));
@@ -240,7 +240,8 @@ impl Tried {
         for fault in found[0].faults().into_iter().filter(sure).filter(everywhere) {
             if fault == format!("input `{PROBE}` is reversed") {
                 // Its sign is that of all responses: a focus only moves the other way.
-                self.notes.push(format!("{fault} beside the sensors: `input_scales` {PROBE}=-1 turns it"));
+                self.notes
+                    .push(format!("{fault} relative to the sensors: `input_scales` {PROBE}=-1 inverts it"));
             } else {
                 self.faults.push(fault);
             }
