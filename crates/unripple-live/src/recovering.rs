@@ -141,7 +141,8 @@ impl Recovering {
             Ok(device) => {
                 let found = device.layout();
                 self.away.why = format!(
-                    "it came back otherwise: expected {} outputs and {} inputs, {} Hz, blocks of {}, found {}, {}, {} Hz, {}",
+                    "it came back with other properties: expected {} outputs and {} inputs, {} Hz, blocks of {}, found {}, {}, \
+                     {} Hz, {}",
                     self.layout.outputs.len(),
                     self.layout.inputs.len(),
                     self.layout.rate,

@@ -67,7 +67,7 @@ impl std::fmt::Display for Window {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(
             f,
-            "window {} ms: contrast {:.1}, {:.0} % of the largest ({:.1} at {:.1} ms); where nobody waits, {} ms",
+            "window {} ms: contrast {:.1}, {:.0} % of the largest ({:.1} at {:.1} ms); `design` recommends {} ms",
             milliseconds(self.seconds),
             self.contrast,
             100.0 * self.contrast / self.largest,

@@ -114,8 +114,10 @@ fn told(found: &Found) -> String {
         Found::Virtual => {
             writeln!(text, "virtual   the surface itself, simulated: a channel for each actuator")
         }
-        Found::Tape => writeln!(text, "tape      WAV files: play offline, record elsewhere, bring back"),
-        Found::NoJack(why) => writeln!(text, "jack      not there. {why}"),
+        Found::Tape => {
+            writeln!(text, "tape      WAV files: write one to play elsewhere, read the recordings of it")
+        }
+        Found::NoJack(why) => writeln!(text, "jack      not available. {why}"),
         Found::Jack(server) => {
             let _ = writeln!(
                 text,
@@ -130,7 +132,7 @@ fn told(found: &Found) -> String {
             ports.into_iter().try_for_each(|(way, port)| writeln!(text, "            {way:4} {port}"))
         }
         Found::Card { index, name, streams } => {
-            let _ = writeln!(text, "card {index}    {name}, as the kernel knows it");
+            let _ = writeln!(text, "card {index}    {name}, as the kernel lists it");
             streams.iter().try_for_each(|stream| {
                 writeln!(text, "            {:8} {:8} {}", stream.device, direction(stream), offers(stream))
             })

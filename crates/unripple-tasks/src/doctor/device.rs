@@ -18,7 +18,7 @@ pub fn checks(
         Ok(opened) => opened,
         Err(error) => {
             let fix = match options.device {
-                DeviceKind::Virtual => "mend the surface file",
+                DeviceKind::Virtual => "correct the surface file",
                 _ => {
                     "start the sound server, or try --device virtual; `unripple devices` lists what there is"
                 }
@@ -65,10 +65,10 @@ fn wiring(device: &mut dyn Device, surface: &Surface, modal: &ModalResponses) ->
         .and_then(|expected| check_wiring(device, &expected, &trial));
     match found {
         Ok(found) if found.faults().is_empty() => {
-            Check::good("wiring", format!("each of {outputs} actuators is heard where it should be"))
+            Check::good("wiring", format!("each of {outputs} actuators reaches the sensors that it should"))
         }
-        Ok(found) => Check::failed("wiring", found.summary().join("; "), "mend the wires named here"),
-        Err(error) => Check::failed("wiring", error.to_string(), "see whether the device still runs"),
+        Ok(found) => Check::failed("wiring", found.summary().join("; "), "correct the wires named here"),
+        Err(error) => Check::failed("wiring", error.to_string(), "check whether the device still runs"),
     }
 }
 
@@ -80,7 +80,7 @@ fn blocks(status: &Status) -> Check {
             format!("{lost} of {} blocks were lost", status.blocks),
             "longer blocks, fewer programs, or real-time priority",
         ),
-        (state, _) => Check::failed("blocks", state.to_string(), "see whether the device still runs"),
+        (state, _) => Check::failed("blocks", state.to_string(), "check whether the device still runs"),
     }
 }
 

@@ -31,7 +31,7 @@ pub fn checks(surface: &Surface, model: &Arc<Responses>, window: Window) -> Resu
         let field = Field::new(responses, &drive, CELLS).map_err(TaskError::input)?;
         let aim = Aim { points: vec![at], instant: window.seconds };
         let measured = field.measure(&[aim], None).map_err(TaskError::input)?;
-        measured.targets.into_iter().next().ok_or_else(|| TaskError::Work("no target was judged".into()))
+        measured.targets.into_iter().next().ok_or_else(|| TaskError::Work("no target was evaluated".into()))
     };
     let free = judged(model)?;
     let under = judged(&judge::model(surface, None, &[Contact { at, finger: surface.finger }])?)?;
@@ -66,7 +66,8 @@ fn level(free: &TargetFigures, under: &TargetFigures) -> Check {
         false => Check::doubtful(
             "level",
             found,
-            "thresholds of persons differ by 6 dB: raise `limit`, or choose effects with more of their energy around 250 Hz",
+            "thresholds differ between persons by 6 dB: raise `limit`, or choose effects with more of their energy around 250 \
+             Hz",
         ),
     }
 }
@@ -75,13 +76,13 @@ fn spread(free: &TargetFigures) -> Check {
     let Some(worst) = free.felt_worst_spot_db else {
         return Check::skipped("elsewhere", "nothing moves outside the focus");
     };
-    let found = format!("felt {worst:.1} dB less at the worst place elsewhere");
+    let found = format!("the largest level felt elsewhere is {worst:.1} dB lower");
     match worst >= APART {
         true => Check::good("elsewhere", found),
         false => Check::doubtful(
             "elsewhere",
             found,
-            "it is felt nearly everywhere, so nowhere in particular: --method felt keeps the rest down",
+            "it is felt nearly everywhere: --method felt lowers what is felt elsewhere",
         ),
     }
 }

@@ -40,8 +40,8 @@ impl crate::Report for Report {
         }
         text += "\nwhy you may feel nothing\n";
         if self.why_you_may_feel_nothing.is_empty() {
-            text += "  nothing here stands in the way. Threshold differs by 6 dB between persons; rest the finger lightly: a hard \
-                     press stills the sheet under it.\n";
+            text += "  no reason found. Thresholds differ by 6 dB between persons; rest the finger lightly: a hard press damps \
+                the sheet under it.\n";
         }
         for (n, why) in self.why_you_may_feel_nothing.iter().enumerate() {
             let _ = writeln!(text, "  {}. {why}", n + 1);

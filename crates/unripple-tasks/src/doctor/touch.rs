@@ -16,7 +16,7 @@ fn port(ask: &Ask) -> Check {
         Ok(_) => Check::good("TUIO", format!("UDP {address} is free for `play --tuio`")),
         Err(error) => Check::doubtful(
             "TUIO",
-            format!("UDP {address} cannot be had: {error}"),
+            format!("UDP {address} cannot be opened: {error}"),
             "another program listens there: stop it, or choose another port on both sides",
         ),
     }
@@ -27,7 +27,7 @@ fn screens() -> Check {
     if found.is_empty() {
         return Check::skipped(
             "screens",
-            "no multi-touch screen that may be read: touches come over TUIO, OSC or WebSocket, or from synthetic fingers",
+            "no readable multi-touch screen: touches come over TUIO, OSC or WebSocket, or from synthetic fingers",
         );
     }
     let names: Vec<String> =

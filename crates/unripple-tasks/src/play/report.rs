@@ -99,9 +99,9 @@ impl ServerSays {
         let Self { period_s, playback_latency_s, late_cycles, own_late_cycles, skipped_s, .. } = self;
         let [period, latency, skipped] = [period_s, playback_latency_s, skipped_s].map(|s| 1e3 * s);
         format!(
-            "\ntimes of samples are those at the server's ports; it says that they are heard {latency:.3} ms later\n\
-             the server: a cycle of {period:.3} ms, {late_cycles} late by its count of all clients, {skipped:.1} ms left out between \
-             cycles\nour own part of a cycle was not done in time {own_late_cycles} times\n"
+            "\ntimes are those at the server's ports; it reports a playback latency of another {latency:.3} ms\nthe server: a \
+             period of {period:.3} ms, {late_cycles} late cycles by its count of all clients, {skipped:.1} ms skipped between \
+             cycles\nour own part of a cycle was late {own_late_cycles} times\n"
         )
     }
 }
@@ -194,7 +194,7 @@ impl Report {
             }
             let load = stage.conductor().desk().meters().load();
             if load > 0.7 {
-                let _ = write!(line, "  load {:.0} %: close to too much", 100.0 * load);
+                let _ = write!(line, "  load {:.0} %: close to overload", 100.0 * load);
             }
         }
         match feelings.is_empty() && pulse.is_none_or(|pulse| pulse.state == State::Running) {
@@ -252,7 +252,7 @@ impl Felt {
     /// For people; `told` where a virtual surface says what is felt, `without_scale` where its level means nothing.
     fn text(&self, told: bool, without_scale: bool) -> String {
         if !told {
-            return "felt: unknown, since no virtual surface plays that could tell\n".into();
+            return "felt: unknown, since only a virtual surface can simulate it\n".into();
         }
         let db = |value: Option<f64>| value.map_or("-".into(), |db| format!("{db:.1}"));
         let [median, most, contrast] =
@@ -260,7 +260,7 @@ impl Felt {
         if without_scale {
             return format!("felt: level unknown, contrast {contrast}\n");
         }
-        format!("felt: {median} dB above threshold (most {most}), contrast {contrast}\n")
+        format!("felt: {median} dB above threshold (largest {most}), contrast {contrast}\n")
     }
 
     fn add(&mut self, feeling: &Feeling) {
@@ -293,15 +293,15 @@ impl crate::Report for Report {
         let _ = writeln!(text, "\n  {:<34}{}", "in ms", columns.concat());
         text += &self.first_sample_s.text("touch to first sample");
         text += &self.focus_s.text("touch to focus");
-        text += &self.making_s.text("making a drive for a new place");
-        text += &self.computing_s.text("all that touches of one moment ask");
-        text += &self.block_work_s.text(&format!("a block of {:.3} ms, processor", 1e3 * self.block_s));
+        text += &self.making_s.text("computing a drive for a new place");
+        text += &self.computing_s.text("all work for simultaneous touches");
+        text += &self.block_work_s.text(&format!("processor, block of {:.3} ms", 1e3 * self.block_s));
         let _ =
             writeln!(text, "\nlimited: {} events, {} times all waveforms", self.limited, self.waves_limited);
         for (count, what) in [
             (
                 self.unknown_times,
-                "answers to touches not among these times: told of too late to know when they left",
+                "answers to touches not among these times: reported too late to know when they left",
             ),
             (self.beyond_limit, "levels beyond the limit, played as strongly as it allows"),
             (self.failed_cues, "cues that could not be played"),
