@@ -35,7 +35,7 @@ export class CompareFigures {
   constructor() {
     this.target = 0;
     this.pick = el('select', { on: { change: () => this.picked() } });
-    this.pickField = el('label', { class: 'field', hidden: true }, el('span', {}, 'Figures at the place'), this.pick);
+    this.pickField = el('label', { class: 'field', hidden: true }, el('span', {}, 'Results at the place'), this.pick);
     this.head = el('tr', { role: 'row' });
     this.body = el('tbody', { role: 'rowgroup' });
     this.table = el('table', { class: 'figures compared stacks', role: 'table' },

@@ -146,7 +146,7 @@ class Comparison {
     this.app.state.ui.compare_methods = methods;
     if (!this.app.link.send({ do: 'compare', at, methods, window_ms: null })) return;
     this.wait(true);
-    this.say(`Working out ${methods.join(' and ')}…`);
+    this.say(`Computing ${methods.join(' and ')}…`);
   }
 
   wait(on) {

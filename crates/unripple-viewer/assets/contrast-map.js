@@ -87,7 +87,7 @@ export class ContrastMap {
     this.paintBar();
     const { least, median, most } = this.spread;
     this.canvas.setAttribute('aria-label',
-      `Map of contrast: least ${number(least)}, median ${number(median)}, most ${number(most)}. Arrow keys read it place by place.`);
+      `Map of contrast: smallest ${number(least)}, median ${number(median)}, largest ${number(most)}. Arrow keys read it place by place.`);
     this.tell();
   }
 
@@ -225,7 +225,7 @@ export class ContrastMap {
       return;
     }
     const { least, median, most } = this.spread;
-    this.read.textContent = `least ${number(least)} · median ${number(median)} · most ${number(most)}`;
+    this.read.textContent = `smallest ${number(least)} · median ${number(median)} · largest ${number(most)}`;
   }
 }
 

@@ -11,12 +11,12 @@ export class DesignFigures {
     this.body = el('tbody', {});
     this.beforeHead = el('th', { scope: 'col' }, 'before');
     this.table = el('table', { class: 'figures compared' },
-      el('caption', { class: 'seen-not' }, 'Figures of the design'),
+      el('caption', { class: 'seen-not' }, 'Results of the design'),
       el('thead', {}, el('tr', {}, el('th', { scope: 'col' }, 'Figure'), this.beforeHead, el('th', { scope: 'col' }, 'now'))),
       this.body);
-    this.busy = el('p', { class: 'quiet', hidden: true }, 'Working the rest out…');
+    this.busy = el('p', { class: 'quiet', hidden: true }, 'Computing the rest…');
     this.table.hidden = true;
-    this.headline.append(el('p', { class: 'quiet' }, 'Figures appear as soon as the surface is worked out.'));
+    this.headline.append(el('p', { class: 'quiet' }, 'Results appear as soon as the surface is computed.'));
   }
 
   show(now, before) {
@@ -51,7 +51,7 @@ export class DesignFigures {
         el('strong', {}, Number.isFinite(was) ? `${number(was)} → ${number(value)}` : number(value)),
         change(was, value)));
     }
-    if (!rows.length) this.headline.append(el('p', { class: 'quiet' }, 'No act worked out yet.'));
+    if (!rows.length) this.headline.append(el('p', { class: 'quiet' }, 'No focus computed yet.'));
     if (now.done !== false && rows.length) {
       const [label, value, was] = rows[0];
       this.told.textContent = Number.isFinite(was) ? `${label}: ${number(was)} before, ${number(value)} now` : `${label}: ${number(value)}`;

@@ -41,7 +41,7 @@ export function doctor(result) {
   return el('div', { class: 'stack' },
     el('p', { class: why.length ? '' : 'quiet' }, why.length
       ? 'Why you may feel nothing:'
-      : 'Nothing here stands in the way. The threshold differs between persons; rest the finger lightly.'),
+      : 'No reason found. The threshold differs between persons; rest the finger lightly.'),
     why.length ? el('ol', {}, ...why.map((text) => el('li', {}, text))) : null,
     el('ul', { class: 'checks' }, ...checks.map((each) => {
       const verdict = String(each.verdict ?? each.state ?? (each.ok === false ? 'failed' : 'good')).toLowerCase();

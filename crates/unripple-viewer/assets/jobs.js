@@ -20,7 +20,7 @@ export function mount(root, app) {
   const jobs = new Map(Object.keys(TELL).map((kind) => [kind, new Job(kind, app)]));
   root.append(el('div', { class: 'panel-parts' },
     section('Device', state.node),
-    section('Calibrate', el('p', { class: 'quiet' }, 'Measures what each actuator does at many points, and keeps it as a library to play from.'),
+    section('Calibrate', el('p', { class: 'quiet' }, 'Measures what each actuator does at many points, and stores it as a library of responses.'),
       form.node, jobs.get('calibrate').log.node, map.node, jobs.get('calibrate').result),
     section('Devices', el('div', { class: 'row' }, starts.devices), jobs.get('devices').log.node, jobs.get('devices').result),
     section('Why is nothing felt?', el('div', { class: 'row' }, starts.doctor), jobs.get('doctor').log.node, jobs.get('doctor').result)));

@@ -126,7 +126,7 @@ export function mount(root, app) {
   const drawn = charts();
   const files = ['drive.wav', 'report.md', 'report.json'].map((name) => el('a', { class: 'button small', download: name, text: name }));
   const links = el('div', { class: 'row' }, files);
-  const stale = el('p', { class: 'quiet', hidden: true, text: 'The surface has been changed since: measure again for its figures.' });
+  const stale = el('p', { class: 'quiet', hidden: true, text: 'The surface has been changed since: measure again for its results.' });
   let of = null;
   const compared = () => {
     stale.hidden = of === null || of === app.state.last('surface')?.edit;

@@ -29,7 +29,7 @@ function fingersPart(root, app) {
 /** Peak and effective drive of each actuator as a share of its limit. */
 function drivePart(root, app) {
   const bars = el('div', { class: 'bars', role: 'group', 'aria-label': 'Drive of the actuators, share of the limit' });
-  root.append(el('h2', { text: 'Drive' }), el('p', { class: 'quiet', text: 'Peak (pale) and effective value over the last 0.2 s, against the limit.' }), bars);
+  root.append(el('h2', { text: 'Drive' }), el('p', { class: 'quiet', text: 'Peak (pale) and rms over the last 0.2 s, against the limit.' }), bars);
   let rows = [];
   app.state.subscribe('surface', ({ actuators = [] }) => {
     clear(bars);
@@ -63,7 +63,7 @@ function driftText(drift) {
   if (!drift) return 'not followed';
   const change = `${fixed((drift.tension - 1) * 100, 2)} %`;
   const error = drift.error == null ? '' : ` ± ${number(drift.error * 100, 2)} %`;
-  return `${change}${error}${drift.explained === false ? ', not explained: calibrate anew' : ''}`;
+  return `${change}${error}${drift.explained === false ? ', not explained: calibrate again' : ''}`;
 }
 
 /** Device, drift, tally, clock: a table of figures. */

@@ -24,7 +24,7 @@ export const backwards = {
       scene: { settings: PULSES, fingers: [AT] },
       show: { at: 'focus' },
       text: (f) => [
-        'This is the instant at which all waves meet. The rest of the sheet carries ripple of all directions that nearly cancels.',
+        'This is the instant at which all waves meet. Elsewhere waves from all directions overlap and nearly cancel.',
         `The spot is ${f.m(f.target('pulse').spot_diameter_m)} wide and stands out by a contrast of ${f.n(f.target('pulse').contrast)}.`,
       ],
     },
@@ -35,7 +35,7 @@ export const backwards = {
       control: 'scrub',
       text: () => [
         'Drag the slider to the left, or press Play it. Seen backwards, the focus is a stone that fell into water: a ring runs out, strikes the rims and is broken up.',
-        'That is just how the drive was made. What each actuator would hear of a tap at the finger is played to it in reverse.',
+        'That is just how the drive was made. What a sensor at each actuator would record of a tap at the finger, that actuator plays in reverse.',
       ],
     },
     {
@@ -56,9 +56,9 @@ export const backwards = {
       control: 'scrub',
       text: (f) => [
         `Over the whole window of ${f.s(f.window('pulse'))} the two halves differ: waves die away${decay(f)}, and a law with losses knows the direction of time.`,
-        `The actuators put in what is lost, from the start of the window to the focus; afterwards nothing is sent and the sheet rings down. So the ripple over the whole span is as it is: the focus is ${f.n(f.target('pulse').background_contrast)} times its rms.`,
+        `The actuators put in what is lost, from the start of the window to the focus; afterwards nothing is sent and the sheet rings down. So ripple remains over the whole time: the focus is ${f.n(f.target('pulse').background_contrast)} times its rms.`,
       ],
-      figures: (f) => [['Contrast at the focus', f.n(f.target('pulse').contrast)], ['Over the whole span', f.n(f.target('pulse').background_contrast)]],
+      figures: (f) => [['Contrast at the focus', f.n(f.target('pulse').contrast)], ['Over the whole time', f.n(f.target('pulse').background_contrast)]],
     },
   ],
 };

@@ -28,8 +28,8 @@ export const better = {
       scene: { settings: PULSES, fingers: [AT] },
       measure: [{ name: 'reversal', at: [AT] }],
       text: (f) => [
-        `Time reversal needs no thought: play back what was heard. It gives the highest peak for the energy, and here a contrast of ${f.n(f.target('reversal').contrast)}.`,
-        'It takes no care of what happens elsewhere. That the ripple nearly cancels there is luck, the same at every place.',
+        `Time reversal is simple: it plays recorded responses backwards. It gives the highest peak for the energy, and here a contrast of ${f.n(f.target('reversal').contrast)}.`,
+        'It does nothing about the waves elsewhere: they nearly cancel there only because their phases are random.',
       ],
       figures: (f) => [['Contrast', f.n(f.target('reversal').contrast)]],
     },

@@ -69,7 +69,7 @@ export const oneActuator = {
       scene: { surface: 'hudin-2012', settings: PULSES, fingers: [AT] },
       text: (f) => [
         `All the actuators are back, with ${f.times(f.target('one').contrast, f.target('all').contrast)} the contrast of one.`,
-        'Contrast grows with the square root of their number, as long as they are few. One is enough to focus; more make it clean.',
+        'Contrast grows with the square root of their number, as long as they are few. One is enough to focus; more give a better contrast.',
       ],
       figures: (f) => [
         [`One, ${f.s(f.window('short'))}`, f.n(f.target('short').contrast)],

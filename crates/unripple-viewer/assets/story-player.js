@@ -168,7 +168,7 @@ export class StoryPlayer {
       this.moment.pin(this.facts.compared);
       return true;
     }
-    this.say(`Working out ${methods.join(' and ')}…`);
+    this.say(`Computing ${methods.join(' and ')}…`);
     if (!this.scene.compared) {
       this.facts.compared = null;
       this.scene.compare(at, methods);

@@ -122,7 +122,7 @@ export class StoryScene {
       const now = this.app.state.last('surface');
       if (this.before || !now || now.library || now.toml === before.toml) return;
       fetch(this.app.token('/surface'), { method: 'POST', headers: { 'content-type': 'application/toml' }, body: before.toml })
-        .catch(() => this.app.toast('The surface of before could not be put back', 'fault'));
+        .catch(() => this.app.toast('The earlier surface could not be restored', 'fault'));
     }, 3000);
   }
 

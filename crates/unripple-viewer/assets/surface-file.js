@@ -114,7 +114,7 @@ export class SurfaceFile {
     this.faults.hidden = !text;
     if (!text) return;
     this.faults.append(
-      el('strong', {}, name ? `${name} was not taken` : 'Not taken'),
+      el('strong', {}, name ? `${name} was not accepted` : 'Not taken'),
       el('pre', { class: 'mono', tabindex: '0', 'aria-label': 'What is wrong with the file' }, text));
     const lines = source && !text.includes('│') ? cited(text, source) : [];
     if (lines.length) {

@@ -16,9 +16,9 @@ const SIZES = {
 const NUMBERS = [
   { key: 'thickness_mm', label: 'Thickness', unit: 'mm', least: 0.001, most: 100, low: 0.02, high: 4, scale: 'log' },
   { key: 'tension_n_per_m', label: 'Tension', unit: 'N/m', least: 0, most: 1e6, low: 0, high: 2000, scale: 'square', hint: '0 for a plate' },
-  { key: 'decay_time_ms', label: 'Decay time', unit: 'ms', least: 0.1, most: 100000, low: 3, high: 1000, scale: 'log', hint: 'of the amplitude, to 37 %' },
+  { key: 'decay_time_ms', label: 'Decay time', unit: 'ms', least: 0.1, most: 100000, low: 3, high: 1000, scale: 'log', hint: 'of the amplitude, to 37 % (1/e)' },
   { key: 'band_top_hz', label: 'Top of the band', unit: 'Hz', least: 50, most: 200000, low: 300, high: 24000, scale: 'log' },
-  { key: 'actuators', label: 'Actuators', least: 1, most: 64, low: 1, high: 32, step: 1, hint: 'another number places them anew' },
+  { key: 'actuators', label: 'Actuators', least: 1, most: 64, low: 1, high: 32, step: 1, hint: 'another number moves them to new places' },
 ];
 
 /** Every value of the surface that can be edited here. */
@@ -29,7 +29,7 @@ export class SurfaceForm {
     this.sizes = [];
     this.shape = el('select', { on: { change: () => this.reshape() } });
     this.sizesNode = el('div', { class: 'stack' });
-    this.edge = el('select', { title: 'clamped: glued, cannot tilt; supported: held, may tilt', on: { change: () => this.choose('edge', this.edge) } });
+    this.edge = el('select', { title: 'clamped: no displacement, no rotation; supported: no displacement, free to rotate', on: { change: () => this.choose('edge', this.edge) } });
     this.material = el('select', { on: { change: () => this.choose('material', this.material) } });
     this.numbers = NUMBERS.map((each) => ({
       key: each.key,
