@@ -53,7 +53,7 @@ impl Converter {
         let (outputs, inputs) = (layout.outputs.len(), layout.inputs.len());
         let lists = [
             ("gains of the drive", &mut interface.drive_gains, outputs, 1.0),
-            ("gains of what is heard", &mut interface.heard_gains, inputs, 1.0),
+            ("gains of the inputs", &mut interface.heard_gains, inputs, 1.0),
             ("levels of noise", &mut interface.noise, inputs, 0.0),
         ];
         for (what, list, count, default) in lists {

@@ -3,7 +3,7 @@
 /// A probe's delay (s) beside the sensors, which was taken out.
 pub fn comes(delay: f64) -> String {
     let (ms, side) = (1e3 * delay.abs(), if delay < 0.0 { "earlier" } else { "later" });
-    format!("the probe comes {ms:.3} ms {side} than the sensors: taken out")
+    format!("the probe comes {ms:.3} ms {side} than the sensors: corrected")
 }
 
 #[cfg(test)]
@@ -12,7 +12,7 @@ mod tests {
 
     #[test]
     fn a_probe_that_comes_first_is_said_to() {
-        assert_eq!(comes(-0.5e-3), "the probe comes 0.500 ms earlier than the sensors: taken out");
-        assert_eq!(comes(1e-3), "the probe comes 1.000 ms later than the sensors: taken out");
+        assert_eq!(comes(-0.5e-3), "the probe comes 0.500 ms earlier than the sensors: corrected");
+        assert_eq!(comes(1e-3), "the probe comes 1.000 ms later than the sensors: corrected");
     }
 }

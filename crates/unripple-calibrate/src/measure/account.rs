@@ -106,20 +106,20 @@ impl Account {
         if let Some(late) = self.late.filter(|late| late.abs() >= SAME_TIME) {
             let side = if late > 0.0 { "later" } else { "earlier" };
             let late = late.abs();
-            said.push(format!("it was heard {late:.2} samples {side} than the first: moved back"));
+            said.push(format!("it came {late:.2} samples {side} than the first: shifted back"));
         }
         if let Some([first, last]) = self.drift.filter(|drift| drift.iter().any(|x| x.abs() >= SAME_TENSION))
         {
             let what = if self.of_stiffness { "stiffness" } else { "tension" };
             let (first, last) = (100.0 * first, 100.0 * last);
             said.push(format!(
-                "{what} was {first:+.2} % beside the first recording, {last:+.2} % at its end: taken out"
+                "{what} differed by {first:+.2} % from the first recording, by {last:+.2} % at its end: corrected"
             ));
         }
         if let Some(scatter) = self.scatter {
             said.push(format!(
-                "sweeps came {scatter:.2} samples early or late that no clock explains (latency that jitters, or a few samples lost): left \
-                 as it is"
+                "sweeps came {scatter:.2} samples early or late that no clock explains (latency that jitters, or a few samples \
+                 lost): not corrected"
             ));
         }
         said

@@ -54,7 +54,7 @@ impl Way {
                 let found = session.measure(rig, number, at, attempt, Listen::Probe)?;
                 found.into_iter().next().ok_or_else(|| CalibrateError::Recording {
                     what: "recording".into(),
-                    expected: "what the probe heard".into(),
+                    expected: "signal of the probe".into(),
                     found: "nothing".into(),
                 })
             }

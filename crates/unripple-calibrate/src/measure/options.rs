@@ -102,7 +102,7 @@ impl MeasureOptions {
         let of = [
             ("sweep", self.sweep, suited.sweep, "harmonics lie in each other's ringing"),
             ("pause", self.settle_time, suited.settle_time, "sweeps lie in each other's ringing"),
-            ("response", self.response_length, suited.response_length, "what rings on later is left out"),
+            ("response", self.response_length, suited.response_length, "what decays later is left out"),
         ];
         let short = of.into_iter().filter(|(_, found, wanted, _)| *found < 0.999 * wanted);
         short

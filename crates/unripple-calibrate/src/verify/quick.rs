@@ -76,8 +76,7 @@ impl Quick {
         };
         if quick.fitted.unexplained() > NO_MODEL {
             return Err(format!(
-                "{:.0} % of what actuators heard of each other between {:.0} and {:.0} Hz is left unexplained by the \
-                 best there is",
+                "{:.0} % of the responses between actuators from {:.0} to {:.0} Hz is not explained by the best model",
                 100.0 * quick.fitted.unexplained(),
                 band[0],
                 band[1]

@@ -43,13 +43,13 @@ pub(super) fn verdict(
         Kind::Here => None,
         Kind::Elsewhere(spot, whose) => Some(elsewhere(bench, judged, point, spot.at, whose)),
         Kind::Late(late) => Some(format!(
-            "what the probe heard comes {:.2} ms {} than at the other points (were samples lost? record it again)",
+            "the probe's signal comes {:.2} ms {} than at the other points (were samples lost? record it again)",
             1e3 * late.abs(),
             if late > 0.0 { "later" } else { "earlier" }
         )),
         Kind::Nothing => Some(format!(
-            "{:.0} % of what the probe heard is not what this surface does at any place (another channel, samples lost, \
-             another clock, or a surface that has changed since: record it again)",
+            "{:.0} % of the probe's signal fits no place of this surface (another channel, samples lost, another clock, or a \
+             surface that has changed since: record it again)",
             100.0 * one.own.unexplained()
         )),
     };
@@ -137,8 +137,8 @@ pub(super) fn gather(
             ));
         } else if let Some(factor) = levels.off(&judged[p]).filter(|_| bench.options.probe) {
             notes.push(format!(
-                "point {number}: its gain seems to be {:.2} times that of the other points, which its place or what the model leaves \
-                 unexplained may make as well: left as it is",
+                "point {number}: its gain seems to be {:.2} times that of the other points, which a wrong place or an error of \
+                 the model may also explain: not corrected",
                 1.0 / factor
             ));
         }
@@ -150,7 +150,7 @@ pub(super) fn delay(options: &VerifyOptions, delay: f64, told: bool) -> Option<D
     let said = options.probe_delay.filter(|_| told)?;
     Some(Doubted {
         what: format!(
-            "the probe's delay is said to be {:.3} ms, and the model finds {:.3} ms",
+            "the probe's delay is given as {:.3} ms, and the model finds {:.3} ms",
             1e3 * said,
             1e3 * (said + delay)
         ),

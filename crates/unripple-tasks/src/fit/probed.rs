@@ -103,6 +103,6 @@ mod tests {
             copies: Vec::new(),
             doubts: Vec::new(),
         };
-        assert_eq!(notes(&found), ["the probe comes 0.500 ms earlier than the sensors: taken out"]);
+        assert_eq!(notes(&found), ["the probe comes 0.500 ms earlier than the sensors: corrected"]);
     }
 }
