@@ -173,7 +173,7 @@ impl Library {
         let name = self.root.display().to_string();
         let expected = match held {
             0 => "quality by no bands, since there is no room for it yet".into(),
-            held => format!("the quality of {} responses in {held} bands", self.plan.ports.len()),
+            held => format!("quality values of {} responses in {held} bands", self.plan.ports.len()),
         };
         let widths: Vec<String> = take.bands.iter().map(|row| row.len().to_string()).collect();
         let found = format!("that of {} in {}", take.bands.len(), widths.join(", "));

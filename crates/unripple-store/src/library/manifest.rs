@@ -91,7 +91,7 @@ pub(crate) fn encode(plan: &LibraryPlan, file: &str) -> Result<Vec<u8>, StoreErr
     if bytes.len() as u64 > LARGEST {
         return Err(StoreError::content(
             file,
-            format!("a plan of at most {LARGEST} bytes"),
+            format!("a description of the library of at most {LARGEST} bytes"),
             bytes.len().to_string(),
         ));
     }

@@ -296,8 +296,11 @@ impl crate::Report for Report {
         text += &self.making_s.text("computing a drive for a new place");
         text += &self.computing_s.text("all work for simultaneous touches");
         text += &self.block_work_s.text(&format!("processor, block of {:.3} ms", 1e3 * self.block_s));
-        let _ =
-            writeln!(text, "\nlimited: {} events, {} times all waveforms", self.limited, self.waves_limited);
+        let _ = writeln!(
+            text,
+            "\nscaled down to the limit: {} events; all waveforms {} times",
+            self.limited, self.waves_limited
+        );
         for (count, what) in [
             (
                 self.unknown_times,
