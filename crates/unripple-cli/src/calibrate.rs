@@ -87,7 +87,7 @@ fn by_hand(bar: Bar) -> Hands {
                 .and_then(|()| out.flush())
                 .map_err(|e| e.to_string())?;
             match std::io::stdin().lock().read_line(&mut String::new()) {
-                Ok(0) => Err("nobody is there to press Enter: standard input has ended".into()),
+                Ok(0) => Err("nobody can press Enter: standard input has ended".into()),
                 Ok(_) => Ok(()),
                 Err(error) => Err(error.to_string()),
             }

@@ -35,7 +35,7 @@ pub enum FocusError {
     },
     /// Nothing that the actuators do moves the target.
     #[error(
-        "target {}: no actuator can move {at} (on a held edge or a line of rest?), expected a point that moves", target + 1
+        "target {}: no actuator can move {at} (on a held edge or a nodal line?), expected a point that moves", target + 1
     )]
     Still {
         /// Index of the target.
@@ -69,7 +69,7 @@ pub enum FocusError {
     NeedsModes(&'static str),
     /// Two targets are so close that their levels cannot differ.
     #[error(
-        "targets {} and {}: expected places whose levels can differ, found no drive that tells them apart", other + 1,
+        "targets {} and {}: expected places whose levels can differ, found no drive that gives them different levels", other + 1,
         target + 1
     )]
     Inseparable {

@@ -120,7 +120,7 @@ fn plants<'r>(
     }
     if options.rest && options.method == Method::Inverse && !again {
         let Responses::Modal(modal) = responses else {
-            return Err(FocusError::NeedsModes("displacements brought to rest"));
+            return Err(FocusError::NeedsModes("displacements at rest"));
         };
         let resting = ModalPlant::once(modal, length, 1.0, Keeps::Displacement, ACCURACY);
         plants.push(Plant::Modal(Box::new(resting)));

@@ -117,7 +117,7 @@ fn gcd(a: usize, b: usize) -> usize {
 /// The least length, in samples, after which the last full period is steady.
 fn steady_length(common: usize, conditions: Conditions) -> Result<usize, FocusError> {
     let Some(settle) = conditions.settle else {
-        let expected = "one, since a mode without losses never becomes steady".to_owned();
+        let expected = "one, since a mode without losses never reaches a steady state".to_owned();
         return Err(FocusError::Count { what: "duration of a repeated drive", expected, found: 0 });
     };
     let half = common / 2;

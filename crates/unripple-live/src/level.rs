@@ -65,7 +65,7 @@ impl fmt::Display for Level {
         let [used, own] = self.moved.map(|u| u * 1e6);
         match self.full {
             _ if !self.scaled => {
-                write!(f, "full level the surface's limit of {}: what it moves is not known", self.limit)
+                write!(f, "full level the surface's limit of {}: its displacement is unknown", self.limit)
             }
             Some(full) => write!(
                 f,

@@ -118,7 +118,7 @@ impl Drawing {
 }
 
 fn nothing(name: &str) -> StoreError {
-    StoreError::content(name, "a filled or stroked shape (turn text into paths first)", "nothing that shows")
+    StoreError::content(name, "a filled or stroked shape (turn text into paths first)", "no visible shape")
 }
 
 /// How the reader behaves: nothing outside the text is looked at.

@@ -56,7 +56,7 @@ impl Editions {
         };
         found.cloned().ok_or_else(|| {
             let found = edit.map_or("none".into(), |edit| edit.to_string());
-            format!("edit: expected {}, found {found}: the surface has changed meanwhile, ask again", range())
+            format!("edit: expected {}, found {found}: the surface has changed meanwhile, try again", range())
         })
     }
 }

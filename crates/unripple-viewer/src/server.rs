@@ -138,7 +138,7 @@ async fn load(State(desk): State<Desk>, request: Request) -> Response {
     let body = match timeout(SENT, Bytes::from_request(request, &desk)).await {
         Ok(Ok(body)) => body,
         Ok(Err(refused)) => return refused.into_response(),
-        Err(_) => return (StatusCode::REQUEST_TIMEOUT, "the file took too long to come\n").into_response(),
+        Err(_) => return (StatusCode::REQUEST_TIMEOUT, "the upload took too long\n").into_response(),
     };
     let refused = |why: String| {
         desk.host.log(&format!("refused: an uploaded surface: {}", why.lines().next().unwrap_or_default()));

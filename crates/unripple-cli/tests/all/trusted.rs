@@ -217,7 +217,7 @@ fn levels_need_a_scale() {
     let told = [output.stderr, output.stdout].map(|text| String::from_utf8(text).unwrap()).concat();
     let figures: Vec<&str> = told.lines().filter(|line| !line.starts_with("warning")).collect();
     assert!(figures.iter().all(|line| !line.contains("µm") && !line.contains("dB")), "{told}");
-    assert!(told.contains("full level the surface's limit of 1: what it moves is not known"), "{told}");
+    assert!(told.contains("full level the surface's limit of 1: its displacement is unknown"), "{told}");
     let played = json(&play);
     assert!(played["full_level_db"].is_null() && played["felt"]["level_db_median"].is_null(), "{played}");
 

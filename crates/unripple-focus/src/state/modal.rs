@@ -152,7 +152,7 @@ pub(super) fn steady(
         let determinant = (1.0 - a) * (1.0 - d) - b * c;
         // 1 - A is singular for a mode that keeps its energy for ever.
         if determinant.is_nan() || determinant.abs() <= 1e-12 {
-            let expected = "one, since a mode without losses never becomes steady".to_owned();
+            let expected = "one, since a mode without losses never reaches a steady state".to_owned();
             return Err(FocusError::Count { what: "duration of a repeated drive", expected, found: 0 });
         }
         let [u, v] = pole.kick();

@@ -72,7 +72,7 @@ impl Misbehaving {
         let known = mishaps.swapped.iter().flat_map(|(a, b)| [*a, *b]).chain(mishaps.dead.iter().copied());
         for channel in known {
             let expected = format!("less than {channels}, the number of channels");
-            require("channel of a mishap", channel < channels, expected, channel as f64)?;
+            require("channel of a fault", channel < channels, expected, channel as f64)?;
         }
         require("noise of the sensors", mishaps.noise >= 0.0, "0 or more", mishaps.noise)?;
         let clip = mishaps.clip.unwrap_or(0.0);
@@ -111,7 +111,7 @@ impl Misbehaving {
         let pairs = self.mishaps.swapped.iter().flat_map(|(a, b)| [*a, *b]);
         for channel in pairs.chain(self.mishaps.dead.iter().copied()) {
             let expected = format!("less than {}, the channels with wires", channels - spare);
-            require("channel of a mishap", channel < channels - spare, expected, channel as f64)?;
+            require("channel of a fault", channel < channels - spare, expected, channel as f64)?;
         }
         Ok(Self { spare, ..self })
     }

@@ -119,14 +119,14 @@ fn several_curves_open_and_closed() {
 fn what_is_no_drawing() {
     for (text, part) in [
         ("", "expected an SVG document"),
-        ("<svg xmlns=\"http://www.w3.org/2000/svg\"/>", "nothing that shows"),
+        ("<svg xmlns=\"http://www.w3.org/2000/svg\"/>", "no visible shape"),
         (
             "<svg xmlns=\"http://www.w3.org/2000/svg\"><path d=\"M0 0A1 1e30 0 0 1 3 3Z\"/></svg>",
             "at most 100 m",
         ),
         (
             "<svg xmlns=\"http://www.w3.org/2000/svg\"><path d=\"M0 0A1 nan 0 0 1 3 3Z\"/></svg>",
-            "nothing that shows",
+            "no visible shape",
         ),
     ] {
         let error = read_curves(text, "d.svg").unwrap_err().to_string();

@@ -99,9 +99,9 @@ fn what_is_no_drawing() {
         ("", "expected an SVG document"),
         ("<html/>", "expected an SVG document"),
         ("<svg xmlns=\"http://www.w3.org/2000/svg\"", "expected an SVG document"),
-        (&document(""), "found nothing that shows"),
+        (&document(""), "found no visible shape"),
         (&document("<text>hello</text>"), "turn text into paths"),
-        (&document(r#"<path d="M0 0 L nan 3"/>"#), "found nothing that shows"),
+        (&document(r#"<path d="M0 0 L nan 3"/>"#), "found no visible shape"),
         (&document(r#"<path d="M0 0 L 1e30 3 L 3 9"/>"#), "expected coordinates of at most 100 m"),
         (
             &document(r##"<clipPath id="c"/><rect width="3" height="3" clip-path="url( '#c' )"/>"##),

@@ -156,7 +156,7 @@ fn an_outline_drawn_in_svg() {
     let bad = parse_surface_with(text, "plate.toml", &|_| Ok(svg.replace("circle", "text"))).unwrap_err();
     assert_eq!(
         bad.faults()[0].to_string(),
-        "outline.svg: expected a filled or stroked shape (turn text into paths first), found nothing that shows"
+        "outline.svg: expected a filled or stroked shape (turn text into paths first), found no visible shape"
     );
     let listed = text.replace("\"free\"", "[\"free\", \"free\"]");
     let bad = parse_surface_with(&listed, "plate.toml", &|_| Ok(svg.into())).unwrap_err();

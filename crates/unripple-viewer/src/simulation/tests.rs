@@ -99,5 +99,5 @@ fn without_a_scale_the_limit_alone_sets_the_level() {
     assert!(known.level.full.is_some() && known.level.to_string().contains("threshold of touch"));
     let unknown = Instrument::build(Spec { without_scale: true, ..spec() }).unwrap();
     assert!(unknown.level.full.is_none());
-    assert!(unknown.level.to_string().ends_with("what it moves is not known"), "{}", unknown.level);
+    assert!(unknown.level.to_string().ends_with("its displacement is unknown"), "{}", unknown.level);
 }
