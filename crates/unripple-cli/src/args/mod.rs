@@ -259,7 +259,7 @@ pub struct FieldOptions {
     /// each --at.
     #[arg(long, value_name = "MS", allow_negative_numbers = true)]
     pub at_ms: Vec<f64>,
-    /// Put a finger of the surface file at X,Y in mm. Repeatable.
+    /// Simulate the field with a finger, as the surface file describes it, resting at X,Y in mm. Repeatable.
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     pub finger: Vec<String>,
     /// Period of a repeated drive, in ms; results are then those of the last full period.

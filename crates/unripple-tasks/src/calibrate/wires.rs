@@ -86,7 +86,7 @@ impl<'a> Asked<'a> {
 
     fn refusal(&self, report: &WiringReport, faults: Vec<String>, silent: &[&str]) -> TaskError {
         let dead = match silent.iter().find(|name| !self.without.iter().any(|known| known == *name)) {
-            Some(name) => format!(", without a dead one by `without` {name}"),
+            Some(name) => format!(", or leave a dead one out with `without` {name}"),
             None => String::new(),
         };
         // Few lines for many channels, unless some of them are no news.
