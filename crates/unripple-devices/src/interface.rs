@@ -7,8 +7,8 @@ use unripple_core::{Layout, Random, require};
 
 /// What stands between a computer and a surface: converters, amplifiers and wires. The default is perfect.
 ///
-/// Mishaps of the surface itself, of its sensors and of whole channels are
-/// [`Mishaps`](unripple_physics::stepper::Mishaps); these here act on what goes out and on all that is heard, the probe
+/// Faults of the surface itself, of its sensors and of whole channels are
+/// [`InjectedFaults`](unripple_physics::stepper::InjectedFaults); these here act on what goes out and on all that is heard, the probe
 /// included.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interface {

@@ -5,7 +5,7 @@ mod common;
 use common::*;
 use unripple_core::*;
 use unripple_devices::*;
-use unripple_physics::stepper::Mishaps;
+use unripple_physics::stepper::InjectedFaults;
 use unripple_physics::{ResponseOptions, responses, sample};
 
 const SAMPLES: usize = 900;
@@ -110,8 +110,8 @@ fn a_device_that_vanishes_is_lost_for_good() {
 
 #[test]
 fn lost_blocks_are_silent_at_the_probe_too_and_counted() {
-    let mishaps = Mishaps { dropped: 0.3, seed: 4, ..Default::default() };
-    let mut device = device(&VirtualOptions { mishaps, ..options() });
+    let faults = InjectedFaults { dropped: 0.3, seed: 4, ..Default::default() };
+    let mut device = device(&VirtualOptions { faults, ..options() });
     let heard = play(&mut device, 64 * 40, |o, i| ((i + o) as f64 * 0.1).sin());
     let silent = heard[8].chunks(64).filter(|block| block.iter().all(|x| *x == 0.0)).count() as u64;
     assert!(silent > 3);
@@ -120,8 +120,8 @@ fn lost_blocks_are_silent_at_the_probe_too_and_counted() {
 
 #[test]
 fn clipping_is_of_the_drive_and_not_of_taps() {
-    let mishaps = Mishaps { clip: Some(0.1), ..Default::default() };
-    let clipped = device(&VirtualOptions { mishaps, ..options() });
+    let faults = InjectedFaults { clip: Some(0.1), ..Default::default() };
+    let clipped = device(&VirtualOptions { faults, ..options() });
     let (mut clipped, mut plain) = (clipped, device(&options()));
     let at = Point::from_mm(80.0, 33.0);
     for device in [&clipped, &plain] {
@@ -157,8 +157,8 @@ fn what_cannot_be_is_refused() {
     assert!(of(Interface { noise: vec![1.0; 8], ..Default::default() }).contains("expected 9, found 8"));
     assert!(of(Interface { latency: 3.5, ..Default::default() }).contains("at least 24"));
     assert!(of(Interface { drive_gains: vec![f64::NAN; 8], ..Default::default() }).contains("finite"));
-    let spare = Mishaps { dead: vec![8], ..Default::default() };
-    assert!(refused(VirtualOptions { mishaps: spare, ..options() }).contains("less than 8"));
+    let spare = InjectedFaults { dead: vec![8], ..Default::default() };
+    assert!(refused(VirtualOptions { faults: spare, ..options() }).contains("less than 8"));
 }
 
 #[test]

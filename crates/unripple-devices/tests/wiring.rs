@@ -1,4 +1,4 @@
-//! Each mishap of a wire is found, on a surface that is not the model.
+//! Each fault of a wire is found, on a surface that is not the model.
 
 mod common;
 
@@ -6,7 +6,7 @@ use common::*;
 use std::sync::{Arc, OnceLock};
 use unripple_core::*;
 use unripple_devices::*;
-use unripple_physics::stepper::Mishaps;
+use unripple_physics::stepper::InjectedFaults;
 use unripple_physics::{Modes, ResponseOptions, responses};
 
 const PROBE_AT: Point = Point::new(0.062, 0.090);
@@ -28,15 +28,15 @@ fn known() -> &'static (Truth, Arc<Modes>, Expected) {
     })
 }
 
-fn found(mishaps: Mishaps, interface: Interface) -> WiringReport {
+fn found(faults: InjectedFaults, interface: Interface) -> WiringReport {
     let (truth, modes, expected) = known();
-    let options = VirtualOptions { probe: Some(PROBE_AT), mishaps, interface, ..Default::default() };
+    let options = VirtualOptions { probe: Some(PROBE_AT), faults, interface, ..Default::default() };
     let mut device = Virtual::of_truth_with_modes(truth, modes.clone(), &options).unwrap();
     check_wiring(&mut device, expected, &WiringOptions::for_band([0.0, 3e3])).unwrap()
 }
 
-fn faults(mishaps: Mishaps, interface: Interface) -> Vec<String> {
-    found(mishaps, interface).faults()
+fn faults(faults: InjectedFaults, interface: Interface) -> Vec<String> {
+    found(faults, interface).faults()
 }
 
 fn gains(count: usize, changed: &[(usize, f64)]) -> Vec<f64> {
@@ -48,7 +48,7 @@ fn gains(count: usize, changed: &[(usize, f64)]) -> Vec<f64> {
 #[test]
 fn right_wires_are_right_and_latency_is_found() {
     for latency in [0.0, 1500.0] {
-        let report = found(Mishaps::default(), Interface { latency, ..Default::default() });
+        let report = found(InjectedFaults::default(), Interface { latency, ..Default::default() });
         assert!(report.is_right(), "{report}");
         assert!((report.latency as f64 - latency).abs() <= OFF);
         let least = report.outputs.iter().chain(&report.inputs).map(|l| l.likeness).fold(1.0, f64::min);
@@ -70,24 +70,24 @@ fn where_the_model_holds_latency_is_exact() {
 
 #[test]
 fn a_dead_channel_is_silent() {
-    let dead = Mishaps { dead: vec![2, 6], ..Default::default() };
+    let dead = InjectedFaults { dead: vec![2, 6], ..Default::default() };
     assert_eq!(faults(dead, Interface::default()), ["actuator `a3` is silent", "actuator `a7` is silent"]);
     let deaf = Interface { heard_gains: gains(9, &[(8, 0.0)]), ..Default::default() };
-    assert_eq!(faults(Mishaps::default(), deaf), ["input `probe` is silent"]);
+    assert_eq!(faults(InjectedFaults::default(), deaf), ["input `probe` is silent"]);
     let mute = Interface { drive_gains: gains(8, &[(1, 0.0)]), ..Default::default() };
-    assert_eq!(faults(Mishaps::default(), mute), ["output `a2` is silent"]);
+    assert_eq!(faults(InjectedFaults::default(), mute), ["output `a2` is silent"]);
 }
 
 #[test]
 fn swapped_channels_are_told_apart() {
-    let swapped = Mishaps { swapped: vec![(0, 4), (2, 3)], ..Default::default() };
+    let swapped = InjectedFaults { swapped: vec![(0, 4), (2, 3)], ..Default::default() };
     let told: Vec<String> = [("a1", "a5"), ("a3", "a4"), ("a4", "a3"), ("a5", "a1")]
         .iter()
         .map(|(from, to)| format!("actuator `{from}` is wired to `{to}`"))
         .collect();
     assert_eq!(faults(swapped, Interface::default()), told);
     // Three in a ring.
-    let ring = Mishaps { swapped: vec![(0, 1), (1, 2)], ..Default::default() };
+    let ring = InjectedFaults { swapped: vec![(0, 1), (1, 2)], ..Default::default() };
     // The drive's wires go round one way, the sensors' the other.
     let expected = [
         "output `a1` is wired to `a3`",
@@ -108,14 +108,14 @@ fn reversed_channels_are_told_by_side() {
         ..Default::default()
     };
     let expected = ["actuator `a4` is reversed", "output `a6` is reversed", "input `a8` is reversed"];
-    assert_eq!(faults(Mishaps::default(), both), expected);
+    assert_eq!(faults(InjectedFaults::default(), both), expected);
 }
 
 #[test]
 fn all_at_once() {
-    let mishaps = Mishaps { dead: vec![7], swapped: vec![(1, 5)], ..Default::default() };
+    let faults = InjectedFaults { dead: vec![7], swapped: vec![(1, 5)], ..Default::default() };
     let interface = Interface { drive_gains: gains(8, &[(0, -1.0)]), latency: 700.0, ..Default::default() };
-    let report = found(mishaps, interface);
+    let report = found(faults, interface);
     let expected = [
         "output `a1` is reversed",
         "actuator `a2` is wired to `a6`",

@@ -10,7 +10,7 @@ use unripple_devices::{Feeler, Virtual, VirtualOptions};
 use unripple_effects::{Button, Kind, Level};
 use unripple_live::{Engine, FocusWorker, Follower, LiveOptions};
 use unripple_physics::Modes;
-use unripple_physics::stepper::Mishaps;
+use unripple_physics::stepper::InjectedFaults;
 
 /// What is known of the tension.
 #[derive(Clone, Copy, PartialEq)]
@@ -38,8 +38,8 @@ fn under(tension: f64) -> Responses {
 
 /// What a finger feels of a click at each of four taps, in dB above threshold.
 fn peaks(tension: f64, known: Known) -> Vec<f64> {
-    let mishaps = Mishaps { tension: vec![(0.0, tension)], ..Mishaps::default() };
-    let options = VirtualOptions { block: BLOCK, mishaps, ..VirtualOptions::default() };
+    let faults = InjectedFaults { tension: vec![(0.0, tension)], ..InjectedFaults::default() };
+    let options = VirtualOptions { block: BLOCK, faults, ..VirtualOptions::default() };
     let device = Virtual::new(&FILM, &options).unwrap();
     let feeler = Feeler::new(device.handle(), &FILM, 2).unwrap();
     // A finger loads the sheet, and leaves it for most of two seconds.

@@ -1,9 +1,11 @@
-//! Stepping never allocates: not with loads, fingers that come, move and go, drifting tension, or mishaps.
+//! Stepping never allocates: not with loads, fingers that come, move and go, drifting tension, or injected faults.
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc};
 use std::sync::Arc;
 use unripple_core::{Edge, Edges, Finger, Point};
-use unripple_physics::stepper::{Channel, Misbehaving, Mishaps, Reading, StepperOptions, VirtualSurface};
+use unripple_physics::stepper::{
+    Channel, InjectedFaults, Misbehaving, Reading, StepperOptions, VirtualSurface,
+};
 use unripple_physics::{Circuit, Footprint, Load, Modes, stepper::Plant};
 
 #[path = "../../unripple-plates/tests/modes_common/mod.rs"]
@@ -40,8 +42,12 @@ fn stepping_allocates_nothing() {
     surface.set_probes(&[(Point::from_mm(62.0, 90.0), Reading::Velocity)]).unwrap();
     let places = [(62.0, 90.0), (40.0, 50.0), (100.0, 70.0)];
     let footings = places.map(|(x, y)| plant.footing(Point::from_mm(x, y), 5e-3).unwrap());
-    let drift =
-        Mishaps { tension: vec![(0.0, 1.0), (0.1, 1.01)], noise: 1e-6, latency: 5, ..Mishaps::default() };
+    let drift = InjectedFaults {
+        tension: vec![(0.0, 1.0), (0.1, 1.01)],
+        noise: 1e-6,
+        latency: 5,
+        ..InjectedFaults::default()
+    };
     let mut wrong = Misbehaving::new(surface.clone(), drift, FRAMES).unwrap();
     let drive: Vec<f64> = (0..8 * FRAMES).map(|i| (i as f64 * 0.7).sin()).collect();
     let (mut sensors, mut probes) = (vec![0.0; 8 * FRAMES], vec![0.0; FRAMES]);

@@ -87,7 +87,7 @@ fn a_channel_that_clips_and_one_that_is_dead_are_bad() {
     let dead = fault(&options);
     assert!(dead.contains("actuator 3") && dead.contains("signal to noise"), "{dead}");
     options.interface.drive_gains.clear();
-    options.mishaps.clip = Some(0.6);
+    options.faults.clip = Some(0.6);
     let clipped = fault(&options);
     assert!(clipped.contains("distortion"), "{clipped}");
 }

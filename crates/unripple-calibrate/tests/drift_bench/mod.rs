@@ -13,7 +13,7 @@ use unripple_core::{ModalResponses, Point, Responses, Shapes, Surface};
 use unripple_focus::{Focuser, Method, Options, Target};
 use unripple_linalg::Mat;
 use unripple_physics::design::papers_surface;
-use unripple_physics::stepper::{Misbehaving, Mishaps};
+use unripple_physics::stepper::{InjectedFaults, Misbehaving};
 use unripple_physics::{Modes, ResponseOptions, StepperOptions, VirtualSurface, responses};
 
 pub const WINDOW: f64 = 0.030;
@@ -237,7 +237,8 @@ impl Bench {
     fn plant(&self, tension: Vec<(f64, f64)>, noise: f64) -> Misbehaving {
         let surface =
             VirtualSurface::of(&self.surface, self.modes.clone(), &StepperOptions::default()).unwrap();
-        Misbehaving::new(surface, Mishaps { tension, noise, ..Mishaps::default() }, BLOCK).unwrap()
+        Misbehaving::new(surface, InjectedFaults { tension, noise, ..InjectedFaults::default() }, BLOCK)
+            .unwrap()
     }
 
     fn drive(&self, known: &ModalResponses, method: Method, hold: &mut Hold) -> Vec<Vec<f64>> {

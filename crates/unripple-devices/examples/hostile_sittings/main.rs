@@ -25,7 +25,7 @@ const LISTENED: Duration = Duration::from_secs(4);
 
 /// What is done to the server while fingers move.
 #[derive(Clone, Copy)]
-enum Mishap {
+enum Disturbance {
     None,
     /// It stands still for so many seconds, in which the fingers go.
     Frozen(f64),
@@ -38,7 +38,7 @@ struct Sitting {
     period: usize,
     effects: String,
     method: &'static str,
-    mishap: Mishap,
+    disturbance: Disturbance,
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -73,34 +73,34 @@ fn sittings() -> Vec<Sitting> {
     let irregular =
         "format = 1\n[[effect]]\nkind = \"pulse-train\"\nrate_hz = 120\njitter = 1.0\ngain = 0.1\n"
             .to_owned();
-    let sitting = |name, period, effects: &String, method, mishap| Sitting {
+    let sitting = |name, period, effects: &String, method, disturbance| Sitting {
         name,
         period,
         effects: effects.clone(),
         method,
-        mishap,
+        disturbance,
     };
-    let there_and_back = Mishap::Periods(&[1024, 256]);
+    let there_and_back = Disturbance::Periods(&[1024, 256]);
     vec![
-        sitting("nothing happens", 256, &both, "time-reversal", Mishap::None),
-        sitting("the server stands still for 2 s", 256, &both, "time-reversal", Mishap::Frozen(2.0)),
-        sitting("the same, 40 textures", 256, &many, "time-reversal", Mishap::Frozen(2.0)),
-        sitting("40 textures", 256, &many, "time-reversal", Mishap::None),
+        sitting("nothing happens", 256, &both, "time-reversal", Disturbance::None),
+        sitting("the server stands still for 2 s", 256, &both, "time-reversal", Disturbance::Frozen(2.0)),
+        sitting("the same, 40 textures", 256, &many, "time-reversal", Disturbance::Frozen(2.0)),
+        sitting("40 textures", 256, &many, "time-reversal", Disturbance::None),
         sitting("256 to 1024 and back", 256, &both, "time-reversal", there_and_back),
         sitting("256 to 1024 and back, 40 textures", 256, &many, "time-reversal", there_and_back),
-        sitting("irregular trains", 1024, &irregular, "time-reversal", Mishap::None),
-        sitting("irregular trains", 4096, &irregular, "time-reversal", Mishap::None),
+        sitting("irregular trains", 1024, &irregular, "time-reversal", Disturbance::None),
+        sitting("irregular trains", 4096, &irregular, "time-reversal", Disturbance::None),
         sitting(
             "irregular trains, the server stands still",
             4096,
             &irregular,
             "time-reversal",
-            Mishap::Frozen(2.0),
+            Disturbance::Frozen(2.0),
         ),
-        sitting("limited", 256, &both, "limited", Mishap::None),
-        sitting("limited, the server stands still", 1024, &both, "limited", Mishap::Frozen(2.0)),
-        sitting("robust", 256, &both, "robust", Mishap::None),
-        sitting("robust, the server stands still", 1024, &both, "robust", Mishap::Frozen(2.0)),
+        sitting("limited", 256, &both, "limited", Disturbance::None),
+        sitting("limited, the server stands still", 1024, &both, "limited", Disturbance::Frozen(2.0)),
+        sitting("robust", 256, &both, "robust", Disturbance::None),
+        sitting("robust, the server stands still", 1024, &both, "robust", Disturbance::Frozen(2.0)),
     ]
 }
 
@@ -146,8 +146,8 @@ fn sit(jack: &'static Jack, path: &str, sitting: &Sitting) -> Result<bool, Box<d
 
 /// The period at the end of a sitting.
 fn period_of(sitting: &Sitting) -> usize {
-    match sitting.mishap {
-        Mishap::Periods(all) => all.last().copied().unwrap_or(sitting.period),
+    match sitting.disturbance {
+        Disturbance::Periods(all) => all.last().copied().unwrap_or(sitting.period),
         _ => sitting.period,
     }
 }
@@ -163,20 +163,20 @@ fn stroke(
     let fingers = Finger::new(port)?;
     let (start, mut changes) = (Instant::now(), 0);
     let mut frozen = false;
-    let lasts = match sitting.mishap {
-        Mishap::Frozen(seconds) => 1.5 + seconds,
+    let lasts = match sitting.disturbance {
+        Disturbance::Frozen(seconds) => 1.5 + seconds,
         _ => 2.5,
     };
     while start.elapsed().as_secs_f64() < lasts {
         let time = start.elapsed().as_secs_f64();
-        if let Mishap::Frozen(_) = sitting.mishap
+        if let Disturbance::Frozen(_) = sitting.disturbance
             && time > 1.5
             && !frozen
         {
             server.signal("-STOP");
             frozen = true;
         }
-        if let Mishap::Periods(all) = sitting.mishap
+        if let Disturbance::Periods(all) = sitting.disturbance
             && let Some(period) = all.get(changes)
             && time > 0.7 * (changes + 1) as f64
         {

@@ -14,7 +14,7 @@ use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::{Duration, Instant};
 use unripple_core::{Device, DeviceError, Layout, PROBE, Point, State, Status, Surface, require};
 use unripple_physics::stepper::{
-    Channel, Misbehaving, Mishaps, Plant, Reading, StepperOptions, VirtualSurface,
+    Channel, InjectedFaults, Misbehaving, Plant, Reading, StepperOptions, VirtualSurface,
 };
 use unripple_physics::{Footprint, Modes, stepped_hz};
 use workings::Workings;
@@ -27,7 +27,7 @@ pub struct VirtualOptions {
     /// How the surface is stepped, and how many fingers there may be.
     pub stepper: StepperOptions,
     /// What goes wrong with the surface and its wires.
-    pub mishaps: Mishaps,
+    pub faults: InjectedFaults,
     /// What stands between.
     pub interface: Interface,
     /// Where the probe is at first; in the middle of the outline's bounding box where `None`.
@@ -48,7 +48,7 @@ impl Default for VirtualOptions {
         Self {
             block: 128,
             stepper: StepperOptions::default(),
-            mishaps: Mishaps::default(),
+            faults: InjectedFaults::default(),
             interface: Interface::default(),
             probe: None,
             max_hz: None,
@@ -144,8 +144,8 @@ impl Virtual {
         channels.extend(std::iter::repeat_n(spare, options.taps));
         let mut stepped = VirtualSurface::new(&plant, &channels, surface.emission.rate, &options.stepper)?;
         stepped.set_probes(&[(place, Reading::Velocity)])?;
-        let mishaps = options.mishaps.clone();
-        let surface_at_work = Misbehaving::new(stepped, mishaps, options.block)?.with_spare(options.taps)?;
+        let faults = options.faults.clone();
+        let surface_at_work = Misbehaving::new(stepped, faults, options.block)?.with_spare(options.taps)?;
         let names: Vec<String> = surface.actuators.iter().map(|a| a.name.clone()).collect();
         let layout = Layout {
             device: "virtual".into(),
@@ -166,7 +166,7 @@ impl Virtual {
         })
     }
 
-    /// The true surface, with its own gains and noise besides what the options say of mishaps, latency and vanishing. Its
+    /// The true surface, with its own gains and noise besides what the options say of faults, latency and vanishing. Its
     /// modes are those of [`Truth::modes`], whatever accuracy the options ask for.
     ///
     /// # Errors

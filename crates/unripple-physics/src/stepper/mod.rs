@@ -29,18 +29,18 @@
 mod bank;
 mod couplings;
 mod engine;
+mod faults;
 mod field;
 mod history;
 mod lanes;
 mod lead;
-mod mishaps;
 mod plant;
 mod run;
 mod small;
 mod surface;
 mod touch;
 
+pub use faults::{InjectedFaults, Misbehaving};
 pub use history::History;
-pub use mishaps::{Misbehaving, Mishaps};
 pub use plant::{Channel, Footing, Plant};
 pub use surface::{FingerMotion, Reading, Snapshot, StepperOptions, VirtualSurface};

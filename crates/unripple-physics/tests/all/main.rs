@@ -15,7 +15,7 @@ mod responses_oracle;
 #[path = "../stepper_common/mod.rs"]
 mod stepper_common;
 mod stepper_convergence;
-mod stepper_mishaps;
+mod stepper_faults;
 mod stepper_oracle;
 mod stepper_property;
 #[path = "../stepper_common/truth.rs"]

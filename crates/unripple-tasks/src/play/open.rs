@@ -62,7 +62,7 @@ fn virtual_surface(ask: &Ask, surface: &Surface) -> Result<Opened, TaskError> {
         real_time: ask.clock().is_some(),
         ..VirtualOptions::default()
     };
-    plain.mishaps.tension = ask.drift.map_or_else(Vec::new, drift);
+    plain.faults.tension = ask.drift.map_or_else(Vec::new, drift);
     let (device, _) = device::virtual_surface(&ask.device, surface, &plain).map_err(TaskError::input)?;
     let feeler = Feeler::new(device.handle(), surface, FELT)?;
     Ok(Opened { device: Box::new(device), feeler: Some(feeler), latency: 0 })

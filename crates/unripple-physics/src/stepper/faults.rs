@@ -10,7 +10,7 @@ use unripple_core::{Random, require};
 /// silenced; what is left is clipped. On the sensors' side: dead channels are silent, wires swapped, signals late, and noise
 /// is added to all, dead ones too. Probes see what the surface really does.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Mishaps {
+pub struct InjectedFaults {
     /// Tension as a share of the nominal one against time (s), times ascending: linear between, constant beyond both ends.
     /// Taken at the start of each block.
     pub tension: Vec<(f64, f64)>,
@@ -30,7 +30,7 @@ pub struct Mishaps {
     pub seed: u64,
 }
 
-impl Default for Mishaps {
+impl Default for InjectedFaults {
     fn default() -> Self {
         Self {
             tension: Vec::new(),
@@ -45,11 +45,11 @@ impl Default for Mishaps {
     }
 }
 
-/// A virtual surface to which mishaps happen.
+/// A virtual surface with injected faults, as a test bench for whatever drives and measures it.
 #[derive(Clone, Debug)]
 pub struct Misbehaving {
     surface: VirtualSurface,
-    mishaps: Mishaps,
+    faults: InjectedFaults,
     most: usize,
     /// Channels at the end that no wire leads to.
     spare: usize,
@@ -62,31 +62,31 @@ pub struct Misbehaving {
 }
 
 impl Misbehaving {
-    /// A surface with mishaps, for blocks of at most `most` samples.
+    /// A surface with faults, for blocks of at most `most` samples.
     ///
     /// # Errors
     /// [`PhysicsError::Range`] for channels that there are not, negative noise, clipping or tension, times that do not
     /// ascend, or a probability that is none.
-    pub fn new(surface: VirtualSurface, mishaps: Mishaps, most: usize) -> Result<Self, PhysicsError> {
+    pub fn new(surface: VirtualSurface, faults: InjectedFaults, most: usize) -> Result<Self, PhysicsError> {
         let channels = surface.channels();
-        let known = mishaps.swapped.iter().flat_map(|(a, b)| [*a, *b]).chain(mishaps.dead.iter().copied());
+        let known = faults.swapped.iter().flat_map(|(a, b)| [*a, *b]).chain(faults.dead.iter().copied());
         for channel in known {
             let expected = format!("less than {channels}, the number of channels");
             require("channel of a fault", channel < channels, expected, channel as f64)?;
         }
-        require("noise of the sensors", mishaps.noise >= 0.0, "0 or more", mishaps.noise)?;
-        let clip = mishaps.clip.unwrap_or(0.0);
+        require("noise of the sensors", faults.noise >= 0.0, "0 or more", faults.noise)?;
+        let clip = faults.clip.unwrap_or(0.0);
         require("clipping of the drive", clip >= 0.0, "0 or more", clip)?;
-        let dropped = mishaps.dropped;
+        let dropped = faults.dropped;
         require("probability of losing a block", (0.0..=1.0).contains(&dropped), "between 0 and 1", dropped)?;
         let mut before = f64::NEG_INFINITY;
-        for (time, factor) in &mishaps.tension {
+        for (time, factor) in &faults.tension {
             require("time of a change of tension in s", *time > before, "later than the one before", *time)?;
             require("tension as a share of the nominal one", *factor >= 0.0, "0 or more", *factor)?;
             before = *time;
         }
-        let late = vec![0.0; channels * mishaps.latency];
-        let random = Random::seeded(mishaps.seed);
+        let late = vec![0.0; channels * faults.latency];
+        let random = Random::seeded(faults.seed);
         Ok(Self {
             surface,
             most,
@@ -96,7 +96,7 @@ impl Misbehaving {
             oldest: 0,
             random,
             lost: 0,
-            mishaps,
+            faults,
         })
     }
 
@@ -104,12 +104,12 @@ impl Misbehaving {
     /// nothing happens to their drive, and their sensors are as told.
     ///
     /// # Errors
-    /// [`PhysicsError::Range`] for more of them than channels, or if a mishap happens to one.
+    /// [`PhysicsError::Range`] for more of them than channels, or if a fault is asked for one of them.
     pub fn with_spare(self, spare: usize) -> Result<Self, PhysicsError> {
         let channels = self.surface.channels();
         require("spare channels", spare <= channels, format!("at most {channels}"), spare as f64)?;
-        let pairs = self.mishaps.swapped.iter().flat_map(|(a, b)| [*a, *b]);
-        for channel in pairs.chain(self.mishaps.dead.iter().copied()) {
+        let pairs = self.faults.swapped.iter().flat_map(|(a, b)| [*a, *b]);
+        for channel in pairs.chain(self.faults.dead.iter().copied()) {
             let expected = format!("less than {}, the channels with wires", channels - spare);
             require("channel of a fault", channel < channels - spare, expected, channel as f64)?;
         }
@@ -150,11 +150,11 @@ impl Misbehaving {
             let expected = format!("at most {}", self.most);
             require("samples of a block", false, expected, frames as f64)?;
         }
-        let lost = self.random.uniform() < self.mishaps.dropped;
+        let lost = self.random.uniform() < self.faults.dropped;
         self.lost += usize::from(lost);
         self.distort(drive, frames, lost);
         let now = self.surface.samples() as f64 / self.surface.rate();
-        if let Some(tension) = tension(&self.mishaps.tension, now) {
+        if let Some(tension) = tension(&self.faults.tension, now) {
             self.surface.set_tension(tension)?;
         }
         self.surface.process(frames, &self.drive[..channels * frames], sensors, probes)?;
@@ -169,13 +169,13 @@ impl Misbehaving {
     fn distort(&mut self, drive: &[f64], frames: usize, lost: bool) {
         self.drive[..drive.len()].copy_from_slice(drive);
         let scratch = &mut self.drive[..drive.len() - self.spare * frames];
-        for (a, b) in &self.mishaps.swapped {
+        for (a, b) in &self.faults.swapped {
             swap(scratch, frames, *a, *b);
         }
-        for dead in &self.mishaps.dead {
+        for dead in &self.faults.dead {
             scratch[dead * frames..(dead + 1) * frames].fill(0.0);
         }
-        if let Some(clip) = self.mishaps.clip {
+        if let Some(clip) = self.faults.clip {
             scratch.iter_mut().for_each(|d| *d = d.clamp(-clip, clip));
         }
         if lost {
@@ -185,13 +185,13 @@ impl Misbehaving {
 
     /// What of the sensors arrives.
     fn mislead(&mut self, sensors: &mut [f64], frames: usize, lost: bool) {
-        for dead in &self.mishaps.dead {
+        for dead in &self.faults.dead {
             sensors[dead * frames..(dead + 1) * frames].fill(0.0);
         }
-        for (a, b) in &self.mishaps.swapped {
+        for (a, b) in &self.faults.swapped {
             swap(sensors, frames, *a, *b);
         }
-        let latency = self.mishaps.latency;
+        let latency = self.faults.latency;
         if latency > 0 {
             for i in 0..frames {
                 let slot = (self.oldest + i) % latency;
@@ -201,9 +201,9 @@ impl Misbehaving {
             }
             self.oldest = (self.oldest + frames) % latency;
         }
-        if self.mishaps.noise > 0.0 {
+        if self.faults.noise > 0.0 {
             for value in sensors.iter_mut() {
-                *value += self.mishaps.noise * self.random.normal();
+                *value += self.faults.noise * self.random.normal();
             }
         }
         if lost {
