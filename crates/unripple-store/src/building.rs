@@ -60,6 +60,7 @@ impl Building {
         }
     }
 
+    /// The hidden folder as it is called now.
     pub fn path(&self) -> &Path {
         &self.path
     }

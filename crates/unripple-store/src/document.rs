@@ -5,7 +5,7 @@ use crate::file::LARGEST_TEXT;
 use crate::surface::reader::{Faults, Section};
 use toml::de::DeTable;
 
-/// The format that this version reads and writes.
+/// The format that this version reads and writes; a file that says another is refused with that alone.
 const FORMAT: i64 = 1;
 
 /// What `read` makes of a text with these keys at its top, and of the name that it has by its `name` or else by its file's.

@@ -11,7 +11,7 @@ pub enum StoreError {
     /// Something cannot be read.
     #[error("cannot read {}: {reason}", path.display())]
     Read {
-        /// What.
+        /// The file or folder that cannot be read.
         path: PathBuf,
         /// What the system said.
         reason: io::Error,
@@ -19,7 +19,7 @@ pub enum StoreError {
     /// Something cannot be written.
     #[error("cannot write to {}: {reason}", path.display())]
     Write {
-        /// Where.
+        /// The file or folder that cannot be written.
         path: PathBuf,
         /// What the system said.
         reason: io::Error,
@@ -41,7 +41,7 @@ pub enum StoreError {
     /// What a file holds is not what was expected of it.
     #[error("{file}: expected {expected}, found {found}")]
     Content {
-        /// The file.
+        /// The file as the message calls it.
         file: String,
         /// What it should hold.
         expected: String,
@@ -51,7 +51,7 @@ pub enum StoreError {
     /// An output would overwrite what is not ours.
     #[error("will not write to {}: expected {expected}, found {found}", path.display())]
     Occupied {
-        /// The output.
+        /// Where the output was to go.
         path: PathBuf,
         /// What could be written to.
         expected: &'static str,
@@ -61,7 +61,7 @@ pub enum StoreError {
     /// An output would take the place of what the same work reads.
     #[error("will not write to {}: expected no file that this command reads, found {}; name another output", path.display(), read.display())]
     Reads {
-        /// The output.
+        /// Where the output was to go.
         path: PathBuf,
         /// What is read.
         read: PathBuf,

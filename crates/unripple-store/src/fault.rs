@@ -96,7 +96,7 @@ impl FileFaults {
         &self.0.faults
     }
 
-    /// How many more there are than [`FileFaults::faults`] holds.
+    /// Number of faults beyond those that [`FileFaults::faults`] holds.
     pub fn omitted(&self) -> usize {
         self.0.omitted
     }

@@ -7,7 +7,7 @@ use std::fs::{self, File};
 use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// Largest text file read, in bytes.
+/// Largest text file read, in bytes: 1 MiB, some hundred times a long surface file.
 pub const LARGEST_TEXT: usize = 1 << 20;
 
 /// Bytes of a file, at most [`LARGEST_TEXT`] and one more: a caller that gets more than the limit refuses it.

@@ -39,7 +39,7 @@ pub(crate) fn named<T: PartialEq>(choices: &[(&str, T)], value: &T) -> String {
     quoted(name)
 }
 
-/// An array.
+/// A TOML array of values already written.
 pub(crate) fn list(items: impl Iterator<Item = String>) -> String {
     format!("[{}]", items.collect::<Vec<_>>().join(", "))
 }

@@ -69,7 +69,7 @@ pub fn surface_files(name_or_path: &str, keys: &[(String, String)]) -> Vec<PathB
     let files = RefCell::new(vec![path.to_path_buf()]);
     let folder = path.parent().unwrap_or(Path::new(""));
     if let Ok(text) = read_text(path).and_then(|text| set_keys(&text, name_or_path, keys)) {
-        // Faults of the file are told of by whoever loads it.
+        // Faults of the file are reported by whoever loads it.
         let _ = parse_surface_with(&text, name_or_path, &|svg| {
             let file = folder.join(svg);
             files.borrow_mut().push(file.clone());

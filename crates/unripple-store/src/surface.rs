@@ -33,6 +33,7 @@ use place::Ground;
 use reader::{Faults, Section};
 use unripple_core::{Finger, Hole, Outline, Point, Sheet, Surface};
 
+/// Keys at the top of a surface file, format 1.
 const KEYS: [&str; 10] = [
     "format",
     "name",

@@ -24,7 +24,7 @@ pub(crate) struct Entry {
 pub(crate) enum What {
     /// Nothing: not made yet.
     Nothing,
-    /// A file.
+    /// A single file, removed alone.
     File(PathBuf),
     /// A folder with all that is in it.
     Folder(PathBuf),

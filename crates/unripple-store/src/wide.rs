@@ -6,7 +6,7 @@ use std::io::{self, Cursor, Read};
 /// Largest chunk other than samples that is kept while the format is looked for, in bytes.
 const MOST: u64 = 1 << 20;
 
-/// The tags of float samples, and of a format that says its own further on.
+/// Format tags of RIFF: float samples, and a format whose real tag stands further on (`WAVE_FORMAT_EXTENSIBLE`).
 const FLOAT: u16 = 3;
 const EXTENSIBLE: u16 = 0xfffe;
 

@@ -24,6 +24,7 @@ macro_rules! builtin {
     };
 }
 
+/// The effects that come with the program, in the order in which they are listed.
 const BUILTINS: &[BuiltinEffects] = &[
     builtin!("click-button", "a button anywhere: a click when touched, a softer one when lifted"),
     builtin!("two-stage-button", "a shutter button: a soft click when touched, a hard one when pressed"),

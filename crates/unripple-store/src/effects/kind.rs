@@ -10,7 +10,7 @@ use unripple_effects::{
     Anchor, Button, Curve, Edge, Hum, Kind, Line, Notch, Texture, Tone, Trace, Traced, Train, limits,
 };
 
-/// Every kind, as files call it.
+/// Every kind of effect, by its name in files.
 pub(super) const NAMES: [&str; 8] =
     ["button", "texture", "edge", "notch", "pulse-train", "shape", "hum", "score"];
 
@@ -19,14 +19,17 @@ pub(super) const ANCHORS: [(&str, Anchor); 2] = [("finger", Anchor::Finger), ("s
 /// How an envelope may play, and whether it starts over.
 pub(super) const PLAYS: [(&str, bool); 2] = [("looped", true), ("once", false)];
 
-/// The default gain of the second click of a button.
+/// The default gain of the second click of a button. Half of the first: lifting is the softer of the two.
 const RELEASE: f64 = 0.5;
 /// The default seed of what is left to chance.
 const SEED: f64 = 1.0;
+/// The default of how much farther than midway a finger must go for the next notch to take it, as a share of the
+/// pitch: with half as much a smaller tremor of the finger switches back and forth, with twice as much notches take
+/// it later.
 const HYSTERESIS: f64 = 0.1;
-/// In Hz.
+/// How often a shape is drawn where a file does not say, in Hz.
 const SHAPE_RATE: f64 = 100.0;
-/// In s.
+/// The default rise and fall of a hum in s: much shorter, and its start is felt as a click of its own.
 const FADE: f64 = 0.02;
 
 /// Keys of a kind, beside those of every effect.

@@ -24,8 +24,9 @@ use crate::surface::reader::{Entry, Faults, Section};
 use std::collections::HashMap;
 use unripple_effects::{Effect, EffectSet, Kind, Region, limits};
 
+/// Keys at the top of a file of effects.
 const KEYS: [&str; 4] = ["format", "name", "about", "effect"];
-/// Keys of every effect.
+/// Keys that every effect may have, whatever its kind.
 const COMMON: [&str; 5] = ["kind", "name", "region", "gain", "felt_db"];
 
 /// The JSON schema of a file of effects, for editors: drafts 2020-12, as of a TOML file read as JSON.

@@ -19,6 +19,8 @@ const fn plain(range: [f64; 2], unit: &'static str) -> Limits {
     scaled(range, unit, 0, 1.0)
 }
 
+/// Limits of each quantity by its name in the file, in the file's unit. The numbers are those of
+/// `unripple_effects::limits`, so that no file passes what the player would refuse.
 pub(super) const PITCH: Limits = millimetres(si::PITCH);
 pub(super) const PLACE: Limits = millimetres(si::PLACE);
 pub(super) const LENGTH: Limits = millimetres(si::LENGTH);
@@ -34,8 +36,9 @@ pub(super) const SHARE: Limits = plain(si::SHARE, "");
 pub(super) const FELT: Limits = plain(si::FELT, "dB above threshold");
 pub(super) const HYSTERESIS: Limits = plain(si::HYSTERESIS, "of a pitch");
 pub(super) const COUNT: Limits = Limits::new("", 0, 1.0, si::MOST_COUNT as f64);
-/// Whole numbers that a file holds exactly.
+/// Whole numbers that a file holds exactly: up to 2^53 - 1, past which a float64 skips some.
 pub(super) const SEED: Limits = Limits::new("", 0, 0.0, 9_007_199_254_740_991.0);
+/// Angles in degrees: two turns either way, more than any direction needs.
 pub(super) const ANGLE: Limits =
     Limits { unit: "degrees", power: 0, turns: true, least: -720.0, greatest: 720.0 };
 

@@ -6,6 +6,7 @@ use crate::surface::reader::{Faults, Section};
 use unripple_core::Point;
 use unripple_effects::{Region, limits};
 
+/// Keys of a region: exactly one shape is given by them.
 const KEYS: [&str; 5] = ["rectangle_mm", "at_mm", "circle_mm", "centre_mm", "polygon_mm"];
 
 /// A table with one shape.

@@ -6,11 +6,11 @@ use super::range;
 use crate::surface::reader::{Entry, Faults, Section};
 use unripple_effects::{Event, Score, Sound, Start, limits};
 
-/// What may start a score.
+/// What may start a score, by its name in files.
 pub(super) const STARTS: [(&str, Start); 3] =
     [("touch", Start::Touch), ("zero", Start::Zero), ("name", Start::Name)];
 
-/// Keys of an event.
+/// Keys that an event of a score may have.
 pub(super) const EVENT_KEYS: [&str; 5] = ["at_ms", "gain", "at_mm", "amplitude", "frequency_hz"];
 
 /// A score and its events.

@@ -15,7 +15,7 @@ pub(crate) const BLOCK: usize = 256;
 /// Points whose qualities by bands are in one chunk, which is then about as large as one of qualities.
 const BAND_BLOCK: usize = 64;
 
-/// Bytes of a checksum behind a chunk.
+/// Bytes of the crc32c checksum behind each chunk.
 const CHECK: usize = 4;
 
 /// Type of an array's values.
@@ -29,6 +29,7 @@ pub(crate) enum Kind {
 /// One Zarr array of a library: chunked along its first axis only, checksummed, nothing compressed.
 #[derive(Clone, Debug)]
 pub(crate) struct Array {
+    /// Name of the array, and of its folder.
     pub name: &'static str,
     shape: Vec<usize>,
     /// Indices of the first axis in one chunk.
@@ -41,16 +42,22 @@ pub(crate) struct Array {
 /// The arrays of a library.
 #[derive(Clone, Debug)]
 pub(crate) struct Arrays {
+    /// Impulse responses, `[point][actuator][sample]`, float32.
     pub responses: Array,
+    /// Positions of the points in metres, `[point][2]`, float64.
     pub position: Array,
+    /// State of each point: missing, measured or bad.
     pub state: Array,
+    /// Quality of each response, `[point][actuator][figure]`.
     pub quality: Array,
+    /// Relative error of reciprocity, one value for the whole library.
     pub reciprocity: Array,
-    /// Only some libraries have it.
+    /// Only some libraries have it. Quality by thirds of an octave, if the library keeps it.
     pub bands: Option<Bands>,
 }
 
 impl Arrays {
+    /// Shapes and types of the arrays that a plan asks for.
     pub fn of(plan: &LibraryPlan) -> Self {
         let (points, ports) = (plan.points.len(), plan.ports.len());
         let responses = Array {
@@ -96,6 +103,7 @@ impl Arrays {
         Self { responses, position, state, quality, reciprocity, bands: None }
     }
 
+    /// All arrays of the library, in the order in which they are checked.
     pub fn all(&self) -> impl Iterator<Item = &Array> {
         let always = [&self.responses, &self.position, &self.state, &self.quality, &self.reciprocity];
         always.into_iter().chain(self.bands.as_ref().map(|bands| &bands.array))
@@ -111,7 +119,7 @@ impl Array {
     /// The name of the array of qualities by bands.
     pub const BANDS: &str = "bands";
 
-    /// That array, for so many bands.
+    /// The array of quality by bands, `[point][actuator][band][figure]`, for `count` bands.
     pub fn by_bands(plan: &LibraryPlan, count: usize, attributes: Value) -> Self {
         Self {
             name: Self::BANDS,
@@ -150,11 +158,12 @@ impl Array {
         self.shape.iter().enumerate().map(|(axis, n)| if axis == 0 { self.along } else { *n })
     }
 
-    /// Number of chunks.
+    /// Number of chunks along the first axis.
     pub fn chunks(&self) -> usize {
         self.shape.first().map_or(1, |n| n.div_ceil(self.along))
     }
 
+    /// Folder of the array below the library's.
     pub fn folder(&self, root: &Path) -> PathBuf {
         root.join(self.name)
     }
@@ -192,7 +201,7 @@ impl Array {
         Ok(bytes)
     }
 
-    /// Writes a chunk; its name is on the medium after [`Array::sync`].
+    /// Writes the values of chunk `number`, as bytes; its name is on the medium after [`Array::sync`].
     pub fn write(&self, root: &Path, number: usize, bytes: &[u8]) -> Result<(), StoreError> {
         let check = crc32c::crc32c(bytes).to_le_bytes();
         disk::write(&self.chunk(root, number), &[bytes, &check])
@@ -205,10 +214,12 @@ impl Array {
         self.write(root, number, &bytes)
     }
 
+    /// Brings the names of written chunks onto the medium, so that they survive a crash.
     pub fn sync(&self, root: &Path) -> Result<(), StoreError> {
         disk::sync_folder(&self.folder(root))
     }
 
+    /// Makes the folder of its chunks.
     pub fn make_folder(&self, root: &Path) -> Result<(), StoreError> {
         let folder = self.folder(root);
         let made = undisturbed(|| match std::fs::create_dir(&folder) {

@@ -22,7 +22,7 @@ impl BandQuality {
     pub const UNKNOWN: Self = Self { signal_to_noise_db: f64::NAN, coherence: f64::NAN };
 }
 
-/// Values of one response in one band.
+/// Values of one response in one band: signal-to-noise ratio and coherence.
 pub(crate) const FIGURES: usize = 2;
 
 /// The attribute with the middles of the bands, in Hz.
@@ -35,7 +35,9 @@ const MOST: usize = 64;
 /// The array, and the middles of its bands in Hz, ascending.
 #[derive(Clone, Debug)]
 pub(crate) struct Bands {
+    /// The Zarr array, `[point][actuator][band][figure]`.
     pub array: Array,
+    /// Middles of the bands in Hz, ascending.
     pub middles: Vec<f64>,
 }
 

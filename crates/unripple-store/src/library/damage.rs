@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 /// One file of a library that is not as it was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Damage {
-    /// The file.
+    /// The file that is damaged or missing.
     pub file: PathBuf,
     /// The point whose responses are lost, if they are.
     pub point: Option<usize>,

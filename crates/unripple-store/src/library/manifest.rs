@@ -10,13 +10,13 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use unripple_core::{Conditions, Point, Port};
 
-/// Largest text of a library, in bytes.
+/// Largest JSON text of a library in bytes, 16 MiB: what is longer is refused before it is read into memory.
 const LARGEST: u64 = 1 << 24;
 /// The attribute that says that a Zarr group is a library of responses.
 const KEY: &str = "unripple_library";
 /// The attribute with the checksum of that one.
 const CHECK: &str = "crc32c";
-/// The version of what is under [`KEY`].
+/// Version of what is under [`KEY`]; a library of another version is refused with what it says.
 const FORMAT: u32 = 1;
 
 /// Where the metadata of a library, or of an array in it, are.

@@ -126,7 +126,7 @@ impl Library {
         Ok(library)
     }
 
-    /// A library as it is now. Damage to states is borne: a point whose state cannot be read counts as measured if its
+    /// A library as it is now. Damage to states is tolerated: a point whose state cannot be read counts as measured if its
     /// responses can.
     ///
     /// # Errors
@@ -170,7 +170,7 @@ impl Library {
     /// Looks again which points are finished, for a reader while another process writes.
     pub fn refresh(&mut self) {
         (self.states, self.damaged) = self.read_states();
-        // Damage is borne as that of quality is: [`Library::verify`] tells it.
+        // Damage is tolerated here as that of quality is; [`Library::verify`] reports it.
         self.arrays.bands = Bands::read(&self.root, &self.plan).ok().flatten();
         self.record = record::read_or_doubt(&self.root);
     }

@@ -4,14 +4,14 @@ use crate::StoreError;
 use std::collections::{BTreeMap, HashSet};
 use unripple_core::{Conditions, Outline, Point, Port, Shape, Surface};
 
-/// Most points of a library.
+/// Most points of a library: their positions alone are then 256 MiB.
 pub(crate) const MOST_POINTS: usize = 1 << 24;
-/// Most actuators.
+/// Most actuators: about as many as a WAV file has channels for.
 const MOST_PORTS: usize = 1 << 16;
-/// Most values of one point: its chunk is read whole.
+/// Most values of one point: its chunk is read whole. 1 GiB of float32.
 const MOST_VALUES: usize = 1 << 28;
 
-/// Keys of [`LibraryPlan::provenance`] that may differ when a library is taken up again.
+/// Keys of [`LibraryPlan::provenance`] that may differ when measuring into a library is resumed.
 pub const MAY_DIFFER: [&str; 2] = ["created", "software"];
 
 /// What a library is to hold: everything known before the first response is.

@@ -31,7 +31,8 @@ impl Library {
         self.put_all(&[Take { point, samples, quality, bands: &[], state: PointState::Measured }])
     }
 
-    /// Stores responses that are too bad to be used, so that they can be looked at.
+    /// Stores responses of one point, `[actuator][sample]` in m/s per unit of drive and second, that are too bad to
+    /// be used, so that they can be looked at.
     ///
     /// # Errors
     /// As [`Library::put`].

@@ -17,7 +17,7 @@ pub struct Quality {
     pub decay_time: f64,
 }
 
-/// Values of one response.
+/// Values of one response: the four fields of [`Quality`].
 const FIGURES: usize = 4;
 
 impl Quality {
@@ -52,7 +52,8 @@ impl Library {
         Ok(values.as_chunks::<FIGURES>().0.iter().map(|figures| Quality::of(*figures)).collect())
     }
 
-    /// Relative difference between responses taken in both directions, for the whole set; `None` where it is not known.
+    /// Relative difference between responses taken in both directions, as a ratio, for the whole library; `None`
+    /// where it is not known.
     ///
     /// # Errors
     /// [`StoreError::Content`] and [`StoreError::Read`] for damage.
@@ -61,7 +62,7 @@ impl Library {
         Ok(floats(&bytes).next().filter(|value| !value.is_nan()))
     }
 
-    /// States the [`Library::reciprocity_error`].
+    /// Sets the [`Library::reciprocity_error`], a ratio.
     ///
     /// # Errors
     /// [`StoreError::Write`], or [`StoreError::Occupied`] if another process writes.

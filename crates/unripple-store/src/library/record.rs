@@ -11,11 +11,11 @@ use std::path::{Path, PathBuf};
 
 /// The folder of the record: a Zarr group of its own, so that readers of Zarr do not wonder at it.
 const FOLDER: &str = "calibration";
-/// The attribute that holds the record.
+/// The attribute of the Zarr group that holds the record.
 const KEY: &str = "unripple_calibration";
 /// The attribute with the checksum of that one.
 const CHECK: &str = "crc32c";
-/// The version of what is under [`KEY`].
+/// Version of what is under [`KEY`]; a record of another version counts as a doubt.
 const FORMAT: u32 = 1;
 /// The check that finds the record itself damaged.
 const OF_RECORD: &str = "record";

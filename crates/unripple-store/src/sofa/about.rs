@@ -18,7 +18,7 @@ pub struct SofaAbout {
 }
 
 impl SofaAbout {
-    /// The global attributes of a file, in order; the first tells whose it is.
+    /// The global attributes of a file, in order; the first says which program wrote the file.
     pub(super) fn attributes(&self, plan: &LibraryPlan) -> Vec<(String, String)> {
         let told = |text: &Option<String>| text.clone().unwrap_or_else(|| "not stated".into());
         let version = env!("CARGO_PKG_VERSION").to_owned();

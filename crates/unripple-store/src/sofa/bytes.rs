@@ -1,6 +1,6 @@
 //! Bytes as HDF5 has them: little-endian, and checked by Jenkins' lookup3.
 
-/// An address that points nowhere.
+/// The address that HDF5 uses for "nowhere": all bits set.
 pub(super) const NOWHERE: u64 = u64::MAX;
 
 /// Bytes in the making.
@@ -8,28 +8,33 @@ pub(super) const NOWHERE: u64 = u64::MAX;
 pub(super) struct Bytes(pub Vec<u8>);
 
 impl Bytes {
+    /// Appends bytes as they are.
     pub fn raw(mut self, bytes: &[u8]) -> Self {
         self.0.extend_from_slice(bytes);
         self
     }
 
+    /// Appends one byte.
     pub fn u8(self, value: u8) -> Self {
         self.raw(&[value])
     }
 
+    /// Appends a number of two bytes, the least significant first.
     pub fn u16(self, value: u16) -> Self {
         self.raw(&value.to_le_bytes())
     }
 
+    /// Appends a number of four bytes, the least significant first.
     pub fn u32(self, value: u32) -> Self {
         self.raw(&value.to_le_bytes())
     }
 
+    /// Appends a number of eight bytes, the least significant first.
     pub fn u64(self, value: u64) -> Self {
         self.raw(&value.to_le_bytes())
     }
 
-    /// Ends with the checksum of all before it.
+    /// Appends the 4-byte checksum of all bytes before it, and ends.
     pub fn checked(self) -> Vec<u8> {
         let check = checksum(&self.0);
         self.u32(check).0

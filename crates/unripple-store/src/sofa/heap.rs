@@ -2,7 +2,7 @@
 
 use super::bytes::{Bytes, aligned};
 
-/// Fewest bytes of a collection.
+/// Fewest bytes of a collection: HDF5 refuses a smaller one.
 const LEAST: u64 = 4096;
 
 /// Bytes before an object, and before the first.
@@ -21,11 +21,12 @@ impl Heap {
         Bytes::default().u32(1).u64(at).u32(self.objects.len() as u32).0
     }
 
-    /// Bytes of the collection.
+    /// Size of the collection in bytes.
     pub fn size(&self) -> u64 {
         aligned(HEAD + (HEAD + 8) * self.objects.len() as u64).max(LEAST)
     }
 
+    /// The collection as bytes of the file.
     pub fn encoded(&self) -> Vec<u8> {
         let mut bytes = Bytes::default().raw(b"GCOL").u32(1).u64(self.size());
         for (i, address) in self.objects.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use super::bytes::{Bytes, NOWHERE};
 
-/// Types of messages.
+/// Types of header messages, by HDF5's numbers (File Format Specification 3.0, IV.A.2).
 const DATASPACE: u8 = 0x01;
 const LINK_INFO: u8 = 0x02;
 const DATATYPE: u8 = 0x03;
@@ -12,7 +12,8 @@ const LAYOUT: u8 = 0x08;
 const GROUP_INFO: u8 = 0x0a;
 const ATTRIBUTE: u8 = 0x0c;
 
-/// Most bytes of an attribute's value: a message counts its bytes in sixteen bits.
+/// Most bytes of an attribute's value: a message counts its bytes in sixteen bits. 5 535 of the 65 535 are left for
+/// its name, type and shape.
 pub(super) const MOST_TEXT: usize = 60_000;
 
 /// Type of the elements of a dataset or attribute.
@@ -28,7 +29,7 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    /// Bytes of an element.
+    /// Size of one element in bytes.
     pub fn size(self) -> u64 {
         match self {
             Self::Text(bytes) => u64::from(bytes),
@@ -71,7 +72,7 @@ impl Header {
         Self(self.0.u8(kind).u16(body.len() as u16).u8(0).raw(body))
     }
 
-    /// Says that it is a group, which knows the order in which its links were made.
+    /// Makes it a group of `links` objects, which keeps the order in which its links were made.
     pub fn group(self, links: u64) -> Self {
         let info = Bytes::default().u8(0).u8(1).u64(links).u64(NOWHERE).u64(NOWHERE);
         self.message(LINK_INFO, &info.0).message(GROUP_INFO, &[0, 0])
@@ -119,7 +120,7 @@ impl Header {
         self.attribute(name, Kind::Text(text.len() as u32), &[], text.as_bytes())
     }
 
-    /// The whole header, version 2.
+    /// The whole header, version 2, as bytes of the file.
     pub fn encoded(self) -> Vec<u8> {
         let messages = self.0.0;
         Bytes::default().raw(b"OHDR").u8(2).u8(0x02).u32(messages.len() as u32).raw(&messages).checked()

@@ -22,7 +22,7 @@ use unripple_core::Point;
 /// Name of the software that writes, by which its files are known again.
 const API: &str = "unripple";
 
-/// First bytes of an HDF5 file.
+/// First bytes of an HDF5 file, by which readers know one.
 const SIGNATURE: &[u8] = b"\x89HDF\r\n\x1a\n";
 
 /// Axes of the file, by their index: measurements, receivers, emitters, samples, one, coordinates, letters of a name.

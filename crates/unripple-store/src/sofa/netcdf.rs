@@ -5,7 +5,7 @@ use super::heap::Heap;
 use super::message::{Header, Kind};
 use std::io::{self, Write};
 
-/// Bytes of the superblock, version 2.
+/// Bytes of the superblock, version 2: the root's header follows right after, so the format fixes the value.
 const SUPERBLOCK: u64 = 48;
 
 /// A netCDF-4 file in the making: named axes, and arrays over them.
@@ -13,17 +13,22 @@ const SUPERBLOCK: u64 = 48;
 pub(super) struct NetCdf {
     /// Texts that go for the whole.
     pub attributes: Vec<(String, String)>,
+    /// Names and lengths of the axes; a variable refers to them by index.
     pub axes: Vec<(&'static str, u64)>,
+    /// The arrays, in the order in which their values are written.
     pub variables: Vec<Variable>,
 }
 
-/// An array.
+/// One array of the file: its type, its axes and its attributes.
 #[derive(Clone, Debug)]
 pub(super) struct Variable {
+    /// Name of the array.
     pub name: &'static str,
+    /// Type of its elements.
     pub kind: Kind,
     /// Its axes, by their index, the slowest first.
     pub axes: Vec<usize>,
+    /// Names and texts of its attributes.
     pub attributes: Vec<(&'static str, String)>,
 }
 
@@ -39,7 +44,7 @@ struct Places {
 }
 
 impl NetCdf {
-    /// Elements of a variable along each axis.
+    /// Number of elements of a variable along each of its axes.
     pub fn shape(&self, variable: &Variable) -> Vec<u64> {
         variable.axes.iter().map(|axis| self.axes[*axis].1).collect()
     }

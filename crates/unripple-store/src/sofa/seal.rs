@@ -6,7 +6,7 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 /// What the last bytes begin with; the checksum of all before them follows in eight hexadecimal digits.
 const NAME: &str = "unripple export ";
 
-/// Bytes of both.
+/// Bytes of the whole seal: the name and eight hexadecimal digits.
 const SEAL: u64 = NAME.len() as u64 + 8;
 
 /// Ends a file with its seal.

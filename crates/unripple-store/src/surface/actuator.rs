@@ -9,18 +9,19 @@ use std::collections::HashMap;
 use std::ops::Range;
 use unripple_core::{Actuator, ActuatorKind, CoilDrive, Point};
 
-/// Most actuators of a surface.
+/// Most actuators of a surface: a bound on what a small file may cost. The model's memory grows with their number.
 pub(super) const MOST_ACTUATORS: usize = 4096;
 
 /// The table of what actuators are that do not say otherwise.
 pub(super) const DEFAULTS: &str = "actuator_defaults";
 
+/// Keys of the table `[[actuator]]`: of all kinds, of those that press on a disc, and of a moving magnet.
 const COMMON_KEYS: [&str; 2] = ["name", "kind"];
 const PAD_KEY: &str = "contact_radius_mm";
 const MAGNET_KEYS: [&str; 5] =
     ["force_constant_n_per_a", "resistance_ohm", "inductance_mh", "moving_mass_mg", "driven_by"];
 
-/// What an amplifier may hold, and the names.
+/// What an amplifier may keep to the signal, current or voltage, by its name in files.
 pub(super) const COIL_DRIVES: [(&str, CoilDrive); 2] =
     [("current", CoilDrive::Current), ("voltage", CoilDrive::Voltage)];
 
@@ -31,12 +32,15 @@ enum Kind {
     Piezo,
 }
 
+/// The kinds of actuators, by their names in files.
 const KINDS: [(&str, Kind); 3] =
     [("force", Kind::Force), ("moving-magnet", Kind::MovingMagnet), ("piezo", Kind::Piezo)];
 
 /// What actuators stand on: the sheet's outline, and its thickness in metres at a point of it.
 pub(super) struct Base<'b> {
+    /// The sheet and its holes; nothing if they are at fault.
     pub ground: Option<&'b Ground>,
+    /// Thickness of the sheet in metres at a point; nothing where it is not known.
     pub thickness: &'b dyn Fn(Point) -> Option<f64>,
 }
 

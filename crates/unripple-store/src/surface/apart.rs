@@ -6,7 +6,7 @@ use super::reader::Faults;
 use super::ring::place;
 use unripple_core::{Outline, OutlineFault, Shape};
 
-/// Most sides of all rims together.
+/// Most sides of all rims together: each is compared with those near it, and past this number nothing is compared.
 const MOST_SIDES: usize = 16_384;
 
 /// Which holes lie on the sheet and apart from each other; there is a fault for each that does not, or for what kept all
@@ -36,7 +36,7 @@ fn judge(rim: &Rim, shape: &Shape, cuts: &[Cut], faults: &mut Faults) -> Option<
     let mut good = vec![true; cuts.len()];
     let mut sound = true;
     for fault in outline.faults() {
-        // Too much to compare is told of where the last rim is.
+        // Too many sides to compare: the fault is put where the last rim is.
         let rim_at_fault = fault.rim().unwrap_or(cuts.len());
         let Some(cut) = rim_at_fault.checked_sub(1).and_then(|hole| cuts.get(hole)) else {
             sound = false;

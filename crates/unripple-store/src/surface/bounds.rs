@@ -5,7 +5,9 @@ use unripple_core::{Point, Side};
 /// Lower-left and upper-right corner of what was added so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Bounds {
+    /// Lower-left corner of the box, in metres.
     pub least: Point,
+    /// Upper-right corner of the box, in metres.
     pub greatest: Point,
 }
 
@@ -18,6 +20,7 @@ impl Bounds {
         sides.iter().flat_map(extremes).fold(Self::EMPTY, Self::with)
     }
 
+    /// The bounding box of points, in metres.
     pub fn of_points(points: &[Point]) -> Self {
         points.iter().copied().fold(Self::EMPTY, Self::with)
     }
@@ -30,7 +33,7 @@ impl Bounds {
         }
     }
 
-    /// The longer side.
+    /// The longer side of the box, in metres.
     pub fn size(&self) -> f64 {
         (self.greatest.x - self.least.x).max(self.greatest.y - self.least.y)
     }

@@ -4,10 +4,11 @@ use super::range::of;
 use super::reader::{Entry, Faults, Section};
 use unripple_core::{Edge, Edges};
 
-/// The edge conditions that have names.
+/// The edge conditions that have names in files.
 pub(super) const EDGES: [(&str, Edge); 3] =
     [("clamped", Edge::Clamped), ("supported", Edge::Supported), ("free", Edge::Free)];
 
+/// Keys of an edge on springs: stiffness against displacement and against rotation, per length.
 const SPRING_KEYS: [&str; 2] = ["lift_n_per_mm2", "tilt_n"];
 /// A strip of adhesive under the rim, which is springs too.
 const ADHESIVE_KEYS: [&str; 3] = ["adhesive_young_mpa", "adhesive_width_mm", "adhesive_thickness_mm"];

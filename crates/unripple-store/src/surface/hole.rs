@@ -9,19 +9,24 @@ use super::{path, polygon};
 use std::ops::Range;
 use unripple_core::{Edge, Edges, Hole, Point, Shape};
 
-/// Most holes of a surface.
+/// Most holes of a surface: a bound on the pairs of rims that are compared.
 pub(super) const MOST_HOLES: usize = 256;
 
+/// Keys of the table `[[hole]]` that give a shape; exactly one of them is there.
 const SHAPES: [&str; 7] =
     ["circle_mm", "rectangle_mm", "stadium_mm", "polygon_mm", "path_mm", "slit_mm", "svg"];
+/// What `at_mm` of a hole is expected to be, for messages.
 const CORNER: &str = "[x, y] in mm, of the lower-left corner of its bounding box";
-/// Width of a slit where a file does not say, in metres.
+/// Width of a slit where a file does not say, in metres. 0.2 mm is narrow beside any wavelength of use.
 const SLIT_WIDTH: f64 = 0.2e-3;
 
 /// A hole of the file without faults of its own, and where it is said.
 pub(super) struct Cut {
+    /// The hole itself, in metres on the sheet.
     pub hole: Hole,
+    /// Path of the key that gives it, as `hole[3]`.
     pub key: String,
+    /// The bytes of the file that give its shape.
     pub span: Range<usize>,
 }
 

@@ -11,10 +11,15 @@ pub(super) const MATERIAL_KEYS: [&str; 5] =
 
 /// What something is made of, overrides included.
 pub(super) struct MaterialProperties {
+    /// Name of the material; empty where the file gives numbers only.
     pub name: String,
+    /// Young's modulus in Pa.
     pub young: f64,
+    /// Density in kg/m³.
     pub density: f64,
+    /// Poisson's ratio, without unit.
     pub poisson: f64,
+    /// Tensile strength in Pa, if known.
     pub strength: Option<f64>,
 }
 

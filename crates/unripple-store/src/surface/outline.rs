@@ -11,7 +11,7 @@ use crate::{Curve, StoreError, read_curves};
 use std::ops::Range;
 use unripple_core::{Edge, Edges, Hole, Outline, Point, Shape};
 
-/// The keys that give a shape.
+/// Keys of the table `[outline]` that give a shape; exactly one of them is there.
 const SHAPES: [&str; 6] = ["rectangle_mm", "circle_mm", "stadium_mm", "polygon_mm", "path_mm", "svg"];
 
 /// Hands over the text of the SVG file that an outline or a hole names.
@@ -20,12 +20,15 @@ pub(super) type Fetch<'f> = dyn Fn(&str) -> Result<String, StoreError> + 'f;
 /// What of the table `[outline]` is without fault: actuators are judged by the shape even if the edges are not.
 #[derive(Default)]
 pub(super) struct Rim {
+    /// Shape of the outer rim.
     pub shape: Option<Shape>,
+    /// How its sides are held.
     pub edges: Option<Edges>,
     /// Holes drawn with the rim.
     pub holes: Vec<Hole>,
     /// Where the shape is said, and where the edges are.
     pub shape_span: Range<usize>,
+    /// The bytes of the file that say how the edges are held.
     pub edge_span: Range<usize>,
 }
 

@@ -5,11 +5,12 @@ use super::reader::{Entry, Faults};
 use super::ring::{MOST_SIDES, Ring, is_clockwise, millimetres, off_corner};
 use unripple_core::{Point, Shape, Side};
 
-/// How far apart the ends of sides that meet may be, in metres.
+/// How far apart the ends of sides that meet may be, in metres. So a file may write millimetres with six digits
+/// behind the point.
 const MEET: f64 = 1e-9;
 /// Least area of a path, as a share of its bounding box's longer side squared: less than that of a thin slit.
 pub(super) const LEAST_AREA: f64 = 1e-9;
-/// What one side of `path_mm` may be.
+/// What one side of `path_mm` is expected to be, for messages.
 const SIDE: &str = "a side: a line [[x, y], [x, y]], a cubic curve of four points, or an arc \
                     { centre_mm, radius_mm, start_deg, sweep_deg }";
 

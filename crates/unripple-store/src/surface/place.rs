@@ -14,7 +14,7 @@ const ON: f64 = 1e-12;
 /// Pieces of a curve this straight are not split any more, in metres.
 const STRAIGHT: f64 = 1e-14;
 
-/// A closed curve that tells quickly what is inside.
+/// A closed curve prepared for quick tests of which points are inside.
 struct Fence {
     shape: Shape,
     sides: Vec<Side>,
@@ -84,6 +84,7 @@ pub(super) struct Ground {
 }
 
 impl Ground {
+    /// The sheet of an outline with its holes, made ready for quick questions.
     pub fn new(outline: Outline) -> Self {
         let holes = outline.holes.iter().map(|hole| Fence::new(Shape::Path(hole.sides()))).collect();
         Self { rim: Fence::new(outline.shape.clone()), holes, outline }
@@ -94,7 +95,7 @@ impl Ground {
         self.outline.extent()
     }
 
-    /// The outline.
+    /// The outline with its holes.
     pub fn outline(&self) -> &Outline {
         &self.outline
     }
@@ -103,7 +104,7 @@ impl Ground {
         match self.rim.place(p) {
             Where::Inside => true,
             Where::Outside => false,
-            // A rectangle and round shapes are judged to the last digit.
+            // A rectangle and round shapes are compared exactly.
             Where::On => match self.rim.shape {
                 Shape::Polygon(_) | Shape::Path(_) => true,
                 _ => self.rim.shape.contains(p),
@@ -121,8 +122,8 @@ impl Ground {
         self.within_rim(p) && self.hole_at(p).is_none()
     }
 
-    /// The place `at_mm` of a table, or a fault if it is not on the sheet. Without ground, which is at fault then, any
-    /// place will do.
+    /// The place `at_mm` of a table as a point in metres, or a fault if it is not on the sheet. Without ground, which
+    /// is at fault then, any place will do.
     pub fn read(ground: Option<&Self>, section: &Section, faults: &mut Faults) -> Option<Point> {
         let shape = "[x, y] in mm";
         let entry = section.require("at_mm", shape, faults)?;

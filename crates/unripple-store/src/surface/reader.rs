@@ -18,6 +18,7 @@ pub(crate) struct Faults<'t> {
 }
 
 impl<'t> Faults<'t> {
+    /// No faults yet in this text.
     pub fn new(text: &'t str) -> Self {
         Self { text, list: Vec::new() }
     }
@@ -40,6 +41,7 @@ impl<'t> Faults<'t> {
         self.list.len() >= MOST_FAULTS
     }
 
+    /// The faults that were found, in the order found.
     pub fn into_list(self) -> Vec<Fault> {
         self.list
     }
@@ -61,7 +63,9 @@ pub(crate) fn clip(text: &str) -> String {
 /// A value of the file, with its key path and place.
 #[derive(Clone)]
 pub(crate) struct Entry<'a> {
+    /// Path of its key, as `actuator[3].at_mm`.
     pub key: String,
+    /// The bytes of the file that it takes up.
     pub span: Range<usize>,
     value: &'a DeValue<'a>,
 }
@@ -169,14 +173,17 @@ impl<'a> Entry<'a> {
         matches!(self.value, DeValue::Integer(_) | DeValue::Float(_))
     }
 
+    /// Whether the value is a text.
     pub fn is_text(&self) -> bool {
         matches!(self.value, DeValue::String(_))
     }
 
+    /// Whether the value is a table.
     pub fn is_table(&self) -> bool {
         matches!(self.value, DeValue::Table(_))
     }
 
+    /// Whether the value is this whole number, written in decimal digits.
     pub fn is(&self, integer: i64) -> bool {
         matches!(self.value, DeValue::Integer(i) if i.as_str().parse() == Ok(integer) && i.radix() == 10)
     }
@@ -197,7 +204,9 @@ impl<'a> Entry<'a> {
 
 /// A table of the file, with its key path and place.
 pub(crate) struct Section<'a> {
+    /// Path of the table's key; empty for the whole file.
     pub key: String,
+    /// The bytes of the file that the table's header takes up.
     pub span: Range<usize>,
     table: &'a DeTable<'a>,
     /// Another table that says what this one does not.
@@ -205,6 +214,7 @@ pub(crate) struct Section<'a> {
 }
 
 impl<'a> Section<'a> {
+    /// The whole document as a table.
     pub fn root(document: &'a DeTable<'a>) -> Self {
         Self { key: String::new(), span: 0..0, table: document, defaults: None }
     }

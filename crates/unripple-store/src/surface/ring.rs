@@ -1,11 +1,11 @@
-//! Closed curves of a surface file, judged by core.
+//! Closed curves of a surface file; `unripple-core` says whether they cross themselves.
 
 use super::bounds::Bounds;
 use crate::decimal;
 use unripple_core::plane::{self, Met};
 use unripple_core::{Edge, Edges, Point, Shape, Side};
 
-/// Most sides of a closed curve.
+/// Most sides of a closed curve: each is compared with those near it for crossings.
 pub(super) const MOST_SIDES: usize = 4096;
 /// How far from the origin the corner of the bounding box may lie, in metres.
 pub(super) const CORNER: f64 = 1e-9;
@@ -13,7 +13,7 @@ pub(super) const CORNER: f64 = 1e-9;
 /// A closed curve of a file, anticlockwise.
 #[derive(Clone, Debug)]
 pub(super) struct Ring {
-    /// Its sides.
+    /// Its sides in metres, end to end.
     pub sides: Vec<Side>,
     /// How many sides each side of the file became, in the file's order.
     counts: Vec<usize>,
@@ -38,6 +38,7 @@ impl Ring {
         Self::new(sides, counts)
     }
 
+    /// The exact bounding box of the curve, in metres.
     pub fn bounds(&self) -> Bounds {
         Bounds::of_sides(&self.sides)
     }
@@ -57,7 +58,7 @@ impl Ring {
         Edges::PerSide(edges)
     }
 
-    /// The same ring with the corner of its bounding box at the origin, and where that corner was.
+    /// The same ring with the corner of its bounding box at the origin, and where that corner was, in metres.
     pub fn cornered(mut self) -> (Self, Point) {
         let corner = self.bounds().least;
         let back = Point::new(-corner.x, -corner.y);

@@ -6,9 +6,10 @@ use super::range::of;
 use super::reader::{Faults, Section};
 use unripple_core::{Scatterer, ScattererKind};
 
-/// Most scatterers of a surface.
+/// Most scatterers of a surface: a bound on the cost of the coupled problem that a small file can pose.
 const MOST_SCATTERERS: usize = 1024;
 
+/// Keys of the table `[[scatterer]]`: of both kinds, of a point mass, and of a glued disc.
 const COMMON_KEYS: [&str; 2] = ["at_mm", "kind"];
 const MASS_KEYS: [&str; 1] = ["mass_mg"];
 const DISC_KEYS: [&str; 6] =
@@ -20,6 +21,7 @@ enum Kind {
     Disc,
 }
 
+/// The kinds of scatterers, by their names in files.
 const KINDS: [(&str, Kind); 2] = [("mass", Kind::Mass), ("disc", Kind::Disc)];
 
 /// All tables `[[scatterer]]`, in the file's order.

@@ -7,10 +7,11 @@ use super::range::{Limits, of};
 use super::reader::{Entry, Faults, Section};
 use unripple_core::{Air, Decay, Profile, Sheet, Uneven};
 
+/// Keys of the table `[sheet]` itself, and those of quantities that vary over it.
 const KEYS: [&str; 5] = ["thickness_mm", "tension_n_per_m", "decay_time_ms", "loss_factor", "air"];
 const UNEVEN_KEYS: [&str; 3] = ["thickness_profile", "tension_profile", "added_mass_kg_m2"];
 
-/// The air conditions and their names.
+/// Whether air loads the sheet and on how many sides, by the names in files.
 pub(super) const AIRS: [(&str, Air); 3] =
     [("none", Air::None), ("one-side", Air::OneSide), ("both-sides", Air::BothSides)];
 

@@ -59,7 +59,7 @@ pub fn read_curves(text: &str, name: &str) -> Result<Vec<Curve>, StoreError> {
     Ok(tracer.curves)
 }
 
-/// Collects curves.
+/// Collects the curves of a document in drawing order, in metres.
 struct Tracer<'p> {
     page: &'p Page<'p>,
     curves: Vec<Curve>,

@@ -4,13 +4,13 @@ use crate::StoreError;
 use std::collections::HashMap;
 use usvg::roxmltree::{Document, Node, NodeId, ParsingOptions};
 
-/// Deepest nesting of elements.
+/// Deepest nesting of elements: the reader calls itself for each level, and its stack is bounded.
 const DEEPEST: usize = 64;
 /// Most elements and other nodes, copies made by `use` included.
 const MOST_NODES: u32 = 20_000;
-/// Most attributes of one element.
+/// Most attributes of one element, counted before anything is parsed; drawings have tens.
 const MOST_ATTRIBUTES: usize = 200;
-/// Most bytes of style sheets.
+/// Most bytes of style sheets: each holds rules that are tried on every element.
 const MOST_STYLE: usize = 16 << 10;
 /// Most bytes of style sheets times nodes: each rule is tried on each element.
 const MOST_MATCHES: usize = 40_000_000;

@@ -5,7 +5,7 @@ use super::{Notes, pitch};
 use crate::StoreError;
 use unripple_effects::limits::{SHARE, TIME};
 
-/// The one version that is read.
+/// The one major version of the format that is read: another may mean something else by the same keys.
 const MAJOR: f64 = 1.0;
 
 pub(super) fn read(root: &Node, notes: &mut Notes) -> Result<(), StoreError> {

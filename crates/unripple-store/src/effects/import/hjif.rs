@@ -9,13 +9,18 @@ use crate::StoreError;
 use std::collections::HashMap;
 use unripple_effects::limits::{FREQUENCY, TIME};
 
+/// Words of ISO/IEC 23090-31 that are understood: types of bands, of effects, of base signals, and what an effect is
+/// meant for. A file with any other is refused rather than played wrong.
 const BANDS: [&str; 2] = ["VectorialWave", "Transient"];
 const EFFECTS: [&str; 2] = ["Basis", "Reference"];
 const SIGNALS: [&str; 1] = ["Sine"];
 const MODALITIES: [&str; 4] = ["Vibrotactile", "Vibration", "Vibrotactile Texture", "Other"];
 /// Ticks per second of files that do not say.
 const TIMESCALE: f64 = 1000.0;
+/// Least and greatest time in ticks: at the usual 1000 per second, eleven days.
 const TICKS: [f64; 2] = [0.0, 1e9];
+/// Least and greatest number taken for a gain, or for a frequency before it is clamped: products of a few such stay
+/// finite.
 const GAIN: [f64; 2] = [-1e6, 1e6];
 /// Most keyframes read, those of an effect of the library each time that it is referred to.
 const MOST_FRAMES: usize = 1 << 16;

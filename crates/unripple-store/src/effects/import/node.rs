@@ -12,6 +12,7 @@ pub(super) struct Node<'v> {
 }
 
 impl<'v> Node<'v> {
+    /// The whole document, for messages under the file's name.
     pub fn root(value: &'v Value, file: &'v str) -> Self {
         Self { value, file, path: String::new() }
     }
@@ -73,7 +74,7 @@ impl<'v> Node<'v> {
         self.get(key).map_or(Ok(default), |node| node.number(range))
     }
 
-    /// A text.
+    /// A text, as the file has it.
     pub fn text(&self) -> Result<&'v str, StoreError> {
         self.value.as_str().ok_or_else(|| self.refuse("a text"))
     }
@@ -85,7 +86,8 @@ impl<'v> Node<'v> {
         known.iter().copied().find(|name| *name == found).ok_or_else(|| self.refuse(expected()))
     }
 
-    /// Points of a curve, not running back, each read from an item of a list.
+    /// Refuses points of a curve whose times (s) run back; each `[time, value]` was read from the item of the same
+    /// index.
     pub fn ascending(items: &[Self], time: &str, points: &[(f64, f64)]) -> Result<(), StoreError> {
         match points.windows(2).position(|pair| pair[1].0 < pair[0].0) {
             None => Ok(()),
