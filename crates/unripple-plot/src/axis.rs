@@ -5,7 +5,7 @@ use crate::{PlotError, font, ticks};
 /// How values are spread along an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scale {
-    /// Evenly.
+    /// Evenly: equal steps are equally long.
     #[default]
     Linear,
     /// By their logarithm; every value must be positive.
@@ -51,7 +51,7 @@ impl Axis {
         Self { label: label.into(), scale: Scale::Logarithmic, ..Self::default() }
     }
 
-    /// The same axis showing its data multiplied.
+    /// The same axis showing its data multiplied. The multiplier has the unit shown per unit of the data.
     pub fn times(mut self, multiplier: f64) -> Self {
         self.multiplier = multiplier;
         self
@@ -79,7 +79,7 @@ pub(crate) struct Ruler {
     high: f64,
     /// Major ticks: data value shown, and label.
     pub major: Vec<(f64, String)>,
-    /// Minor ticks.
+    /// Minor ticks, as values shown.
     pub minor: Vec<f64>,
     /// The power of ten taken out of the labels.
     pub power: Option<i32>,
@@ -95,6 +95,7 @@ pub(crate) enum Direction {
 /// Room left round the data, as a share of their span.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Padding {
+    /// Room at each end, as a share of the data's span.
     pub share: f64,
     /// Whether an axis of non-negative data starts at zero when that wastes little.
     pub zero: bool,
@@ -184,7 +185,7 @@ impl Ruler {
         [self.low, self.high]
     }
 
-    /// The datum half-way along.
+    /// The datum half-way along the axis, in the data's unit.
     pub fn middle(&self) -> f64 {
         let shown = match self.scale {
             Scale::Linear => (self.low + self.high) / 2.0,

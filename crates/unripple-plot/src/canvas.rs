@@ -8,21 +8,28 @@ use std::fmt::Write;
 /// An axis-aligned rectangle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Rect {
+    /// Left edge, in points.
     pub x: f64,
+    /// Upper edge, in points.
     pub y: f64,
+    /// Width to the right, in points.
     pub width: f64,
+    /// Height downwards, in points.
     pub height: f64,
 }
 
 impl Rect {
+    /// Right edge, in points.
     pub fn right(&self) -> f64 {
         self.x + self.width
     }
 
+    /// Lower edge, in points.
     pub fn bottom(&self) -> f64 {
         self.y + self.height
     }
 
+    /// Whether a place, in points, is within the rectangle or on its rim.
     pub fn contains(&self, [x, y]: [f64; 2]) -> bool {
         (self.x..=self.right()).contains(&x) && (self.y..=self.bottom()).contains(&y)
     }
@@ -31,12 +38,16 @@ impl Rect {
 /// How a line is drawn.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stroke {
+    /// Colour of the line.
     pub ink: Rgb,
+    /// Width of the line, in points.
     pub width: f64,
+    /// Lengths of marks and spaces by turns, in line widths; empty for an unbroken line.
     pub dash: &'static [f64],
 }
 
 impl Stroke {
+    /// An unbroken line `width` points wide.
     pub fn solid(ink: Rgb, width: f64) -> Self {
         Self { ink, width, dash: &[] }
     }
@@ -65,19 +76,26 @@ pub(crate) enum Rise {
 /// A line of text.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Text<'a> {
+    /// What it says.
     pub content: &'a str,
+    /// The place that anchor and rise refer to, in points.
     pub at: [f64; 2],
+    /// Size of the type, in points.
     pub size: f64,
+    /// Which end of the line is at the place.
     pub anchor: Anchor,
+    /// Which height of the line is at the place.
     pub rise: Rise,
     /// Whether it reads upwards instead of rightwards.
     pub upwards: bool,
+    /// Colour of the letters.
     pub ink: Rgb,
     /// Whether it has a white rim, to be read over an image.
     pub halo: bool,
 }
 
 impl<'a> Text<'a> {
+    /// Black text of `size` points that starts at `at`, in points.
     pub fn new(content: &'a str, at: [f64; 2], size: f64) -> Self {
         Self {
             content,
@@ -91,33 +109,38 @@ impl<'a> Text<'a> {
         }
     }
 
+    /// The same text with another end at its place.
     pub fn anchor(mut self, anchor: Anchor) -> Self {
         self.anchor = anchor;
         self
     }
 
+    /// The same text with another height at its place.
     pub fn rise(mut self, rise: Rise) -> Self {
         self.rise = rise;
         self
     }
 
+    /// The same text, reading upwards.
     pub fn upwards(mut self) -> Self {
         self.upwards = true;
         self
     }
 
+    /// The same text in another colour.
     pub fn ink(mut self, ink: Rgb) -> Self {
         self.ink = ink;
         self
     }
 
+    /// The same text with a white rim.
     pub fn halo(mut self) -> Self {
         self.halo = true;
         self
     }
 }
 
-/// A drawing under way.
+/// A drawing under way: the SVG elements so far.
 #[derive(Debug, Default)]
 pub(crate) struct Canvas {
     body: String,
@@ -126,7 +149,7 @@ pub(crate) struct Canvas {
 }
 
 impl Canvas {
-    /// The whole document, `width` by `height`.
+    /// The whole SVG document, `width` by `height` points.
     pub fn finish(&self, width: f64, height: f64, description: &str) -> String {
         let mm = |points: f64| number(points * crate::style::MM_PER_POINT);
         format!(
@@ -154,10 +177,12 @@ impl Canvas {
         let _ = writeln!(self.body, "<g clip-path=\"url(#c{})\">", self.clips);
     }
 
+    /// Closes the group that [`Canvas::clip`] opened.
     pub fn end(&mut self) {
         self.body.push_str("</g>\n");
     }
 
+    /// Draws a line along a path.
     pub fn stroke(&mut self, path: &str, stroke: Stroke) {
         if path.is_empty() {
             return;
@@ -177,10 +202,12 @@ impl Canvas {
         self.body.push_str("/>\n");
     }
 
+    /// Draws a straight line between two places, in points.
     pub fn line(&mut self, from: [f64; 2], to: [f64; 2], stroke: Stroke) {
         self.stroke(&path([from, to], false), stroke);
     }
 
+    /// Fills the inside of a path, at an opacity from 0 to 1.
     pub fn fill(&mut self, path: &str, ink: Rgb, opacity: f64) {
         let _ = writeln!(
             self.body,
@@ -189,6 +216,7 @@ impl Canvas {
         );
     }
 
+    /// Draws a circle about a place, its radius in points, filled if a colour is given.
     pub fn circle(&mut self, [x, y]: [f64; 2], radius: f64, fill: Option<Rgb>, stroke: Stroke) {
         let dashes: Vec<String> = stroke.dash.iter().map(|d| number(d * stroke.width)).collect();
         let _ = writeln!(
@@ -208,6 +236,7 @@ impl Canvas {
         );
     }
 
+    /// Writes a line of text.
     pub fn text(&mut self, text: Text) {
         if text.content.is_empty() {
             return;
@@ -266,7 +295,7 @@ impl Canvas {
         let _ = writeln!(self.body, "<path d=\"{}\" fill=\"url(#g{})\"/>", rectangle(rect), self.clips);
     }
 
-    /// Embeds a PNG file, stretched over a rectangle.
+    /// Embeds the bytes of a PNG file, stretched over a rectangle in points.
     pub fn image(&mut self, rect: Rect, png: &[u8]) {
         let _ = writeln!(
             self.body,

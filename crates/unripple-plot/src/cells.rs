@@ -37,7 +37,7 @@ pub struct Cells {
     pub rows: Vec<String>,
     /// `rows x columns` values, row by row.
     pub values: Vec<f64>,
-    /// Abscissae.
+    /// The axis of abscissae, along the columns.
     pub x: Axis,
     /// What the rows are.
     pub label: String,
@@ -49,7 +49,8 @@ pub struct Cells {
     pub height_mm: Option<f64>,
 }
 
-/// Height of a row in millimetres, where nothing else is asked for: that of its name and some room.
+/// Height of a row in millimetres, where nothing else is asked for: that of its name and some room. At half of it
+/// names of rows would touch.
 const ROW: f64 = 4.0;
 /// Least and greatest height of all rows in millimetres, so that the bar has room and the figure fits a page.
 const HEIGHT: [f64; 2] = [30.0, 160.0];
@@ -93,6 +94,7 @@ pub(crate) struct PreparedCells<'a> {
 }
 
 impl<'a> PreparedCells<'a> {
+    /// Settles axis and colours for a cell of the figure `width` points wide.
     pub fn new(cells: &'a Cells, width: f64, style: &'a Style) -> Result<Self, PlotError> {
         cells.check()?;
         let usual = (ROW * cells.rows.len() as f64).clamp(HEIGHT[0], HEIGHT[1]);

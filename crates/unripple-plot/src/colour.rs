@@ -5,20 +5,20 @@ use std::f64::consts::PI;
 /// An sRGB colour of eight bits a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Rgb(
-    /// Red.
+    /// Red, 0 to 255.
     pub u8,
-    /// Green.
+    /// Green, 0 to 255.
     pub u8,
-    /// Blue.
+    /// Blue, 0 to 255.
     pub u8,
 );
 
 impl Rgb {
-    /// Black.
+    /// Black, for text and axes.
     pub const BLACK: Self = Self(0, 0, 0);
-    /// White.
+    /// White, the paper's own.
     pub const WHITE: Self = Self(255, 255, 255);
-    /// A middle grey for guides.
+    /// A middle grey for guides. About half as light as paper, so that guides stay behind the data.
     pub const GREY: Self = Self(120, 120, 120);
 
     /// The seven saturated colours of Okabe and Ito (2008), which remain distinct under every common colour blindness,
@@ -46,8 +46,11 @@ impl std::fmt::Display for Rgb {
 /// A colour in Oklab's polar form: lightness 0 to 1, chroma, hue in radians (B. Ottosson, 2020).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Oklch {
+    /// Lightness as seen, 0 (black) to 1 (white).
     pub lightness: f64,
+    /// Distance from grey; up to about 0.3 on a screen.
     pub chroma: f64,
+    /// Hue in radians.
     pub hue: f64,
 }
 
@@ -57,12 +60,12 @@ impl Oklch {
         Self { lightness, chroma, hue: degrees * PI / 180.0 }
     }
 
-    /// Lightness and the two opponent coordinates, between which distances are perceptual.
+    /// Lightness and the two opponent coordinates `[L, a, b]`, between which distances are perceptual.
     pub fn lab(self) -> [f64; 3] {
         [self.lightness, self.chroma * self.hue.cos(), self.chroma * self.hue.sin()]
     }
 
-    /// Linear light red, green and blue; outside 0 to 1 where a screen cannot show the colour.
+    /// Linear light `[red, green, blue]`; outside 0 to 1 where a screen cannot show the colour.
     pub fn linear_rgb(self) -> [f64; 3] {
         let [lightness, a, b] = self.lab();
         let l = (lightness + 0.396_337_777_4 * a + 0.215_803_757_3 * b).powi(3);

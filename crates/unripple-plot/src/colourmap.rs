@@ -24,6 +24,7 @@ pub enum ColourMap {
 /// Number of colours a map is tabulated in; odd, so that the diverging map has an exact middle.
 pub(crate) const LEVELS: usize = 255;
 
+/// The two maps as tables, made once at their first use.
 static SEQUENTIAL: LazyLock<[Rgb; LEVELS]> = LazyLock::new(|| tabulate(sequential));
 static DIVERGING: LazyLock<[Rgb; LEVELS]> = LazyLock::new(|| tabulate(diverging));
 

@@ -75,7 +75,7 @@ pub(crate) struct Bar {
     ruler: Ruler,
 }
 
-/// Width of the bar, in points.
+/// Width of the colour bar, in points: about the height of a letter, enough to tell colours.
 const WIDTH: f64 = 7.0;
 /// Space between the field and the bar, in points.
 const AWAY: f64 = 7.0;
@@ -103,7 +103,7 @@ impl Bar {
         }
     }
 
-    /// Room it needs to the right of the field.
+    /// Room in points that it needs to the right of the field.
     pub fn room(&self, style: &Style) -> f64 {
         let title = if self.full_title().is_empty() { 0.0 } else { 1.5 * GAP + 1.2 * style.label_pt };
         AWAY + WIDTH + TICK + GAP + self.ruler.label_width(style.tick_pt) + title + 1.0

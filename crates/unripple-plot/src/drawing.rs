@@ -67,7 +67,7 @@ impl Drawing {
     }
 }
 
-/// Pictures of several drawings, rendered in parallel; see [`Drawing::png`].
+/// Pictures of several drawings, rendered in parallel; see [`Drawing::png`]. `dpi` is in dots to an inch.
 pub fn pngs(drawings: &[Drawing], dpi: f64) -> Result<Vec<Vec<u8>>, PlotError> {
     drawings.par_iter().map(|drawing| drawing.png(dpi)).collect()
 }

@@ -28,7 +28,7 @@ pub enum PlotError {
         what: String,
         /// The legal values.
         expected: &'static str,
-        /// The number.
+        /// The number that was given.
         found: f64,
     },
     /// The drawing could not be turned into an image.

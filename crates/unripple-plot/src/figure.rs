@@ -25,7 +25,7 @@ pub struct Figure {
     pub width_mm: f64,
     /// Panels side by side.
     pub columns: usize,
-    /// The panels.
+    /// The panels, filled in row by row.
     pub panels: Vec<Panel>,
     /// Whether panels are lettered (a), (b), … when there are several.
     pub letters: bool,
@@ -48,7 +48,7 @@ impl Default for Figure {
     }
 }
 
-/// Space round a figure, in points.
+/// Space round a figure, in points, so that no line is cut at the edge of the page.
 const EDGE: f64 = 2.0;
 /// Space between columns and between rows, in points.
 const BETWEEN: f64 = 9.0;

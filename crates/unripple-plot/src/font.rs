@@ -9,6 +9,7 @@ pub(crate) const FAMILY: &str = "DejaVu Sans, Verdana, sans-serif";
 /// Height of a digit over the font size.
 pub(crate) const DIGIT_HEIGHT: f64 = 0.729;
 
+/// The embedded typeface, parsed once at its first use.
 static DATABASE: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
     let mut database = fontdb::Database::new();
     database.load_font_source(fontdb::Source::Binary(Arc::new(dejavu::sans::regular())));
@@ -34,6 +35,8 @@ static ADVANCES: LazyLock<Vec<u16>> = LazyLock::new(|| {
     (0..0x2300).map(|code| advance(code).unwrap_or(WIDEST)).collect()
 });
 
+/// Advance of a character that is not in the table, in thousandths of the size: rather too much room than letters
+/// that overlap.
 const WIDEST: u16 = 1000;
 
 /// Width of a line of text, in the unit of `size`.

@@ -10,16 +10,16 @@ pub struct Grid {
     pub columns: usize,
     /// Cells along y.
     pub rows: usize,
-    /// Centre of the lower left cell.
+    /// Centre of the lower left cell, in the grid's unit of length.
     pub first: [f64; 2],
-    /// Width and height of a cell, positive.
+    /// Width and height of a cell, positive, in the grid's unit of length.
     pub pitch: [f64; 2],
     /// `rows x columns` values, row by row, row 0 at the bottom.
     pub values: Vec<f64>,
 }
 
 impl Grid {
-    /// The bounding box of all cells: lower left and upper right corners.
+    /// The bounding box of all cells: lower left and upper right corners, in the grid's unit of length.
     pub fn corners(&self) -> [[f64; 2]; 2] {
         let [x, y] = self.first;
         let [dx, dy] = self.pitch;
@@ -27,7 +27,7 @@ impl Grid {
         [[x - dx / 2.0, y - dy / 2.0], [x + (columns - 0.5) * dx, y + (rows - 0.5) * dy]]
     }
 
-    /// Centre of a cell.
+    /// Centre `[x, y]` of a cell, in the grid's unit of length.
     pub fn centre(&self, column: usize, row: usize) -> [f64; 2] {
         [self.first[0] + column as f64 * self.pitch[0], self.first[1] + row as f64 * self.pitch[1]]
     }

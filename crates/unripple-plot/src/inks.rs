@@ -3,11 +3,13 @@
 use crate::colour::Rgb;
 use crate::colourmap::ColourMap;
 
-/// Colours of the map, an odd number so that a diverging one keeps its middle.
+/// Colours of the map, an odd number so that a diverging one keeps its middle; fewer, and bands show in a smooth
+/// field.
 const MAP: usize = 127;
-/// Greys from black to white, for text.
+/// Greys from black to white, for text: as many steps as its smooth rims need to look smooth.
 const GREYS: usize = 33;
-/// Colours of the map that are also held mixed with black or white, for the rims of what lies over the field.
+/// Colours of the map that are also held mixed with black or white, for the rims of what lies over the field. 127 +
+/// 33 + 3 x 32 = 256 colours, which an indexed picture may have.
 const MIXED: usize = 32;
 
 /// A palette, and the nearest of its colours to any other.
@@ -43,7 +45,7 @@ impl Inks {
         (position.clamp(0.0, 1.0) * (MAP - 1) as f64 + 0.5) as u8
     }
 
-    /// Index of the nearest colour.
+    /// Index, 0 to 255, of the palette's colour nearest to any other.
     pub fn nearest(&self, Rgb(r, g, b): Rgb) -> u8 {
         match (r, g, b) {
             (255, 255, 255) => (MAP + GREYS - 1) as u8,
@@ -56,7 +58,7 @@ impl Inks {
         self.colours[usize::from(index)]
     }
 
-    /// The colours as a PNG palette.
+    /// The colours as the bytes of a PNG palette, `[colour][red, green, blue]`.
     pub fn palette(&self) -> Vec<u8> {
         self.colours.iter().flat_map(|&Rgb(r, g, b)| [r, g, b]).collect()
     }

@@ -35,15 +35,15 @@ pub enum Dash {
     /// A pattern of its own for each line of automatic ink, solid first; solid for others.
     #[default]
     Auto,
-    /// Unbroken.
+    /// An unbroken line.
     Solid,
-    /// Even dashes.
+    /// Dashes of even length.
     Dashed,
-    /// Dots.
+    /// Dots in a row.
     Dotted,
     /// Dashes and dots by turns.
     DashDot,
-    /// Long dashes.
+    /// Long dashes alone.
     Long,
     /// Long dashes, each followed by two dots.
     DashDotDot,
@@ -99,15 +99,15 @@ impl Mark {
 /// A curve through points in order. A value that is not finite leaves a gap.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Line {
-    /// Abscissae.
+    /// Abscissae, in the axis's data unit.
     pub x: Vec<f64>,
     /// Ordinates, as many.
     pub y: Vec<f64>,
     /// Its name in the legend; none if empty.
     pub label: String,
-    /// Its colour.
+    /// Colour of the line.
     pub ink: Ink,
-    /// Its pattern.
+    /// Pattern of the line.
     pub dash: Dash,
     /// Its width in points; the figure's if absent.
     pub width_pt: Option<f64>,
@@ -116,7 +116,7 @@ pub struct Line {
 /// Marks at points, with error bars if wanted. A value that is not finite leaves its mark out.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Points {
-    /// Abscissae.
+    /// Abscissae, in the axis's data unit.
     pub x: Vec<f64>,
     /// Ordinates, as many.
     pub y: Vec<f64>,
@@ -124,7 +124,7 @@ pub struct Points {
     pub error: Vec<[f64; 2]>,
     /// Its name in the legend; none if empty.
     pub label: String,
-    /// Its colour.
+    /// Colour of marks and bars.
     pub ink: Ink,
     /// Shape of the marks.
     pub mark: Mark,
@@ -133,7 +133,7 @@ pub struct Points {
 /// A shaded band between two curves, as for a confidence interval.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Band {
-    /// Abscissae.
+    /// Abscissae, in the axis's data unit.
     pub x: Vec<f64>,
     /// Lower ordinates, as many.
     pub low: Vec<f64>,
@@ -164,9 +164,9 @@ pub struct Rule {
     pub along: Along,
     /// Text beside it: above the frame for one along y, on the line for one along x.
     pub label: String,
-    /// Its colour.
+    /// Colour of the rule.
     pub ink: Ink,
-    /// Its pattern.
+    /// Pattern of the rule.
     pub dash: Dash,
 }
 
@@ -206,7 +206,7 @@ pub struct Note {
     pub text: String,
     /// Which end of it is there.
     pub anchor: Anchor,
-    /// Its colour.
+    /// Colour of the text.
     pub ink: Ink,
 }
 
@@ -219,7 +219,7 @@ impl Default for Note {
 /// One thing drawn in a plot.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Layer {
-    /// A curve.
+    /// A curve through points.
     Line(Line),
     /// Marks with error bars.
     Points(Points),
@@ -229,7 +229,7 @@ pub enum Layer {
     Rule(Rule),
     /// A stripe between two values.
     Span(Span),
-    /// Text.
+    /// Text at a place.
     Note(Note),
 }
 

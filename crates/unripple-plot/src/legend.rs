@@ -22,11 +22,11 @@ enum Sample {
     Patch,
 }
 
-/// Length of a line's sample, in points.
+/// Length of a line's sample, in points: long enough to show a pattern of dashes.
 const SAMPLE: f64 = 19.0;
-/// Space between sample and name.
+/// Space between sample and name, in points.
 const SPACE: f64 = 4.0;
-/// Space kept clear round a legend.
+/// Space kept clear round a legend, in points, so that it does not read as data.
 const INSET: f64 = 4.0;
 
 pub(crate) fn entries<'a>(layers: &'a [Layer], style: &Style) -> Vec<Entry<'a>> {
@@ -202,10 +202,12 @@ impl Rows {
         Self { columns: entries.len().div_ceil(rows), rows, pitch }
     }
 
+    /// Height of all rows, in points.
     pub fn height(&self, style: &Style) -> f64 {
         self.rows as f64 * row_height(style)
     }
 
+    /// Draws the rows with their upper-left corner at a place, in points.
     pub fn draw(&self, canvas: &mut Canvas, entries: &[Entry], [x, y]: [f64; 2], style: &Style) {
         for (i, entry) in entries.iter().enumerate().filter(|_| self.columns > 0) {
             let (row, column) = (i / self.columns, i % self.columns);

@@ -21,7 +21,7 @@ use crate::{PlotError, frame};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
-    /// The values.
+    /// The field's values, cell by cell.
     pub grid: Grid,
     /// The rim, as closed polygons the field is clipped to; none shows the whole grid.
     pub outline: Vec<Ring>,
@@ -113,6 +113,7 @@ pub(crate) struct PreparedMap<'a> {
 }
 
 impl<'a> PreparedMap<'a> {
+    /// Settles axes and colours for a cell of the figure `width` points wide.
     pub fn new(map: &'a Map, width: f64, style: &'a Style) -> Result<Self, PlotError> {
         map.grid.check("map")?;
         let view = view(&map.grid, &map.outline)?;

@@ -66,7 +66,7 @@ impl Default for Movie {
 
 /// Pixels to a point, so that text is legible on a screen.
 const DENSITY: f64 = 1.5;
-/// Frames held in memory at once.
+/// Frames held in memory at once: they are encoded in parallel, and twice as many take twice the memory.
 const BATCH: usize = 64;
 
 /// Everything about a movie but its frames.

@@ -14,8 +14,11 @@ pub(crate) const PALE: f64 = 0.22;
 /// How each layer looks once automatic choices are made.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Look {
+    /// Colour of line or mark.
     pub ink: Rgb,
+    /// Lengths of marks and spaces by turns, in line widths.
     pub dash: &'static [f64],
+    /// Shape of the mark.
     pub mark: Mark,
 }
 

@@ -65,17 +65,24 @@ pub(crate) trait Prepared {
 /// Room round a frame, in points.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Margins {
+    /// Room on the left, for tick labels.
     pub left: f64,
+    /// Room on the right, for a colour bar.
     pub right: f64,
+    /// Room above, for a title.
     pub top: f64,
+    /// Room below, for the axis.
     pub bottom: f64,
 }
 
 /// Where a panel's data have come to lie.
 #[derive(Clone, Debug)]
 pub(crate) struct Placed {
+    /// The frame, in points.
     pub frame: Rect,
+    /// The axis of abscissae, settled.
     pub x: Ruler,
+    /// The axis of ordinates, settled.
     pub y: Ruler,
 }
 

@@ -25,9 +25,9 @@ use crate::{PlotError, frame, legend, paint};
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Plot {
-    /// Abscissae.
+    /// The axis of abscissae, across.
     pub x: Axis,
-    /// Ordinates.
+    /// The axis of ordinates, upwards.
     pub y: Axis,
     /// What is drawn, the first at the bottom.
     pub layers: Vec<Layer>,
@@ -47,7 +47,7 @@ pub enum Legend {
     Auto,
     /// Above the frame, in as many rows as it takes.
     Above,
-    /// None.
+    /// No legend at all.
     None,
 }
 
@@ -63,6 +63,7 @@ pub(crate) struct PreparedPlot<'a> {
 }
 
 impl<'a> PreparedPlot<'a> {
+    /// Settles axes and legend for a cell of the figure `width` points wide.
     pub fn new(plot: &'a Plot, width: f64, style: &'a Style) -> Result<Self, PlotError> {
         plot.check()?;
         let across = (width - 6.0 * style.label_pt).max(20.0);

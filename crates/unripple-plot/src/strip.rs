@@ -14,7 +14,7 @@ use crate::{PlotError, ticks};
 /// One field of a strip or of a movie.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Shot {
-    /// The values.
+    /// The field's values, cell by cell.
     pub grid: Grid,
     /// Text above it, such as the time.
     pub caption: String,
@@ -53,7 +53,7 @@ impl Default for Strip {
     }
 }
 
-/// Space between fields, in points.
+/// Space between fields, in points: enough to keep neighbours' outlines apart.
 const BETWEEN: f64 = 5.0;
 
 pub(crate) struct PreparedStrip<'a> {
@@ -68,6 +68,7 @@ pub(crate) struct PreparedStrip<'a> {
 }
 
 impl<'a> PreparedStrip<'a> {
+    /// Settles colours and rows for a cell of the figure `width` points wide.
     pub fn new(strip: &'a Strip, width: f64, style: &'a Style) -> Result<Self, PlotError> {
         let Some(first) = strip.shots.first() else {
             return Err(PlotError::Empty { what: "strip".to_owned(), found: "no fields".to_owned() });

@@ -19,11 +19,11 @@ impl Default for Style {
     }
 }
 
-/// Millimetres in a point of 1/72 inch.
+/// Millimetres in a point, 1/72 of an inch of 25.4 mm.
 pub(crate) const MM_PER_POINT: f64 = 25.4 / 72.0;
-/// Length of a major tick, in points.
+/// Length of a major tick, in points; minor ones are three fifths as long, so that the eye tells them apart.
 pub(crate) const TICK: f64 = 3.0;
-/// Length of a minor tick, in points.
+/// Length of a minor tick, in points: three fifths of a major one.
 pub(crate) const MINOR_TICK: f64 = 1.8;
 /// Space between a mark and its text, in points.
 pub(crate) const GAP: f64 = 2.5;

@@ -17,7 +17,7 @@ pub(crate) fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     points.chunk_by(|a, b| column(a) == column(b)).flat_map(extremes).collect()
 }
 
-/// First, lowest, highest and last points of a column, in their order.
+/// First, lowest, highest and last points of a column, in the order in which the curve runs through them.
 fn extremes(column: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let by_height = |a: &usize, b: &usize| column[*a][1].total_cmp(&column[*b][1]);
     let lowest = (0..column.len()).min_by(by_height).unwrap_or(0);

@@ -35,14 +35,14 @@ pub struct Traces {
     pub title: String,
 }
 
-/// One trace.
+/// One trace, such as the velocity at a point against time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trace {
-    /// Its name.
+    /// Its name, written at the left.
     pub label: String,
     /// Its samples; one that is not finite leaves a gap.
     pub values: Vec<f64>,
-    /// Its colour.
+    /// Colour of its line.
     pub ink: Ink,
 }
 
@@ -85,6 +85,7 @@ pub(crate) struct PreparedTraces<'a> {
 }
 
 impl<'a> PreparedTraces<'a> {
+    /// Settles the time axis and the lanes for a cell of the figure `width` points wide.
     pub fn new(traces: &'a Traces, width: f64, style: &'a Style) -> Result<Self, PlotError> {
         traces.check()?;
         let longest = traces.traces.iter().map(|trace| trace.values.len()).max().unwrap_or(0);
