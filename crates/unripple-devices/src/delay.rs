@@ -2,7 +2,8 @@
 
 use unripple_dsp::{kaiser, sinc};
 
-/// Half the length of the interpolator, in samples: the least delay that is not whole.
+/// Half the length of the interpolator, in samples: the least delay that is not whole. With half of it the error
+/// below 0.4 of the sample rate would be above 1e-4; twice as much doubles the least delay and the work.
 pub(crate) const HALF: usize = 24;
 
 /// Channels that come late by a number of samples that need not be whole: a windowed sinc (Kaiser, β = 10), whose error is
@@ -47,7 +48,7 @@ impl Delay {
     }
 }
 
-/// The windowed sinc at a distance in samples.
+/// The interpolator, a sinc under a Kaiser window, at a distance in samples.
 fn kernel(x: f64) -> f64 {
     sinc(x) * kaiser(x / HALF as f64, 10.0)
 }

@@ -28,7 +28,7 @@ pub enum DevicesError {
     /// A device has too few channels.
     #[error("{device}: expected at least {expected} {what}, found {found}; {fix}")]
     Channels {
-        /// The device.
+        /// The device's own name.
         device: String,
         /// Playback or capture ports, or what else is counted.
         what: &'static str,
@@ -48,7 +48,7 @@ pub enum DevicesError {
     /// No sound server answers, or it refuses.
     #[error("JACK: {what}; {fix}")]
     Jack {
-        /// What happened.
+        /// What the server did or did not do.
         what: String,
         /// How to fix it.
         fix: String,
@@ -56,7 +56,7 @@ pub enum DevicesError {
     /// There is no such sound card, or it refuses.
     #[error("sound card: {what}; {fix}")]
     Card {
-        /// What happened.
+        /// What the card did or did not do.
         what: String,
         /// How to fix it.
         fix: String,

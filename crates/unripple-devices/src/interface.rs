@@ -82,7 +82,7 @@ impl Converter {
         self.interface.vanish_after.is_some_and(|most| blocks >= most)
     }
 
-    /// What of a block leaves, in the actuators' unit.
+    /// What of a block's drive leaves, in the actuators' unit.
     pub(crate) fn send(&self, layout: &Layout, drive: &[f32], sent: &mut [f64]) {
         let planes = sent.chunks_exact_mut(layout.block).zip(drive.chunks_exact(layout.block));
         for ((sent, drive), gain) in planes.zip(&self.interface.drive_gains) {
@@ -91,7 +91,7 @@ impl Converter {
         }
     }
 
-    /// What of a block arrives.
+    /// Applies gains, noise and latency to what arrives in a block, in place.
     pub(crate) fn hear(&mut self, frames: usize, planes: &mut [f64]) {
         self.delay.process(planes, frames);
         let levels = self.interface.heard_gains.iter().zip(&self.interface.noise);

@@ -16,11 +16,11 @@ pub enum Found {
     NoJack(String),
     /// A sound card, by what the kernel says of it.
     Card {
-        /// Its number.
+        /// Its number, as the kernel counts cards.
         index: usize,
-        /// Its name.
+        /// Its name, as the kernel gives it.
         name: String,
-        /// Its streams.
+        /// Its streams, each one direction of one device.
         streams: Vec<Stream>,
     },
 }
@@ -68,7 +68,7 @@ pub fn list(server: Option<&str>) -> Vec<Found> {
     found
 }
 
-/// The cards that a folder such as `/proc/asound` tells of.
+/// The cards that a folder such as `/proc/asound` lists.
 fn cards(root: &Path) -> Vec<Found> {
     let names = |path: &Path, prefix: &str| -> Vec<(usize, String)> {
         let entries = std::fs::read_dir(path).into_iter().flatten().flatten();

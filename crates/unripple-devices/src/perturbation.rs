@@ -7,10 +7,12 @@ use unripple_core::{Decay, OutOfRange, Point, Profile, Random, Scatterer, Scatte
 use unripple_physics::stepper::{Channel, Plant, StepperOptions, VirtualSurface};
 use unripple_physics::{Entry, Medium, Modes, PhysicsError, transducers};
 
-/// Nodes of the profile of tension along each side.
+/// Nodes of the profile of tension along each side: waves no shorter than a side are drawn by eight steps. More would
+/// change the profile little.
 const NODES: usize = 9;
 
-/// Seconds in which an actuator sweeps the band, how many of them do, and samples at once.
+/// Seconds in which an actuator sweeps the band, how many actuators do, and samples at once. More of any takes longer
+/// and brings the mean over actuators and places nearer to that of all.
 const SWEPT: f64 = 0.5;
 const SOME: usize = 6;
 const BLOCK: usize = 64;
@@ -20,7 +22,8 @@ const BLOCK: usize = 64;
 const LOWEST: f64 = 1e-3;
 const NODES_APART: f64 = 1.1;
 
-/// What makes a true surface other than its model: none of it is in the surface file. One seed gives one truth.
+/// What makes a true surface differ from its model, drawn at random: none of it is in the surface file. One seed
+/// gives one truth.
 ///
 /// ```
 /// use unripple_devices::Perturbation;
@@ -134,7 +137,7 @@ impl Perturbation {
         }
     }
 
-    /// The profile of tension: what there is already, times waves no shorter than a side.
+    /// The profile of tension: what the file has, times a smooth random field whose waves are no shorter than a side.
     fn vary(&self, surface: &Surface, random: &mut Random) -> Result<Profile, DevicesError> {
         let (width, height) = surface.outline.extent();
         let waves: Vec<[f64; 4]> = [(0, 1), (1, 0), (1, 1), (2, 0), (0, 2), (2, 1), (1, 2)]
@@ -249,7 +252,7 @@ impl Truth {
 
     /// Root mean square of the noise on each sensor and on the probe, in their own units.
     ///
-    /// The signal it is held against is what one actuator makes that sweeps the band at the drive limit L: white of variance
+    /// The signal of that ratio is what one actuator makes that sweeps the band at the drive limit L: white of variance
     /// L²/2 over the band B, of which a mode passes L²/(2B) · (w_a w_i)²/(8σ), by Parseval's theorem and ∫h² = w²/(4σ).
     /// Averaged over actuators and sensors; for the probe over places, where the mean of φ² is one over the sheet's mass.
     /// Modes that overlap count as if they did not. Coils on a voltage, which damp the sheet, are swept one after the other.

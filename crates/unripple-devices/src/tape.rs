@@ -4,7 +4,8 @@ use crate::DevicesError;
 use crate::error::same;
 use unripple_core::{Device, DeviceError, Layout, State, Status};
 
-/// A device whose drive is kept and whose inputs are given beforehand: play offline, record elsewhere, bring back.
+/// A device without a sound system: its drive is kept in memory, and its inputs play a recording given beforehand. So
+/// drives can be played on other equipment, recorded there, and the recordings brought back.
 ///
 /// ```
 /// use unripple_core::{Device, Layout};
@@ -33,7 +34,7 @@ pub struct Tape {
 }
 
 impl Tape {
-    /// A tape that hears silence.
+    /// A tape for playing alone: its inputs are silent, its drive is kept.
     ///
     /// # Errors
     /// [`DevicesError::Size`] for blocks of no samples.
@@ -43,8 +44,8 @@ impl Tape {
         Ok(Self { layout, drive, recording: None, status: Status::default() })
     }
 
-    /// A tape that hears a recording, one line of samples for each input. After its end the device is lost: what would have
-    /// been heard is not known.
+    /// A tape whose inputs play a recording, one line of samples for each input, 1 for full scale. After its end the
+    /// device is lost: what would have been recorded is not known.
     ///
     /// # Errors
     /// [`DevicesError::Size`] for another number of lines than inputs or lines of different length.
@@ -60,7 +61,7 @@ impl Tape {
         &self.drive
     }
 
-    /// What was driven.
+    /// What was driven, a line of samples for each output, 1 for full scale.
     pub fn into_drive(self) -> Vec<Vec<f32>> {
         self.drive
     }

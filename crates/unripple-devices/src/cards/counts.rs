@@ -11,7 +11,7 @@ const SLACK: u32 = 3;
 /// fill what the card holds: being behind in these says where a side begins, not that it runs on another clock.
 const FIRST: u32 = 8;
 
-/// One side's.
+/// How far one side has counted.
 #[derive(Debug, Default)]
 struct Count {
     /// Frames, around 2^32.

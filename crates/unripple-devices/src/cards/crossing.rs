@@ -7,7 +7,7 @@ use rtrb::{Consumer, Producer, RingBuffer};
 use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex};
 
-/// What happens to a card, told by its threads.
+/// What happens to a card, as its two threads report it.
 #[derive(Debug, Default)]
 pub(super) struct Events {
     /// How far its sides have come. Frames are counted from when it begins to play.
@@ -101,7 +101,7 @@ impl Player {
 }
 
 impl Recorder {
-    /// As [`Player::begin_at`].
+    /// Counts frames from another number, as [`Player::begin_at`] does.
     #[cfg(test)]
     pub(super) fn begin_at(&mut self, at: u32) {
         self.at = at;

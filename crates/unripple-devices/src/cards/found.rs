@@ -23,7 +23,7 @@ pub struct Offer {
     pub channels: [usize; 2],
     /// Lowest and highest rate, in Hz.
     pub rates: [f64; 2],
-    /// Smallest and largest block, in samples, where the system tells.
+    /// Smallest and largest block, in samples, where the system says so.
     pub blocks: Option<[usize; 2]>,
 }
 

@@ -1,4 +1,4 @@
-//! A card's two streams, as `cpal` has them.
+//! A card's two streams, one that plays and one that records, opened through `cpal`.
 
 use super::crossing::{Events, Player, Recorder};
 use crate::DevicesError;
@@ -44,7 +44,7 @@ impl Streams for Running {
 /// Formats of samples that are understood, the best first.
 const FORMATS: [SampleFormat; 3] = [SampleFormat::F32, SampleFormat::I32, SampleFormat::I16];
 
-/// Which way.
+/// The direction of a stream: playing or recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
     Playback,
@@ -161,7 +161,7 @@ pub(super) fn refused(name: &str, error: &Error) -> DevicesError {
     DevicesError::Card { what: format!("`{name}`: {error}"), fix: fix.into() }
 }
 
-/// What becomes of an error while the card runs.
+/// Notes what an error means while the card runs: the card is gone, or it ran out of samples once.
 fn told(events: &Events, error: &Error) {
     match error.kind() {
         ErrorKind::Xrun => {

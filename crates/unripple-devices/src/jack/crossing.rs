@@ -12,7 +12,8 @@ use unripple_core::Work;
 /// How long a freewheeling server waits for drive before it goes on without.
 const FREEWHEEL_PATIENCE: Duration = Duration::from_secs(2);
 
-/// Work and threads that may be on their way between the program and the server's thread.
+/// Pieces of work, and threads to be woken, that may be on their way between the program and the server's thread; one
+/// of each is usual.
 const HANDED: usize = 8;
 
 /// The side of the rings that the server's thread has.

@@ -10,7 +10,7 @@ use std::thread::ThreadId;
 use std::time::{Duration, Instant};
 use unripple_core::{Device, DeviceError, Layout, Server, State, Status, TEND, Work, require};
 
-/// Frames that the rings hold at least, should the server's period grow.
+/// Frames that the rings hold at least, should the server's period grow: four periods of JACK's largest, 8192 frames.
 const ROOM: usize = 32768;
 
 /// How long to wait at a time for a block: a server that is gone wakes nobody.

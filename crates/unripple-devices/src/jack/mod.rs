@@ -25,7 +25,7 @@ pub(crate) struct Seen {
 }
 
 /// For a program that is about to be ended from outside: waits until none of its clients is just joining a JACK server or leaving it, ten
-/// seconds at most, and lets none do so any more. A program that ends by itself does so without being told.
+/// seconds at most, and lets none do so any more. A program that ends by itself does so without this call.
 ///
 /// JACK 2 locks a database meanwhile that all JACK programs of a user share, and nobody takes the lock of one that ended within it: every
 /// JACK program started then waits for ever.

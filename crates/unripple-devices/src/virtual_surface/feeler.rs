@@ -6,16 +6,18 @@ use unripple_core::{Contact, FOCAL_RADIUS, Finger, Outline, Phase, Point, Surfac
 use unripple_dsp::{Threshold, Weighting};
 use unripple_physics::Medium;
 
-/// Every so many samples of the surface one is looked at.
+/// One of so many samples of the surface is looked at: at 48 kHz every 83 µs, twelve times a period of 1 kHz. Twice
+/// as many cost half as much and may miss the largest displacement by more.
 const STRIDE: usize = 4;
 
-/// Places beside the fingers that are looked at, along each side of the outline's bounding box.
+/// Places beside the fingers that are looked at, along each side of the outline's bounding box: 36 in all, whose mean
+/// square stands for that of the whole sheet. Twice as many cost four times as much.
 const ACROSS: usize = 6;
 
 /// What one finger feels of a virtual surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Feeling {
-    /// Which.
+    /// The name that the finger was put down under.
     pub finger: u64,
     /// Where it is.
     pub at: Point,
@@ -26,7 +28,7 @@ pub struct Feeling {
     pub contrast: Option<f64>,
 }
 
-/// Puts fingers on a virtual surface and tells what they feel.
+/// Puts fingers on a virtual surface and computes what they feel.
 ///
 /// Each finger is a slot that is watched where the finger is; a grid of other places is watched for contrast. What is felt
 /// is what the sheet really does under the load of all fingers.
@@ -75,7 +77,7 @@ impl Feeler {
         })
     }
 
-    /// The same with fingers that weigh nothing: what is told is what the free surface does where they are.
+    /// The same with fingers that weigh nothing: what is computed is what the free surface does where they are.
     pub fn weightless(self) -> Self {
         Self { finger: None, ..self }
     }

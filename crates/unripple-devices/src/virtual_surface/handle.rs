@@ -19,7 +19,7 @@ impl Handle {
         Self { workings }
     }
 
-    /// Samples that the surface has taken in.
+    /// Number of samples that the surface has been driven with.
     pub fn samples(&self) -> u64 {
         lock(&self.workings).surface.surface().samples()
     }
@@ -30,7 +30,7 @@ impl Handle {
         lock(&self.workings).rest(seed);
     }
 
-    /// Puts the probe elsewhere.
+    /// Puts the probe at another place, in metres.
     ///
     /// # Errors
     /// [`DevicesError::Physics`] for a place that is not finite.
@@ -47,8 +47,8 @@ impl Handle {
         lock(&self.workings).watch(places, stride)
     }
 
-    /// Moves the watched places, as many as there are: their traces go on, and those that stay cost nothing. What moves
-    /// within a block is not heard.
+    /// Moves the watched places (in m), as many as there are: their traces go on, and those that stay cost nothing. A
+    /// move takes effect at the next block.
     ///
     /// # Errors
     /// [`DevicesError::Range`] for another number of places, [`DevicesError::Physics`] for one that is not finite; nothing has moved
@@ -60,7 +60,8 @@ impl Handle {
         workings.move_watched(places)
     }
 
-    /// What was watched since this was last called, a trace for each place; the newest 65536 samples at most.
+    /// Displacement (m) watched since this was last called, one trace for each place; the newest 65536 samples at
+    /// most.
     pub fn watched(&self) -> Vec<Vec<f32>> {
         lock(&self.workings).watch.take()
     }
@@ -99,7 +100,7 @@ impl Handle {
         workings.add(start, tap.force().to_vec(), footing)
     }
 
-    /// Puts a finger down under a name of its own.
+    /// Puts a finger down under a number of its own; `contact` says where (m) and how it presses.
     ///
     /// # Errors
     /// [`DevicesError::Physics`], as [`touch`](unripple_physics::VirtualSurface::touch).
@@ -107,7 +108,7 @@ impl Handle {
         Ok(lock(&self.workings).surface.surface_mut().touch(id, contact)?)
     }
 
-    /// Moves a finger.
+    /// Moves a finger to a place in metres.
     ///
     /// # Errors
     /// [`DevicesError::Physics`], as [`move_to`](unripple_physics::VirtualSurface::move_to).
@@ -115,7 +116,7 @@ impl Handle {
         Ok(lock(&self.workings).surface.surface_mut().move_to(id, to)?)
     }
 
-    /// Lifts a finger.
+    /// Lifts the finger of this number.
     ///
     /// # Errors
     /// [`DevicesError::Physics`], as [`lift`](unripple_physics::VirtualSurface::lift).
@@ -123,7 +124,7 @@ impl Handle {
         Ok(lock(&self.workings).surface.surface_mut().lift(id)?)
     }
 
-    /// How a finger moves, and what it gets.
+    /// Displacement, velocity and force of a finger, in m, m/s and N; nothing of one that is not down.
     pub fn finger_motion(&self, id: u64) -> Option<FingerMotion> {
         lock(&self.workings).surface.surface().finger_motion(id)
     }

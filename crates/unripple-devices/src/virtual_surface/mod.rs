@@ -1,4 +1,4 @@
-//! The surface of the stepper as a device.
+//! The virtual surface as a device: it is computed in time, block by block.
 
 mod feeler;
 mod handle;

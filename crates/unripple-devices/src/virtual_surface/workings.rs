@@ -117,7 +117,7 @@ impl Workings {
         self.surface.lost() as u64
     }
 
-    /// One block; an error says why there is none any more.
+    /// Passes one block through converters, faults and surface; an error says why there is none any more.
     pub(super) fn exchange(
         &mut self,
         layout: &Layout,

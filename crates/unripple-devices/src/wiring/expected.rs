@@ -7,6 +7,7 @@ use unripple_core::{ModalResponses, Point, Surface, require};
 use unripple_physics::{Sensor, sensed, sensors};
 
 /// Decay times from burst to burst, the share of a burst's frequency whose decay counts, and the longest pause, in s.
+/// After five decay times an amplitude is at 0.7 %; half as many leave 8 % of one burst in the next.
 const PAUSE: f64 = 5.0;
 const LOW: f64 = 0.3;
 const LONGEST: f64 = 10.0;
@@ -20,7 +21,7 @@ impl WiringOptions {
     }
 }
 
-/// What a model says that each input hears of an impulse of drive at each output.
+/// The impulse response that a model gives from each output to each input.
 ///
 /// ```
 /// use unripple_devices::Expected;
@@ -117,22 +118,23 @@ impl Expected {
         Self { outputs, inputs, samples, data }
     }
 
-    /// Number of outputs.
+    /// Number of outputs, one for each actuator.
     pub fn outputs(&self) -> usize {
         self.outputs
     }
 
-    /// Number of inputs.
+    /// Number of inputs: sensors, then a probe if there is one.
     pub fn inputs(&self) -> usize {
         self.inputs
     }
 
-    /// Samples of each response.
+    /// Number of samples in each response.
     pub fn samples(&self) -> usize {
         self.samples
     }
 
-    /// What an input hears of an output; empty beyond them.
+    /// Impulse response from an output to an input, a value per sample in the input's unit per unit of drive and
+    /// second; empty beyond them.
     pub fn response(&self, output: usize, input: usize) -> &[f64] {
         let start = (output * self.inputs + input) * self.samples;
         self.data.get(start..start + self.samples).unwrap_or(&[])

@@ -5,11 +5,13 @@ use std::collections::HashMap;
 use unripple_core::Layout;
 use unripple_dsp::Convolver;
 
-/// A signal is heard where it exceeds the noise by this factor, or this share of the loudest channel.
+/// A channel counts as carrying a signal where it exceeds the noise by this factor (10 dB), and the loudest channel
+/// by this share (-40 dB). With half the factor noise alone may pass for a signal.
 const ABOVE_NOISE: f64 = 3.0;
 const ABOVE_OTHERS: f64 = 0.01;
 
-/// What an exchange of wires must at least add to the likeness of each recording it touches, on average.
+/// What an exchange of wires must at least add to the likeness of each recording it touches, on average. Without it
+/// noise would exchange channels that are nearly alike.
 const WORTH: f64 = 0.05;
 
 /// Which actuator each output leads to, and which sensor each input comes from.
@@ -77,7 +79,7 @@ impl<'a> Likeness<'a> {
         Self { takes, predicted, latency, silent_outputs, silent_inputs, known: HashMap::new() }
     }
 
-    /// Likeness of a recording to a prediction, -1 to 1; 0 where a channel is silent.
+    /// Likeness of a recording to a prediction, their normalised correlation, -1 to 1; 0 where a channel is silent.
     pub(super) fn of(&mut self, (output, input): (usize, usize), (actuator, sensor): (usize, usize)) -> f64 {
         if self.silent_outputs[output] || self.silent_inputs[input] {
             return 0.0;

@@ -1,4 +1,5 @@
-//! Which channel is silent, swapped or reversed: one actuator at a time is heard by all, and held against a model.
+//! Which channel is silent, swapped or reversed: one actuator plays at a time, all inputs record it, and the
+//! recordings are compared with a model.
 
 mod expected;
 mod likeness;
@@ -81,7 +82,8 @@ impl WiringOptions {
 
 /// Sends a burst through one output at a time, listens on all inputs, and says which actuator and sensor each wire leads to.
 ///
-/// Each recording r of output o and input i is held against each prediction p by its normalised correlation, at the one latency that
+/// Each recording r of output o and input i is compared with each prediction p by its normalised correlation, at the
+/// one latency that
 /// explains most of all; the wires are those whose sum of magnitudes is largest, found from the expected ones by exchanging
 /// two outputs, two inputs, or both of one name as long as that helps. Signs follow from the product of an output's and an
 /// input's. That all outputs and all inputs are reversed together cannot be heard.
@@ -152,7 +154,7 @@ pub fn check_responses(
     Ok(judged(&takes, &predicted, layout, options))
 }
 
-/// What recordings say of wires beside what was predicted of them.
+/// What recordings say of wires, compared with what was predicted of them.
 fn judged(takes: &Takes, predicted: &[Vec<f64>], layout: &Layout, options: &WiringOptions) -> WiringReport {
     let latency = likeness::latency(takes, predicted);
     let mut likeness = Likeness::new(takes, predicted, latency);

@@ -1,11 +1,13 @@
-//! Which wires contradict reciprocity: what actuators hear of each other tells it without any model of the surface.
+//! Which wires contradict reciprocity: responses between actuators show it without any model of the surface.
 
 use super::take::rms;
 
-/// Above this share of what is not reciprocal wires are suspected: noise at 20 dB leaves 0.14.
+/// Above this share of what is not reciprocal wires are suspected: noise at 20 dB leaves 0.14, and with half the
+/// limit recordings as noisy as that would be suspected.
 const SUSPECT: f64 = 0.3;
 
-/// What an exchange of wires must leave of that share, at most, to be what is wrong.
+/// What an exchange of wires must leave of that share, at most, to be named as the fault: one that leaves more
+/// explains less than half of it.
 const LEFT: f64 = 0.5;
 
 /// What reciprocity says of wires.
@@ -29,7 +31,7 @@ struct Heard<'a> {
 ///
 /// h_ab = h_ba up to one factor for each actuator, that of its drive over that of its sensor. Sensors that are swapped break this for
 /// all pairs they are in, an input that hears something else likewise; a reversed one shows in the signs. Whether an output or a sensor is
-/// at fault cannot be told, nor an actuator whose wires are both swapped with another's.
+/// at fault cannot be seen, nor an actuator whose wires are both swapped with another's.
 ///
 /// ```
 /// # let noise = |seed: u64| -> Vec<f64> {

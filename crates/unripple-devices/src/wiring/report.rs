@@ -18,7 +18,7 @@ pub struct Lead {
     pub instead: Option<String>,
     /// Likeness to what the model says of what it leads to, on average, 0 to 1.
     pub likeness: f64,
-    /// Whether that is too little to tell.
+    /// Whether that is too little for a verdict.
     pub unlike: bool,
 }
 
@@ -29,7 +29,7 @@ pub struct WiringReport {
     pub outputs: Vec<Lead>,
     /// The inputs, in the device's order.
     pub inputs: Vec<Lead>,
-    /// Latency of the round trip, in samples: off by what the model's places and celerities are off by, a sample or two.
+    /// Latency of the round trip, in samples: the model's errors of position and wave speed shift it by a sample or two.
     pub latency: usize,
 }
 
@@ -82,7 +82,8 @@ impl WiringReport {
     }
 }
 
-/// Channels with the same fault that are named one by one, and names that are told of more.
+/// Channels with the same fault that are named one by one, and names that are given of more: a report of a hundred
+/// channels stays a few lines long.
 const FEW: usize = 3;
 const NAMED: usize = 6;
 

@@ -7,7 +7,7 @@ use super::api::RawClient;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Addresses of the clients that are open.
+/// Addresses of the clients that are open, so that none is closed that the library has deleted.
 static ROLL: Mutex<Vec<usize>> = Mutex::new(Vec::new());
 
 /// Whether a server was gone since a client last joined.
