@@ -56,9 +56,9 @@ pub enum CalibrateError {
         "actuator `{actuator}`: expected {actuators} outputs of `{device}`, one by that name, found {count} ({outputs}); {mend}"
     )]
     Wire {
-        /// The actuator.
+        /// Name of the actuator.
         actuator: String,
-        /// The device.
+        /// Name of the device.
         device: String,
         /// Actuators that there are.
         actuators: usize,
@@ -66,15 +66,15 @@ pub enum CalibrateError {
         outputs: String,
         /// Outputs that there are.
         count: usize,
-        /// What helps.
+        /// What would help.
         mend: String,
     },
     /// A device lost blocks during a recording.
     #[error("device `{device}`: expected a recording without gaps, found {lost} blocks lost")]
     Gap {
-        /// The device.
+        /// Name of the device.
         device: String,
-        /// Blocks lost.
+        /// Number of blocks lost.
         lost: u64,
     },
     /// Whoever moves the probe or taps the surface could not.
@@ -82,7 +82,7 @@ pub enum CalibrateError {
     Rig {
         /// Index of the point.
         number: usize,
-        /// What happened.
+        /// What the rig reported.
         why: String,
     },
     /// What was measured could not be kept.
@@ -90,7 +90,7 @@ pub enum CalibrateError {
     Sink {
         /// Index of the point.
         number: usize,
-        /// What happened.
+        /// What the sink reported.
         why: String,
     },
     /// What was recorded is not what could be measured from.

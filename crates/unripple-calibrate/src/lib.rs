@@ -1,4 +1,5 @@
-//! Recordings to responses: measuring, interpolating, fitting a model, following drift.
+//! From recordings to responses: sweeps and deconvolution, kriging between points, model updating, a Kalman filter
+//! for drift.
 
 mod between;
 mod drift;

@@ -13,18 +13,20 @@ pub(crate) struct Bessel {
 }
 
 impl Bessel {
-    /// Tables for arguments up to `most`.
+    /// Tables for arguments from 0 up to `most`, without unit.
     pub fn up_to(most: f64) -> Self {
         let count = (most.max(0.0) * DENSITY).ceil() as usize + 2;
         Self { nodes: (0..count).map(|i| node(i as f64 / DENSITY)).collect() }
     }
 
-    /// J0(x), by magnitude of x; that of the last node beyond it.
+    /// J0(|x|), without unit: the covariance of isotropic waves of one wavenumber k at a distance r, x = kr. Beyond
+    /// the table, the value of its last node.
     pub fn ring(&self, x: f64) -> f64 {
         self.cubic(x, 0)
     }
 
-    /// 2 J1(x)/x, likewise.
+    /// 2 J1(|x|)/|x|, without unit: the covariance of isotropic waves of all wavenumbers up to k. Beyond the table,
+    /// the value of its last node.
     pub fn disc(&self, x: f64) -> f64 {
         self.cubic(x, 1)
     }

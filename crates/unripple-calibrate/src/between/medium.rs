@@ -7,7 +7,7 @@ use crate::CalibrateError;
 use std::f64::consts::TAU;
 use unripple_core::require;
 
-/// Stray waves have any wavenumber up to this multiple of the one told.
+/// The waves of the nugget have any wavenumber up to this multiple of the one given by the dispersion relation.
 const NUGGET: f64 = 1.5;
 
 /// Least power of the errors of a response over its own power: well above what the tables of covariances are off by.
@@ -18,19 +18,20 @@ const LEAST: f64 = 1e-6;
 pub(crate) struct SpectralLine {
     /// Wavenumber, in rad/m.
     pub k: f64,
-    /// Largest wavenumber of stray waves, in rad/m.
+    /// Largest wavenumber of the nugget's waves, in rad/m.
     pub stray_k: f64,
-    /// Share of the power in stray waves.
+    /// Share of the power in the nugget: waves of other wavenumbers.
     pub nugget: f64,
-    /// Power of the errors at one point, of its own alone, over that of the field.
+    /// Power of the errors at one point, independent of other points', over that of the field.
     pub error: f64,
-    /// What displaced points leave of the field, as a factor.
+    /// Factor by which errors of position weaken the field's covariance.
     pub kept: f64,
 }
 
 /// Waves of every frequency.
 #[derive(Clone, Debug)]
 pub(crate) struct Waves {
+    /// One for each bin of the spectra, frequencies ascending.
     pub lines: Vec<SpectralLine>,
     bessel: Bessel,
 }

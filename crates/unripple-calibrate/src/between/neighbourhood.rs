@@ -12,7 +12,7 @@ use unripple_linalg::Mat;
 #[derive(Debug)]
 pub(crate) struct Neighbourhood {
     points: Vec<Point>,
-    /// `[bin][point][actuator]`.
+    /// The factors, `[bin][point][actuator]`.
     solved: Vec<f64>,
 }
 
@@ -67,6 +67,7 @@ impl Neighbourhood {
 #[derive(Debug)]
 pub(crate) struct Patches {
     centres: Vec<Point>,
+    /// The neighbourhoods, each of points that overlap with the others'.
     pub neighbourhoods: Vec<Neighbourhood>,
 }
 
@@ -94,6 +95,7 @@ impl Patches {
         Ok(Self { centres, neighbourhoods })
     }
 
+    /// The neighbourhood whose middle is nearest to a place (m).
     pub fn around(&self, place: Point) -> Option<&Neighbourhood> {
         let nearest = (0..self.centres.len())
             .min_by(|a, b| self.centres[*a].distance(place).total_cmp(&self.centres[*b].distance(place)))?;

@@ -32,7 +32,7 @@ impl Interpolation {
 /// How responses between the points are made, and what is known of the errors of those at the points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BetweenOptions {
-    /// The way.
+    /// The way of interpolating.
     pub interpolation: Interpolation,
     /// Rms of the noise that adds to every response, over the rms of all responses; white up to half the sample rate.
     pub noise: f64,
@@ -40,8 +40,8 @@ pub struct BetweenOptions {
     pub gain_error: f64,
     /// Rms distance of the points from where they are said to be, in metres.
     pub position_error: f64,
-    /// Share of the power in waves of other wavenumbers than the one told: of edges, of unevenness, of the error of the
-    /// dispersion relation itself.
+    /// The nugget: share of the power in waves of other wavenumbers than the dispersion relation's, as edges,
+    /// unevenness and errors of that relation make them.
     pub nugget: f64,
     /// Top of what is kept over the top of the band, at least 1; a raised cosine ends it over the upper half of the excess.
     pub top: f64,

@@ -11,10 +11,12 @@ use crate::CalibrateError;
 use rayon::prelude::*;
 use unripple_core::{Point, SampledResponses};
 
-/// Frequencies that an error is worked out at; it is a smooth function of theirs.
+/// Frequencies that an error is worked out at, the others by straight lines between: it is smooth in frequency. Twice
+/// as many take twice as long and change it little.
 const NODES: usize = 32;
 
-/// Nearest points that an error is worked out from.
+/// Nearest points that an error is worked out from: those farther away hardly explain anything. The work grows as
+/// their cube.
 const WITNESSES: usize = 160;
 
 /// A plan that makes responses at any place from those at points.
@@ -122,7 +124,7 @@ impl<'r> Between<'r> {
         Ok(SampledResponses::new(self.responses.ports.clone(), places.to_vec(), conditions, samples, data)?)
     }
 
-    /// How far the responses at a place are expected to be off.
+    /// The kriging standard error: how far the responses at a place (m) are expected to be off, as powers and ratios.
     ///
     /// # Errors
     /// As [`Between::at`], and [`CalibrateError::Singular`].

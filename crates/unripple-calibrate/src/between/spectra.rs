@@ -10,7 +10,8 @@ use unripple_core::{SampledResponses, require};
 
 /// Turns responses into real spectra and back.
 ///
-/// A response is causal, so that the transform of its even part, a real number per frequency, tells all of it. Unlike the
+/// A response is causal, so that the transform of its even part, a real number per frequency, determines all of it.
+/// Unlike the
 /// response itself its even part has no step at the impulse and, taken over a period of twice its length, none at its end:
 /// what is left in a bin is waves of that frequency. It also is the part of the response without the near field
 /// of the actuator (the imaginary part of the field's Green function is J0, regular at the source; Weaver and Lobkis, J. Acoust.
@@ -54,7 +55,7 @@ impl Cosines {
         bins.iter_mut().zip(spectrum).for_each(|(bin, x)| *bin = x.re);
     }
 
-    /// The response whose even part has these first bins.
+    /// The response, as many samples as `response` has, whose even part has these first bins.
     pub fn response(&self, bins: impl Iterator<Item = f64>, response: &mut [f32]) {
         let mut spectrum = self.inverse.make_input_vec();
         spectrum.iter_mut().zip(bins).for_each(|(x, bin)| *x = Complex::new(bin, 0.0));
@@ -69,9 +70,11 @@ impl Cosines {
 /// The spectra of many responses, up to a top frequency.
 #[derive(Clone, Debug)]
 pub(crate) struct Spectra {
+    /// The transforms, forward and inverse.
     pub cosines: Cosines,
     /// Hz between bins.
     pub step: f64,
+    /// Number of actuators.
     pub actuators: usize,
     /// Even parts, `[bin][point][actuator]`.
     pub values: Vec<f64>,
@@ -116,6 +119,7 @@ impl Spectra {
         Ok(Self { cosines, step, actuators, values, powers, square })
     }
 
+    /// Number of bins from 0 Hz up to the top.
     pub fn bins(&self) -> usize {
         self.powers.len() / self.actuators
     }

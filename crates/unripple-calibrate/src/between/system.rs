@@ -16,7 +16,8 @@ pub(crate) struct System {
 }
 
 impl System {
-    /// `None` if it is singular.
+    /// Cholesky's factor for `points` points of these mutual distances (m, lower triangle row by row); `None` if the
+    /// matrix is singular.
     pub fn factor(waves: &Waves, line: &SpectralLine, distances: &[f64], points: usize) -> Option<Self> {
         let mut lower = Mat::zeros(points, points);
         let mut from = distances.iter();

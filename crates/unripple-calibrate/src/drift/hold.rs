@@ -7,7 +7,7 @@ use unripple_physics::sample;
 /// Holds the peak of a focus at one level while tension changes.
 ///
 /// A drive that just reaches its limit makes another peak under another tension. With a little headroom below the limit each
-/// drive can be scaled to the peak of the first one, which the responses of the moment tell: v(A, T) = Σ h·d.
+/// drive can be scaled to the peak of the first one, which follows from the responses of the moment: v(A, T) = Σ h·d.
 ///
 /// ```
 /// use unripple_calibrate::{Hold, Warp};

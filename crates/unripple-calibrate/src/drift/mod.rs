@@ -69,7 +69,7 @@ pub enum Drift {
     },
     /// No tension explains what was heard: time to calibrate again.
     Unexplained {
-        /// Tension over nominal as it was thought to be.
+        /// Tension over nominal as predicted.
         tension: f64,
         /// Residual over noise and model error at best.
         excess: f64,
@@ -79,7 +79,7 @@ pub enum Drift {
 }
 
 impl Drift {
-    /// Tension over nominal.
+    /// Tension over that at calibration, a ratio.
     pub fn tension(&self) -> f64 {
         match self {
             Self::Followed { tension, .. } | Self::Unexplained { tension, .. } => *tension,

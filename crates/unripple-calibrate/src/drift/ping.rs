@@ -7,7 +7,8 @@ use unripple_core::{ModalResponses, Outline, Point, require};
 use unripple_dsp::{Threshold, Weighting};
 use unripple_linalg::{Mat, times};
 
-/// Points looked at for each shortest wavelength.
+/// Points looked at for each shortest wavelength, along each axis: half a wave apart. Twice as many take four times
+/// as long and find the loudest place a little better.
 const DENSE: f64 = 2.0;
 
 /// Samples looked at for each period at the top of the band.
@@ -22,7 +23,8 @@ const OVER: f64 = 4.0;
 /// How a ping is made.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PingOptions {
-    /// Its band, as shares of the top of the responses' band. High frequencies are felt least and tell most.
+    /// Its band, as shares of the top of the responses' band. High frequencies are felt least and show a change of
+    /// tension most.
     pub band: [f64; 2],
     /// Its length, in s.
     pub length: f64,

@@ -10,12 +10,15 @@ const EVEN: f64 = 5e-3;
 /// The modes of a surface running under a tension that changes.
 #[derive(Clone, Debug)]
 pub(super) struct Sheet {
+    /// Decay rate and angular frequency of each mode at nominal tension.
     pub poles: Vec<Pole>,
+    /// Bending's share of each mode's elastic energy, 0 to 1.
     pub shares: Vec<f64>,
     /// Input weights, modes x channels.
     pub input: Mat<f64>,
     /// Weights of the sensors, modes x channels.
     pub sense: Mat<f64>,
+    /// Samples per second.
     pub rate: f64,
     /// Samples between two instants that are looked at, while nothing drives.
     pub stride: usize,
@@ -24,6 +27,7 @@ pub(super) struct Sheet {
 /// When sensors are looked at: at every sample while something drives, then at every few, at means over those around.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Instants {
+    /// Numbers of the samples, ascending.
     pub at: Vec<usize>,
     /// How many of them are single samples.
     pub single: usize,
@@ -55,22 +59,27 @@ impl Instants {
     }
 }
 
-/// Displacement and velocity of every mode.
+/// Modal coordinates: displacement and velocity of every mode.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Motion {
+    /// Displacement of each mode, in its modal unit.
     pub moved: Vec<f64>,
+    /// Velocity of each mode, in that unit per second.
     pub velocity: Vec<f64>,
 }
 
 /// Tension over a stretch of time: the ratio at its middle and its rate of change (1/s).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Course {
+    /// Tension over nominal at the middle, a ratio.
     pub middle: f64,
+    /// Its rate of change, in 1/s.
     pub rate: f64,
 }
 
 impl Sheet {
-    /// The instants that are looked at.
+    /// The instants of `samples` samples that are compared: all while `drive`, `[channel][sample]`, lasts, then one
+    /// of every `stride`.
     pub fn instants(&self, drive: &[Vec<f64>], samples: usize) -> Instants {
         let driven =
             drive.iter().filter_map(|d| d.iter().rposition(|x| *x != 0.0)).max().map_or(0, |n| n + 1);
@@ -95,7 +104,8 @@ impl Sheet {
         })
     }
 
-    /// What the sensors hear at some instants, as [`Instants::look`] has it, and the motion at the end.
+    /// What the sensors hear at some instants, as [`Instants::look`] has it, and the motion at the end. `drive` is
+    /// `[channel][sample]`; the answer's rows are instants, its columns channels, in the sensors' unit.
     pub fn run(
         &self,
         start: &Motion,

@@ -7,7 +7,8 @@ use crate::CalibrateError;
 use unripple_core::{ModalResponses, require};
 use unripple_linalg::{Mat, Scale, squared_norm};
 
-/// Tension's change by which slopes are taken.
+/// Change of the tension's ratio by which derivatives are taken: the highest modes turn by far less than a radian,
+/// and the change of a response still is far above rounding.
 const SMALL: f64 = 1e-5;
 
 /// Newton's steps of one estimate, and the change that ends them.
@@ -20,7 +21,7 @@ const GUESS: f64 = 1e-3;
 /// Follows tension while the surface is used.
 ///
 /// The drive that is sent anyway, whatever it is, makes the sheet sound, and the actuators hear it. The model run
-/// under a tension hears something else; the difference tells the tension, since every mode's frequency moves by its own share
+/// under a tension hears something else; the difference shows the tension, since every mode's frequency moves by its own share
 /// of it (the dispersion relation). Between observations tension goes on at the rate found so far (a Kalman filter for
 /// ratio and rate).
 ///
@@ -67,11 +68,11 @@ pub struct Tracker {
     state: [f64; 2],
     /// The ratio that counts as 1.
     zero: f64,
-    /// Their covariance.
+    /// Covariance of ratio and rate.
     spread: [[f64; 2]; 2],
 }
 
-/// One observation.
+/// One observation, as the estimate needs it.
 struct Heard<'a> {
     drive: &'a [Vec<f64>],
     samples: usize,
@@ -148,7 +149,7 @@ impl Tracker {
     /// The same, what it says of a surface that has just been calibrated (see [`Tracker::tension`]) counting as 1 from now on.
     ///
     /// A model that is fitted puts the modes that a focus moves a little off, which looks like some 1e-4 of tension, as much under
-    /// any tension. A few foci observed right after calibrating tell how much.
+    /// any tension. A few foci observed right after calibrating show how much.
     ///
     /// # Errors
     /// [`CalibrateError::Range`] for a ratio that is not positive.
@@ -250,7 +251,7 @@ impl Tracker {
         Ok(samples)
     }
 
-    /// The course of tension over a stretch that agrees best with what was heard and with what was thought before, by Newton's
+    /// The course of tension over a stretch that agrees best with what was heard and with the prediction, by Newton's
     /// method from a guess of its middle.
     fn estimate(&self, heard: &Heard, guess: f64) -> Estimate {
         let mut course = Course { middle: guess, rate: self.state[1] };

@@ -13,10 +13,12 @@ use unripple_physics::{Entry, Footprint, Medium, Modes, Transducer, sensors, tra
 /// Half the distance over which slopes are taken, in metres: of a wave of 1000 rad/m, to 2e-7.
 const STEP: f64 = 1e-6;
 
-/// The nominal modes, and what other tensions are to them.
+/// The nominal modes as a Ritz basis, with the stiffness of other tensions in their coordinates.
 #[derive(Debug)]
 pub(super) struct Basis {
+    /// The nominal modes, mass-normalised.
     pub modes: Arc<Modes>,
+    /// Tension, bending stiffness and mass per area of the nominal sheet.
     pub medium: Medium,
     /// Squares of the nominal frequencies, (rad/s)².
     pub squares: Vec<f64>,
@@ -32,6 +34,7 @@ pub(super) struct Basis {
     pub transducers: Vec<(Transducer, Point)>,
     /// Those of them that are coils on a voltage with an inductance.
     pub coils: Vec<Option<Coil>>,
+    /// The rim of the sheet.
     pub outline: Outline,
 }
 

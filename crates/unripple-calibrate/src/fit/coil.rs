@@ -29,7 +29,7 @@ impl Coil {
         })
     }
 
-    /// 1/(1 + τs).
+    /// The low-pass 1/(1 + τs) of the circuit, without unit, at a complex frequency s (1/s).
     pub fn lag(&self, s: c64) -> c64 {
         (s * self.time + 1.0).inv()
     }

@@ -13,21 +13,23 @@ use unripple_core::{Conditions, ModalResponses, Point, Port, Responses, Surface}
 use unripple_linalg::{Mat, Scale};
 use unripple_physics::Medium;
 
-/// The share of what was measured that neither model nor noise explains from which a model is doubted.
+/// The share of what was measured that neither model nor noise explains from which a model is called doubtful: a
+/// tenth, as amplitude.
 const DOUBTED: f64 = 0.1;
 
-/// How many spreads an unknown may be from what was expected.
+/// How many spreads an unknown may be from what was expected. Of values drawn from a normal distribution one in 16
+/// 000 lies farther.
 const FAR: f64 = 4.0;
 
-/// How many spreads a mass may be below none.
+/// How many spreads a mass may be below none. Less than that is what noise makes of a mass of 0.
 const NEGATIVE: f64 = 0.2;
 
 /// A value and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// The value.
+    /// The value found, in SI.
     pub value: f64,
-    /// Its standard error: as large as noise and residual make it if the model is right, and no larger than what was thought before.
+    /// Its standard error: as large as noise and residual make it if the model is right, and no larger than its prior.
     pub error: f64,
 }
 
@@ -62,7 +64,8 @@ pub enum Verdict {
 
 /// A model fitted to what was measured, with responses anywhere.
 ///
-/// The mass per area is that of the nominal surface: only tension, bending stiffness and loads over it can be told from responses,
+/// The mass per area is that of the nominal surface: only tension, bending stiffness and loads over it can be found
+/// from responses,
 /// the mass itself only together with all gains.
 #[derive(Clone, Debug)]
 pub struct Fitted {
@@ -281,7 +284,8 @@ impl Fitted {
         self.coils.get(actuator).and_then(Option::as_ref)
     }
 
-    /// The same model with all responses multiplied by a gain: in the scale of a probe that is not the sensors'.
+    /// The same model with all responses multiplied by a gain, a ratio: in the scale of a probe that is not the
+    /// sensors'.
     #[must_use]
     pub fn scaled(mut self, gain: f64) -> Self {
         let reached = self.reached.as_mut().map(|reached| &mut reached.responses);
@@ -317,7 +321,7 @@ impl Fitted {
         Tracker::with_sensors(&self.responses, &self.bending_shares, &self.sensors, &options)
     }
 
-    /// Where a stray mass was found.
+    /// Places (m) of the stray masses that were found.
     pub fn stray_places(&self) -> Vec<Point> {
         self.strays.iter().map(|s| Point::new(s.at[0].value, s.at[1].value)).collect()
     }

@@ -8,12 +8,15 @@ use std::f64::consts::TAU;
 use unripple_core::Shapes;
 use unripple_linalg::{Accum, Lu, Mat, MatRef, Par, c64, multiply, times};
 
-/// Frequencies to one task.
+/// Frequencies that one task of the thread pool works on: enough for its set-up, few enough that no thread waits long
+/// for another at the end.
 const CHUNK: usize = 8;
 
-/// Velocity at every place per force at every place at one complex frequency, with its derivatives by the unknowns.
+/// The admittance (velocity at every place per force at every place, places x places, in m/s/N) at one complex
+/// frequency, with its derivatives by the unknowns.
 #[derive(Clone, Debug)]
 pub(super) struct Answer {
+    /// Places x places, in m/s/N.
     pub admittance: Mat<c64>,
     /// One for each unknown that the sheet's responses depend on, in their order.
     pub derivatives: Vec<Mat<c64>>,
@@ -92,7 +95,7 @@ impl System {
 
     /// The admittances at complex frequencies (1/s).
     ///
-    /// With Y₀ that of the sheet alone and Z what hangs on it, Y = Y₀ G, G = (1 + Z Y₀)⁻¹ (Woodbury).
+    /// With Y₀ that of the sheet alone and Z the impedance of the loads, Y = Y₀ G, G = (1 + Z Y₀)⁻¹ (Woodbury).
     pub fn admittances(&self, frequencies: &[c64]) -> Vec<Mat<c64>> {
         frequencies.par_iter().map(|s| self.point(*s).admittance).collect()
     }

@@ -5,9 +5,11 @@ use unripple_core::Point;
 /// Frequencies of the damping law's knots, as shares of the band's top.
 pub(super) const KNOTS: [f64; 5] = [0.0625, 0.125, 0.25, 0.5, 1.0];
 
-/// How far values are thought to be from nominal ones, one standard deviation: logarithm of tension, of bending stiffness, share
-/// of anisotropy, share of each term of the profile at one half wave, logarithm of decay rates, metres, logarithm of gains, kg,
-/// N·s/m, the logarithm of what all sensors have in common, seconds by which responses came late.
+/// Priors: how far values are expected to be from nominal ones, one standard deviation each. In order: logarithm of
+/// tension, of bending stiffness, share of anisotropy, share of each term of the profile at one half wave, logarithm
+/// of decay rates, metres, logarithm of gains, kg, N·s/m, metres of a stray, the logarithm of what all sensors have
+/// in common, seconds by which responses came late. Twice as much leaves an unknown freer by that, half as much holds
+/// it nearer to the surface file.
 const TENSION: f64 = 0.1;
 const BENDING: f64 = 0.1;
 const SKEW: f64 = 0.02;
@@ -24,13 +26,15 @@ const LATE: f64 = 2e-5;
 /// What the unknowns are, and where each stands in their vector.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Layout {
+    /// Number of actuators.
     pub actuators: usize,
     /// Half waves of each term of the profile.
     pub waves: Vec<[u32; 2]>,
+    /// Number of stray masses.
     pub strays: usize,
 }
 
-/// One unknown.
+/// One unknown of the fit, by its kind and its number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Unknown {
     Tension,
@@ -53,16 +57,23 @@ pub(super) enum Unknown {
 pub(super) struct Values {
     /// Logarithm of the tension's ratio to nominal.
     pub tension: f64,
+    /// Logarithm of the bending stiffness's ratio to nominal.
     pub bending: f64,
+    /// Half the difference of the tensions along x and y, over their mean.
     pub skew: f64,
+    /// Each term of the tension's profile, as a share of the mean.
     pub profile: Vec<f64>,
     /// Logarithm of the decay rate (1/s) at each knot.
     pub knots: Vec<f64>,
     /// The actuators' places, then the strays'.
     pub places: Vec<Point>,
+    /// Mass at each place, in kg.
     pub masses: Vec<f64>,
+    /// Damping to the ground at each place, in N·s/m.
     pub resistances: Vec<f64>,
+    /// Logarithm of each actuator's gain as a drive.
     pub drive: Vec<f64>,
+    /// Logarithm of each actuator's gain as a sensor.
     pub sense: Vec<f64>,
     /// Logarithm of a gain of all sensors.
     pub level: f64,
@@ -71,7 +82,7 @@ pub(super) struct Values {
 }
 
 impl Layout {
-    /// Actuators and strays: all that may carry a load.
+    /// Number of actuators and strays: all that may carry a load.
     pub fn loaded(&self) -> usize {
         self.actuators + self.strays
     }
@@ -92,7 +103,8 @@ impl Layout {
         all
     }
 
-    /// How far an unknown is thought to be from its nominal value.
+    /// The prior of an unknown: how far it is expected to be from its nominal value, one standard deviation, in its
+    /// own unit.
     pub fn spread(&self, unknown: Unknown) -> f64 {
         match unknown {
             Unknown::Tension => TENSION,

@@ -11,13 +11,16 @@ use unripple_core::{Point, Pole, Shapes};
 use unripple_linalg::{Cholesky, ColRef, Mat, solve_lower_alone, times};
 use unripple_physics::Modes;
 
-/// The modes of a fitted sheet with all that hangs on it.
+/// The modes of a fitted sheet with all its loads: masses, dampers and coils.
 #[derive(Clone, Debug)]
 pub(super) struct LoadedModes {
+    /// Decay rate (1/s) and damped angular frequency (rad/s) of each mode.
     pub poles: Vec<Pole>,
+    /// Bending's share of each mode's elastic energy, 0 to 1.
     pub bending_shares: Vec<f64>,
     /// Weights of the actuators, actuators x modes.
     pub weights: Mat<f64>,
+    /// Their shapes, mass-normalised, anywhere on the sheet.
     pub shapes: Arc<dyn Shapes>,
 }
 

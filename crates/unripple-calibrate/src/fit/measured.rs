@@ -34,7 +34,7 @@ pub struct Pairs {
 /// A tap at a known place, heard by every actuator. The force's shape and strength are unknown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tap {
-    /// Where.
+    /// Where the tap was, in m.
     pub at: Point,
     /// The sensor signal of each actuator, all of one length, the tap somewhere near the beginning.
     pub heard: Vec<Vec<f64>>,
@@ -112,7 +112,7 @@ impl Measured {
         self
     }
 
-    /// Taps alone.
+    /// Taps alone, as many as there are, recorded at `rate` samples per second.
     pub fn taps(rate: f64, taps: Vec<Tap>) -> Self {
         Self { rate, pairs: None, taps }
     }

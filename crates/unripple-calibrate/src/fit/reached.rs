@@ -17,10 +17,12 @@ const FASTEST: f64 = 0.45;
 pub(super) struct Reached {
     /// All modes that can be sampled: of those above the measurement's band is heard what they give way.
     pub responses: ModalResponses,
+    /// The band of the measurement.
     pub band: Band,
 }
 
 impl Reached {
+    /// The model through a band, as far above the surface's own as that reaches.
     pub fn of(model: &ModalResponses, band: Band) -> Self {
         let most = TAU * FASTEST * model.conditions.rate;
         let kept: Vec<usize> = (0..model.poles.len()).filter(|m| model.poles[*m].omega < most).collect();

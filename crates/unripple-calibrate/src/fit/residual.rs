@@ -13,6 +13,7 @@ use unripple_linalg::{Mat, c64};
 /// Model less measurement, in standard deviations of the noise, and its derivatives by the unknowns in units of their spreads.
 #[derive(Clone, Debug)]
 pub(super) struct Residual {
+    /// Model less measurement, whitened: in standard deviations of the noise.
     pub values: Vec<f64>,
     /// Rows by unknowns; empty unless asked for.
     pub slopes: Mat<f64>,
@@ -26,11 +27,14 @@ pub(super) struct Residual {
     pub belongs: Vec<[usize; 2]>,
 }
 
-/// What a residual is made of.
+/// What a residual is made of: the basis, the unknowns, the measured spectra.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Case<'a> {
+    /// The nominal modes.
     pub basis: &'a Basis,
+    /// What is unknown, and in which order.
     pub layout: &'a Layout,
+    /// What was measured.
     pub spectra: &'a Spectra,
     /// Number of nominal modes used.
     pub count: usize,
@@ -39,6 +43,7 @@ pub(super) struct Case<'a> {
 }
 
 impl Case<'_> {
+    /// The coupled equations of sheet and loads at some values of the unknowns.
     pub fn system(&self, values: &Values) -> Result<System, CalibrateError> {
         System::new(self.basis, self.layout, values, &self.spectra.places, (self.count, self.top))
     }
@@ -84,6 +89,7 @@ impl Case<'_> {
         columns(&self.blocks(values, answers, unknowns), unknowns.len())
     }
 
+    /// The rows of every response and every tap, with derivatives where unknowns are given.
     pub fn blocks(&self, values: &Values, answers: &[Answer], unknowns: &[Unknown]) -> Vec<Block> {
         let (pairs, taps) = (self.spectra.pairs.len(), self.spectra.taps.len());
         (0..pairs + taps)

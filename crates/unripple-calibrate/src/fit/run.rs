@@ -57,7 +57,7 @@ const WORTH: f64 = 0.85;
 /// and gains of the actuators, and a few stray masses wherever they lie; each is held to its nominal value as weakly as such
 /// values are known. Spectra are compared from low to high frequencies, so that a mode's frequency is known to within its line's
 /// width before its phase matters (Gauss-Newton steps, damped as by Levenberg-Marquardt). Another
-/// tension turns the nominal modes into combinations of each other; what hangs on the sheet adds to it by Woodbury's identity.
+/// tension turns the nominal modes into combinations of each other; loads on the sheet add to it by Woodbury's identity.
 ///
 /// # Errors
 /// [`CalibrateError::Count`] and [`CalibrateError::Range`] for measurements or options that cannot be,
@@ -139,7 +139,7 @@ impl Fit<'_> {
         let mut best: Option<(f64, Self)> = None;
         for start in &starts {
             let mut fit = self.clone();
-            // What gains are is no longer a matter of what was thought before.
+            // From here on gains are held to those of the start, no longer to the surface file's.
             (fit.expected.level, fit.expected.drive) = (start.level, start.drive.clone());
             (fit.expected.sense, fit.values) = (start.sense.clone(), start.clone());
             let mut left = f64::INFINITY;

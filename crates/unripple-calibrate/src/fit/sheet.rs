@@ -6,7 +6,7 @@ use crate::CalibrateError;
 use std::f64::consts::TAU;
 use unripple_linalg::{Mat, symmetric};
 
-/// The sheet of some values, without what hangs on it: its modes as combinations of the nominal ones.
+/// The bare sheet at some values of the unknowns, without loads: its modes as combinations of the nominal ones.
 #[derive(Clone, Debug)]
 pub(super) struct Sheet {
     /// Squares of the frequencies, (rad/s)².
@@ -17,6 +17,7 @@ pub(super) struct Sheet {
     pub turn: Mat<f64>,
     /// Stiffness of all tension, and of bending, by the nominal modes.
     pub tension: Mat<f64>,
+    /// Stiffness of bending, modes x modes, in (rad/s)².
     pub bending: Mat<f64>,
 }
 

@@ -29,19 +29,21 @@ const STUCK: f64 = 1e6;
 /// Values that fit, and how well.
 #[derive(Clone, Debug)]
 pub(super) struct Found {
+    /// The values of the unknowns.
     pub values: Values,
     /// Residual over noise: the root of chi squared per degree of freedom.
     pub excess: f64,
     /// Residual over what was measured.
     pub share: f64,
+    /// What is left at these values.
     pub residual: Residual,
 }
 
 impl Case<'_> {
-    /// The values that fit best, by the Levenberg-Marquardt method, each unknown held to what it is thought to be.
+    /// The values that fit best, by the Levenberg-Marquardt method, each unknown held to its prior.
     ///
     /// Where the residual stays above the noise, the noise counts as that much larger, so that a wrong model does not overrule
-    /// what is thought.
+    /// the priors.
     pub fn descend(&self, start: &Values, expected: &Values, last: bool) -> Result<Found, CalibrateError> {
         let most = if last { LAST_STEPS } else { STEPS };
         let mut values = start.clone();
@@ -78,7 +80,7 @@ impl Case<'_> {
         Ok(Found { values, excess, share, residual })
     }
 
-    /// Residual over noise.
+    /// Residual over noise, a ratio: the root of chi squared per degree of freedom.
     pub fn excess(&self, residual: &Residual) -> f64 {
         let free = (residual.data - self.layout.unknowns().len() as f64).max(1.0);
         (square(&residual.values) / free).sqrt()
@@ -104,14 +106,14 @@ impl Case<'_> {
     /// 817, 1980, by groups). What a wrong model leaves is not white, and is alike in all responses at one frequency. The largest
     /// counts.
     pub fn variances(&self, found: &Found) -> Result<Vec<f64>, CalibrateError> {
-        // What is left tells the noise better than what was said of it.
+        // The residual is a better estimate of the noise than what the caller said of it.
         let excess = found.excess.max(LEAST) * self.spectra.overlap.sqrt();
         let unknowns = found.residual.slopes.ncols();
         let (system, _) = self.normal(&found.residual, &vec![0.0; unknowns], excess);
         let inverse = Cholesky::new(system.as_ref()).ok_or_else(singular)?.inverse();
         let apart = [0, 1].map(|way| pulled_apart(&found.residual, way, &inverse, excess));
         let variance = |u: usize| {
-            // What was thought before has its own share in what groups say.
+            // The priors have their own share in these sums.
             let held: f64 = (0..unknowns).map(|v| inverse[(u, v)].powi(2)).sum();
             inverse[(u, u)].max(apart[0][u] + held).max(apart[1][u] + held).min(1.0)
         };

@@ -12,7 +12,8 @@ const BENDING: (f64, f64) = (0.3, 0.3);
 /// The same for a plate, which stiffness alone brings back.
 const PLATE: (f64, f64) = (0.48, 0.03);
 
-/// Starts that are followed.
+/// Starts that are followed: neighbours of the best, where a tension and a stiffness explain the lowest modes about
+/// as well. Each costs a descent.
 const FOLLOWED: usize = 3;
 
 /// A start is worth following if it leaves at most so many times what the best leaves.

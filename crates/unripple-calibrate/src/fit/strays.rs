@@ -14,7 +14,7 @@ const TRIED: [f64; 3] = [3e-6, 10e-6, 30e-6];
 /// Places tried for each shortest wavelength of the band looked at.
 const DENSE: f64 = 6.0;
 
-/// Places worked on at once.
+/// Places worked on at once, which bounds memory: places x responses x frequencies.
 const BATCH: usize = 128;
 
 impl Case<'_> {

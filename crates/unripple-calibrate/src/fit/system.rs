@@ -19,22 +19,30 @@ const FINEST: f64 = 1e-4;
 /// share of its elastic energy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rest {
+    /// Squared weight at the load, in 1/kg.
     pub weight: f64,
+    /// Squared angular frequency, in (rad/s)².
     pub square: f64,
+    /// Bending's share of its elastic energy, 0 to 1.
     pub bending_share: f64,
 }
 
 /// A sheet with places on it and what hangs there.
 #[derive(Clone, Debug)]
 pub(super) struct System {
+    /// The bare sheet at these values.
     pub sheet: Sheet,
+    /// What is unknown, and in which order.
     pub layout: Layout,
     /// Shapes at the places, modes x places: actuators, strays, then taps.
     pub shapes: Mat<f64>,
     /// Their slopes along x and y, for actuators and strays.
     pub slopes: [Mat<f64>; 2],
+    /// Residual flexibility: the modes that are left out, as one more.
     pub rest: Rest,
+    /// Mass at each actuator and stray, in kg.
     pub masses: Vec<f64>,
+    /// Damping to the ground at each of them, in N·s/m.
     pub resistances: Vec<f64>,
     /// Circuits of those of them that have one.
     pub coils: Vec<Option<Coil>>,
@@ -90,7 +98,7 @@ impl System {
         })
     }
 
-    /// Number of places.
+    /// Number of places: actuators, strays, taps.
     pub fn places(&self) -> usize {
         self.shapes.ncols()
     }

@@ -1,4 +1,4 @@
-//! What a take tells of itself beside the responses.
+//! What a recording shows besides the responses: clock error, lost samples, change of tension, knocks, harmonics.
 
 /// Samples that were lost, or repeated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,8 +24,8 @@ pub struct Knocked {
     pub left_out: bool,
 }
 
-/// What the sweeps of a take tell of its clock, its gaps, the sheet's tension and what else was heard. `None` is not known:
-/// nothing that could tell was recorded.
+/// What the sweeps of a take show of its clock, its gaps, the sheet's tension and other sounds. `None` is not known:
+/// nothing that shows it was recorded.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Account {
     /// By how much the clock of the recording is quicker than that of what is played, in millionths; taken out.
@@ -43,15 +43,15 @@ pub struct Account {
     pub drift: Option<[f64; 2]>,
     /// Whether it is stiffness that `drift` speaks of.
     pub of_stiffness: bool,
-    /// What knocked.
+    /// The knocks that were found, in order of time.
     pub knocks: Vec<Knocked>,
     /// Largest magnitude that was heard, in the device's unit: 1 is full scale.
     pub peak: f64,
-    /// Second and third harmonic of each actuator, as a share of the amplitude; NaN where none was told apart.
+    /// Second and third harmonic of each actuator, as a share of the amplitude; NaN where none stands out of the noise.
     pub harmonics: Vec<[f64; 2]>,
     /// Sweeps that sensors heard otherwise than in the first take, where neither noise nor a knock is why, and all sweeps; if they are many.
     pub unlike: Option<[usize; 2]>,
-    /// What further takes of the same place tell of clock, time and tension, in their order; the first is told above.
+    /// The same of further takes of the same place, in their order; the fields above are the first's.
     pub repeats: Vec<Account>,
 }
 
@@ -61,7 +61,7 @@ const SAME_PPM: f64 = 0.5;
 /// Neither is a change of tension below this share.
 const SAME_TENSION: f64 = 1e-4;
 
-/// Nor a delay below this many samples.
+/// Nor is a delay below this many samples, a third of a degree of the phase at 1 kHz for a rate of 48 kHz.
 const SAME_TIME: f64 = 0.05;
 
 /// Share of the amplitude from which a harmonic is worth a word.
@@ -125,7 +125,7 @@ impl Account {
         said
     }
 
-    /// The harmonics that are worth a word, over all actuators that any was told of.
+    /// The harmonics that are worth a word, over all actuators for which any was found.
     fn distorted(&self) -> Option<String> {
         let rms = |order: usize| {
             let told: Vec<f64> = self.harmonics.iter().map(|h| h[order]).filter(|h| h.is_finite()).collect();

@@ -136,7 +136,8 @@ impl<'a> Pairs<'a> {
         moved.iter().zip(&self.found[pair]).map(|(known, found)| found * known.conj()).collect()
     }
 
-    /// Which of the pairs, in their order without silent ones, are less alike than so when what sets all of them apart is taken out.
+    /// Which of the pairs, in their order without silent ones, are less alike than so when what sets all of them
+    /// apart is taken out. `least` is a likeness, -1 to 1.
     pub fn strange(&self, apart: &Apart, least: f64) -> Vec<bool> {
         let count = self.known.len() as f64;
         let likeness = |pair: usize| count * self.read(&self.crossed(pair, apart.change), apart.late);

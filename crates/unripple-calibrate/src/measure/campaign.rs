@@ -1,4 +1,4 @@
-//! All points of a plan measured one by one, into a sink that can be taken up again.
+//! All points of a plan measured one by one, into a sink from which a later run can resume.
 
 use super::{Channel, Listen, Rig, Session, TapSession};
 use crate::CalibrateError;

@@ -13,7 +13,7 @@ pub struct Channel {
     pub quality: Vec<Quality>,
     /// How good each is in each third of an octave, `[actuator][band]`, bands ascending.
     pub bands: Vec<Vec<BandQuality>>,
-    /// What the take tells of itself.
+    /// What the take showed besides: clock, gaps, drift, knocks.
     pub account: Account,
 }
 
@@ -60,7 +60,8 @@ pub(super) struct Noise {
 }
 
 impl Noise {
-    /// Of a whole deconvolution, limited to a band, whose first response has its time 0 at `lead`.
+    /// Of a whole deconvolution, limited to a band, whose first response has its time 0 at `lead`. `lead` is in
+    /// samples.
     pub fn of(deconvolved: &[f64], sweep: &Sweep, lead: usize, band: Band) -> Self {
         let second = sweep.lead(2) * sweep.rate;
         let [from, to] = QUIET.map(|share| (share * second).round() as i64);

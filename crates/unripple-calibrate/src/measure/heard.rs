@@ -1,4 +1,4 @@
-//! From what was heard to responses and their quality.
+//! From recordings to responses and their quality: deconvolution, cutting, averaging.
 
 use super::channel::{Noise, by_bands, mean_square, thirds};
 use super::knock::Sweeps;
@@ -159,7 +159,7 @@ impl Session {
         self.options.settle_time / 5.0
     }
 
-    /// Harmonics as shares of the drive's amplitude, from the second, where they are told from noise.
+    /// Harmonics as shares of the drive's amplitude, from the second, where they stand out of the noise.
     fn harmonics(&self, whole: &[f64], actuator: usize, noise: &Noise) -> Vec<Option<f64>> {
         if self.options.highest_order < 2 {
             return Vec::new();

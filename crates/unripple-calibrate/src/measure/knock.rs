@@ -10,17 +10,19 @@ const FRAME: f64 = 0.0213;
 /// dB above what the sweeps explain, in half of all lines, from which a frame holds something else. White noise scatters by 1.5 dB.
 const STANDS_OUT: f64 = 8.0;
 
-/// Share of all frames above which it is not short: noise, or a surface that rings longer than it is told.
+/// Share of all frames above which it is not short: noise, or a surface that rings longer than its file says.
 const MOST: f64 = 0.25;
 
-/// Quantile of the power of a line over time that noise is told by, and what the mean of noise is of it.
+/// Quantile of the power of a line over time that noise is estimated by, and the factor from it to the mean power of
+/// noise.
 const QUIETEST: (f64, f64) = (0.3, 1.0 / 0.357);
 
 /// Power below which nothing counts, as a share of the most there is in any line: a knock that matters is 30 dB above it, and
 /// what a frame's window lets through from other lines is below it.
 const FLOOR: f64 = 1e-5;
 
-/// Frames without anything between two knocks.
+/// Frames without anything that separate two knocks: 43 ms, since frames overlap by half. With fewer, a bounce counts
+/// as a knock of its own.
 const APART: usize = 4;
 
 /// Something that was heard and not played.
@@ -34,12 +36,15 @@ pub(super) struct Knock {
 
 /// When sweeps pass which frequency.
 pub(super) struct Sweeps<'a> {
+    /// The sweep that every actuator plays.
     pub sweep: &'a Sweep,
+    /// First sample of each actuator's sweep.
     pub starts: &'a [usize],
     /// Samples by which all that is heard comes late.
     pub latency: f64,
     /// Slowest amplitude decay, in s.
     pub decay: f64,
+    /// The band in which responses are measured.
     pub band: Band,
 }
 

@@ -10,7 +10,7 @@ use unripple_dsp::DspError;
 use unripple_linalg::c64;
 use unripple_physics::Sensor;
 
-/// Actuators that are looked at, at most.
+/// Actuators that are looked at, at most: the median of a dozen is sure enough, and the work grows with their square.
 const ACTUATORS: usize = 12;
 
 /// Tones in a part of the band with its edges, about, and the fewest that are looked for.
@@ -97,7 +97,7 @@ pub fn latency(
         let own = if said.is_empty() { 0.0 } else { delay(&said, actuators, &cells, rate, most)?.0 };
         Some(late - own)
     };
-    // Where too little rings to tell more, what was found first stands.
+    // Where too little rings for a finer estimate, the first one stands.
     let Some(late) = of(&whole) else { return Ok([coarse, disagreement(&delays)]) };
     let mut alone: Vec<f64> = whole.iter().filter_map(|a| of(&[*a])).collect();
     alone.sort_unstable_by(f64::total_cmp);
@@ -135,7 +135,7 @@ fn roughly(
                 delays.push(delay.samples);
                 signs[b] = if delay.inverted && away == 0 { -1.0 } else { 1.0 };
             }
-            // One that is silent tells nothing; others may.
+            // A silent one gives no estimate; others may.
             Err(_) => signs[b] = 0.0,
         }
     }
@@ -150,7 +150,7 @@ fn roughly(
     Ok((delays, signs))
 }
 
-/// Parts of the band, each with about as many tones as can be told apart at once, and how many the model has there with its edges.
+/// Parts of the band, each with about as many tones as can be resolved at once, and how many the model has there with its edges.
 fn parts(model: &Hearing, band: Band) -> Vec<(Part, usize)> {
     let mut known: Vec<[f64; 2]> = model.tones().filter(|[hz, _]| *hz > 0.0).collect();
     known.dedup_by(|a, b| (a[0] - b[0]).abs() < 1e-9 * b[0]);

@@ -37,9 +37,9 @@ pub struct MeasureOptions {
     pub latency: f64,
     /// Seconds by which the probe alone hears later than the sensors do; `None` to find it.
     pub probe_delay: Option<f64>,
-    /// Whether what is measured is held against a model of the surface.
+    /// Whether what is measured is compared with a model of the surface.
     pub model: bool,
-    /// Actuators that are left out, since they are dead: what is heard of them is not judged.
+    /// Actuators that are left out, since they are dead: their responses are not checked.
     pub without: Vec<usize>,
 }
 
@@ -75,11 +75,12 @@ const LOWEST: f64 = 2.0;
 /// Most repeats that anybody is advised to make.
 const MOST_REPEATS: f64 = 99.0;
 
-/// Longest response that is kept, in s.
+/// Longest response that is kept, in s: it bounds memory, and no sheet rings that long.
 const MOST_KEPT: f64 = 60.0;
 
 impl MeasureOptions {
-    /// What suits a surface that is thought to be like a model: sweep, ringing and response in proportion to the slowest decay in
+    /// What suits a surface that is expected to be like a model: sweep, ringing and response in proportion to the
+    /// slowest decay in
     /// the band, and those of [`MeasureOptions::default`] up to 70 ms. The sweep begins below the lowest mode, at 60 Hz at the highest.
     ///
     /// The next sweep's response begins when e⁻⁵ is left of the last, and the second harmonic comes before the linear response by 1.4
@@ -95,7 +96,7 @@ impl MeasureOptions {
         Self { sweep, start_hz: from, settle_time: ringing, response_length: kept, ..usual }
     }
 
-    /// What is too short for a surface that is thought to be like a model, a sentence each.
+    /// What is too short for a surface that is expected to be like a model, a sentence each.
     pub fn warnings(&self, model: &ModalResponses) -> Vec<String> {
         let suited = Self::for_model(model);
         let decay = 1e3 * slowest_decay(model, self.start_hz);
@@ -220,7 +221,7 @@ impl MeasureOptions {
         ((self.settle_time * rate).round() as usize).max(self.samples(rate))
     }
 
-    /// Samples kept of a response.
+    /// Number of samples kept of a response, at `rate` samples per second.
     pub fn samples(&self, rate: f64) -> usize {
         (self.response_length * rate).round() as usize + 1
     }

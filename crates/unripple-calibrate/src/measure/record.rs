@@ -3,7 +3,7 @@
 use crate::CalibrateError;
 use unripple_core::Device;
 
-/// Blocks of silence before a recording.
+/// Blocks of silence before a recording: a device that counts what was missed in a pause does so by then.
 pub const SILENCE: usize = 8;
 
 /// Plays signals on some outputs of a device and returns what some inputs hear meanwhile.

@@ -17,14 +17,15 @@ pub(super) const LEAD: usize = 240;
 /// Signal over noise, in dB, of all that a sensor heard of a take, above which noise does not make it unlike itself.
 const CLEAR_DB: f64 = 15.0;
 
-/// Sensors that tell of clock, gaps and tension, at most: more tell the same.
+/// Sensors that clock, gaps and tension are found from, at most: more give the same and take longer.
 const TELLING: usize = 8;
 
 /// A plan for measuring at any number of places, with all actuators driven one after the other.
 ///
 /// Sweeps overlap: the next actuator begins while the last still sounds, as soon as their responses, and harmonics up to
 /// [`MeasureOptions::highest_order`], stay apart after one deconvolution of all. Where actuators have sensors, these are heard
-/// in every take: what they tell of clock, gaps and tension is taken out of what is measured ([`Account`](super::Account)).
+/// in every take: errors of clock, gaps and changes of tension found from them are taken out of what is measured
+/// ([`Account`](super::Account)).
 #[derive(Clone, Debug)]
 pub struct Session {
     surface: Surface,
@@ -37,16 +38,16 @@ pub struct Session {
     pub(super) heard: usize,
     pub(super) band: Band,
     pub(super) law: Law,
-    /// Numbers of the actuators whose sensors tell.
+    /// Numbers of the actuators whose sensors clock, gaps and tension are found from.
     telling: Vec<usize>,
     /// What these heard in the first take, `[sensor][actuator][sample]`.
     known: Option<Vec<Vec<Vec<f64>>>>,
 }
 
-/// Who listens.
+/// Which inputs are recorded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Listen {
-    /// The probe.
+    /// The probe alone.
     Probe,
     /// Each actuator's own sensor.
     Sensors,
@@ -54,7 +55,9 @@ pub enum Listen {
 
 /// One recording of some inputs, mended.
 pub(super) struct Take {
+    /// What was recorded, `[input][sample]`.
     pub lines: Vec<Vec<f64>>,
+    /// What the recording was found to be.
     pub verdict: Verdict,
 }
 
@@ -107,7 +110,7 @@ impl Session {
 
     /// Holds all takes to come against what the sensors heard in this one, from [`Listen::Sensors`] or out of a library: their
     /// clock, their latency and the sheet's tension are brought to it. Responses that are all zeros, of dead actuators and bad
-    /// sensors, tell nothing and are left out.
+    /// sensors, show nothing and are left out.
     ///
     /// # Errors
     /// [`CalibrateError::Count`] for another number of sensors or responses than actuators.
@@ -118,7 +121,7 @@ impl Session {
             let expected = count.to_string();
             return Err(CalibrateError::Count { what: "responses between actuators", expected, found });
         }
-        // As a library keeps them, so that a run that is taken up again finds the same.
+        // As a library keeps them, so that a run that is resumed finds the same.
         let kept = |channel: &Channel| -> Vec<Vec<f64>> {
             let rounded = |response: &Vec<f64>| response.iter().map(|h| f64::from(*h as f32)).collect();
             channel.responses.iter().map(rounded).collect()
@@ -137,7 +140,7 @@ impl Session {
         &self.wires
     }
 
-    /// Seconds that a place takes, its repeats included, without what the surface needs to come to rest.
+    /// Time in seconds that a place takes, its repeats included, without what the surface needs to come to rest.
     pub fn seconds(&self) -> f64 {
         self.options.repeats as f64 * self.heard as f64 / self.sweep.rate
     }
@@ -179,7 +182,7 @@ impl Session {
         (0..inputs.len()).map(|input| self.channel(&takes, input, LEAD)).collect()
     }
 
-    /// Records some inputs, and all that tells of the take.
+    /// Records some inputs, and those that clock, gaps and tension are found from.
     fn take(&self, rig: &mut dyn Rig, inputs: &[usize]) -> Result<Take, CalibrateError> {
         let mut asked = inputs.to_vec();
         let own: Vec<usize> = self.telling.iter().map(|actuator| self.wires.sensors[*actuator]).collect();

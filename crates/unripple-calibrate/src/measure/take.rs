@@ -19,13 +19,13 @@ const ROUNDS: usize = 5;
 /// Standard errors above which a difference is one.
 const SURE: f64 = 5.0;
 
-/// Difference of clocks, in millionths, that is never told from none.
+/// Difference of clocks, in millionths, below which they count as equal, however small the standard error.
 const LEAST_PPM: f64 = 0.2;
 
-/// Change of tension that is never told from none, as a share.
+/// Change of tension, as a share, below which it counts as none, however small the standard error.
 const LEAST_CHANGE: f64 = 2e-5;
 
-/// Fewest sweeps that tell of a clock, unless they are the only two and very like.
+/// Fewest sweeps that an error of the clock is found from, unless they are the only two and very alike.
 const FEWEST: usize = 3;
 
 /// Likeness that two sweeps need when they are all there is.
@@ -35,27 +35,32 @@ const ALIKE: f64 = 0.95;
 /// focus 2 % of its height.
 const HARMLESS: f64 = 1.0 / 32.0;
 
-/// Turns what one input heard into responses, going round.
+/// Turns what one input recorded into a periodic deconvolution.
 type Deconvolve<'a> = dyn Fn(&[f64]) -> Result<Vec<f64>, CalibrateError> + 'a;
 
-/// All that a take is judged by.
+/// What a take is compared with: the first take, the schedule, the band.
 pub(super) struct Judge<'a> {
-    /// Numbers of the actuators whose sensors tell; none where it is a reference, which hears what is sent.
+    /// Numbers of the actuators whose sensors are used; none where it is a reference, which hears what is sent.
     pub sensors: &'a [usize],
     /// What they heard in the first take, `[sensor][actuator]` from time 0; nothing in the first take itself.
     pub known: Option<&'a [Vec<Vec<f64>>]>,
+    /// First sample of each actuator's sweep.
     pub starts: &'a [usize],
     /// Samples of a sweep that sound.
     pub sounding: usize,
     /// What is played.
     pub drive: &'a [Vec<f64>],
+    /// Samples before time 0 that a response begins with.
     pub lead: usize,
     /// Samples of a response that are compared, lead included: without the sweeps before and after.
     pub length: usize,
     /// Samples by which all that is heard comes late.
     pub latency: f64,
+    /// Samples per second.
     pub rate: f64,
+    /// The band in which responses are measured.
     pub band: Band,
+    /// Where frequencies go when tension changes.
     pub law: &'a Law,
     /// Turns what was heard into a deconvolution.
     pub deconvolve: &'a Deconvolve<'a>,
@@ -66,7 +71,9 @@ pub(super) struct Judge<'a> {
 /// What a take was, and what is to be done about it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Verdict {
+    /// What is said of the recording.
     pub account: Account,
+    /// What is to be undone in it.
     pub mend: Mend,
     /// Change of tension at each sweep's begin and its rate per second, where there is any.
     pub changes: Option<Vec<[f64; 2]>>,
@@ -78,7 +85,7 @@ impl Judge<'_> {
     /// Finds out what became of a take by what its sensors heard, one line each.
     ///
     /// # Errors
-    /// [`CalibrateError::Recording`] for clocks too far apart, samples lost where there is nothing to tell the place, and sweeps heard
+    /// [`CalibrateError::Recording`] for clocks too far apart, samples lost where nothing shows the place, and sweeps heard
     /// at times that neither explains.
     pub fn judge(&self, heard: &[&[f64]]) -> Result<Verdict, CalibrateError> {
         let mut verdict = Verdict::default();
@@ -145,7 +152,7 @@ impl Judge<'_> {
         })
     }
 
-    /// What the sweeps' delays tell; nothing of too few.
+    /// What the sweeps' delays show of the clock and of lost samples; nothing of too few.
     fn timing(
         &self,
         verdict: &mut Verdict,
@@ -186,7 +193,7 @@ impl Judge<'_> {
         Ok(near)
     }
 
-    /// Takes in what delays tell; whether that is anything new.
+    /// Takes over what the delays show; whether that is anything new.
     fn learn(
         &self,
         verdict: &mut Verdict,
@@ -213,7 +220,7 @@ impl Judge<'_> {
         if timing.clock {
             verdict.account.clock_ppm = Some(ppm);
         }
-        // Beside each other sweeps tell nothing of what is common to all.
+        // Sweeps compared with each other show nothing of what is common to all.
         if self.known.is_some() {
             new |= timing.late.abs() >= LEAST_LATE;
             verdict.mend.late += timing.late;

@@ -54,7 +54,8 @@ impl TapSession {
         })
     }
 
-    /// Has a place tapped, as often as there are repeats, and finds the responses.
+    /// Has a place tapped, as often as there are repeats, and finds the responses. `at` is in m, `attempt` counts the
+    /// recordings there from 0.
     ///
     /// # Errors
     /// Those of the rig, of [`record`] and of [`tapped`].

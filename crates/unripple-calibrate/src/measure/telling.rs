@@ -1,4 +1,4 @@
-//! When sweeps were heard, and under what tension: by what sensors hear, beside another take or beside each other.
+//! When sweeps were heard, and under what tension: sensors' signals compared with another take, or with each other.
 
 use super::apart::{Apart, Pairs};
 use super::law::Law;
@@ -10,7 +10,8 @@ const REACH: f64 = 0.1;
 /// Likeness below which a sweep is not known again.
 const LEAST: f64 = 0.7;
 
-/// Likeness that the coarse search asks for.
+/// Likeness that the coarse search asks for: it sees the neighbouring sweeps too, and is small even where all is
+/// well.
 const COARSE: f64 = 0.4;
 
 /// Sensors that take part in the coarse search.
@@ -25,7 +26,7 @@ const STEPS: usize = 6;
 /// Rounds in which delays between pairs become delays of sweeps.
 const ROUNDS: usize = 200;
 
-/// Deconvolutions of what some sensors heard of all sweeps of one take, going round.
+/// Periodic deconvolutions of what some sensors recorded of all sweeps of one take.
 pub(super) struct Telling<'a> {
     /// For each sensor, the number of its own actuator.
     pub sensors: &'a [usize],
@@ -35,12 +36,15 @@ pub(super) struct Telling<'a> {
     pub starts: &'a [usize],
     /// Samples before time 0 that a response begins with.
     pub lead: usize,
+    /// Samples per second.
     pub rate: f64,
+    /// The band in which responses are compared.
     pub band: Band,
+    /// Where frequencies go when tension changes.
     pub law: &'a Law,
 }
 
-/// `length` samples of a signal that goes round.
+/// `length` samples of a periodic signal.
 pub(super) fn around(whole: &[f64], first: i64, length: usize) -> Vec<f64> {
     let size = whole.len().max(1) as i64;
     (0..length as i64)
@@ -60,7 +64,7 @@ impl Telling<'_> {
     }
 
     /// The sweeps whose actuators' sensors are known beside each other, by reciprocity: what a hears of b is what b hears
-    /// of a, at another time. Delays and changes are told up to one that is common to all.
+    /// of a, at another time. Delays and changes are known but for one that is common to all.
     pub fn beside_each_other(&self, length: usize, still: bool) -> Vec<Option<Apart>> {
         let count = self.sensors.len();
         let mut pairs: Vec<(usize, usize, Apart)> = Vec::new();
@@ -90,7 +94,7 @@ impl Telling<'_> {
     }
 
     /// Each sweep beside the loudest, as one input heard them that hears what is sent (all of it, or the sum): how much later
-    /// than it should be. Those that it does not hear are not told.
+    /// than it should be. `None` for those that it does not hear.
     pub fn beside_the_loudest(&self, length: usize) -> Vec<Option<Apart>> {
         let Some(whole) = self.wholes.first() else { return vec![None; self.starts.len()] };
         let cuts: Vec<Vec<f64>> =

@@ -22,7 +22,7 @@ pub(super) struct Timing {
     pub slope: f64,
     /// Standard error of `slope`.
     pub slope_error: f64,
-    /// Whether there were enough sweeps to tell a clock; without it `slope` is 0.
+    /// Whether there were enough sweeps to find an error of the clock; without it `slope` is 0.
     pub clock: bool,
     /// Samples lost (negative: repeated), the last sweep before and the first after.
     pub lost: Option<(i64, [usize; 2])>,
@@ -33,7 +33,7 @@ pub(super) struct Timing {
 /// Samples that delays may be off by for no reason of the clock's: the surface is not quite the same from take to take.
 const SLACK: f64 = 0.25;
 
-/// Least number of samples that are taken to be lost: less is told as the clock's.
+/// Least number of samples that are taken to be lost: less is taken for an error of the clock.
 const LEAST_LOST: f64 = 1.5;
 
 /// Sweeps that sound while samples are lost, at most: their delay is neither the one nor the other.
@@ -110,7 +110,7 @@ impl Timing {
     }
 }
 
-/// Sweeps below which a clock is not told from a step.
+/// Sweeps below which an error of the clock cannot be separated from a step.
 const FEW: usize = 5;
 
 /// Sweeps below which a line says nothing: it goes through any two.

@@ -21,8 +21,11 @@ const DEEPEST: f64 = 2.5;
 /// A part of a band, in Hz: all between `low` and `high`, with soft edges of width `edge` outside.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Part {
+    /// Lowest frequency, in Hz.
     pub low: f64,
+    /// Highest frequency, in Hz.
     pub high: f64,
+    /// Width of each soft edge, in Hz.
     pub edge: f64,
 }
 
@@ -50,8 +53,11 @@ pub(super) struct Tone {
 
 /// Responses `[sensor][drive][sample]`, as many sensors as drives, with their time 0 at a sample.
 pub(super) struct Heard<'a> {
+    /// The responses, `[sensor][drive][sample]`.
     pub responses: &'a [Vec<Vec<f64>>],
+    /// Sample that is time 0; fractions count.
     pub zero: f64,
+    /// Samples per second.
     pub rate: f64,
 }
 
@@ -67,7 +73,7 @@ struct Baseband {
 /// The tones within a part, `expected` being about how many there are with those at its edges.
 ///
 /// Responses between several places that share their tones are a linear system's: shifted by an instant, the directions that they span
-/// turn by the tones' e^{s dt} (J.-N. Juang and R. S. Pappa, *J. Guidance* 8, 620, 1985). Tones that overlap are told apart by what
+/// turn by the tones' e^{s dt} (J.-N. Juang and R. S. Pappa, *J. Guidance* 8, 620, 1985). Tones that overlap are separated by what
 /// the places hear of each; and where two are not, their sum is still right. Nothing is used of the beginning, which holds what is not of
 /// this band: the slow answer of everything above it.
 pub(super) fn tones(heard: &Heard, part: &Part, expected: usize) -> Vec<Tone> {

@@ -47,7 +47,7 @@ pub struct Average {
 }
 
 impl Average {
-    /// The average of repeats. With fewer than three, none can be told to be an outlier.
+    /// The average of repeats. With fewer than three, none is called an outlier. All have as many samples.
     ///
     /// # Errors
     /// [`DspError::Size`] without repeats, or if their lengths differ.

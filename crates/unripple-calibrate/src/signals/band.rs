@@ -26,7 +26,7 @@ pub struct Band {
 }
 
 impl Band {
-    /// Everything.
+    /// The band of all frequencies.
     pub const ALL: Self = Self { low: [0.0; 2], high: [f64::INFINITY; 2] };
 
     /// The band that fills `low` to `high`, edges included: half an octave and a bit below, a quarter above.
@@ -34,7 +34,7 @@ impl Band {
         Self { low: [low, 1.5 * low], high: [high / 1.2, high] }
     }
 
-    /// Amplitude that is let through at a frequency, from 0 to 1.
+    /// Amplitude that is let through at a frequency (Hz), a ratio from 0 to 1.
     pub fn weight(&self, hz: f64) -> f64 {
         let rise = |[from, to]: [f64; 2]| (FRAC_PI_2 * (hz - from) / (to - from)).sin().powi(2);
         if hz < self.low[0] || hz > self.high[1] {
@@ -48,7 +48,8 @@ impl Band {
         }
     }
 
-    /// Limits a signal to the band without moving its phase; zero beyond both its ends.
+    /// Limits a signal to the band without moving its phase; zero beyond both its ends. `rate` is in samples per
+    /// second.
     ///
     /// # Errors
     /// [`DspError::Range`] if the edges do not ascend or `rate` is not positive.

@@ -30,12 +30,13 @@ pub(super) struct CombWork {
 }
 
 impl CombWork {
+    /// Samples of the signal that it has room for.
     pub fn size(&self) -> usize {
         self.parts.len()
     }
 }
 
-/// Most interleaved signals: beyond, joining them takes longer than is won.
+/// Most interleaved signals: beyond, joining them takes longer than is won. Half as many give up some of the speed.
 const MOST: usize = 8;
 
 impl Comb {
@@ -53,10 +54,12 @@ impl Comb {
         }
     }
 
+    /// Samples of the signal that is transformed.
     pub fn size(&self) -> usize {
         self.size
     }
 
+    /// Room for one thread to work in.
     pub fn work(&self) -> CombWork {
         let one = self.part.work();
         CombWork {
@@ -84,7 +87,8 @@ impl Comb {
         }
     }
 
-    /// The begin of the signal that has `work.band`, which it leaves turned, and no other lines.
+    /// The inverse transform of `work.band`, all other lines being 0: the first samples of the signal, as many as
+    /// `signal` has. `work.band` is overwritten with products of the phase factors.
     pub fn inverse(&self, work: &mut CombWork, signal: &mut [f64]) {
         let (length, end) = (self.size / self.teeth, self.first + self.turns.len());
         for part in work.parts.chunks_mut(length) {

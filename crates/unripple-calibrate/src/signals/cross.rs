@@ -66,7 +66,7 @@ impl CrossSpectra {
         })
     }
 
-    /// Adds a repeat; both signals are zero beyond their ends.
+    /// Adds a repeat; both signals are zero beyond their ends. Each has one sample per 1/rate.
     ///
     /// # Errors
     /// [`DspError::Size`] if either is longer than planned.
@@ -87,13 +87,14 @@ impl CrossSpectra {
         Ok(())
     }
 
-    /// Repeats so far.
+    /// Number of repeats added so far.
     pub fn count(&self) -> usize {
         self.count
     }
 
     /// The response, band limited and regularised as [`super::Deconvolver`] does; `inversion.band` should be the band in
-    /// which the drives have power, and is everything if `None`.
+    /// which the drives have power, and is everything if `None`. `response` gets its first samples, in the unit of
+    /// what was recorded per unit of drive and second.
     ///
     /// # Errors
     /// [`DspError::Size`] if `response` is longer than the plan; [`DspError::Range`] for a band whose edges do not
@@ -128,8 +129,8 @@ impl CrossSpectra {
         sums.map(|((cross, drive), heard)| share(cross.norm_sqr(), drive * heard)).collect()
     }
 
-    /// Share of the power heard in a band that follows the drive: the mean of the coherence, weighted by the power
-    /// heard.
+    /// Share of the power recorded in a band that follows the drive, 0 to 1: the mean of the coherence, weighted by
+    /// that power.
     pub fn coherence_in(&self, band: Band) -> f64 {
         let (mut followed, mut heard) = (0.0, 0.0);
         for (line, share) in self.coherence().into_iter().enumerate() {

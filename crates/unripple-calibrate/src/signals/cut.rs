@@ -1,6 +1,6 @@
 //! A stretch of a periodic signal.
 
-/// Copies `out.len()` samples of a signal that goes round, from sample `start` on, which may be negative.
+/// Copies `out.len()` samples of a periodic signal, from sample `start` on, which may be negative.
 pub(super) fn cut(circle: &[f64], start: i64, out: &mut [f64]) {
     let Ok(size) = i64::try_from(circle.len()) else { return };
     if size == 0 {

@@ -29,15 +29,16 @@ pub struct Decay {
     pub noise: f64,
 }
 
-/// Blocks that a response is divided into.
+/// Blocks that a response is divided into: twice as many follow the decay more finely, and scatter more each.
 const BLOCKS: usize = 200;
 
 /// Fewest blocks, from the strongest on, that a decay is fitted to.
 const FEWEST: usize = 8;
 
-/// Least power over noise.
+/// Least power over noise of the strongest block, a ratio: 5 dB. With half of it noise alone may pass for a decay.
 const LEAST_RATIO: f64 = 3.0;
 
+/// Most steps of the descent, which settles in far fewer.
 const STEPS: usize = 200;
 
 impl Decay {

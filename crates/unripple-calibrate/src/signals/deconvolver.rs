@@ -123,7 +123,7 @@ impl Deconvolver {
         self.heard
     }
 
-    /// Samples of a whole response, which goes round: what lies before time 0 is at its end.
+    /// Number of samples of a whole response, which is periodic: what lies before time 0 is at its end.
     pub fn size(&self) -> usize {
         self.plan.size()
     }

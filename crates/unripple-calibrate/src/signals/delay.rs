@@ -107,6 +107,7 @@ fn refined(lines: &Lines, whole: f64, sign: f64) -> f64 {
     at
 }
 
+/// Most steps to the maximum: halving alone reaches 1e-12 of a sample in as many.
 const STEPS: usize = 40;
 
 /// The lines of a cross-spectrum from the first to the last that is not zero.

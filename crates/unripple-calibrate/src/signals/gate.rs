@@ -39,7 +39,7 @@ impl Gate {
         edge(since, self.rise) * edge(left, self.fall)
     }
 
-    /// Multiplies a signal by it.
+    /// Multiplies a signal by it. Sample by sample, in place.
     pub fn apply(&self, signal: &mut [f64]) {
         signal.iter_mut().enumerate().for_each(|(i, x)| *x *= self.at(i as f64));
     }

@@ -6,7 +6,7 @@ use super::{Band, Gate, Sweep, positive, same, shift};
 use unripple_core::OutOfRange;
 use unripple_dsp::DspError;
 
-/// How the harmonics of a sweep are told apart in a whole deconvolution.
+/// How the harmonics of a sweep are separated in a whole deconvolution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Split {
     /// Where the linear response is cut from, lead included: 0, or the actuator's start in a schedule.
@@ -40,7 +40,7 @@ impl Harmonic {
     }
 }
 
-/// The linear response of a channel and those at harmonics of the drive, told apart by when they come.
+/// The linear response of a channel and those at harmonics of the drive, separated by when they come.
 ///
 /// The m-th harmonic of an exponential sweep is the sweep itself, earlier by `L ln m`: there its response lies. Noise counts
 /// as distortion where it is stronger. Where windows are longer than the time between orders, the tail of a higher order
@@ -133,7 +133,8 @@ impl Harmonics {
     }
 
     /// What share of the amplitude of the drive each order is, from the second, if the drive alone makes it: then its response is the
-    /// linear one's, over and above its own frequencies. `None` where it is not told from `noise`, as it is in the deconvolution (any
+    /// linear one's, over and above its own frequencies. `None` where it does not stand out of `noise`, as it is in
+    /// the deconvolution (any
     /// length), and from what rang before and dies away with an amplitude decay time (s).
     pub fn of_drive(
         &self,

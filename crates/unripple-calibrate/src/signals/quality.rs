@@ -23,7 +23,8 @@ pub struct Quality {
     pub snr_db: f64,
     /// Share of what was heard that repeats have in common, or that follows the drive, from 0 to 1, where there were repeats.
     pub coherence: Option<f64>,
-    /// Total harmonic distortion relative to the linear response, in dB, where the stimulus told it apart.
+    /// Total harmonic distortion relative to the linear response, in dB, where the stimulus was a sweep that
+    /// separates it.
     pub distortion_db: Option<f64>,
     /// How it dies away; `None` if it does not stand out of its noise.
     pub decay: Option<Decay>,
@@ -32,7 +33,8 @@ pub struct Quality {
 }
 
 impl Quality {
-    /// What a response tells by itself and by a stretch of noise, any length, that went through the same deconvolution: before
+    /// The quality of a response, judged by itself and by a stretch of noise, any length, that went through the same
+    /// deconvolution: before
     /// the response's time 0, or where it has died away.
     ///
     /// # Errors

@@ -113,7 +113,7 @@ impl Schedule {
         &self.starts
     }
 
-    /// Samples of a response.
+    /// Number of samples of one response.
     pub fn window(&self) -> usize {
         self.window
     }

@@ -69,7 +69,7 @@ impl Stimulus {
         self.band
     }
 
-    /// Whether it is one period of something that goes round.
+    /// Whether its samples are one period of a periodic signal.
     pub fn is_periodic(&self) -> bool {
         self.periodic
     }

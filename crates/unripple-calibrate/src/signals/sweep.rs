@@ -66,7 +66,8 @@ impl Sweep {
         if self.synchronized { (self.from * growth).round().max(1.0) / self.from } else { growth }
     }
 
-    /// Seconds it sounds.
+    /// Seconds it sounds. A synchronized one rounds its [growth](Sweep::growth) to whole periods of its lowest
+    /// frequency, and so differs a little from `seconds`.
     pub fn sounding(&self) -> f64 {
         self.growth() * (self.to / self.from).ln()
     }
@@ -123,5 +124,6 @@ impl Sweep {
     }
 }
 
-/// Longest sweep and longest silence, in seconds.
+/// Longest sweep and longest silence, in seconds: longer ones are taken for mistakes of unit, and would take
+/// gigabytes.
 const MOST_SECONDS: f64 = 600.0;

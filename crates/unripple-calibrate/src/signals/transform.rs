@@ -25,7 +25,7 @@ pub(super) struct Transform {
 
 /// Where one transform works.
 pub(super) struct Work {
-    /// The signal.
+    /// The signal in time.
     pub signal: Vec<f64>,
     /// Its spectrum, from 0 to half the rate.
     pub lines: Vec<Complex<f64>>,
@@ -63,6 +63,7 @@ impl Transform {
         Self::exact(smooth_size(least))
     }
 
+    /// Number of samples of the signal.
     pub fn size(&self) -> usize {
         self.size
     }
@@ -72,6 +73,7 @@ impl Transform {
         line as f64 * rate / self.size as f64
     }
 
+    /// Room for one transform.
     pub fn work(&self) -> Work {
         let scratch = self.forward.get_scratch_len().max(self.inverse.get_scratch_len());
         Work {
@@ -89,7 +91,7 @@ impl Transform {
         self.forward_in(&mut work.signal, &mut work.lines, &mut work.scratch);
     }
 
-    /// The spectrum of `signal`, which is spoilt.
+    /// The spectrum of `signal` into `lines`, size / 2 + 1 of them; `signal` is overwritten.
     pub fn forward_in(&self, signal: &mut [f64], lines: &mut [Complex<f64>], scratch: &mut [Complex<f64>]) {
         let done = self.forward.process_with_scratch(signal, lines, scratch);
         debug_assert!(done.is_ok(), "sizes come from the plan itself");
@@ -100,7 +102,7 @@ impl Transform {
         self.inverse_in(&mut work.lines, &mut work.signal, &mut work.scratch);
     }
 
-    /// The signal of `lines`, which are spoilt, `size` times as large.
+    /// The signal of `lines`, `size` times as large; `lines` are overwritten.
     pub fn inverse_in(&self, lines: &mut [Complex<f64>], signal: &mut [f64], scratch: &mut [Complex<f64>]) {
         // The lines at 0 and at half the rate are their own mirror images: real.
         if let Some(first) = lines.first_mut() {

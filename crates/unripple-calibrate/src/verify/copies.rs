@@ -6,7 +6,8 @@ use unripple_core::SampledResponses;
 /// Two places farther apart than this share of the shortest wavelength do not answer alike.
 const APART: f64 = 0.25;
 
-/// Likeness from which two responses are one.
+/// Likeness from which two responses count as one recording: two true repeats, each with noise 30 dB below the
+/// signal, are as alike as that.
 const ONE: f64 = 0.999;
 
 /// Actuators that are compared at first, and samples of each: the others only where these are alike.

@@ -1,4 +1,4 @@
-//! What each probed point is, held against the model.
+//! What each probed point is found to be, by comparison with the model.
 
 use super::checker::{Match, Projected};
 use super::quick::Quick;
@@ -17,7 +17,7 @@ const DELAYS: [f64; 2] = [-2e-3, 12e-3];
 /// Share of a period of the band's top that a probe's delay has to be.
 const TURNED: f64 = 0.015;
 
-/// Points that tell the common delay.
+/// Points whose common delay is taken for the probe's: more take longer and change it little.
 const TELLING: usize = 24;
 
 /// A place is nobody else's if it is farther from all of them than this share of the shortest wave looked at.
@@ -32,6 +32,7 @@ pub(super) struct Judged {
     pub nearby: Spot,
     /// Error of that place (m), along each axis.
     pub error: f64,
+    /// What the point is.
     pub kind: Kind,
 }
 
@@ -53,18 +54,23 @@ pub(super) enum Kind {
 pub(super) enum Whose {
     /// Another probed point's.
     Point(usize),
-    /// An actuator's.
+    /// An actuator's place, by its index.
     Actuator(usize),
-    /// Nobody's.
+    /// Nobody's: a place between the points.
     Nobody,
 }
 
-/// All that points are judged by.
+/// What points are compared with: model, places, options.
 pub(super) struct Bench<'a> {
+    /// The fitted model, and what was recorded in its frequencies.
     pub quick: &'a Quick,
+    /// Places all over the sheet, to look for where a response fits.
     pub sheet: &'a Sheet<'a>,
+    /// The surface as its file has it.
     pub surface: &'a Surface,
+    /// Where the points are said to be, in m.
     pub places: &'a [Point],
+    /// How points are checked.
     pub options: &'a VerifyOptions,
     /// The shortest wave looked at, in metres.
     pub wave: f64,
@@ -142,7 +148,8 @@ impl Bench<'_> {
         judged(Kind::Nothing)
     }
 
-    /// The least delay (s) of a probe that is worth taking out: one that a response of so good a fit tells, and that turns the top of
+    /// The least delay (s) of a probe that is worth taking out: one that a response of so good a fit determines, and
+    /// that turns the top of
     /// the band by some degrees.
     pub fn worth(&self, judged: &[Judged]) -> f64 {
         let mut left: Vec<f64> = judged.iter().map(|j| j.nearby.found.unexplained()).collect();
@@ -153,12 +160,12 @@ impl Bench<'_> {
         told.max(TURNED / self.surface.emission.band[1])
     }
 
-    /// What a fit tells of a place or a delay, over what one mode tells.
+    /// How much more precisely a fit determines a place or a delay than one mode alone does, a ratio.
     fn told(&self) -> f64 {
         (8.0 / self.quick.fitted.beyond().poles.len().max(4) as f64).sqrt()
     }
 
-    /// The place's error (m) by what is left unexplained: as if each mode told it once.
+    /// The place's error (m) by what is left unexplained: as if each mode were one independent measurement.
     fn error(&self, spot: &Spot) -> f64 {
         let k = std::f64::consts::TAU / self.wave;
         spot.found.unexplained() / k * self.told()

@@ -1,4 +1,4 @@
-//! Probed responses held against a model that is fitted to what the sensors heard.
+//! Probed responses checked against a model that is fitted to what the sensors recorded.
 
 mod checker;
 mod copies;
@@ -28,7 +28,7 @@ use unripple_physics::Medium;
 /// The model is [fitted](crate::fit) to what actuators heard of each other, in the lowest modes, so that a surface file that is
 /// wrong condemns no good data; where it leaves too much of that unexplained there is none, and the answer says so. A point that does
 /// not fit its place is looked for on the whole sheet, so that exchanged recordings, a probe beside its place and a probe on an
-/// actuator's channel are told by name.
+/// actuator's channel are reported by name.
 ///
 /// `measured` is what actuators heard of each other, `probed` the responses of the same actuators at the probed points.
 ///

@@ -1,4 +1,5 @@
-//! The model that probed points are held against: fitted to what sensors heard, in a band of few modes, where that is quick.
+//! The model that probed points are compared with: fitted to what the sensors recorded, in a band of few modes, where
+//! that is quick.
 
 use super::checker::Checker;
 use super::verdict::VerifyOptions;
@@ -8,14 +9,14 @@ use unripple_core::{Point, SampledResponses, Surface};
 use unripple_linalg::c64;
 use unripple_physics::Medium;
 
-/// Actuators that are enough: more make the fit slow, and tell no more of a point.
+/// Actuators that are enough: more make the fit slow, and locate a point no better.
 const ENOUGH: usize = 10;
 
-/// Fewest actuators, and lines of a spectrum, by which places are told apart.
+/// Fewest actuators, and lines of a spectrum, by which places can be distinguished.
 const FEWEST: usize = 3;
 const LINES: usize = 12;
 
-/// Share of what sensors heard that a model may leave unexplained and still tell good points from bad ones.
+/// Share of what sensors heard that a model may leave unexplained and still separate good points from bad ones.
 const NO_MODEL: f64 = 0.35;
 
 /// A model that leaves less than this share unexplained is a good one; one of so many sensors may be left out to get there.
@@ -25,7 +26,8 @@ const MOST_ODD: usize = 3;
 /// An actuator that is heard with less than this share of the median power is silent.
 const SILENT: f64 = 1e-4;
 
-/// Most half waves of the tension's profile.
+/// Most half waves of the tension's profile: 2 give five terms. More take longer, and the lowest modes do not
+/// determine them.
 const PROFILE: usize = 2;
 
 /// Stray masses that are looked for where the bare sheet does not explain what was heard.
@@ -36,10 +38,13 @@ const REACH: f64 = 1.6;
 
 /// A model, and what was heard at the points in its frequencies.
 pub(super) struct Quick {
+    /// The fitted model.
     pub fitted: Fitted,
+    /// The band that it was fitted in, in Hz.
     pub band: [f64; 2],
     /// Indices of the actuators that are looked at.
     pub actuators: Vec<usize>,
+    /// Complex frequencies that are compared, in 1/s.
     pub frequencies: Vec<c64>,
     /// What sensors heard: of each, `[driven][frequency]`.
     pub sensed: Vec<Vec<Vec<c64>>>,

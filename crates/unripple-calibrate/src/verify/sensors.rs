@@ -1,4 +1,4 @@
-//! What sensors heard, each held against the model at its actuator's place.
+//! What each sensor recorded, compared with the model at its actuator's place.
 
 use super::checker::Projected;
 use super::judge::Bench;

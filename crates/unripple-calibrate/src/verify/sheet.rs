@@ -8,10 +8,11 @@ use unripple_linalg::{Mat, product};
 /// Places along the shortest wave looked at: likeness has fallen to 0.9 half a step from where it is best.
 const DENSE: f64 = 7.0;
 
-/// Most places along a side.
+/// Most places along a side: 8100 in all, which bounds time and memory; a longer sheet is searched less finely.
 const MOST: f64 = 90.0;
 
-/// Delays within the shortest period looked at.
+/// Delays tried within the shortest period looked at: an eighth of it apart, where a likeness has fallen to 0.92 at
+/// most.
 const DELAYS: f64 = 8.0;
 
 /// The finest step of a search, in metres and in periods of the highest frequency.
@@ -20,6 +21,7 @@ const FINE_PERIOD: f64 = 1e-3;
 
 /// Places all over a sheet, with the model's shapes and power there.
 pub(super) struct Sheet<'a> {
+    /// The model that responses are compared with.
     pub checker: &'a Checker<'a>,
     outline: &'a Outline,
     places: Vec<Point>,
@@ -32,9 +34,11 @@ pub(super) struct Sheet<'a> {
 /// Where a response fits best.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Spot {
+    /// The place, in m.
     pub at: Point,
     /// Seconds by which it comes late.
     pub late: f64,
+    /// How well it fits there.
     pub found: Match,
 }
 
@@ -62,7 +66,7 @@ impl<'a> Sheet<'a> {
         (0..=count).map(|n| from + n as f64 * step).collect()
     }
 
-    /// For each delay the best square of the likeness over all places.
+    /// For each delay (s) the best square of the likeness over all places, 0 to 1.
     pub fn likest(&self, heard: &Projected, delays: &[f64]) -> Vec<f64> {
         let products = product(self.shapes.as_ref(), self.checker.products(heard, delays).as_ref());
         (0..delays.len())

@@ -5,7 +5,7 @@ use unripple_core::Point;
 /// How probed points are checked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VerifyOptions {
-    /// Whether they are held against a model; without one only the checks that need none are made.
+    /// Whether they are compared with a model; without one only the checks that need none are made.
     pub model: bool,
     /// The probe's own delay in s, if it was taken out of the responses because it is known.
     pub probe_delay: Option<f64>,
@@ -45,7 +45,7 @@ impl Default for VerifyOptions {
 /// What was found of probed points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verified {
-    /// The model that they were held against, or why there was none.
+    /// The model that they were compared with, or why there was none.
     pub model: Checked,
     /// One for each probed point, in their order; empty without a model.
     pub points: Vec<PointVerdict>,
@@ -86,14 +86,14 @@ pub enum Checked {
         /// Share of what sensors heard there that it leaves unexplained.
         unexplained: f64,
     },
-    /// None.
+    /// There was no model.
     Not {
-        /// Why not.
+        /// Why there was none.
         why: String,
     },
 }
 
-/// A doubt.
+/// A reason to doubt some points, or all of the calibration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Doubted {
     /// What was found, and what to do.
@@ -113,7 +113,8 @@ pub struct PointVerdict {
     pub gain: f64,
     /// Seconds by which it comes later than the points' common delay.
     pub late: f64,
-    /// The place nearby that fits best, where it is told apart from the one said, and what is left unexplained there.
+    /// The place nearby that fits best, where it differs from the stated one by more than its error, and what is left
+    /// unexplained there.
     pub fits: Option<(Point, f64)>,
     /// What makes it doubtful, if anything does.
     pub doubt: Option<String>,

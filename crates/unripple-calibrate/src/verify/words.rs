@@ -9,7 +9,8 @@ use unripple_core::Point;
 const FAR: f64 = 0.25;
 const WORTH: f64 = 0.025;
 
-/// How many errors a place has to be off by to be told.
+/// How many standard errors a place has to be off by to be reported; with half as many, one place in seven would be
+/// by chance.
 const SURE: f64 = 3.0;
 
 /// The verdict on one point.
@@ -27,7 +28,8 @@ pub(super) fn verdict(
     let told = one.kind == Kind::Here && off > SURE * one.error && off > WORTH * lambda;
     let counts = one.kind == Kind::Here && bench.options.probe;
     let correction = levels.correction(one, bench.quick.actuators.len()).filter(|_| counts);
-    // Beside its place it is worth nothing there from some share of a wave on: what is left unexplained tells as well.
+    // Beside its place it is worth nothing there from some share of a wave on; what the model leaves unexplained
+    // shows that as well.
     let beside = off > FAR * lambda || one.own.unexplained() > bench.limit();
     let doubt = match one.kind {
         Kind::Here if beside && told => Some(format!(
