@@ -36,7 +36,7 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// All that was refused, of whatever kind.
+    /// Number of all refusals, of whatever kind.
     pub fn errors(&self) -> u64 {
         let read = self.malformed + self.unknown + self.numbers + self.outside;
         read + self.late + self.crowded + self.foreign + self.silent + self.failed

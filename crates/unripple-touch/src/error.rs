@@ -29,7 +29,7 @@ pub enum TouchError {
     /// A device is no touch screen that can be read.
     #[error("{device}: expected a multi-touch screen, found none: {what}")]
     Screen {
-        /// The device.
+        /// Path of the device.
         device: String,
         /// What is missing.
         what: String,

@@ -10,7 +10,7 @@ const DOWNS: usize = 256;
 /// Which finger is spoken of, in a sender's own words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Key {
-    /// The sender.
+    /// Number of the sender: an address, a connection.
     pub peer: u32,
     /// Which of the sender's lists of fingers.
     pub stream: u32,
@@ -94,7 +94,7 @@ impl Fingers {
         self.counts
     }
 
-    /// How many there are.
+    /// Number of fingers that are down.
     pub fn count(&self) -> usize {
         self.live.len()
     }
@@ -210,7 +210,7 @@ impl Fingers {
             return;
         }
         (finger.at, finger.force) = (at, force);
-        // Only the last place within a poll is worth telling.
+        // Only the last place within a poll is worth reporting.
         if let Some(told) = finger.moved.and_then(|at| heard.touches.get_mut(at)) {
             (told.at, told.force) = (at, force);
             return;
@@ -242,7 +242,7 @@ impl Fingers {
         self.lift_where(|other| *other == key, heard) > 0
     }
 
-    /// Every finger that a rule holds for leaves; returns how many.
+    /// Every finger that a rule holds for leaves; returns their number.
     pub fn lift_where(&mut self, rule: impl Fn(&Key) -> bool, heard: &mut Heard) -> usize {
         self.leave(|finger| rule(&finger.key), heard)
     }

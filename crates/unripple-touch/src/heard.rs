@@ -13,9 +13,10 @@ pub enum Wish {
 
 /// The longest name of an effect that is listened to, in bytes.
 const LONGEST_NAME: usize = 64;
-/// Levels that may be asked for, in dB.
+/// Levels that may be asked for, in dB over the usual one: from as good as nothing to a hundredfold amplitude.
 const GAIN_DB: std::ops::RangeInclusive<f64> = -120.0..=40.0;
-/// Wishes kept until the caller takes them.
+/// Wishes kept until the caller takes them: more than anybody asks for between two polls; further ones are counted
+/// and dropped.
 const MOST_WISHES: usize = 64;
 
 impl Wish {

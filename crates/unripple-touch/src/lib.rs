@@ -1,6 +1,6 @@
 //! Touches from screens, networks and recordings.
 //!
-//! A [`Source`] is polled and tells of [`Touch`](unripple_core::Touch)es and [`Wish`]es; [`Sources`] joins several,
+//! A [`Source`] is polled and reports [`Touch`](unripple_core::Touch)es and [`Wish`]es; [`Sources`] joins several,
 //! and says where a finger [will be](Sources::predict). No source blocks, none reads a clock, none takes unbounded
 //! memory or time, and what they refuse is counted by kind ([`Counts`]).
 //!

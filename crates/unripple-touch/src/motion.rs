@@ -2,9 +2,9 @@
 
 use unripple_core::{Outline, Point};
 
-/// How many places are remembered.
+/// How many places are remembered: of a screen that reports a hundred times a second, those of the last 80 ms.
 const PLACES: usize = 8;
-/// How far back they count, in s.
+/// How far back they count, in s: twice as long smooths the velocity more and follows a turn of the finger later.
 const MEMORY: f64 = 0.08;
 
 /// How a finger moves, from the times and places at which it was noticed; a sender's own word on it is not used.
@@ -34,7 +34,7 @@ impl Motion {
         Self { places: [(time, at); PLACES], count: 1 }
     }
 
-    /// Where it was last.
+    /// Where it was last, in m.
     pub fn at(&self) -> Point {
         self.last().1
     }

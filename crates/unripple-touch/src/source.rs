@@ -1,4 +1,4 @@
-//! The trait of whatever tells of touches.
+//! The trait of whatever reports touches: screens, sockets, recordings.
 
 use crate::{Counts, Heard};
 #[cfg(unix)]
@@ -7,7 +7,7 @@ use std::os::fd::BorrowedFd;
 /// How long to wait before a source is asked again that cannot say when it will have something, in s.
 const PACE: f64 = 0.002;
 
-/// Whatever tells of touches.
+/// Whatever reports touches.
 ///
 /// From any source, a finger comes ([`Down`](unripple_core::Phase::Down)) before it moves, leaves once, and its number is
 /// never used again; times never run back.

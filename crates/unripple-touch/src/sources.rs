@@ -89,9 +89,9 @@ impl Sources {
             fresh.clear();
         }
         self.fresh = fresh;
-        // Stable, so that what one source tells stays in order.
+        // Stable, so that what one source reports stays in order.
         heard.touches[before..].sort_by(|a, b| a.time.total_cmp(&b.time));
-        // A source that lags behind tells of what was before the others' last.
+        // A source that lags behind reports what was before the others' last.
         for touch in &mut heard.touches[before..] {
             self.told = self.told.max(touch.time);
             touch.time = self.told;

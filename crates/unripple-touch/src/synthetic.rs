@@ -12,7 +12,7 @@ const STEPS: usize = 256;
 const TAP: (f64, f64) = (0.05, 0.2);
 const SLIDE: (f64, f64) = (0.3, 2.0);
 const REST: (f64, f64) = (0.1, 0.5);
-/// Radii of circles, in m.
+/// Least and largest radius of circles, in m: about a fingertip's own and those that fit on a small sheet.
 const RADIUS: (f64, f64) = (0.004, 0.015);
 
 /// How many fingers do what.
@@ -24,7 +24,7 @@ pub struct SyntheticOptions {
     pub seed: u64,
     /// How far they keep from the rim, in m.
     pub margin: f64,
-    /// How often a sliding finger is told of, per s.
+    /// How often a sliding finger is reported, per s.
     pub rate: f64,
     /// Speeds of slides, in m/s: the least and the most.
     pub speed: (f64, f64),

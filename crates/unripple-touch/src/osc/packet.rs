@@ -5,7 +5,7 @@ use std::ops::Range;
 
 /// The longest packet that is read, in bytes: a frame of a hundred fingers is half of it.
 pub(super) const LONGEST: usize = 16 * 1024;
-/// How deep bundles may lie in bundles.
+/// How deep bundles may lie in bundles: trackers use one level, and each costs a call.
 const DEEPEST: usize = 4;
 /// What a bundle opens with, and how long that and its time are.
 const BUNDLE: &[u8] = b"#bundle\0";

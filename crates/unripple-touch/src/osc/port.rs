@@ -8,7 +8,7 @@ use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 #[cfg(unix)]
 use std::os::fd::{AsFd, BorrowedFd};
 
-/// Packets read in one poll.
+/// Packets read in one poll, so that a flood of them keeps nobody waiting: the rest is read by the next poll.
 const PACKETS: usize = 256;
 /// Bytes read in one poll, and a last packet more.
 const BYTES: usize = 64 * 1024;

@@ -3,11 +3,11 @@
 use super::sequence::Sequence;
 use std::net::SocketAddr;
 
-/// Addresses known at once.
+/// Addresses known at once; further ones are counted and dropped, so that memory is bounded.
 const MOST: usize = 16;
-/// Names that one address may use.
+/// Names that one address may use: several trackers on one machine.
 const MOST_NAMES: usize = 4;
-/// The longest name, in bytes.
+/// The longest name of a sender, in bytes; a longer one is refused.
 const LONGEST_NAME: usize = 128;
 /// Lists of fingers that one name keeps: 2Dcur, 2Dobj, 2Dblb, and that of TUIO 2.
 pub(super) const LISTS: usize = 4;

@@ -13,6 +13,7 @@ pub(super) struct Head {
     pub(super) version: u64,
 }
 
+/// What the first line of a recorded session says: its format and version. Anything else is refused.
 pub(super) const FORMAT: &str = "unripple-touches";
 pub(super) const VERSION: u64 = 1;
 

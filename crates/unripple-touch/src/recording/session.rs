@@ -10,7 +10,7 @@ use unripple_core::Phase;
 /// The longest line, in bytes, and the longest file that is opened.
 const LONGEST_LINE: usize = 1024;
 const LONGEST_FILE: u64 = 256 << 20;
-/// Fingers at once.
+/// Fingers at once in a recording; a line that puts one more down is an error.
 const MOST: usize = 64;
 
 /// A session: who touched where and when, and what was asked for.

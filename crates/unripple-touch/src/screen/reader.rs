@@ -7,7 +7,7 @@ use std::io;
 use std::os::fd::BorrowedFd;
 use unripple_core::require;
 
-/// Batches of events read in one poll.
+/// Batches of events read in one poll, so that a poll does bounded work: the rest is read by the next.
 const BATCHES: usize = 16;
 /// How often a screen is looked at that cannot wake anybody, in s.
 const PACE: f64 = 0.002;

@@ -7,10 +7,11 @@ pub struct Event {
     pub kind: u16,
     /// Which of that kind.
     pub code: u16,
-    /// The value.
+    /// Its value, in the device's own unit.
     pub value: i32,
 }
 
+/// Kinds and codes of events, as `linux/input-event-codes.h` has them.
 const EV_SYN: u16 = 0;
 const EV_ABS: u16 = 3;
 const SYN_REPORT: u16 = 0;
@@ -68,7 +69,7 @@ pub struct Slots {
 }
 
 impl Slots {
-    /// Nothing touches.
+    /// Slots of a screen that nothing touches.
     pub fn new() -> Self {
         Self { slots: vec![Slot::default(); MOST], current: 0, dropping: false, unnamed: 0 }
     }
@@ -110,7 +111,7 @@ impl Slots {
         match code {
             TRACKING_ID if value < 0 => *slot = Slot { pressure: None, contact: None, lost: false, ..*slot },
             TRACKING_ID => {
-                // A place that does not change is not told again, so that of the contact before holds.
+                // A place that does not change is not reported again, so that of the contact before holds.
                 (slot.contact, slot.lost) = (Some(i64::from(value)), false);
             }
             X => slot.x = Some(value),

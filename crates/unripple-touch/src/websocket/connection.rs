@@ -18,7 +18,7 @@ use unripple_core::Phase;
 /// Bytes and messages read from one connection in one poll.
 const BYTES: usize = 16 * 1024;
 const MESSAGES: usize = 64;
-/// The longest message, in bytes.
+/// The longest message, in bytes: a touch takes some hundred, and a longer one is refused.
 const LONGEST: usize = 4 * 1024;
 /// Answers that may wait for a client to take them, in bytes.
 const WAITING: usize = 16 * 1024;

@@ -5,10 +5,10 @@ use serde::{Deserialize, Deserializer};
 use serde_json::json;
 use unripple_core::{Outline, Phase, Point};
 
-/// The protocol's JSON schema, version 1.
+/// The JSON schema of the touch protocol, version 1, for clients that check what they send.
 pub const SCHEMA: &str = include_str!("../../schema/touch-1.json");
 
-/// The version that is spoken.
+/// The version of the protocol that is spoken; a client that asks for another is refused.
 const VERSION: u64 = 1;
 /// The longest explanation that is sent, in characters.
 const LONGEST: usize = 200;
@@ -146,7 +146,7 @@ fn short(text: &str) -> String {
     text.chars().take(LONGEST).collect()
 }
 
-/// What a client is told of whom it speaks to.
+/// The message that says what server and what surface a client speaks to.
 pub(super) fn hello(surface: &Outline) -> String {
     let (width, height) = surface.extent();
     let version = env!("CARGO_PKG_VERSION");
@@ -155,7 +155,7 @@ pub(super) fn hello(surface: &Outline) -> String {
         .to_string()
 }
 
-/// What a client is told of what was wrong.
+/// The message that says what was wrong with the client's own.
 pub(super) fn error(what: &str) -> String {
     json!({"v": VERSION, "type": "error", "what": short(what)}).to_string()
 }

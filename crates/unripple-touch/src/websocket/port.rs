@@ -12,7 +12,7 @@ use unripple_core::require;
 /// How often clients are looked after, to be pinged and dropped, in s.
 const LOOK: f64 = 0.1;
 
-/// Connections taken in one poll.
+/// Connections taken in one poll, so that a flood of them keeps no finger waiting.
 const ACCEPTED: usize = 8;
 
 /// Who may connect, and how many.
@@ -48,7 +48,7 @@ pub struct WebSocketPort {
 }
 
 impl WebSocketPort {
-    /// Listens to this machine alone; port 0 takes any that is free.
+    /// Listens to this machine alone; port 0 takes any that is free. `port` is its number.
     ///
     /// ```
     /// use unripple_core::{Outline, Shape};
