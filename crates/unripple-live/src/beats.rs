@@ -105,12 +105,12 @@ impl Beats {
         }
     }
 
-    /// Whom to wake when it is time, and who follows what is heard.
+    /// Sets whom to wake when it is time, and who follows what is heard.
     pub fn tell(&mut self, bell: Option<Thread>, overheard: Option<Overheard>) {
         (self.bell, self.overheard) = (bell, overheard);
     }
 
-    /// Who follows what is heard, no longer told from here.
+    /// Takes back who follows what is heard.
     pub fn take_overheard(&mut self) -> Option<Overheard> {
         self.overheard.take()
     }

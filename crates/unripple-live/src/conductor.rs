@@ -13,13 +13,14 @@ use unripple_effects::{Act, Cue, Effects};
 use unripple_player::{At, Command, Count, Desk, Prepared, Report, Voice};
 use unripple_touch::{Heard, Wish};
 
-/// Starts whose touches are remembered until they are reported.
+/// Starts whose touches are remembered until the player reports them; the oldest go first, and their latency is not
+/// counted.
 const MOST_ASKED: usize = 1 << 12;
 
 /// Time after which a step that makes drives looks at what came meanwhile, so that a finger that lifts is not kept waiting.
 const LONG: Duration = Duration::from_millis(5);
 
-/// The player's name of pings.
+/// The player's name of pings: the last of all numbers, which no start is given.
 const PING: u64 = u64::MAX;
 
 /// Turns what touches set off into commands for a player: cues wait here for their time, drives are made or remembered, and what
@@ -73,7 +74,7 @@ pub struct Conductor {
     pace: Pace,
     /// Whether the player stands still.
     pub(crate) stands: bool,
-    /// The block in which the player was last told what it may not know.
+    /// The block in which the player was last sent what it may not know.
     told: Option<u64>,
     /// Reports lost so far.
     missed: u64,
@@ -91,7 +92,8 @@ impl std::fmt::Debug for Conductor {
 }
 
 impl Conductor {
-    /// Effects played through a desk, whose player has so many inputs for waveforms.
+    /// Effects played through a desk, whose player has `inputs` inputs for waveforms; `time` has its rate, block and
+    /// window.
     pub fn new(effects: Effects, drives: DriveCache, desk: Desk, time: Timing, inputs: usize) -> Self {
         let Timing { rate, window, .. } = time;
         Self {
@@ -122,7 +124,7 @@ impl Conductor {
         }
     }
 
-    /// Lets drives be made with real-time priority, where the system grants it.
+    /// Lets drives be made with real-time priority, 1 to 99, where the system grants it.
     pub fn request_realtime(&mut self, priority: Option<u8>) {
         self.drives.request_realtime(priority);
     }
@@ -162,7 +164,8 @@ impl Conductor {
         self.log = Some(Log::default());
     }
 
-    /// Drives that began since this was last asked, as far as the player has told: what began in a block is told after it.
+    /// Drives that began since this was last asked, as far as the player has reported: what began in a block is
+    /// reported after it.
     pub fn began(&mut self) -> Vec<Began> {
         self.listen();
         self.log.as_mut().map_or_else(Vec::new, Log::take)
@@ -240,7 +243,8 @@ impl Conductor {
         Some((seconds * self.rate).round() as u32).filter(|samples| *samples > 0)
     }
 
-    /// Goes on with another maker: what sounds goes over to drives for the surface as it is now.
+    /// Goes on with another maker: what sounds goes over to drives for the surface as it is now. `now` is a sample of
+    /// the player's clock.
     ///
     /// # Errors
     /// [`LiveError::Gone`] if no drive can be made any more.

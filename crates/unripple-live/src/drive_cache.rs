@@ -9,7 +9,8 @@ use unripple_dsp::{Convolver, Threshold, Weighting, convolve};
 use unripple_effects::{Level, Wave};
 use unripple_player::Prepared;
 
-/// Places that are remembered; the one used longest ago goes first.
+/// Places whose drives are remembered; the one used longest ago goes first. A drive of eight channels and 70 ms takes
+/// 0.1 MB in float32, and twice that in float64.
 const REMEMBERED: usize = 256;
 
 /// Length of the loudest part of a waveform that its level is taken from, in s.
@@ -42,7 +43,7 @@ pub struct Full {
     pub felt_db: f64,
 }
 
-/// Waveforms whose factors are remembered.
+/// Waveforms whose factors are remembered: an effect set has a few, and each is quickly computed again.
 const WAVES: usize = 64;
 
 /// Points to the last bit.
@@ -87,7 +88,7 @@ impl DriveCache {
         }
     }
 
-    /// Lets drives be made with priority, by this maker and those to come.
+    /// Lets drives be made with real-time priority, 1 to 99, by this worker and those to come.
     pub fn request_realtime(&mut self, priority: Option<u8>) {
         self.maker.request_realtime(priority);
         self.hurried = priority;

@@ -1,4 +1,4 @@
-//! Who hears touches: all sources, asked when there is something, and where fingers will be when waves reach them.
+//! All sources of touches, polled when one of them has something, and where fingers will be when waves reach them.
 
 use std::time::Duration;
 use unripple_core::{Phase, Point, Touch};
@@ -8,7 +8,7 @@ use unripple_touch::{Counts, Heard, Sources};
 const LONGEST: Duration = Duration::from_millis(100);
 const SHORTEST: Duration = Duration::from_millis(1);
 
-/// Sources of touches, and how what they tell is used.
+/// Sources of touches, and how what they report is used.
 pub(crate) struct Ears {
     sources: Sources,
     /// Whether what a moving finger sets off is aimed where it will be, and how far ahead that is, in s.
@@ -39,11 +39,12 @@ impl News {
 }
 
 impl Ears {
+    /// Sources whose moving fingers are aimed `window` s ahead, if `predict` asks for it.
     pub fn new(sources: Sources, predict: bool, window: f64) -> Self {
         Self { sources, predict, window }
     }
 
-    /// What all sources have to tell up to a time in s of the device's clock.
+    /// What all sources report up to a time in s of the device's clock.
     pub fn hear(&mut self, now: f64) -> News {
         let mut heard = Heard::default();
         self.sources.poll(now, &mut heard);
@@ -62,7 +63,8 @@ impl Ears {
         self.sources.counts()
     }
 
-    /// Waits until a source has something to tell, or for a tenth of a second; `now` is the time in s of the device's clock.
+    /// Waits until a source has something to report, or for a tenth of a second; `now` is the time in s of the
+    /// device's clock.
     #[cfg(unix)]
     pub fn wait(&self, now: f64) {
         use rustix::event::{PollFd, PollFlags, Timespec, poll};

@@ -18,7 +18,7 @@ use unripple_touch::{Counts, Heard, Sources};
 /// whatever it likes.
 const LONGEST_BLOCK: usize = 64;
 
-/// The shortest.
+/// Shortest block, in samples: below it the player's fixed work of each block outweighs the rest.
 const SHORTEST_BLOCK: usize = 16;
 
 /// A surface being played: touches in, waves out.
@@ -80,7 +80,7 @@ impl Engine {
         Ok(Self { stage, heart: Heartbeat::new(player, block, device), ears, ahead })
     }
 
-    /// With fingers put on a virtual surface, which tells what they feel.
+    /// With fingers put on a virtual surface, so that what they feel is known.
     pub fn with_feeler(mut self, feeler: Feeler) -> Self {
         self.stage.feeler = Some(feeler);
         self
@@ -98,7 +98,7 @@ impl Engine {
         Ok(self)
     }
 
-    /// With somebody who is told of all that is heard, as it is heard.
+    /// With a listener that is given all that is heard, as it is heard.
     pub fn with_listener(mut self, listener: Listener) -> Self {
         self.stage.listener = Some(listener);
         self

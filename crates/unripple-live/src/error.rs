@@ -21,7 +21,7 @@ pub enum LiveError {
     /// The device has other channels or another rate than the surface.
     #[error("device `{device}`: expected {expected}, found {found}")]
     Unlike {
-        /// The device.
+        /// Name of the device.
         device: String,
         /// What the surface has.
         expected: String,
@@ -37,7 +37,7 @@ pub enum LiveError {
     /// No drive can be made.
     #[error(transparent)]
     Focus(#[from] FocusError),
-    /// What a drive does cannot be told.
+    /// What a drive does to the surface cannot be computed.
     #[error(transparent)]
     Field(#[from] FieldError),
     /// A device cannot be had.

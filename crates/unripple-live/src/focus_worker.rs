@@ -185,7 +185,7 @@ impl FocusWorker {
     }
 }
 
-/// A maker's thread, before it has told whether it is ready.
+/// A maker's thread, before it has said whether it is ready.
 struct Ready {
     planned: Sender<Result<(), LiveError>>,
     asked: Receiver<Ask>,

@@ -12,7 +12,8 @@ const WORTH: f64 = 1e-4;
 /// Periods after a finger has left in which the sheet still rings as it did under the finger.
 const SETTLING: u32 = 1;
 
-/// Follows tension while the surface is played, from what is sent and what the actuators hear of it.
+/// Follows tension while the surface is played, from what is sent and what the actuators hear of it, by a Kalman
+/// filter ([`Tracker`]).
 ///
 /// The model knows the sheet without fingers. So stretches in which a finger was on it are passed over, and a ping that
 /// nobody feels tells of the tension as soon as all have left.
@@ -70,7 +71,7 @@ impl Follower {
         self.period
     }
 
-    /// Observations so far.
+    /// Number of observations so far.
     pub fn observations(&self) -> u64 {
         self.observations
     }

@@ -113,7 +113,7 @@ impl Heartbeat {
         &self.heard
     }
 
-    /// What plays.
+    /// The device that plays.
     pub fn device(&self) -> &dyn Device {
         self.device.as_ref()
     }

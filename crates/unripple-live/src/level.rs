@@ -17,7 +17,7 @@ pub struct Level {
     /// Displacement at a focus, in m, of a full pulse and at the surface's own limit.
     moved: [f64; 2],
     limit: f64,
-    /// Whether it is known what responses mean.
+    /// Whether the scale of the responses is known.
     scaled: bool,
 }
 

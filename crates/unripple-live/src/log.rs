@@ -10,7 +10,7 @@ const MOST: usize = 1 << 14;
 /// A drive that began to sound.
 #[derive(Clone, Debug)]
 pub struct Began {
-    /// The drive.
+    /// The drive that began.
     pub drive: Arc<Prepared>,
     /// The factor on it, after limiting.
     pub gain: f32,
@@ -86,7 +86,7 @@ impl Log {
         }
     }
 
-    /// Nothing more is told of a name.
+    /// Forgets the player's name of a drive: nothing more is reported of it.
     pub fn forget(&mut self, name: u64) {
         self.playing.remove(&name);
     }

@@ -19,12 +19,13 @@ pub(crate) struct Pace {
 }
 
 impl Pace {
+    /// A clock that has not moved yet, at `rate` samples per second.
     pub fn new(rate: f64) -> Self {
         Self { rate, moved: None, by: 0.0 }
     }
 
-    /// Looks at the clock; whether it stands still. Blocks that take long are not mistaken for that: it may stand for twice as long as it
-    /// last moved by.
+    /// Whether the clock, in samples, stands still at an instant. Blocks that take long are not mistaken for that: it
+    /// may stand for twice as long as it last moved by.
     pub fn stands(&mut self, clock: u64, at: Instant) -> bool {
         match self.moved {
             Some((before, since)) if before == clock => {

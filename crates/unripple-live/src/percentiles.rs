@@ -1,10 +1,10 @@
 //! A histogram of times with bins of equal ratio: percentiles within 1 % in constant memory.
 
-/// Shortest time told apart, in s, and how much longer each bin is than the last.
+/// Shortest time that is resolved, in s, and how much longer each bin is than the last.
 const SHORTEST: f64 = 1e-7;
 const STEP: f64 = 1.01;
 
-/// Bins up to 10 s.
+/// Bins up to 10 s: as many steps of 1 % as lie between 100 ns and that.
 const BINS: usize = 1852;
 
 /// How long things took: percentiles of any number of times, within 1 %, in memory that does not grow.
@@ -43,12 +43,12 @@ impl Percentiles {
         self.worst = self.worst.max(seconds);
     }
 
-    /// How many there were that nobody knows the time of.
+    /// Number of times that were not known.
     pub fn unknown(&self) -> u64 {
         self.unknown
     }
 
-    /// How many there are.
+    /// Number of times that were added.
     pub fn count(&self) -> u64 {
         self.count
     }
@@ -64,12 +64,12 @@ impl Percentiles {
         Some((SHORTEST * STEP.powi(bin as i32)).min(self.worst))
     }
 
-    /// The longest.
+    /// The longest time, in s; `None` without times.
     pub fn worst(&self) -> Option<f64> {
         (self.count > 0).then_some(self.worst)
     }
 
-    /// The 50th, 99th and 99.9th percentile, and the worst.
+    /// The 50th, 99th and 99.9th percentile, and the worst, in s.
     pub fn four(&self) -> Option<[f64; 4]> {
         Some([self.at(0.5)?, self.at(0.99)?, self.at(0.999)?, self.worst()?])
     }

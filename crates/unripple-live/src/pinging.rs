@@ -14,6 +14,7 @@ pub(crate) struct Pinging {
 }
 
 impl Pinging {
+    /// A ping for periods of so many samples.
     pub fn new(ping: Arc<Prepared>, period: u64) -> Self {
         Self { ping, period: period.max(1), begun: None }
     }

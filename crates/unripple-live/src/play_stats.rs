@@ -6,7 +6,7 @@ use unripple_player::{Report, Why};
 /// What was played, what was not, and how late.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlayStats {
-    /// Cues played.
+    /// Number of cues played.
     pub cues: u64,
     /// Cues dropped because too many waited.
     pub dropped: u64,

@@ -96,7 +96,7 @@ impl Recovering {
         })
     }
 
-    /// Times that the device came back.
+    /// Number of times that the device came back.
     pub fn returns(&self) -> u64 {
         self.returns
     }

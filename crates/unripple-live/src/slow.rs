@@ -9,6 +9,7 @@ use unripple_physics::{ResponseOptions, design::papers_surface, responses};
 use unripple_player::{Options, Player, player};
 use unripple_touch::Heard;
 
+/// Samples per second, and per block: those of a usual sound card.
 const RATE: f64 = 48e3;
 const BLOCK: usize = 64;
 

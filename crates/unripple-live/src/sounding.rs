@@ -14,7 +14,7 @@ pub(crate) enum Sounding {
 }
 
 impl Sounding {
-    /// The same elsewhere.
+    /// The same at another place, in m.
     pub fn moved(mut self, to: Point) -> Self {
         let (Self::Comb { place, .. } | Self::Wave { place, .. }) = &mut self;
         *place = to;
@@ -37,14 +37,15 @@ impl Sounding {
 /// What is wanted under a voice, and what of it the player knows.
 #[derive(Debug)]
 pub(crate) struct Kept {
+    /// What it sounds, where and how strongly.
     pub sounding: Sounding,
     /// The player's name of it, given once.
     pub name: u64,
-    /// What keeps it going in the player; nothing if that has not been told yet.
+    /// What keeps it going in the player; nothing if the player does not know of it yet.
     pub hold: Option<Hold>,
     /// The player's input that a waveform has.
     pub input: Option<usize>,
-    /// Whether the player was told where and how strong.
+    /// Whether the player knows where and how strong it is.
     pub told: bool,
     /// The sample before which it is not begun again.
     pub again: u64,
@@ -53,7 +54,7 @@ pub(crate) struct Kept {
 }
 
 impl Kept {
-    /// What the player was not told yet, under a name.
+    /// A sound that the player has not been given yet, under a name, a number that is used once.
     pub fn new(sounding: Sounding, name: u64) -> Self {
         Self { sounding, name, hold: None, input: None, told: false, again: 0, hopeless: false }
     }
@@ -69,6 +70,7 @@ pub(crate) struct Inputs {
 }
 
 impl Inputs {
+    /// Inputs of a player that has `count` of them.
     pub fn new(count: usize) -> Self {
         Self { free: vec![true; count], leaving: Vec::new() }
     }
@@ -97,7 +99,7 @@ impl Inputs {
         }
     }
 
-    /// Gives an input back once what was stopped is over.
+    /// Gives an input, by its number, back once what was stopped is over.
     pub fn leave(&mut self, input: usize, hold: Hold) {
         self.leaving.push((input, hold));
     }

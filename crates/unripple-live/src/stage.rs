@@ -9,7 +9,7 @@ use unripple_core::{Phase, Point, Touch};
 use unripple_devices::{Feeler, Feeling};
 use unripple_touch::{Counts, Heard};
 
-/// Who is told of all that is heard, and when (s of the device's clock).
+/// Who is given all that is heard, and when (s of the device's clock).
 pub type Listener = Box<dyn FnMut(f64, &Heard) + Send>;
 
 /// All of a surface being played that is not the audio thread's: who touches it, what that sets off, what it does to the fingers.
@@ -17,7 +17,7 @@ pub struct Stage {
     pub(crate) conductor: Conductor,
     pub(crate) feeler: Option<Feeler>,
     pub(crate) follower: Option<Follower>,
-    /// What following said last.
+    /// What the drift filter said last.
     pub(crate) drift: Option<Drift>,
     pub(crate) pinging: Option<Pinging>,
     pub(crate) listener: Option<Listener>,
@@ -77,12 +77,12 @@ impl Stage {
         Ok(())
     }
 
-    /// What every finger felt since the last look; nothing on a surface that cannot tell.
+    /// What every finger felt since the last look; nothing on a real surface, where that is not known.
     pub fn feelings(&mut self) -> Vec<Feeling> {
         self.feeler.as_mut().map_or_else(Vec::new, Feeler::look)
     }
 
-    /// Whether what fingers feel can be told: of a virtual surface alone.
+    /// Whether what fingers feel is known: on a virtual surface alone.
     pub fn tells_feelings(&self) -> bool {
         self.feeler.is_some()
     }
@@ -97,17 +97,17 @@ impl Stage {
         &self.conductor
     }
 
-    /// The same, to be told what to keep.
+    /// The same, to change what it keeps.
     pub fn conductor_mut(&mut self) -> &mut Conductor {
         &mut self.conductor
     }
 
-    /// What all sources of touches took in and refused, as far as they have told.
+    /// What all sources of touches took in and refused, as far as they have reported.
     pub fn counts(&self) -> Counts {
         self.counts
     }
 
-    /// What following the tension said last.
+    /// What the drift filter said last of the tension.
     pub fn drift(&self) -> Option<&Drift> {
         self.drift.as_ref()
     }
@@ -117,7 +117,7 @@ impl Stage {
         &self.computing
     }
 
-    /// Seconds played.
+    /// Time played, in s.
     pub fn time(&self) -> f64 {
         self.clock as f64 / self.rate
     }

@@ -15,7 +15,7 @@ use unripple_core::{DeviceError, State};
 /// How often what goes on by itself is looked after while anything sounds or waits, in s of the device's clock.
 const PACE: f64 = 0.0025;
 
-/// How often whoever watches is told.
+/// How often whoever watches gets a report: five times a second, as fast as figures can be read.
 const TELL: Duration = Duration::from_millis(200);
 
 /// Cycles ahead that commands are given, and the least time ahead in s: what is due later may still be taken back.

@@ -5,7 +5,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicI64, AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-/// Nothing has left yet.
+/// Stands for "nothing has left yet", a time that no clock shows.
 const NEVER: i64 = i64::MIN;
 
 /// Cycles that are remembered: more than pass until the player's word on them is heard.
@@ -71,7 +71,7 @@ impl Timeline {
     }
 
     /// The sample that leaves at an instant, in s of the player's clock: within a cycle of the first one that is not computed yet, however
-    /// long the device stands still. Touches that come meanwhile are told apart by it: each is timed a sample after the one before, for
+    /// long the device stands still. Touches that come meanwhile stay distinct: each is timed a sample after the one before, for
     /// another cycle at most.
     pub fn at(&self, instant: Instant) -> f64 {
         let next = self.next.load(Ordering::Acquire) as f64 / self.rate;
@@ -124,7 +124,7 @@ impl Timeline {
         leaves.saturating_duration_since(came).as_secs_f64()
     }
 
-    /// Samples of the last cycle.
+    /// Number of samples in the last cycle.
     pub fn period(&self) -> usize {
         self.period.load(Ordering::Acquire)
     }

@@ -70,7 +70,7 @@ impl Conductor {
         told
     }
 
-    /// Tells the player again what it may not know; whether there was time for all of it in a step that began at some instant.
+    /// Sends the player again what it may not know; whether there was time for all of it in a step that began at some instant.
     pub(crate) fn tell_again(&mut self, at: At, began: Instant) -> Result<bool, LiveError> {
         let untold = self.sounding.iter().filter(|(_, kept)| !kept.told).map(|(voice, _)| *voice);
         for voice in untold.collect::<Vec<u64>>() {
@@ -108,7 +108,7 @@ impl Conductor {
         self.ahead.forget_over();
     }
 
-    /// Begins something in the player, or changes it there; what finds no room is told again later.
+    /// Begins something in the player, or changes it there; what finds no room is sent again later.
     fn tell(&mut self, kept: &mut Kept, at: At) -> Result<(), LiveError> {
         kept.told = false;
         let early = kept.hold.is_none() && self.desk.clock() < kept.again;
