@@ -90,7 +90,7 @@ where
     let mut relay = Relay { to, shared: shared.clone() };
     let work = move || {
         let over = run(&ask, &mut relay);
-        // Whoever gave it up does not hear how it ended.
+        // Whoever cancelled it is not informed of how it ended.
         let _ = relay.to.send(Said::Over(over));
     };
     let thread = std::thread::Builder::new().name("task".into()).spawn(work).map_err(TaskError::work)?;

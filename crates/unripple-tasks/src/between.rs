@@ -12,7 +12,8 @@ const REACH: f64 = 5.0;
 /// A place this near to a stored point, in metres, is that point.
 const SAME: f64 = 1e-6;
 
-/// The stored responses with those at places that are not among them, and what to say of these.
+/// The stored responses together with interpolated ones at `places` (m) that are not among their points, and notes on
+/// these.
 pub fn completed(
     stored: SampledResponses,
     surface: &Surface,

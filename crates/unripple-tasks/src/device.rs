@@ -26,7 +26,7 @@ pub enum DeviceKind {
 }
 
 impl DeviceKind {
-    /// Its name.
+    /// Its name in asks and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Virtual => "virtual",
@@ -95,7 +95,7 @@ impl DeviceAsk {
     }
 }
 
-/// A virtual surface, and what it was not told of if anything.
+/// A virtual surface, and what is true of it beyond its file, if anything.
 ///
 /// # Errors
 /// Those of [`Virtual`] and [`Perturbation::truth`].

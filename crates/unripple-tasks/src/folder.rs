@@ -4,7 +4,7 @@ use crate::{Progress, TaskError};
 use serde::Serialize;
 use unripple_store::OutputDir;
 
-/// Puts an output folder in its place unless the task is cancelled, and tells if it replaced an earlier run's.
+/// Puts an output folder in its place unless the task is cancelled, and says so if it replaced an earlier run's.
 ///
 /// # Errors
 /// [`TaskError::Cancelled`]; those of [`OutputDir::commit`].

@@ -1,4 +1,4 @@
-//! A drive on a surface, judged.
+//! The model of a surface, and the field of a drive on it, measured.
 
 use crate::{Progress, TaskError, go_on};
 use unripple::act;

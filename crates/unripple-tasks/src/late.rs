@@ -1,4 +1,4 @@
-//! What is said of a probe's own delay.
+//! The sentence about a probe's own delay, for reports and logs.
 
 /// A probe's delay (s) beside the sensors, which was taken out.
 pub fn comes(delay: f64) -> String {

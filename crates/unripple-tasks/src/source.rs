@@ -53,7 +53,7 @@ pub fn warn(library: &Library, progress: &mut dyn Progress) -> Vec<Note> {
     notes
 }
 
-/// A surface by name, file or text, or a library by its folder; what is wrong with that is told.
+/// A surface by name, file or text, or a library by its folder; what is wrong with that is reported.
 ///
 /// # Errors
 /// Those of [`SurfaceAsk::load`]; [`TaskError::Input`] of a library that does not describe its surface or has no finished point.
@@ -128,11 +128,11 @@ pub fn reads(ask: &SurfaceAsk) -> Vec<PathBuf> {
 /// What figures taken on a library are of, and notes on it.
 pub type Told = (String, Vec<Note>);
 
-/// Damaged files named one by one.
+/// Damaged files named one by one; of more the number is said.
 const LISTED: usize = 5;
 
 impl Source {
-    /// Its shortest wavelength, where responses are stored.
+    /// The shortest wavelength of a library's band, in m; nothing of a surface file.
     pub fn lambda_min(&self) -> Option<f64> {
         self.stored.as_ref().map(|stored| stored.responses.conditions.lambda_min)
     }

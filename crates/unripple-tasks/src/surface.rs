@@ -21,7 +21,7 @@ pub enum SurfaceAsk {
     },
     /// The text of a surface file.
     Text {
-        /// The text.
+        /// The text itself, as TOML.
         toml: String,
     },
 }

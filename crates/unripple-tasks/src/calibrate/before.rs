@@ -6,8 +6,9 @@ use unripple::core::Surface;
 use unripple_calibrate::measure::MeasureOptions;
 use unripple_store::{Library, LibraryPlan};
 
-/// The keys of a plan's provenance for the seconds of a sweep, and for its lowest and its highest frequency.
+/// The key of a plan's provenance for the seconds of a sweep.
 pub const SWEEP: &str = "sweep s";
+/// The key for its lowest and highest frequency, in Hz.
 pub const SWEPT: &str = "swept Hz";
 
 /// Frequencies that differ by less than this share are the same.

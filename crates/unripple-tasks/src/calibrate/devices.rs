@@ -11,7 +11,9 @@ use unripple_devices::{DevicesError, Jack, Perturbation, VirtualOptions};
 
 /// An open device with whoever moves its probe.
 pub struct Opened {
+    /// The device, and whoever moves its probe.
     pub rig: Box<dyn Rig>,
+    /// What is true of a virtual surface and not in its file.
     /// What is true of a virtual surface and was not told.
     pub truth: Option<String>,
 }
@@ -26,6 +28,7 @@ fn failed(error: DevicesError) -> TaskError {
     }
 }
 
+/// Opens the device of an ask; `hands` move the probe of a real one.
 pub fn open(options: &DeviceAsk, surface: &Surface, hands: Hands) -> Result<Opened, TaskError> {
     match options.device {
         DeviceKind::Virtual => virtual_surface(options, surface),

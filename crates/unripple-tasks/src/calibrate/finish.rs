@@ -55,7 +55,7 @@ pub fn begin(campaign: &Campaign<'_>, library: &mut Library) -> Result<(), TaskE
     Ok(library.set_doubts(UNFINISHED, vec![stopped])?)
 }
 
-/// Says how far the library is to be trusted; all of it in the library itself.
+/// Says in the library how far it is to be trusted; `latency` is in samples, with how far actuators disagree on it.
 pub fn finish(
     campaign: &Campaign<'_>,
     shelf: &mut Shelf,
@@ -70,7 +70,7 @@ pub fn finish(
     Ok(shelf.library.set_doubts(UNFINISHED, Vec::new())?)
 }
 
-/// Adds a run to the log.
+/// Adds a run to the log: the number of points that it measured, and how many seconds it took.
 pub fn log_run(
     campaign: &Campaign<'_>,
     library: &mut Library,
@@ -96,7 +96,7 @@ pub fn log_run(
     Ok(library.log("runs", Value::Array(runs.split_off(first)))?)
 }
 
-/// Responses, `[sensor][drive]`.
+/// Responses from actuator to actuator, `[sensor][drive][sample]`.
 type Pairs = Vec<Vec<Vec<f64>>>;
 
 /// Actuators whose own points are measured and not left out, and what their sensors heard.

@@ -25,7 +25,8 @@ const LEAST: f64 = 23.0;
 /// Samples side by side at the largest magnitude that are no chance.
 const FLAT: usize = 20;
 
-/// Most repeats that are worth their time.
+/// Most repeats that are worth their time: they raise the signal-to-noise ratio by 12 dB, and the next 3 dB double
+/// the time again.
 const REPEATS: f64 = 16.0;
 
 /// One channel of a take.

@@ -38,11 +38,17 @@ use unripple_store::{Library, LibraryPlan, OutputDir};
 
 /// All that is known before anything is measured.
 pub(crate) struct Campaign<'a> {
+    /// What was asked for.
     pub ask: &'a Ask,
+    /// The surface as its file has it.
     pub surface: &'a Surface,
+    /// Its model, from that file.
     pub model: &'a ModalResponses,
+    /// How responses are measured.
     pub settings: MeasureOptions,
+    /// What full scale stands for at inputs and outputs.
     pub scales: Scales,
+    /// The places to be measured.
     pub places: Places,
     /// Where a figure is to be, if one is asked for.
     pub figure: Option<OutputDir>,

@@ -24,12 +24,12 @@ impl Report {
         Ok(Self { found, text: report.text(), failure })
     }
 
-    /// Of recordings.
+    /// The answer of a calibration by recordings.
     pub(super) fn of_tape(found: Value, text: String, failure: Option<String>) -> Self {
         Self { found, text, failure }
     }
 
-    /// Of levels.
+    /// The answer of a look at levels.
     pub(super) fn of_levels(levels: &Levels) -> Result<Self, TaskError> {
         let found = serde_json::to_value(levels).map_err(TaskError::work)?;
         Ok(Self { found, text: levels.text(), failure: levels.failure() })

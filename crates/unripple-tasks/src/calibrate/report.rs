@@ -21,7 +21,7 @@ pub struct Report {
     signal_to_noise_db: Spread,
     distortion_db: Spread,
     decay_time_s: Spread,
-    /// Gains free.
+    /// Error of reciprocity, one gain for each actuator being free, as a ratio.
     reciprocity_error: Option<f64>,
     seconds_per_recording: f64,
     seconds: f64,
@@ -96,7 +96,7 @@ impl Report {
         })
     }
 
-    /// For people.
+    /// The report for people, a few lines.
     pub fn text(&self) -> String {
         let mut text = format!("{}: {} of {} points measured", self.library, self.measured, self.points);
         if !self.bad.is_empty() {

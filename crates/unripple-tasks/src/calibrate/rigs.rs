@@ -14,6 +14,7 @@ pub struct VirtualRig {
 }
 
 impl VirtualRig {
+    /// A virtual surface whose noise and taps follow from `seed`, the point and the attempt.
     pub fn new(device: Virtual, seed: u64) -> Self {
         Self { handle: device.handle(), device, seed }
     }
@@ -53,6 +54,7 @@ pub struct HandRig<D> {
 }
 
 impl<D: Device> HandRig<D> {
+    /// A real device with somebody at it.
     pub fn new(device: D, hands: Hands) -> Self {
         Self { device, hands, place: None }
     }

@@ -11,11 +11,12 @@ use unripple_calibrate::measure::{self, Channel, Sink};
 use unripple_calibrate::signals::Reciprocity;
 use unripple_store::{BandQuality, Library, PointState, Quality, StoreError, Take};
 
-/// The key of a point's log under which is what its take tells of itself.
+/// The key of a point's log under which is what its recording showed besides responses.
 pub const SAID: &str = "said";
 
 /// A library that is being filled.
 pub struct Shelf {
+    /// The library itself.
     pub library: Library,
     /// Points that this campaign measures; the rest are the actuators' own.
     pub probed: usize,
@@ -32,6 +33,8 @@ pub struct Shelf {
 }
 
 impl Shelf {
+    /// A library of which `probed` points are measured by a probe or by taps, and the actuators' own points last;
+    /// `without` are indices of actuators that are left out.
     pub fn new(
         library: Library,
         probed: usize,
@@ -44,7 +47,7 @@ impl Shelf {
         Self { library, probed, probe: scales.input(PROBE), sensors, without, deaf, made }
     }
 
-    /// For taps, whose strength the model tells: scales do not matter.
+    /// For taps, whose strength follows from the model: scales do not matter.
     pub fn by_taps(self) -> Self {
         Self { probe: 1.0, ..self }
     }
@@ -63,7 +66,8 @@ impl Shelf {
         Ok(self.library.set_reciprocity_error(found.error)?)
     }
 
-    /// What sensors heard when the library was begun, if any was measured: what later takes are held against. Those that are dead or bad
+    /// What sensors heard when the library was begun, if any was measured: what later takes are compared with. Those
+    /// that are dead or bad
     /// heard nothing.
     pub fn heard(&self) -> Result<Option<Vec<Channel>>, TaskError> {
         let (samples, count) = (self.library.plan().samples, self.sensors.len());
@@ -86,7 +90,8 @@ impl Shelf {
         self.sensors.iter().enumerate().map(channel).collect::<Result<Vec<_>, _>>().map(Some)
     }
 
-    /// Quality by thirds of an octave as it is kept, for which room is made; none of taps, which are not told apart by frequency.
+    /// Quality by thirds of an octave as it is kept, for which room is made; none of taps, whose quality is not known
+    /// by frequency.
     fn bands(&mut self, channel: &Channel) -> Result<Vec<Vec<BandQuality>>, StoreError> {
         let middles: Vec<f64> = channel.bands.first().into_iter().flatten().map(|band| band.hz).collect();
         if middles.is_empty() {
@@ -121,7 +126,8 @@ impl Shelf {
         (0..self.library.points().len()).filter(there).all(|point| self.made.contains(&point))
     }
 
-    /// Keeps what a take tells of itself in a point's log, and forgets what was done to the responses before: first, so that no log
+    /// Keeps what a take showed besides responses in a point's log, and forgets what was done to the responses
+    /// before: first, so that no log
     /// speaks of other responses than are there.
     fn note(&mut self, number: usize, channel: &Channel) -> Result<(), StoreError> {
         let said = channel.account.said();

@@ -1,4 +1,4 @@
-//! What was measured, held against a model that is fitted to what the sensors heard.
+//! What was measured, checked against a model that is fitted to what the sensors recorded.
 
 use super::shelf::Shelf;
 use crate::TaskError;
@@ -100,7 +100,7 @@ fn heard(shelf: &Shelf, surface: &Surface, settings: &MeasureOptions) -> Result<
 struct Taken {
     /// A delay, in s.
     delay: f64,
-    /// A factor.
+    /// A factor on the samples.
     times: f64,
 }
 
@@ -150,7 +150,8 @@ fn correct(
 ) -> Result<(), TaskError> {
     let rate = probed.conditions.rate;
     let all = found.probe_delay.or_else(|| before(taken));
-    // The log first, of all of them: it tells by the responses that are there whether they were corrected.
+    // The log first, of all of them: from it and the responses that are there a later run sees whether they were
+    // corrected.
     let (mut logs, mut steps) = (BTreeMap::new(), Vec::new());
     for (n, point) in points.iter().enumerate() {
         let sound = found.points.get(n).filter(|verdict| verdict.doubt.is_none());
@@ -185,7 +186,7 @@ fn correct(
     Ok(library.log(PROBE, said)?)
 }
 
-/// The delay that was taken out before, in s, if any was: where nothing tells another, it is that of all points.
+/// The delay that was taken out before, in s, if any was: where nothing shows another, it is that of all points.
 fn before(taken: &[Taken]) -> Option<f64> {
     let mut known: Vec<f64> = taken.iter().map(|taken| taken.delay).filter(|delay| *delay != 0.0).collect();
     known.sort_unstable_by(f64::total_cmp);

@@ -33,6 +33,7 @@ pub struct Asked<'a> {
 }
 
 impl<'a> Asked<'a> {
+    /// What a campaign knows of its wires.
     pub fn of(known: &'a Campaign<'_>) -> Self {
         Self {
             actuators: known.surface.actuators.iter().map(|actuator| actuator.name.as_str()).collect(),

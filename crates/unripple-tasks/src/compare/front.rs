@@ -10,11 +10,11 @@ use unripple::focus::{Focused, Focuser, Method, Options};
 /// What turning a method's knob gives, point by point.
 #[derive(Clone, Debug, Serialize)]
 pub struct Front {
-    /// Its name.
+    /// Name of the method.
     pub method: &'static str,
     /// `strength` or `push`.
     pub knob: &'static str,
-    /// Its values.
+    /// Values of the knob.
     pub at: Vec<f64>,
     /// Contrast at the first target and its focal instant.
     pub contrast: Vec<f64>,
@@ -27,8 +27,9 @@ pub struct Front {
 /// Cells per shortest wavelength, half as many as figures are taken on: enough for a curve.
 const CELLS: f64 = 4.0;
 
+/// Strengths at which a method is tried, closer where it is near its own limit and contrast changes fastest.
 const STRENGTHS: [f64; 7] = [0.0, 0.3, 0.6, 0.8, 0.9, 0.96, 0.99];
-/// Planning for several plants takes its time.
+/// The same for `robust`, fewer, since planning for several plants takes its time.
 const ROBUST: [f64; 4] = [0.0, 0.7, 0.95, 0.99];
 /// Of `felt`: weights of energy, and of the worst spot that goes with each.
 const ECONOMIES: [[f64; 2]; 5] = [[0.01, 0.04], [0.06, 0.04], [0.2, 0.05], [0.5, 0.06], [1.5, 0.08]];

@@ -8,11 +8,11 @@ use unripple::act::Level;
 /// All methods, one row each, and what a method's knob trades.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// The program.
+    /// Name of the program.
     pub program: &'static str,
-    /// Its version.
+    /// Version of the program.
     pub version: &'static str,
-    /// The task.
+    /// Name of the task.
     pub command: &'static str,
     /// The surface's own name.
     pub surface: String,

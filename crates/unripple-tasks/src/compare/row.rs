@@ -14,7 +14,7 @@ use unripple::focus::{Focuser, Method, Options};
 /// What one method does, as emitted at the level asked for, or at its limit where that is beyond.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// Its name.
+    /// Name of the method.
     pub method: &'static str,
     /// Seconds to plan for the surface.
     pub plan_s: f64,
@@ -91,6 +91,7 @@ fn prices(row: &Row) -> [f64; 2] {
     [row.drive.energy / (peak * peak), 20.0 * row.drive.rms.log10() - level]
 }
 
+/// Headings of the table's columns, in the order of `cells`.
 const HEADINGS: [&str; 15] = [
     "method",
     "contrast",
@@ -182,8 +183,11 @@ pub fn markdown(surface: &str, rows: &[Row], conditions: Conditions) -> String {
 /// What all rows have in common.
 #[derive(Clone, Copy, Debug)]
 pub struct Conditions {
+    /// Window T, in s.
     pub window: f64,
+    /// Highest frequency of the modes that drives are judged on, in Hz.
     pub judged_to: f64,
+    /// The level that was asked for.
     pub level: Level,
 }
 

@@ -12,12 +12,15 @@ use unripple_store::OutputDir;
 
 /// Everything that is compared with.
 pub(super) struct Ground<'a> {
+    /// The surface in common.
     pub surface: &'a Surface,
     /// What drives are made from.
     pub known: &'a Responses,
     /// What they are judged on.
     pub plant: &'a Responses,
+    /// The targets in common.
     pub targets: &'a [Target],
+    /// The options in common: window, level.
     pub options: &'a Options,
     /// How strongly each method drives.
     pub level: Level,

@@ -141,7 +141,7 @@ fn told(found: &Found) -> String {
     text
 }
 
-/// Channel counts and rates, as far as the kernel tells.
+/// Channel counts and rates, as far as the kernel says.
 fn offers(stream: &Stream) -> String {
     let listed = |values: Vec<String>| values.join(", ");
     if stream.channels.is_empty() && stream.rates.is_empty() {

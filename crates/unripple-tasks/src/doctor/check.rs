@@ -5,7 +5,7 @@ use serde::Serialize;
 /// One stage, and how it fares.
 #[derive(Clone, Debug, Serialize)]
 pub struct Check {
-    /// Which stage.
+    /// Name of the stage.
     pub name: &'static str,
     /// How it fares.
     pub verdict: Verdict,
@@ -31,7 +31,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// For people.
+    /// The verdict as a word for people.
     pub fn word(self) -> &'static str {
         match self {
             Self::Good => "good",

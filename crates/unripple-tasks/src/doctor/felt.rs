@@ -15,7 +15,7 @@ const CLEAR: f64 = 12.0;
 /// Contrast below which a focus is hardly one.
 const WEAK: f64 = 5.0;
 
-/// How many dB the finger must be louder than the worst spot for the focus to be told from the rest.
+/// How many dB the finger must be louder than the worst spot for the focus to be felt as distinct from the rest.
 const APART: f64 = 3.0;
 
 /// Cells of the grid per shortest wavelength: enough for a verdict.

@@ -14,7 +14,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// Its name.
+    /// Its name in asks and reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Wav => "wav",

@@ -6,11 +6,11 @@ use unripple::act::Note;
 /// A library as it was written.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// The program.
+    /// Name of the program.
     pub program: &'static str,
-    /// Its version.
+    /// Version of the program.
     pub version: &'static str,
-    /// The task.
+    /// Name of the task.
     pub command: &'static str,
     /// The library as it was named.
     pub library: String,

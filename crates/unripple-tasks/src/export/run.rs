@@ -8,7 +8,8 @@ use unripple_store::{Library, PointState, SofaAbout};
 /// Writes a library as WAV files or as one SOFA file.
 ///
 /// # Errors
-/// [`TaskError::Ask`] if no format is given and the output's name tells none, or if WAV is to hold what only SOFA holds;
+/// [`TaskError::Ask`] if no format is given and the output's name implies none, or if WAV is to hold what only SOFA
+/// holds;
 /// [`TaskError::Input`] of a library without a finished point; those of reading and writing files; [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     let format = format(ask)?;
@@ -53,7 +54,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     })
 }
 
-/// The format that was asked for, or that the output's name tells.
+/// The format that was asked for, or that the output's name implies.
 fn format(ask: &Ask) -> Result<Format, TaskError> {
     let ending = ask.output.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     let format = match (ask.format, ending.as_deref()) {

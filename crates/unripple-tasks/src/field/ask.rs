@@ -5,13 +5,13 @@ use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use unripple_calibrate::Interpolation;
 
-/// A drive.
+/// A drive, from a file or as samples.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum DriveAsk {
     /// A WAV file with one channel per actuator, in the actuators' units.
     File(PathBuf),
-    /// Samples.
+    /// Samples given in the ask itself.
     Samples {
         /// One list per actuator, in the actuators' units.
         channels: Vec<Vec<f64>>,
@@ -32,7 +32,7 @@ impl Default for DriveAsk {
 pub struct Ask {
     /// A surface file, the name of a built-in surface, or a library of responses.
     pub surface: SurfaceAsk,
-    /// The drive.
+    /// The drive that is played.
     pub drive: DriveAsk,
     /// Where to measure, in m; by default where the field is strongest.
     pub points_m: Vec<Place>,

@@ -12,17 +12,17 @@ use unripple_store::{OutputDir, read_wav};
 /// What a field was found to be, for whoever wants more than its report.
 #[derive(Debug)]
 pub struct Made {
-    /// The report.
+    /// The report, as `run` returns it.
     pub report: Report,
-    /// The drive.
+    /// The drive that was played.
     pub drive: Drive,
     /// Figures, traces and maps.
     pub judged: Judged,
     /// Where and when it was measured.
     pub aims: Vec<Aim>,
-    /// The surface.
+    /// The surface that was driven.
     pub surface: Surface,
-    /// Its responses: a [`Field`] of them and the drive tells the rest.
+    /// Its responses: everything else follows from a [`Field`] of them and the drive.
     pub responses: Responses,
     /// Whether lengths and velocities are known.
     pub scaled: bool,

@@ -10,9 +10,9 @@ const TURN: usize = 240;
 /// What every map of one surface shows besides the field: rim, actuators, targets and their focal discs.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// The rim.
+    /// The rim as closed polygons, in m.
     pub outline: Vec<Ring>,
-    /// Everything marked.
+    /// Actuators, targets and focal discs.
     pub markers: Vec<Marker>,
 }
 

@@ -3,7 +3,7 @@
 use unripple::field::{TargetFigures, Trace};
 use unripple_plot::{Axis, Figure, Ink, Rule, Traces, prefixed};
 
-/// Most targets whose traces are drawn.
+/// Most targets whose traces are drawn: the palette has seven colours, and more lines cannot be followed.
 const MOST: usize = 8;
 
 /// Velocity and displacement of the targets against time; of a set of points, its first.

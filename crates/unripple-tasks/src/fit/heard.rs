@@ -35,6 +35,7 @@ pub struct Heard {
 }
 
 impl Heard {
+    /// What actuators hear of each other in a library, and its responses at all other points.
     pub fn of(library: &Library, surface: &Surface, progress: &mut dyn Progress) -> Result<Self, TaskError> {
         let (all, damage) = library.intact()?;
         for damage in &damage {

@@ -1,4 +1,4 @@
-//! The probed points of a library, held against the model fitted to its actuators.
+//! The probed points of a library, checked against the model fitted to its actuators.
 
 use super::heard::Heard;
 use crate::TaskError;
@@ -23,6 +23,7 @@ pub struct Probed {
 }
 
 impl Probed {
+    /// The probed points of a library, checked against a fitted model.
     pub fn of(fitted: &Fitted, surface: &Surface, heard: &Heard) -> Result<Self, TaskError> {
         let options = VerifyOptions {
             numbers: heard.numbers.clone(),

@@ -47,7 +47,7 @@ pub struct Report {
 /// The library that was made.
 #[derive(Clone, Debug, Serialize)]
 pub struct Written {
-    /// Its folder.
+    /// Path of its folder.
     pub library: String,
     /// How many points it holds.
     pub points: usize,

@@ -14,7 +14,7 @@ use unripple_store::OutputDir;
 /// What came of a focus, for whoever wants more than its report.
 #[derive(Debug)]
 pub struct Made {
-    /// The report.
+    /// The report, as `run` returns it.
     pub report: Report,
     /// The drive as it is emitted: float32 samples in the actuators' unit.
     pub drive: Drive,

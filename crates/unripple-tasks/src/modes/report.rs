@@ -3,7 +3,7 @@
 use serde::Serialize;
 use std::fmt::Write;
 
-/// Modes listed for people.
+/// Modes listed for people; JSON has all.
 const LISTED: usize = 40;
 
 /// The modes of a surface, lowest first.

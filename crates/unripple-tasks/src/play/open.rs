@@ -13,7 +13,7 @@ use unripple_live::Recovering;
 /// Fingers that a virtual surface bears at once, those that are being lifted included.
 const FINGERS: usize = 24;
 
-/// Fingers of which it is told what they feel.
+/// Fingers whose sensation is computed: the ten of two hands. Each costs one watched place.
 const FELT: usize = 10;
 
 /// How often a lost sound server is looked for again.
@@ -34,6 +34,7 @@ const LONGEST: f64 = 3600.0;
 
 /// A device, and what goes with it.
 pub(super) struct Opened {
+    /// The device that plays.
     pub device: Box<dyn Device>,
     /// Of a virtual surface: what fingers feel.
     pub feeler: Option<Feeler>,

@@ -57,7 +57,7 @@ pub struct Report {
     /// What is wrong with the library that was played on.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<Note>,
-    /// Whether what fingers feel could be told.
+    /// Whether what fingers feel is known.
     #[serde(skip)]
     tells_feelings: bool,
     /// Whether the library that was played on has no scale, so that levels mean nothing.

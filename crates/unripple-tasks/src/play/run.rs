@@ -21,7 +21,7 @@ const KEPT: f64 = 60.0;
 /// Time over which tension is observed, in s: a ping, and until it is over.
 const FOLLOWED: f64 = 0.4;
 
-/// How often fingers are told of, in s of played time.
+/// How often fingers are reported, in s of played time.
 const TELL: f64 = 0.2;
 
 /// Plays a surface under touches until it is over, or is cancelled, which is no error: what was played until then is reported.
@@ -124,7 +124,7 @@ pub fn follower(
     Ok((Follower::new(tracker, &settings.focus, channels, surface.emission.rate, FOLLOWED, latency), ping))
 }
 
-/// One sitting.
+/// One session of play, from opening to report.
 struct Session<'a> {
     ask: &'a Ask,
     touches: Touches,

@@ -17,24 +17,36 @@ const HELD: f64 = 1e-6;
 
 /// A drive, what is known of it, and how it was judged.
 pub(crate) struct Played {
+    /// The drive, float32 samples in the actuators' unit.
     pub drive: Drive,
+    /// Where and when it is judged.
     pub aims: Vec<Aim>,
+    /// Name of the method that made it.
     pub method: &'static str,
+    /// How the targets followed their waveforms.
     pub waveforms: Vec<Followed>,
+    /// What is left at the silent places.
     pub silent: Vec<SilenceFigures>,
+    /// How a stroke kept its level, if it is one.
     pub stroke: Option<Stroked>,
 }
 
+/// What a waveform and a stroke are asked alike.
 /// What both kinds are asked alike.
 pub(crate) struct Common<'a> {
+    /// The surface that the drive is made for.
     pub surface: &'a SurfaceAsk,
+    /// Another surface that it is judged on.
     pub on: Option<&'a SurfaceAsk>,
+    /// Highest frequency of the modes that it is judged on, in Hz.
     pub judge_hz: Option<f64>,
+    /// Where the results are to go.
     pub output: Option<&'a PathBuf>,
+    /// Files that are read, which no output may replace.
     pub reads: Vec<PathBuf>,
     /// Name of the field that a library does not serve.
     pub needs: &'static str,
-    /// Multiples of the band up to which modes are planned with, and judged on if not told otherwise.
+    /// Multiples of the band up to which modes are planned with, and judged on by default.
     pub bands: [f64; 2],
 }
 

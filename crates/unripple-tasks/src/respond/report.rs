@@ -5,11 +5,11 @@ use serde::Serialize;
 /// A library of responses, as it was made.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// The program.
+    /// Name of the program.
     pub program: &'static str,
-    /// Its version.
+    /// Version of the program.
     pub version: &'static str,
-    /// The task.
+    /// Name of the task.
     pub command: &'static str,
     /// The surface's own name.
     pub surface: String,

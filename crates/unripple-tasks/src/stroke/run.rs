@@ -10,10 +10,10 @@ use unripple::core::{Drive, Point, Responses, Surface};
 use unripple::field::{Aim, Field};
 use unripple::focus::{Pattern, PulseOptions, Stroke, strike};
 
-/// Strokes are planned and judged on modes up to these multiples of the band, the second if not told otherwise: pulses are all band.
+/// Strokes are planned and judged on modes up to these multiples of the band, the second by default: pulses fill the whole band.
 const BANDS: [f64; 2] = [1.0, 2.0];
 
-/// Places of a stroke measured at once.
+/// Places of a stroke measured at once, which bounds memory.
 const AT_ONCE: usize = 256;
 
 /// Places measured for each pulse of a stroke.

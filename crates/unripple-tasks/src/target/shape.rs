@@ -31,7 +31,7 @@ pub enum ShapeAsk {
         /// Length of a side, in m.
         side_m: f64,
     },
-    /// A circle.
+    /// A circle, as a line.
     Circle {
         /// Its centre, in m.
         centre_m: Place,
@@ -40,14 +40,14 @@ pub enum ShapeAsk {
     },
     /// Lines, or what they enclose.
     Lines {
-        /// The lines.
+        /// The lines, each a list of corners.
         lines: Vec<LineAsk>,
         /// Whether what they enclose is meant.
         filled: bool,
     },
     /// An SVG file, which says by itself what is filled and what is stroked.
     Svg {
-        /// The file.
+        /// Path of the SVG file.
         file: PathBuf,
     },
 }

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum SoundAsk {
-    /// A tone.
+    /// A tone of one frequency.
     Sine {
         /// Its frequency, in Hz.
         hz: f64,
@@ -29,10 +29,10 @@ pub enum SoundAsk {
     },
     /// The first channel of a recording.
     Wav {
-        /// The file.
+        /// Path of the WAV file.
         file: PathBuf,
     },
-    /// Samples.
+    /// Samples given in the ask itself.
     Samples {
         /// Their values; only their proportions matter.
         values: Vec<f64>,
@@ -47,7 +47,7 @@ pub enum SoundAsk {
 pub struct WaveformAsk {
     /// Where, in m.
     pub at_m: Place,
-    /// What.
+    /// The waveform that it is to follow.
     pub sound: SoundAsk,
     /// Its peak displacement, in m.
     #[serde(default = "micrometre")]

@@ -9,7 +9,7 @@ use unripple::core::{Drive, Responses, Surface};
 use unripple::field::{Aim, Field, Wanted};
 use unripple::focus::{PlayOptions, play};
 
-/// Waveforms are planned and judged on modes up to these multiples of the band, the second if not told otherwise: at low
+/// Waveforms are planned and judged on modes up to these multiples of the band, the second by default: at low
 /// frequencies a sheet yields by modes far above.
 const BANDS: [f64; 2] = [2.0, 3.0];
 

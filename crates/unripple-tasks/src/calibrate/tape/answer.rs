@@ -6,7 +6,7 @@ use crate::calibrate::{Report, doubted, report};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// Recordings named one by one.
+/// Recordings named one by one; of more the number is said.
 const LISTED: usize = 12;
 
 impl Bench<'_> {

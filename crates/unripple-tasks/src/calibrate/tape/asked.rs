@@ -53,7 +53,7 @@ impl Asked {
         .collect()
     }
 
-    /// All recordings of a calibration, in order; first that of the actuators, where anything tells of them. Points that this plan has keep
+    /// All recordings of a calibration, in order; first that of the actuators, where any input hears them. Points that this plan has keep
     /// their files, new ones are counted on.
     pub fn wanted(&self, places: &Places, hears_itself: bool, repeats: usize) -> Vec<Wanted> {
         let last = |repeat: usize| if repeat == 0 { String::new() } else { format!("-{}", repeat + 1) };

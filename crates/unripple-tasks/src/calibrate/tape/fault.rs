@@ -7,15 +7,19 @@ use serde_json::{Value, json};
 pub struct Fault {
     /// Its file, or all that are concerned.
     pub file: String,
+    /// What is wrong with it.
     pub why: String,
+    /// What to do about it.
     pub mend: String,
 }
 
 impl Fault {
+    /// A fault of a file: what is wrong, and what to do.
     pub fn new(file: &str, why: impl Into<String>, mend: &str) -> Self {
         Self { file: file.into(), why: why.into(), mend: mend.into() }
     }
 
+    /// The fault as an entry of the report.
     pub fn json(&self) -> Value {
         json!({ "file": self.file, "why": self.why, "mend": self.mend })
     }

@@ -185,7 +185,7 @@ struct Work<'b, 'a> {
     /// Recordings that are used.
     all: Vec<Wanted>,
     faults: Vec<Fault>,
-    /// What sensors heard, which points' recordings are held against.
+    /// What sensors heard, which points' recordings are compared with.
     known: Option<Vec<Channel>>,
     start: Instant,
 }

@@ -1,4 +1,4 @@
-//! Calibration by files: what is to be played is written, what was recorded elsewhere is brought back.
+//! Calibration by files: sweeps to be played elsewhere are written as WAV, and the recordings of them are read back.
 
 mod answer;
 mod asked;
@@ -136,7 +136,7 @@ impl Bench<'_> {
         self.present().iter().map(|one| (self.folder.join(&one.file), one.at.is_none())).collect()
     }
 
-    /// Whether there is what nothing can be read without: a recording of the actuators, where anything tells of them.
+    /// Whether there is what nothing can be read without: a recording of the actuators, where any input hears them.
     fn can_begin(&self) -> bool {
         let present = self.present();
         let own = self.wanted.iter().any(|one| one.at.is_none());

@@ -11,19 +11,19 @@ use unripple_calibrate::measure::{Listen, MeasureOptions, Rig, Session};
 use unripple_devices::Tape;
 use unripple_store::{write_file, write_wav};
 
-/// What is to be played.
+/// Name of the file that is to be played.
 pub const PLAY: &str = "play.wav";
 
-/// What was planned.
+/// Name of the file that says what was planned.
 const PLAN: &str = "plan.json";
 
-/// The version of the plan.
+/// Version of the plan's format; another one is refused.
 const FORMAT: u32 = 1;
 
 /// Numbers that differ by less than this share are the same, written by another version.
 const SAME: f64 = 1e-9;
 
-/// Keys that a plan may lack.
+/// Keys that a plan of an earlier version may lack.
 const NEW: [&str; 2] = ["ringing_s", "sweep_from_hz"];
 
 /// The plan that a folder has, if it has one.
@@ -94,7 +94,7 @@ pub fn drive(session: &Session, layout: &Layout, at: Point) -> Result<Drive, Tas
     Drive::new(layout.rate, layout.outputs.clone(), channels).map_err(TaskError::input)
 }
 
-/// The plan as it is told in the folder, SI units.
+/// The plan as it is written to the folder, in SI units.
 pub fn told(
     surface: &str,
     layout: &Layout,

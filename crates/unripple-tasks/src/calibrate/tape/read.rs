@@ -16,7 +16,9 @@ const ROOM: f64 = 2.2;
 /// How recordings are read.
 #[derive(Clone, Debug)]
 pub struct Reader {
+    /// The channels that recordings have, and their rate.
     pub layout: Layout,
+    /// The band that sweeps cover.
     pub band: Band,
     /// Whether recordings of another rate are brought to that of the surface.
     pub resample: bool,

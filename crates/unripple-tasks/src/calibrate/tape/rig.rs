@@ -21,6 +21,7 @@ pub struct TapeRig {
 }
 
 impl TapeRig {
+    /// Recordings that are there, to be played back in order of point and repeat.
     pub fn new(takes: Takes, there: Vec<Wanted>) -> Result<Self, DevicesError> {
         let tape = Tape::recorder(takes.layout().clone())?;
         Ok(Self { takes, there, tape })
@@ -48,7 +49,8 @@ impl Rig for TapeRig {
     }
 }
 
-/// Points of which the log is written at once.
+/// Points of which the log is written at once: it is one file, and writing it for each point takes longer the more
+/// there are.
 const AT_ONCE: usize = 32;
 
 /// Keeps points, and in their log what they were made of.
@@ -61,10 +63,12 @@ pub struct TapeShelf<'a> {
 }
 
 impl<'a> TapeShelf<'a> {
+    /// Keeps points on a shelf; `made` says by number what each point is made of.
     pub fn new(shelf: &'a mut Shelf, made: BTreeMap<usize, Value>) -> Self {
         Self { shelf, made, pending: BTreeMap::new() }
     }
 
+    /// Keeps the responses of the point of this number, and what they were made of.
     pub fn keep(&mut self, number: usize, channel: &Channel, fault: Option<&str>) -> Result<(), TaskError> {
         self.shelf.keep(number, channel, fault)?;
         // Responses first: a point whose log was not written is measured again.

@@ -27,20 +27,22 @@ const LIKE: f64 = 0.7;
 /// Pieces in which samples that were lost are looked for.
 const PIECES: usize = 8;
 
-/// Channels that tell how late a recording is.
+/// Channels that a recording's delay is found from.
 const TELLING: usize = 3;
 
 /// Seconds by which actuators may differ on where playing began: less than sweeps are apart.
 const AGREE: f64 = 0.05;
 
-/// Actuators that are asked for it, at most.
+/// Actuators that it is found from, at most.
 const ASKED: usize = 16;
 
-/// Reads recordings.
+/// Reads recordings, and moves each to where playing began.
 #[derive(Clone, Debug)]
 pub struct Takes {
     folder: PathBuf,
+    /// How files are read.
     pub reader: Reader,
+    /// Which channel is which.
     pub wires: Wires,
     /// What is played.
     pub drive: Drive,
@@ -56,6 +58,7 @@ impl Takes {
         Self { folder, reader, wires, drive, known: Vec::new(), late: BTreeMap::new() }
     }
 
+    /// The channels that recordings have.
     pub fn layout(&self) -> &Layout {
         &self.reader.layout
     }
@@ -111,7 +114,7 @@ impl Takes {
         let mut alone = self.drive.channels().iter().filter_map(one).map(|delay| delay.samples);
         let nearest = match anchor {
             Some(anchor) => alone.min_by(|a, b| (a - anchor).abs().total_cmp(&(b - anchor).abs())),
-            // Nobody else tells: the one with which all that is played is in the recording.
+            // Nothing else decides: the one with which all that is played is in the recording.
             None => alone.find(|late| {
                 let left = line.len() as f64 - late;
                 *late >= -AFTER && left >= self.drive.samples() as f64 - SHORT * self.rate()

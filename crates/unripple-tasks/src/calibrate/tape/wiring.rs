@@ -24,7 +24,7 @@ const BELIEVED: f64 = 0.67;
 /// like its model, what seems wrong differs from one to the next.
 const BURSTS: [f64; 3] = [0.2, 0.4, 0.6];
 
-/// Points that are looked at where no sensor tells.
+/// Points that are looked at where there are no sensors.
 const LOOKED_AT: usize = 3;
 
 /// What was found of the wires.
@@ -44,7 +44,7 @@ pub struct Tried {
 pub enum Failed {
     /// The recording of the actuators is no good.
     Recording(String),
-    /// Anything else.
+    /// Any other error.
     Other(TaskError),
 }
 
@@ -116,7 +116,7 @@ impl Tried {
             best.filter(|db| !db.is_nan()).fold(f64::NEG_INFINITY, f64::max) < DEAF
         };
         let deaf: Vec<usize> = (0..rows.len()).filter(|row| sensing && noisy(&rows[*row])).collect();
-        // Where nobody hears anything it is not wires, and told otherwise.
+        // Where nobody hears anything it is not the wires, and reported elsewhere.
         if deaf.len() == rows.len() {
             return;
         }
@@ -250,7 +250,7 @@ impl Tried {
     }
 }
 
-/// Channels that are held against the model, with their names; where the probe was, if it is the last of them.
+/// Channels that are compared with the model, with their names; where the probe was, if it is the last of them.
 struct Held {
     names: Vec<String>,
     channels: Vec<Channel>,
@@ -307,7 +307,7 @@ fn is_dead(hearing: &[Hearing<'_>], drive: usize) -> bool {
         .is_some_and(|share| share < DEAD || (noise && share < QUIET))
 }
 
-/// The median.
+/// The median of values; nothing of none.
 fn middle_of(mut values: Vec<f64>) -> Option<f64> {
     values.sort_unstable_by(f64::total_cmp);
     values.get(values.len() / 2).copied()
