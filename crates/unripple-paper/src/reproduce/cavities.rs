@@ -11,7 +11,7 @@ use unripple_tasks::TaskError;
 
 /// Windows simulated, in seconds; the bed's is among them.
 const WINDOWS: [f64; 6] = [0.005, 0.010, 0.020, 0.030, 0.060, 0.150];
-/// Numbers of actuators.
+/// Numbers of actuators: the fewest, and the paper's own.
 const ACTUATORS: [usize; 2] = [1, 8];
 
 /// Contrast on one outline.

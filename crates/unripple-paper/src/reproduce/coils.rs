@@ -8,13 +8,13 @@ use unripple::core::CoilDrive;
 use unripple::physics::Medium;
 use unripple_tasks::TaskError;
 
-/// Radius of the contact of a magnet, in metres.
+/// Radius of the contact of a magnet, in metres. It is half the diameter of the light magnet.
 const CONTACT: f64 = 0.75e-3;
 
 /// Diameter and thickness of a magnet so light that the film hardly feels it, in metres.
 const MAGNET: [f64; 2] = [1.5e-3, 0.5e-3];
 
-/// Mass of that magnet, in kg.
+/// Mass of that magnet, in kg: about its volume times 7500 kg/m³, the density of neodymium magnets.
 const MAGNET_MASS: f64 = 7e-6;
 
 /// Frequency at which the film is compared with the coil, in Hz.

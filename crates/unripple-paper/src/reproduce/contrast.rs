@@ -11,7 +11,8 @@ use unripple::physics::design::{ACTUATORS, Cavity};
 use unripple_plot::{Axis, Dash, Figure, Ink, Layer, Line, Mark, Plot, Points, Rgb, Rule};
 use unripple_tasks::TaskError;
 
-/// Windows simulated, in seconds.
+/// Windows simulated, in seconds: from before the contrast settles to where it no longer grows, about evenly in their
+/// logarithm.
 const WINDOWS: [f64; 8] = [0.005, 0.0075, 0.0125, 0.020, 0.030, 0.050, 0.085, 0.150];
 /// Tops of the band simulated, as shares of the surface's.
 const BANDS: [f64; 7] = [0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0];
@@ -19,7 +20,7 @@ const BANDS: [f64; 7] = [0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0];
 const NOISES: [f64; 7] = [0.03, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2];
 /// Most groups that placements are divided into to find how sure their mean is.
 const GROUPS: usize = 10;
-/// Pieces of a smooth curve.
+/// Pieces of a smooth curve: more cannot be seen at the width of a column.
 const STEPS: usize = 80;
 
 /// A mean over placements with its standard error, beside the closed forms.

@@ -17,19 +17,19 @@ use unripple_tasks::TaskError;
 use unripple_tasks::figures::{Scene, drawn};
 use unripple_tasks::judge::CELLS;
 
-/// The impulse at A, in N·s.
+/// The impulse at A, in N·s. All is linear, so that it sets nothing but the scale of what is recorded.
 const IMPULSE: f64 = 1e-6;
 
-/// Which actuator plays the part of B.
+/// Index of the actuator that plays the part of B.
 const ACTUATOR: usize = 0;
 
 /// Largest force, in N: far below the film's limit, so that displacement stays below its thickness.
 pub(super) const FORCE: f64 = 10e-3;
 
-/// A point that is not aimed at.
+/// A point that is not aimed at, where the noise is read.
 const C: Point = Point::new(0.110, 0.055);
 
-/// How long is recorded, in windows T.
+/// How long is recorded, in windows T: the first is reversed, the rest shows how the motion dies away.
 const RECORDED: f64 = 2.5;
 
 /// Instants of the spreading wave, in seconds after the impulse.
@@ -105,7 +105,7 @@ pub(super) fn rms(values: &[f64]) -> f64 {
     (values.iter().map(|x| x * x).sum::<f64>() / values.len().max(1) as f64).sqrt()
 }
 
-/// Largest magnitude.
+/// Largest magnitude of some values; 0 without any.
 pub(super) fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |m, x| m.max(x.abs()))
 }

@@ -17,7 +17,7 @@ use unripple_tasks::TaskError;
 use unripple_tasks::figures::{Scene, drawn};
 use unripple_tasks::judge::CELLS;
 
-/// Which actuator is the only one.
+/// Index of the actuator that is the only one.
 const ACTUATOR: usize = 0;
 
 /// How many times longer than the paper's film the reverberant one rings.

@@ -8,9 +8,9 @@ use unripple::physics::design::{Scattering, Strip, film_strip, glass_strip, tabl
 use unripple_plot::{Axis, Dash, Figure, Ink, Layer, Line, Plot, Rule};
 use unripple_tasks::TaskError;
 
-/// Frequencies shown, in Hz.
+/// Frequencies shown, in Hz: four decades, with the band of touch within.
 const RANGE: [f64; 2] = [10.0, 1e5];
-/// Points of a curve.
+/// Points of a curve, a hundred for each decade.
 const STEPS: usize = 400;
 /// Displacement of the finger in table 1, in metres.
 const DISPLACEMENT: f64 = 10e-6;

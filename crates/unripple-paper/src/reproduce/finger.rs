@@ -7,7 +7,7 @@ use serde_json::json;
 use unripple_plot::{Along, Axis, Figure, Ink, Layer, Line, Mark, Plot, Points, Rule};
 use unripple_tasks::TaskError;
 
-/// Radii of the contact, in metres.
+/// Radii of the contact, in metres: those of a light to a firm touch of a fingertip.
 const RADII: [f64; 6] = [3e-3, 4e-3, 5e-3, 6e-3, 7e-3, 8e-3];
 
 /// What the paper measured (section 4.3): focus and noise alike.

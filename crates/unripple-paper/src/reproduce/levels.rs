@@ -15,9 +15,9 @@ use unripple_tasks::judge;
 
 /// The paper's two amplitudes, in metres: what it measured, and what it says scaling up could reach.
 const LEVELS: [f64; 2] = [40e-6, 200e-6];
-/// Force per current of the paper's actuators, in N/A.
+/// Force per current of the paper's actuators, in N/A, as the paper prints it.
 const FORCE_CONSTANT: f64 = 6.0;
-/// Resistance of their coils, in Ω.
+/// Resistance of their coils, in Ω, as the paper prints it.
 const RESISTANCE: f64 = 6.2;
 
 /// What one method does at the drive limit.

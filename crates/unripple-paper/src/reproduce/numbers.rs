@@ -10,7 +10,7 @@ use unripple_tasks::TaskError;
 
 /// Highest frequency that the first mode is looked for below, in Hz.
 const LOW: f64 = 300.0;
-/// Relative accuracy of the first mode.
+/// Relative accuracy of the first mode, far below the digits that the paper prints.
 const ACCURACY: f64 = 1e-6;
 /// The tension that the paper prints, in N/m.
 const PRINTED_TENSION: f64 = 30.0;

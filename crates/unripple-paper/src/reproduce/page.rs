@@ -3,6 +3,7 @@
 use super::{Compared, Picture, Section};
 use std::fmt::Write;
 
+/// Style of the page, its title, the paper's own reference, and the headings of its comparisons.
 const STYLE: &str = include_str!("page.css");
 const TITLE: &str = "Time-reversed touch, reproduced";
 const PAPER: &str = "C. Hudin, J. Lozada, M. Wiertlewski and V. Hayward, “Tradeoffs in the application of time-reversed \

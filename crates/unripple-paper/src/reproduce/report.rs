@@ -27,7 +27,7 @@ pub struct SectionReport {
     pub compared: Vec<Compared>,
     /// A table of ours: headings first.
     pub table: Vec<Vec<String>>,
-    /// Its figures.
+    /// Figures of this part.
     pub figures: Vec<FigureReport>,
     /// Its numbers, SI units; `null` for none.
     pub data: Value,

@@ -7,7 +7,7 @@ use super::{
 use unripple_store::OutputDir;
 use unripple_tasks::{Progress, TaskError, figures, folder, go_on};
 
-/// Fewest placements whose mean has a spread.
+/// Fewest placements whose mean has a standard error.
 const FEWEST: usize = 2;
 
 /// Does the paper's figures, table and numbers again, and writes them as one page if a folder is given.

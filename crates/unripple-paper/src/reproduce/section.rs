@@ -24,7 +24,7 @@ pub struct Section {
 pub struct Picture {
     /// Its file name without ending.
     pub name: &'static str,
-    /// The figure.
+    /// The figure itself.
     pub figure: Figure,
     /// What it shows.
     pub caption: String,
@@ -51,7 +51,7 @@ impl Picture {
 /// A quantity in the paper and here.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Compared {
-    /// The quantity.
+    /// Name of the quantity.
     pub what: String,
     /// What the paper has.
     pub paper: String,

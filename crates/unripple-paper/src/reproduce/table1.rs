@@ -7,7 +7,7 @@ use unripple::core::Finger;
 use unripple::physics::design::{Touch, glass_strip, table1};
 use unripple_tasks::TaskError;
 
-/// Displacement of the finger, in metres.
+/// Displacement of the finger, in metres: the paper's own.
 const DISPLACEMENT: f64 = 10e-6;
 
 /// Table 1: the power that moves a fingertip by 10 µm, through glass and through film.

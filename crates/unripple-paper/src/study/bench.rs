@@ -76,7 +76,7 @@ impl Bench {
         Self::with(surface, Arc::new(modes), cells)
     }
 
-    /// The same surface with its band ending at `top_hz`, below the present end.
+    /// The same surface with its band ending at `top_hz`, below the present end. `top_hz` is in Hz.
     ///
     /// # Errors
     /// [`StudyError::Field`] if the grid cannot be made.
@@ -112,7 +112,7 @@ impl Bench {
         &self.conditions
     }
 
-    /// The rim.
+    /// The outline of the surface.
     pub fn outline(&self) -> &Outline {
         &self.conditions.outline
     }
@@ -139,7 +139,7 @@ impl Bench {
         Replay::once(&self.poles, self.conditions.rate, window)
     }
 
-    /// The same however long the window.
+    /// One pulse over a window (s), in the same time however long that is.
     pub fn once_of_any_length(&self, window: f64) -> Replay {
         Replay::of_any_length(&self.poles, self.conditions.rate, window)
     }

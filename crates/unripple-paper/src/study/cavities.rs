@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use unripple_core::{Outline, Point, Shape};
 
-/// Width over height of the rectangle.
+/// Width over height of the rectangle: far enough from 1 that modes do not fall together as those of a square do.
 const ASPECT: f64 = 1.5;
 
 /// Vertices of the irregular polygon before it is scaled: no two sides parallel or equal, no symmetry.

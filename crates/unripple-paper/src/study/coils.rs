@@ -60,7 +60,7 @@ impl Coils {
 /// A surface with such coils.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coiled {
-    /// The coils.
+    /// The kind of coil.
     pub coils: Coils,
     /// Median amplitude decay time of the oscillations in the band, in s.
     pub decay_time_s: f64,

@@ -96,7 +96,7 @@ pub fn against_band(
 }
 
 /// Contrast when responses are recorded, or the drive emitted, with white noise: against the rms of the noise within
-/// the band over that of the responses over the window.
+/// the band over that of the responses over the window (s), ratios without unit.
 pub fn against_noise(
     bench: &Bench,
     surface: &Surface,

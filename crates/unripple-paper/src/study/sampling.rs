@@ -12,9 +12,9 @@ const TRIES: usize = 1000;
 /// What a statistic is taken over: seeded placements of actuators along the rim, and targets inside.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sampling {
-    /// Placements.
+    /// Number of placements of the actuators.
     pub placements: usize,
-    /// Targets of each.
+    /// Number of targets for each placement.
     pub targets: usize,
     /// Nearest and farthest an actuator may be from the rim, in metres.
     pub depth: [f64; 2],

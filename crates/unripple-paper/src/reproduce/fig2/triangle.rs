@@ -15,7 +15,7 @@ use unripple_tasks::TaskError;
 use unripple_tasks::figures::{Scene, drawn};
 use unripple_tasks::judge::CELLS;
 
-/// Centre and side of the triangle.
+/// Centre and side of the triangle, in m: large beside a focus, and well inside the film.
 const CENTRE: Point = Point::new(0.075, 0.070);
 const SIDE: f64 = 0.070;
 
