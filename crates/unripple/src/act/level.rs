@@ -111,11 +111,13 @@ impl Level {
 
 /// A level asked for that the drive limit does not give.
 pub(super) struct Beyond {
+    /// The kind of level.
     pub what: LevelKind,
     /// What it gives, with its unit.
     pub most: String,
     /// What was asked for, and its unit.
     pub wanted: String,
+    /// Unit of the value, as people write it.
     pub unit: &'static str,
 }
 

@@ -58,13 +58,13 @@ use crate::focus::{Focused, Focuser, Options, Target};
 pub struct Act<'a> {
     /// The surface that is judged on.
     pub surface: &'a Surface,
-    /// Its responses.
+    /// Its responses, modal or sampled.
     pub responses: &'a Responses,
     /// What is to be in focus.
     pub targets: &'a [Target],
     /// How to focus.
     pub options: &'a Options,
-    /// How loud.
+    /// How strong the drive is to be.
     pub level: Level,
 }
 

@@ -13,7 +13,7 @@ use serde::Serialize;
 pub struct Note {
     /// What it is about, in a word or two.
     pub topic: &'static str,
-    /// The note.
+    /// The note, a sentence or two.
     pub text: String,
 }
 

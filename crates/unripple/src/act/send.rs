@@ -35,10 +35,11 @@ pub struct Sent {
 /// Where and when a drive is to be judged.
 #[derive(Clone, Debug)]
 pub(super) struct Aimed {
+    /// Where and when the drive is judged.
     pub aims: Vec<Aim>,
     /// Of a repeated drive, in samples.
     pub period: Option<usize>,
-    /// In seconds.
+    /// End of what is judged, in seconds.
     pub until: f64,
     rate: f64,
 }

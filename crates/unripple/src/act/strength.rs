@@ -33,7 +33,7 @@ pub struct Strength {
     pub below_limit_db: f64,
     /// That factor: how many times as strong the drive could be.
     pub below_limit: f64,
-    /// Each limit.
+    /// Each limit, and what is used of it.
     pub limits: Vec<Headroom>,
     /// Where the limit decided: how many times as strong linear theory would allow it to be.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -124,7 +124,7 @@ impl Headroom {
     }
 }
 
-/// Three digits.
+/// A number with three digits.
 fn round(value: f64) -> String {
     format!("{value:.2e}").parse::<f64>().unwrap_or(value).to_string()
 }

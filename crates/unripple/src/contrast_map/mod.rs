@@ -18,7 +18,7 @@ const REST: f64 = 1e-9;
 /// Most cells of a map along its longer side.
 const MOST_ACROSS: usize = 1024;
 
-/// Most samples of a window.
+/// Most samples of a window: past it a window is taken for a mistake of unit, being minutes long at any usual rate.
 const MOST_SAMPLES: usize = 20_000_000;
 
 /// How a map of contrast is taken.

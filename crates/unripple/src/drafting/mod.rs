@@ -65,7 +65,7 @@ impl Draft {
         Ok(Self { surface: surface.clone(), design, modes, responses: OnceLock::new() })
     }
 
-    /// The surface.
+    /// The surface that is drafted.
     pub fn surface(&self) -> &Surface {
         &self.surface
     }
@@ -101,7 +101,7 @@ impl Draft {
         spot::spot(self.responses()?, at, &self.options(window))
     }
 
-    /// The same with all figures: what `unripple focus` does.
+    /// The same with all figures, at a place in m and for a window in s: what `unripple focus` does.
     ///
     /// # Errors
     /// Those of [`Draft::responses`] and [`Act::run`].
@@ -122,7 +122,7 @@ impl Draft {
         asked.unwrap_or(self.design.window_recommended_s)
     }
 
-    /// The contrast of time reversal all over the surface, `across` cells along its longer side.
+    /// The contrast of time reversal all over the surface, `across` cells along its longer side, for a window in s.
     ///
     /// # Errors
     /// Those of [`Draft::responses`] and [`contrast_map`].

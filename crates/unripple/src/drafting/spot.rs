@@ -8,7 +8,7 @@ use crate::focus::{Options, Target, focus};
 /// What time reversal gives at one place, at its focal instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
-    /// The place.
+    /// The place, in metres.
     pub at: Point,
     /// The window T, in seconds.
     pub window: f64,

@@ -18,7 +18,7 @@ use serde::Serialize;
 pub struct Report {
     /// Name of the program.
     pub program: &'static str,
-    /// Its version.
+    /// Version of the program.
     pub version: &'static str,
     /// The command that the report is of.
     pub command: &'static str,
