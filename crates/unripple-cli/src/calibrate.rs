@@ -9,6 +9,7 @@ use crate::targets::{places, positive, seconds};
 use std::io::{BufRead, Write};
 use unripple_tasks::calibrate::{self, Ask, By, Hands, InputScales};
 
+/// Measures responses, asking somebody to move the probe where the device is real.
 pub fn run(options: &CalibrateOptions, common: &Common) -> Result<(), CliError> {
     let mut terminal = Terminal::default();
     let done = calibrate::run_with(&ask(common, options)?, by_hand(terminal.bar()), &mut terminal);
@@ -78,7 +79,7 @@ fn scales(typed: &[String]) -> Result<InputScales, CliError> {
     Ok(scales)
 }
 
-/// People are told on standard error what to do, and press Enter when it is done.
+/// Says on standard error what to do, and waits for Enter once it is done.
 fn by_hand(bar: Bar) -> Hands {
     Box::new(move |asked| {
         bar.aside(|| {

@@ -7,6 +7,7 @@ use crate::output;
 use crate::progress::Terminal;
 use unripple_tasks::check::{self, Ask};
 
+/// Lists the faults of a surface file, on standard error with their lines.
 pub fn run(options: &CheckOptions, common: &Common) -> Result<(), CliError> {
     let checked = check::run(&Ask { surface: common.surface(&options.surface) }, &mut Terminal::default());
     let mut report = checked?;

@@ -7,6 +7,7 @@ use crate::output;
 use crate::targets::{self, seconds};
 use unripple_tasks::compare::{self, Ask};
 
+/// Compares all methods on the same targets.
 pub fn run(options: &CompareOptions, common: &Common) -> Result<(), CliError> {
     let ask = Ask {
         surface: common.surface(&options.surface),

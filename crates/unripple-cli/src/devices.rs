@@ -6,6 +6,7 @@ use crate::error::CliError;
 use crate::output;
 use unripple_tasks::devices::{self, Ask};
 
+/// Lists what drives can be played through.
 pub fn run(options: &DevicesOptions, common: &Common) -> Result<(), CliError> {
     common.without_surface()?;
     let ask = Ask { server: options.server.clone() };

@@ -6,6 +6,7 @@ use crate::error::CliError;
 use crate::output;
 use unripple_tasks::doctor::{self, Ask};
 
+/// Checks each stage between a touch and what is felt.
 pub fn run(options: &DoctorOptions, common: &Common) -> Result<(), CliError> {
     let ask = Ask {
         surface: common.surface(&options.surface),

@@ -6,6 +6,7 @@ use crate::error::CliError;
 use crate::output;
 use unripple_tasks::export::{self, Ask};
 
+/// Writes a library as WAV files or as SOFA.
 pub fn run(options: &ExportOptions, common: &Common) -> Result<(), CliError> {
     common.without_surface()?;
     let ask = Ask {

@@ -7,6 +7,7 @@ use crate::output;
 use crate::targets::{numbers, places, seconds};
 use unripple_tasks::field::{self, Ask, DriveAsk};
 
+/// Measures what a drive does to a surface.
 pub fn run(options: &FieldOptions, common: &Common) -> Result<(), CliError> {
     let ask = Ask {
         surface: common.surface(&options.surface),

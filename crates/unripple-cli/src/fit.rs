@@ -7,6 +7,7 @@ use crate::output;
 use crate::targets::{places, positive};
 use unripple_tasks::fit::{self, Ask};
 
+/// Fits a model to a library.
 pub fn run(options: &FitOptions, common: &Common) -> Result<(), CliError> {
     common.without_surface()?;
     let pitch = options.grid_mm.map(|mm| positive(mm, "--grid-mm", "mm"));

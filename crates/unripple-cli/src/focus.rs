@@ -8,6 +8,7 @@ use crate::{output, waveforms};
 use unripple_tasks::focus::{self, Losses};
 use unripple_tasks::{stroke, waveform};
 
+/// Makes a drive that focuses, or one for waveforms or a stroke, as the options say.
 pub fn run(options: &FocusOptions, common: &Common) -> Result<(), CliError> {
     waveforms::check(options)?;
     let targets = &options.targets;

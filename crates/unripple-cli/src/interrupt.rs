@@ -37,7 +37,7 @@ pub fn wished() -> Arc<AtomicBool> {
     WISHED.get_or_init(Arc::default).clone()
 }
 
-/// Whether whoever started this program wants it to go on without a terminal, as `nohup` does. Only Linux tells.
+/// Whether whoever started this program wants it to go on without a terminal, as `nohup` does. Only Linux shows that.
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

@@ -7,6 +7,7 @@ use crate::output;
 use crate::progress::Terminal;
 use unripple_tasks::play::{self, Ask};
 
+/// Plays a surface under moving fingers.
 pub fn run(options: &PlayOptions, common: &Common) -> Result<(), CliError> {
     let ask = Ask {
         surface: common.surface(&options.surface),

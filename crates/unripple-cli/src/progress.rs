@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use unripple_tasks::Progress;
 
-/// Steps of a bar.
+/// Steps of a bar, more than a terminal has columns.
 const STEPS: u64 = 1000;
 
 /// The bar on a terminal, if there is one now, for whoever has to speak to people meanwhile.
@@ -43,7 +43,7 @@ impl Terminal {
         Self { bar: Bar::default(), measured: false, wished: Some(crate::interrupt::wished()) }
     }
 
-    /// Its bar.
+    /// The bar on the terminal.
     pub fn bar(&self) -> Bar {
         self.bar.clone()
     }

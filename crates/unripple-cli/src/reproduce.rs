@@ -6,6 +6,7 @@ use crate::error::CliError;
 use crate::output;
 use unripple_paper::reproduce::{self, Ask};
 
+/// Does the paper's figures and table again.
 pub fn run(options: &ReproduceOptions, common: &Common) -> Result<(), CliError> {
     common.without_surface()?;
     let ask = Ask { output: Some(options.output.clone()), placements: options.placements };

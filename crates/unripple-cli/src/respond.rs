@@ -7,6 +7,7 @@ use crate::output;
 use crate::targets::{positive, seconds};
 use unripple_tasks::respond::{self, Ask};
 
+/// Computes a library of responses from the model.
 pub fn run(options: &RespondOptions, common: &Common) -> Result<(), CliError> {
     let ask = Ask {
         surface: common.surface(&options.surface),

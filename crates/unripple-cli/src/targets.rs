@@ -1,4 +1,4 @@
-//! Targets as typed: `X,Y[,GAIN[,HZ]]` and shapes, in millimetres.
+//! Targets of focusing as typed: `X,Y[,GAIN[,HZ]]` and shapes, in millimetres.
 
 use crate::args::TargetOptions;
 use crate::error::CliError;
@@ -6,7 +6,7 @@ use unripple::core::Point;
 use unripple_tasks::Place;
 use unripple_tasks::target::{LevelAsk, PointAsk, ShapeAsk};
 
-/// Numbers separated by commas, between `least` and `most` of them.
+/// Numbers separated by commas, between `least` and `most` of them, as typed; `option` and `form` are for messages.
 pub fn numbers(
     text: &str,
     option: &str,

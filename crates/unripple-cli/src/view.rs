@@ -10,6 +10,7 @@ use std::process::{Command, Stdio};
 use unripple_tasks::TaskError;
 use unripple_viewer::task::{self, Ask};
 
+/// Serves the page for a surface, and opens a browser if asked to.
 pub fn run(options: &ViewOptions, common: &Common) -> Result<(), CliError> {
     let ask = Ask {
         surface: common.surface(&options.surface),

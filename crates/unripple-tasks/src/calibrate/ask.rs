@@ -56,7 +56,7 @@ pub struct Ask {
     pub without: Vec<String>,
     /// Time by which the probe hears later than sensors do, in s: a vibrometer's decoder; by default it is found.
     pub probe_delay_s: Option<f64>,
-    /// Hold nothing against a model: for a surface that no model fits, such as a whole phone or a sheet with ribs.
+    /// Compare nothing with a model: for a surface that no model fits, such as a whole phone or a sheet with ribs.
     pub no_model: bool,
     /// Tape: bring recordings of another rate to that of the surface.
     pub resample: bool,
