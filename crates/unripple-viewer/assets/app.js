@@ -30,7 +30,7 @@ const recall = new Recall(state);
 const tabs = new Tabs(state);
 /** Answers go to all pages: no two should give the same number. */
 let ids = Math.floor(Math.random() * 2 ** 48);
-/** What is asked of a surface is asked of the one that is shown here. */
+/** A request about the surface names the edit of it that is shown here. */
 const ABOUT = new Set(['measure', 'compare']);
 const about = (message) => (ABOUT.has(message.do) ? { ...message, edit: state.last('surface')?.edit } : message);
 
@@ -83,7 +83,7 @@ function fillTouch() {
   mountFoot(app, cost);
 }
 
-/** How time passes is told apart from how the surface is played; panels read both as settings. */
+/** How time passes comes in messages of its own; panels read it together with how the surface is played. */
 const START = { speed: 1, paused: false, quantity: 'displacement', probes: [] };
 let passing = {};
 
@@ -98,7 +98,7 @@ function takeText(message) {
   state.publish(message.is, message.is === 'settings' ? { ...START, ...message, ...passing } : message);
 }
 
-/** Faults of frames are told once, not sixty times a second. */
+/** Faults of frames are reported once, not sixty times a second. */
 let frameFault = '';
 
 function takeFrame(buffer) {

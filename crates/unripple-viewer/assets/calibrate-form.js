@@ -33,7 +33,7 @@ export class CalibrateForm {
     this.run.disabled = !on;
   }
 
-  // A real device is what it is.
+  // The truth of a real device cannot be chosen.
   real(real) {
     this.other.disabled = real;
     if (real) this.other.checked = false;

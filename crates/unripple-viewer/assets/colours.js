@@ -1,5 +1,5 @@
 // Colour maps computed in Oklab (B. Ottosson, 2020), where equal distances look equal. Blue against orange stays apart
-// under every common colour blindness; lightness alone already tells the size of a value.
+// under every common colour blindness; lightness alone already shows the size of a value.
 
 const LEVELS = 1024;
 

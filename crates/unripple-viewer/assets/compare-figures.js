@@ -6,7 +6,8 @@ import { number, metres, speed, seconds, decibels } from './units.js';
 const plain = (value) => number(value);
 const share = (value) => (Number.isFinite(value) ? `${number(value * 100)} %` : '–');
 
-// [key, label, how it is told, which way is better (0: neither), 'db' where the difference counts rather than the ratio]
+// [key, label, how it is written, which way is better (0: neither), 'db' where the difference counts rather than the
+// ratio]
 const TARGET = [
   ['contrast', 'Contrast', plain, 1],
   ['background_contrast', 'Background contrast', plain, 1],

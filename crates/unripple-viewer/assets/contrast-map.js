@@ -7,7 +7,7 @@ import { fit, sharp, trace } from './outline.js';
 
 const STEPS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
-/** A map of `contrast` in cells; place and value are told under the pointer and, by arrow keys, at a cross. */
+/** A map of `contrast` in cells; place and value are shown for the pointer and, by arrow keys, for a cross. */
 export class ContrastMap {
   constructor(app) {
     this.app = app;

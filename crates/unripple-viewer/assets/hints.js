@@ -1,4 +1,4 @@
-// What a newcomer is told, once each: to press, then to slow time down.
+// Hints for a newcomer, once each: to press, then to slow time down.
 
 import { setText } from './dom.js';
 

@@ -41,7 +41,7 @@ export class JobLog {
     }
   }
 
-  // In tenths, so that a screen reader is not told every step.
+  // In tenths, so that a screen reader does not read every step.
   tell(job) {
     const part = Number.isFinite(job.progress) && job.state === 'running' ? `, ${Math.floor(job.progress * 10) * 10} %` : '';
     const text = `${job.kind}: ${STATES[job.state] ?? job.state}${part}`;

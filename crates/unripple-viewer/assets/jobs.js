@@ -1,4 +1,4 @@
-// The rig panel: the device, its calibration, and what stands between a touch and what is felt.
+// The rig panel: the device, its calibration, and a check of each stage between a touch and what is felt.
 
 import { el, clear } from './dom.js';
 import { RigState } from './rig-state.js';

@@ -105,7 +105,7 @@ export class Quantity {
     this.take(value, settled);
   }
 
-  // Typing that ends with the number it began with is told by no `change` event.
+  // Typing that ends with the number it began with causes no `change` event.
   rest() {
     if (this.loose) this.take(this.value, true);
   }

@@ -1,4 +1,5 @@
-// What is going on now: fingers and what they feel, the drive against its limit, the tally, the device, drift.
+// What is going on now: fingers and what they feel, the drive as a share of its limit, counts of what was played, the
+// device, drift.
 
 import { clear, el, setText } from './dom.js';
 import { decibels, fixed, newtons, number, place } from './units.js';

@@ -11,7 +11,7 @@ function field(text, unit, control) {
   return el('label', { class: 'field' }, el('span', {}, `${text} `, unit ? el('i', { text: unit }) : null), control);
 }
 
-/** The level as told, without the option of the command line that it may end in. */
+/** The level in words, without the option of the command line that it may end in. */
 export function levelText(level) {
   const text = (level ?? '').replace(/\s*\(--full-limit\)\s*$/, '');
   return text.charAt(0).toUpperCase() + text.slice(1);

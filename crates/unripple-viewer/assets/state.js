@@ -42,7 +42,7 @@ function persisted() {
   });
 }
 
-/** A store of messages by kind with subscribers; `faulty(kind, error)` is told of a subscriber that threw. */
+/** A store of messages by kind with subscribers; `faulty(kind, error)` is called for a subscriber that threw. */
 export function createState(faulty) {
   const kept = new Map();
   const subscribers = new Map();

@@ -1,4 +1,4 @@
-// The stories panel: what can be told, and the one that is being told.
+// The stories panel: the list of stories, and the one that is running.
 
 import { el } from './dom.js';
 import { StoryPlayer } from './story-player.js';

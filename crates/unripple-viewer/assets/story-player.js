@@ -1,4 +1,4 @@
-// A story being told: its steps, what each asks for, and the way out.
+// A story as it runs: its steps, what each asks of the server, and the way out.
 
 import { el, clear } from './dom.js';
 import { Chart } from './chart.js';
@@ -12,7 +12,7 @@ const RUN_MS = 9000;
 const FIND_MS = 1400;
 const PAPER_MM = 150;
 
-/** Tells one story at a time; `left()` is called when it is over. */
+/** Runs one story at a time; `left()` is called when it is over. */
 export class StoryPlayer {
   constructor(app, left) {
     this.app = app;

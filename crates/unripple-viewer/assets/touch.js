@@ -279,7 +279,7 @@ export class Touch {
     this.stage.redraw();
   }
 
-  /** Tells the place under the pointer and the field's value there. */
+  /** Shows the place under the pointer and the field's value there. */
   #tell(mm, map) {
     const frame = map?.frame;
     this.#over = mm && map ? [mm, map] : null;

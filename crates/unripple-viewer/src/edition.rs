@@ -1,4 +1,4 @@
-//! The surfaces that pages were told of lately, by the number of the edit that made each.
+//! The surfaces that pages were sent lately, by the number of the edit that made each.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ const KEPT: usize = 16;
 pub struct Edition {
     /// How many edits came before; 0 for the surface that the program was started with.
     pub edit: u64,
-    /// The surface.
+    /// The surface after that edit.
     pub surface: Surface,
 }
 
@@ -26,7 +26,7 @@ pub struct Editions {
 }
 
 impl Editions {
-    /// One more, before any page is told of it.
+    /// One more, before any page is sent it.
     pub fn publish(&mut self, edition: Arc<Edition>) {
         if self.kept.len() == KEPT {
             self.kept.pop_front();

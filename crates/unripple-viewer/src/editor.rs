@@ -34,7 +34,7 @@ impl Editor {
         let draft = Draft::new(instrument.spec.surface.clone());
         let spec = instrument.spec.clone();
         let played = spec.clone();
-        // The first surface has been told to nobody yet.
+        // The first surface has been sent to nobody yet.
         Self { draft, spec, played, told, edits: 0, stale: false, edited: true, building: false }
     }
 
@@ -160,7 +160,7 @@ impl Editor {
         out.tell("notice", &serde_json::json!({ "is": "notice", "text": why }));
     }
 
-    /// Tells the surface that pages are shown, if it has been edited since it was told last; then it is to be computed, and can be asked
+    /// Tells the surface that pages are shown, if it has been edited since it was last sent; then it is to be computed, and can be asked
     /// about.
     pub fn renew(&mut self, editions: &mut Editions, out: &mut Outbox) -> Option<Arc<Edition>> {
         if !std::mem::take(&mut self.edited) {

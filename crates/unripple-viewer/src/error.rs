@@ -8,9 +8,9 @@ pub enum ViewError {
     /// Nobody can listen at an address.
     #[error("listening at {address}: {why} (another program may use it: choose another port)")]
     Address {
-        /// Where.
+        /// The address as it was given.
         address: String,
-        /// Why not.
+        /// What the system said.
         why: String,
     },
     /// A thread cannot be started, or ended early.
@@ -22,7 +22,7 @@ pub enum ViewError {
     /// A value that cannot be.
     #[error("{what}: expected {expected}, found {found}")]
     Range {
-        /// Which.
+        /// Name of the value.
         what: &'static str,
         /// What would do.
         expected: String,
@@ -47,7 +47,7 @@ pub enum ViewError {
     /// A device that cannot be opened.
     #[error("device: {why}")]
     Device {
-        /// Why.
+        /// What the device said.
         why: String,
     },
 }

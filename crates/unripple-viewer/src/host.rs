@@ -16,7 +16,7 @@ use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-/// Pictures a second.
+/// Pictures a second: as many as most screens show smoothly. Each costs a product of matrices.
 const FRAMES: f64 = 30.0;
 
 /// Most of a picture's time that the surface may take to catch up.
@@ -25,7 +25,7 @@ const BUSY: f64 = 0.8;
 /// Least time between two pictures, so that what pages say is heard between them.
 const BREATH: Duration = Duration::from_millis(2);
 
-/// What the session's thread is told.
+/// What the session's thread receives.
 enum Word {
     Come,
     Leave(u64),
@@ -35,7 +35,7 @@ enum Word {
     Stop,
 }
 
-/// The links of pages, by number: each is told why something is refused.
+/// The links of pages, by number, to say why something is refused.
 type Links = Arc<Mutex<BTreeMap<u64, tokio::sync::mpsc::Sender<String>>>>;
 
 /// Where everything a page asks for goes.
@@ -90,7 +90,7 @@ impl SessionHost {
             measured: measured.clone(),
             jobs: jobs.clone(),
         };
-        // Whoever asks first is told of the surface as well.
+        // The first page that asks gets the surface as well.
         stage.pass_on();
         let playing = Mutex::new(Some(thread("surface", move || stage.run(&heard))?));
         Ok(Arc::new(Self { notices, words, links, jobs, measured, playing, quiet: view.quiet }))
@@ -108,12 +108,12 @@ impl SessionHost {
         self.say(Word::Leave(page));
     }
 
-    /// Does what a page asks for, or sees to it, in the order in which it is asked.
+    /// Does what a page, by its number, asks for, or sees to it, in the order in which it is asked.
     pub fn obey(&self, page: u64, command: Command) {
         self.say(Word::Hear(page, command));
     }
 
-    /// Tells a page why something is refused.
+    /// Says to a page, by its number, why something is refused.
     pub fn refuse(&self, page: u64, why: &str) {
         refuse(&self.links, page, why);
     }
@@ -157,12 +157,12 @@ impl SessionHost {
     }
 
     fn say(&self, word: Word) {
-        // Whoever has gone has told why, and the program is at its end.
+        // A thread that has gone has said why, and the program is at its end.
         let _ = self.words.send(word);
     }
 }
 
-/// The surface that pages are told of, as the text of its file.
+/// The surface that pages are shown, as the text of its file.
 fn toml(notices: &Notices) -> String {
     let Some(Notice::Text(text)) = notices.newest("surface") else { return String::new() };
     let value: serde_json::Value = serde_json::from_str(&text).unwrap_or_default();
@@ -189,7 +189,7 @@ struct Stage {
 }
 
 impl Stage {
-    /// Works until told to stop, or until nobody is there any more to tell.
+    /// Works until it is stopped, or until nobody is there any more.
     fn run(mut self, words: &Receiver<Word>) {
         let mut due = Instant::now();
         let mut passed = Instant::now();

@@ -43,7 +43,7 @@ pub use unripple_tasks::play::Opener;
 pub use view::{View, Viewer};
 pub use wire::{Command, Edit, Job, Measure, Phase, Probe, Refused, Settings, Transport};
 
-/// Lets some time pass, for whoever waits within [`Viewer::serve`].
+/// Lets some time pass, for whoever waits within [`Viewer::serve`]. The time is that of the machine's own clock.
 pub async fn pause(time: std::time::Duration) {
     tokio::time::sleep(time).await;
 }

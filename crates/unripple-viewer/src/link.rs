@@ -24,12 +24,12 @@ const STUCK: Duration = Duration::from_secs(20);
 const ASKED: Duration = Duration::from_secs(5);
 const UNANSWERED: u32 = 4;
 
-/// Messages a second that are listened to, refusals that are borne, and refusals that wait to be told.
+/// Messages a second that are listened to, refusals after which the link ends, and refusals that may wait to be sent.
 const FASTEST: u32 = 600;
 const BORNE: u32 = 50;
 const WAITING: usize = 32;
 
-/// Numbers for pages.
+/// The number that the next page gets: from 1, never used again.
 static GIVEN: AtomicU64 = AtomicU64::new(1);
 
 /// Serves a page until it goes.

@@ -16,7 +16,7 @@ const GUESTS: usize = 128;
 /// What a connection has shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Standing {
-    /// Nothing yet.
+    /// Nothing so far: anybody may have opened it.
     Stranger,
     /// That it may come in.
     Guest,

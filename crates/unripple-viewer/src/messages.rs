@@ -1,4 +1,4 @@
-//! What pages are told of the surface and of how it is played.
+//! What pages are sent of the surface and of how it is played.
 
 use crate::edition::Edition;
 use crate::simulation::{CELLS, Cells, Instrument, PULSES};
@@ -12,7 +12,7 @@ use unripple::focus::Method;
 use unripple::physics::Medium;
 use unripple_store::{builtin_effects, to_toml};
 
-/// Points along each rim that is drawn.
+/// Points along each rim that is drawn: at the size of a screen a circle of so many looks round.
 const RIM: usize = 256;
 
 /// What does not change with the surface.

@@ -10,7 +10,7 @@ use tokio::sync::watch;
 /// Something that is to be shown to all pages.
 #[derive(Clone, Debug)]
 pub enum Notice {
-    /// JSON.
+    /// A message as JSON.
     Text(Arc<str>),
     /// A picture of the field.
     Frame(Bytes, u64),
@@ -38,7 +38,7 @@ impl Drop for Viewing {
 }
 
 impl Notices {
-    /// An empty one.
+    /// Notices of which there are none yet.
     pub fn new() -> Self {
         let (version, _) = watch::channel(0);
         Self { posted: Mutex::new(BTreeMap::new()), version, viewers: AtomicUsize::new(0) }
@@ -53,9 +53,9 @@ impl Notices {
         self.version.send_replace(version);
     }
 
-    /// Puts up JSON.
+    /// Puts up a message as JSON.
     pub fn tell(&self, kind: &str, message: &impl serde::Serialize) {
-        // What is told is made of numbers and names: always JSON.
+        // A message is made of numbers and names: always JSON.
         if let Ok(text) = serde_json::to_string(message) {
             self.post(kind, Notice::Text(text.into()));
         }
@@ -66,7 +66,8 @@ impl Notices {
         lock(&self.posted).remove(kind);
     }
 
-    /// All that was put up after a version, oldest first, and the version of each.
+    /// All that was put up after a version, a number that rises with each notice; oldest first, each with its
+    /// version.
     pub fn since(&self, version: u64) -> Vec<(u64, Notice)> {
         let posted = lock(&self.posted);
         let mut fresh: Vec<(u64, Notice)> =
@@ -80,7 +81,7 @@ impl Notices {
         lock(&self.posted).get(kind).map(|(_, notice)| notice.clone())
     }
 
-    /// Tells when something is put up.
+    /// Follows the version, a number that rises whenever something is put up.
     pub fn watch(&self) -> watch::Receiver<u64> {
         self.version.subscribe()
     }
@@ -92,7 +93,7 @@ impl Notices {
         Some(Viewing { notices: self.clone() })
     }
 
-    /// Pages there are.
+    /// Number of pages that are open.
     pub fn viewers(&self) -> usize {
         self.viewers.load(Ordering::Relaxed)
     }

@@ -1,4 +1,4 @@
-//! What pages are to be shown or told, on its way out of the session.
+//! Messages and pictures for pages, on their way out of the session.
 
 use serde::Serialize;
 
@@ -7,22 +7,22 @@ use serde::Serialize;
 pub struct Measured {
     /// The number that the page gave it.
     pub id: u64,
-    /// `drive.wav`.
+    /// Bytes of the file `drive.wav`.
     pub drive: Vec<u8>,
-    /// `report.json`.
+    /// Text of the file `report.json`.
     pub json: String,
-    /// `report.md`.
+    /// Text of the file `report.md`.
     pub markdown: String,
 }
 
-/// One message.
+/// One message of the session to pages.
 #[derive(Clone, Debug)]
 pub enum Out {
     /// JSON for all pages, in place of the last of its kind.
     Text(String, String),
     /// A picture of the field for all pages, in place of the last of its kind, and its number.
     Frame(String, Vec<u8>, u64),
-    /// What all pages were told of a kind holds no longer.
+    /// The last message of a kind holds no longer.
     Withdraw(String),
     /// Why what one page asked for is refused.
     Refuse(u64, String),
@@ -37,7 +37,7 @@ pub struct Outbox(Vec<Out>);
 impl Outbox {
     /// JSON for all pages.
     pub fn tell(&mut self, kind: &str, message: &impl Serialize) {
-        // What is told is made of numbers and names: always JSON.
+        // A message is made of numbers and names: always JSON.
         if let Ok(text) = serde_json::to_string(message) {
             self.0.push(Out::Text(kind.to_owned(), text));
         }
@@ -48,12 +48,12 @@ impl Outbox {
         self.0.push(Out::Frame(kind, bytes, number));
     }
 
-    /// What was told of a kind holds no longer.
+    /// The last message of a kind holds no longer.
     pub fn withdraw(&mut self, kind: &str) {
         self.0.push(Out::Withdraw(kind.to_owned()));
     }
 
-    /// Why what a page asked for is refused.
+    /// Says to one page, by its number, why what it asked for is refused.
     pub fn refuse(&mut self, page: u64, why: impl Into<String>) {
         self.0.push(Out::Refuse(page, why.into()));
     }

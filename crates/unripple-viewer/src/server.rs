@@ -23,7 +23,7 @@ const LARGEST: usize = 256 << 10;
 /// How long a file may take to come.
 const SENT: Duration = Duration::from_secs(20);
 
-/// Pages at once.
+/// Pages at once, a classroom's and more; one too many is refused with the reason.
 const MOST_PAGES: usize = 64;
 
 /// What a page may load: its own files alone.

@@ -79,6 +79,7 @@ impl Session {
     }
 
     /// Does what a page asks for, or sees to it. What concerns its link or the machine alone is not for the session.
+    /// Pages are numbered from 1.
     pub fn hear(&mut self, page: u64, command: Command) {
         match command {
             Command::Touch { finger, phase, at_mm: [x, y] } => {
@@ -125,7 +126,7 @@ impl Session {
         }
     }
 
-    /// Takes in a surface file's text; pages are told of the surface at once.
+    /// Takes in a surface file's text; pages are sent the surface at once.
     ///
     /// # Errors
     /// All its faults, as text.
@@ -167,7 +168,7 @@ impl Session {
         }
     }
 
-    /// What pages are to be shown and told, oldest first; it leaves.
+    /// Messages and pictures for pages, oldest first; they leave.
     pub fn take(&mut self) -> Vec<Out> {
         self.out.take()
     }
@@ -198,7 +199,7 @@ impl Session {
         }
     }
 
-    /// Pages are told of a surface that was edited, and its figures are to be computed.
+    /// Pages are sent a surface that was edited, and its figures are to be computed.
     pub fn renew(&mut self) {
         if let Some(edition) = self.editor.renew(&mut self.editions, &mut self.out) {
             self.wait(Task::Design(edition));

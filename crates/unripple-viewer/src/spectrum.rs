@@ -8,7 +8,7 @@ use unripple::dsp::band_energies;
 const BANDS: usize = 120;
 const BEYOND: f64 = 1.5;
 
-/// Levels below this, in dB, are not told apart.
+/// Levels below this, in dB, are drawn as this.
 const FLOOR: f64 = -120.0;
 
 /// What frequencies an act is made of: levels in bands of equal width, each channel's and target's over its strongest, in dB.

@@ -20,12 +20,12 @@ use unripple_tasks::play::Opener;
 /// Pulses a second under a resting finger, at first.
 const RATE: f64 = 10.0;
 
-/// Threads that serve pages.
+/// Threads that serve pages: one, so that serving never takes a core from the simulation.
 const THREADS: usize = 1;
 
 /// What is to be shown, and to whom.
 pub struct View {
-    /// The surface.
+    /// The surface that is shown.
     pub surface: Surface,
     /// Its responses, where they were measured.
     pub stored: Option<Arc<SampledResponses>>,
@@ -41,7 +41,7 @@ pub struct View {
     pub device: Option<Opener>,
     /// What follows its tension, if it is to be followed.
     pub follow: Option<Follow>,
-    /// Its name.
+    /// Name of the device, for people.
     pub device_name: String,
     /// Where to listen; port 0 takes any that is free.
     pub address: SocketAddr,

@@ -1,4 +1,4 @@
-//! What a surface promises, told stage by stage as it follows an edit.
+//! The design figures of a surface, sent stage by stage as they follow an edit.
 
 use super::{ComputeWorker, Hear, tell};
 use crate::edition::Edition;

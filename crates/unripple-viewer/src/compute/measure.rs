@@ -121,7 +121,7 @@ fn preview(channel: &[f64]) -> Vec<f64> {
     channel.chunks(stretch).filter_map(farthest).map(round).collect()
 }
 
-/// Seven digits are more than a picture can tell.
+/// Seven digits are more than a picture can show.
 fn round(value: f64) -> f64 {
     format!("{value:.6e}").parse().unwrap_or(value)
 }

@@ -28,9 +28,9 @@ pub type Responder = Arc<dyn Fn(&[Point]) -> Result<Responses, String> + Send + 
 pub enum Task {
     /// The figures of a surface.
     Design(Arc<Edition>),
-    /// One act.
+    /// One act of focusing, with all its figures.
     Measure {
-        /// Which.
+        /// Targets, method and level.
         measure: Measure,
         /// Of which surface.
         of: Arc<Edition>,
@@ -41,7 +41,7 @@ pub enum Task {
     Compare {
         /// Where, in mm.
         at: Vec<[f64; 2]>,
-        /// Which.
+        /// Names of the two methods.
         methods: Vec<String>,
         /// The window, in ms; 0 or nothing for the surface's own.
         window_ms: Option<f64>,
@@ -54,7 +54,7 @@ pub enum Task {
 
 /// What the worker finds.
 pub enum Found {
-    /// Something that is to be told.
+    /// A message for pages.
     Out(Out),
     /// Two acts side by side, to be played.
     Replay(Box<Replay>),
@@ -183,7 +183,7 @@ fn text(error: ActError) -> String {
     error.to_string()
 }
 
-/// Has something told to all pages.
+/// Has a message sent to all pages.
 fn tell(hear: &mut Hear, kind: &str, message: &serde_json::Value) {
     let mut out = Outbox::default();
     out.tell(kind, message);

@@ -11,10 +11,10 @@ use apply::edge;
 use unripple::core::{MATERIALS, Material, Surface};
 use unripple_store::{parse_surface, to_toml};
 
-/// Shortest length of an outline that is drawn at all, in mm: what a file may say beyond that, it is asked.
+/// Shortest length of an outline that is drawn at all, in mm; other limits are those of the surface file.
 const LEAST_MM: f64 = 0.1;
 
-/// Surfaces that can be gone back to.
+/// Surfaces that can be gone back to; the oldest go first. Each is a few kilobytes.
 const MOST: usize = 200;
 
 /// A surface, and those it was before.

@@ -13,7 +13,7 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 use unripple_tasks::{DeviceAsk, SurfaceAsk, calibrate, devices, doctor};
 
-/// Jobs at once.
+/// Jobs at once: one that measures, and one that looks.
 const MOST: usize = 2;
 
 /// How long jobs are waited for at the end, and how often they are looked at then.

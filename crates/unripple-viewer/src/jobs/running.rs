@@ -1,4 +1,4 @@
-//! A task at work beside the session, and what pages are told of it.
+//! A task at work beside the session, and what pages are sent of it.
 
 use super::quality::Quality;
 use crate::lock::lock;
@@ -16,7 +16,7 @@ use unripple_tasks::{Progress, Report, TaskError, apart, calibrate, devices, doc
 const LINES: usize = 12;
 const LONGEST: usize = 400;
 
-/// How often pages are told how far it is.
+/// How often pages are sent how far it is.
 const LOOKED: Duration = Duration::from_millis(400);
 
 /// What is to be done.
@@ -62,7 +62,7 @@ fn told(report: impl Report) -> Value {
 
 /// A task at work.
 pub struct Running {
-    /// Its number.
+    /// Number of the job.
     pub id: u64,
     kind: &'static str,
     command: String,
@@ -78,7 +78,7 @@ struct Now {
     lines: VecDeque<String>,
 }
 
-/// What the task tells, as pages see it.
+/// The task's progress, as pages see it.
 struct Heard(Arc<Running>);
 
 impl Progress for Heard {
@@ -100,7 +100,7 @@ impl Progress for Heard {
 }
 
 impl Running {
-    /// Starts a task; `command` is what to type for the same.
+    /// Starts a task; `command` is what to type for the same. `id` is the job's number.
     ///
     /// # Errors
     /// Why it cannot be started.
@@ -124,7 +124,7 @@ impl Running {
         Ok(running)
     }
 
-    /// Tells pages how the task fares until it is over, and then what came of it.
+    /// Sends pages how the task fares until it is over, and then what came of it.
     fn accompany(
         &self,
         result: &Receiver<Result<Value, TaskError>>,

@@ -44,7 +44,7 @@ pub type Follow =
 /// What a surface is played with.
 #[derive(Clone)]
 pub struct Spec {
-    /// The surface.
+    /// The surface that is played.
     pub surface: Surface,
     /// Its responses, where they were measured.
     pub stored: Option<Arc<SampledResponses>>,
@@ -76,11 +76,11 @@ pub struct Instrument {
     pub handle: Handle,
     /// Its modes, to be read anywhere.
     pub plant: Plant,
-    /// The picture.
+    /// What makes pictures of it.
     pub lens: Lens,
-    /// Who is told of pages' fingers.
+    /// Where fingers of pages are sent.
     pub page_touches: Sender<Pressed>,
-    /// What was driven lately.
+    /// Drive of the last second.
     pub tape: Tape,
     /// The window, in s, and what it gives.
     pub window: Window,

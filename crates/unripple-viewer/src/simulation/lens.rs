@@ -3,7 +3,7 @@
 use unripple::core::{Outline, Point};
 use unripple::physics::stepper::Plant;
 
-/// Points whose modes are read at once.
+/// Points whose modes are read at once, which bounds memory while a picture is laid out.
 const BATCH: usize = 1024;
 
 /// Sums that run side by side in a product, so that the processor adds several at once.
@@ -12,16 +12,16 @@ const LANES: usize = 16;
 /// Square cells over a surface's bounding box, row by row from the bottom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cells {
-    /// Cells across.
+    /// Number of cells across.
     pub columns: usize,
-    /// Cells upward.
+    /// Number of cells upward.
     pub rows: usize,
     /// From each cell to the next, in m.
     pub pitch: [f64; 2],
 }
 
 impl Cells {
-    /// So many along the longer side.
+    /// Cells of a picture with `longest` of them along the longer side.
     pub fn of(outline: &Outline, longest: usize) -> Self {
         let (width, height) = outline.extent();
         let cell = width.max(height) / longest as f64;
@@ -30,7 +30,7 @@ impl Cells {
         Self { columns, rows, pitch: [width / columns as f64, height / rows as f64] }
     }
 
-    /// The centres of all of them.
+    /// Centres of all cells, in m, row by row from the bottom.
     pub fn centres(&self) -> impl Iterator<Item = Point> {
         let Self { columns, rows, pitch: [dx, dy] } = *self;
         (0..columns * rows).map(move |cell| {
@@ -43,7 +43,7 @@ impl Cells {
 /// What cells over a surface read of its modes: the field as a picture.
 #[derive(Clone, Debug)]
 pub struct Lens {
-    /// The cells.
+    /// The cells of the picture.
     pub cells: Cells,
     /// Whether the centre of each lies on the surface.
     inside: Vec<bool>,
@@ -61,7 +61,7 @@ impl Lens {
         Self { cells, inside, modes: plant.modes(), weights: weights(plant, &held) }
     }
 
-    /// The field of a state: what every cell reads, 0 outside.
+    /// The field of a state, a value for each mode: what every cell reads, row by row, in m or m/s; 0 outside.
     pub fn look(&self, state: &[f32]) -> Vec<f32> {
         let mut readings = self.weights.chunks_exact(self.modes.max(1)).map(|row| product(row, state));
         let cell = |inside: &bool| if *inside { readings.next().unwrap_or(0.0) } else { 0.0 };

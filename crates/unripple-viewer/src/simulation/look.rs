@@ -10,7 +10,7 @@ use unripple::core::Point;
 /// How much of the past a trace shows, in s.
 const SPAN: f64 = 0.04;
 
-/// Traces in a picture.
+/// Traces in a picture: as many as there are colours to tell them apart.
 const MOST_TRACES: usize = 8;
 
 /// What one place does.

@@ -21,7 +21,7 @@ struct Feels {
 }
 
 impl Simulation {
-    /// Tells how the surface fares.
+    /// Says how the surface fares.
     pub(super) fn tell(&mut self, out: &mut Outbox) {
         let fingers = std::mem::take(&mut self.known.fingers);
         self.known = self.instrument.playback.look();
@@ -82,7 +82,7 @@ impl Simulation {
         self.tell_transport(out);
     }
 
-    /// Tells how time passes and what is followed.
+    /// Says how time passes and what is followed.
     pub(super) fn tell_transport(&mut self, out: &mut Outbox) {
         let probe =
             |probe: &super::Probe| json!({ "id": probe.id, "at_mm": [probe.at.x * 1e3, probe.at.y * 1e3] });

@@ -26,7 +26,8 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use unripple::core::Point;
 
-/// How often it is told how the surface fares, and how often its pace is taken, in s.
+/// How often pages get a report of how the surface fares, and how often its pace is taken, in s: five times a second,
+/// as fast as figures can be read.
 const TOLD: f64 = 0.2;
 const PACED: f64 = 1.0;
 
@@ -36,7 +37,7 @@ const STEP: f64 = 0.25;
 /// Fingers of pages that no instrument has numbered yet are numbered from that of their page times this.
 const FINGERS: u64 = 1000;
 
-/// Probes at once.
+/// Probes at once; with two fingers they fill the traces of a picture.
 const MOST_PROBES: usize = 6;
 
 /// What the simulation is asked for.
@@ -86,7 +87,7 @@ pub struct Simulation {
     changed: bool,
     /// Pages that look.
     viewers: usize,
-    /// Seconds of the page since it was last told how the surface fares.
+    /// Seconds of the page since the last report of how the surface fares.
     untold: f64,
     /// Seconds of the page since the pace was last taken, the surface's clock then, and the pace.
     pace: (f64, f64, f64),
@@ -117,7 +118,7 @@ impl Simulation {
         }
     }
 
-    /// Tells all there is to tell at first.
+    /// Sends all there is to say at first.
     pub fn begin(&mut self, out: &mut Outbox) {
         self.tell_anew(out);
     }
@@ -191,7 +192,7 @@ impl Simulation {
         }
     }
 
-    /// Tells the instrument which fingers are down, if it does not know; while time stands still it hears nothing.
+    /// Sends the instrument the fingers that are down, if it does not know; while time stands still it hears nothing.
     fn press(&mut self) {
         let stands = self.transport.paused && matches!(self.instrument.playback, Playback::Here(_));
         if self.moved && !stands {

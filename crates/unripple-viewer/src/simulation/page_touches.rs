@@ -5,7 +5,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use unripple::core::{Outline, Point};
 use unripple_touch::{Counts, Fingers, Heard, Key, Options, Source, TouchError};
 
-/// Changes taken in one poll.
+/// Changes taken in one poll, so that a poll does bounded work; the rest is taken by the next.
 const TAKEN: usize = 256;
 
 /// Fingers at once over all pages: all that a crowd of pages can put down and a surface can tell apart.
@@ -23,7 +23,7 @@ pub struct PageTouches {
 }
 
 impl PageTouches {
-    /// A source for a surface, and the end that is told.
+    /// A source for a surface, and the end that fingers of pages are sent to.
     ///
     /// # Errors
     /// [`TouchError`], for a surface that cannot be.

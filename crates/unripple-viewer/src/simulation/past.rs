@@ -14,7 +14,7 @@ pub fn stride(surface: &Surface) -> usize {
 
 /// What a surface went through, as displacement or as velocity.
 pub struct Past<'a> {
-    /// The states.
+    /// The states that are remembered.
     pub history: &'a History,
     /// Samples per second.
     pub rate: f64,

@@ -61,14 +61,14 @@ pub struct Away {
 }
 
 impl Away {
-    /// A device whose drive is overheard.
+    /// A device whose drive is passed on as it plays.
     pub fn listen(device: Box<dyn Device>) -> (Box<dyn Device>, Consumer<f32>) {
         let layout = device.layout();
         let (drive, overheard) = RingBuffer::new(WAITING * layout.block * layout.outputs.len().max(1));
         (Box::new(Overheard { device, drive }), overheard)
     }
 
-    /// Begins to play.
+    /// Begins to play. `drive` yields the samples that the device was driven with, 1 for full scale.
     ///
     /// # Errors
     /// [`ViewError::Gone`] if no thread can be had.
@@ -111,7 +111,7 @@ impl Drop for Away {
     fn drop(&mut self) {
         self.stop.store(true, Ordering::Relaxed);
         if let Some(thread) = self.thread.take() {
-            // It has told already what went wrong.
+            // It has said already what went wrong.
             let _ = thread.join();
         }
     }
@@ -153,7 +153,7 @@ pub fn step(engine: &mut Engine) -> Result<&[f32], LiveError> {
     Ok(engine.heart().drive())
 }
 
-/// A device that tells what it is driven with; what finds no room is lost to the picture alone.
+/// A device whose drive is passed on as it plays; what finds no room is lost to the picture alone.
 struct Overheard {
     device: Box<dyn Device>,
     drive: Producer<f32>,

@@ -67,7 +67,7 @@ impl Replay {
         self.panes.first().map_or(0.0, |pane| oldest(pane) as f64 / self.rate)
     }
 
-    /// The last.
+    /// The last moment that can be shown, in s.
     pub fn to(&self) -> f64 {
         self.panes.first().map_or(0.0, |pane| pane.history.newest() as f64 / self.rate)
     }
@@ -82,7 +82,7 @@ impl Replay {
         self.panes.first().map_or(1.0, |pane| pane.history.stride() as f64) / self.rate
     }
 
-    /// How slowly it is played at first.
+    /// Speed at first, in s of the surface in a second of the page.
     pub fn speed(&self) -> f64 {
         SPEED
     }
@@ -92,7 +92,7 @@ impl Replay {
         Transport { now: self.from(), ..Transport::default() }
     }
 
-    /// After the end comes the beginning.
+    /// A moment in s, or the first one where it lies past the end: the acts are played over and over.
     pub fn wrapped(&self, now: f64) -> f64 {
         if now > self.to() { self.from() } else { now }
     }

@@ -25,7 +25,7 @@ impl Default for Transport {
 }
 
 impl Transport {
-    /// The moment that is shown.
+    /// The moment that is shown, in s of the surface's clock.
     pub fn shown(&self) -> f64 {
         self.back.unwrap_or(self.now)
     }
@@ -77,7 +77,8 @@ impl Transport {
         self.settle(oldest);
     }
 
-    /// Takes the clock of a surface that cannot be slowed: what is shown falls behind.
+    /// Takes over the clock (s) of a surface that cannot be slowed, while so many seconds of the page pass; what is
+    /// shown falls behind.
     pub fn follow(&mut self, clock: f64, seconds: f64, oldest: f64) {
         let slow = self.paused || self.speed < 1.0;
         if slow && self.back.is_none() {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Deserializer};
 /// Bytes of the longest message that is read.
 pub(crate) const LONGEST: usize = 64 << 10;
 
-/// Places in one message.
+/// Places in one message: more targets than anybody presses at once.
 const MOST_PLACES: usize = 16;
 
 /// Farthest that a place may be from the origin, in mm: anything that is a surface is nearer.
@@ -29,11 +29,11 @@ const LONGEST_NAME: usize = 64;
 pub enum Command {
     /// A finger on the picture of the surface.
     Touch {
-        /// Which of the page's.
+        /// The page's number for the finger.
         finger: u32,
         /// What it did.
         phase: Phase,
-        /// Where.
+        /// Where the finger is, in mm.
         at_mm: [f64; 2],
     },
     /// How time passes, and which moment is shown.
@@ -42,7 +42,7 @@ pub enum Command {
     Settings(Settings),
     /// A place whose motion is followed.
     Probe(Probe),
-    /// Another surface.
+    /// Changes of the surface.
     Edit(Box<Edit>),
     /// Back to the surface before the last edit.
     Undo,
@@ -50,7 +50,7 @@ pub enum Command {
     Redo,
     /// A built-in surface.
     Open {
-        /// Its name.
+        /// Name of the built-in surface.
         name: String,
     },
     /// The figures of one act, as the command line has them.
@@ -60,7 +60,7 @@ pub enum Command {
         /// Where, in mm.
         #[serde(default)]
         at: Vec<[f64; 2]>,
-        /// Which two.
+        /// Names of the two methods.
         #[serde(default)]
         methods: Vec<String>,
         /// The window; the surface's own where absent.
@@ -77,7 +77,7 @@ pub enum Command {
     Job(Job),
     /// The page has drawn the frame of this number.
     Seen {
-        /// Which.
+        /// Number of the frame.
         frame: u64,
     },
 }
@@ -86,11 +86,11 @@ pub enum Command {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Phase {
-    /// It came.
+    /// It touched the surface.
     Down,
-    /// It moved.
+    /// It moved on the surface.
     Move,
-    /// It left.
+    /// It left the surface.
     Up,
 }
 
@@ -145,15 +145,15 @@ pub struct Probe {
 pub struct Edit {
     /// A material by name.
     pub material: Option<String>,
-    /// Thickness of the sheet.
+    /// Thickness of the sheet, in mm.
     pub thickness_mm: Option<f64>,
-    /// Its tension.
+    /// Tension of the sheet, in N/m.
     pub tension_n_per_m: Option<f64>,
-    /// One decay time for all frequencies.
+    /// One decay time for all frequencies, in ms.
     pub decay_time_ms: Option<f64>,
-    /// Top of the band.
+    /// Top of the band, in Hz.
     pub band_top_hz: Option<f64>,
-    /// A rectangle.
+    /// A rectangle of this width and height.
     pub rectangle_mm: Option<[f64; 2]>,
     /// A circle of this radius.
     pub circle_mm: Option<f64>,
@@ -211,7 +211,7 @@ pub enum Refused {
     /// It is too long.
     #[error("message: expected at most {LONGEST} bytes, found {found}")]
     Long {
-        /// Its length.
+        /// Its length in bytes.
         found: usize,
     },
     /// It is not of the protocol.
@@ -220,7 +220,7 @@ pub enum Refused {
     /// A value is out of range.
     #[error("{what}: expected {expected}, found {found}")]
     Range {
-        /// Which.
+        /// Name of the value.
         what: &'static str,
         /// What would do.
         expected: String,

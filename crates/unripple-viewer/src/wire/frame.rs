@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// Largest count of a cell or sample.
+/// Largest count of a cell or sample: 16 bits with a sign hold 32 767, and 32 000 leaves room for rounding.
 const FULL: f32 = 32_000.0;
 
 /// The field at an instant, as it goes over the wire: a JSON head, then the cells and the traces as 16-bit counts.
@@ -22,15 +22,15 @@ pub struct Frame {
 /// What is said of a frame.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Head {
-    /// Its number.
+    /// Number of the frame, rising.
     pub frame: u64,
     /// Which of the surfaces side by side.
     pub pane: usize,
     /// How many there are.
     pub panes: usize,
-    /// Cells across.
+    /// Number of cells across.
     pub columns: usize,
-    /// Cells upward.
+    /// Number of cells upward.
     pub rows: usize,
     /// Value of one count.
     pub scale: f32,
@@ -56,10 +56,10 @@ pub struct Head {
     pub traces: Vec<Strip>,
 }
 
-/// One finger.
+/// One finger that rests on the surface.
 #[derive(Clone, Debug, Serialize)]
 pub struct Resting {
-    /// Which.
+    /// Number of the finger.
     pub id: u64,
     /// Where, in mm.
     pub at_mm: [f64; 2],
@@ -70,7 +70,7 @@ pub struct Resting {
 /// What a trace is of.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Strip {
-    /// Its name.
+    /// Name of the place.
     pub name: String,
     /// Where, in mm.
     pub at_mm: [f64; 2],

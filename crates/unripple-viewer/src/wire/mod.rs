@@ -1,4 +1,4 @@
-//! What pages and server say to each other.
+//! The protocol between pages and server: JSON commands one way, JSON messages and binary frames the other.
 
 mod command;
 mod frame;
