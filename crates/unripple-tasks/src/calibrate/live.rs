@@ -65,18 +65,7 @@ pub(super) fn run(mut known: Campaign<'_>, hands: Hands) -> Result<Report, TaskE
         }
     };
     let start = Instant::now();
-    known.with_progress(|heard| {
-        heard.stage("points");
-        let mut tell = |progress: &Progress| {
-            if let Some(fault) = &progress.fault {
-                heard.tell(&format!("point {}: {fault}; kept as bad", progress.number + 1));
-            }
-            heard.done(progress.done as f64 / progress.total as f64);
-            if heard.cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        };
-        campaign(rig.as_mut(), &way, &places.points, &mut shelf, settings.retries, &mut tell)?;
-        go_on(heard)
-    })?;
+    fill(&known, rig.as_mut(), &way, &mut shelf, settings.retries)?;
     let taken = start.elapsed();
     finish(&known, &mut shelf, latency)?;
     if began > 0 {
@@ -88,6 +77,28 @@ pub(super) fn run(mut known: Campaign<'_>, hands: Hands) -> Result<Report, TaskE
         return Err(TaskError::Cancelled);
     }
     Report::of_library(&report, doubted(&shelf.library).or(drawn.err().map(|error| error.to_string())))
+}
+
+/// Measures the points that are missing, one by one, each up to `retries` times again where it is bad.
+fn fill(
+    known: &Campaign<'_>,
+    rig: &mut dyn Rig,
+    way: &Way,
+    shelf: &mut Shelf,
+    retries: u64,
+) -> Result<(), TaskError> {
+    known.with_progress(|heard| {
+        heard.stage("points");
+        let mut tell = |progress: &Progress| {
+            if let Some(fault) = &progress.fault {
+                heard.tell(&format!("point {}: {fault}; kept as bad", progress.number + 1));
+            }
+            heard.done(progress.done as f64 / progress.total as f64);
+            if heard.cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        campaign(rig, way, &known.places.points, shelf, retries, &mut tell)?;
+        go_on(heard)
+    })
 }
 
 /// Whether a library has points already.
