@@ -1,4 +1,4 @@
-//! Long curves reduced to what print can show.
+//! Long curves reduced to what print can show: min-max decimation.
 
 /// Width of a column within which only extremes are kept, in points: one dot at 300 dots an inch.
 const COLUMN: f64 = 0.24;

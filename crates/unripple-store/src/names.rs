@@ -24,7 +24,8 @@ fn cost(found: &str, name: &str) -> usize {
     if cut { distance.min(1) } else { distance }
 }
 
-/// Insertions, deletions, replacements and swaps of neighbours between two words (optimal string alignment).
+/// Insertions, deletions, replacements and swaps of neighbours between two words (Damerau-Levenshtein distance, as
+/// optimal string alignment).
 fn edit_distance(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
     let mut before = vec![0; b.len() + 1];

@@ -1,4 +1,4 @@
-//! Nominal modes as a Ritz basis for sheets of other tension and thickness.
+//! Nominal modes as a Rayleigh-Ritz basis for sheets of other tension and thickness.
 
 use super::coil::Coil;
 use super::quadrature;

@@ -102,7 +102,8 @@ impl Case<'_> {
     /// Variances of the unknowns in units of the squares of their spreads.
     ///
     /// Once from the noise, as if the residual were white; once from how much responses pull apart, and once from how much
-    /// frequencies do: with g_b = J_bᵀ r_b what each says of the unknowns, H⁻¹ (Σ g_b g_bᵀ) H⁻¹ (White, *Econometrica* 48,
+    /// frequencies do: with g_b = J_bᵀ r_b what each says of the unknowns, H⁻¹ (Σ g_b g_bᵀ) H⁻¹ (the sandwich
+    /// estimator: White, *Econometrica* 48,
     /// 817, 1980, by groups). What a wrong model leaves is not white, and is alike in all responses at one frequency. The largest
     /// counts.
     pub fn variances(&self, found: &Found) -> Result<Vec<f64>, CalibrateError> {

@@ -160,7 +160,7 @@ fn agreed(pairs: Pairs<'_>, still: bool) -> Apart {
 }
 
 /// What each of `count` has, when pairs (later minus earlier number's: the first of the pair less the second) are known, each
-/// with its error: weighted least squares by relaxation, mean 0. `None` for those in no pair.
+/// with its error: weighted least squares by damped Jacobi iterations, mean 0. `None` for those in no pair.
 fn levelled(
     count: usize,
     pairs: &[(usize, usize, Apart)],

@@ -104,7 +104,7 @@ fn unsettled(powers: &[f64]) -> Option<[f64; 3]> {
     (fall > 0.0).then(|| [first.ln() + fall * third as f64 / 2.0, fall, last.ln() - 7.0])
 }
 
-/// The model that fits best from a beginning on, and its cost.
+/// The model that fits best from a beginning on, and its cost: Fisher scoring, damped as by Levenberg-Marquardt.
 fn descend(powers: &[f64], mut model: [f64; 3]) -> ([f64; 3], f64) {
     let (mut cost, mut damping) = (cost(powers, &model), 1e-3);
     for _ in 0..STEPS {

@@ -30,7 +30,8 @@ pub struct Delay {
 impl Delay {
     /// How much later `found` is than `model` (what it would be without latency), both zero beyond their ends.
     ///
-    /// The delay at which their correlation in the band is largest in magnitude, sought continuously: the
+    /// Generalised cross-correlation: the delay at which their correlation in the band is largest in magnitude,
+    /// sought continuously; the
     /// maximum-likelihood one in white noise, and where the phase of the cross-spectrum is least away from a straight
     /// line, weighted by its magnitude.
     ///

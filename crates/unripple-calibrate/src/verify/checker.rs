@@ -6,7 +6,8 @@ use unripple_linalg::{Mat, c64, product, times};
 /// What a model says between its actuators and any place, ready to be compared with what was heard there.
 ///
 /// With w the actuators' weights, φ the shapes and μ the modes' mobilities, the model at x is Y_a(s) = Σ_m φ_m(x) w_am μ_m(s): linear
-/// in φ(x). So is its product with what was heard, and its own power is a quadratic form of φ(x): a whole sheet of places costs two
+/// in φ(x). So is its product with what was heard, and its own power is a quadratic form of φ(x): a whole sheet of
+/// places (matched-field processing) costs two
 /// products of matrices.
 #[derive(Debug)]
 pub(super) struct Checker<'a> {
