@@ -171,7 +171,7 @@ impl Conductor {
         self.log.as_mut().map_or_else(Vec::new, Log::take)
     }
 
-    /// What was played and what was not.
+    /// Counts of what was played and what was not, and latencies.
     pub fn tally(&self) -> &PlayStats {
         &self.tally
     }

@@ -60,12 +60,12 @@ struct Known {
     asked: u64,
 }
 
-/// What is known of a place.
+/// The drive that focuses at a place, in both precisions.
 #[derive(Clone, Debug)]
 pub struct At {
     /// The drive at the limit, in float64 and as it is played.
     pub made: FocusDrive,
-    /// The same for the player.
+    /// The drive in float32, prepared for the player.
     pub prepared: Arc<Prepared>,
     /// Displacement there, once it was asked for.
     trace: Option<Arc<Vec<f64>>>,

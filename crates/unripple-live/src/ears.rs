@@ -23,7 +23,7 @@ pub(crate) struct News {
     pub now: f64,
     /// Touches as they were, and wishes.
     pub heard: Heard,
-    /// The same touches, where the waves are to meet.
+    /// The same touches, moved to where the finger will be when the waves meet.
     pub aimed: Vec<Touch>,
     /// Fingers that are there, and where.
     pub fingers: Vec<(u64, Point)>,
@@ -58,7 +58,7 @@ impl Ears {
         News { now, heard, aimed, fingers, counts: self.sources.counts() }
     }
 
-    /// What was taken in and refused so far.
+    /// Numbers of what was taken in and refused so far.
     pub fn counts(&self) -> Counts {
         self.sources.counts()
     }

@@ -80,13 +80,14 @@ impl Engine {
         Ok(Self { stage, heart: Heartbeat::new(player, block, device), ears, ahead })
     }
 
-    /// With fingers put on a virtual surface, so that what they feel is known.
+    /// The same engine with fingers put on a virtual surface, so that what they feel is known.
     pub fn with_feeler(mut self, feeler: Feeler) -> Self {
         self.stage.feeler = Some(feeler);
         self
     }
 
-    /// With tension followed while playing; the ping is sent once in each of its periods while no finger is there.
+    /// The same engine with tension followed while playing; the ping is sent once in each of its periods while no
+    /// finger is there.
     ///
     /// # Errors
     /// [`LiveError::Player`] for a ping that cannot be played.
@@ -98,7 +99,7 @@ impl Engine {
         Ok(self)
     }
 
-    /// With a listener that is given all that is heard, as it is heard.
+    /// The same engine with a listener that is given all that is heard, as it is heard.
     pub fn with_listener(mut self, listener: Listener) -> Self {
         self.stage.listener = Some(listener);
         self
@@ -123,7 +124,7 @@ impl Engine {
         &mut self.stage
     }
 
-    /// The audio thread's work.
+    /// The audio thread's part: player and device.
     pub fn heart(&self) -> &Heartbeat {
         &self.heart
     }

@@ -103,12 +103,12 @@ impl Heartbeat {
         &self.timeline
     }
 
-    /// What was driven in the last block, in the actuators' unit, one output after the other.
+    /// Drive of the last block, in the actuators' unit, one output after the other.
     pub fn drive(&self) -> &[f32] {
         &self.drive
     }
 
-    /// What was heard in the last block.
+    /// Recording of the last block, one input after the other.
     pub fn heard(&self) -> &[f32] {
         &self.heard
     }

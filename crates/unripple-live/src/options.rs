@@ -68,7 +68,7 @@ impl LiveOptions {
 pub struct Timing {
     /// Samples per second.
     pub rate: f64,
-    /// From the beginning of a drive to its focus, in s.
+    /// Time from the beginning of a drive to its focus, in s.
     pub window: f64,
     /// Samples of a block.
     pub block: usize,

@@ -31,7 +31,7 @@ impl Default for Percentiles {
 }
 
 impl Percentiles {
-    /// One more, in s; what is no number is left out, and counted as [`Percentiles::unknown`]. Never allocates.
+    /// Adds a time in s; what is no number is left out, and counted as [`Percentiles::unknown`]. Never allocates.
     pub fn add(&mut self, seconds: f64) {
         if seconds.is_nan() {
             self.unknown += 1;

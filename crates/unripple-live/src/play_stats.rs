@@ -34,9 +34,9 @@ pub struct PlayStats {
     pub late: u64,
     /// Commands that the player refused.
     pub refused: u64,
-    /// From a touch to the first sample that answers it, on the engine's own clock, in s.
+    /// Latencies from a touch to the first sample that answers it, on the engine's own clock, in s.
     pub first_sample: Percentiles,
-    /// From a touch to the focus, in s.
+    /// Latencies from a touch to the focus, in s.
     pub focus: Percentiles,
 }
 

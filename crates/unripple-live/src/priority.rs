@@ -26,7 +26,7 @@ pub struct Priorities {
 }
 
 impl Priorities {
-    /// Those that suit a device.
+    /// The priorities that suit a device.
     pub fn of(device: &dyn Device) -> Self {
         let Some(server) = device.status().server else {
             let beside = Some(BESIDE);

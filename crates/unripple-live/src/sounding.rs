@@ -21,7 +21,7 @@ impl Sounding {
         self
     }
 
-    /// The same, as strong as this.
+    /// The same at this level.
     pub fn at_level(mut self, to: Level) -> Self {
         let (Self::Comb { level, .. } | Self::Wave { level, .. }) = &mut self;
         *level = to;

@@ -97,7 +97,7 @@ impl Stage {
         &self.conductor
     }
 
-    /// The same, to change what it keeps.
+    /// The conductor, to change what it keeps.
     pub fn conductor_mut(&mut self) -> &mut Conductor {
         &mut self.conductor
     }

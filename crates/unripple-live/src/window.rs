@@ -39,7 +39,8 @@ impl Window {
         Self::prompt_within(surface, f64::INFINITY)
     }
 
-    /// The same, or the longest that responses last, in s.
+    /// The shortest window that reaches three quarters of the largest contrast, or the longest that responses last,
+    /// in s.
     pub fn prompt_within(surface: &Surface, longest: f64) -> Self {
         Self::prompt_and(surface, longest, None).0
     }

@@ -22,7 +22,7 @@ pub enum Scale {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// What is on it, with the unit shown, as in `Time (ms)`.
+    /// Name of the quantity, with the unit shown, as in `Time (ms)`.
     pub label: String,
     /// How values are spread.
     pub scale: Scale,

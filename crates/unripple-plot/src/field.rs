@@ -26,7 +26,7 @@ pub enum Symbol {
 pub struct Marker {
     /// Where, in the grid's unit.
     pub at: [f64; 2],
-    /// What it is.
+    /// The symbol that is drawn.
     pub symbol: Symbol,
     /// Its name, written beside it; none if empty.
     pub name: String,

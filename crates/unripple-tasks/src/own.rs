@@ -13,7 +13,7 @@ pub const KEY: &str = "own_points";
 /// A point this near to an actuator, in metres, is the actuator's own, if it is the last one there.
 const SAME: f64 = 1e-6;
 
-/// For the log of a library whose own points hold what sensors heard.
+/// The entry of the log of a library whose own points hold what sensors heard.
 pub fn told(surface: &Surface) -> Result<Value, TaskError> {
     let units: Vec<&str> = sensing(surface)?.iter().map(|sensor| sensor.unit).collect();
     Ok(json!({ "hold": "what sensors heard", "units": units }))

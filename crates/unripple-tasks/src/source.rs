@@ -17,11 +17,11 @@ pub struct Source {
 
 /// Responses from a library.
 pub struct Stored {
-    /// Those of the finished points that can be read.
+    /// Responses of the finished points that can be read.
     pub responses: SampledResponses,
     /// What figures taken on them are of.
     pub told: String,
-    /// What is wrong with it.
+    /// Notes on what is wrong with the library.
     pub notes: Vec<Note>,
     /// Why its levels mean nothing, if they do not.
     pub without_scale: Option<String>,
@@ -66,7 +66,7 @@ pub fn open(ask: &SurfaceAsk, progress: &mut dyn Progress) -> Result<Source, Tas
     open_again(ask)
 }
 
-/// The same without a word, for whoever asks again and again.
+/// A source opened without a warning, for whoever opens it again and again.
 ///
 /// # Errors
 /// Those of [`open`].

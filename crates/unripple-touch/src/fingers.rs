@@ -84,12 +84,12 @@ impl Fingers {
         Ok(Self { options, live, given: 0, now, awake, downs: 0, counts })
     }
 
-    /// What it was made with.
+    /// The options that it was made with.
     pub fn options(&self) -> &Options {
         &self.options
     }
 
-    /// What was taken in, and what was refused.
+    /// Numbers of what was taken in and what was refused.
     pub fn counts(&self) -> Counts {
         self.counts
     }

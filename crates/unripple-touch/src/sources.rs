@@ -58,7 +58,7 @@ impl Sources {
         Self { surface: surface.clone(), sources, fingers, given: 0, now, told, crowded: 0, fresh }
     }
 
-    /// One more source.
+    /// Adds a source of touches.
     pub fn push(&mut self, source: Box<dyn Source>) {
         self.sources.push(source);
     }

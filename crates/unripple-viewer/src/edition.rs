@@ -26,7 +26,7 @@ pub struct Editions {
 }
 
 impl Editions {
-    /// One more, before any page is sent it.
+    /// Adds an edition, before any page is sent it.
     pub fn publish(&mut self, edition: Arc<Edition>) {
         if self.kept.len() == KEPT {
             self.kept.pop_front();

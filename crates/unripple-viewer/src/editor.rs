@@ -53,14 +53,14 @@ impl Editor {
         Ok(())
     }
 
-    /// Back to the surface before.
+    /// Goes back to the surface before the last edit.
     pub fn undo(&mut self) {
         if self.draft.undo() {
             self.changed(true);
         }
     }
 
-    /// Forth to the surface that was undone.
+    /// Goes forth to the surface that was undone.
     pub fn redo(&mut self) {
         if self.draft.redo() {
             self.changed(true);
@@ -147,7 +147,7 @@ impl Editor {
         out.withdraw("notice");
     }
 
-    /// What was wanted cannot be made: says so.
+    /// Says that what was wanted cannot be made, and why.
     pub fn failed(&mut self, why: &str, out: &mut Outbox) {
         self.building = false;
         if !self.stale {

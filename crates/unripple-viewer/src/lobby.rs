@@ -68,7 +68,7 @@ impl Lobby {
 }
 
 impl Seat {
-    /// It has shown that it may come in.
+    /// Notes that the connection has shown that it may come in.
     pub fn admit(&self) {
         self.rise(Standing::Guest);
         let seats = &mut lock(&self.lobby.seats).1;
@@ -82,12 +82,12 @@ impl Seat {
         }
     }
 
-    /// It is a page's link from now on.
+    /// Notes that the connection is a page's link from now on.
     pub fn settle(&self) {
         self.rise(Standing::Page);
     }
 
-    /// Is over when the connection has to go.
+    /// Resolves when the connection has to go.
     pub async fn cut(&self) {
         self.cut.notified().await;
     }

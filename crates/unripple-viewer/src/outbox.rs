@@ -58,7 +58,7 @@ impl Outbox {
         self.0.push(Out::Refuse(page, why.into()));
     }
 
-    /// One more message.
+    /// Adds a message.
     pub fn push(&mut self, out: Out) {
         self.0.push(out);
     }

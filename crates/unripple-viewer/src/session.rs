@@ -153,7 +153,7 @@ impl Session {
         task.map(Errand::Compute)
     }
 
-    /// Takes in what an errand brought.
+    /// Takes over what an errand brought.
     pub fn done(&mut self, done: Done) {
         match done {
             Done::Built(Ok(instrument)) => {

@@ -31,7 +31,7 @@ pub struct View {
     pub stored: Option<Arc<SampledResponses>>,
     /// Why nobody knows what those mean, if nobody does.
     pub without_scale: Option<String>,
-    /// The same at any places, as the command line has them.
+    /// Responses of its library at any places, as the command line has them.
     pub respond: Option<Responder>,
     /// What the surface is called on the command line.
     pub source: String,

@@ -37,7 +37,8 @@ pub(crate) struct Waves {
 }
 
 impl Waves {
-    /// Of the bins of `spectra`; wavenumbers (rad/m) from angular frequencies (rad/s), distances up to `reach` (m).
+    /// Waves for the bins of `spectra`; `wavenumber` gives k (rad/m) of an angular frequency (rad/s), distances go up
+    /// to `reach` (m).
     ///
     /// # Errors
     /// [`CalibrateError::Range`] for a wavenumber that cannot be.

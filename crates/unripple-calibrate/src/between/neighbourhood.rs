@@ -17,7 +17,7 @@ pub(crate) struct Neighbourhood {
 }
 
 impl Neighbourhood {
-    /// Of the points of these indices.
+    /// Solves the kriging equations for the points of these indices.
     ///
     /// # Errors
     /// [`CalibrateError::Singular`].

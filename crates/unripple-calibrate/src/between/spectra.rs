@@ -30,7 +30,7 @@ impl std::fmt::Debug for Cosines {
 }
 
 impl Cosines {
-    /// For responses of `samples` samples, two or more.
+    /// Transforms for responses of `samples` samples, two or more.
     pub fn new(samples: usize) -> Self {
         let mut planner = RealFftPlanner::new();
         let period = 2 * (samples.max(2) - 1);

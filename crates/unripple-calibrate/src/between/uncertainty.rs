@@ -9,6 +9,6 @@ pub struct Uncertainty {
     pub share: Vec<f64>,
     /// Rms over the response of the expected error for each actuator, in m/s per unit impulse of drive.
     pub rms: Vec<f64>,
-    /// The same over the rms of all responses at the points.
+    /// The rms of the expected error over the rms of all responses at the points, a ratio.
     pub relative: f64,
 }

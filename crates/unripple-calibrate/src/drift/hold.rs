@@ -41,14 +41,15 @@ pub struct Hold {
 pub struct Held {
     /// The peak that it will make, in m/s.
     pub predicted: f64,
-    /// What it was multiplied by.
+    /// Factor that the drive was multiplied by.
     pub gain: f64,
     /// Whether the limit was reached before the level was.
     pub short: bool,
 }
 
 impl Hold {
-    /// For a drive limit, and the share of it (0 to 1, 0.05 does for ±5 % of tension) that the first drive leaves free.
+    /// A hold for a drive limit, and the share of it (0 to 1, 0.05 does for ±5 % of tension) that the first drive
+    /// leaves free.
     ///
     /// # Errors
     /// [`CalibrateError::Range`] for a limit that is not positive or a headroom that is no share.

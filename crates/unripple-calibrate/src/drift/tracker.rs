@@ -105,7 +105,7 @@ impl Tracker {
         Self::with_sensors(responses, bending_shares, &sense, options)
     }
 
-    /// The same with the weights of each mode (columns) in the signal of each sensor (rows, as many as actuators).
+    /// A tracker with the weights of each mode (columns) in the signal of each sensor (rows, as many as actuators).
     ///
     /// # Errors
     /// Those of [`Tracker::new`].

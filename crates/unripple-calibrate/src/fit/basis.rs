@@ -32,7 +32,7 @@ pub(super) struct Basis {
     pub waves: Vec<[u32; 2]>,
     /// The actuators, and their nominal places.
     pub transducers: Vec<(Transducer, Point)>,
-    /// Those of them that are coils on a voltage with an inductance.
+    /// Circuits of the actuators, for coils on a voltage with an inductance; `None` for all others.
     pub coils: Vec<Option<Coil>>,
     /// The rim of the sheet.
     pub outline: Outline,

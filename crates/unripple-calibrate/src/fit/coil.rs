@@ -17,7 +17,7 @@ pub(crate) struct Coil {
 }
 
 impl Coil {
-    /// Of an actuator and what it is as a sensor; `None` for one without an inductance that matters.
+    /// The circuit of an actuator as drive and as sensor; `None` for one without an inductance that matters.
     pub fn of(transducer: &Transducer, sensor: &Sensor) -> Option<Self> {
         let circuit = transducer.load.as_ref()?.circuit.filter(|_| transducer.entry == Entry::Voltage)?;
         let matters = circuit.inductance > 0.0 && transducer.gain != 0.0;
@@ -39,7 +39,7 @@ impl Coil {
         (self.lag(s) - 1.0) * self.damping
     }
 
-    /// The same at an angular frequency as a stiffness (N/m) and a damping (N·s/m).
+    /// The added impedance at an angular frequency (rad/s) as a stiffness (N/m) and a damping (N·s/m).
     pub fn in_mode(&self, omega: f64) -> [f64; 2] {
         let added = self.added(c64::new(0.0, omega));
         [-omega * added.im, added.re]

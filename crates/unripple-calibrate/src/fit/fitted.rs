@@ -245,7 +245,7 @@ impl Fitted {
         Responses::Modal(self.responses.clone())
     }
 
-    /// The same, mode by mode.
+    /// The modal responses of the fitted surface.
     pub fn modal(&self) -> &ModalResponses {
         &self.responses
     }

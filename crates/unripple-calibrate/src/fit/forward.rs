@@ -100,7 +100,7 @@ impl System {
         frequencies.par_iter().map(|s| self.point(*s).admittance).collect()
     }
 
-    /// The same with derivatives by the unknowns, in SI.
+    /// The admittances at complex frequencies (1/s) with derivatives by the unknowns, in SI.
     ///
     /// From dY = Gᵀ dY₀ G - Y dZ Y and dY₀ = -(1/s) Xᵀ dK X, X the modal velocities.
     pub fn answers(&self, basis: &Basis, frequencies: &[c64]) -> Vec<Answer> {

@@ -20,7 +20,7 @@ const BEFORE: usize = 64;
 /// What a model says of responses between actuators, in the order of [`Pairs`](super::Pairs), from time 0 on.
 #[derive(Clone, Debug)]
 pub(crate) struct Limited {
-    /// As they are.
+    /// The model's responses themselves, `[pair][sample]`.
     pub whole: Vec<Vec<f64>>,
     /// As they are measured: limited to a band without phase, late, and without what then precedes time 0.
     pub cut: Vec<Vec<f64>>,

@@ -32,7 +32,7 @@ impl Reached {
         Self { responses: ModalResponses { input, poles, shapes, ..model.clone() }, band }
     }
 
-    /// The same of other responses of the same modes.
+    /// A model with other responses of the same modes.
     pub fn with(&self, change: impl Fn(&ModalResponses) -> ModalResponses) -> Self {
         Self { responses: change(&self.responses), band: self.band }
     }

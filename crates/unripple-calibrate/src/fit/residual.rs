@@ -23,7 +23,7 @@ pub(super) struct Residual {
     pub power: f64,
     /// Squares of residual and measurement, line by line of every response's spectrum.
     pub lines: Vec<[f64; 2]>,
-    /// Of each row: the number of its response or tap, and of its frequency.
+    /// For each row the number of its response or tap, and of its frequency.
     pub belongs: Vec<[usize; 2]>,
 }
 

@@ -35,7 +35,7 @@ pub(super) struct Found {
     pub excess: f64,
     /// Residual over what was measured.
     pub share: f64,
-    /// What is left at these values.
+    /// The residual at these values.
     pub residual: Residual,
 }
 

@@ -28,7 +28,8 @@ pub struct Knocked {
 /// nothing that shows it was recorded.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Account {
-    /// By how much the clock of the recording is quicker than that of what is played, in millionths; taken out.
+    /// Error of the recording's clock against that of what is played, in millionths, positive if it is quicker; taken
+    /// out.
     pub clock_ppm: Option<f64>,
     /// Standard error of that.
     pub clock_error_ppm: f64,

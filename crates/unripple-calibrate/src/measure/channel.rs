@@ -51,7 +51,7 @@ const EDGES: f64 = 3.0;
 /// that die away.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Noise {
-    /// All of the stretch that was looked at.
+    /// The whole stretch that was looked at.
     pub whole: Vec<f64>,
     /// Another stretch, before the third harmonic comes: of what is beside the second and the third.
     pub early: Vec<f64>,

@@ -18,7 +18,7 @@ pub(super) struct Law {
 }
 
 impl Law {
-    /// Of a sheet, up to `top` Hz.
+    /// The law of a sheet, up to `top` Hz.
     pub fn of(sheet: &Sheet, top: f64) -> Self {
         let (medium, tension) = (Medium::of(sheet), sheet.tension > 0.0);
         let step = top / (POINTS - 1) as f64;

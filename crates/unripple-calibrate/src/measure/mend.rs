@@ -6,7 +6,7 @@ use unripple_dsp::resample;
 /// What is to be undone in a recording.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Mend {
-    /// By how much its clock is quick, as a share.
+    /// Error of the recording's clock, as a share: positive if it is quick.
     pub quick: f64,
     /// Samples by which it is late.
     pub late: f64,

@@ -96,7 +96,7 @@ impl MeasureOptions {
         Self { sweep, start_hz: from, settle_time: ringing, response_length: kept, ..usual }
     }
 
-    /// What is too short for a surface that is expected to be like a model, a sentence each.
+    /// Warnings of what is too short for a surface that is expected to be like a model, a sentence each.
     pub fn warnings(&self, model: &ModalResponses) -> Vec<String> {
         let suited = Self::for_model(model);
         let decay = 1e3 * slowest_decay(model, self.start_hz);

@@ -48,7 +48,7 @@ pub(super) struct Judge<'a> {
     pub starts: &'a [usize],
     /// Samples of a sweep that sound.
     pub sounding: usize,
-    /// What is played.
+    /// The signals that are played, `[output][sample]`.
     pub drive: &'a [Vec<f64>],
     /// Samples before time 0 that a response begins with.
     pub lead: usize,

@@ -4,7 +4,7 @@ use crate::CalibrateError;
 use crate::signals::{Band, Deconvolver, Inversion, Stimulus};
 use unripple_linalg::{Cholesky, Mat, product, squared_norm, times};
 
-/// What is known of taps beforehand.
+/// What is known of taps before they are recorded: length, and how far the model is trusted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TapOptions {
     /// Longest time a tap takes, bounces included, in s.

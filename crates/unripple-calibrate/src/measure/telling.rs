@@ -30,7 +30,7 @@ const ROUNDS: usize = 200;
 pub(super) struct Telling<'a> {
     /// For each sensor, the number of its own actuator.
     pub sensors: &'a [usize],
-    /// For each sensor, everything.
+    /// For each sensor, its whole deconvolution.
     pub wholes: &'a [Vec<f64>],
     /// Where each sweep's response begins in them, lead included.
     pub starts: &'a [usize],

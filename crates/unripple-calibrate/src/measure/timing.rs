@@ -7,7 +7,7 @@ pub(super) struct Sweep {
     pub number: usize,
     /// When it began, in samples of what is played.
     pub start: f64,
-    /// By how much it is late, in samples.
+    /// Delay of the sweep against where it should be, in samples.
     pub late: f64,
     /// Standard error of that.
     pub error: f64,

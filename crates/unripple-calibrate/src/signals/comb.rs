@@ -40,7 +40,7 @@ impl CombWork {
 const MOST: usize = 8;
 
 impl Comb {
-    /// For a size, and lines from `first` up to `end`.
+    /// A transform of `size` samples, of which the lines from `first` up to `end` count.
     pub fn new(size: usize, first: usize, end: usize) -> Self {
         let fits = |teeth: &usize| size.is_multiple_of(*teeth) && end <= size / teeth / 2;
         let teeth = [MOST, MOST / 2, MOST / 4].into_iter().find(fits).unwrap_or(1);

@@ -181,7 +181,7 @@ impl Harmonics {
         self.orders.iter().map(|harmonic| harmonic.ratio.powi(2)).sum::<f64>().sqrt()
     }
 
-    /// The same in dB.
+    /// The total harmonic distortion in dB.
     pub fn distortion_db(&self) -> f64 {
         20.0 * self.distortion().log10()
     }

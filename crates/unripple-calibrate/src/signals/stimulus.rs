@@ -45,7 +45,7 @@ impl Stimulus {
         Self { periodic: true, ..self }
     }
 
-    /// The same, with the band that it is useful in.
+    /// The same stimulus with the band that it is useful in.
     ///
     /// # Errors
     /// [`DspError::Range`] if the band's edges do not ascend.

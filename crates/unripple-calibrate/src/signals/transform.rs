@@ -29,7 +29,7 @@ pub(super) struct Work {
     pub signal: Vec<f64>,
     /// Its spectrum, from 0 to half the rate.
     pub lines: Vec<Complex<f64>>,
-    /// For the transform itself.
+    /// Scratch memory of the transform itself.
     pub scratch: Vec<Complex<f64>>,
 }
 
@@ -40,7 +40,7 @@ impl std::fmt::Debug for Transform {
 }
 
 impl Transform {
-    /// Of exactly so many samples, at least one.
+    /// A transform of exactly so many samples, at least one.
     pub fn exact(size: usize) -> Self {
         let size = size.max(1);
         PLANS.with_borrow_mut(|plans| {
@@ -58,7 +58,7 @@ impl Transform {
         })
     }
 
-    /// Of at least so many samples, where transforms are quick.
+    /// A transform of at least so many samples, of a size for which it is quick.
     pub fn smooth(least: usize) -> Self {
         Self::exact(smooth_size(least))
     }

@@ -22,7 +22,7 @@ pub(super) struct Checker<'a> {
 /// How alike a response and the model's are at one place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Match {
-    /// From -1 to 1: 1 for responses that differ by a gain alone.
+    /// Correlation of the response with the model's, from -1 to 1: 1 for responses that differ by a gain alone.
     pub likeness: f64,
     /// Measured over modelled.
     pub gain: f64,
@@ -107,7 +107,7 @@ impl<'a> Checker<'a> {
         self.late(heard, place, &[delay]).first().copied().unwrap_or(Match { likeness: 0.0, gain: 0.0 })
     }
 
-    /// The same at one place and several delays.
+    /// How alike they are at one place and several delays (s).
     pub fn late(&self, heard: &Projected, place: Point, delays: &[f64]) -> Vec<Match> {
         let shapes = self.shapes(&[place]);
         let power = self.powers(&shapes)[0];

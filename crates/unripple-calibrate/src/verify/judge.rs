@@ -77,7 +77,7 @@ pub(super) struct Bench<'a> {
 }
 
 impl Bench<'_> {
-    /// What is left unexplained of a good point at most.
+    /// The largest share that the model leaves unexplained of a good point.
     pub fn limit(&self) -> f64 {
         UNLIKE.max(TIMES * self.quick.fitted.unexplained()).min(0.8)
     }

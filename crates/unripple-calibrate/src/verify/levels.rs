@@ -16,12 +16,12 @@ const SURE: f64 = 3.0;
 pub(super) struct Levels {
     /// The gain of most points, its sign included; `None` where no two points agree.
     pub common: Option<f64>,
-    /// To speak of gains by: the common one, or the median of magnitudes.
+    /// The gain that others are expressed by: the common one, or the median of magnitudes.
     pub scale: f64,
 }
 
 impl Levels {
-    /// Of the points that fit their places.
+    /// The common gain of the points that fit their places.
     pub fn of(judged: &[Judged]) -> Self {
         let gains: Vec<f64> =
             judged.iter().filter(|j| j.kind == Kind::Here).map(|j| j.nearby.found.gain).collect();

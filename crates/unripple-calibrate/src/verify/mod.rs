@@ -74,7 +74,7 @@ pub fn check(
     Ok(judged(quick, surface, probed, options, copies))
 }
 
-/// The same against a model that was fitted before, to what all the actuators heard.
+/// Checks against a model that was fitted before, to what all the actuators heard.
 ///
 /// # Errors
 /// Those of [`check`].

@@ -134,7 +134,7 @@ impl Quick {
         left.iter().map(|sensor| (*sensor, like(sensor))).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(s, _)| s)
     }
 
-    /// Of a model that was fitted to all actuators before.
+    /// The part that is compared of a model that was fitted to all actuators before.
     pub fn known(
         fitted: &Fitted,
         surface: &Surface,

@@ -53,9 +53,9 @@ pub struct Verified {
     pub probe_delay: Option<f64>,
     /// Gain of the probe over the model, which has the sensors' scale: what most points agree on.
     pub gain: Option<f64>,
-    /// What is worth a word, and survived.
+    /// Findings that are worth mentioning and cast no doubt.
     pub notes: Vec<String>,
-    /// Those of the doubts that need no model: points whose responses are those of another.
+    /// Doubts that need no model: points whose responses are those of another.
     pub copies: Vec<Doubted>,
     /// What makes points, or all of the calibration, doubtful, copies first.
     pub doubts: Vec<Doubted>,

@@ -77,7 +77,8 @@ impl Feeler {
         })
     }
 
-    /// The same with fingers that weigh nothing: what is computed is what the free surface does where they are.
+    /// The same feeler with fingers that weigh nothing: what is computed is what the free surface does where they
+    /// are.
     pub fn weightless(self) -> Self {
         Self { finger: None, ..self }
     }

@@ -175,7 +175,7 @@ impl Virtual {
         Self::of_truth_with_modes(truth, truth.modes(options.max_hz)?, options)
     }
 
-    /// The same with modes of the true surface that are known.
+    /// The true surface, its modes being known already.
     ///
     /// # Errors
     /// Those of [`Virtual::with_modes`].

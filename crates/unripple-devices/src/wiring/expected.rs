@@ -13,7 +13,8 @@ const LOW: f64 = 0.3;
 const LONGEST: f64 = 10.0;
 
 impl WiringOptions {
-    /// For a surface: bursts at a fifth of its band, each when the one before has died away to less than a hundredth.
+    /// Options for a surface: bursts at a fifth of its band, each when the one before has died away to less than a
+    /// hundredth.
     pub fn for_surface(surface: &Surface) -> Self {
         let usual = Self::for_band(surface.emission.band);
         let decay = crate::perturbation::nominal_decay(surface, LOW * usual.frequency);

@@ -57,7 +57,7 @@ impl Default for WiringOptions {
 }
 
 impl WiringOptions {
-    /// For a band (Hz): bursts at a fifth of it.
+    /// Options for a band (Hz): bursts at a fifth of it.
     pub fn for_band(band: [f64; 2]) -> Self {
         Self { frequency: band[0] + 0.2 * (band[1] - band[0]), ..Self::default() }
     }

@@ -34,9 +34,9 @@ pub struct Statistic {
     pub simulated: f64,
     /// Standard error of that mean.
     pub error: f64,
-    /// By the refined closed form.
+    /// Contrast by the refined closed form.
     pub predicted: f64,
-    /// By the plain closed form.
+    /// Contrast by the plain closed form.
     pub plain: f64,
 }
 

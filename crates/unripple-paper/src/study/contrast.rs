@@ -15,9 +15,9 @@ pub struct Compared {
     pub varied: f64,
     /// Mean over placements and targets.
     pub simulated: f64,
-    /// By [`Cavity`], the refined closed form.
+    /// Contrast by [`Cavity`], the refined closed form.
     pub predicted: f64,
-    /// By [`closed`], the plain one.
+    /// Contrast by [`closed`], the plain closed form.
     pub plain: f64,
 }
 

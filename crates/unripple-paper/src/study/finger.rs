@@ -21,7 +21,7 @@ pub struct Touched {
     pub known: bool,
     /// Attenuation of the largest velocity of the place of contact, averaged over the disc.
     pub focus_velocity: f64,
-    /// The same of displacement.
+    /// Attenuation of the largest displacement there.
     pub focus_displacement: f64,
     /// Attenuation of the largest velocity of the sheet at the centre of the contact, which presses evenly and does not stiffen it:
     /// what a vibrometer sees from below.

@@ -19,11 +19,11 @@ const REACH: f64 = 1.0;
 pub struct Size {
     /// Mean full width at half maximum in space, in metres.
     pub spot_diameter_m: f64,
-    /// The same by [`closed::spot_diameter`].
+    /// Spot diameter by [`closed::spot_diameter`], in metres.
     pub spot_predicted_m: f64,
     /// Mean full width at half maximum in time, in seconds.
     pub pulse_duration_s: f64,
-    /// The same by [`closed::pulse_duration`].
+    /// Pulse duration by [`closed::pulse_duration`], in seconds.
     pub pulse_predicted_s: f64,
 }
 

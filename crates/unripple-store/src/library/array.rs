@@ -109,7 +109,7 @@ impl Arrays {
         always.into_iter().chain(self.bands.as_ref().map(|bands| &bands.array))
     }
 
-    /// Those of values that are NaN where they are not known.
+    /// Arrays of figures, in which NaN stands for what is not known.
     pub fn known_or_not(&self) -> impl Iterator<Item = &Array> {
         [&self.quality, &self.reciprocity].into_iter().chain(self.bands.as_ref().map(|bands| &bands.array))
     }
@@ -132,7 +132,7 @@ impl Array {
         }
     }
 
-    /// What its `zarr.json` says.
+    /// The array's metadata, as its `zarr.json` has them.
     pub fn metadata(&self) -> Value {
         let (kind, fill) = match self.kind {
             Kind::U8 => ("uint8", json!(0)),

@@ -51,7 +51,7 @@ impl Bands {
         Self { array: Array::by_bands(plan, middles.len(), attributes), middles: middles.to_vec() }
     }
 
-    /// Those that a library holds; none if it holds no such array, which is there once its metadata are.
+    /// The bands that a library holds; none if it holds no such array, which is there once its metadata are.
     ///
     /// # Errors
     /// [`StoreError::Content`] and [`StoreError::Read`] for damage to the metadata.

@@ -175,7 +175,7 @@ impl Library {
         self.record = record::read_or_doubt(&self.root);
     }
 
-    /// What it was made to hold.
+    /// The plan that the library was made for: points, actuators, samples.
     pub fn plan(&self) -> &LibraryPlan {
         &self.plan
     }

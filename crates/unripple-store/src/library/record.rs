@@ -45,7 +45,7 @@ impl Doubt {
         Self { check: check.into(), what: what.into(), points: Vec::new() }
     }
 
-    /// The same about some points only.
+    /// The same doubt, of some points only, from 0.
     #[must_use]
     pub fn at(self, points: Vec<usize>) -> Self {
         Self { points, ..self }
@@ -169,7 +169,7 @@ impl Library {
         self.write_record(record)
     }
 
-    /// What is kept of how a point was measured.
+    /// The log of how a point was measured.
     pub fn logged_point(&self, point: usize) -> Option<&Value> {
         self.record.points.get(&point)
     }

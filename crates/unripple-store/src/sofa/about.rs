@@ -7,7 +7,7 @@ use unripple_core::{Outline, Shape};
 /// What a SOFA file says of itself besides what a library knows.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SofaAbout {
-    /// Whom to ask, with an address.
+    /// Author of the data, with an address for questions.
     pub author: Option<String>,
     /// Where it was measured or computed.
     pub organization: Option<String>,

@@ -66,7 +66,7 @@ impl Ring {
         (self, corner)
     }
 
-    /// As a polygon if all sides are straight, otherwise as a path.
+    /// The curve as a polygon if all sides are straight, otherwise as a path.
     pub fn shape(&self) -> Shape {
         let straight = self.sides.iter().all(Side::is_straight);
         let starts = || self.sides.iter().map(|side| side.at(0.0)).collect();

@@ -20,9 +20,10 @@ pub enum By {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct InputScales {
-    /// Of all inputs that are not named.
+    /// Scale of all inputs that are not named.
     pub all: Option<f64>,
-    /// By name: m/s for the probe, the sensors' unit for actuators; below 0 where an input is reversed.
+    /// Scales by the inputs' names: m/s for the probe, the sensors' unit for actuators; below 0 where an input is
+    /// reversed.
     pub named: BTreeMap<String, f64>,
 }
 

@@ -14,7 +14,6 @@ pub struct Opened {
     /// The device, and whoever moves its probe.
     pub rig: Box<dyn Rig>,
     /// What is true of a virtual surface and not in its file.
-    /// What is true of a virtual surface and was not told.
     pub truth: Option<String>,
 }
 

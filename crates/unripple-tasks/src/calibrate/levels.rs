@@ -52,7 +52,7 @@ struct Level {
     needed: bool,
 }
 
-/// What was found of all channels.
+/// Levels of all channels, and what to do about them.
 #[derive(Clone, Debug, Serialize)]
 pub struct Levels {
     levels: Vec<Level>,

@@ -164,7 +164,7 @@ fn middle(surface: &Surface) -> Point {
 }
 
 impl Campaign<'_> {
-    /// Tells people something.
+    /// Shows people a line.
     pub fn tell(&self, line: &str) {
         self.progress.borrow_mut().tell(line);
     }

@@ -8,7 +8,7 @@ use unripple::core::{Point, Surface};
 /// A grid, points typed, and last the actuators themselves, whose own sensors hear them.
 #[derive(Clone, Debug, Default)]
 pub struct Places {
-    /// All of them.
+    /// All points, the actuators' own last, in m.
     pub points: Vec<Point>,
     /// How many are measured by a probe or by taps; the rest are the actuators.
     pub probed: usize,

@@ -18,7 +18,7 @@ pub struct Scales {
 }
 
 impl Scales {
-    /// As the options say.
+    /// The scales that the ask gives.
     pub fn of(ask: &Ask, surface: &Surface) -> Result<Self, TaskError> {
         let own = ask.device.device == DeviceKind::Virtual;
         let output = ask.device.output_scale;
@@ -80,7 +80,7 @@ impl Scales {
         surface.actuators.iter().all(|actuator| self.knows(&actuator.name)) && self.knows(PROBE)
     }
 
-    /// For the library's log.
+    /// The scales as an entry of the library's log.
     pub fn told(&self) -> Value {
         json!({
             "input_all": self.all,

@@ -47,7 +47,7 @@ impl Shelf {
         Self { library, probed, probe: scales.input(PROBE), sensors, without, deaf, made }
     }
 
-    /// For taps, whose strength follows from the model: scales do not matter.
+    /// The same shelf for taps, whose strength follows from the model: scales do not matter.
     pub fn by_taps(self) -> Self {
         Self { probe: 1.0, ..self }
     }

@@ -9,12 +9,12 @@ use unripple_store::{Doubt, Library, PointState};
 /// The check that finds wires which are not as they should be; the key of what the log says of them.
 pub const WIRING: &str = "wiring";
 
-/// What was found of the wires.
+/// The faults of the wires, and what is accepted of them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Found {
     /// Actuators that are left out, by index: nobody hears them, or somebody asked for it.
     pub dead: Vec<usize>,
-    /// What to say of those that nobody knew of.
+    /// Notes on dead actuators that nobody had named.
     pub notes: Vec<String>,
     /// What else is wrong, and accepted.
     pub faults: Vec<String>,
@@ -100,7 +100,7 @@ impl<'a> Asked<'a> {
 }
 
 impl Found {
-    /// Tells what was found.
+    /// Shows people what was found.
     pub fn tell(&self, campaign: &Campaign<'_>) {
         self.notes.iter().for_each(|note| campaign.tell(&format!("warning: {note}")));
         self.faults.iter().for_each(|fault| campaign.tell(&format!("wiring: {fault}")));

@@ -28,13 +28,13 @@ pub struct Row {
     pub peak_at_limit: f64,
     /// Contrast at the drive limit.
     pub contrast_at_limit: f64,
-    /// What was found at the targets.
+    /// Figures of every target.
     pub targets: Vec<TargetFigures>,
     /// Figures of the drive.
     pub drive: DriveFigures,
     /// How strong the drive is beside its limits.
     pub level: Strength,
-    /// What is to be said of it.
+    /// Notes on the drive.
     pub notes: Vec<Note>,
 }
 
@@ -140,7 +140,7 @@ fn three(value: f64) -> String {
     format!("{value:.digits$}")
 }
 
-/// For a terminal.
+/// The table of all methods, for a terminal.
 pub fn table(rows: &[Row], conditions: Conditions) -> String {
     let mut text = format!("{conditions}\n\n");
     let all: Vec<Vec<String>> =
@@ -165,7 +165,7 @@ fn notes(rows: &[Row]) -> impl Iterator<Item = (&Row, &Note)> {
     rows.iter().flat_map(|row| row.notes.iter().map(move |note| (row, note)))
 }
 
-/// For a page.
+/// The table of all methods, as Markdown.
 pub fn markdown(surface: &str, rows: &[Row], conditions: Conditions) -> String {
     let mut text = format!("# {surface}: methods compared\n\n{conditions}\n\n");
     let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));

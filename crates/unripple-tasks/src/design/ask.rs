@@ -3,7 +3,7 @@
 use crate::SurfaceAsk;
 use serde::{Deserialize, Serialize};
 
-/// Whose tradeoffs are wanted.
+/// The surface whose tradeoffs are wanted.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {

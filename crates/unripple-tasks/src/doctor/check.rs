@@ -9,9 +9,9 @@ pub struct Check {
     pub name: &'static str,
     /// How it fares.
     pub verdict: Verdict,
-    /// What was found.
+    /// Finding, in a sentence.
     pub found: String,
-    /// What to do about it.
+    /// Remedy, if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fix: Option<String>,
 }

@@ -22,7 +22,7 @@ pub struct Report {
     pub points: usize,
     /// Points that were not, for whatever reason.
     pub points_left_out: usize,
-    /// Those of them that are bad.
+    /// Number of points left out because they are bad.
     pub points_bad: usize,
     /// How many actuators drive.
     pub actuators: usize,
@@ -30,7 +30,7 @@ pub struct Report {
     pub samples: usize,
     /// Their rate, in Hz.
     pub sample_rate_hz: f64,
-    /// What is to be said of the library.
+    /// Notes on the library.
     pub notes: Vec<Note>,
 }
 

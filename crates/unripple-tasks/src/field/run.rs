@@ -41,7 +41,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     Ok(made.report)
 }
 
-/// The same without a folder, with all that was found.
+/// The same without writing a folder, with all that was found.
 ///
 /// # Errors
 /// Those of [`run()`], but for those of writing.

@@ -10,13 +10,13 @@ use unripple_calibrate::verify::{Checked, Verified, VerifyOptions, check_by};
 
 /// Probed points that a model may be corrected by.
 pub struct Probed {
-    /// Those that do not contradict it, their gains made one and the probe's own delay taken out.
+    /// Responses of the points that agree with the model, brought to one gain and without the probe's own delay.
     pub good: SampledResponses,
     /// Why others are left out.
     pub left_out: Vec<String>,
-    /// What is doubted of all that was heard, for which nothing is left out.
+    /// Doubts about the whole recording, for which no point is left out.
     pub doubts: Vec<String>,
-    /// What is worth a word of those that are not.
+    /// Notes on points that are kept.
     pub notes: Vec<String>,
     /// Gain of the probe over the sensors.
     pub gain: f64,

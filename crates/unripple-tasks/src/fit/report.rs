@@ -28,7 +28,7 @@ pub struct Report {
     /// Why probed points contradict the model, and are left out.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub left_out: Vec<String>,
-    /// What is doubted of all that was heard.
+    /// Doubts about the whole recording.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub doubts: Vec<String>,
     /// What else there is to say.

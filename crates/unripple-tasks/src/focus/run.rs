@@ -55,7 +55,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     Ok(made.report)
 }
 
-/// The same without a folder, with all that came of it.
+/// The same without writing a folder, with all that came of it.
 ///
 /// # Errors
 /// Those of [`run()`], but for those of writing.

@@ -36,7 +36,7 @@ const LONGEST: f64 = 3600.0;
 pub(super) struct Opened {
     /// The device that plays.
     pub device: Box<dyn Device>,
-    /// Of a virtual surface: what fingers feel.
+    /// What computes the sensation of fingers, on a virtual surface.
     pub feeler: Option<Feeler>,
     /// Samples by which what is heard comes after what was sent.
     pub latency: usize,

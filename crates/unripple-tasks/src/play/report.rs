@@ -54,7 +54,7 @@ pub struct Report {
     priority: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     server: Option<ServerSays>,
-    /// What is wrong with the library that was played on.
+    /// Notes on what is wrong with the library that was played on.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<Note>,
     /// Whether what fingers feel is known.

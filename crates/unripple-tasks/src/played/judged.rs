@@ -32,7 +32,6 @@ pub(crate) struct Played {
 }
 
 /// What a waveform and a stroke are asked alike.
-/// What both kinds are asked alike.
 pub(crate) struct Common<'a> {
     /// The surface that the drive is made for.
     pub surface: &'a SurfaceAsk,

@@ -27,7 +27,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     Ok(make(ask, progress)?.0)
 }
 
-/// The same, with the drive: float32 samples in the actuators' unit.
+/// The same, with the drive: float32 samples in the actuators' unit, `[actuator][sample]`.
 ///
 /// # Errors
 /// Those of [`run()`].

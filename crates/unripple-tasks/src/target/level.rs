@@ -21,7 +21,7 @@ pub enum LevelAsk {
 }
 
 impl LevelAsk {
-    /// The same as the library has it.
+    /// The level in the library's own type.
     ///
     /// # Errors
     /// [`TaskError::Ask`] of a displacement that is not above 0.
@@ -34,7 +34,7 @@ impl LevelAsk {
         })
     }
 
-    /// The same on responses of which nobody knows the scale, if there is a reason `why`: as strong as the limit allows.
+    /// The level on responses of unknown scale, if there is a reason `why`: as strong as the limit allows.
     ///
     /// # Errors
     /// [`TaskError::Ask`] of a level that is asked for by its size.

@@ -29,7 +29,7 @@ impl PointAsk {
         Self { at_m: [x, y], ..Self::default() }
     }
 
-    /// The same as the library has it.
+    /// The target in the library's own type.
     ///
     /// # Errors
     /// [`TaskError::Ask`] of a rate that is not above 0.

@@ -61,7 +61,7 @@ impl ShapeAsk {
         }
     }
 
-    /// The same as the library has it; errors name `field`.
+    /// The shape in the library's own type; errors name `field`.
     ///
     /// # Errors
     /// [`TaskError::Ask`] of a size that is not above 0, or of a drawing without a path; those of reading a drawing.

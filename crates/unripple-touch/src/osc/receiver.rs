@@ -93,7 +93,7 @@ impl OscReceiver {
         self.fingers.due(now)
     }
 
-    /// What was taken in and what was refused so far.
+    /// Numbers of what was taken in and what was refused so far.
     pub fn counts(&self) -> Counts {
         self.fingers.counts
     }

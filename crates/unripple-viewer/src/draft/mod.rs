@@ -38,12 +38,12 @@ pub struct Draft {
 }
 
 impl Draft {
-    /// Begins with a surface.
+    /// A draft that begins with a surface.
     pub fn new(surface: Surface) -> Self {
         Self { surface, base: None, past: Vec::new(), future: Vec::new() }
     }
 
-    /// As it is now.
+    /// The surface as it is now.
     pub fn surface(&self) -> &Surface {
         &self.surface
     }
@@ -78,7 +78,7 @@ impl Draft {
         self.keep(base);
     }
 
-    /// Back; whether there was a way.
+    /// Goes back one edit; whether there was one.
     pub fn undo(&mut self) -> bool {
         if let Some(base) = self.base.take() {
             self.keep(base);
@@ -88,7 +88,7 @@ impl Draft {
         true
     }
 
-    /// Forth; whether there was a way.
+    /// Goes forth one edit; whether there was one.
     pub fn redo(&mut self) -> bool {
         let Some(next) = self.future.pop() else { return false };
         self.past.push(std::mem::replace(&mut self.surface, next));

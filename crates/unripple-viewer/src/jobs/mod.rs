@@ -35,7 +35,7 @@ pub struct Jobs {
 }
 
 impl Jobs {
-    /// None yet; libraries go to `folder`.
+    /// No jobs yet; libraries go to `folder`.
     pub fn new(notices: Arc<Notices>, folder: PathBuf) -> Self {
         Self { notices, folder, given: AtomicU64::new(0), running: Mutex::new(Vec::new()) }
     }

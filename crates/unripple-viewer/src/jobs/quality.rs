@@ -13,7 +13,7 @@ pub struct Quality {
 }
 
 impl Quality {
-    /// Of a library that may not be there yet.
+    /// The quality of a library that may not be there yet.
     pub fn of(folder: PathBuf) -> Self {
         Self { folder, known: Vec::new() }
     }

@@ -19,7 +19,7 @@ const LONGEST: usize = 400;
 /// How often pages are sent how far it is.
 const LOOKED: Duration = Duration::from_millis(400);
 
-/// What is to be done.
+/// A task that a page asked for.
 pub enum Work {
     /// The list of devices.
     Devices(devices::Ask),

@@ -16,7 +16,7 @@ pub struct Cells {
     pub columns: usize,
     /// Number of cells upward.
     pub rows: usize,
-    /// From each cell to the next, in m.
+    /// Distance from each cell to the next along x and y, in m.
     pub pitch: [f64; 2],
 }
 

@@ -22,18 +22,18 @@ pub enum Playback {
     Away(Box<Away>),
 }
 
-/// What is known of the play at the moment.
+/// What is known of the play at the moment: fingers, sensations, counts, drift, faults.
 #[derive(Clone, Debug, Default)]
 pub struct Known {
     /// Fingers, by number.
     pub fingers: Vec<(u64, Point)>,
     /// What they felt since the last look.
     pub feelings: Vec<Feeling>,
-    /// What was played and what was not.
+    /// Counts of what was played and what was not.
     pub tally: PlayStats,
     /// How tension fares, where it is followed.
     pub drift: Option<Drift>,
-    /// What is wrong; nothing while all runs.
+    /// The fault that stops it; nothing while all runs.
     pub wrong: Option<String>,
     /// Blocks that a device lost.
     pub lost: u64,
@@ -118,7 +118,7 @@ impl Drop for Away {
 }
 
 impl Playback {
-    /// What is known now.
+    /// What is known of the play now.
     pub fn look(&mut self) -> Known {
         match self {
             Self::Here(engine) => {

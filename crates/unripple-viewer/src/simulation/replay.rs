@@ -77,7 +77,7 @@ impl Replay {
         self.focus
     }
 
-    /// From one moment to the next, in s.
+    /// Time from one moment to the next, in s.
     pub fn state(&self) -> f64 {
         self.panes.first().map_or(1.0, |pane| pane.history.stride() as f64) / self.rate
     }
@@ -87,7 +87,7 @@ impl Replay {
         SPEED
     }
 
-    /// It begins with the drive.
+    /// The clock at the beginning of the drive.
     pub fn start(&self) -> Transport {
         Transport { now: self.from(), ..Transport::default() }
     }

@@ -106,7 +106,7 @@ pub struct Transport {
     pub step: Option<i64>,
     /// The moment to be shown, in s of the surface's clock.
     pub shown_s: Option<f64>,
-    /// Back to now.
+    /// Whether to go back to the present.
     pub live: Option<bool>,
 }
 
@@ -133,9 +133,9 @@ pub struct Settings {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Probe {
-    /// One more, in mm.
+    /// A place to follow, in mm.
     pub add: Option<[f64; 2]>,
-    /// One less, by its number.
+    /// Number of the probe that is followed no longer.
     pub remove: Option<u32>,
 }
 
@@ -197,9 +197,9 @@ pub struct Job {
     pub start: Option<String>,
     /// Ends one, by its number.
     pub stop: Option<u64>,
-    /// Of a calibration: a surface that is not quite the one it is said to be, by this seed.
+    /// Of a calibration: seed of the unknowns by which the true surface differs from its file.
     pub unknowns: Option<u64>,
-    /// Of a calibration: distance between points.
+    /// Of a calibration: distance between points, in mm.
     pub grid_mm: Option<f64>,
     /// Of a calibration: name of the library.
     pub name: Option<String>,

@@ -19,7 +19,7 @@ pub struct Frame {
     pub traces: Vec<Vec<f32>>,
 }
 
-/// What is said of a frame.
+/// The JSON head of a frame.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Head {
     /// Number of the frame, rising.

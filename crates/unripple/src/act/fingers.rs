@@ -9,12 +9,12 @@ use serde::Serialize;
 /// What one finger feels of a drive, and what it does to the waves.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Felt {
-    /// What it feels and takes.
+    /// What the finger feels and the power that it takes.
     #[serde(flatten)]
     pub loaded: Touch,
     /// Velocity of the same contact disc without the fingers, over that with them.
     pub velocity_attenuation: f64,
-    /// The same in displacement.
+    /// Attenuation of the displacement.
     pub displacement_attenuation: f64,
 }
 

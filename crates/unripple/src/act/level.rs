@@ -113,9 +113,9 @@ impl Level {
 pub(super) struct Beyond {
     /// The kind of level.
     pub what: LevelKind,
-    /// What it gives, with its unit.
+    /// Level that the limit gives, with its unit.
     pub most: String,
-    /// What was asked for, and its unit.
+    /// Level that was asked for, as text.
     pub wanted: String,
     /// Unit of the value, as people write it.
     pub unit: &'static str,

@@ -60,7 +60,7 @@ pub struct Act<'a> {
     pub surface: &'a Surface,
     /// Its responses, modal or sampled.
     pub responses: &'a Responses,
-    /// What is to be in focus.
+    /// Points and shapes to be in focus.
     pub targets: &'a [Target],
     /// How to focus.
     pub options: &'a Options,

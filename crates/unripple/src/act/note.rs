@@ -11,7 +11,7 @@ use serde::Serialize;
 /// Something a reader of the figures must know.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Note {
-    /// What it is about, in a word or two.
+    /// Topic of the note, in a word or two.
     pub topic: &'static str,
     /// The note, a sentence or two.
     pub text: String,

@@ -37,7 +37,7 @@ pub struct Sent {
 pub(super) struct Aimed {
     /// Where and when the drive is judged.
     pub aims: Vec<Aim>,
-    /// Of a repeated drive, in samples.
+    /// Period of a repeated drive, in samples.
     pub period: Option<usize>,
     /// End of what is judged, in seconds.
     pub until: f64,

@@ -51,7 +51,7 @@ pub struct Headroom {
     pub used: f64,
     /// How far below it is, in dB.
     pub below_db: f64,
-    /// The same as a factor.
+    /// Headroom as a factor.
     pub below: f64,
 }
 
@@ -83,7 +83,7 @@ impl Strength {
         self
     }
 
-    /// In a sentence; `unit` is that of the drive.
+    /// The strength in a sentence; `unit` is that of the drive, `thickness` the sheet's in m.
     pub fn text(&self, unit: &str, thickness: f64) -> String {
         let linear = |what: String| format!("{what}, well within linear theory");
         let what = match self.decided_by {

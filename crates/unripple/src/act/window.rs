@@ -9,7 +9,8 @@ pub fn recommended_window(surface: &Surface, responses: &Responses) -> f64 {
     chosen_window(surface, responses).seconds
 }
 
-/// The same, with what is to be expected of it and why it is that.
+/// The recommended window, with what is to be expected of it and why it is that. It takes a coarse solution for the
+/// modes: to be asked for once.
 ///
 /// It takes a coarse solution for the modes: to be asked for once.
 pub fn chosen_window(surface: &Surface, responses: &Responses) -> Recommended {

@@ -101,7 +101,8 @@ impl Draft {
         spot::spot(self.responses()?, at, &self.options(window))
     }
 
-    /// The same with all figures, at a place in m and for a window in s: what `unripple focus` does.
+    /// Time reversal at one place (m) with every figure of `unripple focus`, in a window of so many seconds or the
+    /// recommended one.
     ///
     /// # Errors
     /// Those of [`Draft::responses`] and [`Act::run`].

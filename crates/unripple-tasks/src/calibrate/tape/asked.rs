@@ -27,7 +27,7 @@ pub struct Asked {
 }
 
 impl Asked {
-    /// Of a plan.
+    /// The recordings that a plan asks for.
     pub fn of(plan: &Value) -> Self {
         let recordings = plan["recordings"].as_array().into_iter().flatten();
         let first = recordings.filter(|one| one["repeat"] == 1);

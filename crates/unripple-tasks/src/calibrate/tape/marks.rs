@@ -34,7 +34,7 @@ pub struct Marks {
 }
 
 impl Marks {
-    /// Of the files of a folder; those that the library knows by size and time are not read.
+    /// Marks of the files of a folder; those that the library knows by size and time are not read.
     pub fn of<'a>(
         folder: &Path,
         wanted: impl Iterator<Item = &'a Wanted>,

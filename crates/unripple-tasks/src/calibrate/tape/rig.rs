@@ -84,7 +84,7 @@ impl<'a> TapeShelf<'a> {
     }
 }
 
-/// What to say of a recording from which bad responses came.
+/// The fault of a recording from which bad responses came.
 pub fn bad(file: &str, why: &str) -> Fault {
     let mend = "look at the probe and the actuators, and record again (or keep it as bad with `any_wiring`)";
     Fault::new(file, why, mend)

@@ -44,7 +44,7 @@ pub struct Takes {
     pub reader: Reader,
     /// Which channel is which.
     pub wires: Wires,
-    /// What is played.
+    /// The drive that is played.
     pub drive: Drive,
     /// What the telling channels hear of it where it begins at time 0, give or take a latency common to all recordings.
     known: Vec<(usize, Vec<f64>)>,

@@ -27,7 +27,7 @@ const BURSTS: [f64; 3] = [0.2, 0.4, 0.6];
 /// Points that are looked at where there are no sensors.
 const LOOKED_AT: usize = 3;
 
-/// What was found of the wires.
+/// The faults of the wires, as recordings show them.
 #[derive(Clone, Debug, Default)]
 pub struct Tried {
     /// Actuators that nobody hears.
@@ -36,7 +36,7 @@ pub struct Tried {
     pub deaf: Vec<usize>,
     /// Wires that are not as they should be.
     pub faults: Vec<String>,
-    /// What to say of the rest.
+    /// Notes that are no faults.
     pub notes: Vec<String>,
 }
 

@@ -57,7 +57,7 @@ pub struct Report {
     /// How far from small the deflections are.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub linearity: Option<Linearity>,
-    /// What was sent.
+    /// Figures of the drive that was sent.
     pub drive: DriveFigures,
     /// How strong that is beside its limits, and what decided it.
     #[serde(skip_serializing_if = "Option::is_none")]

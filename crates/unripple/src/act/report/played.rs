@@ -6,7 +6,7 @@ use serde::Serialize;
 /// What was asked of one target, and what came of it.
 #[derive(Clone, Debug, Serialize)]
 pub struct Followed {
-    /// What it does.
+    /// How well the target followed its waveform.
     #[serde(flatten)]
     pub figures: WaveformFigures,
     /// When its waveform starts, in seconds from the drive's first sample.

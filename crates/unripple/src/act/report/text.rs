@@ -42,7 +42,7 @@ impl Report {
         text
     }
 
-    /// The same as Markdown, with the figures shown.
+    /// The report as Markdown, with the figures shown.
     pub fn markdown(&self) -> String {
         let mut text = format!("# {}{}\n\n", self.surface, self.how());
         for target in &self.targets {
