@@ -5,8 +5,7 @@
 //! A [`Window`] is the delay that a focus costs. A [`FocusWorker`] makes drives on a thread of its own, [`DriveCache`] remembers them by
 //! place, a [`Conductor`] turns touches into commands for the player, and a [`Heartbeat`] plays through a device, or is played by it. An
 //! [`Engine`] is all of these at work; a [`Feeler`](unripple_devices::Feeler) computes what fingers feel of a virtual
-//! surface, a
-//! [`Follower`] follows its tension, and a [`Recovering`] device comes back by itself.
+//! surface, a [`Follower`] follows its tension, and a [`Recovering`] device comes back by itself.
 
 mod beats;
 mod conductor;

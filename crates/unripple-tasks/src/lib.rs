@@ -1,9 +1,9 @@
 //! What can be done with Unripple, each task as a plain question and a report.
 //!
 //! One folder a verb. In each, `Ask` is a plain struct in SI units, with defaults and serde; `run` does the work,
-//! informs a
-//! [`Progress`] how far it is and looks there whether it is still wanted; `Report` is what came of it, with serde and as text. The
-//! command line, the page and other languages call the same functions, and `--json` is the report.
+//! informs a [`Progress`] how far it is and looks there whether it is still wanted; `Report` is what came of it, with
+//! serde and as text. The command line, the page and other languages call the same functions, and `--json` is the
+//! report.
 //!
 //! ```
 //! use unripple_tasks::{Report, Silent, modes};

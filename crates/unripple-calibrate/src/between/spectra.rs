@@ -11,11 +11,10 @@ use unripple_core::{SampledResponses, require};
 /// Turns responses into real spectra and back.
 ///
 /// A response is causal, so that the transform of its even part, a real number per frequency, determines all of it.
-/// Unlike the
-/// response itself its even part has no step at the impulse and, taken over a period of twice its length, none at its end:
-/// what is left in a bin is waves of that frequency. It also is the part of the response without the near field
-/// of the actuator (the imaginary part of the field's Green function is J0, regular at the source; Weaver and Lobkis, J. Acoust.
-/// Soc. Am. 110, 2001, eq. 5), and so has J0 for its covariance.
+/// Unlike the response itself its even part has no step at the impulse and, taken over a period of twice its length,
+/// none at its end: what is left in a bin is waves of that frequency. It also is the part of the response without the
+/// near field of the actuator (the imaginary part of the field's Green function is J0, regular at the source; Weaver
+/// and Lobkis, J. Acoust. Soc. Am. 110, 2001, eq. 5), and so has J0 for its covariance.
 #[derive(Clone)]
 pub(crate) struct Cosines {
     samples: usize,

@@ -65,8 +65,7 @@ pub enum Verdict {
 /// A model fitted to what was measured, with responses anywhere.
 ///
 /// The mass per area is that of the nominal surface: only tension, bending stiffness and loads over it can be found
-/// from responses,
-/// the mass itself only together with all gains.
+/// from responses, the mass itself only together with all gains.
 #[derive(Clone, Debug)]
 pub struct Fitted {
     /// Mean tension, in N/m.

@@ -37,8 +37,7 @@ impl Limited {
     /// The responses of some values by the first `count` nominal modes, as many samples as measured.
     ///
     /// A band with soft edges rings for the inverse of their width, before and after. What rings before is cut off
-    /// when responses are
-    /// kept from time 0 on, and what is left has other spectra than the model's.
+    /// when responses are kept from time 0 on, and what is left has other spectra than the model's.
     pub(super) fn new(
         basis: &Basis,
         layout: &Layout,

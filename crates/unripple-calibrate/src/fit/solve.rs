@@ -103,9 +103,8 @@ impl Case<'_> {
     ///
     /// Once from the noise, as if the residual were white; once from how much responses pull apart, and once from how much
     /// frequencies do: with g_b = J_bᵀ r_b what each says of the unknowns, H⁻¹ (Σ g_b g_bᵀ) H⁻¹ (the sandwich
-    /// estimator: White, *Econometrica* 48,
-    /// 817, 1980, by groups). What a wrong model leaves is not white, and is alike in all responses at one frequency. The largest
-    /// counts.
+    /// estimator: White, *Econometrica* 48, 817, 1980, by groups). What a wrong model leaves is not white, and is
+    /// alike in all responses at one frequency. The largest counts.
     pub fn variances(&self, found: &Found) -> Result<Vec<f64>, CalibrateError> {
         // The residual is a better estimate of the noise than what the caller said of it.
         let excess = found.excess.max(LEAST) * self.spectra.overlap.sqrt();

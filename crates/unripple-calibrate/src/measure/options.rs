@@ -80,8 +80,8 @@ const MOST_KEPT: f64 = 60.0;
 
 impl MeasureOptions {
     /// What suits a surface that is expected to be like a model: sweep, ringing and response in proportion to the
-    /// slowest decay in
-    /// the band, and those of [`MeasureOptions::default`] up to 70 ms. The sweep begins below the lowest mode, at 60 Hz at the highest.
+    /// slowest decay in the band, and those of [`MeasureOptions::default`] up to 70 ms. The sweep begins below the
+    /// lowest mode, at 60 Hz at the highest.
     ///
     /// The next sweep's response begins when e⁻⁵ is left of the last, and the second harmonic comes before the linear response by 1.4
     /// decay times: both as far apart in a slow surface as in a quick one.

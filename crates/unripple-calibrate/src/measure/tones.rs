@@ -74,9 +74,9 @@ struct Baseband {
 ///
 /// Responses between several places that share their tones are a linear system's: shifted by an instant, the directions that they span
 /// turn by the tones' e^{s dt}: the eigensystem realization algorithm (J.-N. Juang and R. S. Pappa, *J. Guidance* 8,
-/// 620, 1985). Tones that overlap are separated by what
-/// the places hear of each; and where two are not, their sum is still right. Nothing is used of the beginning, which holds what is not of
-/// this band: the slow answer of everything above it.
+/// 620, 1985). Tones that overlap are separated by what the places hear of each; and where two are not, their sum is
+/// still right. Nothing is used of the beginning, which holds what is not of this band: the slow answer of everything
+/// above it.
 pub(super) fn tones(heard: &Heard, part: &Part, expected: usize) -> Vec<Tone> {
     let count = heard.responses.len();
     let baseband = Baseband::of(heard, part);

@@ -31,9 +31,8 @@ impl Delay {
     /// How much later `found` is than `model` (what it would be without latency), both zero beyond their ends.
     ///
     /// Generalised cross-correlation: the delay at which their correlation in the band is largest in magnitude,
-    /// sought continuously; the
-    /// maximum-likelihood one in white noise, and where the phase of the cross-spectrum is least away from a straight
-    /// line, weighted by its magnitude.
+    /// sought continuously; the maximum-likelihood one in white noise, and where the phase of the cross-spectrum is
+    /// least away from a straight line, weighted by its magnitude.
     ///
     /// Source: C. H. Knapp, G. C. Carter, IEEE Trans. ASSP 24 (1976), eq. 1 and table I.
     ///

@@ -134,8 +134,7 @@ impl Harmonics {
 
     /// What share of the amplitude of the drive each order is, from the second, if the drive alone makes it: then its response is the
     /// linear one's, over and above its own frequencies. `None` where it does not stand out of `noise`, as it is in
-    /// the deconvolution (any
-    /// length), and from what rang before and dies away with an amplitude decay time (s).
+    /// the deconvolution (any length), and from what rang before and dies away with an amplitude decay time (s).
     pub fn of_drive(
         &self,
         deconvolved: &[f64],

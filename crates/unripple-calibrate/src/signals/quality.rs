@@ -34,8 +34,7 @@ pub struct Quality {
 
 impl Quality {
     /// The quality of a response, judged by itself and by a stretch of noise, any length, that went through the same
-    /// deconvolution: before
-    /// the response's time 0, or where it has died away.
+    /// deconvolution: before the response's time 0, or where it has died away.
     ///
     /// # Errors
     /// [`DspError::Range`] if `rate` is not positive.

@@ -7,8 +7,7 @@ use unripple_linalg::{Mat, c64, product, times};
 ///
 /// With w the actuators' weights, φ the shapes and μ the modes' mobilities, the model at x is Y_a(s) = Σ_m φ_m(x) w_am μ_m(s): linear
 /// in φ(x). So is its product with what was heard, and its own power is a quadratic form of φ(x): a whole sheet of
-/// places (matched-field processing) costs two
-/// products of matrices.
+/// places (matched-field processing) costs two products of matrices.
 #[derive(Debug)]
 pub(super) struct Checker<'a> {
     model: &'a ModalResponses,

@@ -149,8 +149,7 @@ impl Bench<'_> {
     }
 
     /// The least delay (s) of a probe that is worth taking out: one that a response of so good a fit determines, and
-    /// that turns the top of
-    /// the band by some degrees.
+    /// that turns the top of the band by some degrees.
     pub fn worth(&self, judged: &[Judged]) -> f64 {
         let mut left: Vec<f64> = judged.iter().map(|j| j.nearby.found.unexplained()).collect();
         left.sort_unstable_by(f64::total_cmp);

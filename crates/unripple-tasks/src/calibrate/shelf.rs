@@ -67,8 +67,7 @@ impl Shelf {
     }
 
     /// What sensors heard when the library was begun, if any was measured: what later takes are compared with. Those
-    /// that are dead or bad
-    /// heard nothing.
+    /// that are dead or bad heard nothing.
     pub fn heard(&self) -> Result<Option<Vec<Channel>>, TaskError> {
         let (samples, count) = (self.library.plan().samples, self.sensors.len());
         let known = |sensor: usize| {
@@ -127,8 +126,7 @@ impl Shelf {
     }
 
     /// Keeps what a take showed besides responses in a point's log, and forgets what was done to the responses
-    /// before: first, so that no log
-    /// speaks of other responses than are there.
+    /// before: first, so that no log speaks of other responses than are there.
     fn note(&mut self, number: usize, channel: &Channel) -> Result<(), StoreError> {
         let said = channel.account.said();
         let stale = |log: &Value| log.get(SAID).is_some() || log.get(verify::CHECK).is_some();

@@ -9,8 +9,8 @@ use unripple_store::{Library, PointState, SofaAbout};
 ///
 /// # Errors
 /// [`TaskError::Ask`] if no format is given and the output's name implies none, or if WAV is to hold what only SOFA
-/// holds;
-/// [`TaskError::Input`] of a library without a finished point; those of reading and writing files; [`TaskError::Cancelled`].
+/// holds; [`TaskError::Input`] of a library without a finished point; those of reading and writing files;
+/// [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     let format = format(ask)?;
     let library = Library::open(&ask.library)?;

@@ -25,8 +25,7 @@ pub(super) fn map(modal: &ModalResponses, samples: usize) -> Mat<f64> {
 ///
 /// With A and B the free motion of two modes over a sample and S(n) = Σ_{i<n} (A^i k)(B^i l)ᵀ after kicks k and l,
 /// S(2n) = S(n) + A^n S(n) B^nᵀ and S(n+1) = k lᵀ + A S(n) Bᵀ: exact by repeated doubling for every kind of pole, in
-/// as many steps as the count has
-/// binary digits.
+/// as many steps as the count has binary digits.
 struct Sums {
     /// Kicks of all modes.
     kicks: Vec<[f64; 2]>,
