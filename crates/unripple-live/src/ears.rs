@@ -82,7 +82,8 @@ impl Ears {
         }
     }
 
-    /// The same where nothing wakes: sources are asked at a pace.
+    /// Waits where nothing wakes, by the pace at which sources are polled; `now` is the time in s of the device's
+    /// clock.
     #[cfg(not(unix))]
     pub fn wait(&self, now: f64) {
         std::thread::sleep(self.patience(now).min(2 * SHORTEST));

@@ -87,7 +87,7 @@ impl Stage {
         self.feeler.is_some()
     }
 
-    /// Where fingers are.
+    /// Numbers of the fingers on the surface, and their places in m.
     pub fn fingers(&self) -> Vec<(u64, Point)> {
         self.fingers.clone()
     }

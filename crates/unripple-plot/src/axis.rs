@@ -165,7 +165,7 @@ impl Ruler {
         })
     }
 
-    /// Where a datum lies, 0 at the low end and 1 at the high one; not-a-number where it cannot be shown.
+    /// Where a datum lies, a share of the axis: 0 at the low end, 1 at the high one; not-a-number where it cannot be shown.
     pub fn place(&self, datum: f64) -> f64 {
         self.shown(datum * self.multiplier)
     }
@@ -194,7 +194,7 @@ impl Ruler {
         shown / self.multiplier
     }
 
-    /// The widest label's width at a size.
+    /// The widest label's width in points, at a size of type in points.
     pub fn label_width(&self, size: f64) -> f64 {
         self.major.iter().map(|(_, label)| font::width(label, size)).fold(0.0, f64::max)
     }

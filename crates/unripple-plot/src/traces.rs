@@ -47,7 +47,7 @@ pub struct Trace {
 }
 
 impl Trace {
-    /// A trace in the palette's first colour.
+    /// A trace of values, in the figure's data unit, in the palette's first colour.
     pub fn new(label: impl Into<String>, values: Vec<f64>) -> Self {
         Self { label: label.into(), values, ink: Ink::Palette(0) }
     }

@@ -30,7 +30,8 @@ pub fn sensing(surface: &Surface) -> Result<Vec<Sensor>, TaskError> {
     sensors(surface).map_err(TaskError::input)
 }
 
-/// What a sensor heard, responses one after the other, as velocities under its contact; nothing from one that does not hear a velocity.
+/// What a sensor heard, responses one after the other, as velocities (m/s) under its contact; nothing from one that
+/// does not hear a velocity.
 pub fn velocities(sensor: &Sensor, heard: &[f32], plan: &LibraryPlan, surface: &Surface) -> Option<Vec<f32>> {
     let rows = heard.chunks_exact(plan.samples);
     let rows: Vec<Vec<f64>> = rows.map(|row| row.iter().map(|h| f64::from(*h)).collect()).collect();

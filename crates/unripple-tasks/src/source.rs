@@ -143,7 +143,7 @@ impl Source {
     }
 
     /// The surface, its responses within the band, and, of a library, what to say of them. A library's are made complete at
-    /// `places`.
+    /// `places`. Places are in m.
     pub fn respond(
         self,
         places: &[Point],

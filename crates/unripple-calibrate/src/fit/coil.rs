@@ -45,7 +45,7 @@ impl Coil {
         [-omega * added.im, added.re]
     }
 
-    /// A signal that comes through the circuit, from what comes through its resistance alone.
+    /// A signal that comes through the circuit, sample by sample, from what comes through its resistance alone.
     pub fn behind(&self, signal: &[f64], rate: f64) -> Vec<f64> {
         self.sensor.hear(signal, rate).into_iter().map(|x| x / self.slow).collect()
     }

@@ -16,7 +16,7 @@ pub(super) struct Following {
 }
 
 impl Following {
-    /// From squares of residual and measurement, line by line.
+    /// From squares of residual and measurement, line by line. `lines` are pairs |r|², |y|², `[line][2]`.
     ///
     /// Noise is as large where there is much signal as where there is little; what a model gets wrong is large where the signal is.
     /// So |r|² = n² + c² |y|², by least squares, each line weighed by the inverse of what it is expected to scatter by.

@@ -129,12 +129,12 @@ impl Layout {
 }
 
 impl Values {
-    /// Gain from one actuator's drive to another's sensor.
+    /// Gain, a ratio to nominal, from one actuator's drive to another's sensor.
     pub fn gain(&self, driven: usize, heard: usize) -> f64 {
         (self.drive[driven] + self.sense[heard] + self.level).exp()
     }
 
-    /// The value of an unknown, to be read or changed.
+    /// The value of an unknown, to be read or changed: in SI, a logarithm or a share as [`Values`] has it.
     pub fn of(&mut self, unknown: Unknown) -> &mut f64 {
         match unknown {
             Unknown::Tension => &mut self.tension,

@@ -86,7 +86,7 @@ impl Case<'_> {
         (square(&residual.values) / free).sqrt()
     }
 
-    /// JᵀJ/κ² + 1 and -(Jᵀr/κ² + z).
+    /// The damped normal equations JᵀJ/κ² + 1 and -(Jᵀr/κ² + z), unknowns x unknowns and unknowns x 1.
     pub fn normal(&self, residual: &Residual, offsets: &[f64], excess: f64) -> (Mat<f64>, Mat<f64>) {
         let weight = 1.0 / excess.powi(2);
         let mut system = weight * times(residual.slopes.transpose(), residual.slopes.as_ref());

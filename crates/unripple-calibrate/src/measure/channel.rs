@@ -18,7 +18,7 @@ pub struct Channel {
 }
 
 impl Channel {
-    /// Responses of which nothing else is known: those of a library.
+    /// Responses `[actuator][sample]` of which nothing else is known: those of a library.
     pub fn of_responses(responses: Vec<Vec<f64>>) -> Self {
         Self { responses, ..Self::default() }
     }

@@ -50,7 +50,7 @@ pub(super) struct Sweeps<'a> {
 
 impl Sweeps<'_> {
     /// What was knocked in a line, in order of time: where half of all frequencies are louder than what the sweeps left of
-    /// them when they last passed.
+    /// them when they last passed. `line` holds the samples of one input.
     pub fn knocks(&self, line: &[f64]) -> Vec<Knock> {
         let rate = self.sweep.rate;
         let size = ((FRAME * rate) as usize).next_multiple_of(2).max(16);

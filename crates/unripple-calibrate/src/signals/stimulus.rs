@@ -79,8 +79,8 @@ impl Stimulus {
         self.samples.iter().map(|x| x * x).sum::<f64>() / self.rate
     }
 
-    /// Lowest and highest frequency around the strongest one between which the spectrum nowhere falls `db` below its
-    /// maximum: where a tap has something to say.
+    /// Lowest and highest frequency in Hz around the strongest one between which the spectrum nowhere falls `db`
+    /// decibels below its maximum: where a tap has something to say.
     pub fn usable_band(&self, db: f64) -> [f64; 2] {
         let plan = Transform::smooth(self.samples.len().max(1024));
         let mut work = plan.work();

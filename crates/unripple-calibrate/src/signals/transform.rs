@@ -83,7 +83,7 @@ impl Transform {
         }
     }
 
-    /// The spectrum of a signal, zero beyond its end, into `work.lines`.
+    /// The spectrum of a signal, zero beyond its end, into `work.lines`, size / 2 + 1 lines from 0 Hz.
     pub fn forward(&self, signal: &[f64], work: &mut Work) {
         let given = signal.len().min(self.size);
         work.signal[..given].copy_from_slice(&signal[..given]);
@@ -91,7 +91,7 @@ impl Transform {
         self.forward_in(&mut work.signal, &mut work.lines, &mut work.scratch);
     }
 
-    /// The spectrum of `signal` into `lines`, size / 2 + 1 of them; `signal` is overwritten.
+    /// The spectrum of `signal`, a number of samples, into `lines`, size / 2 + 1 of them; `signal` is overwritten.
     pub fn forward_in(&self, signal: &mut [f64], lines: &mut [Complex<f64>], scratch: &mut [Complex<f64>]) {
         let done = self.forward.process_with_scratch(signal, lines, scratch);
         debug_assert!(done.is_ok(), "sizes come from the plan itself");
@@ -102,7 +102,7 @@ impl Transform {
         self.inverse_in(&mut work.lines, &mut work.signal, &mut work.scratch);
     }
 
-    /// The signal of `lines`, `size` times as large; `lines` are overwritten.
+    /// The samples of the signal with this spectrum, `size` times as large; `lines` are overwritten.
     pub fn inverse_in(&self, lines: &mut [Complex<f64>], signal: &mut [f64], scratch: &mut [Complex<f64>]) {
         // The lines at 0 and at half the rate are their own mirror images: real.
         if let Some(first) = lines.first_mut() {
@@ -115,7 +115,7 @@ impl Transform {
         debug_assert!(done.is_ok(), "sizes come from the plan itself");
     }
 
-    /// How many lines of the two-sided spectrum a line stands for.
+    /// Number of lines of the two-sided spectrum that a line stands for: 1 or 2.
     pub fn copies(&self, line: usize) -> f64 {
         if line == 0 || 2 * line == self.size { 1.0 } else { 2.0 }
     }

@@ -53,7 +53,7 @@ impl Levels {
         Self { common, scale: common.unwrap_or(scale) }
     }
 
-    /// What a point's responses would have to be multiplied by to have the common gain, if theirs is another.
+    /// Factor that would bring a point's responses to the common gain, if theirs is another.
     pub fn off(&self, judged: &Judged) -> Option<f64> {
         let gain = judged.nearby.found.gain;
         self.common.filter(|common| !same(gain, *common)).map(|common| common / gain)

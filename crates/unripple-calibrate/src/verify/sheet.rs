@@ -79,7 +79,7 @@ impl<'a> Sheet<'a> {
             .collect()
     }
 
-    /// The best place of the whole sheet at one delay.
+    /// The best place of the whole sheet at one delay (s).
     pub fn anywhere(&self, heard: &Projected, late: f64) -> Option<Spot> {
         let products = product(self.shapes.as_ref(), self.checker.products(heard, &[late]).as_ref());
         let spot = |p: usize| Spot {
@@ -93,7 +93,7 @@ impl<'a> Sheet<'a> {
         Some(self.nearby(heard, best.at, late, self.pitch / 2.0))
     }
 
-    /// The best place in the neighbourhood of one, and the best delay near one, by ever smaller steps.
+    /// The best place within `reach` (m) of one, and the best delay near one (s), by ever smaller steps.
     pub fn nearby(&self, heard: &Projected, at: Point, late: f64, reach: f64) -> Spot {
         let mut best = Spot { at, late, found: self.checker.at(heard, at, late) };
         let (mut step, mut turn) = (reach, self.period / DELAYS);
@@ -116,7 +116,7 @@ impl<'a> Sheet<'a> {
         best
     }
 
-    /// The best delay of some at one place.
+    /// The best delay (s) of some at one place (m).
     pub fn latest(&self, heard: &Projected, at: Point, delays: &[f64]) -> Option<Spot> {
         let found = self.checker.late(heard, at, delays);
         let spots = delays.iter().zip(found).map(|(late, found)| Spot { at, late: *late, found });

@@ -33,6 +33,7 @@ fn unbroken(card: &Held, from: usize) -> bool {
     card.played[first..=last].windows(2).all(|pair| pair[1][0] == pair[0][0] + 1.0)
 }
 
+/// Sizes of chunks, in turn, that sound systems hand over: even, uneven, and larger than a block.
 const CHUNKS: [&[usize]; 5] = [&[64], &[32], &[48, 1, 90, 17], &[300], &[147, 148]];
 
 #[test]

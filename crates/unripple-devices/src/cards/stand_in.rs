@@ -8,9 +8,11 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use unripple_core::Layout;
 
+/// Samples per block that the program exchanges.
 pub(super) const BLOCK: usize = 64;
 /// Frames from an output of the card to its input, on the way through the air.
 pub(super) const AIR: usize = 77;
+/// Samples per second at the nominal rate.
 pub(super) const RATE: f64 = 48e3;
 
 /// One side's clock and manners. Times are in frames at the nominal rate since the card was opened.

@@ -37,7 +37,7 @@ impl Watch {
         self.probe = Some(at);
     }
 
-    /// Those of the surface's readings that would have to move for the places to be these, as many as there are.
+    /// The readings, by number, that would have to move for the places to be these (in m), as many as there are.
     pub fn moves(&self, places: &[Point]) -> Vec<(usize, Point)> {
         let both = self.places.iter().zip(places).enumerate();
         both.filter(|(_, (old, new))| old != new).map(|(i, (_, new))| (FIRST + i, *new)).collect()
@@ -58,7 +58,7 @@ impl Watch {
         self.probe
     }
 
-    /// The readings of the surface: the probe's velocity, then displacement everywhere else.
+    /// The readings of the surface: velocity (m/s) at the probe, then displacement (m) at all other places.
     pub fn probes(&self, probe: Point) -> Vec<(Point, Reading)> {
         let watched = self.places.iter().map(|place| (*place, Reading::Displacement));
         [(probe, Reading::Velocity)].into_iter().chain(watched).collect()

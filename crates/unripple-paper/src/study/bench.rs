@@ -154,7 +154,7 @@ impl Bench {
         rings(&self.poles, self.conditions.rate, window_samples(window, self.conditions.rate))
     }
 
-    /// A target and its focal disc of 4/3 λ_min.
+    /// A target (m) and its focal disc of 4/3 λ_min.
     pub fn outside(&self, target: Point) -> Outside {
         let reach = self.conditions.focal_radius();
         let within: Vec<usize> =

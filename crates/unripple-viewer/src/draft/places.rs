@@ -26,7 +26,7 @@ pub fn fill(surface: &mut Surface, count: usize) {
     }
 }
 
-/// A place on the sheet: the same, or the nearest that is a little inside.
+/// A place on the sheet (m): the same, or the nearest that is a little inside.
 pub fn onto(outline: &Outline, at: Point) -> Point {
     if outline.contains(at) {
         return at;

@@ -61,7 +61,7 @@ pub struct Away {
 }
 
 impl Away {
-    /// A device whose drive is passed on as it plays.
+    /// A device whose drive is passed on as it plays, and the samples of that, 1 for full scale.
     pub fn listen(device: Box<dyn Device>) -> (Box<dyn Device>, Consumer<f32>) {
         let layout = device.layout();
         let (drive, overheard) = RingBuffer::new(WAITING * layout.block * layout.outputs.len().max(1));

@@ -97,7 +97,7 @@ impl Replay {
         if now > self.to() { self.from() } else { now }
     }
 
-    /// The pictures at a moment, one for each act.
+    /// The pictures at a moment (s), one for each act.
     pub fn frames(&self, shown: f64, velocity: bool) -> Vec<Frame> {
         let frame = |(index, pane): (usize, &Pane)| {
             let history = &pane.history;

@@ -57,7 +57,7 @@ impl Transport {
         self.settle(oldest);
     }
 
-    /// Obeys, where all that can be shown has been recorded, from one moment to another.
+    /// Obeys, where all that can be shown has been recorded, from one moment to another (s), `state` seconds apart.
     pub fn wind(&mut self, asked: &Asked, [from, to]: [f64; 2], state: f64) {
         self.speed = asked.speed.unwrap_or(self.speed);
         self.paused = asked.paused.unwrap_or(self.paused || asked.shown_s.is_some() || asked.step.is_some());

@@ -7,7 +7,8 @@ use crate::physics::{ResponseOptions, responses};
 /// Accuracy of the frequencies where they take a mesh: a phase of 0.06 rad at 3 kHz after 30 ms, alike in drive and judgement.
 const MESHED: f64 = 1e-4;
 
-/// Relative accuracy that a surface's frequencies are worth: of what takes a mesh, no more than a drive can tell.
+/// Relative accuracy, a ratio, that a surface's frequencies are worth: of what takes a mesh, no more than a drive can
+/// tell.
 pub fn accuracy(surface: &Surface) -> f64 {
     let plain = matches!(surface.outline.shape, Shape::Rectangle { .. })
         && surface.outline.holes.is_empty()

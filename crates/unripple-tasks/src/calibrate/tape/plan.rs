@@ -80,7 +80,7 @@ impl Rig for Recorder {
     }
 }
 
-/// What a session drives for one recording, full scale as 1.
+/// What a session drives for one recording, `[actuator][sample]`, full scale as 1.
 pub fn drive(session: &Session, layout: &Layout, at: Point) -> Result<Drive, TaskError> {
     let mut recorder = Recorder(Tape::recorder(layout.clone()).map_err(TaskError::input)?);
     let listen = if session.wires().probe.is_some() { Listen::Probe } else { Listen::Sensors };

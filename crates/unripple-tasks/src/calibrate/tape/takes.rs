@@ -123,7 +123,8 @@ impl Takes {
         nearest.or(Some(whole.samples))
     }
 
-    /// A recording as the device would have heard it: lines of what is played, brought to where that begins.
+    /// A recording as the device would have heard it, `[input][sample]`: as long as what is played, and brought to
+    /// where that begins.
     pub fn take(&mut self, wanted: &Wanted) -> Result<Vec<Vec<f32>>, Fault> {
         let lines = self.lines(wanted)?;
         let late = match self.late.get(&wanted.file) {
