@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+/// The floor of each crate: imports go to lower numbers only.
 const FLOORS: &[(&str, i8)] = &[
     ("unripple-linalg", -1),
     ("unripple-core", 0),

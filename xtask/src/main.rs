@@ -1,9 +1,13 @@
 //! House rules, tests and documentation checks: `cargo xtask tidy`, `test`, `docs` and `circles`.
 
 mod circles;
+mod constants;
+mod descriptions;
 mod docs;
 mod floors;
+mod items;
 mod openings;
+mod quantities;
 mod seeds;
 mod sizes;
 mod suite;
@@ -49,7 +53,41 @@ fn tidy(root: &Path) -> Vec<String> {
     faults.extend(seeds::check(root));
     faults.extend(sizes::check(root));
     faults.extend(words::check(root));
+    faults.extend(descriptions::check(root));
+    faults.extend(constants::check(root));
+    faults.extend(quantities::check(root));
     faults
+}
+
+/// Crates whose comments are still to be brought to the rules on descriptions, constants and quantities.
+const NOT_YET: &[&str] = &[
+    "unripple-core",
+    "unripple-linalg",
+    "unripple-dsp",
+    "unripple-plates",
+    "unripple-physics",
+    "unripple-focus",
+    "unripple-field",
+    "unripple-player",
+    "unripple-effects",
+];
+
+/// The faults that a rule finds in the sources of crates, tests and examples left out. Of each the rule gives the line, from 0, and
+/// what is wrong.
+fn sources(root: &Path, rule: &dyn Fn(&str) -> Vec<(usize, String)>) -> Vec<String> {
+    let all = files(&root.join("crates"), &[".rs"]).into_iter().chain(files(&root.join("xtask"), &[".rs"]));
+    let parts = |path: &Path| path.iter().map(|part| part.to_string_lossy().into_owned()).collect::<Vec<_>>();
+    let held = |path: &PathBuf| {
+        let parts = parts(path);
+        let left_out =
+            |part: &String| part == "tests" || part == "tests.rs" || NOT_YET.contains(&part.as_str());
+        parts.iter().any(|part| part == "src") && !parts.iter().any(left_out)
+    };
+    let judged = |path: PathBuf| {
+        let found = rule(&std::fs::read_to_string(&path).unwrap_or_default()).into_iter();
+        found.map(move |(at, what)| format!("{}:{}: {what}", path.display(), at + 1)).collect::<Vec<_>>()
+    };
+    all.filter(held).flat_map(judged).collect()
 }
 
 /// The checkout's top folder.

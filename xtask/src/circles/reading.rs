@@ -21,7 +21,7 @@ pub struct Names {
     pub spoken: BTreeSet<String>,
 }
 
-/// One import.
+/// One import of a module.
 #[derive(Debug)]
 pub struct Import {
     /// As it is written.
@@ -30,6 +30,7 @@ pub struct Import {
     pub public: bool,
 }
 
+/// Words that declare an item which other files may need.
 const ITEMS: [&str; 8] = ["fn", "struct", "enum", "trait", "const", "static", "type", "union"];
 
 /// The modules in a file, tests left out; `module` is the file's own.
