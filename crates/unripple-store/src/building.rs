@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// Characters of the place's name that are part of the hidden one, so that that is at most 255 bytes.
 const SHOWN: usize = 40;
 
-/// Letters of the random part of a hidden name.
+/// Letters of the random part of a hidden name. Sixteen hexadecimal digits hold the 64 random bits.
 const LETTERS: usize = 16;
 
 /// Names that are tried: one is enough, unless somebody has 2^64 folders.

@@ -15,7 +15,7 @@ const TAIL: usize = 12 + 8 + TEXT;
 /// Bytes of that text: 13 of the name, 8 of the checksum, and at least one 0.
 const TEXT: usize = 22;
 
-/// Where the format's own count of bytes ends.
+/// Where the format's own count of bytes ends. RIFF fixes it: four letters, then four bytes of count.
 const COUNTED: u64 = 8;
 
 /// The last chunk of a file whose other bytes, past that count, have this checksum.

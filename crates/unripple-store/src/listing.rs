@@ -19,7 +19,7 @@ pub(crate) const UNFINISHED: &str = "unripple output, unfinished\n";
 /// Largest one that is read, in bytes: a million files.
 const LARGEST: u64 = 1 << 26;
 
-/// Things that are not ours, named one by one.
+/// Things that are not ours, named one by one. Of more the number is said, so that a message stays a line.
 const NAMED: usize = 3;
 
 /// Bytes and checksum of a file.

@@ -21,7 +21,7 @@ pub(super) const PLAYS: [(&str, bool); 2] = [("looped", true), ("once", false)];
 
 /// The default gain of the second click of a button. Half of the first: lifting is the softer of the two.
 const RELEASE: f64 = 0.5;
-/// The default seed of what is left to chance.
+/// The default seed of what is left to chance. Any other gives another pattern of the same kind.
 const SEED: f64 = 1.0;
 /// The default of how much farther than midway a finger must go for the next notch to take it, as a share of the
 /// pitch: with half as much a smaller tremor of the finger switches back and forth, with twice as much notches take

@@ -4,7 +4,7 @@ use super::range;
 use crate::surface::reader::{Faults, Section};
 use unripple_effects::Level;
 
-/// How strong an effect is that does not say.
+/// How strong an effect is that does not say. Half of full strength leaves room both ways.
 pub(super) const DEFAULT: Level = Level::Share(0.5);
 
 /// `gain` or `felt_db`.

@@ -15,7 +15,7 @@ pub(crate) const BLOCK: usize = 256;
 /// Points whose qualities by bands are in one chunk, which is then about as large as one of qualities.
 const BAND_BLOCK: usize = 64;
 
-/// Bytes of the crc32c checksum behind each chunk.
+/// Bytes of the crc32c checksum behind each chunk. Its 32 bits; readers of Zarr expect as many.
 const CHECK: usize = 4;
 
 /// Type of an array's values.

@@ -5,7 +5,7 @@ use super::bytes::{Bytes, aligned};
 /// Fewest bytes of a collection: HDF5 refuses a smaller one.
 const LEAST: u64 = 4096;
 
-/// Bytes before an object, and before the first.
+/// Bytes before an object, and before the first. Both are fixed by HDF5's format of version 1.
 const HEAD: u64 = 16;
 
 /// References to objects, each a sequence of one. Its size does not depend on the addresses.

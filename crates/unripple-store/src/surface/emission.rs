@@ -5,7 +5,7 @@ use super::reader::{Faults, Section};
 use crate::decimal;
 use unripple_core::{Emission, Finger};
 
-/// Samples per second where a file does not say.
+/// Samples per second where a file does not say. 48 kHz, which every sound card has.
 const DEFAULT_RATE: f64 = 48_000.0;
 
 /// The table `[drive]`.

@@ -6,12 +6,15 @@ use super::reader::{Entry, Faults, Section};
 use unripple_core::plane::{Piece, from_segment, pieces};
 use unripple_core::{Outline, Point, Shape, Side};
 
-/// Step of the coordinates suggested to people, in metres.
+/// Step of the coordinates suggested to people, in metres. A micrometre: finer steps make longer numbers, coarser
+/// ones may miss the sheet.
 const STEP: f64 = 1e-6;
 
-/// This near to a curve, in metres, a place is on it, as [`Shape::contains`] has it.
+/// This near to a curve, in metres, a place is on it, as [`Shape::contains`] has it. Rounding of coordinates up to a
+/// metre is a thousand times finer.
 const ON: f64 = 1e-12;
-/// Pieces of a curve this straight are not split any more, in metres.
+/// Pieces of a curve this straight are not split any more, in metres. A hundredth of the distance that counts as on
+/// the curve.
 const STRAIGHT: f64 = 1e-14;
 
 /// A closed curve prepared for quick tests of which points are inside.

@@ -8,7 +8,7 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// Longest piece of a file quoted in a message, in characters.
+/// Longest piece of a file quoted in a message, in characters. Longer ones are cut, so that a message stays a line.
 const LONGEST_QUOTE: usize = 40;
 
 /// The faults found so far in one text.

@@ -6,7 +6,8 @@ use usvg::roxmltree::{Document, Node, NodeId, ParsingOptions};
 
 /// Deepest nesting of elements: the reader calls itself for each level, and its stack is bounded.
 const DEEPEST: usize = 64;
-/// Most elements and other nodes, copies made by `use` included.
+/// Most elements and other nodes, copies made by `use` included. Drawings of rims have tens; the work of conversion
+/// grows with their number.
 const MOST_NODES: u32 = 20_000;
 /// Most attributes of one element, counted before anything is parsed; drawings have tens.
 const MOST_ATTRIBUTES: usize = 200;

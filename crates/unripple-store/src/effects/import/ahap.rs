@@ -12,7 +12,7 @@ const EVENTS: [&str; 4] = ["HapticTransient", "HapticContinuous", "AudioContinuo
 /// Most points of all curves of one kind. Every event looks its values up among them, so the work grows with their
 /// number times that of the events.
 const MOST_POINTS: usize = 16_384;
-/// Intensity and sharpness of events that do not say.
+/// Intensity and sharpness of events that do not say. The middle of their range.
 const DEFAULT: f64 = 0.5;
 /// Length of a continuous event that does not say, in s.
 const DURATION: f64 = 0.1;

@@ -15,14 +15,15 @@ const BANDS: [&str; 2] = ["VectorialWave", "Transient"];
 const EFFECTS: [&str; 2] = ["Basis", "Reference"];
 const SIGNALS: [&str; 1] = ["Sine"];
 const MODALITIES: [&str; 4] = ["Vibrotactile", "Vibration", "Vibrotactile Texture", "Other"];
-/// Ticks per second of files that do not say.
+/// Ticks per second of files that do not say. Milliseconds, as the format has it.
 const TIMESCALE: f64 = 1000.0;
 /// Least and greatest time in ticks: at the usual 1000 per second, eleven days.
 const TICKS: [f64; 2] = [0.0, 1e9];
 /// Least and greatest number taken for a gain, or for a frequency before it is clamped: products of a few such stay
 /// finite.
 const GAIN: [f64; 2] = [-1e6, 1e6];
-/// Most keyframes read, those of an effect of the library each time that it is referred to.
+/// Most keyframes read, those of an effect of the library each time that it is referred to. Past it the file is
+/// refused, so that a small file with many references takes no unbounded memory.
 const MOST_FRAMES: usize = 1 << 16;
 
 /// Keyframes in time, strengths not yet scaled.

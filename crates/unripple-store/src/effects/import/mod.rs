@@ -12,7 +12,7 @@ use node::Node;
 use std::path::Path;
 use unripple_effects::{Envelope, Event, Score, Sound, Start, limits};
 
-/// Most points of all envelopes of an import together.
+/// Most points of all envelopes of an import together. Past it the file is refused, which bounds memory.
 const MOST_POINTS: usize = 1 << 16;
 
 /// What formats for phones call a pitch of 0 and of 1, in Hz: the range of MPEG's reference encoder for AHAP.
