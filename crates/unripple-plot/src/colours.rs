@@ -77,7 +77,8 @@ pub(crate) struct Bar {
 
 /// Width of the colour bar, in points: about the height of a letter, enough to tell colours.
 const WIDTH: f64 = 7.0;
-/// Space between the field and the bar, in points.
+/// Space between the field and the bar, in points. As much as the bar is wide, so that it does not read as part of
+/// the field.
 const AWAY: f64 = 7.0;
 
 impl Bar {

@@ -13,7 +13,8 @@ pub struct Drawing {
     placed: Vec<Placed>,
 }
 
-/// Dots to an inch that print asks for.
+/// Dots to an inch that print asks for. At half of it thin lines show steps; twice as many make files four times as
+/// large.
 pub const PRINT_DPI: f64 = 300.0;
 
 /// Most pixels in a picture, so that a slip in its size cannot take all memory.

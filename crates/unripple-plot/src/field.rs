@@ -34,7 +34,7 @@ pub struct Marker {
 
 /// Pixels of an embedded picture to a point: 200 to an inch, smoothed further by whoever shows it.
 pub(crate) const DENSITY: f64 = 200.0 / 72.0;
-/// Most pixels along a side of an embedded picture.
+/// Most pixels along a side of an embedded picture. It bounds the file's size: at 200 to an inch that is 8 inches.
 pub(crate) const LONGEST: usize = 1600;
 
 /// Draws a field clipped to the outline, or whole where there is none.
@@ -114,7 +114,7 @@ pub(crate) fn overlay(
     }
 }
 
-/// Half the side of an actuator's square, in points.
+/// Half the side of an actuator's square, in points. A square of 3 pt hides little of the field.
 const HALF: f64 = 1.5;
 
 fn symbol(canvas: &mut Canvas, placed: &Placed, marker: &Marker, [x, y]: [f64; 2]) {

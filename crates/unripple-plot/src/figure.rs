@@ -50,7 +50,7 @@ impl Default for Figure {
 
 /// Space round a figure, in points, so that no line is cut at the edge of the page.
 const EDGE: f64 = 2.0;
-/// Space between columns and between rows, in points.
+/// Space between columns and between rows, in points. Less, and labels of neighbours touch.
 const BETWEEN: f64 = 9.0;
 
 impl Figure {

@@ -6,7 +6,7 @@ use std::sync::{Arc, LazyLock};
 /// Its family name, with a metrically close fall-back for viewers of the SVG that lack it.
 pub(crate) const FAMILY: &str = "DejaVu Sans, Verdana, sans-serif";
 
-/// Height of a digit over the font size.
+/// Height of a digit over the font size. The typeface's own measure.
 pub(crate) const DIGIT_HEIGHT: f64 = 0.729;
 
 /// The embedded typeface, parsed once at its first use.
@@ -23,6 +23,7 @@ pub(crate) fn database() -> Arc<fontdb::Database> {
 }
 
 /// Advance of every character of the Basic Multilingual Plane's first 0x2300 code points, in thousandths of the size.
+/// They hold Latin, Greek and the signs of units; what lies beyond counts as [`WIDEST`].
 static ADVANCES: LazyLock<Vec<u16>> = LazyLock::new(|| {
     let Ok(face) = ttf_parser::Face::parse(dejavu::sans::regular(), 0) else {
         return Vec::new();

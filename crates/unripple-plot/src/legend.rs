@@ -24,7 +24,7 @@ enum Sample {
 
 /// Length of a line's sample, in points: long enough to show a pattern of dashes.
 const SAMPLE: f64 = 19.0;
-/// Space between sample and name, in points.
+/// Space between sample and name, in points. About a letter's width.
 const SPACE: f64 = 4.0;
 /// Space kept clear round a legend, in points, so that it does not read as data.
 const INSET: f64 = 4.0;

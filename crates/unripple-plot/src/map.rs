@@ -99,7 +99,7 @@ pub(crate) fn fitted(frame: Rect, aspect: f64) -> Rect {
     Rect { x: frame.x + (frame.width - width) / 2.0, width, height: width * aspect, ..frame }
 }
 
-/// Distance between the field and its axes, in points.
+/// Distance between the field and its axes, in points. So that the outline does not touch the axes.
 const DROP: f64 = 3.0;
 
 pub(crate) struct PreparedMap<'a> {

@@ -8,7 +8,8 @@ use crate::panel::Placed;
 use crate::style::Style;
 use crate::{font, thin};
 
-/// Share of its colour a band or span shows.
+/// Share of its colour a band or span shows. With twice as much it would hide lines, with half as much it fades in
+/// print.
 pub(crate) const PALE: f64 = 0.22;
 
 /// How each layer looks once automatic choices are made.

@@ -25,7 +25,7 @@ pub(crate) const MM_PER_POINT: f64 = 25.4 / 72.0;
 pub(crate) const TICK: f64 = 3.0;
 /// Length of a minor tick, in points: three fifths of a major one.
 pub(crate) const MINOR_TICK: f64 = 1.8;
-/// Space between a mark and its text, in points.
+/// Space between a mark and its text, in points. Less, and digits touch the axis.
 pub(crate) const GAP: f64 = 2.5;
 
 /// Points in so many millimetres.

@@ -70,7 +70,7 @@ impl Default for Traces {
     }
 }
 
-/// Space between a scale bar and what is beside it, in points.
+/// Space between a scale bar and what is beside it, in points. So that bar, label and trace stay apart.
 const BAR_GAP: f64 = 4.0;
 
 pub(crate) struct PreparedTraces<'a> {
