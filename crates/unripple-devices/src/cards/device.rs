@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::time::Duration;
 use unripple_core::{Device, DeviceError, Layout, Status, require};
 
-/// Frames that the rings hold at least, should the card take many at once.
+/// Frames that the rings hold at least, should the card take many at once. A second and more at usual rates.
 const ROOM: usize = 65_536;
 
 /// Periods of the card that drive is ahead of it at least. Two are in the card, and as many pass until what was recorded

@@ -10,7 +10,8 @@ use unripple_core::Layout;
 
 /// Samples per block that the program exchanges.
 pub(super) const BLOCK: usize = 64;
-/// Frames from an output of the card to its input, on the way through the air.
+/// Frames from an output of the card to its input, on the way through the air. An odd number, so that no multiple of
+/// a block hides an error of counting.
 pub(super) const AIR: usize = 77;
 /// Samples per second at the nominal rate.
 pub(super) const RATE: f64 = 48e3;

@@ -9,7 +9,8 @@ use std::thread::Thread;
 use std::time::{Duration, Instant};
 use unripple_core::Work;
 
-/// How long a freewheeling server waits for drive before it goes on without.
+/// How long a freewheeling server waits for drive before it goes on without. Much longer, and a program that ended
+/// without closing would hold the server; much shorter, and a busy machine loses blocks.
 const FREEWHEEL_PATIENCE: Duration = Duration::from_secs(2);
 
 /// Pieces of work, and threads to be woken, that may be on their way between the program and the server's thread; one
