@@ -7,7 +7,9 @@ use crate::CalibrateError;
 use std::f64::consts::TAU;
 use unripple_core::require;
 
-/// The waves of the nugget have any wavenumber up to this multiple of the one given by the dispersion relation.
+/// The waves of the nugget have any wavenumber up to this multiple of the one given by the dispersion relation. A
+/// wider disc makes the nugget more like noise that differs from point to point, a narrower one more like the field
+/// itself.
 const NUGGET: f64 = 1.5;
 
 /// Least power of the errors of a response over its own power: well above what the tables of covariances are off by.

@@ -11,10 +11,12 @@ use unripple_linalg::{Mat, times};
 /// as long and find the loudest place a little better.
 const DENSE: f64 = 2.0;
 
-/// Samples looked at for each period at the top of the band.
+/// Samples looked at for each period at the top of the band. A peak between two samples is missed by 13 % at most,
+/// about 1 dB; twice as many take twice as long.
 const FINE: f64 = 6.0;
 
-/// Time of swelling and of fading, in s.
+/// Time of swelling and of fading, in s. Shorter, and its ends spread over frequencies that are felt; longer, and
+/// less of it sounds at full strength.
 const RAMP: f64 = 10e-3;
 
 /// Nepers of decay after which a ping is over.

@@ -11,11 +11,13 @@ use unripple_linalg::{Mat, Scale, squared_norm};
 /// and the change of a response still is far above rounding.
 const SMALL: f64 = 1e-5;
 
-/// Newton's steps of one estimate, and the change that ends them.
+/// Newton's steps of one estimate, and the change that ends them. The error falls quadratically, so that more steps
+/// change nothing; an estimate that needs more has begun too far away.
 const STEPS: usize = 6;
 const SETTLED: f64 = 1e-7;
 
-/// Between two guesses when the tension is sought anew.
+/// Between two guesses when the tension is sought anew. Twice as wide, and Newton's method may start beyond the
+/// nearest maximum; half as wide takes twice as long.
 const GUESS: f64 = 1e-3;
 
 /// Follows tension while the surface is used.

@@ -2,7 +2,8 @@
 
 use unripple_core::Point;
 
-/// Frequencies of the damping law's knots, as shares of the band's top.
+/// Frequencies of the damping law's knots, as shares of the band's top. An octave apart: decay times vary slowly, and
+/// the lowest modes are too few to determine more.
 pub(super) const KNOTS: [f64; 5] = [0.0625, 0.125, 0.25, 0.5, 1.0];
 
 /// Priors: how far values are expected to be from nominal ones, one standard deviation each. In order: logarithm of

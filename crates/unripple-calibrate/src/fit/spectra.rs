@@ -7,7 +7,8 @@ use std::f64::consts::{PI, TAU};
 use unripple_core::Point;
 use unripple_linalg::c64;
 
-/// Nepers of decay that the window has to give by the end of the signals.
+/// Nepers of decay that the window has to give by the end of the signals. What is cut off there is 0.25 % of the
+/// beginning; half as many would leave 5 %.
 const ENDED: f64 = 6.0;
 
 /// Distance of frequencies in half widths of a line under the window.

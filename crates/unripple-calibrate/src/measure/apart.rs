@@ -8,7 +8,8 @@ use std::f64::consts::TAU;
 /// Largest change of tension that is looked for, as a share: twice what is promised, and more than any warm hand does.
 const MOST_CHANGE: f64 = 0.016;
 
-/// Radians that the end of a response turns from one change that is tried to the next.
+/// Radians that the end of a response turns from one change that is tried to the next. With twice as much the
+/// likeness between two tries may be lost, half as much takes twice as long.
 const TURN: f64 = 1.0;
 
 /// Largest delay in samples, either way, that is looked for: whole ones are taken out beforehand.

@@ -192,7 +192,8 @@ const MANY: usize = 3;
 /// Where before a response is seen what still rings, in decay times: not so close that the response's own band rings there.
 const BEFORE: [f64; 2] = [0.6, 0.4];
 
-/// Times the energy of what still rings that a response must have.
+/// Times the energy of what still rings that a response must have. With less, ringing that is left would pass for a
+/// response; with much more, weak actuators would count as silent.
 const MORE: f64 = 3.0;
 
 /// The frequency (Hz) at whose sweeping a change of tension was felt: the mean over a response's power, in octaves, each

@@ -14,7 +14,7 @@ const STANDS_OUT: f64 = 8.0;
 const MOST: f64 = 0.25;
 
 /// Quantile of the power of a line over time that noise is estimated by, and the factor from it to the mean power of
-/// noise.
+/// noise. 0.357 is -ln(1 - 0.3): the power of noise in a line is exponentially distributed.
 const QUIETEST: (f64, f64) = (0.3, 1.0 / 0.357);
 
 /// Power below which nothing counts, as a share of the most there is in any line: a knock that matters is 30 dB above it, and

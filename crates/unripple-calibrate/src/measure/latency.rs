@@ -13,20 +13,23 @@ use unripple_physics::Sensor;
 /// Actuators that are looked at, at most: the median of a dozen is sure enough, and the work grows with their square.
 const ACTUATORS: usize = 12;
 
-/// Tones in a part of the band with its edges, about, and the fewest that are looked for.
+/// Tones in a part of the band with its edges, about, and the fewest that are looked for. More in a part take larger
+/// systems, whose work grows as the cube; with fewer, parts get narrow and their edges ring long.
 const TONES: usize = 60;
 const FEWEST: usize = 8;
 
 /// Longest time in s until the beginning of a response counts as over, how much of it in terms of what it rings for, and shortest
-/// in periods.
+/// in periods. Earlier, what modes above the band leave still disturbs the phases; later, tones have died away.
 const PASSED: f64 = 0.025;
 const OF_RINGING: f64 = 0.8;
 const PERIODS: f64 = 2.0;
 
-/// Tones up to this ratio of frequencies say how long a part of the band rings.
+/// Tones up to this ratio of frequencies say how long a part of the band rings. Fewer tones make a chance estimate,
+/// more mix decay times of other frequencies in.
 const NEAR: f64 = 1.3;
 
 /// Most seconds of the model's responses whose tones are looked for, and how many of them make a cell of the band.
+/// Longer responses take longer and hold the same tones.
 const SAID: f64 = 2.0;
 const IN_CELL: usize = 8;
 

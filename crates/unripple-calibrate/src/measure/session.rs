@@ -8,7 +8,8 @@ use crate::CalibrateError;
 use crate::signals::{Band, Deconvolver, Delay, Inversion, Schedule, Sweep, shift};
 use unripple_core::{Layout, ModalResponses, PROBE, Point, Surface};
 
-/// Longest latency that is looked for, in s.
+/// Longest latency that is looked for, in s. Longer than any sound system's buffers; each second of it is a second
+/// more of every recording.
 const LATEST: f64 = 0.25;
 
 /// Samples before time 0 that deconvolved responses begin with, for latency and noise: 5 ms at 48 kHz.

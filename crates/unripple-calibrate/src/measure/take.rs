@@ -28,7 +28,8 @@ const LEAST_CHANGE: f64 = 2e-5;
 /// Fewest sweeps that an error of the clock is found from, unless they are the only two and very alike.
 const FEWEST: usize = 3;
 
-/// Likeness that two sweeps need when they are all there is.
+/// Likeness that two sweeps need when they are all there is. By chance two sweeps are that alike hardly ever, as
+/// their responses differ.
 const ALIKE: f64 = 0.95;
 
 /// What sweeps may be early or late by for no reason that is known, root mean square, as a share of the shortest period swept: it costs a

@@ -14,13 +14,15 @@ const LEAST: f64 = 0.7;
 /// well.
 const COARSE: f64 = 0.4;
 
-/// Sensors that take part in the coarse search.
+/// Sensors that take part in the coarse search. The second decides where the first is spoilt by a knock; more take
+/// longer.
 const LOUDEST: usize = 2;
 
 /// Energy over that of the loudest from which a reference hears a sweep.
 const HEARD: f64 = 0.1;
 
-/// Times that a delay is looked for anew where the last one led.
+/// Times that a delay is looked for anew where the last one led. A delay that has not settled by then is left as it
+/// is.
 const STEPS: usize = 6;
 
 /// Rounds in which delays between pairs become delays of sweeps.

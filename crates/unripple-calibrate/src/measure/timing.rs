@@ -161,7 +161,7 @@ impl Fit {
     }
 }
 
-/// Samples that a delay is never surer than.
+/// Samples that a delay is never surer than. Otherwise one very clean sweep would outweigh all others.
 const FLOOR: f64 = 1e-3;
 
 /// By Cramer's rule; `None` if singular.

@@ -32,7 +32,8 @@ pub struct Decay {
 /// Blocks that a response is divided into: twice as many follow the decay more finely, and scatter more each.
 const BLOCKS: usize = 200;
 
-/// Fewest blocks, from the strongest on, that a decay is fitted to.
+/// Fewest blocks, from the strongest on, that a decay is fitted to. Three unknowns need some more than three, since
+/// blocks scatter.
 const FEWEST: usize = 8;
 
 /// Least power over noise of the strongest block, a ratio: 5 dB. With half of it noise alone may pass for a decay.

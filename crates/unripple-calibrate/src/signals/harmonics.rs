@@ -192,7 +192,8 @@ const TOLD: f64 = 2.0;
 /// Standard deviations by which it has to stand out.
 const SURE: f64 = 6.0;
 
-/// Share of the time from one order to the next that is looked at.
+/// Share of the time from one order to the next that is looked at. The rest holds the beginning of the next order,
+/// which the band brings forward.
 const SHARE: f64 = 0.75;
 
 /// Opens over the lead and closes over as much, so that what is cut off does not spread.
@@ -201,7 +202,8 @@ fn gated(signal: &mut [f64], lead: usize) {
     Gate { begin: 0.0, rise: edge / 2.0, end: length, fall: edge }.apply(signal);
 }
 
-/// How far into the sweep, in frequency, its fades reach.
+/// How far into the sweep, in frequency, its fades reach. Below and above that factor amplitudes are not those of the
+/// drive.
 const EDGE: f64 = 1.1;
 
 /// Sum of squares of the spectrum between two frequencies, of transforms all of one size.

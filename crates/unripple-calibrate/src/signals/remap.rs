@@ -6,7 +6,8 @@ use std::f64::consts::TAU;
 use std::sync::LazyLock;
 use unripple_dsp::{kaiser, sinc};
 
-/// Lines on either side that a value between lines is made of.
+/// Lines on either side that a value between lines is made of. With half as many the kernel's error rises from -120
+/// dB to about -60 dB.
 const HALF: usize = 8;
 
 /// Shape of the window over them. A signal that fills half of the circle leaves half of it for the kernel to fall in: with

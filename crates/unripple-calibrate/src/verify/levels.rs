@@ -2,13 +2,14 @@
 
 use super::judge::{Judged, Kind};
 
-/// A gain this far from the others', as a logarithm, is another gain.
+/// A gain this far from the others', as a logarithm, is another gain. It stands for 15 %.
 const ANOTHER: f64 = 0.14;
 
 /// How near to 1 a gain over the sensors' is, as a logarithm, that speaks for itself where points disagree evenly.
+/// The same 15 %.
 const ONE: f64 = 0.14;
 
-/// Standard errors that a gain has to be off by to be another.
+/// Standard errors that a gain has to be off by to be another. By chance one point in 370 is off by that.
 const SURE: f64 = 3.0;
 
 /// What most points have for a gain.

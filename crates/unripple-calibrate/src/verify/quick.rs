@@ -16,7 +16,9 @@ const ENOUGH: usize = 10;
 const FEWEST: usize = 3;
 const LINES: usize = 12;
 
-/// Share of what sensors heard that a model may leave unexplained and still separate good points from bad ones.
+/// Share of what sensors heard that a model may leave unexplained and still separate good points from bad ones. With
+/// more, points that are right could be called wrong; with less, sheets that differ a little from any model would
+/// have no check.
 const NO_MODEL: f64 = 0.35;
 
 /// A model that leaves less than this share unexplained is a good one; one of so many sensors may be left out to get there.
@@ -30,7 +32,8 @@ const SILENT: f64 = 1e-4;
 /// determine them.
 const PROFILE: usize = 2;
 
-/// Stray masses that are looked for where the bare sheet does not explain what was heard.
+/// Stray masses that are looked for where the bare sheet does not explain what was heard. More take longer, and the
+/// lowest modes do not show them.
 const STRAYS: usize = 2;
 
 /// Modes that are worked with, over those of the band: what is near an actuator is felt by many.

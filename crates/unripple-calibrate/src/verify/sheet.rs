@@ -15,7 +15,8 @@ const MOST: f64 = 90.0;
 /// most.
 const DELAYS: f64 = 8.0;
 
-/// The finest step of a search, in metres and in periods of the highest frequency.
+/// The finest step of a search, in metres and in periods of the highest frequency. Finer than any error of place that
+/// matters; coarser, and the likeness of a good point would suffer.
 const FINE: f64 = 2e-5;
 const FINE_PERIOD: f64 = 1e-3;
 
