@@ -11,7 +11,8 @@ pub enum Wish {
     Gain(f64),
 }
 
-/// The longest name of an effect that is listened to, in bytes.
+/// The longest name of an effect that is listened to, in bytes. Built-in names have at most a third of that; longer
+/// ones are ignored.
 const LONGEST_NAME: usize = 64;
 /// Levels that may be asked for, in dB over the usual one: from as good as nothing to a hundredfold amplitude.
 const GAIN_DB: std::ops::RangeInclusive<f64> = -120.0..=40.0;

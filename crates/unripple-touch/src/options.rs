@@ -47,5 +47,5 @@ impl Options {
     }
 }
 
-/// The hardest press that is believed, in N.
+/// The hardest press that is believed, in N. Ten kilograms' weight: what is more is an error of the sensor.
 pub(crate) const MOST_FORCE: f64 = 100.0;

@@ -4,7 +4,8 @@ use crate::{Counts, Heard};
 #[cfg(unix)]
 use std::os::fd::BorrowedFd;
 
-/// How long to wait before a source is asked again that cannot say when it will have something, in s.
+/// How long to wait before a source is asked again that cannot say when it will have something, in s. Twice as long
+/// delays a touch by as much more, half as long wakes the thread twice as often.
 const PACE: f64 = 0.002;
 
 /// Whatever reports touches.

@@ -7,7 +7,8 @@ use unripple_core::{Outline, Phase, Point, Touch};
 
 /// Fingers at once over all sources; more are counted and dropped.
 const MOST: usize = 128;
-/// How far a place is ever predicted, in m.
+/// How far a place is ever predicted, in m. A finger at 0.3 m/s gets there in 67 ms, about a window; a wrong velocity
+/// moves a focus by no more.
 const REACH: f64 = 0.02;
 
 #[derive(Clone, Debug)]

@@ -10,7 +10,8 @@ use std::os::fd::{AsFd, BorrowedFd};
 
 /// Packets read in one poll, so that a flood of them keeps nobody waiting: the rest is read by the next poll.
 const PACKETS: usize = 256;
-/// Bytes read in one poll, and a last packet more.
+/// Bytes read in one poll, and a last packet more. The rest waits for the next poll, so that a flood keeps nobody
+/// waiting.
 const BYTES: usize = 64 * 1024;
 
 /// A UDP port that hears TUIO 1.1, TUIO 2.0 and the addresses under `/unripple/`.

@@ -1,6 +1,7 @@
 //! Order of TUIO frames: late ones dropped, restarts noticed.
 
-/// A sender that was silent for as long may have begun anew, in s.
+/// A sender that was silent for as long may have begun anew, in s. TUIO trackers repeat themselves once a second;
+/// sooner, late packets would count as a new beginning.
 const SILENCE: f64 = 1.0;
 /// A frame that is behind by more than this is not late: its sender has begun anew.
 const LATEST: u32 = 100;

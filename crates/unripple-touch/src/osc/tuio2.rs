@@ -6,7 +6,7 @@ use super::sequence::Verdict;
 use crate::Heard;
 use rosc::OscType;
 
-/// The list of fingers that TUIO 2 keeps.
+/// The list of fingers that TUIO 2 keeps. The fourth, after TUIO 1's three.
 const LIST: usize = 3;
 
 /// What TUIO 2 also says, and what is no finger.

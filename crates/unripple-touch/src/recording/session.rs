@@ -7,7 +7,8 @@ use std::io::{Error, ErrorKind};
 use std::path::Path;
 use unripple_core::Phase;
 
-/// The longest line, in bytes, and the longest file that is opened.
+/// The longest line, in bytes, and the longest file that is opened. A line has some hundred bytes; what is longer is
+/// an error rather than memory.
 const LONGEST_LINE: usize = 1024;
 const LONGEST_FILE: u64 = 256 << 20;
 /// Fingers at once in a recording; a line that puts one more down is an error.

@@ -15,12 +15,14 @@ use tungstenite::protocol::WebSocketConfig;
 use tungstenite::{Error, WebSocket};
 use unripple_core::Phase;
 
-/// Bytes and messages read from one connection in one poll.
+/// Bytes and messages read from one connection in one poll. The rest waits for the next poll, so that one client
+/// keeps no other waiting.
 const BYTES: usize = 16 * 1024;
 const MESSAGES: usize = 64;
 /// The longest message, in bytes: a touch takes some hundred, and a longer one is refused.
 const LONGEST: usize = 4 * 1024;
-/// Answers that may wait for a client to take them, in bytes.
+/// Answers that may wait for a client to take them, in bytes. A client that takes none is dropped when they are full,
+/// so that memory is bounded.
 const WAITING: usize = 16 * 1024;
 
 /// Refuses requests from foreign pages.

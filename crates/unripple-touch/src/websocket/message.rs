@@ -10,7 +10,7 @@ pub const SCHEMA: &str = include_str!("../../schema/touch-1.json");
 
 /// The version of the protocol that is spoken; a client that asks for another is refused.
 const VERSION: u64 = 1;
-/// The longest explanation that is sent, in characters.
+/// The longest explanation that is sent, in characters. Longer ones are cut.
 const LONGEST: usize = 200;
 
 /// What a client of the WebSocket says.

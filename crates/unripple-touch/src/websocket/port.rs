@@ -9,7 +9,8 @@ use std::os::fd::{AsFd, BorrowedFd};
 use std::sync::Arc;
 use unripple_core::require;
 
-/// How often clients are looked after, to be pinged and dropped, in s.
+/// How often clients are looked after, to be pinged and dropped, in s. Far below the seconds of silence that are
+/// allowed.
 const LOOK: f64 = 0.1;
 
 /// Connections taken in one poll, so that a flood of them keeps no finger waiting.
