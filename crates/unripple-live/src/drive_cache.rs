@@ -13,7 +13,8 @@ use unripple_player::Prepared;
 /// 0.1 MB in float32, and twice that in float64.
 const REMEMBERED: usize = 256;
 
-/// Length of the loudest part of a waveform that its level is taken from, in s.
+/// Length of the loudest part of a waveform that its level is taken from, in s. Shorter, and single peaks decide;
+/// longer, and pauses within a waveform lower its level.
 const LOUDEST: f64 = 0.25;
 
 /// Drives by the places they focus on, made once and remembered.

@@ -5,7 +5,7 @@ use unripple_core::{Emission, Surface};
 use unripple_focus::{Method, Options as FocusOptions};
 use unripple_player::{Limit, Options as PlayerOptions, Running, WaveOptions};
 
-/// Longest ping that may be sent between effects, in s.
+/// Longest ping that may be sent between effects, in s. A longer one would seldom fit between two touches.
 const LONGEST_PING: f64 = 0.15;
 
 /// How a surface is played.

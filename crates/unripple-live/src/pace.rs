@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 /// A clock that has not moved for so long stands still, unless it moves by more at a time.
 const STILL: Duration = Duration::from_millis(100);
 
-/// Longest time between two blocks that is believed.
+/// Longest time between two blocks that is believed. A longer one would let a clock that stands still go unnoticed
+/// for longer.
 const LONGEST: f64 = 0.5;
 
 /// The player's clock beside that of the machine.

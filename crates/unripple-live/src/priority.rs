@@ -6,10 +6,12 @@ use thread_priority::{
 };
 use unripple_core::Device;
 
-/// Priority that is asked for, of 1 to 99, where no server says what its own threads have.
+/// Priority that is asked for, of 1 to 99, where no server says what its own threads have. Above everything without
+/// real-time priority, and below the highest, which kernels keep for themselves.
 const WANTED: u8 = 60;
 
-/// Priority of the threads that work for the one that plays, likewise.
+/// Priority of the threads that work for the one that plays, likewise. Far enough below the audio thread never to
+/// delay it.
 const BESIDE: u8 = 40;
 
 /// Real-time priorities of the threads of a play: never as high as that of the server's thread that calls.

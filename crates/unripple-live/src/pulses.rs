@@ -6,7 +6,7 @@ use unripple_core::Point;
 use unripple_effects::Level;
 use unripple_player::{At, Command, Hold, Report, Voice, Why};
 
-/// A pulse that is begun so late, in s, is not begun at all.
+/// A pulse that is begun so late, in s, is not begun at all. It would be felt where the finger no longer is.
 pub(crate) const STALE: f64 = 0.1;
 
 /// Names of pulses taken back that are remembered until the player says so; it says nothing of those that had begun.

@@ -12,7 +12,8 @@ use std::time::{Duration, Instant};
 use unripple_calibrate::Drift;
 use unripple_core::{DeviceError, State};
 
-/// How often what goes on by itself is looked after while anything sounds or waits, in s of the device's clock.
+/// How often what goes on by itself is looked after while anything sounds or waits, in s of the device's clock. Twice
+/// as long delays commands by as much, half as long wakes the thread twice as often.
 const PACE: f64 = 0.0025;
 
 /// How often whoever watches gets a report: five times a second, as fast as figures can be read.
@@ -23,6 +24,7 @@ const AHEAD: u64 = 2;
 const LEAST_AHEAD: f64 = 0.005;
 
 /// Blocks that may wait between the audio thread and whoever follows what it heard, and how often they are fetched.
+/// Blocks beyond are lost to whoever follows, and to nobody else.
 const KEPT: usize = 64;
 const FETCH: Duration = Duration::from_millis(20);
 

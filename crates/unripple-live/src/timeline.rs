@@ -11,7 +11,7 @@ const NEVER: i64 = i64::MIN;
 /// Cycles that are remembered: more than pass until the player's word on them is heard.
 const CYCLES: usize = 512;
 
-/// Touches that are remembered until they are answered.
+/// Touches that are remembered until they are answered. The oldest go first; their latency is not known then.
 const TOUCHES: usize = 4096;
 
 /// Set by whoever plays in each cycle, who never waits for anybody; read by whoever hears touches and whoever answers them.

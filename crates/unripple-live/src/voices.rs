@@ -14,7 +14,8 @@ const GLIDE: f64 = 0.01;
 /// Time after which what found no room in the player is begun again, in s: soon for a finger, and seldom enough to take no room itself.
 const AGAIN: f64 = 0.02;
 
-/// Commands that change of place or level may take.
+/// Commands that change of place or level may take. So much room is left before anything is sent, so that a change is
+/// never half made.
 const CHANGE: usize = 2;
 
 impl Conductor {
