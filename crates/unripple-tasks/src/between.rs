@@ -9,7 +9,8 @@ use unripple_calibrate::{Between, BetweenOptions, Interpolation};
 /// Points farther than this from all places, in shortest wavelengths, say nothing of them.
 const REACH: f64 = 5.0;
 
-/// A place this near to a stored point, in metres, is that point.
+/// A place this near to a stored point, in metres, is that point. Far below any wavelength: interpolation would give
+/// the same.
 const SAME: f64 = 1e-6;
 
 /// The stored responses together with interpolated ones at `places` (m) that are not among their points, and notes on

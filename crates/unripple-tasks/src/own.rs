@@ -10,7 +10,8 @@ use unripple_store::{Library, LibraryPlan, PointState, Quality};
 /// The key of the log that says what own points hold. Without it they hold velocities.
 pub const KEY: &str = "own_points";
 
-/// A point this near to an actuator, in metres, is the actuator's own, if it is the last one there.
+/// A point this near to an actuator, in metres, is the actuator's own, if it is the last one there. Places are
+/// written in files to a nanometre, so that rounding stays below it.
 const SAME: f64 = 1e-6;
 
 /// The entry of the log of a library whose own points hold what sensors heard.

@@ -15,7 +15,7 @@ const SHOWN_DB: [f64; 2] = [0.0, 40.0];
 /// Share of the responses that are worse than the second line.
 const WORST: f64 = 0.1;
 
-/// Half a third of an octave, as a ratio.
+/// Half a third of an octave, as a ratio. It is 2^(1/6), so that neighbouring bands meet.
 const HALF: f64 = 1.122_462_048_309_373;
 
 /// The folder that is asked for, before anything is measured.

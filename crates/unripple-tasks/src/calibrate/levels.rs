@@ -22,7 +22,8 @@ const AIM: f64 = 40.0;
 /// Signal to noise below which a response is bad, in dB, with some to spare.
 const LEAST: f64 = 23.0;
 
-/// Samples side by side at the largest magnitude that are no chance.
+/// Samples side by side at the largest magnitude that are no chance. A sine of 60 Hz in 16 bits at 48 kHz stays at
+/// its crest for three.
 const FLAT: usize = 20;
 
 /// Most repeats that are worth their time: they raise the signal-to-noise ratio by 12 dB, and the next 3 dB double

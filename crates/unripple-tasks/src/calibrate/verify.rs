@@ -21,7 +21,8 @@ const COPIES: &str = "copies";
 /// What is kept of the probe's own delay.
 const PROBE: &str = "probe";
 
-/// Delays that are not worth another copy of the library, in samples.
+/// Delays that are not worth another copy of the library, in samples. Two hundredths of a sample turn 3 kHz by half a
+/// degree.
 const NONE: f64 = 0.02;
 
 /// Says of each probed point whether a model makes what was heard there; takes the probe's own delay, and gains that are not those of

@@ -4,7 +4,7 @@ use unripple::core::{Point, Surface};
 use unripple::field::{self, Maps, Measured};
 use unripple_plot::{ColourMap, Colours, Figure, Grid, Map, Marker, Ring, Symbol, prefixed};
 
-/// Pieces that a full turn of a round rim is drawn in.
+/// Pieces that a full turn of a round rim is drawn in. At the size of a page a circle of so many looks round.
 const TURN: usize = 240;
 
 /// What every map of one surface shows besides the field: rim, actuators, targets and their focal discs.

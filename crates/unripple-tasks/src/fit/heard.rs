@@ -9,10 +9,12 @@ use unripple_calibrate::measure::MeasureOptions;
 use unripple_calibrate::signals::Band;
 use unripple_store::Library;
 
-/// A point this near to an actuator's place, in metres, is the actuator's own.
+/// A point this near to an actuator's place, in metres, is the actuator's own. Places are written in files to a
+/// nanometre.
 const SAME: f64 = 1e-9;
 
-/// The lowest frequency that is fitted, over the lowest that is measured in full.
+/// The lowest frequency that is fitted, over the lowest that is measured in full. Below, the sweep's fade-in has
+/// changed amplitudes.
 const LOWEST: f64 = 1.2;
 
 /// Top of what is fitted, over the band's: modes at the very top are cut.

@@ -10,13 +10,14 @@ use unripple_calibrate::{Tracker, Tracking, Warp};
 use unripple_devices::{DevicesError, Feeler, Jack, JackOptions, VirtualOptions};
 use unripple_live::Recovering;
 
-/// Fingers that a virtual surface bears at once, those that are being lifted included.
+/// Fingers that a virtual surface bears at once, those that are being lifted included. Ten of two hands, and others
+/// that are being lifted; each costs a coordinate in every step.
 const FINGERS: usize = 24;
 
 /// Fingers whose sensation is computed: the ten of two hands. Each costs one watched place.
 const FELT: usize = 10;
 
-/// How often a lost sound server is looked for again.
+/// How often a lost sound server is looked for again. At four seconds each that is more than an hour.
 const TRIES: u32 = 1000;
 
 /// Blocks that drive is ahead of a device that does not call by itself: the fewest that it takes.
@@ -29,7 +30,7 @@ const MODEL: f64 = 0.02;
 const MINUTE: f64 = 60.0;
 const KNOT: f64 = 0.1;
 
-/// Longest drift that is laid out beforehand, in s.
+/// Longest drift that is laid out beforehand, in s. After it the tension stays.
 const LONGEST: f64 = 3600.0;
 
 /// A device, and what goes with it.

@@ -17,7 +17,7 @@ use unripple_touch::{
 /// Seconds that a recorded session is followed by, so that what it set off is over.
 const AFTER: f64 = 0.5;
 
-/// Fingers that are not there, where nothing else touches.
+/// Fingers that are not there, where nothing else touches. Two show that foci do not disturb each other.
 const ALONE: usize = 2;
 
 /// What is known of the sources of touches, and what is recorded of them.

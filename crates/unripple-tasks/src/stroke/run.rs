@@ -16,7 +16,7 @@ const BANDS: [f64; 2] = [1.0, 2.0];
 /// Places of a stroke measured at once, which bounds memory.
 const AT_ONCE: usize = 256;
 
-/// Places measured for each pulse of a stroke.
+/// Places measured for each pulse of a stroke. One at each focus and one midway, where a gap would show.
 const BETWEEN: usize = 2;
 
 /// A drive whose focus moves along a path at one level, judged, and written to a folder if one is given.

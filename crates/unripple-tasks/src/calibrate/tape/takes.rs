@@ -12,7 +12,7 @@ use unripple_calibrate::signals::{Delay, shift};
 /// Seconds by which a recording may end before what is played, of which the last quarter of a second is silence.
 const SHORT: f64 = 0.2;
 
-/// Samples that are left before what is first heard of the sweeps.
+/// Samples that are left before what is first heard of the sweeps. 5 ms at 48 kHz, as many as a response's lead.
 const MARGIN: f64 = 240.0;
 
 /// Samples that a recording may begin after what is played, of which the first few blocks are silence.
@@ -27,7 +27,7 @@ const LIKE: f64 = 0.7;
 /// Pieces in which samples that were lost are looked for.
 const PIECES: usize = 8;
 
-/// Channels that a recording's delay is found from.
+/// Channels that a recording's delay is found from. Three can outvote one that is wrong; more take longer.
 const TELLING: usize = 3;
 
 /// Seconds by which actuators may differ on where playing began: less than sweeps are apart.

@@ -17,14 +17,15 @@ const DEAF: f64 = 6.0;
 const DEAD: f64 = 0.01;
 const QUIET: f64 = 0.3;
 
-/// Share of the inputs that must be like the model for it to be believed.
+/// Share of the inputs that must be like the model for it to be believed. Two thirds: with fewer it is the model that
+/// is wrong, not so many wires.
 const BELIEVED: f64 = 0.67;
 
 /// Middle frequencies of the bursts that a fault is found by, as shares of the band. A wire is wrong at all of them; where the surface is not
 /// like its model, what seems wrong differs from one to the next.
 const BURSTS: [f64; 3] = [0.2, 0.4, 0.6];
 
-/// Points that are looked at where there are no sensors.
+/// Points that are looked at where there are no sensors. Near a node of one point's mode another still hears it.
 const LOOKED_AT: usize = 3;
 
 /// The faults of the wires, as recordings show them.
