@@ -30,13 +30,15 @@ const AMPLITUDE: f64 = 40e-6;
 const ROUNDS: usize = 6;
 const EQUAL: f64 = 1e-4;
 
-/// Length of the drive after its first common focus, in seconds.
+/// Length of the drive after its first common focus, in seconds. It holds two common periods, and what is drawn
+/// begins late in the first.
 const LASTS: f64 = 2.35;
 
 /// What is drawn and measured: from so long after the first common focus, in seconds.
 const STEADY: f64 = 0.9;
 
-/// How long a pulse is left out of the noise, in seconds on either side of its focus.
+/// How long a pulse is left out of the noise, in seconds on either side of its focus. Twice as long would leave out
+/// noise, half as long would count the pulse itself.
 const PULSE: f64 = 2e-3;
 
 /// Two foci repeated, and what they do at five points.

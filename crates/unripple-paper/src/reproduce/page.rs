@@ -10,7 +10,8 @@ const PAPER: &str = "C. Hudin, J. Lozada, M. Wiertlewski and V. Hayward, “Trad
                      acoustics to tactile stimulation”, EuroHaptics 2012";
 const COLUMNS: [&str; 4] = ["Quantity", "Paper", "Here", "Why they differ"];
 
-/// Least and greatest width on a screen of a millimetre of figure, in rem.
+/// Least and greatest width on a screen of a millimetre of figure, in rem. Below the least letters are too small for
+/// a screen; above the greatest figures do not fit one.
 const LEAST: f64 = 0.2;
 const MOST: f64 = 0.31;
 

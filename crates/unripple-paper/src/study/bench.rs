@@ -11,10 +11,12 @@ use unripple_field::{FieldError, Grid};
 use unripple_linalg::{Mat, MatRef};
 use unripple_physics::{Medium, Modes, PhysicsError};
 
-/// Relative accuracy of the frequencies of the modes.
+/// Relative accuracy of the frequencies of the modes. A mode is then off by far less than a line's width; ten times
+/// less would change no figure.
 const ACCURACY: f64 = 1e-4;
 
-/// Cells of the grid per shortest wavelength along each side.
+/// Cells of the grid per shortest wavelength along each side. On 4 contrasts differ by 2 % rms; 16 take four times as
+/// long.
 pub const CELLS: f64 = 8.0;
 
 /// Why a study could not be made.

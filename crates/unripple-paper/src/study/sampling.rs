@@ -3,7 +3,7 @@
 use super::Random;
 use unripple_core::{Outline, Point};
 
-/// Pieces that a round rim is cut into to place actuators along it.
+/// Pieces that a round rim is cut into to place actuators along it. Half a degree of a circle each.
 const RIM_STEPS: usize = 720;
 
 /// Draws after which a place that cannot be found is taken as it is.

@@ -16,7 +16,8 @@ const SATURATED: f64 = 0.6;
 /// Instants of the converging wave, in seconds from the focus.
 const CONVERGING: [f64; 6] = [-12.0e-3, -0.5e-3, -0.25e-3, 0.0, 0.25e-3, 0.5e-3];
 
-/// How long the pulse is left out of the noise, in seconds on either side of the focus.
+/// How long the pulse is left out of the noise, in seconds on either side of the focus. Twice as long would leave out
+/// noise, half as long would count the pulse itself.
 const PULSE: f64 = 2e-3;
 
 /// What the reversed recording does when B plays it.
