@@ -11,10 +11,12 @@ use std::sync::Arc;
 use std::time::Duration;
 use tokio::net::{TcpListener, TcpStream};
 
-/// How long a request may take to say what it wants, and how long a connection may stay without one.
+/// How long a request may take to say what it wants, and how long a connection may stay without one. A phone on a
+/// poor network needs a few seconds; longer would let silent connections pile up.
 const SAID: Duration = Duration::from_secs(10);
 
-/// Bytes that a request may take to say what it wants.
+/// Bytes that a request may take to say what it wants. Browsers send two or three kilobytes; what is longer is cut
+/// off.
 const LONGEST: usize = 16 << 10;
 
 /// How long to wait when the system has no room for a connection: some of those there are end meanwhile.

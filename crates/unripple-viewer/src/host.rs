@@ -19,7 +19,8 @@ use std::time::{Duration, Instant};
 /// Pictures a second: as many as most screens show smoothly. Each costs a product of matrices.
 const FRAMES: f64 = 30.0;
 
-/// Most of a picture's time that the surface may take to catch up.
+/// Most of a picture's time that the surface may take to catch up. The rest of the time goes to the picture and to
+/// what pages say.
 const BUSY: f64 = 0.8;
 
 /// Least time between two pictures, so that what pages say is heard between them.

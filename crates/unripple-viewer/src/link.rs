@@ -10,13 +10,16 @@ use std::time::Duration;
 use tokio::sync::mpsc::{Receiver, channel};
 use tokio::time::{Instant, MissedTickBehavior, timeout};
 
-/// Frames that may be on their way before the page says that it has drawn them.
+/// Frames that may be on their way before the page says that it has drawn them. With one a distant page draws one
+/// frame for each round trip; with many it lags behind by as many.
 const UNSEEN: u64 = 3;
 
-/// A page that does not say what it has drawn is shown a frame this often.
+/// A page that does not say what it has drawn is shown a frame this often. So a hidden page still follows, and costs
+/// next to nothing.
 const UNSURE: Duration = Duration::from_secs(1);
 
-/// How long a message may take to leave before the page is given up.
+/// How long a message may take to leave before the page is given up. Much shorter would cut off phones that change
+/// networks.
 const STUCK: Duration = Duration::from_secs(20);
 
 /// A page is asked whether it is still there this often, and given up when it has said nothing for so many times: then there is nobody at

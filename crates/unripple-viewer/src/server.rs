@@ -17,10 +17,10 @@ use std::sync::Arc;
 use std::time::Duration;
 use tokio::time::timeout;
 
-/// Bytes of the largest surface file that is taken.
+/// Bytes of the largest surface file that is taken. A surface file has a few kilobytes.
 const LARGEST: usize = 256 << 10;
 
-/// How long a file may take to come.
+/// How long a file may take to come. As long as a poor network takes for the largest.
 const SENT: Duration = Duration::from_secs(20);
 
 /// Pages at once, a classroom's and more; one too many is refused with the reason.

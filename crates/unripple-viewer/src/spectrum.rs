@@ -4,7 +4,8 @@ use serde_json::{Value, json};
 use unripple::act::Acted;
 use unripple::dsp::band_energies;
 
-/// Bands that are drawn, up to so many times the top of the surface's band.
+/// Bands that are drawn, up to so many times the top of the surface's band. A few pixels wide each in a panel of the
+/// page.
 const BANDS: usize = 120;
 const BEYOND: f64 = 1.5;
 

@@ -17,7 +17,8 @@ use unripple::core::{SampledResponses, Surface};
 use unripple::focus::Method;
 use unripple_tasks::play::Opener;
 
-/// Pulses a second under a resting finger, at first.
+/// Pulses a second under a resting finger, at first. Apart enough to be felt one by one, and often enough to be found
+/// at once.
 const RATE: f64 = 10.0;
 
 /// Threads that serve pages: one, so that serving never takes a core from the simulation.

@@ -9,7 +9,7 @@ use unripple::contrast_map::ContrastMap;
 use unripple::core::{Point, Surface};
 use unripple::drafting::{Draft, Spot};
 
-/// Cells of the map along the longer side.
+/// Cells of the map along the longer side. Twice as many take four times as long.
 const ACROSS: usize = 24;
 
 /// Where a focus is judged on a surface that nobody has touched, as shares of its sides: (62, 90) mm on the paper's.

@@ -13,7 +13,7 @@ use unripple::field::Trace;
 use unripple::focus::{Method, Target};
 use unripple_store::encode_wav;
 
-/// Points of a drive or trace that are drawn.
+/// Points of a drive or trace that are drawn. One for each pixel of a panel.
 const DRAWN: usize = 480;
 
 impl ComputeWorker {

@@ -16,11 +16,12 @@ use unripple_tasks::{DeviceAsk, SurfaceAsk, calibrate, devices, doctor};
 /// Jobs at once: one that measures, and one that looks.
 const MOST: usize = 2;
 
-/// How long jobs are waited for at the end, and how often they are looked at then.
+/// How long jobs are waited for at the end, and how often they are looked at then. A longer call is left behind; the
+/// program ends.
 const ENDING: Duration = Duration::from_secs(3);
 const LOOKED: Duration = Duration::from_millis(20);
 
-/// Distance of points of a calibration that says none, in mm.
+/// Distance of points of a calibration that says none, in mm. Some eighty points on the paper's film.
 const GRID_MM: f64 = 15.0;
 
 /// What the surface's file is called when people save it.

@@ -12,11 +12,11 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use unripple_tasks::{Progress, Report, TaskError, apart, calibrate, devices, doctor};
 
-/// Lines that are shown, and how long each may be.
+/// Lines that are shown, and how long each may be. As many as a panel shows.
 const LINES: usize = 12;
 const LONGEST: usize = 400;
 
-/// How often pages are sent how far it is.
+/// How often pages are sent how far it is. As fast as a bar's progress is seen.
 const LOOKED: Duration = Duration::from_millis(400);
 
 /// A task that a page asked for.

@@ -7,7 +7,7 @@ use crate::outbox::Outbox;
 use crate::wire::{Frame, Head, Resting, Strip};
 use unripple::core::Point;
 
-/// How much of the past a trace shows, in s.
+/// How much of the past a trace shows, in s. Twice as long crowds periods of 1 kHz together.
 const SPAN: f64 = 0.04;
 
 /// Traces in a picture: as many as there are colours to tell them apart.

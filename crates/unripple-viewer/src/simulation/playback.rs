@@ -11,7 +11,8 @@ use unripple_calibrate::Drift;
 use unripple_devices::{Feeling, Virtual};
 use unripple_live::{Engine, LiveError, PlayStats, Stage};
 
-/// Blocks of drive that may wait between the audio thread and the picture.
+/// Blocks of drive that may wait between the audio thread and the picture. Half a second and more; what finds no room
+/// is lost to the picture alone.
 const WAITING: usize = 512;
 
 /// What plays a surface, and the surface that moves.

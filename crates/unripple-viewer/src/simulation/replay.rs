@@ -13,13 +13,14 @@ use unripple::physics::stepper::{History, Plant, StepperOptions, VirtualSurface}
 /// Cells along the longer side of each picture: two of these are no more than one of the live surface's.
 const CELLS: usize = 88;
 
-/// How slowly it is played at first, in s of the surface in a second of the page.
+/// How slowly it is played at first, in s of the surface in a second of the page. A focus of a millisecond then takes
+/// a fifth of a second.
 const SPEED: f64 = 0.005;
 
-/// How much of the past a trace shows, in s.
+/// How much of the past a trace shows, in s. Half of the live trace's, since only the focus is looked at.
 const SPAN: f64 = 0.02;
 
-/// How long after the focus it goes on, in s.
+/// How long after the focus it goes on, in s. So that the waves are seen to part again.
 const AFTER: f64 = 6e-3;
 
 /// One act as it was simulated: a drive on a surface that nobody touches.

@@ -11,13 +11,13 @@ use unripple_calibrate::Interpolation;
 use unripple_tasks::play::{Opener, follower, late, opener};
 use unripple_tasks::{Progress, Source, SurfaceAsk, TaskError, go_on, judge, source};
 
-/// Bytes of a token that is made here, before they are letters.
+/// Bytes of a token that is made here, before they are letters. 128 bits cannot be guessed.
 const TOKEN: usize = 16;
 
 /// Lengths of a token that is given: not guessed in a lifetime, and still typed on a phone.
 const LENGTHS: std::ops::RangeInclusive<usize> = 8..=64;
 
-/// How often it is asked whether the page is still wanted.
+/// How often it is asked whether the page is still wanted. As late as nobody notices.
 const LOOKED: Duration = Duration::from_millis(100);
 
 impl From<ViewError> for TaskError {

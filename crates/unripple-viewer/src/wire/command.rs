@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Deserializer};
 
-/// Bytes of the longest message that is read.
+/// Bytes of the longest message that is read. A surface edit has a few hundred bytes; what is longer is refused.
 pub(crate) const LONGEST: usize = 64 << 10;
 
 /// Places in one message: more targets than anybody presses at once.
@@ -11,7 +11,7 @@ const MOST_PLACES: usize = 16;
 /// Farthest that a place may be from the origin, in mm: anything that is a surface is nearer.
 const FARTHEST: f64 = 100_000.0;
 
-/// Longest name that is listened to, in bytes.
+/// Longest name that is listened to, in bytes. Longer ones are refused.
 const LONGEST_NAME: usize = 64;
 
 /// What a page asks for. Lengths in mm, times in ms where the key says so, else in s.
