@@ -6,7 +6,8 @@ use crate::targets::{self, numbers, place, positive};
 use unripple_tasks::target::{LineAsk, ShapeAsk};
 use unripple_tasks::waveform::{SoundAsk, WaveformAsk};
 
-/// Level of a waveform if none is typed, in metres.
+/// Level of a waveform if none is typed, in metres. A micrometre is well above the threshold of touch at 250 Hz (0.1
+/// µm) and far below a film's thickness.
 const LEVEL: f64 = 1e-6;
 
 /// Velocity of the pulses of a stroke if none is typed, in m/s.
