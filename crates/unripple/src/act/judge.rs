@@ -6,7 +6,8 @@ use crate::core::{Point, Surface};
 use crate::field::{Aim, Field, Measured, Reach, Trace};
 use crate::physics::design::{Linearity, linearity};
 
-/// Cells of the grid per shortest wavelength that figures are taken on.
+/// Cells of the grid per shortest wavelength that figures are taken on. On 4 contrasts differ by 2 % rms; 16 take
+/// four times as long.
 pub const CELLS: f64 = 8.0;
 
 /// What a drive was found to do.
