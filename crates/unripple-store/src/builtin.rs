@@ -5,7 +5,7 @@
 pub struct Builtin {
     /// The name that [`crate::load_surface`] knows it by.
     pub name: &'static str,
-    /// Its surface file, comments included.
+    /// Text of the surface file, comments included.
     pub text: &'static str,
 }
 

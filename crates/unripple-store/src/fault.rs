@@ -19,7 +19,7 @@ pub struct Fault {
     pub column: usize,
     /// What the file says.
     pub found: String,
-    /// What it may say.
+    /// What the file may say there.
     pub expected: String,
     /// The nearest legal value or known name, in the file's own unit.
     pub nearest: Option<String>,

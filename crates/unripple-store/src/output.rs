@@ -37,10 +37,10 @@ pub struct OutputDir {
     building: Building,
 }
 
-/// What became of an output.
+/// An output that was put in its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Committed {
-    /// Where it is.
+    /// Path of the output.
     pub path: PathBuf,
     /// Whether that of an earlier run was replaced.
     pub replaced: bool,
@@ -73,12 +73,12 @@ impl OutputDir {
         Ok(Self { place, reads, building })
     }
 
-    /// Where to write now.
+    /// Path of the hidden folder, to write files to until [`OutputDir::commit`].
     pub fn path(&self) -> &Path {
         self.building.path()
     }
 
-    /// Where it all will be.
+    /// Path that the folder gets in the end.
     pub fn place(&self) -> &Path {
         &self.place
     }

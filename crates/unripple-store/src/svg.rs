@@ -59,9 +59,9 @@ pub struct Drawing {
 pub struct SvgShape {
     /// The element's id; may be empty.
     pub id: String,
-    /// Its connected pieces, in the order drawn.
+    /// Connected pieces of the shape, in the order drawn.
     pub polylines: Vec<Polyline>,
-    /// Which points count as its inside, if it is filled.
+    /// Rule by which points count as inside the shape, if it is filled.
     pub fill: Option<FillRule>,
     /// Width of its stroke in metres, if it is stroked; a dashed stroke counts as whole.
     pub stroke_width: Option<f64>,
@@ -70,9 +70,9 @@ pub struct SvgShape {
 /// A connected piece of a shape.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polyline {
-    /// Its points, in metres; where closed, the first is not repeated.
+    /// Corners of the polyline, in metres; where closed, the first is not repeated.
     pub points: Vec<Point>,
-    /// Whether it returns to its start.
+    /// Whether the polyline returns to its start.
     pub closed: bool,
 }
 

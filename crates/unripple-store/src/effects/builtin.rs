@@ -8,9 +8,9 @@ use unripple_effects::EffectSet;
 pub struct BuiltinEffects {
     /// The name that [`crate::load_effects`] knows them by.
     pub name: &'static str,
-    /// What they are like, in a line.
+    /// Description of the effects, in a line.
     pub about: &'static str,
-    /// Their file, comments included.
+    /// Text of the file of effects, comments included.
     pub text: &'static str,
 }
 

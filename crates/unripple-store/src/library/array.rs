@@ -168,7 +168,7 @@ impl Array {
         root.join(self.name)
     }
 
-    /// Where a chunk is, by its number along the first axis.
+    /// Path of a chunk, by its number along the first axis.
     pub fn chunk(&self, root: &Path, number: usize) -> PathBuf {
         let key = match self.shape.len() {
             0 => "c".to_owned(),
@@ -236,7 +236,7 @@ impl Array {
         disk::write(&manifest::path(&self.folder(root)), &[&text])
     }
 
-    /// Whether its metadata say what they should.
+    /// Whether the array's metadata on disk are those of the plan.
     pub fn check(&self, root: &Path) -> Result<(), StoreError> {
         let path = manifest::path(&self.folder(root));
         let (mut found, mut expected) = (manifest::json(&path)?, self.metadata());

@@ -15,7 +15,7 @@ pub struct Damage {
     pub point: Option<usize>,
     /// What the file should hold.
     pub expected: String,
-    /// What it holds.
+    /// What the file holds.
     pub found: String,
 }
 

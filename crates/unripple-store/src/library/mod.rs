@@ -180,7 +180,7 @@ impl Library {
         &self.plan
     }
 
-    /// Where it is.
+    /// Path of the library's folder.
     pub fn path(&self) -> &Path {
         &self.root
     }
@@ -190,7 +190,7 @@ impl Library {
         &self.plan.points
     }
 
-    /// What has become of a point; `None` beyond the last.
+    /// State of a point: missing, measured or bad; `None` beyond the last.
     pub fn state(&self, point: usize) -> Option<PointState> {
         self.states.get(point).copied()
     }

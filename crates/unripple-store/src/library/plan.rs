@@ -21,13 +21,13 @@ pub struct LibraryPlan {
     pub ports: Vec<Port>,
     /// Unit of each actuator's drive: "N", "A" or "V". A response is in m/s per that unit and second.
     pub drive_units: Vec<String>,
-    /// Where responses are known, or are to be.
+    /// Points at which responses are known, or are to be, in metres.
     pub points: Vec<Point>,
     /// Rate, band, λ_min and outline.
     pub conditions: Conditions,
     /// Samples per response.
     pub samples: usize,
-    /// When the impulse comes, in seconds after the first sample.
+    /// Time of the impulse in each response, in seconds after the first sample.
     pub onset: f64,
     /// The surface as its file describes it, where there is one.
     pub surface: Option<Surface>,

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 pub struct Take<'a> {
     /// Index of the point.
     pub point: usize,
-    /// Its responses, actuators x samples.
+    /// Responses of the point, actuators x samples.
     pub samples: &'a [f32],
     /// The quality of each.
     pub quality: &'a [Quality],

@@ -4,7 +4,7 @@ use super::array::{BLOCK, floats};
 use super::{Library, Take};
 use crate::StoreError;
 
-/// How good one response is. NaN where it is not known.
+/// Quality of one response: signal-to-noise ratio, coherence, distortion, decay. NaN where it is not known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quality {
     /// Signal over noise, in dB.

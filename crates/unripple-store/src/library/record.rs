@@ -145,7 +145,7 @@ impl Library {
         self.write_record(Record { doubtful, ..self.record.clone() })
     }
 
-    /// What the log says under a key.
+    /// The entry of the log under a key.
     pub fn logged(&self, key: &str) -> Option<&Value> {
         self.record.log.get(key)
     }

@@ -4,7 +4,7 @@ use super::array::BLOCK;
 use super::{Damage, Library};
 use crate::StoreError;
 
-/// What has become of a point.
+/// State of a point of a library.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PointState {
     /// No responses yet.
@@ -17,7 +17,7 @@ pub enum PointState {
 }
 
 impl PointState {
-    /// Its name in files and reports.
+    /// Name of the state in files and reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Missing => "missing",

@@ -9,11 +9,11 @@ use unripple_core::{Outline, Shape};
 pub struct SofaAbout {
     /// Author of the data, with an address for questions.
     pub author: Option<String>,
-    /// Where it was measured or computed.
+    /// Organization where the data were measured or computed.
     pub organization: Option<String>,
     /// Under what terms it may be used; where not said, the author has to be asked.
     pub license: Option<String>,
-    /// When it is written, in seconds after 1970-01-01 00:00 UTC.
+    /// Time of writing, in seconds after 1970-01-01 00:00 UTC.
     pub created: u64,
 }
 

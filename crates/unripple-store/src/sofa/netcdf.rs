@@ -26,7 +26,7 @@ pub(super) struct Variable {
     pub name: &'static str,
     /// Type of its elements.
     pub kind: Kind,
-    /// Its axes, by their index, the slowest first.
+    /// Axes of the variable, by their index, the slowest first.
     pub axes: Vec<usize>,
     /// Names and texts of its attributes.
     pub attributes: Vec<(&'static str, String)>,

@@ -15,7 +15,7 @@ const ADHESIVE_KEYS: [&str; 3] = ["adhesive_young_mpa", "adhesive_width_mm", "ad
 
 /// The sides that a list of edges is for.
 pub(super) struct SidesListed {
-    /// How many there are.
+    /// Number of sides.
     pub count: usize,
     /// Where counting starts and which way it goes.
     pub order: &'static str,

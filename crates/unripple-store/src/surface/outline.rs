@@ -22,7 +22,7 @@ pub(super) type Fetch<'f> = dyn Fn(&str) -> Result<String, StoreError> + 'f;
 pub(super) struct Rim {
     /// Shape of the outer rim.
     pub shape: Option<Shape>,
-    /// How its sides are held.
+    /// How the sides of the outline are held.
     pub edges: Option<Edges>,
     /// Holes drawn with the rim.
     pub holes: Vec<Hole>,

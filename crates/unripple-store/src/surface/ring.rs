@@ -13,7 +13,7 @@ pub(super) const CORNER: f64 = 1e-9;
 /// A closed curve of a file, anticlockwise.
 #[derive(Clone, Debug)]
 pub(super) struct Ring {
-    /// Its sides in metres, end to end.
+    /// Sides of the curve in metres, end to end.
     pub sides: Vec<Side>,
     /// How many sides each side of the file became, in the file's order.
     counts: Vec<usize>,
@@ -88,7 +88,7 @@ impl Ring {
         self.crossing(what)
     }
 
-    /// What is wrong with the course, if anything.
+    /// What is wrong with the course of the curve, crossings or gaps, if anything.
     pub fn crossing(&self, what: &str) -> Option<Complaint> {
         // As the file counts them.
         let count = self.sides.len();

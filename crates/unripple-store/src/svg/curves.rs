@@ -14,7 +14,7 @@ pub struct Curve {
     pub sides: Vec<Side>,
     /// How many of these each side as drawn became, in order.
     pub counts: Vec<usize>,
-    /// Whether it returns to its start.
+    /// Whether the curve returns to its start.
     pub closed: bool,
 }
 
