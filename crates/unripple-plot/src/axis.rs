@@ -28,9 +28,9 @@ pub struct Axis {
     pub scale: Scale,
     /// What a datum is multiplied by to be shown: 1e3 for data in seconds on an axis in milliseconds.
     pub multiplier: f64,
-    /// Its low end, in the data's unit; from the data if absent.
+    /// Low end of the axis, in the data's unit; from the data if absent.
     pub low: Option<f64>,
-    /// Its high end, in the data's unit; from the data if absent.
+    /// High end of the axis, in the data's unit; from the data if absent.
     pub high: Option<f64>,
 }
 

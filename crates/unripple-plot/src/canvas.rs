@@ -76,7 +76,7 @@ pub(crate) enum Rise {
 /// A line of text.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Text<'a> {
-    /// What it says.
+    /// The text to be written.
     pub content: &'a str,
     /// The place that anchor and rise refer to, in points.
     pub at: [f64; 2],

@@ -39,7 +39,7 @@ pub struct Cells {
     pub values: Vec<f64>,
     /// The axis of abscissae, along the columns.
     pub x: Axis,
-    /// What the rows are.
+    /// Name of the quantity that the rows are.
     pub label: String,
     /// How values become colours.
     pub colours: Colours,

@@ -28,7 +28,7 @@ pub struct Marker {
     pub at: [f64; 2],
     /// The symbol that is drawn.
     pub symbol: Symbol,
-    /// Its name, written beside it; none if empty.
+    /// Name of the marker, written beside it; none if empty.
     pub name: String,
 }
 

@@ -103,13 +103,13 @@ pub struct Line {
     pub x: Vec<f64>,
     /// Ordinates, as many.
     pub y: Vec<f64>,
-    /// Its name in the legend; none if empty.
+    /// Name of the line in the legend; none if empty.
     pub label: String,
     /// Colour of the line.
     pub ink: Ink,
     /// Pattern of the line.
     pub dash: Dash,
-    /// Its width in points; the figure's if absent.
+    /// Width of the line in points; the figure's if absent.
     pub width_pt: Option<f64>,
 }
 
@@ -122,7 +122,7 @@ pub struct Points {
     pub y: Vec<f64>,
     /// How far each error bar reaches below and above; empty for none, else as many as points.
     pub error: Vec<[f64; 2]>,
-    /// Its name in the legend; none if empty.
+    /// Name of the points in the legend; none if empty.
     pub label: String,
     /// Colour of marks and bars.
     pub ink: Ink,
@@ -139,9 +139,9 @@ pub struct Band {
     pub low: Vec<f64>,
     /// Upper ordinates, as many.
     pub high: Vec<f64>,
-    /// Its name in the legend; none if empty.
+    /// Name of the band in the legend; none if empty.
     pub label: String,
-    /// Its colour, drawn pale.
+    /// Colour of the band, drawn pale.
     pub ink: Ink,
 }
 
@@ -160,7 +160,7 @@ pub enum Along {
 pub struct Rule {
     /// The value it stands at.
     pub at: f64,
-    /// Which way it runs.
+    /// Direction in which the rule runs.
     pub along: Along,
     /// Text beside it: above the frame for one along y, on the line for one along x.
     pub label: String,
@@ -179,15 +179,15 @@ impl Default for Rule {
 /// A pale stripe across the whole plot between two values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Span {
-    /// Where it begins.
+    /// Value at which the stripe begins, in the axis's data unit.
     pub from: f64,
-    /// Where it ends.
+    /// Value at which the stripe ends, in the axis's data unit.
     pub to: f64,
-    /// Which way it runs.
+    /// Direction in which the stripe runs.
     pub along: Along,
-    /// Its name in the legend; none if empty.
+    /// Name of the stripe in the legend; none if empty.
     pub label: String,
-    /// Its colour, drawn pale.
+    /// Colour of the stripe, drawn pale.
     pub ink: Ink,
 }
 
@@ -202,9 +202,9 @@ impl Default for Span {
 pub struct Note {
     /// Where, in the data's units.
     pub at: [f64; 2],
-    /// What it says.
+    /// The text of the note.
     pub text: String,
-    /// Which end of it is there.
+    /// Which end of the text is at the place.
     pub anchor: Anchor,
     /// Colour of the text.
     pub ink: Ink,

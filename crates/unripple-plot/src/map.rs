@@ -31,7 +31,7 @@ pub struct Map {
     pub colours: Colours,
     /// Unit of the axes.
     pub unit: String,
-    /// What the grid's lengths are multiplied by to be in that unit.
+    /// Factor from the grid's unit of length to the unit of the axes.
     pub multiplier: f64,
     /// Text above; none if empty.
     pub title: String,

@@ -41,7 +41,7 @@ pub struct Movie {
     pub colours: Colours,
     /// Unit of the bar for lengths.
     pub unit: String,
-    /// What the grids' lengths are multiplied by to be in that unit.
+    /// Factor from the grids' unit of length to the unit of the bar.
     pub multiplier: f64,
     /// Width of the whole picture, 120 to 4000 pixels.
     pub width_px: u32,

@@ -35,7 +35,7 @@ pub struct Strip {
     pub colours: Colours,
     /// Unit of the bar for lengths.
     pub unit: String,
-    /// What the grids' lengths are multiplied by to be in that unit.
+    /// Factor from the grids' unit of length to the unit of the bar.
     pub multiplier: f64,
 }
 

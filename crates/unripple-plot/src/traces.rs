@@ -23,7 +23,7 @@ pub struct Traces {
     pub traces: Vec<Trace>,
     /// Unit of the scale bar, as in `mm/s`.
     pub unit: String,
-    /// What a datum is multiplied by to be in that unit.
+    /// Factor from the data's unit to that of the scale bar.
     pub multiplier: f64,
     /// Whether each trace fills its lane at a scale of its own, with a bar of its own.
     pub own_scales: bool,
@@ -38,9 +38,9 @@ pub struct Traces {
 /// One trace, such as the velocity at a point against time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trace {
-    /// Its name, written at the left.
+    /// Name of the trace, written at the left.
     pub label: String,
-    /// Its samples; one that is not finite leaves a gap.
+    /// Samples of the trace; one that is not finite leaves a gap.
     pub values: Vec<f64>,
     /// Colour of its line.
     pub ink: Ink,
