@@ -43,7 +43,7 @@ pub struct Server {
 pub struct Stream {
     /// The ALSA device, such as `hw:1,0`.
     pub device: String,
-    /// Whether it plays; otherwise it records.
+    /// Whether the stream plays; otherwise it records.
     pub playback: bool,
     /// Channel counts it offers, ascending; empty where the kernel does not say (only USB cards do).
     pub channels: Vec<usize>,

@@ -6,13 +6,13 @@ use cpal::traits::{DeviceTrait, HostTrait};
 /// A device of the sound system.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CardFound {
-    /// What [`CardOptions`](super::CardOptions) call it.
+    /// Identifier of the device, for [`CardOptions`](super::CardOptions).
     pub id: String,
-    /// What people call it.
+    /// Name of the device, for people.
     pub name: String,
-    /// What it can play; `None` if it cannot.
+    /// What the device can play; `None` if it cannot.
     pub playback: Option<Offer>,
-    /// What it can record; `None` if it cannot.
+    /// What the device can record; `None` if it cannot.
     pub capture: Option<Offer>,
 }
 

@@ -27,7 +27,7 @@ pub struct JackOptions {
     pub outputs: Vec<String>,
     /// Names of the inputs: sensors, probe. The port of `a1` is `in_a1`.
     pub inputs: Vec<String>,
-    /// What ports are connected to.
+    /// What the client's ports are connected to.
     pub links: Links,
     /// Drive, in the actuators' unit, of a sample of 1.
     pub full_scale: f64,

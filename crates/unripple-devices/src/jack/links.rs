@@ -5,7 +5,7 @@ use super::events::Side;
 use super::library::Client;
 use crate::DevicesError;
 
-/// What ports are connected to.
+/// What the ports of a JACK client are connected to.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Links {
     /// The system's playback and capture ports, in order.

@@ -19,7 +19,7 @@ const ACROSS: usize = 6;
 pub struct Feeling {
     /// The name that the finger was put down under.
     pub finger: u64,
-    /// Where it is.
+    /// Place of the finger, in m.
     pub at: Point,
     /// Largest displacement since the last look, weighed by the threshold of touch, in dB above it; `None` in silence.
     pub level_db: Option<f64>,

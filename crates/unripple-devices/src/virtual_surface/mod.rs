@@ -19,16 +19,16 @@ use unripple_physics::stepper::{
 use unripple_physics::{Footprint, Modes, stepped_hz};
 use workings::Workings;
 
-/// How a virtual device is made.
+/// Options of a virtual device: blocks, faults, probe, accuracy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VirtualOptions {
     /// Samples per block.
     pub block: usize,
     /// How the surface is stepped, and how many fingers there may be.
     pub stepper: StepperOptions,
-    /// What goes wrong with the surface and its wires.
+    /// Faults of the surface, its sensors and its wires.
     pub faults: InjectedFaults,
-    /// What stands between.
+    /// Converters and amplifiers between program and surface.
     pub interface: Interface,
     /// Where the probe is at first; in the middle of the outline's bounding box where `None`.
     pub probe: Option<Point>,

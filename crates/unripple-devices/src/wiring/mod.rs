@@ -18,7 +18,7 @@ use report::leads;
 use take::{Takes, record};
 use unripple_core::{Device, Layout, require};
 
-/// How wires are tried.
+/// Options of the wiring test: bursts, pauses, limits.
 ///
 /// ```
 /// let options = unripple_devices::WiringOptions::for_band([0.0, 3e3]);
@@ -30,7 +30,7 @@ pub struct WiringOptions {
     pub frequency: f64,
     /// Length of a burst, in periods.
     pub cycles: f64,
-    /// Its peak, as a share of full scale.
+    /// Peak of a burst, as a share of full scale.
     pub level: f64,
     /// Time compared with the model from the burst's start on, in s.
     pub listen: f64,

@@ -10,7 +10,7 @@ const SUSPECT: f64 = 0.3;
 /// explains less than half of it.
 const LEFT: f64 = 0.5;
 
-/// What reciprocity says of wires.
+/// Faults of wires that contradict reciprocity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reciprocal {
     /// Rms of what differs both ways, as a share of what is the same; gains and signs of channels are free. 0 with fewer than two.

@@ -12,7 +12,7 @@ pub struct Lead {
     pub name: String,
     /// Whether nothing comes through.
     pub silent: bool,
-    /// Whether its sign is reversed.
+    /// Whether the channel's sign is reversed.
     pub reversed: bool,
     /// Name of what it leads to, if that is not its own.
     pub instead: Option<String>,
