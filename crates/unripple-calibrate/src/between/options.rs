@@ -19,7 +19,7 @@ impl Interpolation {
     /// Every way, the simplest first.
     pub const ALL: [Self; 3] = [Self::Nearest, Self::Linear, Self::Kernel];
 
-    /// Its name in figures and on the command line.
+    /// Name of the method in figures and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Nearest => "nearest",

@@ -36,7 +36,7 @@ pub struct Hold {
     wanted: Option<f64>,
 }
 
-/// What became of a drive.
+/// A drive scaled to the level that is held.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Held {
     /// The peak that it will make, in m/s.

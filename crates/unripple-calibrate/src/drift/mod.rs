@@ -14,7 +14,7 @@ pub use warp::Warp;
 use crate::CalibrateError;
 use unripple_core::require;
 
-/// How tension is followed.
+/// Options of the drift filter: noise, range, speed and wander of the tension.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tracking {
     /// Root mean square of the noise on each sensor, in its unit.
@@ -53,7 +53,7 @@ impl Tracking {
     }
 }
 
-/// What an observation said.
+/// Result of one observation of the tension.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Drift {
     /// The model under some tension explains what was heard.

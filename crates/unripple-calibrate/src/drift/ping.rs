@@ -22,13 +22,13 @@ const RAMP: f64 = 10e-3;
 /// Nepers of decay after which a ping is over.
 const OVER: f64 = 4.0;
 
-/// How a ping is made.
+/// Options of a ping: band, length, level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PingOptions {
     /// Its band, as shares of the top of the responses' band. High frequencies are felt least and show a change of
     /// tension most.
     pub band: [f64; 2],
-    /// Its length, in s.
+    /// Length of the ping, in s.
     pub length: f64,
     /// Level as felt where it is felt most, in dB above threshold.
     pub felt_db: f64,
@@ -74,11 +74,11 @@ impl Default for PingOptions {
 pub struct Ping {
     /// The drive, one signal per actuator, in the drive's unit.
     pub drive: Vec<Vec<f64>>,
-    /// Its largest value.
+    /// Largest value of the drive, in the drive's unit.
     pub peak: f64,
     /// Level as felt where it is felt most, in dB above threshold.
     pub felt_db: f64,
-    /// Where that is.
+    /// Place where the ping is felt most, in m.
     pub felt_at: Point,
 }
 

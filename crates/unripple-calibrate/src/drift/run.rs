@@ -29,7 +29,7 @@ pub(super) struct Sheet {
 pub(super) struct Instants {
     /// Numbers of the samples, ascending.
     pub at: Vec<usize>,
-    /// How many of them are single samples.
+    /// Number of instants that are single samples.
     pub single: usize,
     /// Samples before and after each of the others that belong to its mean.
     pub reach: usize,
@@ -73,7 +73,7 @@ pub(super) struct Motion {
 pub(super) struct Course {
     /// Tension over nominal at the middle, a ratio.
     pub middle: f64,
-    /// Its rate of change, in 1/s.
+    /// Rate of change of the tension's ratio, in 1/s.
     pub rate: f64,
 }
 

@@ -20,7 +20,7 @@ pub(super) struct LoadedModes {
     pub bending_shares: Vec<f64>,
     /// Weights of the actuators, actuators x modes.
     pub weights: Mat<f64>,
-    /// Their shapes, mass-normalised, anywhere on the sheet.
+    /// Shapes of the modes, mass-normalised, anywhere on the sheet.
     pub shapes: Arc<dyn Shapes>,
 }
 

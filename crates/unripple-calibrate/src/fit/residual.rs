@@ -32,9 +32,9 @@ pub(super) struct Residual {
 pub(super) struct Case<'a> {
     /// The nominal modes.
     pub basis: &'a Basis,
-    /// What is unknown, and in which order.
+    /// The vector of unknowns: which there are, and in which order.
     pub layout: &'a Layout,
-    /// What was measured.
+    /// The measured spectra.
     pub spectra: &'a Spectra,
     /// Number of nominal modes used.
     pub count: usize,

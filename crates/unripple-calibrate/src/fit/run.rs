@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 use unripple_core::{Decay, Point, Surface, require};
 use unripple_physics::{Medium, Transducer};
 
-/// How a model is fitted.
+/// Options of a fit: band, tension profile, stray masses, window.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FitOptions {
     /// Frequencies that are fitted, in Hz; up to 0.97 of the surface's own band where `None`.

@@ -32,11 +32,11 @@ pub(super) struct Rest {
 pub(super) struct System {
     /// The bare sheet at these values.
     pub sheet: Sheet,
-    /// What is unknown, and in which order.
+    /// The vector of unknowns: which there are, and in which order.
     pub layout: Layout,
     /// Shapes at the places, modes x places: actuators, strays, then taps.
     pub shapes: Mat<f64>,
-    /// Their slopes along x and y, for actuators and strays.
+    /// Slopes of the shapes along x and y, for actuators and strays.
     pub slopes: [Mat<f64>; 2],
     /// Residual flexibility: the modes that are left out, as one more.
     pub rest: Rest,

@@ -3,7 +3,7 @@
 /// Samples that were lost, or repeated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lost {
-    /// How many; negative if as many were heard twice.
+    /// Number of samples lost; negative if as many were heard twice.
     pub samples: i64,
     /// Where, in s of what is played: not before and not after.
     pub between_s: [f64; 2],
@@ -18,7 +18,7 @@ pub struct Knocked {
     pub at_s: f64,
     /// The actuators whose sweeps it hit, from 1.
     pub actuators: Vec<usize>,
-    /// Its energy over that of one sweep as heard, in dB.
+    /// Energy of the knock over that of one sweep as heard, in dB.
     pub share_db: f64,
     /// Whether other takes of the same point stand in for the sweeps that it hit.
     pub left_out: bool,

@@ -22,7 +22,7 @@ pub(super) struct Apart {
     pub late: f64,
     /// Change of tension (or stiffness), as a share.
     pub change: f64,
-    /// Their correlation once both are taken out, from -1 to 1.
+    /// Correlation of the two takes once delay and change are taken out, from -1 to 1.
     pub likeness: f64,
     /// Standard error of `late` and of `change`, from what is left.
     pub errors: [f64; 2],

@@ -5,7 +5,7 @@ use crate::CalibrateError;
 use std::ops::ControlFlow;
 use unripple_core::Point;
 
-/// Where finished points go, one by one.
+/// Store of finished points, which keeps them one by one.
 pub trait Sink {
     /// Points that are still to be measured.
     fn missing(&self) -> Vec<usize>;
@@ -17,7 +17,7 @@ pub trait Sink {
     fn keep(&mut self, number: usize, channel: &Channel, fault: Option<&str>) -> Result<(), CalibrateError>;
 }
 
-/// How far a campaign has come.
+/// Progress of a campaign.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Progress {
     /// Points kept so far, in this run.
@@ -28,11 +28,11 @@ pub struct Progress {
     pub number: usize,
     /// Recordings that it took.
     pub attempts: u64,
-    /// Why it was kept as bad, if it was.
+    /// Reason for which the point was kept as bad, if it was.
     pub fault: Option<String>,
 }
 
-/// How places are measured.
+/// Way of measuring a place: by a probe, or by taps.
 #[derive(Clone, Debug)]
 pub enum Way {
     /// A probe on the surface, actuators driving.

@@ -4,12 +4,12 @@ use super::Account;
 use super::telling::around;
 use crate::signals::{Band, Quality, Sweep, band_powers};
 
-/// What an input heard of every actuator.
+/// The responses that one input recorded of every actuator, and their quality.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Channel {
     /// Responses, `[actuator][sample]` from time 0, in the input's unit per unit impulse of drive.
     pub responses: Vec<Vec<f64>>,
-    /// How good each is.
+    /// Quality of each response.
     pub quality: Vec<Quality>,
     /// How good each is in each third of an octave, `[actuator][band]`, bands ascending.
     pub bands: Vec<Vec<BandQuality>>,
@@ -24,10 +24,10 @@ impl Channel {
     }
 }
 
-/// How good a response is in a third of an octave.
+/// Quality of a response in a third of an octave.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BandQuality {
-    /// Its middle, in Hz.
+    /// Middle frequency of the band, in Hz.
     pub hz: f64,
     /// Signal over noise, in dB; −∞ if there is no more than noise.
     pub snr_db: f64,

@@ -28,7 +28,7 @@ const APART: usize = 4;
 /// Something that was heard and not played.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Knock {
-    /// Where it begins, in samples.
+    /// Beginning of the knock, in samples.
     pub at: usize,
     /// Its energy over that of an average sweep, both as they were heard in the band.
     pub share: f64,

@@ -8,7 +8,7 @@ use unripple_core::{Layout, ModalResponses, Surface, require};
 /// Decay time of amplitude, in s, that the default sweep, ringing and response are for: they are 7, 5 and 1.4 times as long.
 const USUAL_DECAY: f64 = 0.07;
 
-/// How responses are measured.
+/// Options of a measurement: sweep, rests, repeats, limits of quality.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasureOptions {
     /// Seconds of an actuator's sweep.

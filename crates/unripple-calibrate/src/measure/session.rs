@@ -56,7 +56,7 @@ pub enum Listen {
 
 /// One recording of some inputs, mended.
 pub(super) struct Take {
-    /// What was recorded, `[input][sample]`.
+    /// The recordings, `[input][sample]`.
     pub lines: Vec<Vec<f64>>,
     /// What the recording was found to be.
     pub verdict: Verdict,

@@ -72,9 +72,9 @@ pub(super) struct Judge<'a> {
 /// What a take was, and what is to be done about it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Verdict {
-    /// What is said of the recording.
+    /// Account of the recording, for people.
     pub account: Account,
-    /// What is to be undone in it.
+    /// Corrections of clock, delay and gaps.
     pub mend: Mend,
     /// Change of tension at each sweep's begin and its rate per second, where there is any.
     pub changes: Option<Vec<[f64; 2]>>,

@@ -3,9 +3,9 @@
 /// A sweep of a take: when it began, how much later it was heard than it should have been, and how sure that is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Sweep {
-    /// Its number, from 0.
+    /// Number of the sweep, from 0.
     pub number: usize,
-    /// When it began, in samples of what is played.
+    /// First sample of the sweep in what is played.
     pub start: f64,
     /// Delay of the sweep against where it should be, in samples.
     pub late: f64,

@@ -16,18 +16,18 @@ use unripple_dsp::DspError;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gate {
-    /// Where it begins to open.
+    /// Sample at which the window begins to open.
     pub begin: f64,
     /// Samples it takes to open.
     pub rise: f64,
-    /// Where it is closed again.
+    /// Sample at which the window is closed again.
     pub end: f64,
     /// Samples it takes to close.
     pub fall: f64,
 }
 
 impl Gate {
-    /// How far it is open at a sample, from 0 to 1.
+    /// Weight of the window at a sample, from 0 to 1.
     pub fn at(&self, sample: f64) -> f64 {
         let (since, left) = (sample - self.begin, self.end - sample);
         if since < 0.0 || left < 0.0 {

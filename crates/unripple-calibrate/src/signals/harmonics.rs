@@ -24,9 +24,9 @@ pub struct Split {
 /// The response at one harmonic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Harmonic {
-    /// Its order, from 2.
+    /// Order of the harmonic, from 2.
     pub order: usize,
-    /// Its response, aligned with the linear one.
+    /// Response at the harmonic, aligned with the linear one.
     pub response: Vec<f64>,
     /// Its amplitude over that of the linear response, rms over the drive's frequencies whose harmonic lies in the
     /// band too.
@@ -34,7 +34,7 @@ pub struct Harmonic {
 }
 
 impl Harmonic {
-    /// Its level relative to the linear response, in dB.
+    /// Level of the harmonic relative to the linear response, in dB.
     pub fn level_db(&self) -> f64 {
         20.0 * self.ratio.log10()
     }

@@ -3,7 +3,7 @@
 use super::{Decay, mean_square, onset};
 use unripple_dsp::DspError;
 
-/// How good one measured response is.
+/// Quality of one measured response.
 ///
 /// ```
 /// use unripple_calibrate::signals::Quality;
@@ -26,9 +26,9 @@ pub struct Quality {
     /// Total harmonic distortion relative to the linear response, in dB, where the stimulus was a sweep that
     /// separates it.
     pub distortion_db: Option<f64>,
-    /// How it dies away; `None` if it does not stand out of its noise.
+    /// Decay of the response; `None` if it does not stand out of its noise.
     pub decay: Option<Decay>,
-    /// Where it begins, 20 dB below its peak, in samples; `None` for silence.
+    /// Onset of the response, 20 dB below its peak, in samples; `None` for silence.
     pub onset: Option<f64>,
 }
 

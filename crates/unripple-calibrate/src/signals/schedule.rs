@@ -108,7 +108,7 @@ impl Schedule {
         &self.stimulus
     }
 
-    /// Where each actuator begins, in samples.
+    /// First sample of each actuator's stimulus.
     pub fn starts(&self) -> &[usize] {
         &self.starts
     }

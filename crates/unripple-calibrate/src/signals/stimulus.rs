@@ -54,7 +54,7 @@ impl Stimulus {
         Ok(Self { band, ..self })
     }
 
-    /// Its samples, one period of them if it is periodic.
+    /// Samples of the stimulus, one period of them if it is periodic.
     pub fn samples(&self) -> &[f64] {
         &self.samples
     }

@@ -23,13 +23,13 @@ use unripple_dsp::DspError;
 pub struct Sweep {
     /// Samples per second.
     pub rate: f64,
-    /// Where it begins, in Hz.
+    /// First frequency of the sweep, in Hz.
     pub from: f64,
-    /// Where it ends, in Hz, below half the rate.
+    /// Last frequency of the sweep, in Hz, below half the rate.
     pub to: f64,
     /// Seconds it sounds. A synchronized sweep takes the nearest time it can: see [`Sweep::sounding`].
     pub seconds: f64,
-    /// Its amplitude, in the unit of the drive.
+    /// Amplitude of the sweep, in the unit of the drive.
     pub amplitude: f64,
     /// Seconds over which it fades in.
     pub fade_in: f64,

@@ -27,7 +27,7 @@ pub(super) struct Transform {
 pub(super) struct Work {
     /// The signal in time.
     pub signal: Vec<f64>,
-    /// Its spectrum, from 0 to half the rate.
+    /// Spectrum of the signal, from 0 to half the rate.
     pub lines: Vec<Complex<f64>>,
     /// Scratch memory of the transform itself.
     pub scratch: Vec<Complex<f64>>,

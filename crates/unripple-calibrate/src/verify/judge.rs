@@ -33,7 +33,7 @@ pub(super) struct Judged {
     pub nearby: Spot,
     /// Error of that place (m), along each axis.
     pub error: f64,
-    /// What the point is.
+    /// Finding about the point.
     pub kind: Kind,
 }
 

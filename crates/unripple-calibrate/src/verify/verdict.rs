@@ -2,7 +2,7 @@
 
 use unripple_core::Point;
 
-/// How probed points are checked.
+/// Options of the check of probed points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VerifyOptions {
     /// Whether they are compared with a model; without one only the checks that need none are made.
@@ -15,7 +15,7 @@ pub struct VerifyOptions {
     pub dead: Vec<usize>,
     /// Whether a probe heard them, of one gain and one delay; taps have neither in common.
     pub probe: bool,
-    /// What points are called, from 1; empty for their order.
+    /// Numbers of the points for people, from 1; empty for their order.
     pub numbers: Vec<usize>,
     /// Modes of the band that is looked at, about.
     pub modes: usize,
@@ -105,7 +105,7 @@ pub struct Doubted {
 /// What was found of one probed point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointVerdict {
-    /// Where it is said to be.
+    /// Place where the point is said to be, in m.
     pub at: Point,
     /// Share of what was heard there (as amplitude) that the model does not explain at that place, gain and delay free.
     pub unexplained: f64,
@@ -116,7 +116,7 @@ pub struct PointVerdict {
     /// The place nearby that fits best, where it differs from the stated one by more than its error, and what is left
     /// unexplained there.
     pub fits: Option<(Point, f64)>,
-    /// What makes it doubtful, if anything does.
+    /// Reason to doubt the point, if there is one.
     pub doubt: Option<String>,
     /// What its responses are to be multiplied by, if its gain or sign is not that of the others and the rest of it is good.
     pub correction: Option<f64>,
