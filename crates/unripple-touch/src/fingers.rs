@@ -7,18 +7,18 @@ use unripple_core::{Phase, Point, Touch};
 /// Fingers that may come within one poll: more are counted and dropped, so that a poll does bounded work.
 const DOWNS: usize = 256;
 
-/// Which finger is spoken of, in a sender's own words.
+/// Identity of a finger, by its sender's own numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Key {
     /// Number of the sender: an address, a connection.
     pub peer: u32,
-    /// Which of the sender's lists of fingers.
+    /// Number of the sender's list of fingers.
     pub stream: u32,
     /// The sender's number for the finger, which it may use again later.
     pub session: i64,
 }
 
-/// Why a finger was not taken.
+/// Reason for which a finger was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Refusal {
     /// A coordinate or a force is no number, or an impossible one.

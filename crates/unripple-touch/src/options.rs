@@ -9,7 +9,7 @@ use unripple_core::{Outline, require};
 pub struct Options {
     /// The surface; a place that is not on it is refused.
     pub surface: Outline,
-    /// Where a sensor that speaks of 0 to 1 lies on the surface.
+    /// Place on the surface of a sensor whose coordinates go from 0 to 1.
     pub mapping: Mapping,
     /// A finger that nobody spoke of for as long is lifted, in s. TUIO trackers repeat a resting finger once a second.
     pub timeout: f64,

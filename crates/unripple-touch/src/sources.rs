@@ -64,12 +64,12 @@ impl Sources {
         self.sources.push(source);
     }
 
-    /// What there is, by name, with what each took in.
+    /// The sources by name, with the counts of each.
     pub fn each(&self) -> impl Iterator<Item = (&str, Counts)> {
         self.sources.iter().map(|source| (source.name(), source.counts()))
     }
 
-    /// What all of them took in, and what was refused here for want of room.
+    /// Counts over all sources, with what was refused here for want of room.
     pub fn counts(&self) -> Counts {
         let all = self.sources.iter().map(|source| source.counts());
         let here = Counts { crowded: self.crowded, ..Counts::default() };

@@ -17,14 +17,14 @@ const REST: (f64, f64) = (0.1, 0.5);
 /// Least and largest radius of circles, in m: about a fingertip's own and those that fit on a small sheet.
 const RADIUS: (f64, f64) = (0.004, 0.015);
 
-/// How many fingers do what.
+/// Options of synthetic fingers: number, seed, speeds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SyntheticOptions {
-    /// How many there are.
+    /// Number of fingers.
     pub fingers: usize,
     /// Another seed, another session.
     pub seed: u64,
-    /// How far they keep from the rim, in m.
+    /// Distance that fingers keep from the rim, in m.
     pub margin: f64,
     /// How often a sliding finger is reported, per s.
     pub rate: f64,

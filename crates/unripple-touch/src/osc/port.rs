@@ -60,7 +60,7 @@ impl OscPort {
         Ok(Self { name, socket, receiver, buffer: vec![0; LONGEST + 1] })
     }
 
-    /// Where it listens.
+    /// Address at which the port listens.
     pub fn address(&self) -> SocketAddr {
         self.socket.local_addr().unwrap_or_else(|_| SocketAddr::from((Ipv4Addr::LOCALHOST, 0)))
     }

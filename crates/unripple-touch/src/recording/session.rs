@@ -63,7 +63,7 @@ impl Recording {
         Self::read(&std::fs::read_to_string(path).map_err(error)?)
     }
 
-    /// How long it lasts, in s.
+    /// Duration of the recording, in s.
     pub fn duration(&self) -> f64 {
         self.items.last().map_or(0.0, Item::time)
     }

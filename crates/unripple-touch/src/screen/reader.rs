@@ -18,9 +18,9 @@ const RETRY: f64 = 1.0;
 /// The range of an axis, as the screen states it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Axis {
-    /// Its least value.
+    /// Least value of the axis.
     pub minimum: i32,
-    /// Its largest value.
+    /// Largest value of the axis.
     pub maximum: i32,
 }
 

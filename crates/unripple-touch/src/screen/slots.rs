@@ -5,9 +5,9 @@
 pub struct Event {
     /// Kind: 0 for `EV_SYN`, 3 for `EV_ABS`.
     pub kind: u16,
-    /// Which of that kind.
+    /// Code of the event within its kind.
     pub code: u16,
-    /// Its value, in the device's own unit.
+    /// Value of the event, in the device's own unit.
     pub value: i32,
 }
 

@@ -83,7 +83,7 @@ impl WebSocketPort {
         Ok(Self { name, listener, fingers, connections, given: 0, origins, most, silence })
     }
 
-    /// Where it listens.
+    /// Address at which the port listens.
     pub fn address(&self) -> SocketAddr {
         self.listener.local_addr().unwrap_or_else(|_| SocketAddr::from((Ipv4Addr::LOCALHOST, 0)))
     }
