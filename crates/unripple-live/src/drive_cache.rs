@@ -38,7 +38,7 @@ pub struct DriveCache {
 /// What a share of 1 stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Full {
-    /// Where it is measured; elsewhere the same drive is used.
+    /// Place where the full level is measured, in m; elsewhere the same drive is used.
     pub place: Point,
     /// How strongly it is felt there without the load of a finger, in dB above the threshold of touch.
     pub felt_db: f64,
@@ -106,7 +106,7 @@ impl DriveCache {
         self.waves.clear();
     }
 
-    /// How long it took to make each drive that was made so far, in s.
+    /// Times that it took to make drives so far, in s.
     pub fn making(&self) -> &Percentiles {
         &self.making
     }

@@ -27,7 +27,7 @@ pub(crate) struct News {
     pub aimed: Vec<Touch>,
     /// Fingers that are there, and where.
     pub fingers: Vec<(u64, Point)>,
-    /// What all sources took in so far.
+    /// Counts of all sources so far.
     pub counts: Counts,
 }
 

@@ -61,7 +61,7 @@ impl Follower {
         }
     }
 
-    /// What the last observation said.
+    /// Result of the last observation.
     pub fn last(&self) -> Option<&Drift> {
         self.last.as_ref()
     }

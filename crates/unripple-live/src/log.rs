@@ -14,7 +14,7 @@ pub struct Began {
     pub drive: Arc<Prepared>,
     /// The factor on it, after limiting.
     pub gain: f32,
-    /// Its first sample, of the player's clock.
+    /// First sample of the drive, of the player's clock.
     pub sample: u64,
 }
 
@@ -96,7 +96,7 @@ impl Log {
         self.playing.retain(|_, playing| playing.repeats);
     }
 
-    /// What has begun since this was last asked.
+    /// Drives that have begun since this was last called.
     pub fn take(&mut self) -> Vec<Began> {
         std::mem::take(&mut self.began).into()
     }

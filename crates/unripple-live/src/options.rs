@@ -8,7 +8,7 @@ use unripple_player::{Limit, Options as PlayerOptions, Running, WaveOptions};
 /// Longest ping that may be sent between effects, in s. A longer one would seldom fit between two touches.
 const LONGEST_PING: f64 = 0.15;
 
-/// How a surface is played.
+/// Options of live play: method, level, waveforms, limits, prediction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveOptions {
     /// How drives are made; their window is the delay of every focus.
@@ -63,7 +63,7 @@ impl LiveOptions {
     }
 }
 
-/// How time passes.
+/// Rate, window and block that live play goes by.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timing {
     /// Samples per second.

@@ -18,7 +18,7 @@ pub struct PlayStats {
     pub beyond: u64,
     /// Cues that failed, places beyond the rim for example, and the last failure.
     pub failed: u64,
-    /// What the last failure was.
+    /// Text of the last failure.
     pub failure: Option<String>,
     /// Commands that found no room on their way to the player.
     pub lost: u64,

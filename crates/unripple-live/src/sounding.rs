@@ -28,7 +28,7 @@ impl Sounding {
         self
     }
 
-    /// Whether it is worth beginning late: what goes on is.
+    /// Whether the sound goes on until it is stopped, and so is worth beginning late.
     pub fn goes_on(&self) -> bool {
         matches!(self, Self::Comb { .. } | Self::Wave { looped: true, .. })
     }

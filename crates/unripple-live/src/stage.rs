@@ -92,7 +92,7 @@ impl Stage {
         self.fingers.clone()
     }
 
-    /// What turns touches into commands, and what became of them.
+    /// The conductor, which turns touches into commands, with its counts.
     pub fn conductor(&self) -> &Conductor {
         &self.conductor
     }

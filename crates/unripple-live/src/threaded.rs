@@ -32,14 +32,14 @@ const FETCH: Duration = Duration::from_millis(20);
 const FADE: f64 = 0.02;
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// What the audio thread says of itself.
+/// State of the audio thread, for whoever watches.
 #[derive(Clone, Debug, Default)]
 pub struct Pulse {
-    /// How the device fares.
+    /// State of the device.
     pub state: State,
     /// Blocks lost so far.
     pub lost: u64,
-    /// What became of the wish for real-time priority.
+    /// Real-time priority that was granted, or why none was.
     pub priority: String,
 }
 

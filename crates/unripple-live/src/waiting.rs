@@ -11,7 +11,7 @@ const MOST_WAITING: usize = 1 << 16;
 
 /// A cue that waits for its time, and when the touch came that it answers first, in samples.
 pub(crate) struct Waiting {
-    /// What is to be played.
+    /// The cue that is to be played.
     pub cue: Cue,
     /// When the touch came that it answers, in samples.
     pub asked: Option<u64>,
