@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use unripple::core::Surface;
 use unripple_devices::{DevicesError, JackOptions, Links, Perturbation, Virtual, VirtualOptions};
 
-/// What a build without sound cards says of them.
+/// Advice of a build without sound cards.
 #[cfg(not(feature = "cards"))]
 pub const HOW_TO_GET_CARDS: &str = "build it with `cargo install --path crates/unripple-cli --features cards` (Debian: \
                                     libasound2-dev, pkg-config), or go through JACK or PipeWire";
 
-/// Where drives go and what is heard comes from.
+/// Kind of device: where drives go and recordings come from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum DeviceKind {
@@ -89,7 +89,7 @@ impl Default for DeviceAsk {
 }
 
 impl DeviceAsk {
-    /// Whether it has a clock of its own that nobody can stop.
+    /// Whether the device has a clock of its own that nobody can stop.
     pub fn is_real(&self) -> bool {
         self.device != DeviceKind::Virtual && !self.freewheel
     }

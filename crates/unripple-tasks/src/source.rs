@@ -7,11 +7,11 @@ use unripple::core::{Point, Responses, SampledResponses, Surface};
 use unripple_calibrate::Interpolation;
 use unripple_store::{Library, surface_files};
 
-/// What a command works on.
+/// A surface with its responses, or a library: what a task works on.
 pub struct Source {
     /// The surface; of a library, the one it was made for.
     pub surface: Surface,
-    /// Its responses, where they are stored.
+    /// Responses of a library, where they are stored.
     pub stored: Option<Stored>,
 }
 
@@ -19,11 +19,11 @@ pub struct Source {
 pub struct Stored {
     /// Responses of the finished points that can be read.
     pub responses: SampledResponses,
-    /// What figures taken on them are of.
+    /// Phrase for reports that says what responses figures were taken on.
     pub told: String,
     /// Notes on what is wrong with the library.
     pub notes: Vec<Note>,
-    /// Why its levels mean nothing, if they do not.
+    /// Reason for which levels mean nothing, if they do not.
     pub without_scale: Option<String>,
 }
 
@@ -125,7 +125,7 @@ pub fn reads(ask: &SurfaceAsk) -> Vec<PathBuf> {
     }
 }
 
-/// What figures taken on a library are of, and notes on it.
+/// Phrase that says what responses figures were taken on, and notes on them.
 pub type Told = (String, Vec<Note>);
 
 /// Damaged files named one by one; of more the number is said.

@@ -38,11 +38,11 @@ use unripple_store::{Library, LibraryPlan, OutputDir};
 
 /// All that is known before anything is measured.
 pub(crate) struct Campaign<'a> {
-    /// What was asked for.
+    /// The question that the task was asked.
     pub ask: &'a Ask,
     /// The surface as its file has it.
     pub surface: &'a Surface,
-    /// Its model, from that file.
+    /// Model of the surface, from its file.
     pub model: &'a ModalResponses,
     /// How responses are measured.
     pub settings: MeasureOptions,

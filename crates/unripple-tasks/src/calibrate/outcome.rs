@@ -5,7 +5,7 @@ use crate::TaskError;
 use serde::Serialize;
 use serde_json::Value;
 
-/// What a calibration answers.
+/// Report of a calibration: its kind depends on what was asked.
 #[derive(Clone, Debug, Serialize)]
 #[serde(transparent)]
 pub struct Report {

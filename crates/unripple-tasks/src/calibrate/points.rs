@@ -10,7 +10,7 @@ use unripple::core::{Point, Surface};
 pub struct Places {
     /// All points, the actuators' own last, in m.
     pub points: Vec<Point>,
-    /// How many are measured by a probe or by taps; the rest are the actuators.
+    /// Number of points measured by a probe or by taps; the rest are the actuators.
     pub probed: usize,
 }
 

@@ -41,7 +41,7 @@ impl Scales {
         Ok(Self { all, named, output, own })
     }
 
-    /// What an input's samples are to be multiplied by.
+    /// Factor from an input's samples to its unit.
     pub fn input(&self, name: &str) -> f64 {
         self.named.get(name).copied().or(self.all).unwrap_or(1.0)
     }

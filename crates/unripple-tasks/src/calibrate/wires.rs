@@ -16,7 +16,7 @@ pub struct Found {
     pub dead: Vec<usize>,
     /// Notes on dead actuators that nobody had named.
     pub notes: Vec<String>,
-    /// What else is wrong, and accepted.
+    /// Other faults, which were accepted.
     pub faults: Vec<String>,
 }
 

@@ -18,7 +18,7 @@ pub struct Report {
     pub surface: String,
     /// Window T, in s.
     pub window_s: f64,
-    /// Why it is that, where nobody asked for it.
+    /// Reason for the window, where nobody asked for one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub window_why: Option<String>,
     /// Highest frequency of the modes that it was judged on, in Hz.

@@ -32,7 +32,7 @@ pub struct Row {
     pub targets: Vec<TargetFigures>,
     /// Figures of the drive.
     pub drive: DriveFigures,
-    /// How strong the drive is beside its limits.
+    /// Strength of the drive beside its limits.
     pub level: Strength,
     /// Notes on the drive.
     pub notes: Vec<Note>,
@@ -180,7 +180,7 @@ pub fn markdown(surface: &str, rows: &[Row], conditions: Conditions) -> String {
     text
 }
 
-/// What all rows have in common.
+/// Window, modes and level that all rows have in common.
 #[derive(Clone, Copy, Debug)]
 pub struct Conditions {
     /// Window T, in s.

@@ -14,9 +14,9 @@ use unripple_store::OutputDir;
 pub(super) struct Ground<'a> {
     /// The surface in common.
     pub surface: &'a Surface,
-    /// What drives are made from.
+    /// Responses that drives are made from.
     pub known: &'a Responses,
-    /// What they are judged on.
+    /// Responses that drives are judged on.
     pub plant: &'a Responses,
     /// The targets in common.
     pub targets: &'a [Target],

@@ -7,7 +7,7 @@ use serde::Serialize;
 pub struct Check {
     /// Name of the stage.
     pub name: &'static str,
-    /// How it fares.
+    /// Verdict on the stage.
     pub verdict: Verdict,
     /// Finding, in a sentence.
     pub found: String,
@@ -16,7 +16,7 @@ pub struct Check {
     pub fix: Option<String>,
 }
 
-/// How a stage fares.
+/// Verdict on a stage between a touch and what is felt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {

@@ -4,7 +4,7 @@ use super::{Check, Verdict};
 use serde::Serialize;
 use std::fmt::Write;
 
-/// What was found, and what it means for the fingertip.
+/// Findings on every stage between a touch and what is felt.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// The surface's own name.

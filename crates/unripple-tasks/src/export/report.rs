@@ -16,7 +16,7 @@ pub struct Report {
     pub library: String,
     /// `wav` or `sofa`.
     pub format: &'static str,
-    /// Where it is.
+    /// Path of the export.
     pub output: String,
     /// Points that were written.
     pub points: usize,
@@ -24,11 +24,11 @@ pub struct Report {
     pub points_left_out: usize,
     /// Number of points left out because they are bad.
     pub points_bad: usize,
-    /// How many actuators drive.
+    /// Number of actuators.
     pub actuators: usize,
     /// Samples of each response.
     pub samples: usize,
-    /// Their rate, in Hz.
+    /// Sample rate of the responses, in Hz.
     pub sample_rate_hz: f64,
     /// Notes on the library.
     pub notes: Vec<Note>,

@@ -9,7 +9,7 @@ use unripple::core::{Drive, Point, Responses, Surface};
 use unripple::field::{Aim, Field};
 use unripple_store::{OutputDir, read_wav};
 
-/// What a field was found to be, for whoever wants more than its report.
+/// The field of a drive, measured, for whoever wants more than its report.
 #[derive(Debug)]
 pub struct Made {
     /// The report, as `run` returns it.
@@ -18,7 +18,7 @@ pub struct Made {
     pub drive: Drive,
     /// Figures, traces and maps.
     pub judged: Judged,
-    /// Where and when it was measured.
+    /// Places and instants at which it was measured.
     pub aims: Vec<Aim>,
     /// The surface that was driven.
     pub surface: Surface,

@@ -22,11 +22,11 @@ const TOP: f64 = 0.9;
 
 /// The measurements of a library.
 pub struct Heard {
-    /// What actuators hear of each other.
+    /// Responses from actuator to actuator.
     pub measured: Measured,
     /// The responses at all other points.
     pub probed: SampledResponses,
-    /// What the library calls those points, from 1.
+    /// Numbers of those points in the library, from 1.
     pub numbers: Vec<usize>,
     /// Actuators that are dead, or left out.
     pub dead: Vec<usize>,

@@ -12,7 +12,7 @@ use unripple_calibrate::verify::{Checked, Verified, VerifyOptions, check_by};
 pub struct Probed {
     /// Responses of the points that agree with the model, brought to one gain and without the probe's own delay.
     pub good: SampledResponses,
-    /// Why others are left out.
+    /// Reasons for which other points are left out.
     pub left_out: Vec<String>,
     /// Doubts about the whole recording, for which no point is left out.
     pub doubts: Vec<String>,

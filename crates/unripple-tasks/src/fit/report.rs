@@ -31,7 +31,7 @@ pub struct Report {
     /// Doubts about the whole recording.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub doubts: Vec<String>,
-    /// What else there is to say.
+    /// Other notes on the fit.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
     modes: usize,
@@ -49,7 +49,7 @@ pub struct Report {
 pub struct Written {
     /// Path of its folder.
     pub library: String,
-    /// How many points it holds.
+    /// Number of points in the library.
     pub points: usize,
 }
 

@@ -11,14 +11,14 @@ use unripple::focus::{Focused, LossCorrection, Method, Options};
 use unripple::physics::Medium;
 use unripple_store::OutputDir;
 
-/// What came of a focus, for whoever wants more than its report.
+/// A focus with all that came of it, for whoever wants more than its report.
 #[derive(Debug)]
 pub struct Made {
     /// The report, as `run` returns it.
     pub report: Report,
     /// The drive as it is emitted: float32 samples in the actuators' unit.
     pub drive: Drive,
-    /// What the drive was found to do, with traces at the targets and maps.
+    /// The field of the drive, measured, with traces at the targets and maps.
     pub judged: Judged,
     /// The drive before its last scaling, and its timing.
     pub focused: Focused,

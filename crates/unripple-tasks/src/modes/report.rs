@@ -13,7 +13,7 @@ pub struct Report {
     pub surface: String,
     /// Highest frequency looked for, in Hz.
     pub max_hz: f64,
-    /// How many there are.
+    /// Number of modes.
     pub count: usize,
     /// Frequency of each, in Hz.
     pub frequencies_hz: Vec<f64>,

@@ -26,7 +26,7 @@ pub(super) struct Touches {
     recording: Option<Arc<Mutex<Tape>>>,
     /// The recording's file goes again unless the sitting begins.
     unused: Option<Underway>,
-    /// How long a recorded session lasts, in s.
+    /// Duration of a recorded session, in s.
     pub lasts: Option<f64>,
     /// A line for each source.
     pub told: Vec<String>,

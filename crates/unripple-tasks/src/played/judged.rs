@@ -20,7 +20,7 @@ const HELD: f64 = 1e-6;
 pub(crate) struct Played {
     /// The drive, float32 samples in the actuators' unit.
     pub drive: Drive,
-    /// Where and when it is judged.
+    /// Places and instants at which the drive is judged.
     pub aims: Vec<Aim>,
     /// Name of the method that made it.
     pub method: &'static str,

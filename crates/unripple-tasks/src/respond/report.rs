@@ -15,17 +15,17 @@ pub struct Report {
     pub surface: String,
     /// The library's folder.
     pub library: String,
-    /// How many points it holds.
+    /// Number of points in the library.
     pub points: usize,
-    /// How many of them were there before.
+    /// Number of points that were there before.
     pub points_found_done: usize,
     /// Distance between them, in m.
     pub pitch_m: f64,
-    /// How many actuators drive.
+    /// Number of actuators.
     pub actuators: usize,
     /// Samples of each response.
     pub samples: usize,
-    /// Their rate, in Hz.
+    /// Sample rate of the responses, in Hz.
     pub sample_rate_hz: f64,
     /// Shortest wavelength of the band, in m.
     pub lambda_min_m: f64,

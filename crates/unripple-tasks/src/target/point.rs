@@ -13,7 +13,7 @@ pub struct PointAsk {
     pub at_m: Place,
     /// Its level beside those of the other targets; below 0 it moves the other way.
     pub gain: f64,
-    /// How often it is repeated, in Hz; once if nothing is given.
+    /// Repetition rate of the focus, in Hz; once if nothing is given.
     pub rate_hz: Option<f64>,
 }
 

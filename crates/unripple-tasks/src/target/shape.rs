@@ -14,9 +14,9 @@ const TOLERANCE: f64 = 0.05e-3;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LineAsk {
-    /// Its corners, in m.
+    /// Corners of the line, in m.
     pub points_m: Vec<Place>,
-    /// Whether it goes back to the first.
+    /// Whether the line goes back to the first corner.
     pub closed: bool,
 }
 

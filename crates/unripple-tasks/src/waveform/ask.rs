@@ -4,7 +4,7 @@ use crate::{Place, SurfaceAsk, source};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// What a target is to do.
+/// Waveform that a target is to follow.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum SoundAsk {
@@ -49,7 +49,7 @@ pub struct WaveformAsk {
     pub at_m: Place,
     /// The waveform that it is to follow.
     pub sound: SoundAsk,
-    /// Its peak displacement, in m.
+    /// Peak displacement of the waveform, in m.
     #[serde(default = "micrometre")]
     pub level_m: f64,
 }
