@@ -9,13 +9,13 @@ use unripple_tasks::judge;
 pub struct Bed {
     /// The film of the paper's section 4, with eight ideal force actuators.
     pub surface: Surface,
-    /// Its responses, mode by mode, in the band.
+    /// Responses of the film, mode by mode, in the band.
     pub responses: Responses,
     /// Samples per second.
     pub rate: f64,
     /// The paper's window T, in seconds.
     pub window: f64,
-    /// Where a single focus goes.
+    /// Place of the single focus, in m.
     pub target: Point,
 }
 

@@ -29,7 +29,7 @@ const STEPS: usize = 80;
 pub struct Statistic {
     /// Number of actuators N.
     pub actuators: usize,
-    /// What was varied, in SI units.
+    /// Value of the parameter that was varied, in SI units.
     pub varied: f64,
     /// Mean over placements and targets.
     pub simulated: f64,

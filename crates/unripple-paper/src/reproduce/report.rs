@@ -19,7 +19,7 @@ pub struct Report {
 /// One part of the page.
 #[derive(Clone, Debug, Serialize)]
 pub struct SectionReport {
-    /// What of the paper it is about.
+    /// Part of the paper that the section is about.
     pub title: String,
     /// Paragraphs, in plain words.
     pub text: Vec<String>,
@@ -29,18 +29,18 @@ pub struct SectionReport {
     pub table: Vec<Vec<String>>,
     /// Figures of this part.
     pub figures: Vec<FigureReport>,
-    /// Its numbers, SI units; `null` for none.
+    /// Numbers of the section, SI units; `null` for none.
     pub data: Value,
 }
 
 /// A figure of the page.
 #[derive(Clone, Debug, Serialize)]
 pub struct FigureReport {
-    /// Its files, the one to show first.
+    /// File names of the figure, the one to show first.
     pub files: Vec<String>,
-    /// What it shows.
+    /// Caption of the figure.
     pub caption: String,
-    /// What to say of it to readers who cannot see it.
+    /// Description of the figure for readers who cannot see it.
     pub description: String,
 }
 

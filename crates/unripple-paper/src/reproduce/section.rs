@@ -5,7 +5,7 @@ use unripple_plot::Figure;
 /// One part of the page: a figure or table of the paper beside ours.
 #[derive(Debug, Default)]
 pub struct Section {
-    /// What of the paper it is about, as in `Fig. 2b`.
+    /// Part of the paper that the section is about, as in `Fig. 2b`.
     pub title: String,
     /// Figures, each written as NAME.svg and NAME.png, and what to say under each.
     pub figures: Vec<Picture>,
@@ -22,11 +22,11 @@ pub struct Section {
 /// A figure of the page.
 #[derive(Debug)]
 pub struct Picture {
-    /// Its file name without ending.
+    /// File name of the figure without ending.
     pub name: &'static str,
     /// The figure itself.
     pub figure: Figure,
-    /// What it shows.
+    /// Caption of the figure.
     pub caption: String,
 }
 
@@ -36,13 +36,13 @@ impl Picture {
         Self { name, figure, caption: caption.into() }
     }
 
-    /// What to say of it to readers who cannot see it.
+    /// Description of the figure for readers who cannot see it.
     pub fn alternative(&self) -> &str {
         let described = !self.figure.description.is_empty();
         if described { &self.figure.description } else { &self.caption }
     }
 
-    /// Its files, the one to show first.
+    /// File names of the figure, the one to show first.
     pub fn files(&self) -> Vec<String> {
         ["svg", "png"].map(|ending| format!("{}.{ending}", self.name)).to_vec()
     }
@@ -53,11 +53,11 @@ impl Picture {
 pub struct Compared {
     /// Name of the quantity.
     pub what: String,
-    /// What the paper has.
+    /// Value in the paper.
     pub paper: String,
-    /// What is found here.
+    /// Value found here.
     pub here: String,
-    /// Why they differ, or that they agree.
+    /// Reason for which they differ, or that they agree.
     pub why: String,
 }
 

@@ -32,7 +32,7 @@ pub struct Touched {
     pub noise_elsewhere: f64,
     /// Largest velocity of the finger, in m/s.
     pub velocity_m_s: f64,
-    /// Its largest displacement, in metres.
+    /// Largest displacement of the finger, in metres.
     pub displacement_m: f64,
     /// Energy that the finger has taken by 2T, in J.
     pub finger_energy_j: f64,

@@ -34,9 +34,9 @@ impl Default for Sampling {
 /// One draw: where actuators and targets are.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Draw {
-    /// Where actuators are.
+    /// Places of the actuators, in m.
     pub actuators: Vec<Point>,
-    /// Where targets are.
+    /// Places of the targets, in m.
     pub targets: Vec<Point>,
 }
 
