@@ -38,7 +38,7 @@ impl Editor {
         Self { draft, spec, played, told, edits: 0, stale: false, edited: true, building: false }
     }
 
-    /// How an instrument is played, for pages.
+    /// The settings of an instrument as a message for pages.
     pub fn settings(&self, instrument: &Instrument) -> Value {
         settings(&self.told, instrument)
     }
@@ -105,7 +105,7 @@ impl Editor {
         self.changed(true);
     }
 
-    /// How the surface is played.
+    /// Changes how the surface is played.
     ///
     /// # Errors
     /// [`ViewError::Range`] for names that there are not.

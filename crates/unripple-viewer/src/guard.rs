@@ -25,7 +25,7 @@ pub enum Needs {
     Origin,
 }
 
-/// Why somebody is turned away.
+/// Reason for which a request is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Turned {
     /// The name that was asked for is not this server's.

@@ -18,11 +18,11 @@ const RIM: usize = 256;
 /// What does not change with the surface.
 #[derive(Clone, Debug)]
 pub struct Settled {
-    /// Where the surface came from.
+    /// Name of the surface's file or library.
     pub source: String,
     /// The device's name.
     pub device: String,
-    /// Where other machines find the page.
+    /// Address of the page for other machines.
     pub address: Option<String>,
 }
 

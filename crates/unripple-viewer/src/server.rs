@@ -33,7 +33,7 @@ const POLICY: &str = "default-src 'self'; img-src 'self' blob: data:; object-src
 /// What every request needs.
 #[derive(Clone)]
 pub struct Desk {
-    /// What pages share.
+    /// The session that all pages share.
     pub host: Arc<SessionHost>,
     /// Who may come in.
     pub guard: Guard,

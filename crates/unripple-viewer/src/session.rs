@@ -20,7 +20,7 @@ pub enum Errand {
     Compute(Task),
 }
 
-/// What an errand brings back.
+/// Result of an errand.
 pub enum Done {
     /// A surface that is ready, or why it cannot be.
     Built(Result<Box<Instrument>, String>),
@@ -142,7 +142,7 @@ impl Session {
         self.simulation.advance(seconds, viewers, more, &mut self.out);
     }
 
-    /// What is to be done beside it now, if anything is.
+    /// The next task that is to be done beside the session, if there is one.
     pub fn errand(&mut self) -> Option<Errand> {
         self.renew();
         if let Some(spec) = self.editor.wanted() {

@@ -28,27 +28,27 @@ const THREADS: usize = 1;
 pub struct View {
     /// The surface that is shown.
     pub surface: Surface,
-    /// Its responses, where they were measured.
+    /// Responses of the surface, where they were measured.
     pub stored: Option<Arc<SampledResponses>>,
-    /// Why nobody knows what those mean, if nobody does.
+    /// Reason for which the scale of the responses is not known, if it is not.
     pub without_scale: Option<String>,
     /// Responses of its library at any places, as the command line has them.
     pub respond: Option<Responder>,
-    /// What the surface is called on the command line.
+    /// Name of the surface on the command line.
     pub source: String,
     /// How drives are made at first.
     pub method: Method,
     /// A real device; the surface is simulated where `None`.
     pub device: Option<Opener>,
-    /// What follows its tension, if it is to be followed.
+    /// What follows the sheet's tension, if it is to be followed.
     pub follow: Option<Follow>,
     /// Name of the device, for people.
     pub device_name: String,
-    /// Where to listen; port 0 takes any that is free.
+    /// Address to listen at; port 0 takes any that is free.
     pub address: SocketAddr,
-    /// What pages must know; `None` where only this machine can come.
+    /// Token that pages must know; `None` where only this machine can come.
     pub token: Option<String>,
-    /// Where libraries go.
+    /// Folder for libraries.
     pub folder: PathBuf,
     /// Whether to be silent about what is refused.
     pub quiet: bool,

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use unripple::core::Point;
 use unripple_store::{Library, PointState};
 
-/// How far a library has got that is being filled, and how good it is.
+/// Progress and quality of a library that is being filled.
 pub struct Quality {
     folder: PathBuf,
     /// Signal over noise of points that were looked at, in dB: what is measured stays.

@@ -157,7 +157,7 @@ impl Running {
         self.stopped.store(true, Ordering::Relaxed);
     }
 
-    /// Whether it has ended.
+    /// Whether the task has ended.
     pub fn is_over(&self) -> bool {
         self.over.load(Ordering::Relaxed)
     }

@@ -43,18 +43,18 @@ pub const PULSES: &str = "pulses";
 pub type Follow =
     Arc<dyn Fn(&Surface, &LiveOptions, usize) -> Result<(Follower, Ping), String> + Send + Sync>;
 
-/// What a surface is played with.
+/// Everything that a surface is played with: responses, method, effect, device.
 #[derive(Clone)]
 pub struct Spec {
     /// The surface that is played.
     pub surface: Surface,
-    /// Its responses, where they were measured.
+    /// Responses of the surface, where they were measured.
     pub stored: Option<Arc<SampledResponses>>,
     /// Whether nobody knows what those mean.
     pub without_scale: bool,
-    /// How drives are made.
+    /// Method by which drives are made.
     pub method: Method,
-    /// What a touch sets off: [`PULSES`] or a built-in effect.
+    /// Effect that a touch sets off: [`PULSES`] or a built-in one.
     pub effect: String,
     /// The window in s; the one that suits live play where `None`.
     pub window: Option<f64>,
@@ -64,21 +64,21 @@ pub struct Spec {
     pub load: bool,
     /// A real device; the surface is stepped here where `None`.
     pub device: Option<Opener>,
-    /// What follows its tension, if it is to be followed.
+    /// What follows the sheet's tension, if it is to be followed.
     pub follow: Option<Follow>,
 }
 
 /// A surface ready to be touched and looked at.
 pub struct Instrument {
-    /// What it was made from.
+    /// The specification that it was made from.
     pub spec: Spec,
     /// What plays, and the surface that moves.
     pub playback: Playback,
     /// The surface, as it is computed here.
     pub handle: Handle,
-    /// Its modes, to be read anywhere.
+    /// Modes of the surface, to be read anywhere.
     pub plant: Plant,
-    /// What makes pictures of it.
+    /// Maps states of the modes to pictures.
     pub lens: Lens,
     /// Where fingers of pages are sent.
     pub page_touches: Sender<Pressed>,

@@ -13,7 +13,7 @@ pub fn stride(surface: &Surface) -> usize {
     (surface.emission.rate / (STATES * surface.emission.band[1])).floor().max(1.0) as usize
 }
 
-/// What a surface went through, as displacement or as velocity.
+/// Past states of a surface, as displacement or as velocity.
 pub struct Past<'a> {
     /// The states that are remembered.
     pub history: &'a History,

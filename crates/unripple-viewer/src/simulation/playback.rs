@@ -28,11 +28,11 @@ pub enum Playback {
 pub struct Known {
     /// Fingers, by number.
     pub fingers: Vec<(u64, Point)>,
-    /// What they felt since the last look.
+    /// What fingers felt since the last look.
     pub feelings: Vec<Feeling>,
     /// Counts of what was played and what was not.
     pub tally: PlayStats,
-    /// How tension fares, where it is followed.
+    /// State of the tension, where it is followed.
     pub drift: Option<Drift>,
     /// The fault that stops it; nothing while all runs.
     pub wrong: Option<String>,

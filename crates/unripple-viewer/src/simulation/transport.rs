@@ -12,7 +12,7 @@ pub struct Transport {
     pub speed: f64,
     /// Whether time stands still.
     pub paused: bool,
-    /// Where the surface has got to.
+    /// Present of the surface's clock, in s.
     pub now: f64,
     /// The moment that is shown, if it is not now.
     pub back: Option<f64>,

@@ -114,9 +114,9 @@ pub struct Transport {
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
-    /// How drives are made.
+    /// Method by which drives are made.
     pub method: Option<String>,
-    /// What a touch sets off.
+    /// Effect that a touch sets off.
     pub effect: Option<String>,
     /// The window; 0 or `null` for the one that the surface suggests.
     #[serde(deserialize_with = "or_none")]
@@ -165,7 +165,7 @@ pub struct Edit {
     pub actuators: Option<usize>,
     /// An actuator that moves to `at_mm`.
     pub actuator: Option<usize>,
-    /// Where it goes.
+    /// Place to which the actuator moves, in mm.
     pub at_mm: Option<[f64; 2]>,
     /// Whether that is final: the live surface follows then.
     pub settled: Option<bool>,
@@ -287,7 +287,7 @@ impl Transport {
 }
 
 impl Settings {
-    /// Whether they say something of how the surface is played.
+    /// Whether these settings change how the surface is played.
     pub fn plays(&self) -> bool {
         let names = self.method.is_some() || self.effect.is_some();
         names || self.load.is_some() || self.window_ms.is_some() || self.rate_hz.is_some()

@@ -11,11 +11,11 @@ const FULL: f32 = 32_000.0;
 /// the bottom, then the samples of each trace.
 #[derive(Clone, Debug)]
 pub struct Frame {
-    /// What goes before.
+    /// Description of the frame, sent before the cells.
     pub head: Head,
     /// Value of every cell, in m or m/s.
     pub cells: Vec<f32>,
-    /// What moves at some places, in the same unit.
+    /// Motion at some places, in the same unit, `[trace][sample]`.
     pub traces: Vec<Vec<f32>>,
 }
 
@@ -24,9 +24,9 @@ pub struct Frame {
 pub struct Head {
     /// Number of the frame, rising.
     pub frame: u64,
-    /// Which of the surfaces side by side.
+    /// Number of the picture among those side by side.
     pub pane: usize,
-    /// How many there are.
+    /// Number of pictures side by side.
     pub panes: usize,
     /// Number of cells across.
     pub columns: usize,
@@ -46,13 +46,13 @@ pub struct Head {
     pub drive: Vec<f32>,
     /// Fingers on the surface.
     pub fingers: Vec<Resting>,
-    /// Where waves are to meet, in mm.
+    /// Places where waves are to meet, in mm.
     pub targets: Vec<[f64; 2]>,
     /// Samples of each trace.
     pub samples: usize,
-    /// How long they last, in s, up to the instant.
+    /// Duration of the traces, in s, up to the instant.
     pub span_s: f64,
-    /// What the traces are.
+    /// Names and places of the traces.
     pub traces: Vec<Strip>,
 }
 
@@ -63,11 +63,11 @@ pub struct Resting {
     pub id: u64,
     /// Where, in mm.
     pub at_mm: [f64; 2],
-    /// What the surface pushes it with, in N.
+    /// Force of the surface on the finger, in N.
     pub force_n: f64,
 }
 
-/// What a trace is of.
+/// Name, place and scale of a trace.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Strip {
     /// Name of the place.
