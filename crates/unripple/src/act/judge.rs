@@ -10,18 +10,18 @@ use crate::physics::design::{Linearity, linearity};
 /// four times as long.
 pub const CELLS: f64 = 8.0;
 
-/// What a drive was found to do.
+/// The field of a drive, measured: figures, traces, maps, warnings.
 #[derive(Clone, Debug)]
 pub struct Judged {
     /// All figures and maps.
     pub measured: Measured,
     /// How each target moves, from the drive's first sample on; of a set, its first point.
     pub traces: Vec<Trace>,
-    /// How far the traces go, in seconds.
+    /// End of the traces, in seconds.
     pub until: f64,
-    /// How far from small the deflections are; `None` on a library's own points.
+    /// Slopes, strains and added tension of the field; `None` on a library's own points.
     pub linearity: Option<Linearity>,
-    /// What linear theory cannot say, and other warnings.
+    /// Warnings, such as where linear theory no longer holds.
     pub notes: Vec<Note>,
 }
 

@@ -11,7 +11,7 @@ use crate::physics::design::{LinearBound, LinearLevel};
 /// Cells of the grid per shortest wavelength: enough for displacements, while slopes take as many as figures.
 const COARSE: f64 = 4.0;
 
-/// How loud a drive is to be.
+/// Level that a drive is brought to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Level {
     /// As loud as linear theory allows ([`LinearLevel`]: nowhere by more than half the sheet's thickness), at most at the limit.
@@ -30,7 +30,7 @@ pub enum Level {
 pub(super) struct Step {
     /// Factor on the drive; above 1 the level is beyond it.
     pub factor: f64,
-    /// What decides it.
+    /// Limit or wish that decides the step.
     pub by: DecidedBy,
 }
 

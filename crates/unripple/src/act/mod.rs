@@ -58,26 +58,26 @@ use crate::focus::{Focused, Focuser, Options, Target};
 pub struct Act<'a> {
     /// The surface that is judged on.
     pub surface: &'a Surface,
-    /// Its responses, modal or sampled.
+    /// Responses of the surface, modal or sampled.
     pub responses: &'a Responses,
     /// Points and shapes to be in focus.
     pub targets: &'a [Target],
-    /// How to focus.
+    /// Method of focusing and its options.
     pub options: &'a Options,
     /// How strong the drive is to be.
     pub level: Level,
 }
 
-/// What came of an act.
+/// Result of an act of focusing.
 #[derive(Clone, Debug)]
 pub struct Acted {
     /// The drive before its last scaling, and its timing.
     pub focused: Focused,
     /// The drive at the level asked for, as float32 samples.
     pub drive: Drive,
-    /// How strong that is, and what decided it.
+    /// Strength of the drive beside its limits, and what decided it.
     pub strength: Strength,
-    /// What that drive was found to do.
+    /// The field of the drive, measured.
     pub judged: Judged,
 }
 

@@ -26,9 +26,9 @@ pub struct Sent {
     pub period: Option<f64>,
     /// How far targets are traced, in seconds: twice the last focal instant, or the end of a repeated drive.
     pub until: f64,
-    /// How strong it is, and what decided that.
+    /// Strength of the drive beside its limits, and what decided it.
     pub strength: Strength,
-    /// What the level does to the method.
+    /// Notes on what the level does to the method.
     pub notes: Vec<Note>,
 }
 

@@ -49,7 +49,7 @@ pub struct Headroom {
     pub allowed: f64,
     /// What the drive takes, of the actuator that takes most.
     pub used: f64,
-    /// How far below it is, in dB.
+    /// Headroom below the limit, in dB.
     pub below_db: f64,
     /// Headroom as a factor.
     pub below: f64,

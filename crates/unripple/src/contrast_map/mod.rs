@@ -21,7 +21,7 @@ const MOST_ACROSS: usize = 1024;
 /// Most samples of a window: past it a window is taken for a mistake of unit, being minutes long at any usual rate.
 const MOST_SAMPLES: usize = 20_000_000;
 
-/// How a map of contrast is taken.
+/// Options of a map of contrast: window, cells, grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapOptions {
     /// Window T, in seconds.

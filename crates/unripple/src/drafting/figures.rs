@@ -6,11 +6,11 @@ use serde::Serialize;
 /// One figure of a surface, as `unripple design` prints it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Figure {
-    /// Its name for programs.
+    /// Name of the figure for programs.
     pub key: &'static str,
-    /// Its name for people.
+    /// Name of the figure for people.
     pub label: &'static str,
-    /// Its value, in `unit`.
+    /// Value of the figure, in `unit`.
     pub value: f64,
     /// The unit; empty for a pure number.
     pub unit: &'static str,

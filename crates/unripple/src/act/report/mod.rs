@@ -54,12 +54,12 @@ pub struct Report {
     /// Fingers that rest on the surface.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub fingers: Vec<Felt>,
-    /// How far from small the deflections are.
+    /// Slopes, strains and added tension of the field, which linear theory takes to be small.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub linearity: Option<Linearity>,
     /// Figures of the drive that was sent.
     pub drive: DriveFigures,
-    /// How strong that is beside its limits, and what decided it.
+    /// Strength of the drive beside its limits, and what decided it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub level: Option<Strength>,
     /// Thickness of the sheet, in metres.
@@ -71,11 +71,11 @@ pub struct Report {
     pub focal_radius_m: f64,
     /// Whether outside figures are taken on a regular grid or on a library's own points.
     pub taken_on: TakenOn,
-    /// How many points lie outside every target's disc.
+    /// Number of points that lie outside every target's disc.
     pub outside_points: usize,
     /// The highest level felt outside the focal discs, in dB above the threshold of touch.
     pub felt_outside_db: Option<f64>,
-    /// What a reader of the figures must know.
+    /// Notes that a reader of the figures must know.
     pub notes: Vec<Note>,
     /// Files written beside the report.
     pub files: Vec<String>,
@@ -86,7 +86,7 @@ pub struct Report {
 pub struct Channel {
     /// Name of the actuator.
     pub name: String,
-    /// Where it acts, in metres.
+    /// Place of the actuator, in metres.
     pub at_m: [f64; 2],
     /// Unit of what it is sent.
     pub unit: &'static str,

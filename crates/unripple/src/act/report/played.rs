@@ -3,13 +3,13 @@
 use crate::field::{SilenceFigures, WaveformFigures};
 use serde::Serialize;
 
-/// What was asked of one target, and what came of it.
+/// A target that follows a waveform: what was asked of it, and how well it did.
 #[derive(Clone, Debug, Serialize)]
 pub struct Followed {
     /// How well the target followed its waveform.
     #[serde(flatten)]
     pub figures: WaveformFigures,
-    /// When its waveform starts, in seconds from the drive's first sample.
+    /// Start of the waveform, in seconds from the drive's first sample.
     pub start_s: f64,
     /// Largest magnitude asked for, in metres, after the limit and within the band.
     pub asked_peak_m: f64,
@@ -17,14 +17,14 @@ pub struct Followed {
     pub lost: f64,
 }
 
-/// What came of a stroke.
+/// A moving focus (stroke): what was asked of it, and how even it was.
 #[derive(Clone, Debug, Serialize)]
 pub struct Stroked {
     /// Pulses that make it.
     pub pulses: usize,
-    /// How long it takes, in seconds.
+    /// Duration of the stroke, in seconds.
     pub duration_s: f64,
-    /// When it starts, in seconds from the drive's first sample.
+    /// Start of the stroke, in seconds from the drive's first sample.
     pub start_s: f64,
     /// Velocity asked of every pulse, after the limit, in m/s.
     pub asked_m_s: f64,
