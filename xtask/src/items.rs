@@ -2,7 +2,7 @@
 
 /// What a line declares.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Item<'t> {
+pub struct Declaration<'t> {
     /// Whether it begins with `pub` alone; `pub(crate)` and the like do not count.
     pub public: bool,
     /// `fn`, `struct`, `enum`, `union`, `trait`, `type`, `const`, `static` or `mod`.
@@ -18,7 +18,7 @@ const KINDS: [&str; 9] = ["fn", "struct", "enum", "union", "trait", "type", "con
 const QUALIFIERS: [&str; 5] = ["default", "async", "unsafe", "safe", "extern"];
 
 /// The declaration that a line begins, if it begins one.
-pub fn declared(line: &str) -> Option<Item<'_>> {
+pub fn declared(line: &str) -> Option<Declaration<'_>> {
     let code = line.trim_start();
     let (public, code) = match code.strip_prefix("pub") {
         Some(rest) if rest.starts_with('(') => (false, rest.split_once(") ")?.1),
@@ -37,7 +37,7 @@ pub fn declared(line: &str) -> Option<Item<'_>> {
         let kind = KINDS.iter().find(|kind| **kind == word)?;
         let named = if next == "mut" { words.next()? } else { next };
         let end = named.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(named.len());
-        return (end > 0).then_some(Item { public, kind, name: &named[..end] });
+        return (end > 0).then_some(Declaration { public, kind, name: &named[..end] });
     }
 }
 
