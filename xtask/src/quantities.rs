@@ -8,7 +8,7 @@ const TYPES: [&str; 11] =
     ["f64", "f32", "c64", "Complex", "Mat", "MatRef", "MatMut", "Col", "ColRef", "Point", "Duration"];
 
 /// Units as they are written, in upper and lower case; not the ampere's, which begins sentences as an article.
-const UNITS: &str = "m mm µm s ms µs ns Hz kHz N mN V W J Pa GPa kg g mg dB rad rad/s rad/m m/s m² 1/s 1/kg N/m N/A N·m \
+const UNITS: &str = "m mm µm s ms µs ns Hz kHz N mN V W J Pa GPa kg g mg dB rad rad/s rad/m m/s m² 1/s 1/m 1/kg N/m N/A N·m \
     N·s/m N·s m/s/N kg/m² kg/m³ px pt % Ω H T K °C SI Hz²";
 
 /// Words for units, shapes and pure numbers, in lower case; a plural in `s` counts as well.

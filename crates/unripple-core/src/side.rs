@@ -15,7 +15,7 @@ pub enum Side {
     },
     /// An arc of a circle.
     Arc {
-        /// The centre.
+        /// The centre, in metres.
         centre: Point,
         /// The radius, in metres.
         radius: f64,

@@ -61,7 +61,7 @@ pub enum FocusError {
     Method {
         /// The name asked for.
         found: String,
-        /// All names.
+        /// The names of all methods.
         expected: String,
     },
     /// What was asked for needs modal responses: samples do not tell what single modes do.

@@ -13,6 +13,7 @@ pub(super) const PLACE_KEYS: [&str; 5] = ["at_mm", "row_mm", "ring", "grid_mm", 
 /// Those of them of which a table has one.
 const WAYS: [&str; 4] = ["at_mm", "row_mm", "ring", "grid_mm"];
 
+/// Keys of the table `ring`: where it is, how large, and from where to where it goes.
 const RING_KEYS: [&str; 4] = ["centre_mm", "radius_mm", "start_deg", "sweep_deg"];
 
 /// A sweep this near to a full turn, in radians, is one: degrees become radians by rounding.
