@@ -1,4 +1,4 @@
-//! Counts and latencies of a sitting.
+//! Counts and latencies of a session of play.
 
 use crate::{LiveError, Percentiles};
 use unripple_player::{Report, Why};

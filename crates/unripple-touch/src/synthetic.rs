@@ -53,7 +53,7 @@ struct Hand {
     waver: f64,
 }
 
-/// Fingers that are not there: they tap, and slide along lines, circles and at random.
+/// Synthetic fingers: they tap, and slide along lines, circles and at random.
 ///
 /// A seed gives one session, however often it is polled.
 ///
@@ -137,7 +137,7 @@ impl Synthetic {
         self.hands = hands;
     }
 
-    /// One step of one hand, and what there is to tell of it.
+    /// One step of one hand, and the touch that comes of it.
     fn act(&mut self, hand: &mut Hand, time: f64) -> Option<Touch> {
         hand.left = hand.left.saturating_sub(1);
         let Some(touch) = &mut hand.touch else {

@@ -1,4 +1,4 @@
-//! Libraries that are gone on with: measured as the points that are there already.
+//! Libraries that are continued: new points are measured as those that are there already.
 
 use super::ask::Ask;
 use crate::TaskError;

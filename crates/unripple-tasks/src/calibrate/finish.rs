@@ -1,4 +1,4 @@
-//! What a library says of its measurement: with what its points are measured, before; how far it is to be trusted, when all is there.
+//! The record of a measurement in its library: settings before it begins, doubts when all points are there.
 
 use super::Campaign;
 use super::shelf::Shelf;

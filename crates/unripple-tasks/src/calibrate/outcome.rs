@@ -1,4 +1,4 @@
-//! What a calibration answers, by what was asked.
+//! The report of a calibration: of a library, of recordings, or of levels.
 
 use super::{Levels, report};
 use crate::TaskError;

@@ -1,4 +1,4 @@
-//! The places to be measured.
+//! The places that a calibration measures: a grid, single points, the actuators themselves.
 
 use super::ask::Ask;
 use crate::TaskError;

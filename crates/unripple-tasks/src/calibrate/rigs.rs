@@ -1,4 +1,4 @@
-//! What measures: the virtual surface, or people at a real one.
+//! Rigs of a calibration: the virtual surface, or people at a real one.
 
 use super::hands::Hands;
 use unripple::core::{Device, Point};

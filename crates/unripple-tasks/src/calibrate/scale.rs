@@ -1,4 +1,4 @@
-//! What full scale is at inputs and outputs, and so whether levels are known.
+//! Scales of inputs and outputs: what full scale stands for, and so whether levels are known.
 
 use super::ask::{Ask, InputScales};
 use crate::{DeviceKind, TaskError};

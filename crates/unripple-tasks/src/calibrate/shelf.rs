@@ -1,4 +1,4 @@
-//! Measured points on their way into a library.
+//! Measured points scaled, checked and stored in a library.
 
 use super::scale::Scales;
 use super::verify;

@@ -10,7 +10,7 @@ use unripple_devices::Feeling;
 use unripple_live::{Engine, Level, Percentiles, Pulse, Stage, Window};
 use unripple_player::Count;
 
-/// A sitting, SI units.
+/// Report of a session of play, SI units.
 #[derive(Debug, Default, Serialize)]
 pub struct Report {
     surface: String,
@@ -65,7 +65,7 @@ pub struct Report {
     pub without_scale: bool,
 }
 
-/// What a sound server says of itself and of the sitting.
+/// What a sound server reports of itself and of the session.
 #[derive(Debug, Serialize)]
 struct ServerSays {
     /// A cycle, as it was at the end.
@@ -203,7 +203,7 @@ impl Report {
         }
     }
 
-    /// The whole sitting.
+    /// The report of the whole session.
     pub fn finish(mut self, engine: &mut Engine) -> Self {
         let rate = engine.heart().device().layout().rate;
         self.block_s = engine.heart().device().layout().block as f64 / rate;

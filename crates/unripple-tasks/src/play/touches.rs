@@ -1,4 +1,4 @@
-//! Where touches come from, as typed.
+//! The sources of touches of a session: ports, screens, recordings, synthetic fingers.
 
 use super::ask::TouchAsk;
 use crate::TaskError;
@@ -24,7 +24,7 @@ const ALONE: usize = 2;
 #[derive(Default)]
 pub(super) struct Touches {
     recording: Option<Arc<Mutex<Tape>>>,
-    /// The recording's file goes again unless the sitting begins.
+    /// The recording's file is removed again unless the session begins.
     unused: Option<Underway>,
     /// Duration of a recorded session, in s.
     pub lasts: Option<f64>,
@@ -101,7 +101,7 @@ impl Touches {
         }))
     }
 
-    /// The sitting begins: what is recorded stays from now on, however it ends.
+    /// The session begins: what is recorded stays from now on, however it ends.
     pub fn begin(&mut self) {
         if let Some(unused) = self.unused.take() {
             unused.keep();

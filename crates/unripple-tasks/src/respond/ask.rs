@@ -14,6 +14,6 @@ pub struct Ask {
     pub pitch_m: f64,
     /// Length of the responses in s; by default twice the window that `design` recommends.
     pub length_s: Option<f64>,
-    /// Folder of the library. One of the same plan is taken up where it was left.
+    /// Folder of the library. A library of the same plan is continued where it was left.
     pub output: PathBuf,
 }

@@ -10,7 +10,7 @@ use unripple::physics::design::Windows;
 use unripple::physics::sample;
 use unripple_store::{Library, LibraryPlan};
 
-/// Computes the responses of a surface at the points of a grid, and keeps them in a library. One that was cancelled is taken up again.
+/// Computes the responses of a surface at the points of a grid, and keeps them in a library. One that was cancelled is continued.
 ///
 /// # Errors
 /// Those of [`SurfaceAsk::load`](crate::SurfaceAsk::load); [`TaskError::Ask`] of a pitch or length that makes no sense;

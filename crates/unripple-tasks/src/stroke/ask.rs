@@ -5,7 +5,7 @@ use crate::{SurfaceAsk, source};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Where a focus is to move along, how fast, how strongly, and on what that is judged.
+/// The path of a moving focus, its speed and level, and the surface that the drive is judged on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {

@@ -1,4 +1,4 @@
-//! What is to be in focus, and how strongly, as asks give it.
+//! Targets and level of a focus, as asks give them.
 
 mod level;
 mod point;

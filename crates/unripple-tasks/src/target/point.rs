@@ -11,7 +11,7 @@ use unripple::focus::Target;
 pub struct PointAsk {
     /// Where, in m.
     pub at_m: Place,
-    /// Its level beside those of the other targets; below 0 it moves the other way.
+    /// Level of the target relative to the other targets, a ratio; below 0 it moves the other way.
     pub gain: f64,
     /// Repetition rate of the focus, in Hz; once if nothing is given.
     pub rate_hz: Option<f64>,

@@ -41,7 +41,7 @@ pub enum SoundAsk {
     },
 }
 
-/// A target, and what it is to do.
+/// A target and the waveform that it is to follow.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WaveformAsk {
@@ -59,17 +59,17 @@ fn micrometre() -> f64 {
     1e-6
 }
 
-/// Which targets are to do what, which are to be still, and on what that is judged.
+/// Targets with their waveforms, places of silence, and the surface that the drive is judged on.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
     /// A surface file, or the name of a built-in surface.
     pub surface: SurfaceAsk,
-    /// Targets that do something.
+    /// Targets with the waveforms that they follow.
     pub waveforms: Vec<WaveformAsk>,
     /// Targets that are to be still meanwhile, in m.
     pub silent_m: Vec<Place>,
-    /// Time that drives have before and after, in s.
+    /// Time that drives may begin before a waveform and end after it, in s.
     pub window_s: Option<f64>,
     /// Judge on another surface than the one it was computed for.
     pub on: Option<SurfaceAsk>,

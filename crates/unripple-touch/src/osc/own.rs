@@ -17,7 +17,7 @@ enum Asked {
 }
 
 impl Asked {
-    /// Reads it; nothing if the types are wrong, `Err` if there is no such address.
+    /// Reads a request; nothing if the types are wrong, `Err` if there is no such address.
     fn read(what: &str, args: &[OscType]) -> Result<Option<Self>, ()> {
         let asked = match what {
             "touch" => Self::touch(args),

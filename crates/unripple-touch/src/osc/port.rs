@@ -1,4 +1,4 @@
-//! A UDP port that hears OSC and TUIO.
+//! A UDP port that receives OSC and TUIO.
 
 use super::packet::LONGEST;
 use super::receiver::OscReceiver;
@@ -56,7 +56,7 @@ impl OscPort {
         let socket = UdpSocket::bind(address).map_err(error)?;
         socket.set_nonblocking(true).map_err(error)?;
         let name = format!("UDP {}", socket.local_addr().map_err(error)?);
-        // One byte more than the longest packet tells a longer one, which the system cuts.
+        // One byte more than the longest packet shows a longer one, which the system cuts.
         Ok(Self { name, socket, receiver, buffer: vec![0; LONGEST + 1] })
     }
 

@@ -12,8 +12,8 @@ use std::ops::Range;
 
 /// Reads packets of TUIO 1.1, TUIO 2.0 and the addresses under `/unripple/`, from whatever carried them.
 ///
-/// Any bytes may be put in: what cannot be read, or means nothing, is counted. Fingers are told apart by the address they
-/// come from, the sender's name for itself, and the sender's number for them.
+/// Any bytes may be put in: what cannot be read, or means nothing, is counted. Fingers are distinguished by the
+/// address they come from, the sender's name for itself, and the sender's number for them.
 ///
 /// ```
 /// use unripple_core::{Outline, Point, Shape};

@@ -20,8 +20,8 @@ struct Sender {
     spoken: f64,
 }
 
-/// Who has sent something lately. Whoever is known keeps its place until it falls silent; newcomers beyond the most are
-/// turned away.
+/// The addresses that have sent something lately. Whoever is known keeps its place until it falls silent; newcomers
+/// beyond the most are turned away.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Senders {
     known: Vec<Sender>,

@@ -1,4 +1,4 @@
-//! What a drive is made for: fingers that are there, and plants that it must bear.
+//! The conditions that a drive is made for: fingers on the surface, and other states that it has to be robust against.
 
 use super::{ActError, Note, model};
 use crate::core::{Contact, Drive, Responses, Surface};
@@ -6,17 +6,18 @@ use crate::field::Field;
 use crate::focus::{Focused, Focuser, Options, Target, focus};
 use unripple_core::OutOfRange;
 
-/// What a drive is made for: a surface under fingers, and others that it may turn into.
+/// The conditions that a drive is made for: the surface under fingers, and other states that it may get into.
 #[derive(Clone, Debug, Default)]
 pub struct Aware {
-    /// The surface under the fingers, if the drive is to know of them.
+    /// Responses of the surface under the fingers, if the drive is made for that.
     pub under: Option<Responses>,
-    /// Other plants that [`Method::Robust`](crate::focus::Method::Robust) is to bear.
+    /// Other plants that [`Method::Robust`](crate::focus::Method::Robust) is to be robust against.
     pub others: Vec<Responses>,
 }
 
 impl Aware {
-    /// Of fingers that the drive knows of, if any; of the tension changed by `tension`, a share, either way; and of each of
+    /// Conditions with fingers that the drive is made for, if any; of the tension changed by `tension`, a share,
+    /// either way; and of each of
     /// `more` fingers in turn.
     ///
     /// # Errors
@@ -48,7 +49,7 @@ impl Aware {
         Ok(Self { under, others })
     }
 
-    /// What makes drives, from these responses of the bare surface.
+    /// The focuser for these conditions, from the responses of the bare surface.
     ///
     /// # Errors
     /// Those of [`Focuser::beside`].
@@ -57,7 +58,7 @@ impl Aware {
         Ok(Focuser::beside(known, &self.others, options)?)
     }
 
-    /// What knowing of the fingers gave back, at the first target and the drive limit.
+    /// A note on what making the drive for the fingers gained, at the first target and the drive limit.
     ///
     /// # Errors
     /// Those of [`focus`] and [`Field::traces`].

@@ -59,7 +59,7 @@ impl ActError {
     }
 }
 
-/// Ways to say how loud a drive is to be.
+/// Kinds of levels that a drive can be brought to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LevelKind {
     /// By the peak displacement of the first target.

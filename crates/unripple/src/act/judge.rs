@@ -15,7 +15,7 @@ pub const CELLS: f64 = 8.0;
 pub struct Judged {
     /// All figures and maps.
     pub measured: Measured,
-    /// How each target moves, from the drive's first sample on; of a set, its first point.
+    /// Velocity and displacement of each target, from the drive's first sample on; of a set, its first point.
     pub traces: Vec<Trace>,
     /// End of the traces, in seconds.
     pub until: f64,
@@ -53,7 +53,8 @@ pub fn known(field: &Field) -> f64 {
     field.known().saturating_sub(1) as f64 / field.rate()
 }
 
-/// How far from small the deflections of a field are. Without slopes, displacement alone counts.
+/// How far the deflections of a field are from the small ones of linear theory. Without slopes, displacement alone
+/// counts.
 pub(super) fn linear(surface: &Surface, reach: &Reach) -> Linearity {
     let steep = reach.steepness.unwrap_or_default();
     linearity(surface, reach.displacement, steep.slope, steep.mean_square_slope, steep.curvature)

@@ -14,10 +14,11 @@ const COARSE: f64 = 4.0;
 /// Level that a drive is brought to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Level {
-    /// As loud as linear theory allows ([`LinearLevel`]: nowhere by more than half the sheet's thickness), at most at the limit.
+    /// As strong as linear theory allows ([`LinearLevel`]: nowhere by more than half the sheet's thickness), at most
+    /// at the limit.
     #[default]
     Linear,
-    /// As loud as the drive limit allows.
+    /// As strong as the drive limit allows.
     Limit,
     /// By the largest displacement of the first target's mean, in metres.
     Peak(f64),
@@ -25,7 +26,7 @@ pub enum Level {
     Felt(f64),
 }
 
-/// What brings a drive to a level.
+/// The factor that brings a drive to a level, and what decides it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Step {
     /// Factor on the drive; above 1 the level is beyond it.
@@ -88,7 +89,7 @@ impl Level {
         }
     }
 
-    /// What a level asked for is beyond; `None` if the drive at its limit gives it.
+    /// The limit that a wanted level exceeds; `None` if the drive at its limit gives it.
     pub(super) fn beyond(self, step: Step) -> Option<Beyond> {
         let found = match self {
             Self::Linear | Self::Limit => return None,

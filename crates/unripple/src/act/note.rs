@@ -17,7 +17,7 @@ pub struct Note {
     pub text: String,
 }
 
-/// Where stored points stand for the places asked for.
+/// Notes on targets for which the nearest stored points of a library are used.
 pub fn nearby(focused: &Focused, targets: &[Target]) -> Vec<Note> {
     let places = targets.iter().zip(&focused.points).filter_map(|(target, used)| {
         let (asked, stored) = (*target.points.first()?, *used.first()?);
@@ -46,7 +46,7 @@ pub(super) fn all(surface: &Surface, measured: &Measured, largest: f64, found: &
     notes
 }
 
-/// What a field with a displacement of `largest` metres puts in doubt.
+/// Notes on what linear theory cannot say of a field with a displacement of `largest` metres.
 fn linear_theory(surface: &Surface, largest: f64, found: &Linearity) -> Vec<Note> {
     let um = |metres: f64| metres * 1e6;
     let mut notes = Vec::new();
@@ -98,7 +98,7 @@ pub(super) fn beyond(beyond: &Beyond) -> Note {
     }
 }
 
-/// What is void of a method below the limit of the drive.
+/// A note on what a method loses below the limit of the drive.
 pub(super) fn idle(
     act: &Act<'_>,
     focuser: &Focuser<'_>,

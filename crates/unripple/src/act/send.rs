@@ -32,7 +32,7 @@ pub struct Sent {
     pub notes: Vec<Note>,
 }
 
-/// Where and when a drive is to be judged.
+/// Places and instants at which a drive is judged.
 #[derive(Clone, Debug)]
 pub(super) struct Aimed {
     /// Where and when the drive is judged.

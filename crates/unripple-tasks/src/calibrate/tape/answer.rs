@@ -1,4 +1,4 @@
-//! What is said of a calibration by files: what was made, what is still to be recorded, what is wrong.
+//! The report of a calibration by files: what was made, what is still to be recorded, what is wrong.
 
 use super::{Bench, Outcome, Wanted, fault::Fault, plan::PLAY};
 use crate::TaskError;

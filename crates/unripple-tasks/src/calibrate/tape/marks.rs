@@ -1,4 +1,4 @@
-//! What recordings are known by: one that changed is measured again, and one that is a copy of another is found.
+//! Fingerprints of recordings: one that changed is measured again, and one that is a copy of another is found.
 
 use super::asked::Wanted;
 use super::fault::Fault;

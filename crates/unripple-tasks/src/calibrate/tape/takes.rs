@@ -1,4 +1,4 @@
-//! Recordings that were brought back: checked, and brought to where playing began.
+//! Recordings made elsewhere: checked, and aligned to where playing began.
 
 use super::asked::Wanted;
 use super::fault::Fault;
