@@ -13,7 +13,7 @@ use unripple_player::{Meters, Player};
 const HEAVY: f32 = 0.7;
 
 /// A player whose blocks are cut to what a device asks for. What is left of a block waits for the next cycle, so a command waits
-/// for a block's length at most before it is heard, and not at all where the cycle is a multiple of the block.
+/// for a block's length at most before it is played, and not at all where the cycle is a multiple of the block.
 pub(crate) struct Beats {
     player: Player,
     meters: Arc<Meters>,
@@ -32,10 +32,10 @@ pub(crate) struct Beats {
     overheard: Option<Overheard>,
 }
 
-/// Blocks of what was driven and heard, for whoever follows tension.
+/// Blocks of drive and inputs, for the follower of tension.
 pub(crate) struct Overheard {
     blocks: Producer<f32>,
-    /// One block of planes: of drive in the actuators' unit, then of what was heard.
+    /// One block of planes: of drive in the actuators' unit, then of inputs.
     planes: Vec<f32>,
     channels: [usize; 2],
     block: usize,
@@ -49,7 +49,7 @@ impl Overheard {
         Self { blocks, planes, channels, block, at: 0 }
     }
 
-    /// A block of planes, drive and what was heard.
+    /// A block of planes, drive and inputs.
     pub fn put(&mut self, drive: &[f32], heard: &[f32]) {
         if self.blocks.slots() >= drive.len() + heard.len() {
             drive.iter().chain(heard).for_each(|x| self.blocks.push(*x).unwrap_or(()));
@@ -105,12 +105,12 @@ impl Beats {
         }
     }
 
-    /// Sets whom to wake when it is time, and who follows what is heard.
+    /// Sets whom to wake when it is time, and who follows the inputs.
     pub fn tell(&mut self, bell: Option<Thread>, overheard: Option<Overheard>) {
         (self.bell, self.overheard) = (bell, overheard);
     }
 
-    /// Takes back who follows what is heard.
+    /// Takes back who follows the inputs.
     pub fn take_overheard(&mut self) -> Option<Overheard> {
         self.overheard.take()
     }

@@ -37,15 +37,15 @@ const PING: u64 = u64::MAX;
 /// [`Hold`](unripple_player::Hold) is stopped or dropped, and here a hold lives in the entry of its voice and nowhere else. So what
 /// is forgotten here ends there, and a stop needs no room, neither on the way nor in the player.
 ///
-/// - The way is full: the command comes back. Pulses are lost and counted; of what goes on the entry stays and is told again with the
+/// - The way is full: the command comes back. Pulses are lost and counted; of what goes on the entry stays and is sent again with the
 ///   next block, by when it may have moved or be gone.
 /// - The player refuses, or something is over: the hold says so, the entry goes, and the input of a waveform is free. What goes on and
-///   found no room stays and is begun again after a while. A change that was refused is told again. Reports only measure; if some were lost, all that goes on is told again.
+///   found no room stays and is begun again after a while. A change that was refused is sent again. Reports only measure; if some were lost, all that goes on is sent again.
 /// - Drives take long to make: a stop ends what sounds at once, whatever is still to be made, and takes back what its voice waits for.
 ///   Where threads play, a step makes drives for a few milliseconds only and leaves the rest to the next, so that it hears of the stop.
 ///   A pulse whose turn comes too late is not begun.
 /// - The player stands still: after a tenth of a second what was sent to it and would be over by itself is taken back, and nothing more is
-///   sent before it goes on. Fingers are followed meanwhile, and what they then still hold is told.
+///   sent before it goes on. Fingers are followed meanwhile, and what they then still hold is sent.
 /// - This side is gone: the player fades out by itself. [`Conductor::end`] asks it to.
 pub struct Conductor {
     effects: Effects,
@@ -147,7 +147,7 @@ impl Conductor {
         }
     }
 
-    /// Ends it all: what sounds fades out over so many seconds, what waits is dropped, and what is heard from now on sets nothing off.
+    /// Ends it all: what sounds fades out over so many seconds, what waits is dropped, and later touches set nothing off.
     pub fn end(&mut self, fade: f64) {
         self.ended = true;
         self.waiting.clear();
@@ -186,8 +186,8 @@ impl Conductor {
         &self.drives
     }
 
-    /// Takes in what was heard, and gives the player all that begins before `until`, both in samples of the player's clock; `now` is
-    /// the first sample of the next block. Touches carry the same clock in s.
+    /// Takes in touches and wishes, and gives the player all that begins before `until`, both in samples of the
+    /// player's clock; `now` is the first sample of the next block. Touches carry the same clock in s.
     ///
     /// # Errors
     /// [`LiveError::Gone`] if no drive can be made any more; what fails for one cue is counted.
@@ -298,7 +298,7 @@ impl Conductor {
         }
     }
 
-    /// A name that the player has not heard yet, for what answers a touch that came at a sample.
+    /// A name that the player does not know yet, for what answers a touch that came at a sample.
     pub(crate) fn name(&mut self, asked: Option<u64>) -> u64 {
         self.names += 1;
         if let Some(asked) = asked {

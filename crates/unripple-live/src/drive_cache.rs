@@ -93,7 +93,7 @@ impl DriveCache {
     pub fn request_realtime(&mut self, priority: Option<u8>) {
         self.maker.request_realtime(priority);
         self.hurried = priority;
-        // What the first touch would wait for: a drive that fails here fails there, and is told then.
+        // What the first touch would wait for: a drive that fails here fails there, and is reported then.
         let _ = self.full_pulse();
     }
 

@@ -4,7 +4,7 @@ use std::time::Duration;
 use unripple_core::{Phase, Point, Touch};
 use unripple_touch::{Counts, Heard, Sources};
 
-/// Longest wait, so that whoever wants to stop is heard, and shortest, should a clock stand still.
+/// Longest wait, so that a wish to stop is noticed, and shortest, should a clock stand still.
 const LONGEST: Duration = Duration::from_millis(100);
 const SHORTEST: Duration = Duration::from_millis(1);
 
@@ -16,7 +16,7 @@ pub(crate) struct Ears {
     window: f64,
 }
 
-/// What was heard at one moment.
+/// Touches and wishes of one moment.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct News {
     /// When, in s of the device's clock.

@@ -99,7 +99,7 @@ impl Engine {
         Ok(self)
     }
 
-    /// The same engine with a listener that is given all that is heard, as it is heard.
+    /// The same engine with a listener that is given all touches and wishes as they arrive.
     pub fn with_listener(mut self, listener: Listener) -> Self {
         self.stage.listener = Some(listener);
         self

@@ -23,7 +23,7 @@ pub struct Follower {
     options: Options,
     /// Samples of one observation.
     period: usize,
-    /// Lines of drive and of what was heard, a drive's sample beside what was heard of it.
+    /// Lines of drive and inputs, a drive's sample beside the input's that answers it.
     drive: Vec<Vec<f64>>,
     heard: Vec<Vec<f64>>,
     rate: f64,
@@ -37,7 +37,7 @@ pub struct Follower {
 }
 
 impl Follower {
-    /// A tracker at work every `period` s, drives made by some options; what is heard comes `latency` samples after it was sent.
+    /// A tracker at work every `period` s, drives made by some options; inputs come `latency` samples after the drive was sent.
     pub fn new(
         tracker: Tracker,
         options: &Options,

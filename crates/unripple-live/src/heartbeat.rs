@@ -69,7 +69,7 @@ impl Heartbeat {
         Ok(())
     }
 
-    /// Hands the player to a device that calls, with whom to wake when it is time and who follows what is heard: whether it does. If it
+    /// Hands the player to a device that calls, with whom to wake when it is time and who follows the inputs: whether it does. If it
     /// does not, who follows comes back.
     pub(crate) fn lend(&mut self, bell: Thread, overheard: Option<Overheard>) -> (bool, Option<Overheard>) {
         let Some(mut beats) = self.beats.take() else { return (false, overheard) };

@@ -218,7 +218,7 @@ impl Device for Recovering {
         status
     }
 
-    /// As [`Device::exchange`]; but while the device is away what is heard is silence, and the block is counted as lost.
+    /// As [`Device::exchange`]; but while the device is away its inputs are silent, and the block is counted as lost.
     ///
     /// # Errors
     /// [`DeviceError::Size`]; [`DeviceError::Lost`] once all tries were in vain.

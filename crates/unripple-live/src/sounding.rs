@@ -65,7 +65,7 @@ impl Kept {
 #[derive(Debug)]
 pub(crate) struct Inputs {
     free: Vec<bool>,
-    /// Inputs of waveforms that were stopped and may still be heard.
+    /// Inputs of waveforms that were stopped and may still sound.
     leaving: Vec<(usize, Hold)>,
 }
 

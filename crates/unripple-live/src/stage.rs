@@ -9,7 +9,7 @@ use unripple_core::{Phase, Point, Touch};
 use unripple_devices::{Feeler, Feeling};
 use unripple_touch::{Counts, Heard};
 
-/// Who is given all that is heard, and when (s of the device's clock).
+/// A listener that is given all touches and wishes, and when they came (s of the device's clock).
 pub type Listener = Box<dyn FnMut(f64, &Heard) + Send>;
 
 /// All of a surface being played that is not the audio thread's: who touches it, what that sets off, what it does to the fingers.
@@ -32,7 +32,7 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// Takes in what was heard.
+    /// Takes in touches and wishes.
     pub(crate) fn take(&mut self, news: News) -> Result<(), LiveError> {
         if let Some(listener) = &mut self.listener {
             listener(news.now, &news.heard);
@@ -60,7 +60,7 @@ impl Stage {
         }
     }
 
-    /// Plays what was heard.
+    /// Plays the answers to touches and wishes.
     pub(crate) fn conduct(&mut self, now: u64, until: u64) -> Result<(), LiveError> {
         if let Some(feeler) = &mut self.feeler {
             feeler.follow()?;

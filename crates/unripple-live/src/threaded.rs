@@ -23,7 +23,7 @@ const TELL: Duration = Duration::from_millis(200);
 const AHEAD: u64 = 2;
 const LEAST_AHEAD: f64 = 0.005;
 
-/// Blocks that may wait between the audio thread and whoever follows what it heard, and how often they are fetched.
+/// Blocks that may wait between the audio thread and the follower of its inputs, and how often they are fetched.
 /// Blocks beyond are lost to whoever follows, and to nobody else.
 const KEPT: usize = 64;
 const FETCH: Duration = Duration::from_millis(20);
@@ -85,8 +85,8 @@ impl Engine {
     /// called five times a second; it returns whether to go on.
     ///
     /// The player runs on the device's own thread where that [calls](unripple_core::Device::employ), or else on one that exchanges
-    /// blocks with it. Touches are heard on another, timed when they come, and turned into commands on this one. All sleep until there is
-    /// something for them.
+    /// blocks with it. Touches are received on another, timed when they come, and turned into commands on this one.
+    /// All sleep until there is something for them.
     ///
     /// # Errors
     /// Those of the device once it is lost for good; [`LiveError::Gone`] if a thread ended early. Unless the device is lost, all fades out
@@ -157,7 +157,7 @@ impl Engine {
 /// Blocks on their way from the audio thread to whoever follows tension.
 struct Fetched {
     blocks: rtrb::Consumer<f32>,
-    /// Samples of drive, and of drive and what was heard, of a block of so many.
+    /// Samples of drive, and of drive and inputs, of a block of so many.
     drive: usize,
     samples: usize,
     block: usize,
@@ -280,7 +280,7 @@ impl Stage {
         }
         self.fade_out(shared);
         match ended {
-            // What the player said last is heard.
+            // The player's last reports are read.
             Ok(Ok(())) => catch_unwind(AssertUnwindSafe(|| self.conduct(self.clock, self.clock))),
             ended => ended,
         }
@@ -306,7 +306,7 @@ impl Stage {
 
     /// The sample at which there will be something to do if no touch comes before.
     fn due(&self, timeline: &Timeline) -> u64 {
-        // What there was no time for is gone on with at once.
+        // What there was no time for is continued at once.
         if self.conductor.is_behind(self.until(timeline)) {
             return self.clock;
         }

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 /// Stands for "nothing has left yet", a time that no clock shows.
 const NEVER: i64 = i64::MIN;
 
-/// Cycles that are remembered: more than pass until the player's word on them is heard.
+/// Cycles that are remembered: more than pass until the player's report on them arrives.
 const CYCLES: usize = 512;
 
 /// Touches that are remembered until they are answered. The oldest go first; their latency is not known then.
@@ -177,7 +177,7 @@ mod tests {
         line.note(touched, at(100.0));
         line.mark(256, at(256.0), 256, 512);
         assert!((line.between(100, 256) * 48e3 - 156.0).abs() < 0.01);
-        // One that is answered after a gap, and told of some cycles later.
+        // One that is answered after a gap, and reported some cycles later.
         let touched = (line.at(at(300.0)) * 48e3).round() as u64;
         line.note(touched as f64 / 48e3, at(300.0));
         line.mark(512, at(5512.0), 256, 768);

@@ -1,4 +1,4 @@
-//! The actuators' own points of a library: they hold what sensors heard, and figures take them as velocities.
+//! The actuators' own points of a library: they hold what sensors measured, and figures take them as velocities.
 
 use crate::TaskError;
 use serde_json::{Value, json};
@@ -14,7 +14,7 @@ pub const KEY: &str = "own_points";
 /// written in files to a nanometre, so that rounding stays below it.
 const SAME: f64 = 1e-6;
 
-/// The entry of the log of a library whose own points hold what sensors heard.
+/// The entry of the log of a library whose own points hold what sensors measured.
 pub fn told(surface: &Surface) -> Result<Value, TaskError> {
     let units: Vec<&str> = sensing(surface)?.iter().map(|sensor| sensor.unit).collect();
     Ok(json!({ "hold": "what sensors heard", "units": units }))
@@ -31,7 +31,7 @@ pub fn sensing(surface: &Surface) -> Result<Vec<Sensor>, TaskError> {
     sensors(surface).map_err(TaskError::input)
 }
 
-/// What a sensor heard, responses one after the other, as velocities (m/s) under its contact; nothing from one that
+/// What a sensor measured, responses one after the other, as velocities (m/s) under its contact; nothing from one that
 /// does not hear a velocity.
 pub fn velocities(sensor: &Sensor, heard: &[f32], plan: &LibraryPlan, surface: &Surface) -> Option<Vec<f32>> {
     let rows = heard.chunks_exact(plan.samples);

@@ -40,7 +40,7 @@ struct Live {
     force: Option<f64>,
     /// When it was last spoken of, by the clock that stands still while nobody polls.
     spoken: f64,
-    /// Its last move of this poll among the touches heard.
+    /// Its last move among the touches of this poll.
     moved: Option<usize>,
 }
 

@@ -33,7 +33,7 @@ impl Wish {
     }
 }
 
-/// What sources have heard since the caller last looked; the caller clears it.
+/// Touches and wishes that sources received since the caller last looked; the caller clears it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Heard {
     /// Touches, in order.

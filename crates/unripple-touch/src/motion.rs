@@ -10,7 +10,7 @@ const MEMORY: f64 = 0.08;
 /// How a finger moves, from the times and places at which it was noticed; a sender's own word on it is not used.
 ///
 /// The velocity is the slope of the least-squares line through the places of the last 80 ms, at most eight of them. A
-/// finger that nothing was heard of for as long is at rest.
+/// finger without a new place for as long is at rest.
 ///
 /// ```
 /// use unripple_core::Point;

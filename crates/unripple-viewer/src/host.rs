@@ -97,7 +97,7 @@ impl SessionHost {
         Ok(Arc::new(Self { notices, words, links, jobs, measured, playing, quiet: view.quiet }))
     }
 
-    /// A page came: it must be shown something, and is told what is refused.
+    /// A page came: it must be shown something, and learns what is refused.
     pub fn come(&self, page: u64, told: tokio::sync::mpsc::Sender<String>) {
         lock(&self.links).insert(page, told);
         self.say(Word::Come);

@@ -94,7 +94,7 @@ impl Basis {
         self.transducers.iter().map(|t| gain(t).abs().max(f64::MIN_POSITIVE).ln()).collect()
     }
 
-    /// The circuit of an actuator, if it is a coil on a voltage; strays have none.
+    /// The circuit of an actuator, if it is a coil on a voltage; stray loads have none.
     pub fn coil(&self, number: usize) -> Option<&Coil> {
         self.coils.get(number).and_then(Option::as_ref)
     }

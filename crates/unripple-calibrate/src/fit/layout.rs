@@ -66,7 +66,7 @@ pub(super) struct Values {
     pub profile: Vec<f64>,
     /// Logarithm of the decay rate (1/s) at each knot.
     pub knots: Vec<f64>,
-    /// The actuators' places, then the strays'.
+    /// The actuators' places, then those of stray loads.
     pub places: Vec<Point>,
     /// Mass at each place, in kg.
     pub masses: Vec<f64>,
@@ -83,7 +83,7 @@ pub(super) struct Values {
 }
 
 impl Layout {
-    /// Number of actuators and strays: all that may carry a load.
+    /// Number of actuators and stray loads.
     pub fn loaded(&self) -> usize {
         self.actuators + self.strays
     }

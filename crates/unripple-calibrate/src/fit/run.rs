@@ -177,7 +177,7 @@ impl Fit<'_> {
         }
     }
 
-    /// Descends in a band under a window, with the modes below some frequency, and looks for strays.
+    /// Descends in a band under a window, with the modes below some frequency, and looks for stray loads.
     fn widen(
         &mut self,
         band: [f64; 2],

@@ -31,7 +31,7 @@ struct Try {
 
 impl Case<'_> {
     /// Values to descend from, the likeliest first, with what is to be expected of gains: the tension and the stiffness with which
-    /// the lowest modes lie where they were heard, whatever their strengths.
+    /// the lowest modes lie where they were measured, whatever their strengths.
     pub fn starts(&self, expected: &Values) -> Result<Vec<Values>, CalibrateError> {
         let steps = |(most, step): (f64, f64)| {
             let count = (most / step).round() as i32;

@@ -34,9 +34,9 @@ pub(super) struct System {
     pub sheet: Sheet,
     /// The vector of unknowns: which there are, and in which order.
     pub layout: Layout,
-    /// Shapes at the places, modes x places: actuators, strays, then taps.
+    /// Shapes at the places, modes x places: actuators, stray loads, then taps.
     pub shapes: Mat<f64>,
-    /// Slopes of the shapes along x and y, for actuators and strays.
+    /// Slopes of the shapes along x and y, for actuators and stray loads.
     pub slopes: [Mat<f64>; 2],
     /// Residual flexibility: the modes that are left out, as one more.
     pub rest: Rest,
@@ -98,7 +98,7 @@ impl System {
         })
     }
 
-    /// Number of places: actuators, strays, taps.
+    /// Number of places: actuators, stray loads, taps.
     pub fn places(&self) -> usize {
         self.shapes.ncols()
     }

@@ -1,4 +1,4 @@
-//! What `reproduce` is asked.
+//! Options of the task `reproduce`.
 
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;

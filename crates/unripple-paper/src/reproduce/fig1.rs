@@ -170,7 +170,7 @@ fn curve(values: &[f64], rate: f64, unit: &str, name: &str) -> Plot {
     }
 }
 
-/// What a blow at A makes, and what is heard of it at B.
+/// The field of a blow at A, and its signal at B.
 struct Recording {
     cells: field::Grid,
     shots: Vec<Snapshot>,

@@ -1,4 +1,4 @@
-//! Numbers of the paper's text beside ours: first mode, wavelength, celerity.
+//! Numbers of the paper's text beside ours: first mode, wavelength, phase velocity.
 
 use super::section::row;
 use super::{Bed, Compared, Section};

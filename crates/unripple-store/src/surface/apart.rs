@@ -10,7 +10,7 @@ use unripple_core::{Outline, OutlineFault, Shape};
 const MOST_SIDES: usize = 16_384;
 
 /// Which holes lie on the sheet and apart from each other; there is a fault for each that does not, or for what kept all
-/// from being judged. Nothing if the outer rim itself is at fault; holes are not judged then.
+/// from being judged. Nothing if the outer rim itself is at fault; holes are not checked then.
 pub(super) fn check(rim: &Rim, cuts: &[Cut], faults: &mut Faults) -> Option<Vec<bool>> {
     let shape = rim.shape.as_ref()?;
     if cuts.len() > MOST_HOLES {

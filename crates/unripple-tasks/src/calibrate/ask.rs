@@ -1,4 +1,4 @@
-//! What `calibrate` is asked.
+//! Options of the task `calibrate`.
 
 use crate::{DeviceAsk, Place, SurfaceAsk};
 use serde::{Deserialize, Serialize};

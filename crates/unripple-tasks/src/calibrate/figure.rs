@@ -65,7 +65,7 @@ impl<'a> Known<'a> {
         )))
     }
 
-    /// Responses of which anything is known: those at probed points, or what actuators heard if there are no others.
+    /// Responses of which anything is known: those at probed points, or at the actuators if there are no others.
     fn responses(&self) -> impl Iterator<Item = &[BandQuality]> {
         let known = |point: &&Vec<Vec<BandQuality>>| point.iter().flatten().any(is_known);
         let points = if self.probed.iter().any(|point| known(&point)) { &self.probed } else { &self.own };

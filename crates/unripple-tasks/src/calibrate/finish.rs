@@ -99,7 +99,7 @@ pub fn log_run(
 /// Responses from actuator to actuator, `[sensor][drive][sample]`.
 type Pairs = Vec<Vec<Vec<f64>>>;
 
-/// Actuators whose own points are measured and not left out, and what their sensors heard.
+/// Actuators whose own points are measured and not left out, and the responses at their sensors.
 fn own(campaign: &Campaign<'_>, shelf: &Shelf) -> Result<(Vec<usize>, Pairs), TaskError> {
     let library = &shelf.library;
     let count = campaign.surface.actuators.len();
@@ -168,7 +168,7 @@ fn spread(campaign: &Campaign<'_>, shelf: &mut Shelf, latency: Option<[f64; 2]>)
     let Some([late, spread]) = latency else { return Ok(()) };
     let most = LATENCY * campaign.surface.emission.rate;
     shelf.library.log(CHECK, json!({ "samples": late, "spread_samples": spread, "most_samples": most }))?;
-    // Without a model it is not judged: what was said of points that are there stays.
+    // Without a model it is not checked: what was said of points that are there stays.
     if !campaign.settings.model && !shelf.is_new() {
         return Ok(());
     }
@@ -200,7 +200,7 @@ fn recorded(shelf: &mut Shelf) -> Result<(), TaskError> {
     Ok(shelf.library.set_doubts("record", Vec::new())?)
 }
 
-/// Doubts a library that lacks what a sensor heard of the actuators, unless it is dead.
+/// Doubts a library that lacks the responses at a sensor, unless it is dead.
 fn lacking(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> {
     let lacks = |actuator: &usize| {
         let state = shelf.library.state(shelf.probed + actuator);

@@ -13,7 +13,7 @@ use unripple_store::read_wav;
 /// Share of full scale above which the next take may clip.
 const LOUD: f64 = 0.9;
 
-/// Share of full scale below which steps of integers are heard: 40 dB below it.
+/// Share of full scale below which steps of integers show: 40 dB below it.
 const QUIET: f64 = 0.01;
 
 /// Signal to noise, in dB, that is worth to be aimed at: half a per cent of noise in a focus of ten actuators.

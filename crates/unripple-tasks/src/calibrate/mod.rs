@@ -65,7 +65,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     run_with(ask, nobody(), progress)
 }
 
-/// The same with somebody who moves the probe and taps. One that is cancelled leaves the library as it is, to be gone on with.
+/// The same with somebody who moves the probe and taps. One that is cancelled leaves the library as it is, to be continued.
 ///
 /// # Errors
 /// [`TaskError::Ask`] of what makes no sense; those of surfaces, devices, files and measurements; [`TaskError::Cancelled`].

@@ -123,7 +123,7 @@ impl Report {
     }
 }
 
-/// The error that the library is judged by, gains free; where it was not judged, that of its responses as they are.
+/// The error that the library is rated by, gains free; where it was not rated, that of its responses as they are.
 fn reciprocity(library: &Library) -> Result<Option<f64>, TaskError> {
     let judged = library.logged("reciprocity").and_then(|log| log["error"].as_f64());
     Ok(judged.map_or_else(|| library.reciprocity_error(), |error| Ok(Some(error)))?)

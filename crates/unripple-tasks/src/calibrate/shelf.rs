@@ -20,11 +20,11 @@ pub struct Shelf {
     pub library: Library,
     /// Points that this campaign measures; the rest are the actuators' own.
     pub probed: usize,
-    /// What is heard at a point is multiplied by this.
+    /// Factor on all that is measured at a point.
     probe: f64,
     /// What each actuator's sensor hears, by this.
     sensors: Vec<f64>,
-    /// Actuators that are left out: their responses are zero, since what was heard of them is noise.
+    /// Actuators that are left out: their responses are zero, since what was measured of them is noise.
     pub without: Vec<usize>,
     /// Actuators whose sensor hears nothing: their own points are not missed.
     pub deaf: Vec<usize>,
@@ -66,8 +66,8 @@ impl Shelf {
         Ok(self.library.set_reciprocity_error(found.error)?)
     }
 
-    /// What sensors heard when the library was begun, if any was measured: what later takes are compared with. Those
-    /// that are dead or bad heard nothing.
+    /// Responses at the sensors when the library was begun, if any were measured: what later takes are compared with.
+    /// Those that are dead or bad have none.
     pub fn heard(&self) -> Result<Option<Vec<Channel>>, TaskError> {
         let (samples, count) = (self.library.plan().samples, self.sensors.len());
         let known = |sensor: usize| {

@@ -25,8 +25,8 @@ const PROBE: &str = "probe";
 /// degree.
 const NONE: f64 = 0.02;
 
-/// Says of each probed point whether a model makes what was heard there; takes the probe's own delay, and gains that are not those of
-/// the other points, out of them.
+/// Says of each probed point whether a model agrees with what was measured there; takes the probe's own delay, and
+/// gains that are not those of the other points, out of them.
 pub fn check(
     shelf: &mut Shelf,
     surface: &Surface,

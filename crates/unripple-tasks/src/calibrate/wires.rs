@@ -12,7 +12,7 @@ pub const WIRING: &str = "wiring";
 /// The faults of the wires, and what is accepted of them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Found {
-    /// Actuators that are left out, by index: nobody hears them, or somebody asked for it.
+    /// Actuators that are left out, by index: no sensor records them, or the caller named them.
     pub dead: Vec<usize>,
     /// Notes on dead actuators that nobody had named.
     pub notes: Vec<String>,
@@ -149,7 +149,7 @@ mod tests {
         let said =
             "actuator `a3` is dead: nobody hears its burst (output 3), nor does its sensor hear anything";
         assert!(found.notes.len() == 1 && found.notes[0].starts_with(said), "{:?}", found.notes);
-        // Whoever said so is not told.
+        // Actuators that are named dead are not reported again.
         let found = asked(&["a3".into()], false).judge(&report(&["a3"], &[])).unwrap();
         assert_eq!(found, Found { dead: vec![2], ..Found::default() });
         // Nor is one that is asked for dead.

@@ -1,4 +1,4 @@
-//! What `check` is asked.
+//! Options of the task `check`.
 
 use crate::SurfaceAsk;
 use serde::{Deserialize, Serialize};

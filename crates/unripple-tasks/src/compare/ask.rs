@@ -1,4 +1,4 @@
-//! What `compare` is asked.
+//! Options of the task `compare`.
 
 use crate::target::{LevelAsk, PointAsk, ShapeAsk};
 use crate::{SurfaceAsk, source};

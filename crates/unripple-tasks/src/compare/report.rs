@@ -21,7 +21,7 @@ pub struct Report {
     /// Reason for the window, where nobody asked for one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub window_why: Option<String>,
-    /// Highest frequency of the modes that it was judged on, in Hz.
+    /// Highest frequency of the modes that drives were evaluated on, in Hz.
     pub judged_to_hz: f64,
     /// Every method, time reversal first.
     pub methods: Vec<Row>,

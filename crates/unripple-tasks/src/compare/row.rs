@@ -38,12 +38,12 @@ pub struct Row {
     pub notes: Vec<Note>,
 }
 
-/// Makes and judges the drive of one method.
+/// Makes and evaluates the drive of one method.
 pub fn judge(ground: &Ground<'_>, method: Method) -> Result<Row, TaskError> {
     with(ground, &Options { method, ..ground.options.clone() })
 }
 
-/// Makes and judges the drive of some options.
+/// Makes and evaluates the drive of some options.
 pub fn with(ground: &Ground<'_>, options: &Options) -> Result<Row, TaskError> {
     let start = Instant::now();
     let focuser = Focuser::new(ground.known, options).map_err(TaskError::input)?;
@@ -185,7 +185,7 @@ pub fn markdown(surface: &str, rows: &[Row], conditions: Conditions) -> String {
 pub struct Conditions {
     /// Window T, in s.
     pub window: f64,
-    /// Highest frequency of the modes that drives are judged on, in Hz.
+    /// Highest frequency of the modes that drives are evaluated on, in Hz.
     pub judged_to: f64,
     /// The level that was asked for.
     pub level: Level,

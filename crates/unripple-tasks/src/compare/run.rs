@@ -16,7 +16,7 @@ pub(super) struct Ground<'a> {
     pub surface: &'a Surface,
     /// Responses that drives are made from.
     pub known: &'a Responses,
-    /// Responses that drives are judged on.
+    /// Responses that drives are evaluated on.
     pub plant: &'a Responses,
     /// The targets in common.
     pub targets: &'a [Target],
@@ -26,7 +26,7 @@ pub(super) struct Ground<'a> {
     pub level: Level,
 }
 
-/// Makes and judges the drive of every method on the same targets, and what their knobs trade.
+/// Makes and evaluates the drive of every method on the same targets, and what their knobs trade.
 ///
 /// # Errors
 /// [`TaskError::Ask`] of what makes no sense; those of reading and writing files; those of the methods; [`TaskError::Cancelled`].

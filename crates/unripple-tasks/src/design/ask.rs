@@ -1,4 +1,4 @@
-//! What `design` is asked.
+//! Options of the task `design`.
 
 use crate::SurfaceAsk;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! What `devices` is asked.
+//! Options of the task `devices`.
 
 use serde::{Deserialize, Serialize};
 

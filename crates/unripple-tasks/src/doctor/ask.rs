@@ -1,4 +1,4 @@
-//! What `doctor` is asked.
+//! Options of the task `doctor`.
 
 use crate::{DeviceAsk, SurfaceAsk};
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! What `export` is asked.
+//! Options of the task `export`.
 
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;

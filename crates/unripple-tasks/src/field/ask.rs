@@ -1,4 +1,4 @@
-//! What `field` is asked.
+//! Options of the task `field`.
 
 use crate::{Place, SurfaceAsk, names, source};
 use serde::{Deserialize, Serialize};

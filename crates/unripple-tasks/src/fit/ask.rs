@@ -1,4 +1,4 @@
-//! What `fit` is asked.
+//! Options of the task `fit`.
 
 use crate::Place;
 use serde::{Deserialize, Serialize};

@@ -30,7 +30,7 @@ pub struct Heard {
     pub numbers: Vec<usize>,
     /// Actuators that are dead, or left out.
     pub dead: Vec<usize>,
-    /// Whether a probe heard them, not taps.
+    /// Whether a probe measured them, not taps.
     pub probe: bool,
     /// The band that is fitted, in Hz.
     pub band: [f64; 2],

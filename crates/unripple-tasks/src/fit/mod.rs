@@ -1,4 +1,4 @@
-//! `fit`: the model fitted to what a library's actuators heard of each other.
+//! `fit`: the model fitted to the responses of a library's actuators at each other.
 
 mod ask;
 mod fill;

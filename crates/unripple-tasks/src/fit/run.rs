@@ -8,14 +8,14 @@ use unripple::core::{Point, Surface};
 use unripple_calibrate::Verdict;
 use unripple_store::{Library, StoreError};
 
-/// Most half waves of a profile, and most strays: beyond, a fit takes hours.
+/// Most half waves of a profile, and most stray loads: beyond, a fit takes hours.
 const MOST: usize = 8;
 
 /// Modes are known up to here, in Hz, but no less than 1.4 and no more than 2.8 times the band's top: what a mass feels of those above is
 /// that of an endless sheet, which is good for waves much shorter than the way to the edge.
 const KNOWN: f64 = 4200.0;
 
-/// Fits the model to what a library's actuators heard of each other, and, if asked, writes a library of its responses.
+/// Fits the model to the responses of a library's actuators at each other, and may write a library of its responses.
 ///
 /// # Errors
 /// [`TaskError::Ask`] of what makes no sense; [`TaskError::Input`] of a library without what is needed; those of the fit and of files;

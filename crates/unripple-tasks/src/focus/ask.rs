@@ -1,4 +1,4 @@
-//! What `focus` is asked.
+//! Options of the task `focus`.
 
 use crate::target::{LevelAsk, PointAsk, ShapeAsk};
 use crate::{Place, SurfaceAsk, names, source};
@@ -20,7 +20,7 @@ pub enum Losses {
     PerMode,
 }
 
-/// Where to focus, how, and on what that is judged.
+/// Where to focus, by which method, and the surface that the drive is evaluated on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
@@ -41,7 +41,7 @@ pub struct Ask {
     pub push: f64,
     /// Largest rms of all actuators together, in the drive's unit.
     pub total_rms: Option<f64>,
-    /// For `robust`: the stretch of frequencies to be borne up and down, as a share.
+    /// For `robust`: the stretch of frequencies, up and down, that the drive must stand, as a share.
     pub spread: f64,
     /// For `felt`: from the mean of what is felt elsewhere (0) to its worst spot (1).
     pub worst: Option<f64>,

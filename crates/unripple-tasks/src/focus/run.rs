@@ -22,7 +22,7 @@ pub struct Made {
     pub judged: Judged,
     /// The drive before its last scaling, and its timing.
     pub focused: Focused,
-    /// The surface that it was judged on.
+    /// The surface that the drive was evaluated on.
     pub surface: Surface,
     /// The responses that the drive was made from.
     pub responses: Responses,
@@ -30,7 +30,7 @@ pub struct Made {
     pub scaled: bool,
 }
 
-/// A drive that focuses on points and shapes, judged, and written to a folder if one is given.
+/// A drive that focuses on points and shapes, evaluated, and written to a folder if one is given.
 ///
 /// ```
 /// use unripple_tasks::target::PointAsk;

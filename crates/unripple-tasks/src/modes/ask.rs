@@ -1,4 +1,4 @@
-//! What `modes` is asked.
+//! Options of the task `modes`.
 
 use crate::SurfaceAsk;
 use serde::{Deserialize, Serialize};

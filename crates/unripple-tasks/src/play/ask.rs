@@ -1,4 +1,4 @@
-//! What `play` is asked.
+//! Options of the task `play`.
 
 use crate::{DeviceAsk, SurfaceAsk, names, source};
 use serde::{Deserialize, Serialize};

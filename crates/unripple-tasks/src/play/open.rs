@@ -10,7 +10,7 @@ use unripple_calibrate::{Tracker, Tracking, Warp};
 use unripple_devices::{DevicesError, Feeler, Jack, JackOptions, VirtualOptions};
 use unripple_live::Recovering;
 
-/// Fingers that a virtual surface bears at once, those that are being lifted included. Ten of two hands, and others
+/// Fingers that a virtual surface computes at once, those that are being lifted included. Ten of two hands, and others
 /// that are being lifted; each costs a coordinate in every step.
 const FINGERS: usize = 24;
 
@@ -23,7 +23,7 @@ const TRIES: u32 = 1000;
 /// Blocks that drive is ahead of a device that does not call by itself: the fewest that it takes.
 const LEAD: usize = 2;
 
-/// What the model may miss of what is heard: the sheet still rings a little as it did under a finger.
+/// Share of the inputs that the model may miss: the sheet still rings a little as it did under a finger.
 const MODEL: f64 = 0.02;
 
 /// Period of the drift that may be asked for, in s, and how far apart its knots are.
@@ -39,7 +39,7 @@ pub(super) struct Opened {
     pub device: Box<dyn Device>,
     /// What computes the sensation of fingers, on a virtual surface.
     pub feeler: Option<Feeler>,
-    /// Samples by which what is heard comes after what was sent.
+    /// Samples by which inputs come after the drive that they answer.
     pub latency: usize,
 }
 
@@ -80,8 +80,8 @@ fn drift(share: f64) -> Vec<(f64, f64)> {
 /// Opens the device of a surface; why not, in words.
 pub type Opener = Arc<dyn Fn(&Surface) -> Result<Box<dyn Device>, String> + Send + Sync>;
 
-/// Opens the device that options name, all actuators heard or none: a virtual surface only if it is not the one that it is said to be, and
-/// then by the clock on the wall.
+/// Opens the device that options name, with inputs of all actuators or of none: a virtual surface only if it is not
+/// the one that it is said to be, and then by the clock on the wall.
 pub fn opener(options: &DeviceAsk, hears: bool) -> Opener {
     let options = options.clone();
     Arc::new(move |surface| {
@@ -142,7 +142,7 @@ fn recovering(
     let first = open().map_err(TaskError::work)?;
     let block = first.layout().block;
     let latency = match first.status().server {
-        // What is played in a cycle is heard in the next at the earliest.
+        // What is played in a cycle comes back in the next at the earliest.
         Some(server) => ((server.playback + server.capture) as usize).max(block),
         None => (LEAD + 1) * block,
     };

@@ -249,7 +249,7 @@ fn told(feeling: &Feeling, without_scale: bool) -> String {
 }
 
 impl Felt {
-    /// For people; `told` where a virtual surface says what is felt, `without_scale` where its level means nothing.
+    /// The report as text; `told` where a virtual surface says what is felt, `without_scale` where its level means nothing.
     fn text(&self, told: bool, without_scale: bool) -> String {
         if !told {
             return "felt: unknown, since only a virtual surface can simulate it\n".into();

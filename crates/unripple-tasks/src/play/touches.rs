@@ -91,7 +91,7 @@ impl Touches {
         Ok((touches, sources))
     }
 
-    /// The listener that records all that is heard, if it is recorded.
+    /// The listener that records all touches and wishes, if they are recorded.
     pub fn listener(&self) -> Option<Listener> {
         let tape = self.recording.clone()?;
         Some(Box::new(move |now, heard| {

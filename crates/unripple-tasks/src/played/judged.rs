@@ -1,4 +1,4 @@
-//! A drive that plays something, judged as a whole.
+//! A drive that plays something, evaluated as a whole.
 
 use super::write;
 use crate::{Progress, SurfaceAsk, TaskError, folder, go_on, judge, source};
@@ -16,11 +16,11 @@ const CELLS: f64 = 3.0;
 /// A drive nearer to its limit than this was held by it: float32 rounds by less.
 const HELD: f64 = 1e-6;
 
-/// A drive, what is known of it, and how it was judged.
+/// A drive, what is known of it, and how well it does.
 pub(crate) struct Played {
     /// The drive, float32 samples in the actuators' unit.
     pub drive: Drive,
-    /// Places and instants at which the drive is judged.
+    /// Places and instants at which the drive is evaluated.
     pub aims: Vec<Aim>,
     /// Name of the method that made it.
     pub method: &'static str,
@@ -36,9 +36,9 @@ pub(crate) struct Played {
 pub(crate) struct Common<'a> {
     /// The surface that the drive is made for.
     pub surface: &'a SurfaceAsk,
-    /// Another surface that it is judged on.
+    /// Another surface that the drive is evaluated on.
     pub on: Option<&'a SurfaceAsk>,
-    /// Highest frequency of the modes that it is judged on, in Hz.
+    /// Highest frequency of the modes that the drive is evaluated on, in Hz.
     pub judge_hz: Option<f64>,
     /// Where the results are to go.
     pub output: Option<&'a PathBuf>,
@@ -46,12 +46,12 @@ pub(crate) struct Common<'a> {
     pub reads: Vec<PathBuf>,
     /// Name of the field that a library does not serve.
     pub needs: &'static str,
-    /// Multiples of the band up to which modes are planned with, and judged on by default.
+    /// Multiples of the band up to which modes are planned with, and evaluated on by default.
     pub bands: [f64; 2],
 }
 
-/// Makes a drive by `play`, from the surface and the models it is planned and judged with, judges it, and writes it where a folder is
-/// given.
+/// Makes a drive by `play`, from the surface and the models it is planned and evaluated with, evaluates it, and
+/// writes it where a folder is given.
 pub(crate) fn judge(
     common: &Common<'_>,
     progress: &mut dyn Progress,

@@ -1,4 +1,4 @@
-//! Waveforms and strokes: what is played, judged, and written.
+//! Waveforms and strokes: what is played, evaluated, and written.
 
 mod judged;
 mod write;

@@ -1,4 +1,4 @@
-//! What `respond` is asked.
+//! Options of the task `respond`.
 
 use crate::SurfaceAsk;
 use serde::{Deserialize, Serialize};

@@ -1,11 +1,11 @@
-//! What `stroke` is asked.
+//! Options of the task `stroke`.
 
 use crate::target::{LineAsk, ShapeAsk};
 use crate::{SurfaceAsk, source};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// The path of a moving focus, its speed and level, and the surface that the drive is judged on.
+/// The path of a moving focus, its speed and level, and the surface that the drive is evaluated on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {

@@ -10,7 +10,8 @@ use unripple::core::{Drive, Point, Responses, Surface};
 use unripple::field::{Aim, Field};
 use unripple::focus::{Pattern, PulseOptions, Stroke, strike};
 
-/// Strokes are planned and judged on modes up to these multiples of the band, the second by default: pulses fill the whole band.
+/// Strokes are planned and evaluated on modes up to these multiples of the band, the second by default: pulses fill
+/// the whole band.
 const BANDS: [f64; 2] = [1.0, 2.0];
 
 /// Places of a stroke measured at once, which bounds memory.
@@ -19,7 +20,7 @@ const AT_ONCE: usize = 256;
 /// Places measured for each pulse of a stroke. One at each focus and one midway, where a gap would show.
 const BETWEEN: usize = 2;
 
-/// A drive whose focus moves along a path at one level, judged, and written to a folder if one is given.
+/// A drive whose focus moves along a path at one level, evaluated, and written to a folder if one is given.
 ///
 /// # Errors
 /// [`TaskError::Ask`] of numbers that make no sense; those of reading and writing files; those of the method; [`TaskError::Cancelled`].

@@ -1,4 +1,4 @@
-//! What `waveform` is asked.
+//! Options of the task `waveform`.
 
 use crate::{Place, SurfaceAsk, source};
 use serde::{Deserialize, Serialize};
@@ -59,7 +59,7 @@ fn micrometre() -> f64 {
     1e-6
 }
 
-/// Targets with their waveforms, places of silence, and the surface that the drive is judged on.
+/// Targets with their waveforms, places of silence, and the surface that the drive is evaluated on.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {

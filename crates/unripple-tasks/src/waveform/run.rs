@@ -9,11 +9,11 @@ use unripple::core::{Drive, Responses, Surface};
 use unripple::field::{Aim, Field, Wanted};
 use unripple::focus::{PlayOptions, play};
 
-/// Waveforms are planned and judged on modes up to these multiples of the band, the second by default: at low
+/// Waveforms are planned and evaluated on modes up to these multiples of the band, the second by default: at low
 /// frequencies a sheet yields by modes far above.
 const BANDS: [f64; 2] = [2.0, 3.0];
 
-/// A drive that has targets follow waveforms while others are still, judged, and written to a folder if one is given.
+/// A drive that has targets follow waveforms while others are still, evaluated, and written to a folder if one is given.
 ///
 /// # Errors
 /// [`TaskError::Ask`] without a waveform, and of numbers that make no sense; those of reading and writing files; those of the method;

@@ -50,7 +50,7 @@ pub(super) struct Speaker {
 }
 
 impl OscReceiver {
-    /// Nothing heard yet.
+    /// A receiver that no packet has reached yet.
     pub fn new(options: Options) -> Result<Self, TouchError> {
         let (senders, frames) = (Senders::default(), Default::default());
         Ok(Self { fingers: Fingers::new(options)?, senders, frames, messages: Vec::new() })

@@ -67,7 +67,7 @@ impl Senders {
         &mut self.known[i].names[name].1[list]
     }
 
-    /// Forgets whoever was last heard before a time in s.
+    /// Forgets senders whose last packet came before a time in s.
     pub(super) fn forget(&mut self, before: f64) {
         self.known.retain(|sender| sender.spoken >= before);
     }

@@ -4,8 +4,8 @@ use super::line::{self, FORMAT, Head, Item, VERSION};
 use crate::{Heard, TouchError};
 use std::io::{self, Write};
 
-/// Writes what is heard as a [`Recording`](crate::Recording), line by line, so that what was written is whole after any
-/// interruption.
+/// Writes touches and wishes as a [`Recording`](crate::Recording), line by line, so that what was written is whole
+/// after any interruption.
 ///
 /// ```
 /// use unripple_core::{Phase, Point, Touch};
@@ -37,7 +37,7 @@ impl<W: Write> Recorder<W> {
         Ok(Self { to, start, last: start })
     }
 
-    /// Adds what was heard up to `now`, in s.
+    /// Adds touches and wishes up to `now`, in s.
     pub fn record(&mut self, now: f64, heard: &Heard) -> Result<(), TouchError> {
         let touches = heard.touches.iter().map(|touch| Item::Touch(*touch));
         let wishes = heard.wishes.iter().map(|wish| Item::Wish(now, wish.clone()));

@@ -12,7 +12,7 @@ use unripple::drafting::{Draft, Spot};
 /// Cells of the map along the longer side. Twice as many take four times as long.
 const ACROSS: usize = 24;
 
-/// Where a focus is judged on a surface that nobody has touched, as shares of its sides: (62, 90) mm on the paper's.
+/// Where a focus is evaluated on a surface that nobody has touched, as shares of its sides: (62, 90) mm on the paper's.
 const PLACE: [f64; 2] = [62.0 / 150.0, 0.6];
 
 impl ComputeWorker {

@@ -1,4 +1,4 @@
-//! What `view` is asked.
+//! Options of the task `view`.
 
 use serde::{Deserialize, Serialize};
 use std::net::{IpAddr, Ipv4Addr};

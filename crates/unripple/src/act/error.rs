@@ -1,11 +1,11 @@
-//! Why an act of focusing could not be carried out or judged.
+//! Why an act of focusing could not be carried out or evaluated.
 
 use crate::field::FieldError;
 use crate::focus::FocusError;
 use crate::physics::PhysicsError;
 use unripple_core::OutOfRange;
 
-/// Why an act of focusing could not be carried out or judged.
+/// Why an act of focusing could not be carried out or evaluated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ActError {

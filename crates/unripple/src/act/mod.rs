@@ -56,7 +56,7 @@ use crate::focus::{Focused, Focuser, Options, Target};
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Act<'a> {
-    /// The surface that is judged on.
+    /// The surface that the drive is evaluated on.
     pub surface: &'a Surface,
     /// Responses of the surface, modal or sampled.
     pub responses: &'a Responses,
@@ -82,7 +82,7 @@ pub struct Acted {
 }
 
 impl Act<'_> {
-    /// Makes the drive, brings it to its level and judges it.
+    /// Makes the drive, brings it to its level and evaluates it.
     ///
     /// # Errors
     /// Those of [`carries`], [`Focuser`], [`Act::send`] and [`Act::judge`].

@@ -13,7 +13,7 @@ const MET: f64 = 1e-6;
 /// Steps towards such a level: each leaves less than a fifth of what was missing.
 const STEPS: usize = 12;
 
-/// A drive at the level asked for, and where and when it is to be judged.
+/// A drive at the level asked for, and where and when it is evaluated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sent {
     /// The drive before its last scaling, and its timing.
@@ -32,14 +32,14 @@ pub struct Sent {
     pub notes: Vec<Note>,
 }
 
-/// Places and instants at which a drive is judged.
+/// Places and instants at which a drive is evaluated.
 #[derive(Clone, Debug)]
 pub(super) struct Aimed {
-    /// Where and when the drive is judged.
+    /// Where and when the drive is evaluated.
     pub aims: Vec<Aim>,
     /// Period of a repeated drive, in samples.
     pub period: Option<usize>,
-    /// End of what is judged, in seconds.
+    /// End of the time that is evaluated, in seconds.
     pub until: f64,
     rate: f64,
 }

@@ -92,8 +92,8 @@ impl Draft {
         found.as_ref().map_err(Clone::clone)
     }
 
-    /// Time reversal at one place, judged at its focal instant only: the contrast of `unripple focus` there, in a window of so many
-    /// seconds or the one that it takes by itself.
+    /// Time reversal at one place, evaluated at its focal instant only: the contrast of `unripple focus` there, in a
+    /// window of so many seconds or the one that it takes by itself.
     ///
     /// # Errors
     /// Those of [`Draft::responses`], [`focus`](crate::focus::focus()) and [`Field::snapshots`](crate::field::Field::snapshots).

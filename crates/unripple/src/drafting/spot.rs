@@ -18,7 +18,7 @@ pub struct Spot {
     pub contrast: Option<f64>,
 }
 
-/// A focus at one place, judged at its focal instant only.
+/// A focus at one place, evaluated at its focal instant only.
 pub(super) fn spot(responses: &Responses, at: Point, options: &Options) -> Result<Spot, ActError> {
     let focused = focus(responses, &[Target::at(at)], options)?;
     let instant = focused.instant();

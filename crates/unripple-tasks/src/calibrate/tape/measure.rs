@@ -163,7 +163,7 @@ impl Bench<'_> {
     }
 }
 
-/// What was heard, or why a recording itself is no good; other errors are nobody's recording's.
+/// What was measured, or why a recording itself is no good; other errors are nobody's recording's.
 fn heard(found: Result<Vec<Channel>, CalibrateError>) -> Result<Result<Vec<Channel>, String>, TaskError> {
     match found {
         Ok(channels) => Ok(Ok(channels)),
@@ -185,7 +185,7 @@ struct Work<'b, 'a> {
     /// Recordings that are used.
     all: Vec<Wanted>,
     faults: Vec<Fault>,
-    /// What sensors heard, which points' recordings are compared with.
+    /// Responses at the sensors, which points' recordings are compared with.
     known: Option<Vec<Channel>>,
     start: Instant,
 }
@@ -232,7 +232,7 @@ impl Work<'_, '_> {
         Ok(Session::new(self.bench.campaign.surface, takes.layout(), takes.wires.clone(), settings)?)
     }
 
-    /// A session that holds takes against what sensors heard in that of the actuators.
+    /// A session that holds takes against the sensors' in that of the actuators.
     fn following(&self, settings: &MeasureOptions) -> Result<Session, TaskError> {
         let mut session = self.session(settings)?;
         if let Some(known) = &self.known {

@@ -12,7 +12,7 @@ use unripple_calibrate::signals::{Delay, shift};
 /// Seconds by which a recording may end before what is played, of which the last quarter of a second is silence.
 const SHORT: f64 = 0.2;
 
-/// Samples that are left before what is first heard of the sweeps. 5 ms at 48 kHz, as many as a response's lead.
+/// Samples that are left before the first sound of the sweeps. 5 ms at 48 kHz, as many as a response's lead.
 const MARGIN: f64 = 240.0;
 
 /// Samples that a recording may begin after what is played, of which the first few blocks are silence.
@@ -84,7 +84,7 @@ impl Takes {
         Ok(())
     }
 
-    /// Sample at which playing began, by what is heard of the drive.
+    /// Sample at which playing began, by the recording of the drive.
     fn began(&self, lines: &[Vec<f64>]) -> Option<f64> {
         let anchor = self.heard_themselves(lines);
         match self.wires.reference {
@@ -123,7 +123,7 @@ impl Takes {
         nearest.or(Some(whole.samples))
     }
 
-    /// A recording as the device would have heard it, `[input][sample]`: as long as what is played, and brought to
+    /// A recording as the device would have recorded it, `[input][sample]`: as long as what is played, and brought to
     /// where that begins.
     pub fn take(&mut self, wanted: &Wanted) -> Result<Vec<Vec<f32>>, Fault> {
         let lines = self.lines(wanted)?;

@@ -1,4 +1,4 @@
-//! The wiring test on recordings: what is dead, swapped or reversed, by what was heard of the sweeps.
+//! The wiring test on recordings: what is dead, swapped or reversed, by the sweeps that were recorded.
 
 use super::Bench;
 use super::rig::TapeRig;
@@ -10,7 +10,7 @@ use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{Channel, Listen, Session};
 use unripple_devices::{DevicesError, Expected, WiringOptions, WiringReport, check_responses, reciprocal};
 
-/// Signal to noise, in dB, below which nothing is heard.
+/// Signal to noise, in dB, below which a channel counts as silent.
 const DEAF: f64 = 6.0;
 
 /// An actuator is dead that is this much quieter than the loudest, as a share, or [`QUIET`] and no more than noise.
@@ -85,7 +85,7 @@ pub fn tried(bench: &Bench<'_>, session: &Session, rig: &mut TapeRig) -> Result<
     Ok(tried)
 }
 
-/// What all sensors heard of all actuators; without sensors, what the probe heard at some points.
+/// Responses of all actuators at all sensors; without sensors, those at the probe at some points.
 fn heard(bench: &Bench<'_>, session: &Session, rig: &mut TapeRig) -> Result<Vec<Channel>, Failed> {
     let (last, centre) = (bench.campaign.places.points.len(), middle(bench.campaign.surface));
     if !bench.takes.wires.sensors.is_empty() {
@@ -98,7 +98,7 @@ fn heard(bench: &Bench<'_>, session: &Session, rig: &mut TapeRig) -> Result<Vec<
         }
         match session.measure(rig, number, bench.campaign.places.points[number], 0, Listen::Probe) {
             Ok(heard) => rows.extend(heard),
-            // A point's recording that is no good is told of when it is measured.
+            // A point's recording that is no good is reported when it is measured.
             Err(CalibrateError::Recording { .. } | CalibrateError::Dsp(_)) => {}
             Err(error) => return Err(error.into()),
         }
@@ -281,7 +281,7 @@ impl Held {
                 names.push(PROBE.into());
                 Self { names, channels: [of(&sensors), probe].concat(), at: Some(at) }
             }
-            // A point's recording that is no good is told of when it is measured.
+            // A point's recording that is no good is reported when it is measured.
             Some(Err(_)) | None => Self { names, channels: of(rows), at: None },
         }
     }
