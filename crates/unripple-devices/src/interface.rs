@@ -5,10 +5,10 @@ use crate::delay::{Delay, HALF};
 use crate::error::same;
 use unripple_core::{Layout, Random, require};
 
-/// What stands between a computer and a surface: converters, amplifiers and wires. The default is perfect.
+/// The chain between a computer and a surface: converters, amplifiers and wires. The default is perfect.
 ///
 /// Faults of the surface itself, of its sensors and of whole channels are
-/// [`InjectedFaults`](unripple_physics::stepper::InjectedFaults); these here act on what goes out and on all that is heard, the probe
+/// [`InjectedFaults`](unripple_physics::stepper::InjectedFaults); these here act on all outputs and inputs, the probe
 /// included.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interface {
@@ -18,7 +18,7 @@ pub struct Interface {
     pub heard_gains: Vec<f64>,
     /// Root mean square of white noise on each input, in its own unit; empty for none.
     pub noise: Vec<f64>,
-    /// Samples by which everything heard comes late: a whole number, or at least 24.
+    /// Samples by which all inputs come late: a whole number, or at least 24.
     pub latency: f64,
     /// Blocks after which the device is gone.
     pub vanish_after: Option<u64>,

@@ -22,7 +22,7 @@ const BLOCK: usize = 64;
 const LOWEST: f64 = 1e-3;
 const NODES_APART: f64 = 1.1;
 
-/// What makes a true surface differ from its model, drawn at random: none of it is in the surface file. One seed
+/// Differences of a true surface from its model, drawn at random: none of it is in the surface file. One seed
 /// gives one truth.
 ///
 /// ```
@@ -45,7 +45,7 @@ const NODES_APART: f64 = 1.1;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Perturbation {
-    /// Signal-to-noise of what is heard while one actuator sweeps the band at the drive limit, in dB: see [`Truth::noise`].
+    /// Signal-to-noise at the inputs while one actuator sweeps the band at the drive limit, in dB: see [`Truth::noise`].
     pub snr_db: f64,
     /// Root mean square of the error of each drive's and each sensor's gain, as a share.
     pub gain: f64,

@@ -1,4 +1,4 @@
-//! Tension followed while playing, from what is sent and what the actuators hear.
+//! Tension followed while playing, from the drive and the actuators' own signals.
 
 use crate::{FocusWorker, LiveError};
 use std::sync::Arc;
@@ -12,7 +12,7 @@ const WORTH: f64 = 1e-4;
 /// Periods after a finger has left in which the sheet still rings as it did under the finger.
 const SETTLING: u32 = 1;
 
-/// Follows tension while the surface is played, from what is sent and what the actuators hear of it, by a Kalman
+/// Follows tension while the surface is played, from the drive and the actuators' own signals, by a Kalman
 /// filter ([`Tracker`]).
 ///
 /// The model knows the sheet without fingers. So stretches in which a finger was on it are passed over, and a ping that

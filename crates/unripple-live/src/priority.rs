@@ -19,7 +19,7 @@ const BESIDE: u8 = 40;
 pub struct Priorities {
     /// Of the thread that exchanges blocks, if the device does not call by itself.
     pub(crate) audio: Option<u8>,
-    /// Of the thread that hears touches: they are timed when it wakes.
+    /// Of the thread that receives touches: they are timed when it wakes.
     pub(crate) touch: Option<u8>,
     /// Of the threads that turn them into drives.
     pub(crate) beside: Option<u8>,

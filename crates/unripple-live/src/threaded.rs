@@ -166,7 +166,7 @@ struct Fetched {
 /// What following found: how tension fares, and a maker for the surface as it is, if that has changed.
 type Found = Result<(Drift, Option<FocusWorker>), LiveError>;
 
-/// The thread that follows tension: what it computes is too long for the one that hears touches.
+/// The thread that follows tension: what it computes is too long for the one that receives touches.
 fn follow(follower: &mut Follower, mut heard: Fetched, shared: &Shared, found: &mpsc::Sender<Found>) {
     let mut block = Vec::with_capacity(heard.samples);
     while shared.goes_on() {
@@ -194,7 +194,7 @@ fn follow(follower: &mut Follower, mut heard: Fetched, shared: &Shared, found: &
     }
 }
 
-/// The thread that hears touches: they are timed when they come, whatever is computed meanwhile.
+/// The thread that receives touches: they are timed when they come, whatever is computed meanwhile.
 fn listen(ears: &mut Ears, shared: &Shared, told: &mpsc::Sender<News>) {
     // Touches are worth more than all but the sound itself.
     let _ = priority::at(shared.priorities.touch);
@@ -368,7 +368,7 @@ fn tell(heart: &Heartbeat, shared: &Shared) {
 }
 
 fn fail(error: DeviceError, shared: &Shared, failed: &mpsc::Sender<DeviceError>) {
-    // Whoever hears of it stops.
+    // The thread that receives it stops play.
     let _ = failed.send(error);
     shared.bell.unpark();
 }

@@ -14,7 +14,8 @@ const CYCLES: usize = 512;
 /// Touches that are remembered until they are answered. The oldest go first; their latency is not known then.
 const TOUCHES: usize = 4096;
 
-/// Set by whoever plays in each cycle, who never waits for anybody; read by whoever hears touches and whoever answers them.
+/// Set by whoever plays in each cycle, who never waits for anybody; read by the threads that receive touches and
+/// answer them.
 #[derive(Debug)]
 pub(crate) struct Timeline {
     base: Instant,

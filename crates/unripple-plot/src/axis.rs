@@ -26,7 +26,7 @@ pub struct Axis {
     pub label: String,
     /// How values are spread.
     pub scale: Scale,
-    /// What a datum is multiplied by to be shown: 1e3 for data in seconds on an axis in milliseconds.
+    /// Factor from data to the numbers shown: 1e3 for data in seconds on an axis in milliseconds.
     pub multiplier: f64,
     /// Low end of the axis, in the data's unit; from the data if absent.
     pub low: Option<f64>,

@@ -9,7 +9,7 @@ use crate::raster::Raster;
 use crate::style::Style;
 use crate::{PlotError, encode, font};
 
-/// What a marker on a map stands for.
+/// The kind of a marker on a map.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Symbol {
     /// Where an actuator pushes: a dark square.

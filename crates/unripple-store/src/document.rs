@@ -87,7 +87,7 @@ pub(crate) fn whole(file: &str, text: &str, at: usize, found: &str, expected: &s
     FileFaults::new(file, text, vec![fault])
 }
 
-/// What to call what a file describes when it does not say.
+/// A name for what a file describes, from the file's own name, where it gives none.
 pub(crate) fn stem(file: &str) -> String {
     let stem = std::path::Path::new(file).file_stem().map(|s| s.to_string_lossy().into_owned());
     stem.map(|s| s.chars().filter(|c| !c.is_control()).take(50).collect::<String>().trim().to_owned())

@@ -93,7 +93,7 @@ fn print(path: &Path) -> io::Result<Print> {
     }
 }
 
-/// What is in a folder that is not on its list, or not as it was: in words, none if all is ours.
+/// Files of a folder that are not on its list, or not as they were: in words, none if all is ours.
 pub(crate) fn guests(folder: &Path, files: &BTreeMap<String, Print>) -> io::Result<Option<String>> {
     let mut guests = Vec::new();
     for entry in fs::read_dir(folder)? {

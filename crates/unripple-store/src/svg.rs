@@ -182,7 +182,7 @@ impl<'n> Page<'n> {
     }
 }
 
-/// What is done with a path of a document.
+/// The action on each path of a document.
 type Take<'t> = dyn FnMut(&usvg::Path) -> Result<(), StoreError> + 't;
 
 /// Collects shapes, in metres with y up.

@@ -10,7 +10,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// folder while it is taken away.
 static ALL: Mutex<Vec<Entry>> = Mutex::new(Vec::new());
 
-/// Something that is not to be left behind.
+/// A file or folder under way, to be removed if the work does not end well.
 #[derive(Debug)]
 pub(crate) struct Entry {
     id: u64,
@@ -19,7 +19,7 @@ pub(crate) struct Entry {
     pub(crate) parents: Vec<PathBuf>,
 }
 
-/// What it is, which says how it is taken away.
+/// The kind of output under way, which says how it is removed.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum What {
     /// Nothing: not made yet.

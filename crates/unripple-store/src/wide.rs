@@ -10,7 +10,7 @@ const MOST: u64 = 1 << 20;
 const FLOAT: u16 = 3;
 const EXTENSIBLE: u16 = 0xfffe;
 
-/// What the beginning of a WAV file says.
+/// The sample format of a WAV file, by its first chunks.
 pub(crate) enum Format<R> {
     /// Float64: samples per second, channels, and what follows the format.
     Float64 { rate: u32, channels: u16, rest: R },

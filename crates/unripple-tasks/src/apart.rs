@@ -35,7 +35,7 @@ struct Relay<R> {
 }
 
 impl<R> Progress for Relay<R> {
-    // A caller that has gone hears nothing, which is no fault of the task.
+    // A caller that has gone gets no report, which is no fault of the task.
     fn stage(&mut self, what: &str) {
         let _ = self.to.send(Said::Stage(what.into()));
     }

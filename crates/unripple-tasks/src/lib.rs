@@ -1,4 +1,4 @@
-//! What can be done with Unripple, each task as a plain question and a report.
+//! The tasks of Unripple, each with plain options and a report.
 //!
 //! One folder a verb. In each, `Ask` is a plain struct in SI units, with defaults and serde; `run` does the work,
 //! informs a [`Progress`] how far it is and looks there whether it is still wanted; `Report` is what came of it, with

@@ -4,7 +4,7 @@
 //! and says where a finger [will be](Sources::predict). No source blocks, none reads a clock, none takes unbounded
 //! memory or time, and what they refuse is counted by kind ([`Counts`]).
 //!
-//! | source | hears |
+//! | source | receives |
 //! |---|---|
 //! | [`OscPort`] | TUIO 1.1 and 2.0, and the addresses under `/unripple/`, over UDP |
 //! | [`WebSocketPort`] | the JSON protocol of [`SCHEMA`] |
@@ -12,8 +12,8 @@
 //! | [`Playback`] | a [`Recording`], made with a [`Recorder`] |
 //! | [`Synthetic`] | fingers that are not there |
 //!
-//! Behind each that hears strangers is a decoder that needs no socket ([`OscReceiver`], [`Message`], [`Slots`]), and the
-//! [`Fingers`] that it knows of.
+//! Behind each that takes data from strangers is a decoder that needs no socket ([`OscReceiver`], [`Message`],
+//! [`Slots`]), and the [`Fingers`] that it knows of.
 
 mod counts;
 mod error;

@@ -32,6 +32,6 @@ pub trait Source: Send {
         let _ = files;
     }
 
-    /// What was taken in and what was refused so far.
+    /// Counts of messages that were accepted and refused so far.
     fn counts(&self) -> Counts;
 }

@@ -1,4 +1,4 @@
-//! What all pages are to be shown, from which each takes what it has not seen.
+//! Messages and pictures for all pages, from which each takes those that it has not seen.
 
 use crate::lock::lock;
 use axum::body::Bytes;

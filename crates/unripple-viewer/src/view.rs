@@ -40,7 +40,7 @@ pub struct View {
     pub method: Method,
     /// A real device; the surface is simulated where `None`.
     pub device: Option<Opener>,
-    /// What follows the sheet's tension, if it is to be followed.
+    /// How the sheet's tension is followed, if it is.
     pub follow: Option<Follow>,
     /// Name of the device, for people.
     pub device_name: String,

@@ -32,14 +32,14 @@ struct Point {
     admittance: Mat<c64>,
 }
 
-/// What places on the sheet, candidates for a mass, are to all others at one frequency.
+/// Admittances at one frequency between places of the sheet that are candidates for a mass, and all others.
 #[derive(Clone, Debug)]
 pub(super) struct Look {
     s: c64,
     admittance: Mat<c64>,
     /// Candidates by places.
     between: Mat<c64>,
-    /// Of each candidate to itself.
+    /// Admittance of each candidate at its own place.
     own: Vec<c64>,
 }
 
@@ -56,7 +56,7 @@ impl Look {
 }
 
 impl System {
-    /// What candidates are to the places at complex frequencies (1/s).
+    /// Admittances between candidates and the places at complex frequencies (1/s).
     pub fn looks(
         &self,
         basis: &Basis,

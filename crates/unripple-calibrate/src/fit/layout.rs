@@ -24,7 +24,7 @@ const STRAY: f64 = 10e-3;
 const LEVEL: f64 = 0.2;
 const LATE: f64 = 2e-5;
 
-/// What the unknowns are, and where each stands in their vector.
+/// The unknowns of a fit, and the place of each in their vector.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Layout {
     /// Number of actuators.

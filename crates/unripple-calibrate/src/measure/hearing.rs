@@ -1,15 +1,15 @@
-//! What actuators hear of each other and of themselves, as a model says.
+//! Responses of actuators at each other's sensors and their own, by a model.
 
 use crate::CalibrateError;
 use unripple_core::{ModalResponses, Onset, Surface};
 use unripple_linalg::Mat;
 use unripple_physics::{Sensor, sensed, sensors};
 
-/// A model of what a surface's actuators hear of each other, each in the unit of its [`Sensor`].
+/// A model of the responses of a surface's actuators at each other's sensors, each in the unit of its [`Sensor`].
 #[derive(Clone, Debug)]
 pub struct Hearing {
     sensors: Vec<Sensor>,
-    /// What each sensor feels of each oscillation, sensors x oscillations.
+    /// Weight of each oscillation at each sensor, sensors x oscillations.
     felt: Mat<f64>,
     model: ModalResponses,
 }

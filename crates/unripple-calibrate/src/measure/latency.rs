@@ -242,7 +242,7 @@ impl Cells {
     }
 }
 
-/// What the model says that the chosen actuators hear of each other, within the band.
+/// Responses of the chosen actuators at each other by the model, within the band.
 fn said(
     heard: &[Vec<Vec<f64>>],
     some: &[usize],

@@ -1,4 +1,4 @@
-//! What a measurement needs of the world: a device, and somebody who moves the probe.
+//! The rig that a measurement needs: a device, and somebody who moves the probe.
 
 use crate::CalibrateError;
 use unripple_core::{Device, Point};
@@ -7,7 +7,7 @@ use unripple_core::{Device, Point};
 ///
 /// Before each recording the surface is at rest: [`Rig::ready`] waits for that, or sees to it.
 pub trait Rig {
-    /// What plays and listens.
+    /// The device that plays and records.
     fn device(&mut self) -> &mut dyn Device;
 
     /// Brings the probe to a point and lets the surface come to rest. `number` counts the points of the plan, from 0;

@@ -113,7 +113,7 @@ impl Telling<'_> {
         self.starts.iter().zip(&powers).map(one).collect()
     }
 
-    /// What sets known responses and those around `at`, which have their time 0 after `origin` samples, apart.
+    /// The differences of known responses from those around `at`, which have their time 0 after `origin` samples.
     fn compared(&self, known: &[(&[f64], usize)], at: i64, origin: usize, still: bool) -> Option<Apart> {
         let mut whole = self.coarse(known, at)?;
         let mut best = None::<Apart>;
@@ -151,7 +151,7 @@ impl Telling<'_> {
     }
 }
 
-/// What sets pairs apart: most of them, where the others have nothing in common, as what a deaf sensor heard.
+/// The common difference of pairs: of most of them, where the others have nothing in common, as at a dead sensor.
 fn agreed(pairs: Pairs<'_>, still: bool) -> Apart {
     let apart = pairs.apart(still);
     if apart.likeness >= LEAST {

@@ -1,6 +1,6 @@
-//! What the delays of the sweeps of one take say of its clock, and of samples that it lost.
+//! Clock error and lost samples of one take, by the delays of its sweeps.
 
-/// A sweep of a take: when it began, how much later it was heard than it should have been, and how sure that is.
+/// A sweep of a take: when it began, how much later it came than it should have, and how sure that is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Sweep {
     /// Number of the sweep, from 0.
@@ -13,7 +13,7 @@ pub(super) struct Sweep {
     pub error: f64,
 }
 
-/// When a take was heard: `late + slope · start`, and from some sweep on `lost` samples less.
+/// Times of a take against its drive: `late + slope · start`, and from some sweep on `lost` samples less.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Timing {
     /// Samples by which a sweep that begins at 0 is late.

@@ -61,7 +61,7 @@ pub(super) enum Whose {
     Nobody,
 }
 
-/// What points are compared with: model, places, options.
+/// The references that points are compared with: model, places, options.
 pub(super) struct Bench<'a> {
     /// The fitted model, and what was recorded in its frequencies.
     pub quick: &'a Quick,

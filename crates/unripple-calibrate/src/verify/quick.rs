@@ -49,9 +49,9 @@ pub(super) struct Quick {
     pub actuators: Vec<usize>,
     /// Complex frequencies that are compared, in 1/s.
     pub frequencies: Vec<c64>,
-    /// What sensors heard: of each, `[driven][frequency]`.
+    /// Responses at the sensors: of each, `[driven][frequency]`.
     pub sensed: Vec<Vec<Vec<c64>>>,
-    /// What the probe heard at each point, `[driven][frequency]`.
+    /// Responses at the probe, of each point `[driven][frequency]`.
     pub probed: Vec<Vec<Vec<c64>>>,
 }
 

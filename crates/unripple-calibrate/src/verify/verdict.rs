@@ -49,7 +49,7 @@ pub struct Verified {
     pub model: Checked,
     /// One for each probed point, in their order; empty without a model.
     pub points: Vec<PointVerdict>,
-    /// Seconds by which all that the probe heard comes later than what sensors heard, what was taken out before included.
+    /// Seconds by which the probe's signals come later than the sensors', what was taken out before included.
     pub probe_delay: Option<f64>,
     /// Gain of the probe over the model, which has the sensors' scale: what most points agree on.
     pub gain: Option<f64>,
@@ -57,7 +57,7 @@ pub struct Verified {
     pub notes: Vec<String>,
     /// Doubts that need no model: points whose responses are those of another.
     pub copies: Vec<Doubted>,
-    /// What makes points, or all of the calibration, doubtful, copies first.
+    /// Reasons to doubt points, or all of the calibration, copies first.
     pub doubts: Vec<Doubted>,
 }
 

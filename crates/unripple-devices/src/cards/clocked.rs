@@ -9,7 +9,7 @@ fn sample(output: usize, i: usize) -> f32 {
     (1 + i % (1 << 24)) as f32 * if output == 0 { 1.0 } else { -1.0 }
 }
 
-/// Exchanges blocks from one to before another; by how many samples what is heard came later than its drive, where all of
+/// Exchanges blocks from one to before another; by how many samples inputs came later than their drive, where all of
 /// a block's samples came so, and in how many blocks they did not.
 fn exchange(ferry: &mut Ferry, blocks: std::ops::Range<usize>) -> Result<(Vec<i64>, usize), DeviceError> {
     let (mut late, mut broken, mut heard) = (Vec::new(), 0, [7.0f32; 2 * BLOCK]);

@@ -24,9 +24,9 @@ struct Count {
 
 /// Frames of both sides.
 ///
-/// What is heard is matched to what was played by its number, so both have to count the same time. A side that was not called
-/// for a while, or whose clock is slower, is behind; it then counts on from where the other one is, so that nobody waits for
-/// frames that never come.
+/// Recorded samples are matched to played ones by their number, so both have to count the same time. A side that was
+/// not called for a while, or whose clock is slower, is behind; it then counts on from where the other one is, so
+/// that nobody waits for frames that never come.
 #[derive(Debug, Default)]
 pub(super) struct Counts {
     sides: [Count; 2],
@@ -89,7 +89,7 @@ impl Counts {
         self.side(side).largest.load(Ordering::Relaxed) as usize
     }
 
-    /// What to say if the sides did not count together.
+    /// The message where the counts of the two sides drift apart.
     pub(super) fn apart(&self) -> Option<String> {
         let [late, ahead] = match self.apart.load(Ordering::Relaxed) {
             0 => return None,

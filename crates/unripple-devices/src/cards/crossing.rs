@@ -1,4 +1,4 @@
-//! What passes between a program and the two threads of a card, one that plays and one that records.
+//! Samples and events between a program and the two threads of a card, one that plays and one that records.
 
 use super::bell::Bell;
 use super::counts::Counts;
@@ -7,7 +7,7 @@ use rtrb::{Consumer, Producer, RingBuffer};
 use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex};
 
-/// What happens to a card, as its two threads report it.
+/// Events of a card, as its two threads report them.
 #[derive(Debug, Default)]
 pub(super) struct Events {
     /// How far its sides have come. Frames are counted from when it begins to play.
@@ -55,7 +55,7 @@ pub(super) struct Recorder {
 pub(super) struct Shore {
     pub(super) drive: Producer<f32>,
     pub(super) when: Consumer<u32>,
-    /// Frames of what is heard, as bits: a sample of each input, and the frame's number since the card began.
+    /// Recorded frames, as bits: a sample of each input, and the frame's number since the card began.
     pub(super) heard: Consumer<u32>,
 }
 

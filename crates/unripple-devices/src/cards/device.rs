@@ -64,10 +64,10 @@ impl Default for CardOptions {
 /// A sound card as a device, playing and recording at once.
 ///
 /// The card's threads neither wait nor allocate: where drive is late silence is played, and what nobody takes is dropped.
-/// What was missed, a pause between exchanges included, is in [`Status::lost`] as soon as the first block after it is heard, and
-/// latency is the same after it as before. Both sides have to run on one clock: where they count apart by more than their
-/// buffers explain, a strict card is lost, and says so. So let some blocks of silence pass before a measurement, and hold `lost` after
-/// them against `lost` at its end.
+/// What was missed, a pause between exchanges included, is in [`Status::lost`] as soon as the first block after it is
+/// recorded, and latency is the same after it as before. Both sides have to run on one clock: where they count apart
+/// by more than their buffers explain, a strict card is lost, and says so. So let some blocks of silence pass before
+/// a measurement, and hold `lost` after them against `lost` at its end.
 ///
 /// ```no_run
 /// use unripple_core::Device;

@@ -39,7 +39,7 @@ pub(super) struct Ferry {
     driven: u64,
     /// Blocks whose answer was not there in time.
     owed: u64,
-    /// Of the block that is being heard: its frames so far, when its next frame was played, frames missed.
+    /// Of the block that is being recorded: its frames so far, when its next frame was played, frames missed.
     frames: Vec<f32>,
     next: Option<u32>,
     missed: u64,

@@ -51,7 +51,7 @@ impl Clock {
     }
 }
 
-/// The card: what it plays it hears, [`AIR`] later.
+/// The card: it records what it plays, [`AIR`] later.
 pub(super) struct StandIn {
     player: Player,
     recorder: Recorder,

@@ -22,7 +22,7 @@ pub(super) struct Running {
 }
 
 impl Running {
-    /// The most frames that a side is given at once, as far as the system tells.
+    /// The most frames that a side is given at once, as far as the system says.
     pub(super) fn period(&self) -> usize {
         let told = self.streams.iter().filter_map(|stream| stream.buffer_size().ok());
         told.max().map_or(0, |frames| frames as usize)
@@ -60,7 +60,7 @@ impl Side {
         }
     }
 
-    /// What it did.
+    /// The verb for messages: played or recorded.
     pub(super) fn did(self) -> &'static str {
         match self {
             Self::Playback => "played",
@@ -75,7 +75,7 @@ impl Side {
         }
     }
 
-    /// What a device offers this way.
+    /// The stream formats that a device offers in this direction.
     pub(super) fn offers(self, device: &cpal::Device) -> Vec<cpal::SupportedStreamConfigRange> {
         match self {
             Self::Playback => device.supported_output_configs().map(Iterator::collect),
@@ -85,7 +85,7 @@ impl Side {
     }
 }
 
-/// What a device is called.
+/// The name of a sound card.
 pub(super) fn name(device: &cpal::Device) -> String {
     device.id().map_or_else(|_| "card".into(), |id| id.id().to_owned())
 }

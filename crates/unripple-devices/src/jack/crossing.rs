@@ -20,9 +20,9 @@ const HANDED: usize = 8;
 /// The side of the rings that the server's thread has.
 ///
 /// Either the thread does work that it was given, or samples cross frame by frame: a frame of drive is one sample of every output
-/// and one 0; a frame of what is heard is one sample of every input and, in the first frame of a cycle, the number of cycles missed
-/// before it. A cycle either takes and gives all its frames, or none: so drive and what is heard of it stay in step whatever is
-/// missed.
+/// and one 0; a recorded frame is one sample of every input and, in the first frame of a cycle, the number of cycles missed
+/// before it. A cycle either takes and gives all its frames, or none: so drive and the inputs that answer it stay in
+/// step whatever is missed.
 pub(super) struct Crossing {
     outputs: usize,
     inputs: usize,

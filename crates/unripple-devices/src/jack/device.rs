@@ -62,10 +62,11 @@ impl Default for JackOptions {
 /// [exchanged](Device::exchange) with it, which wait in a ring, `lead` of them; a period that grows meanwhile makes it more, and
 /// counts as a block lost.
 ///
-/// In real time the server's thread neither waits nor allocates: where drive is late it plays silence, hears nothing, and counts.
-/// What was missed, a pause between exchanges included, is in [`Status::lost`] as soon as the first block after it is heard. So let
-/// some blocks of silence pass before a measurement, and hold `lost` after them against `lost` at its end. A server
-/// that freewheels waits for drive instead, two seconds at most.
+/// In real time the server's thread neither waits nor allocates: where drive is late it plays silence, records
+/// nothing, and counts.
+/// What was missed, a pause between exchanges included, is in [`Status::lost`] as soon as the first block after it is
+/// recorded. So let some blocks of silence pass before a measurement, and hold `lost` after them against `lost` at
+/// its end. A server that freewheels waits for drive instead, two seconds at most.
 ///
 /// ```no_run
 /// use unripple_core::Device;

@@ -1,4 +1,4 @@
-//! What the server reports to a client, kept in atomics.
+//! Events that the server reports to a client, kept in atomics.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 /// Cycles after which a change holds: one may be under way already, and one begins the change.
 const SETTLED: u64 = 3;
 
-/// What happens to a client, as the server's callbacks report it, in atomics.
+/// Events of a client, as the server's callbacks report them, in atomics.
 #[derive(Debug, Default)]
 pub(super) struct Events {
     /// Cycles so far.

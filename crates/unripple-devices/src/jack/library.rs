@@ -40,7 +40,7 @@ const PLAYBACK_LATENCY: c_uint = 1;
 /// What `jack_connect` returns for a connection that is there already: `EEXIST`.
 const EXISTS: c_int = 17;
 
-/// What is done in each cycle.
+/// The work of a client in each cycle.
 pub(super) trait Process: Send + 'static {
     /// One cycle, in real time unless the server freewheels.
     fn cycle(&mut self, cycle: &mut Cycle);
@@ -74,7 +74,7 @@ impl Cycle<'_> {
         (failed == 0).then(|| (frame, here.checked_sub(ago).unwrap_or(here) + ahead))
     }
 
-    /// When the next cycle is to begin, by the server's clock: to be asked at the beginning of this one, since the server counts on
+    /// When the next cycle is to begin, by the server's clock: to be read at the beginning of this one, since the server counts on
     /// meanwhile.
     pub(super) fn next(&self) -> Option<u64> {
         let (mut frame, mut began, mut next, mut period) = (0, 0, 0, 0.0);
@@ -90,7 +90,7 @@ impl Cycle<'_> {
         unsafe { (self.api.get_time)() }
     }
 
-    /// What came in at a port, by the order of registration; empty beyond the last.
+    /// Samples of an input port, by the order of registration; empty beyond the last.
     pub(super) fn input(&self, port: usize) -> &[f32] {
         let Some(port) = self.inputs.get(port) else { return &[] };
         // SAFETY: within the callback a port's buffer holds `frames` floats; inputs are only read.
@@ -100,7 +100,7 @@ impl Cycle<'_> {
         }
     }
 
-    /// What is to go out at a port.
+    /// Samples of an output port, to be filled; empty beyond the last.
     pub(super) fn output(&mut self, port: usize) -> &mut [f32] {
         let Some(port) = self.outputs.get(port) else { return &mut [] };
         // SAFETY: as above; every output has a buffer of its own, and `self` is borrowed for as long as it.
@@ -115,7 +115,7 @@ impl Cycle<'_> {
     }
 }
 
-/// What the callbacks get.
+/// The state that the server's callbacks are given.
 struct Context {
     api: &'static Api,
     raw: *mut RawClient,
@@ -215,7 +215,7 @@ impl Client {
         unsafe { (self.api.last_frame_time)(self.raw) }
     }
 
-    /// Adds a port of its own, before [`Client::start`]: one that hears, or one that speaks.
+    /// Adds a port of its own, before [`Client::start`]: an input, or an output.
     pub(super) fn add(&mut self, name: &str, hears: bool) -> Result<(), DevicesError> {
         let (short, kind) = (text(name)?, c"32 bit float mono audio");
         let flags = if hears { PORT_IS_INPUT } else { PORT_IS_OUTPUT };
@@ -308,7 +308,7 @@ impl Client {
         u8::try_from(priority).ok().filter(|priority| real_time != 0 && *priority > 0)
     }
 
-    /// The largest latency in samples between our ports and the air, as the server knows it: of what is heard, of what is played.
+    /// The largest latency in samples between our ports and the air, as the server knows it: of inputs, of outputs.
     pub(super) fn latencies(&self) -> [u64; 2] {
         let sides = [(&self.inputs, CAPTURE_LATENCY), (&self.outputs, PLAYBACK_LATENCY)];
         sides.map(|(ports, mode)| {

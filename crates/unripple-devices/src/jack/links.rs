@@ -1,11 +1,11 @@
-//! What ports of a client are connected to.
+//! Ports that a client's ports are connected to.
 
 use super::device::JackOptions;
 use super::events::Side;
 use super::library::Client;
 use crate::DevicesError;
 
-/// What the ports of a JACK client are connected to.
+/// The ports that a JACK client's ports are connected to.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Links {
     /// The system's playback and capture ports, in order.
@@ -14,9 +14,9 @@ pub enum Links {
     /// Another client, by its name: our `out_a1` to its `in_a1`, its `out_a1` to our `in_a1`. [`Bridge`](super::Bridge) has
     /// such ports.
     Client(String),
-    /// Ports by their full names: one to play to for each output, one to hear from for each input.
+    /// Ports by their full names: one to play to for each output, one to record from for each input.
     Ports {
-        /// Ports that hear, in the order of the outputs.
+        /// Ports that receive, in the order of the outputs.
         playback: Vec<String>,
         /// Ports that speak, in the order of the inputs.
         capture: Vec<String>,

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 /// stood still may come just before it calls.
 const LOOKS: u32 = 3;
 
-/// What was seen of the cycles.
+/// The server's cycles and samples as last seen.
 #[derive(Debug)]
 pub(super) struct Watch {
     /// Cycles when one was last seen to pass, and when that was.

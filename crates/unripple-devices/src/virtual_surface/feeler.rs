@@ -1,4 +1,4 @@
-//! What fingers feel of a virtual surface.
+//! Sensations of fingers on a virtual surface.
 
 use super::Handle;
 use crate::DevicesError;
@@ -14,7 +14,7 @@ const STRIDE: usize = 4;
 /// square stands for that of the whole sheet. Twice as many cost four times as much.
 const ACROSS: usize = 6;
 
-/// What one finger feels of a virtual surface.
+/// The sensation of one finger on a virtual surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Feeling {
     /// The name that the finger was put down under.

@@ -59,8 +59,8 @@ impl Default for VirtualOptions {
     }
 }
 
-/// Steps of a sample where something hangs on a surface that is to be measured. With one, what coils on a voltage hear comes up to 0.035
-/// samples early; that falls as the square of their number.
+/// Steps of a sample where something hangs on a surface that is to be measured. With one, the signals of coils on a
+/// voltage come up to 0.035 samples early; that falls as the square of their number.
 const FINE: usize = 3;
 
 impl VirtualOptions {
@@ -240,7 +240,7 @@ pub(crate) fn top(surface: &Surface, asked: Option<f64>) -> Result<f64, DevicesE
     }
 }
 
-/// What another thread left behind when it panicked is still a surface.
+/// The surface behind its lock, even if another thread panicked while it held it.
 fn lock(workings: &Mutex<Workings>) -> MutexGuard<'_, Workings> {
     workings.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
 }

@@ -1,4 +1,4 @@
-//! What is behind a virtual device: stepper, taps, converters.
+//! The parts of a virtual device: stepper, taps, converters.
 
 use super::watch::{self, Watch};
 use crate::DevicesError;
@@ -6,7 +6,7 @@ use crate::interface::Converter;
 use unripple_core::{Layout, Point};
 use unripple_physics::stepper::{Footing, Misbehaving};
 
-/// What is behind a virtual device.
+/// The parts of a virtual device.
 #[derive(Debug)]
 pub(super) struct Workings {
     pub(super) surface: Misbehaving,

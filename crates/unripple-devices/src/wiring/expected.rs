@@ -1,4 +1,4 @@
-//! What a model says that each input hears of each output.
+//! Responses from each output to each input, as a model predicts them.
 
 use super::WiringOptions;
 use crate::DevicesError;
@@ -61,7 +61,7 @@ impl Expected {
         Ok(Self { outputs, inputs, samples, data: responses.concat().concat() })
     }
 
-    /// What a surface's responses say that each actuator hears, whatever its kind ([`Sensor`]), then a probe (m/s) if there is one,
+    /// Responses at each actuator, whatever its kind ([`Sensor`]), then at a probe (m/s) if there is one,
     /// over some time (s).
     ///
     /// # Errors
@@ -79,7 +79,8 @@ impl Expected {
         Ok(Self::heard(responses, heard, &sensors, probe, duration))
     }
 
-    /// The same of ideal forces and of others that hear the velocity that their drive weighs: the sensor's weights are the drive's.
+    /// The same of ideal forces and of others that sense the velocity that their drive weighs: the sensor's weights
+    /// are the drive's.
     pub fn of_modes(responses: &ModalResponses, probe: Option<Point>, duration: f64) -> Self {
         let input = &responses.input;
         let heard = (0..input.nrows()).map(|a| input.row(a).iter().copied().collect()).collect();

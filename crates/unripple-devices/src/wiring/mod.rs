@@ -85,7 +85,7 @@ impl WiringOptions {
 /// Each recording r of output o and input i is compared with each prediction p by its normalised correlation, at the
 /// one latency that explains most of all; the wires are those whose sum of magnitudes is largest, found from the
 /// expected ones by exchanging two outputs, two inputs, or both of one name as long as that helps. Signs follow from
-/// the product of an output's and an input's. That all outputs and all inputs are reversed together cannot be heard.
+/// the product of an output's and an input's. That all outputs and all inputs are reversed together does not show.
 ///
 /// # Errors
 /// [`DevicesError::Device`] if a block does not pass, [`DevicesError::Size`] if the model has other channels than the

@@ -26,12 +26,12 @@ struct Heard<'a> {
     actuators: usize,
 }
 
-/// Judges the wires of actuators of these names. `heard[sensor][drive]` are responses, `spare` other inputs by name that heard the same
-/// drives, such as a probe wherever it was.
+/// Judges the wires of actuators of these names. `heard[sensor][drive]` are responses, `spare` other inputs by name
+/// that recorded the same drives, such as a probe wherever it was.
 ///
 /// h_ab = h_ba up to one factor for each actuator, that of its drive over that of its sensor. Sensors that are swapped break this for
-/// all pairs they are in, an input that hears something else likewise; a reversed one shows in the signs. Whether an output or a sensor is
-/// at fault cannot be seen, nor an actuator whose wires are both swapped with another's.
+/// all pairs they are in, an input that records something else likewise; a reversed one shows in the signs. Whether
+/// an output or a sensor is at fault cannot be seen, nor an actuator whose wires are both swapped with another's.
 ///
 /// ```
 /// # let noise = |seed: u64| -> Vec<f64> {

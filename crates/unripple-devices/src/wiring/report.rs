@@ -1,11 +1,11 @@
-//! What was found of all channels.
+//! The result of a wiring test, channel by channel.
 
 use super::WiringOptions;
 use super::likeness::{Likeness, Routes};
 use std::fmt;
 use unripple_core::Layout;
 
-/// What was found of one output or input.
+/// The result of a wiring test for one output or input.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lead {
     /// The channel's name.
@@ -22,7 +22,7 @@ pub struct Lead {
     pub unlike: bool,
 }
 
-/// What was found of all wires.
+/// The result of a wiring test for all channels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WiringReport {
     /// The outputs, in the device's order.

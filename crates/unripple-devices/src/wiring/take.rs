@@ -71,7 +71,7 @@ pub(super) fn record(
     Ok(Takes { outputs, inputs, heard: all, noise, window, most })
 }
 
-/// What would have been heard of the same bursts, by responses that were measured.
+/// Takes of the same bursts as measured responses predict them.
 pub(super) fn played(heard: &[Vec<Vec<f64>>], layout: &Layout, options: &WiringOptions) -> Takes {
     let samples = |time: f64| (time * layout.rate).ceil() as usize;
     let (window, most) = (samples(options.listen), samples(options.max_latency));

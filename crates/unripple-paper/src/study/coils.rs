@@ -115,7 +115,7 @@ fn median_decay(responses: &Responses) -> f64 {
 pub struct Credibility {
     /// Damping (bl)²/R by a source of voltage, in N·s/m.
     pub coil_damping: f64,
-    /// What a point of an endless sheet resists at the frequency, 1/Re Y = 4(R + 2Dk²)/ω, in N·s/m.
+    /// Point resistance of an infinite sheet at the frequency, 1/Re Y = 4(R + 2Dk²)/ω, in N·s/m.
     pub sheet_resistance: f64,
     /// Length of wire that has the force constant in a field of half the remanence, in m.
     pub wire_length_m: f64,

@@ -40,7 +40,7 @@ pub struct Touched {
     pub drive_energy_j: f64,
 }
 
-/// What moves: under the finger and elsewhere.
+/// Motion under the finger and elsewhere.
 struct Motion {
     velocity: f64,
     centre: f64,

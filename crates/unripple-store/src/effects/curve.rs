@@ -55,7 +55,7 @@ pub(super) fn envelope(amplitude: &Entry, frequency: &Entry, faults: &mut Faults
     said(amplitude, Envelope::new(shape?, pitch?), faults)
 }
 
-/// What the effects make of a value that is legal by itself, or a fault.
+/// An effect made of values that are each legal by themselves, or a fault where they are not together.
 pub(super) fn said<T>(
     entry: &Entry,
     made: Result<T, unripple_effects::EffectsError>,

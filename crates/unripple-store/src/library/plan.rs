@@ -1,4 +1,4 @@
-//! What a library is to hold.
+//! The plan of a library: the responses that it is to hold.
 
 use crate::StoreError;
 use std::collections::{BTreeMap, HashSet};

@@ -36,7 +36,7 @@ enum Kind {
 const KINDS: [(&str, Kind); 3] =
     [("force", Kind::Force), ("moving-magnet", Kind::MovingMagnet), ("piezo", Kind::Piezo)];
 
-/// What actuators stand on: the sheet's outline, and its thickness in metres at a point of it.
+/// The sheet under the actuators: its outline, and its thickness in metres at a point of it.
 pub(super) struct Base<'b> {
     /// The sheet and its holes; nothing if they are at fault.
     pub ground: Option<&'b Ground>,

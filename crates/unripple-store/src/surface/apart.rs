@@ -52,7 +52,7 @@ fn judge(rim: &Rim, shape: &Shape, cuts: &[Cut], faults: &mut Faults) -> Option<
     sound.then_some(good)
 }
 
-/// What is wrong with a hole, and what is expected.
+/// The fault of a hole in words, and what is expected.
 fn words(fault: &OutlineFault, cuts: &[Cut]) -> (String, String) {
     let expected = "a hole inside the outline, at least 0.001 mm from its rim and from every other hole";
     let found = match fault {

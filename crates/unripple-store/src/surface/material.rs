@@ -9,7 +9,7 @@ use unripple_core::{MATERIALS, Material};
 pub(super) const MATERIAL_KEYS: [&str; 5] =
     ["material", "young_gpa", "density_kg_m3", "poisson_ratio", "strength_mpa"];
 
-/// What something is made of, overrides included.
+/// Properties of a material, overrides of the file included.
 pub(super) struct MaterialProperties {
     /// Name of the material; empty where the file gives numbers only.
     pub name: String,

@@ -21,7 +21,7 @@ const PATCH_KEYS: [&str; 3] = ["d31_pm_per_v", "patch_young_gpa", "patch_thickne
 /// from 0.3 to 0.34.
 const PATCH_POISSON: f64 = 0.3;
 
-/// What is known of the sheet where a patch is; nothing of what is at fault.
+/// The sheet where a piezo patch is, as far as the file is without fault.
 pub(super) struct Spot<'a> {
     /// Thickness there, in metres.
     pub thickness: Option<f64>,

@@ -21,7 +21,7 @@ pub(super) struct Ring {
     turned: bool,
 }
 
-/// What was found and what is expected instead.
+/// The fault that was found, and what is expected instead.
 pub(super) type Complaint = (String, String);
 
 impl Ring {

@@ -55,7 +55,7 @@ pub struct Ask {
     pub input_scales: InputScales,
     /// Actuators that are to be left out, since they are dead.
     pub without: Vec<String>,
-    /// Time by which the probe hears later than sensors do, in s: a vibrometer's decoder; by default it is found.
+    /// Time by which the probe's signal is later than the sensors', in s: a vibrometer's decoder; by default it is found.
     pub probe_delay_s: Option<f64>,
     /// Compare nothing with a model: for a surface that no model fits, such as a whole phone or a sheet with ribs.
     pub no_model: bool,

@@ -10,8 +10,8 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use unripple_devices::reciprocal;
 use unripple_store::{Doubt, Library, PointState, date};
 
-/// Share of what actuators hear of each other that may differ both ways, gains free, beyond what noise explains: a change of tension by 0.3 %,
-/// or clocks apart by 12 millionths, makes as much.
+/// Share of the actuators' responses at each other that may differ both ways, gains free, beyond what noise explains:
+/// a change of tension by 0.3 %, or clocks apart by 12 millionths, makes as much.
 const RECIPROCITY: f64 = 0.15;
 
 /// Seconds by which actuators may disagree on the latency: a third of a period at 3 kHz.
@@ -117,7 +117,7 @@ fn own(campaign: &Campaign<'_>, shelf: &Shelf) -> Result<(Vec<usize>, Pairs), Ta
     Ok((alive, heard))
 }
 
-/// Doubts a library whose actuators hear each other otherwise one way than the other.
+/// Doubts a library whose actuators' responses at each other are not reciprocal.
 fn reciprocity(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> {
     const CHECK: &str = "reciprocity";
     let (alive, heard) = own(campaign, shelf)?;
@@ -237,7 +237,7 @@ fn sensors(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> 
             for (actuator, response) in
                 values.iter().flat_map(|rows| rows.chunks_exact(plan.samples)).enumerate()
             {
-                // What an actuator hears of itself is louder anyway.
+                // An actuator's response at itself is louder anyway.
                 let itself = own && point - shelf.probed == actuator;
                 if !itself && !shelf.without.contains(&actuator) {
                     sum += response.iter().map(|h| f64::from(*h).powi(2)).sum::<f64>();

@@ -48,7 +48,7 @@ struct Level {
     signal_to_noise_db: Option<f64>,
     /// What to do.
     advice: Option<String>,
-    /// Whether it has to hear anything.
+    /// Whether the input must have a signal.
     #[serde(skip)]
     needed: bool,
 }

@@ -181,7 +181,7 @@ fn wiring(
     Asked::of(known).judge(&found)
 }
 
-/// What actuators hear of each other and of themselves, as the library's last points.
+/// Responses of actuators at each other and at themselves, as the library's last points.
 fn own(
     known: &Campaign<'_>,
     session: &Session,

@@ -52,7 +52,7 @@ pub(crate) struct Campaign<'a> {
     pub places: Places,
     /// Where a figure is to be, if one is asked for.
     pub figure: Option<OutputDir>,
-    /// Who hears how far it is.
+    /// The callback that reports progress.
     progress: RefCell<&'a mut dyn Progress>,
 }
 
@@ -169,7 +169,7 @@ impl Campaign<'_> {
         self.progress.borrow_mut().tell(line);
     }
 
-    /// Hands out whoever hears how far it is.
+    /// Hands out the callback that reports progress.
     pub fn with_progress<T>(&self, work: impl FnOnce(&mut dyn Progress) -> T) -> T {
         work(*self.progress.borrow_mut())
     }

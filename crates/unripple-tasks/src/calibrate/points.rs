@@ -5,7 +5,7 @@ use crate::TaskError;
 use crate::grid;
 use unripple::core::{Point, Surface};
 
-/// A grid, points typed, and last the actuators themselves, whose own sensors hear them.
+/// A grid, points typed, and last the actuators themselves, measured by their own sensors.
 #[derive(Clone, Debug, Default)]
 pub struct Places {
     /// All points, the actuators' own last, in m.

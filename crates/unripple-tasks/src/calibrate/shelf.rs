@@ -22,11 +22,11 @@ pub struct Shelf {
     pub probed: usize,
     /// Factor on all that is measured at a point.
     probe: f64,
-    /// What each actuator's sensor hears, by this.
+    /// Factor on the signal of each actuator's sensor.
     sensors: Vec<f64>,
     /// Actuators that are left out: their responses are zero, since what was measured of them is noise.
     pub without: Vec<usize>,
-    /// Actuators whose sensor hears nothing: their own points are not missed.
+    /// Actuators whose sensor is dead: their own points are not missed.
     pub deaf: Vec<usize>,
     /// Points that were kept in this run.
     pub made: BTreeSet<usize>,
@@ -52,7 +52,7 @@ impl Shelf {
         Self { probe: 1.0, ..self }
     }
 
-    /// Keeps how reciprocal the actuators are, from what each hears of all.
+    /// Keeps how reciprocal the actuators are, from the responses of all at each.
     pub fn reciprocity(&mut self, sensors: &[Channel]) -> Result<(), TaskError> {
         let alive: Vec<usize> = (0..sensors.len()).filter(|a| !self.without.contains(a)).collect();
         let mut flat = Vec::new();

@@ -74,7 +74,7 @@ fn probed(
     SampledResponses::new(ports, places, conditions, library.plan().samples, data).map_err(TaskError::work)
 }
 
-/// What actuators hear of each other, as far as it was measured.
+/// Responses of actuators at each other, as far as they were measured.
 fn heard(shelf: &Shelf, surface: &Surface, settings: &MeasureOptions) -> Result<Measured, TaskError> {
     let (library, count) = (&shelf.library, surface.actuators.len());
     let mut responses = vec![Vec::new(); count * count];
@@ -210,7 +210,8 @@ fn doubt(shelf: &mut Shelf, points: &[usize], found: &Verified) -> Result<(), Ta
     Ok(shelf.library.set_doubts(CHECK, doubts)?)
 }
 
-/// What was doubted by a model of points that were not measured in this run; of all, unless what actuators hear of each other was.
+/// What was doubted by a model of points that were not measured in this run; of all, unless the actuators' responses
+/// at each other were.
 fn earlier(shelf: &Shelf) -> Vec<Doubt> {
     let own = shelf.probed..shelf.library.points().len();
     let anew = !own.is_empty() && own.clone().all(|point| shelf.made.contains(&point));

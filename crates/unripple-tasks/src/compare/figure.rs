@@ -6,7 +6,7 @@ use unripple::field::TargetFigures;
 use unripple::focus::Method;
 use unripple_plot::{Axis, Figure, Ink, Layer, Line, Plot, Points};
 
-/// What is drawn of a front: abscissae and ordinates.
+/// Abscissae and ordinates of a front, as drawn.
 type Drawn = fn(&Front) -> (Vec<f64>, Vec<f64>);
 
 /// A felt figure of a target.

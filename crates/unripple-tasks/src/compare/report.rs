@@ -33,7 +33,7 @@ pub struct Report {
     pub files: Vec<String>,
     #[serde(skip)]
     pub(super) level: Level,
-    /// What is said of the window, where nobody asked for it.
+    /// The line on the window, where the caller gave none.
     #[serde(skip)]
     pub(super) window_text: Option<String>,
 }

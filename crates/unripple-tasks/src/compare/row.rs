@@ -11,7 +11,7 @@ use unripple::act::{Act, Level, Note, Strength};
 use unripple::field::{DriveFigures, Field, Measured, TargetFigures};
 use unripple::focus::{Focuser, Method, Options};
 
-/// What one method does, as emitted at the level asked for, or at its limit where that is beyond.
+/// Figures of one method, as emitted at the level asked for, or at its limit where that is beyond.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
     /// Name of the method.

@@ -8,7 +8,8 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
-    /// A library that `calibrate` made on a device whose actuators listen: its last points are what they hear of each other.
+    /// A library that `calibrate` made on a device whose actuators listen: its last points are their responses at
+    /// each other.
     pub library: PathBuf,
     /// Distance of the points of a square grid where responses of the fitted model are wanted, in m.
     pub pitch_m: Option<f64>,

@@ -37,7 +37,7 @@ pub struct Heard {
 }
 
 impl Heard {
-    /// What actuators hear of each other in a library, and its responses at all other points.
+    /// Responses of actuators at each other in a library, and its responses at all other points.
     pub fn of(library: &Library, surface: &Surface, progress: &mut dyn Progress) -> Result<Self, TaskError> {
         let (all, damage) = library.intact()?;
         for damage in &damage {
@@ -91,7 +91,8 @@ fn numbers(library: &Library, all: &SampledResponses) -> Vec<usize> {
     all.points.iter().filter_map(|at| done.find(|point| library.points()[*point] == *at)).collect()
 }
 
-/// Noise of what actuators hear of each other, root mean square, by the signal to noise that was measured: the median.
+/// Noise of the actuators' responses at each other, root mean square, by the signal to noise that was measured: the
+/// median.
 fn noise(
     library: &Library,
     all: &SampledResponses,

@@ -138,7 +138,7 @@ impl Four {
     }
 }
 
-/// What fingers felt, over all looks in which one felt anything.
+/// Sensations of fingers, over all looks in which one felt anything.
 #[derive(Debug, Default, Serialize)]
 struct Felt {
     looks: usize,

@@ -20,7 +20,7 @@ const AFTER: f64 = 0.5;
 /// Fingers that are not there, where nothing else touches. Two show that foci do not disturb each other.
 const ALONE: usize = 2;
 
-/// What is known of the sources of touches, and what is recorded of them.
+/// The sources of touches, and the recording of them.
 #[derive(Default)]
 pub(super) struct Touches {
     recording: Option<Arc<Mutex<Tape>>>,

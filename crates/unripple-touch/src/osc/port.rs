@@ -14,7 +14,7 @@ const PACKETS: usize = 256;
 /// waiting.
 const BYTES: usize = 64 * 1024;
 
-/// A UDP port that hears TUIO 1.1, TUIO 2.0 and the addresses under `/unripple/`.
+/// A UDP port that receives TUIO 1.1, TUIO 2.0 and the addresses under `/unripple/`.
 ///
 /// Packets wait in the system's buffer until the next poll; when that is full, the system drops them.
 pub struct OscPort {

@@ -5,7 +5,7 @@ use super::session::Recording;
 use crate::{Counts, Heard, Source, TouchError};
 use unripple_core::{Outline, Phase, Touch};
 
-/// What is played in one poll at most.
+/// Most touches and wishes that are played in one poll.
 const MOST: usize = 1024;
 
 /// Plays a [`Recording`]: every touch has the time it had there, counted from the first poll, however often it is polled.

@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 /// Acts to be measured or compared that may wait. Surfaces are not counted: of them one waits at most.
 const MOST: usize = 16;
 
-/// What is to be computed, in the order in which it was asked for.
+/// Tasks to be computed, in the order in which they were asked for.
 #[derive(Default)]
 pub struct Queue {
     waiting: VecDeque<Task>,

@@ -24,7 +24,7 @@ const LOOKED: Duration = Duration::from_millis(20);
 /// Distance of points of a calibration that says none, in mm. Some eighty points on the paper's film.
 const GRID_MM: f64 = 15.0;
 
-/// What the surface's file is called when people save it.
+/// Name of the surface's file when people save it.
 const SAVED: &str = "surface.toml";
 
 /// The jobs there are.

@@ -72,7 +72,7 @@ pub struct Spec {
 pub struct Instrument {
     /// The specification that it was made from.
     pub spec: Spec,
-    /// What plays, and the surface that moves.
+    /// The player, and the surface that moves.
     pub playback: Playback,
     /// The surface, as it is computed here.
     pub handle: Handle,

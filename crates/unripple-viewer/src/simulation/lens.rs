@@ -40,7 +40,7 @@ impl Cells {
     }
 }
 
-/// What cells over a surface read of its modes: the field as a picture.
+/// The map from a surface's modes to cells over it: the field as a picture.
 #[derive(Clone, Debug)]
 pub struct Lens {
     /// The cells of the picture.

@@ -23,12 +23,12 @@ pub enum Playback {
     Away(Box<Away>),
 }
 
-/// What is known of the play at the moment: fingers, sensations, counts, drift, faults.
+/// The state of the play at the moment: fingers, sensations, counts, drift, faults.
 #[derive(Clone, Debug, Default)]
 pub struct Known {
     /// Fingers, by number.
     pub fingers: Vec<(u64, Point)>,
-    /// What fingers felt since the last look.
+    /// Sensations of fingers since the last look.
     pub feelings: Vec<Feeling>,
     /// Counts of what was played and what was not.
     pub tally: PlayStats,

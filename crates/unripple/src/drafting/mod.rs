@@ -1,4 +1,5 @@
-//! What follows an edit of a surface, the quickest first: closed-form figures, a focus at one place, a map of contrast.
+//! Results that follow an edit of a surface, the quickest first: closed-form figures, a focus at one place, a map of
+//! contrast.
 
 mod figures;
 mod spot;

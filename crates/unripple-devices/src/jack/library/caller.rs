@@ -5,7 +5,7 @@ use std::path::PathBuf;
 /// A thread, by its folder in Linux's `/proc`.
 pub(super) struct Caller(PathBuf);
 
-/// What a thread has done so far.
+/// The activity of a thread so far: whether it waits to run, and its time on a processor.
 #[derive(PartialEq)]
 pub(super) struct Activity {
     /// It would run if it were given a processor.
@@ -15,13 +15,13 @@ pub(super) struct Activity {
 }
 
 impl Caller {
-    /// The thread that asks. Nothing where the kernel does not tell.
+    /// The calling thread. Nothing where the kernel does not say.
     pub(super) fn this_thread() -> Option<Self> {
         let folder = PathBuf::from("/proc").join(std::fs::read_link("/proc/thread-self").ok()?);
         folder.join("schedstat").exists().then_some(Self(folder))
     }
 
-    /// What the thread has done so far; nothing of one that has ended.
+    /// The activity of the thread so far; nothing of one that has ended.
     pub(super) fn activity(&self) -> Option<Activity> {
         let stat = std::fs::read_to_string(self.0.join("stat")).ok()?;
         // The state stands behind the name, which may hold brackets itself.

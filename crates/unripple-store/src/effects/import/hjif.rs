@@ -32,7 +32,7 @@ enum Found {
     Wave { at: f64, amplitude: Vec<(f64, f64)>, frequency: Vec<(f64, f64)> },
 }
 
-/// What was found so far, and how many keyframes were read for it.
+/// Pulses and waves found so far, and how many keyframes were read for them.
 #[derive(Default)]
 struct Score {
     found: Vec<Found>,

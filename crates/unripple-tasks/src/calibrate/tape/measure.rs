@@ -246,7 +246,7 @@ impl Work<'_, '_> {
         self.all.iter().filter(|one| one.number == number).count()
     }
 
-    /// What actuators hear of each other, kept as the library's last points unless it is bad.
+    /// Responses of actuators at each other, kept as the library's last points unless they are bad.
     fn keep_own(
         &mut self,
         settings: &MeasureOptions,

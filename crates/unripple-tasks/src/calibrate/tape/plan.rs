@@ -60,7 +60,7 @@ pub fn apply(plan: &Value, ask: &Ask, settings: &mut MeasureOptions) {
     }
 }
 
-/// A rig that hears nothing, and keeps what is driven in one recording.
+/// A rig whose inputs are silent, and that keeps what is driven in one recording.
 struct Recorder(Tape);
 
 impl Rig for Recorder {
@@ -85,7 +85,7 @@ pub fn drive(session: &Session, layout: &Layout, at: Point) -> Result<Drive, Tas
     let mut recorder = Recorder(Tape::recorder(layout.clone()).map_err(TaskError::input)?);
     let listen = if session.wires().probe.is_some() { Listen::Probe } else { Listen::Sensors };
     let found = session.measure(&mut recorder, 0, at, 0, listen);
-    // What it finds in the silence that it hears does not matter, error or not, once all was driven.
+    // What it finds in the silence that it records does not matter, error or not, once all was driven.
     if recorder.0.drive().iter().all(Vec::is_empty) {
         found?;
     }

@@ -26,9 +26,9 @@ pub struct Reader {
 
 /// What each channel must be.
 pub struct Needed<'a> {
-    /// Channels that must hear something.
+    /// Channels that must have a signal.
     pub all: &'a [usize],
-    /// Channels of which one must hear something; others may be dead.
+    /// Channels of which one must have a signal; others may be dead.
     pub any: &'a [usize],
 }
 

@@ -18,7 +18,8 @@ const MARGIN: f64 = 240.0;
 /// Samples that a recording may begin after what is played, of which the first few blocks are silence.
 const AFTER: f64 = 1024.0;
 
-/// Least likeness of what sensors hear in two recordings of the same sweeps: clocks that run apart and a sheet that warms leave as much.
+/// Least likeness of the sensors' signals in two recordings of the same sweeps: clocks that run apart and a sheet
+/// that warms leave as much.
 const LEAST: f64 = 0.3;
 
 /// Below this likeness it is asked whether channels changed places; above it in another channel they did.

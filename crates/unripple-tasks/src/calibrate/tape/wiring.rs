@@ -25,15 +25,15 @@ const BELIEVED: f64 = 0.67;
 /// like its model, what seems wrong differs from one to the next.
 const BURSTS: [f64; 3] = [0.2, 0.4, 0.6];
 
-/// Points that are looked at where there are no sensors. Near a node of one point's mode another still hears it.
+/// Points that are looked at where there are no sensors. Near a node of one point's mode another still shows it.
 const LOOKED_AT: usize = 3;
 
 /// The faults of the wires, as recordings show them.
 #[derive(Clone, Debug, Default)]
 pub struct Tried {
-    /// Actuators that nobody hears.
+    /// Actuators whose drive no input records.
     pub dead: Vec<usize>,
-    /// Actuators whose sensor hears nothing.
+    /// Actuators whose sensor records nothing.
     pub deaf: Vec<usize>,
     /// Wires that are not as they should be.
     pub faults: Vec<String>,
@@ -107,17 +107,17 @@ fn heard(bench: &Bench<'_>, session: &Session, rig: &mut TapeRig) -> Result<Vec<
 }
 
 impl Tried {
-    /// Says who drives nothing, and whose sensor hears nothing.
+    /// Reports actuators that drive nothing, and those whose sensor records nothing.
     fn silent(&mut self, bench: &Bench<'_>, rows: &[Channel]) {
         let actuators = &bench.campaign.surface.actuators;
         let sensing = rows.len() == actuators.len() && !bench.takes.wires.sensors.is_empty();
-        // One that hears anybody is not deaf, however many are dead.
+        // A sensor that records any actuator is not dead, however many actuators are.
         let noisy = |channel: &Channel| {
             let best = channel.quality.iter().map(|quality| quality.snr_db);
             best.filter(|db| !db.is_nan()).fold(f64::NEG_INFINITY, f64::max) < DEAF
         };
         let deaf: Vec<usize> = (0..rows.len()).filter(|row| sensing && noisy(&rows[*row])).collect();
-        // Where nobody hears anything it is not the wires, and reported elsewhere.
+        // Where no sensor records anything it is not the wires, and reported elsewhere.
         if deaf.len() == rows.len() {
             return;
         }
@@ -156,7 +156,7 @@ impl Tried {
         self.dead = all.into_iter().collect();
     }
 
-    /// Actuators that drive and hear.
+    /// Actuators whose drive and sensor both work.
     fn alive(&self, count: usize) -> Vec<usize> {
         (0..count).filter(|a| !self.dead.contains(a) && !self.deaf.contains(a)).collect()
     }
@@ -287,7 +287,7 @@ impl Held {
     }
 }
 
-/// A channel, and the actuator that it belongs to, which it hears louder than others.
+/// A channel, and the actuator that it belongs to, whose signal is louder in it than others'.
 struct Hearing<'a> {
     itself: Option<usize>,
     channel: &'a Channel,
