@@ -1,6 +1,6 @@
 //! Declarations in Rust text, found line by line as rustfmt writes them, with the comments above them.
 
-/// What a line declares.
+/// A declaration: whether it is public, its kind and its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Declaration<'t> {
     /// Whether it begins with `pub` alone; `pub(crate)` and the like do not count.

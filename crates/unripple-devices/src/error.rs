@@ -1,9 +1,9 @@
-//! What goes wrong with devices.
+//! Errors of devices.
 
 use unripple_core::{DeviceError, OutOfRange};
 use unripple_physics::PhysicsError;
 
-/// What goes wrong with devices, beyond a block that does not pass ([`DeviceError`]).
+/// Errors of devices, beyond a block that does not pass ([`DeviceError`]).
 #[derive(Debug, thiserror::Error)]
 pub enum DevicesError {
     /// The surface behind a virtual device cannot be.

@@ -56,12 +56,12 @@ impl Tape {
         Ok(Self { recording: Some(recording), ..Self::recorder(layout)? })
     }
 
-    /// What was driven so far, a line of samples for each output, 1 for full scale.
+    /// The drive so far, a line of samples for each output, 1 for full scale.
     pub fn drive(&self) -> &[Vec<f32>] {
         &self.drive
     }
 
-    /// What was driven, a line of samples for each output, 1 for full scale.
+    /// The whole drive, a line of samples for each output, 1 for full scale.
     pub fn into_drive(self) -> Vec<Vec<f32>> {
         self.drive
     }

@@ -44,7 +44,7 @@ impl Ears {
         Self { sources, predict, window }
     }
 
-    /// What all sources report up to a time in s of the device's clock.
+    /// Touches and wishes of all sources up to a time in s of the device's clock.
     pub fn hear(&mut self, now: f64) -> News {
         let mut heard = Heard::default();
         self.sources.poll(now, &mut heard);

@@ -5,7 +5,7 @@ use unripple_devices::DevicesError;
 use unripple_field::FieldError;
 use unripple_focus::FocusError;
 
-/// What keeps a surface from being played.
+/// Errors that keep a surface from being played.
 #[derive(Debug, thiserror::Error)]
 pub enum LiveError {
     /// A value that cannot be.

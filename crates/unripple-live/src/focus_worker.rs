@@ -42,7 +42,7 @@ pub struct FocusWorker {
     asks: Sender<Ask>,
 }
 
-/// What is asked of a maker's thread, and where the answer goes.
+/// A request to a maker's thread, and where the answer goes.
 struct Ask {
     work: Work,
     reply: Sender<Result<Answer, LiveError>>,

@@ -1,4 +1,4 @@
-//! What a gain of 1 stands for: the largest drive that stays within linear theory.
+//! The level that a gain of 1 stands for: the largest drive that stays within linear theory.
 
 use crate::drive_cache::pulse_felt;
 use crate::{FocusDrive, FocusWorker, Full, LiveError};
@@ -12,7 +12,7 @@ use unripple_physics::design::{LinearLevel, linearity};
 /// as far as linear theory allows ([`LinearLevel`]: nowhere by more than half its thickness), unless the limit is asked for or gives less.
 #[derive(Clone, Copy, Debug)]
 pub struct Level {
-    /// What a full pulse or waveform is felt like, and where that was found; the surface's own limit where `None`.
+    /// Sensation level of a full pulse or waveform, and where that was found; the surface's own limit where `None`.
     pub full: Option<Full>,
     /// Displacement at a focus, in m, of a full pulse and at the surface's own limit.
     moved: [f64; 2],

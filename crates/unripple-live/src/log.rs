@@ -18,7 +18,7 @@ pub struct Began {
     pub sample: u64,
 }
 
-/// What is played under each of the player's names, and what of it has begun.
+/// Drives under each of the player's names, and those that have begun.
 #[derive(Debug, Default)]
 pub(crate) struct Log {
     playing: BTreeMap<u64, Playing>,

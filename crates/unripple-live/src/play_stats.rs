@@ -3,7 +3,7 @@
 use crate::{LiveError, Percentiles};
 use unripple_player::{Report, Why};
 
-/// What was played, what was not, and how late.
+/// Counts of what was played and what was not, and latencies.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlayStats {
     /// Number of cues played.

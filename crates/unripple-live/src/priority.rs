@@ -51,7 +51,7 @@ impl Priorities {
 /// own asks, so that nobody keeps it.
 ///
 /// # Errors
-/// What the system answered.
+/// Why nothing is granted, as the system answered.
 pub fn real_time() -> Result<String, String> {
     std::thread::spawn(|| at(Some(WANTED)))
         .join()

@@ -1,4 +1,4 @@
-//! What is over by itself: one drive, once.
+//! Pulses: drives that are played once and end by themselves.
 
 use crate::{Conductor, LiveError};
 use std::collections::BTreeSet;

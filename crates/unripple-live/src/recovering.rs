@@ -60,7 +60,7 @@ pub struct Recovering {
     counted: [u64; 3],
 }
 
-/// What a device is while it is away.
+/// The absence of a device: why, since when, blocks lost.
 struct Away {
     why: String,
     since: Instant,
@@ -311,7 +311,7 @@ mod tests {
     /// A device that fails after some blocks.
     struct Mortal(Layout, u32);
 
-    /// What its server counts in one life.
+    /// Counts of its server from one opening to the next.
     fn counts(late: u64) -> Option<Server> {
         Some(Server { late, own_late: 2 * late, skipped: 100 * late, ..Server::default() })
     }

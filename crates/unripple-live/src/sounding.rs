@@ -1,10 +1,10 @@
-//! What goes on sounding under a voice: a repeated focus, or a waveform.
+//! Sustained sounds of a voice: a repeated focus, or a waveform.
 
 use unripple_core::Point;
 use unripple_effects::{Level, Wave};
 use unripple_player::Hold;
 
-/// What goes on sounding under a voice until it is stopped or over.
+/// A sustained sound of a voice, until it is stopped or over.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Sounding {
     /// A repeated focus, and the samples from each to the next.
@@ -34,7 +34,7 @@ impl Sounding {
     }
 }
 
-/// What is wanted under a voice, and what of it the player knows.
+/// The sound wanted of a voice, and as much of it as the player knows.
 #[derive(Debug)]
 pub(crate) struct Kept {
     /// What it sounds, where and how strongly.

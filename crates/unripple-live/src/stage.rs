@@ -17,7 +17,7 @@ pub struct Stage {
     pub(crate) conductor: Conductor,
     pub(crate) feeler: Option<Feeler>,
     pub(crate) follower: Option<Follower>,
-    /// What the drift filter said last.
+    /// The latest state of the drift filter.
     pub(crate) drift: Option<Drift>,
     pub(crate) pinging: Option<Pinging>,
     pub(crate) listener: Option<Listener>,
@@ -77,7 +77,7 @@ impl Stage {
         Ok(())
     }
 
-    /// What every finger felt since the last look; nothing on a real surface, where that is not known.
+    /// Sensation of every finger since the last look; nothing on a real surface, where that is not known.
     pub fn feelings(&mut self) -> Vec<Feeling> {
         self.feeler.as_mut().map_or_else(Vec::new, Feeler::look)
     }
@@ -102,12 +102,12 @@ impl Stage {
         &mut self.conductor
     }
 
-    /// What all sources of touches took in and refused, as far as they have reported.
+    /// Counts of what all sources of touches accepted and refused, as far as they have reported.
     pub fn counts(&self) -> Counts {
         self.counts
     }
 
-    /// What the drift filter said last of the tension.
+    /// The latest state of the drift filter, on the tension.
     pub fn drift(&self) -> Option<&Drift> {
         self.drift.as_ref()
     }

@@ -43,14 +43,14 @@ pub struct Pulse {
     pub priority: String,
 }
 
-/// What the threads of a play share.
+/// State that the threads of a play share.
 struct Shared<'a> {
     stop: AtomicBool,
     pulse: Mutex<Pulse>,
     /// Whether a finger is on the sheet.
     touched: AtomicBool,
     timeline: &'a Timeline,
-    /// Who turns touches into commands, to be woken.
+    /// The thread that turns touches into commands, to be woken.
     bell: Thread,
     priorities: Priorities,
 }
@@ -73,7 +73,7 @@ impl<'a> Shared<'a> {
     }
 }
 
-/// What comes in at the thread that turns touches into commands.
+/// The queues into the thread that turns touches into commands.
 struct Mail {
     news: mpsc::Receiver<News>,
     failures: mpsc::Receiver<DeviceError>,
@@ -163,7 +163,7 @@ struct Fetched {
     block: usize,
 }
 
-/// What following found: how tension fares, and a maker for the surface as it is, if that has changed.
+/// The result of following: the drift of tension, and a maker for the surface as it is, if that has changed.
 type Found = Result<(Drift, Option<FocusWorker>), LiveError>;
 
 /// The thread that follows tension: what it computes is too long for the one that receives touches.

@@ -1,4 +1,4 @@
-//! What goes on sounding under the effects' voices: what is wanted, and how the player comes to know of it.
+//! Sustained sounds of the effects' voices: what is wanted, and how the player is brought to it.
 
 use crate::sounding::{Kept, Sounding};
 use crate::{Conductor, LiveError};

@@ -16,7 +16,7 @@ pub struct Colours {
     /// The map. A diverging one is symmetric about zero unless both ends are given, a sequential one starts at zero
     /// unless its low end is given or values are negative.
     pub map: ColourMap,
-    /// What a value is multiplied by to be shown: 1e3 for m/s on a bar in mm/s.
+    /// Factor from values to the numbers shown: 1e3 for m/s on a bar in mm/s.
     pub multiplier: f64,
     /// Value of the first colour, in the data's unit; from the data if absent.
     pub low: Option<f64>,

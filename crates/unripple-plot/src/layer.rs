@@ -1,4 +1,4 @@
-//! What is drawn on axes: lines, points, bands.
+//! Layers of a plot: lines, points, bands.
 
 use crate::canvas::Anchor;
 use crate::colour::Rgb;

@@ -54,7 +54,7 @@ impl Default for Map {
     }
 }
 
-/// What of the plane a map shows: the outline's bounding box, or the grid's where there is no outline.
+/// The part of the plane that a map shows: the outline's bounding box, or the grid's where there is no outline.
 pub(crate) fn view(grid: &Grid, outline: &[Ring]) -> Result<[[f64; 2]; 2], PlotError> {
     let corners = outline.iter().flatten();
     let bounds = corners.fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], [x, y]| {

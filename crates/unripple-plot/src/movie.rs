@@ -173,7 +173,7 @@ impl<'a> Stage<'a> {
         encode::render(&svg, (DENSITY * 72.0 / 96.0) as f32, background)
     }
 
-    /// What does not move, on white.
+    /// The still background, on white.
     fn still(&self, inks: &Inks) -> Result<Still, PlotError> {
         let mut canvas = Canvas::default();
         self.bar.draw(&mut canvas, self.placed.frame, &self.style);

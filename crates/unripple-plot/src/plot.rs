@@ -29,7 +29,7 @@ pub struct Plot {
     pub x: Axis,
     /// The axis of ordinates, upwards.
     pub y: Axis,
-    /// What is drawn, the first at the bottom.
+    /// The layers, the first at the bottom.
     pub layers: Vec<Layer>,
     /// Where the names of the layers are listed.
     pub legend: Legend,

@@ -1,4 +1,4 @@
-//! What all TOML files begin with, and what may be wrong with a whole file.
+//! The common head of all TOML files, and faults of a whole file.
 
 use crate::fault::{Fault, FileFaults};
 use crate::file::LARGEST_TEXT;

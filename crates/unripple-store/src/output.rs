@@ -138,7 +138,7 @@ fn is_gone(folder: &Path) -> bool {
     }
 }
 
-/// What is at a place that may be written to.
+/// The present content of a place that may be written to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Occupant {
     Nothing,

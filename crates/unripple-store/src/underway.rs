@@ -1,4 +1,4 @@
-//! What is under construction, so that whoever ends the program can take it away first.
+//! Outputs under construction, so that whoever ends the program can remove them first.
 
 use crate::listing;
 use std::fs;

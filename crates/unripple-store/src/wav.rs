@@ -12,7 +12,7 @@ use unripple_core::Drive;
 /// Most bytes of samples: the format counts them, and its header, in 32 bits.
 const MOST_BYTES: u64 = u32::MAX as u64 - 1024;
 
-/// What a WAV file holds: channels of equal length, at a rate.
+/// The content of a WAV file: channels of equal length, at a rate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wav {
     /// Samples per second.

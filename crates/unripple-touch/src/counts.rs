@@ -1,8 +1,8 @@
-//! What a source of touches took in and refused.
+//! Counts of what a source of touches accepted and refused.
 
 use std::ops::Add;
 
-/// What a source has taken in and what it has refused, since it was opened.
+/// Counts of what a source has accepted and refused since it was opened.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Packets, messages or events that came in, good and bad.

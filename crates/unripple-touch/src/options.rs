@@ -1,10 +1,10 @@
-//! What a source of touches must know, and its limits.
+//! Options of a source of touches, and its limits.
 
 use crate::error::TouchError;
 use crate::mapping::Mapping;
 use unripple_core::{Outline, require};
 
-/// What a source of touches must know, and how much it takes.
+/// Options of a source of touches: the surface, the sensor's place on it, limits on what it accepts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// The surface; a place that is not on it is refused.

@@ -2,7 +2,7 @@
 
 use unripple_store::StoreError;
 
-/// What keeps a surface from being shown.
+/// Errors that keep a surface from being shown.
 #[derive(Debug, thiserror::Error)]
 pub enum ViewError {
     /// Nobody can listen at an address.

@@ -1,9 +1,9 @@
-//! Who may speak with the server: host, origin, token.
+//! Access to the server: host, origin, token.
 
 use axum::http::{HeaderMap, Uri, header};
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, UdpSocket};
 
-/// Who may speak with the server.
+/// The rules of access to the server.
 ///
 /// A page of another site can make a browser send requests here, and a name that resolves to this machine can pass for this machine's own.
 /// So the name that was asked for must be this server's, and a page that opens a link must come from it. Where the network may listen,
@@ -14,7 +14,7 @@ pub struct Guard {
     token: Option<String>,
 }
 
-/// What a request must bring besides the right host.
+/// The credentials that a request needs besides the right host.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Needs {
     /// Nothing but the right host.

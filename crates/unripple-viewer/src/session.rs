@@ -1,5 +1,6 @@
-//! What all pages share, as a state machine: what pages say and the time go in, what they are to be shown and what is to be computed
-//! beside it comes out. It knows of no thread, clock or network: whoever runs it has those.
+//! The state that all pages share, as a state machine: what pages say and the time go in, what they are to be shown
+//! and what is to be computed beside it comes out. It knows of no thread, clock or network: whoever runs it has
+//! those.
 
 use crate::ViewError;
 use crate::compute::{ComputeWorker, Found, Queue, Responder, Task};
@@ -37,7 +38,7 @@ impl Errand {
     }
 }
 
-/// What all pages share.
+/// The state that all pages share.
 pub struct Session {
     simulation: Simulation,
     editor: Editor,

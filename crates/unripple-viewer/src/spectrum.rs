@@ -12,7 +12,7 @@ const BEYOND: f64 = 1.5;
 /// Levels below this, in dB, are drawn as this.
 const FLOOR: f64 = -120.0;
 
-/// What frequencies an act is made of: levels in bands of equal width, each channel's and target's over its strongest, in dB.
+/// The spectrum of an act: levels in bands of equal width, each channel's and target's over its strongest, in dB.
 pub fn spectrum(acted: &Acted, top_hz: f64) -> Value {
     let rate = acted.drive.rate();
     let top = (BEYOND * top_hz).min(rate / 2.0);

@@ -1,4 +1,4 @@
-//! What a finger that rests on a surface feels of a field, and what it takes from it.
+//! Sensation of a finger that rests on a surface, and the power that it absorbs from the field.
 
 use serde::Serialize;
 use unripple_core::{Contact, Outline};
@@ -22,7 +22,7 @@ pub struct Touch {
     pub energy_j: f64,
 }
 
-/// What the finger of `contact` feels of a field up to `until` (s). The field must be one on responses that the finger
+/// Sensation of the finger of `contact` in a field up to `until` (s). The field must be one on responses that the finger
 /// loads; otherwise it is what would be felt by a finger that changes nothing.
 ///
 /// # Errors

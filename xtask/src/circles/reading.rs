@@ -1,4 +1,4 @@
-//! What one source file declares, imports and names.
+//! Declarations, imports and names of one source file.
 
 use super::tokens::tokens;
 use std::collections::{BTreeMap, BTreeSet};

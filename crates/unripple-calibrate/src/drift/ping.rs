@@ -138,7 +138,7 @@ impl Ping {
     }
 }
 
-/// What is felt of a drive where it is felt most, in units of the threshold, and where.
+/// The strongest sensation of a drive, in units of the threshold, and where it is.
 fn felt_most(responses: &ModalResponses, drive: &[Vec<f64>], threshold: &Threshold) -> (f64, Point) {
     let conditions = &responses.conditions;
     let slowest = responses.poles.iter().map(|pole| pole.sigma).fold(f64::INFINITY, f64::min).max(1.0);

@@ -104,7 +104,7 @@ impl Sheet {
         })
     }
 
-    /// What the sensors hear at some instants, as [`Instants::look`] has it, and the motion at the end. `drive` is
+    /// Signals of the sensors at some instants, as [`Instants::look`] has it, and the motion at the end. `drive` is
     /// `[channel][sample]`; the answer's rows are instants, its columns channels, in the sensors' unit.
     pub fn run(
         &self,

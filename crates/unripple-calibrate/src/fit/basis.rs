@@ -77,7 +77,7 @@ impl Basis {
         })
     }
 
-    /// What an actuator, or a stray beyond the actuators, touches when it is at a place.
+    /// The contact points of an actuator, or of a stray load beyond the actuators, when it is at a place.
     pub fn footprint(&self, number: usize, at: Point) -> Footprint {
         let Some((transducer, nominal)) = self.transducers.get(number) else { return Footprint::point(at) };
         let (dx, dy) = (at.x - nominal.x, at.y - nominal.y);

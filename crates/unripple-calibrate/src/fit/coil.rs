@@ -1,4 +1,4 @@
-//! What the circuit of a coil on a voltage is to a fit.
+//! The circuit of a coil on a voltage, as a fit sees it.
 
 use unripple_linalg::c64;
 use unripple_physics::{Entry, Sensor, Transducer};
@@ -8,7 +8,7 @@ use unripple_physics::{Entry, Sensor, Transducer};
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Coil {
     sensor: Sensor,
-    /// What it hears per m/s that changes slowly.
+    /// Its signal per m/s of slowly changing velocity.
     slow: f64,
     /// bl²/R, in N·s/m.
     damping: f64,
@@ -34,7 +34,7 @@ impl Coil {
         (s * self.time + 1.0).inv()
     }
 
-    /// What the inductance adds to the damping of the resistance alone, in N·s/m.
+    /// Change by the inductance of the damping of the resistance alone, in N·s/m.
     pub fn added(&self, s: c64) -> c64 {
         (self.lag(s) - 1.0) * self.damping
     }

@@ -1,4 +1,4 @@
-//! What is known of a surface from the actuators alone.
+//! A surface's model as fitted from its actuators alone.
 
 use super::coil::Coil;
 use super::following::Following;
@@ -100,7 +100,7 @@ pub struct Fitted {
     coils: Vec<Option<Coil>>,
 }
 
-/// What was found, with its errors.
+/// The unknowns of the model as fitted, with their errors.
 struct Answers<'a> {
     case: &'a Case<'a>,
     found: &'a Found,

@@ -19,7 +19,7 @@ const ACCURACY: f64 = 1e-6;
 /// before; more changes nothing.
 const BEFORE: usize = 64;
 
-/// What a model says of responses between actuators, in the order of [`Pairs`](super::Pairs), from time 0 on.
+/// Responses between actuators by a model, in the order of [`Pairs`](super::Pairs), from time 0 on.
 #[derive(Clone, Debug)]
 pub(crate) struct Limited {
     /// The model's responses themselves, `[pair][sample]`.

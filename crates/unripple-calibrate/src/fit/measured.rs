@@ -7,7 +7,7 @@ use unripple_core::{Point, Surface, require};
 /// Least noise of responses over themselves: what models of a band's edges and a device's latency are good for.
 const FLOOR: f64 = 1e-3;
 
-/// What was measured on a surface: responses between its actuators, taps heard by them, or both.
+/// The data of a fit: responses between a surface's actuators, taps recorded by them, or both.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
     /// Samples per second.

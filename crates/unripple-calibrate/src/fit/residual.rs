@@ -27,7 +27,7 @@ pub(super) struct Residual {
     pub belongs: Vec<[usize; 2]>,
 }
 
-/// What a residual is made of: the basis, the unknowns, the measured spectra.
+/// The parts of a residual: the basis, the unknowns, the measured spectra.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Case<'a> {
     /// The nominal modes.

@@ -163,7 +163,7 @@ impl Fit<'_> {
         Ok(())
     }
 
-    /// What was measured in a band under a window.
+    /// The measured spectra in a band under a window.
     fn spectra(&self, band: [f64; 2], alpha: f64) -> Result<Spectra, CalibrateError> {
         let limited = self.limited()?;
         let spectra = Spectra::of(self.measured, limited.as_ref(), band, (alpha, self.options.window));

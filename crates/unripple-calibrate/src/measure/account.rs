@@ -1,4 +1,4 @@
-//! What a recording shows besides the responses: clock error, lost samples, change of tension, knocks, harmonics.
+//! Findings of a recording besides the responses: clock error, lost samples, change of tension, knocks, harmonics.
 
 /// Samples that were lost, or repeated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +24,7 @@ pub struct Knocked {
     pub left_out: bool,
 }
 
-/// What the sweeps of a take show of its clock, its gaps, the sheet's tension and other sounds. `None` is not known:
+/// Findings from the sweeps of a take on its clock, its gaps, the sheet's tension and other sounds. `None` is not known:
 /// nothing that shows it was recorded.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Account {
@@ -69,7 +69,7 @@ const SAME_TIME: f64 = 0.05;
 const LEAST_HARMONIC: f64 = 1e-3;
 
 impl Account {
-    /// What there is to say of it, a sentence each; nothing of what is as it should be.
+    /// The findings in words, a sentence each; nothing of what is as it should be.
     pub fn said(&self) -> Vec<String> {
         let mut said = self.brought();
         if !self.repeats.is_empty() {

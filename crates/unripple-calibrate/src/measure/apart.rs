@@ -15,7 +15,7 @@ const TURN: f64 = 1.0;
 /// Largest delay in samples, either way, that is looked for: whole ones are taken out beforehand.
 const MOST_DELAY: f64 = 2.5;
 
-/// What sets two takes of the same responses apart.
+/// The differences between two takes of the same responses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Apart {
     /// Samples by which the one comes later than the other.

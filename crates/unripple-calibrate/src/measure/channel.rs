@@ -1,4 +1,4 @@
-//! What one input heard of every actuator, and how good it is.
+//! Responses of every actuator at one input, and their quality.
 
 use super::Account;
 use super::telling::around;
@@ -13,7 +13,7 @@ pub struct Channel {
     pub quality: Vec<Quality>,
     /// How good each is in each third of an octave, `[actuator][band]`, bands ascending.
     pub bands: Vec<Vec<BandQuality>>,
-    /// What the take showed besides: clock, gaps, drift, knocks.
+    /// Side findings of the take: clock, gaps, drift, knocks.
     pub account: Account,
 }
 

@@ -54,7 +54,7 @@ impl Hearing {
         self.sensors.iter().any(|sensor| sensor.circuit.is_some())
     }
 
-    /// What a sensor hears of a unit impulse of a drive, from time 0 on.
+    /// Response at a sensor to a unit impulse of a drive, from time 0 on.
     pub fn response(&self, sensor: usize, drive: usize, samples: usize) -> Vec<f64> {
         let rate = self.model.conditions.rate;
         let mut moved = vec![0.0; samples];

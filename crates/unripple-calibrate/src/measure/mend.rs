@@ -3,7 +3,7 @@
 use crate::signals::shift;
 use unripple_dsp::resample;
 
-/// What is to be undone in a recording.
+/// The corrections to a recording.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Mend {
     /// Error of the recording's clock, as a share: positive if it is quick.

@@ -80,7 +80,7 @@ const MOST_REPEATS: f64 = 99.0;
 const MOST_KEPT: f64 = 60.0;
 
 impl MeasureOptions {
-    /// What suits a surface that is expected to be like a model: sweep, ringing and response in proportion to the
+    /// Options that suit a surface that is expected to be like a model: sweep, ringing and response in proportion to the
     /// slowest decay in the band, and those of [`MeasureOptions::default`] up to 70 ms. The sweep begins below the
     /// lowest mode, at 60 Hz at the highest.
     ///

@@ -41,7 +41,7 @@ pub struct Session {
     pub(super) law: Law,
     /// Numbers of the actuators whose sensors clock, gaps and tension are found from.
     telling: Vec<usize>,
-    /// What these heard in the first take, `[sensor][actuator][sample]`.
+    /// Responses at these in the first take, `[sensor][actuator][sample]`.
     known: Option<Vec<Vec<Vec<f64>>>>,
 }
 
@@ -58,7 +58,7 @@ pub enum Listen {
 pub(super) struct Take {
     /// The recordings, `[input][sample]`.
     pub lines: Vec<Vec<f64>>,
-    /// What the recording was found to be.
+    /// Account of the recording, and how it was mended.
     pub verdict: Verdict,
 }
 

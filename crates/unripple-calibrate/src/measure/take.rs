@@ -39,11 +39,11 @@ const HARMLESS: f64 = 1.0 / 32.0;
 /// Turns what one input recorded into a periodic deconvolution.
 type Deconvolve<'a> = dyn Fn(&[f64]) -> Result<Vec<f64>, CalibrateError> + 'a;
 
-/// What a take is compared with: the first take, the schedule, the band.
+/// The references of a take: the first take, the schedule, the band.
 pub(super) struct Judge<'a> {
     /// Numbers of the actuators whose sensors are used; none where it is a reference, which hears what is sent.
     pub sensors: &'a [usize],
-    /// What they heard in the first take, `[sensor][actuator]` from time 0; nothing in the first take itself.
+    /// Responses at them in the first take, `[sensor][actuator]` from time 0; nothing in the first take itself.
     pub known: Option<&'a [Vec<Vec<f64>>]>,
     /// First sample of each actuator's sweep.
     pub starts: &'a [usize],
@@ -69,7 +69,7 @@ pub(super) struct Judge<'a> {
     pub clear: &'a dyn Fn(&[f64]) -> bool,
 }
 
-/// What a take was, and what is to be done about it.
+/// The findings on a take, and the corrections that they call for.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Verdict {
     /// Account of the recording, for people.
@@ -153,7 +153,7 @@ impl Judge<'_> {
         })
     }
 
-    /// What the sweeps' delays show of the clock and of lost samples; nothing of too few.
+    /// Clock error and lost samples by the sweeps' delays; nothing of too few.
     fn timing(
         &self,
         verdict: &mut Verdict,
@@ -267,7 +267,7 @@ impl Judge<'_> {
         Ok(())
     }
 
-    /// What a sensor should hear, by what it heard of each actuator in the first take.
+    /// The signal that a sensor should record, by its responses to each actuator in the first take.
     fn expected(&self, known: &[Vec<f64>], samples: usize) -> Vec<f64> {
         let mut sum = vec![0.0; samples];
         for (response, drive) in known.iter().zip(self.drive) {

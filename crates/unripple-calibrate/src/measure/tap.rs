@@ -1,10 +1,10 @@
-//! What is known of a tap beforehand: how long, how strong, how well the model is believed.
+//! Assumptions about a tap before it is recorded: length, strength, trust in the model.
 
 use crate::CalibrateError;
 use crate::signals::{Band, Deconvolver, Inversion, Stimulus};
 use unripple_linalg::{Cholesky, Mat, product, squared_norm, times};
 
-/// What is known of taps before they are recorded: length, and how far the model is trusted.
+/// Assumptions about taps before they are recorded: length, and how far the model is trusted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TapOptions {
     /// Longest time a tap takes, bounces included, in s.
@@ -34,10 +34,10 @@ pub struct Tapped {
 
 /// Responses of actuators at a place from taps there, of any shape and strength, heard by the actuators' own sensors.
 ///
-/// What sensor a hears is `s_a = h_a * f`, with the same force f for all. f is sought first, as the smooth force of at most
-/// [`TapOptions::length`] that, with the model's responses, best explains the first [`TapOptions::early`] seconds of all
-/// sensors in the least-squares sense; then each h_a is s_a with f divided out. The model so gives the strength and fine
-/// shape of a pulse of a few milliseconds, and nothing of the responses themselves.
+/// The signal of sensor a is `s_a = h_a * f`, with the same force f for all. f is sought first, as the smooth force
+/// of at most [`TapOptions::length`] that, with the model's responses, best explains the first [`TapOptions::early`]
+/// seconds of all sensors in the least-squares sense; then each h_a is s_a with f divided out. The model so gives the
+/// strength and fine shape of a pulse of a few milliseconds, and nothing of the responses themselves.
 ///
 /// `heard` is `[tap][sensor][sample]`, latency removed; `model` is `[sensor][sample]` at the same place and rate.
 ///

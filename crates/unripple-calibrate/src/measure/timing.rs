@@ -116,7 +116,7 @@ const FEW: usize = 5;
 /// Sweeps below which a line says nothing: it goes through any two.
 const LINE: usize = 3;
 
-/// What may be left of an explanation, in samples.
+/// Largest residual of an explanation of the delays, in samples.
 fn tolerance(sweeps: &[Sweep]) -> f64 {
     SLACK + 3.0 * error(sweeps)
 }

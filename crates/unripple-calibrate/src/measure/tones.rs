@@ -61,7 +61,7 @@ pub(super) struct Heard<'a> {
     pub rate: f64,
 }
 
-/// What is left of a part of the band, its lowest line at 0 Hz: sensors x drives at each instant.
+/// The remaining signal of a part of the band, its lowest line at 0 Hz: sensors x drives at each instant.
 struct Baseband {
     instants: Vec<Mat<c64>>,
     /// Time of each instant, in s.

@@ -3,7 +3,7 @@
 use unripple_core::{ModalResponses, Point, Pole};
 use unripple_linalg::{Mat, c64, product, times};
 
-/// What a model says between its actuators and any place, ready to be compared with what was heard there.
+/// Responses of a model between its actuators and any place, ready to be compared with those measured there.
 ///
 /// With w the actuators' weights, φ the shapes and μ the modes' mobilities, the model at x is Y_a(s) = Σ_m φ_m(x) w_am μ_m(s): linear
 /// in φ(x). So is its product with what was heard, and its own power is a quadratic form of φ(x): a whole sheet of
@@ -34,7 +34,7 @@ impl Match {
     }
 }
 
-/// What was heard at a point, by the model's modes: modes x frequencies, and its power.
+/// The measured responses at a point, by the model's modes: modes x frequencies, and its power.
 #[derive(Debug)]
 pub(super) struct Projected {
     crossed: Mat<c64>,

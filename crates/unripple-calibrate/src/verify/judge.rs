@@ -1,4 +1,4 @@
-//! What each probed point is found to be, by comparison with the model.
+//! The verdict on each probed point, by comparison with the model.
 
 use super::checker::{Match, Projected};
 use super::quick::Quick;
@@ -24,7 +24,7 @@ const TELLING: usize = 24;
 /// A place is nobody else's if it is farther from all of them than this share of the shortest wave looked at.
 const NEAR: f64 = 0.2;
 
-/// What was found of a point.
+/// The findings on a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Judged {
     /// At its own place and the common delay.
@@ -37,7 +37,7 @@ pub(super) struct Judged {
     pub kind: Kind,
 }
 
-/// What a point is.
+/// Whether a point's responses fit its place, another place, or none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
     /// Where it is said to be, or close by.

@@ -214,7 +214,7 @@ fn chosen(surface: &Surface, measured: &Measured, options: &VerifyOptions) -> Re
     Ok(taken)
 }
 
-/// What some of all actuators heard of each other.
+/// Responses of some of all actuators at each other.
 fn among(measured: &Measured, actuators: &[usize], all: usize) -> Measured {
     let mut part = measured.clone();
     let count = actuators.len();

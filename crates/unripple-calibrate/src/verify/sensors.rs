@@ -1,4 +1,4 @@
-//! What each sensor recorded, compared with the model at its actuator's place.
+//! Recordings of each sensor, compared with the model at its actuator's place.
 
 use super::checker::Projected;
 use super::judge::Bench;

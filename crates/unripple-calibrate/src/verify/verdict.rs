@@ -1,4 +1,4 @@
-//! What a check of probed points finds.
+//! The result of a check of probed points.
 
 use unripple_core::Point;
 
@@ -22,7 +22,7 @@ pub struct VerifyOptions {
 }
 
 impl VerifyOptions {
-    /// What a point is called.
+    /// Number of the point in messages.
     pub(super) fn number(&self, point: usize) -> usize {
         self.numbers.get(point).copied().unwrap_or(point + 1)
     }
@@ -42,7 +42,7 @@ impl Default for VerifyOptions {
     }
 }
 
-/// What was found of probed points.
+/// The result of a check of probed points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verified {
     /// The model that they were compared with, or why there was none.
@@ -96,13 +96,13 @@ pub enum Checked {
 /// A reason to doubt some points, or all of the calibration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Doubted {
-    /// What was found, and what to do.
+    /// The finding, and what to do.
     pub what: String,
     /// The probed points concerned, ascending from 0; empty for all of the calibration.
     pub points: Vec<usize>,
 }
 
-/// What was found of one probed point.
+/// The result of a check of one probed point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointVerdict {
     /// Place where the point is said to be, in m.
@@ -118,6 +118,6 @@ pub struct PointVerdict {
     pub fits: Option<(Point, f64)>,
     /// Reason to doubt the point, if there is one.
     pub doubt: Option<String>,
-    /// What its responses are to be multiplied by, if its gain or sign is not that of the others and the rest of it is good.
+    /// Factor that corrects its responses, if its gain or sign is not that of the others and the rest of it is good.
     pub correction: Option<f64>,
 }

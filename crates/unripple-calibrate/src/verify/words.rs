@@ -1,4 +1,4 @@
-//! What was found of points, in words.
+//! Findings on points, in words.
 
 use super::judge::{Bench, Judged, Kind, Whose};
 use super::levels::Levels;

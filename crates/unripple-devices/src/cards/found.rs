@@ -16,7 +16,7 @@ pub struct CardFound {
     pub capture: Option<Offer>,
 }
 
-/// What a device offers in one direction.
+/// The channels, rates and block sizes that a device offers in one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Offer {
     /// Fewest and most channels.

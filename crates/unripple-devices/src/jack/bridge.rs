@@ -64,7 +64,7 @@ impl Bridge {
     }
 }
 
-/// What the server's thread has.
+/// The state of the server's thread.
 struct Worker {
     device: Box<dyn Device>,
     block: usize,

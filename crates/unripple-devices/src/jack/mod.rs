@@ -15,7 +15,8 @@ pub use links::Links;
 use events::Side;
 use library::Client;
 
-/// What a server has: rate, samples per cycle, and the names of all ports that sound can be sent to and comes from.
+/// Properties of a JACK server: rate, samples per cycle, and the names of all ports that sound can be sent to and
+/// comes from.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Seen {
     pub(crate) rate: f64,

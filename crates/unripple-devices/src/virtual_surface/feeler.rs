@@ -35,7 +35,7 @@ pub struct Feeling {
 #[derive(Debug)]
 pub struct Feeler {
     handle: Handle,
-    /// What each finger weighs on the surface with; nothing where they only look.
+    /// The load of each finger on the surface; nothing where they only look.
     finger: Option<Finger>,
     outline: Outline,
     /// Who is in each slot, whether they press on the surface yet, whether they have left since the last look, and where they are.
@@ -139,7 +139,7 @@ impl Feeler {
         Ok(())
     }
 
-    /// What every finger felt since the last look, those that have left meanwhile included.
+    /// The sensation of every finger since the last look, those that have left meanwhile included.
     pub fn look(&mut self) -> Vec<Feeling> {
         let feelings = self.feelings();
         for (slot, left) in self.slots.iter_mut().zip(&mut self.left) {

@@ -87,7 +87,7 @@ impl WiringReport {
 const FEW: usize = 3;
 const NAMED: usize = 6;
 
-/// What is wrong with one channel.
+/// The fault of one channel, in words.
 struct Fault {
     side: &'static str,
     name: String,

@@ -104,7 +104,7 @@ pub(super) fn level(lines: &mut [Vec<f64>], inputs: usize) {
     }
 }
 
-/// What a model says of the same bursts.
+/// The recordings of the same bursts that a model predicts.
 pub(super) fn predict(expected: &Expected, layout: &Layout, options: &WiringOptions) -> Vec<Vec<f64>> {
     let window = (options.listen * layout.rate).ceil() as usize;
     let scale = options.level * layout.full_scale / layout.rate;

@@ -14,7 +14,7 @@ use unripple_effects::{
 pub(super) const NAMES: [&str; 8] =
     ["button", "texture", "edge", "notch", "pulse-train", "shape", "hum", "score"];
 
-/// What the corners of a shape may count from.
+/// Origins that the corners of a shape may count from, by their names in files.
 pub(super) const ANCHORS: [(&str, Anchor); 2] = [("finger", Anchor::Finger), ("surface", Anchor::Surface)];
 /// How an envelope may play, and whether it starts over.
 pub(super) const PLAYS: [(&str, bool); 2] = [("looped", true), ("once", false)];
@@ -47,7 +47,7 @@ pub(super) fn keys(kind: &str) -> &'static [&'static str] {
     }
 }
 
-/// What an effect of a kind does.
+/// An effect of a kind, read from its keys; nothing if any is at fault.
 pub(super) fn read(kind: &str, section: &Section, faults: &mut Faults) -> Option<Kind> {
     match kind {
         "button" => button(section, faults).map(Kind::Button),

@@ -6,7 +6,7 @@ use super::range;
 use crate::surface::reader::{Entry, Faults, Section};
 use unripple_effects::{Event, Score, Sound, Start, limits};
 
-/// What may start a score, by its name in files.
+/// Triggers of a score, by their names in files.
 pub(super) const STARTS: [(&str, Start); 3] =
     [("touch", Start::Touch), ("zero", Start::Zero), ("name", Start::Name)];
 

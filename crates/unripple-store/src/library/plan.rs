@@ -14,7 +14,7 @@ const MOST_VALUES: usize = 1 << 28;
 /// Keys of [`LibraryPlan::provenance`] that may differ when measuring into a library is resumed.
 pub const MAY_DIFFER: [&str; 2] = ["created", "software"];
 
-/// What a library is to hold: everything known before the first response is.
+/// The plan of a library: everything known before the first response is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LibraryPlan {
     /// The actuators, in channel order; their names are unique.
@@ -107,7 +107,7 @@ impl LibraryPlan {
         require(whole(outline), "an outline around some area", "none".into())
     }
 
-    /// What another plan has otherwise, in words; `None` if it is the same but for [`MAY_DIFFER`].
+    /// The differences of another plan, in words; `None` if it is the same but for [`MAY_DIFFER`].
     pub fn difference(&self, found: &Self) -> Option<String> {
         let told = |what: &str, here: String, there: String| {
             (here != there).then(|| format!("{what}: {there} instead of {here}"))

@@ -1,4 +1,4 @@
-//! What a library says of its own making: a log of the measurement, and why it is not to be trusted.
+//! The record of a library's making: a log of the measurement, and why it is not to be trusted.
 
 use super::{Library, disk, manifest};
 use crate::StoreError;

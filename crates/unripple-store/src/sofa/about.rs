@@ -4,7 +4,7 @@ use super::API;
 use crate::LibraryPlan;
 use unripple_core::{Outline, Shape};
 
-/// What a SOFA file says of itself besides what a library knows.
+/// Metadata of a SOFA file beyond what a library knows.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SofaAbout {
     /// Author of the data, with an address for questions.

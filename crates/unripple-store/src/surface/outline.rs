@@ -17,7 +17,7 @@ const SHAPES: [&str; 6] = ["rectangle_mm", "circle_mm", "stadium_mm", "polygon_m
 /// Hands over the text of the SVG file that an outline or a hole names.
 pub(super) type Fetch<'f> = dyn Fn(&str) -> Result<String, StoreError> + 'f;
 
-/// What of the table `[outline]` is without fault: Xactuators are checked even if the edges are at fault.
+/// What of the table `[outline]` is without fault: actuators are checked even if the edges are at fault.
 #[derive(Default)]
 pub(super) struct Rim {
     /// Shape of the outer rim.

@@ -10,7 +10,7 @@ pub(super) struct Set {
     pub(super) pressure: Option<f64>,
 }
 
-/// What a sender says in one frame of one list: who is there, and where those are that moved.
+/// One frame of one list of a sender: which fingers are there, and where those are that moved.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Frame {
     /// Whether the frame lists all that are there.

@@ -7,7 +7,7 @@ use rosc::OscType;
 use std::net::SocketAddr;
 use unripple_core::Point;
 
-/// What a message under `/unripple/` asks for.
+/// A request of a message under `/unripple/`.
 #[derive(Clone, Debug, PartialEq)]
 enum Asked {
     Touch { finger: i64, at: Point, force: Option<f64> },

@@ -7,7 +7,7 @@ use std::ops::Range;
 pub(super) const LONGEST: usize = 16 * 1024;
 /// How deep bundles may lie in bundles: trackers use one level, and each costs a call.
 const DEEPEST: usize = 4;
-/// What a bundle opens with, and how long that and its time are.
+/// The first bytes of an OSC bundle, and the length of those and its time tag.
 const BUNDLE: &[u8] = b"#bundle\0";
 const BUNDLE_HEAD: usize = 16;
 

@@ -39,7 +39,7 @@ pub struct OscReceiver {
     messages: Vec<Range<usize>>,
 }
 
-/// Who speaks in a packet: an address, the place of the sender and of its name.
+/// The sender of a packet: an address, the place of the sender and of its name.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Speaker {
     pub(super) address: SocketAddr,
@@ -145,7 +145,7 @@ impl OscReceiver {
         }
     }
 
-    /// What the number of a frame says of it.
+    /// The order of a frame by its number.
     pub(super) fn judge(&mut self, speaker: &Speaker, list: usize, id: u32, bits: u32) -> Verdict {
         let now = self.fingers.awake();
         match speaker.sender {

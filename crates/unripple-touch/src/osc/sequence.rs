@@ -6,7 +6,7 @@ const SILENCE: f64 = 1.0;
 /// A frame that is behind by more than this is not late: its sender has begun anew.
 const LATEST: u32 = 100;
 
-/// What a frame's number says of it.
+/// The order of a frame by its number: new, late or a restart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Verdict {
     /// It is the next, or another part of the same.

@@ -9,7 +9,7 @@ use rosc::OscType;
 /// The list of fingers that TUIO 2 keeps. The fourth, after TUIO 1's three.
 const LIST: usize = 3;
 
-/// What TUIO 2 also says, and what is no finger.
+/// Messages of TUIO 2 that are of no finger, and are passed over.
 const IGNORED: [&str; 12] =
     ["sym", "t3d", "p3d", "b3d", "chg", "ocg", "icg", "skg", "svg", "arg", "raw", "dat"];
 

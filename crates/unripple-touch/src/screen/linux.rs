@@ -10,7 +10,7 @@ use std::io::{self, ErrorKind};
 use std::os::fd::{AsFd, BorrowedFd};
 use std::path::{Path, PathBuf};
 
-/// What a screen is called and what it measures.
+/// Name of a screen, and the ranges of its coordinates.
 pub(super) struct Found {
     pub(super) name: String,
     pub(super) kernel: Kernel,

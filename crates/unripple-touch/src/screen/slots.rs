@@ -25,7 +25,7 @@ const PRESSURE: u16 = 0x3a;
 /// Slots that are followed; screens have ten or so.
 const MOST: usize = 64;
 
-/// What is known of one slot.
+/// The state of one slot of a multi-touch screen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Slot {
     /// The contact in it; contacts whose number was lost get a negative one.
@@ -37,7 +37,7 @@ pub(super) struct Slot {
     lost: bool,
 }
 
-/// What a report leaves to be done.
+/// The touches that a report gives rise to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Report {
     /// The report is not at its end.

@@ -13,7 +13,7 @@ const VERSION: u64 = 1;
 /// The longest explanation that is sent, in characters. Longer ones are cut.
 const LONGEST: usize = 200;
 
-/// What a client of the WebSocket says.
+/// A message of a WebSocket client.
 ///
 /// ```
 /// use unripple_core::{Phase, Point};
@@ -30,7 +30,7 @@ pub enum Message {
     Touch {
         /// The client's number for it.
         finger: u32,
-        /// What it did.
+        /// Phase of the touch.
         phase: Phase,
         /// Where it is, in m; may be missing when it leaves.
         at: Option<Point>,

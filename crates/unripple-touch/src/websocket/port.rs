@@ -16,7 +16,7 @@ const LOOK: f64 = 0.1;
 /// Connections taken in one poll, so that a flood of them keeps no finger waiting.
 const ACCEPTED: usize = 8;
 
-/// Who may connect, and how many.
+/// The clients that may connect: their origins and number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WebSocketOptions {
     /// Pages that may connect beside those of this machine, as browsers name them: `https://lab.example:8443`.

@@ -64,7 +64,7 @@ pub struct Spec {
     pub load: bool,
     /// A real device; the surface is stepped here where `None`.
     pub device: Option<Opener>,
-    /// What follows the sheet's tension, if it is to be followed.
+    /// How the sheet's tension is followed, if it is.
     pub follow: Option<Follow>,
 }
 
@@ -88,7 +88,7 @@ pub struct Instrument {
     pub window: Window,
     /// The window that suits live play.
     pub suggested: Window,
-    /// What a gain of 1 stands for.
+    /// The level that a gain of 1 stands for.
     pub level: Level,
 }
 
@@ -157,7 +157,7 @@ impl Instrument {
     }
 }
 
-/// What makes drives: of a library, at places between its points.
+/// The maker of drives: of a library, at places between its points.
 fn maker(spec: &Spec, accuracy: f64, options: &LiveOptions) -> Result<FocusWorker, ViewError> {
     let surface = &spec.surface;
     match &spec.stored {
@@ -183,7 +183,7 @@ fn remember(handle: &Handle, surface: &Surface, modes: usize) -> Result<(), View
     Ok(handle.remember(stride, states)?)
 }
 
-/// What a touch sets off.
+/// The effects that a touch sets off.
 fn effect(spec: &Spec) -> Result<EffectSet, ViewError> {
     if spec.effect == PULSES {
         let text = format!("format = 1\n[[effect]]\nkind = \"pulse-train\"\nrate_hz = {}\n", spec.rate);

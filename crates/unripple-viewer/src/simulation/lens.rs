@@ -48,7 +48,7 @@ pub struct Lens {
     /// Whether the centre of each lies on the surface.
     inside: Vec<bool>,
     modes: usize,
-    /// What each cell inside reads, modes after modes.
+    /// Readout weights of the modes at each cell inside, cell after cell.
     weights: Vec<f32>,
 }
 
@@ -69,7 +69,7 @@ impl Lens {
     }
 }
 
-/// What some places read of every mode: a row for each.
+/// Readout weights of all modes at some places: a row for each.
 pub fn weights(plant: &Plant, places: &[Point]) -> Vec<f32> {
     let mut weights = Vec::with_capacity(places.len() * plant.modes());
     for batch in places.chunks(BATCH) {

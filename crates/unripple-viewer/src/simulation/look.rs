@@ -13,7 +13,7 @@ const SPAN: f64 = 0.04;
 /// Traces in a picture: as many as there are colours to tell them apart.
 const MOST_TRACES: usize = 8;
 
-/// What one place does.
+/// The motion of one place.
 struct Followed<'a> {
     name: String,
     at: Point,

@@ -1,4 +1,4 @@
-//! What the simulation says of itself.
+//! Messages of the simulation to pages.
 
 use super::{PACED, Simulation};
 use crate::outbox::Outbox;

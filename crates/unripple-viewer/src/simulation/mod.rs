@@ -40,7 +40,7 @@ const FINGERS: u64 = 1000;
 /// Probes at once; with two fingers they fill the traces of a picture.
 const MOST_PROBES: usize = 6;
 
-/// What the simulation is asked for.
+/// A request to the simulation.
 pub enum Order {
     /// A finger, by its page and its number there.
     Touch((u64, u32), wire::Phase, Point),

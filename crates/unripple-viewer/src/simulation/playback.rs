@@ -1,4 +1,4 @@
-//! What plays the surface: here, or a device elsewhere that is mirrored.
+//! Playback of the surface: here, or by a device elsewhere that is mirrored.
 
 use crate::ViewError;
 use crate::lock::lock;
@@ -15,7 +15,7 @@ use unripple_live::{Engine, LiveError, PlayStats, Stage};
 /// is lost to the picture alone.
 const WAITING: usize = 512;
 
-/// What plays a surface, and the surface that moves.
+/// The player of a surface, and the surface that moves.
 pub enum Playback {
     /// Both here, at whatever pace is asked for.
     Here(Box<Engine>),
@@ -119,7 +119,7 @@ impl Drop for Away {
 }
 
 impl Playback {
-    /// What is known of the play now.
+    /// The state of the play now.
     pub fn look(&mut self) -> Known {
         match self {
             Self::Here(engine) => {

@@ -1,6 +1,6 @@
 //! The drive of the last second.
 
-/// What was driven lately: every sample of every actuator, as a share of its limit.
+/// The latest drive: every sample of every actuator, as a share of its limit.
 #[derive(Clone, Debug)]
 pub struct Tape {
     outputs: usize,
@@ -31,7 +31,7 @@ impl Tape {
         self.count += block as u64;
     }
 
-    /// What all outputs did at a sample; nothing if that is no longer known.
+    /// Drive of all outputs at a sample; nothing if that is no longer known.
     pub fn at(&self, sample: u64) -> Option<&[f32]> {
         if sample >= self.count || self.count - sample > self.most as u64 {
             return None;

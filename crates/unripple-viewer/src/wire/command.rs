@@ -1,4 +1,4 @@
-//! What pages may ask for, as JSON.
+//! Commands of pages, as JSON.
 
 use serde::{Deserialize, Deserializer};
 
@@ -14,7 +14,7 @@ const FARTHEST: f64 = 100_000.0;
 /// Longest name that is listened to, in bytes. Longer ones are refused.
 const LONGEST_NAME: usize = 64;
 
-/// What a page asks for. Lengths in mm, times in ms where the key says so, else in s.
+/// A command of a page. Lengths in mm, times in ms where the key says so, else in s.
 ///
 /// ```
 /// use unripple_viewer::Command;
@@ -31,7 +31,7 @@ pub enum Command {
     Touch {
         /// The page's number for the finger.
         finger: u32,
-        /// What it did.
+        /// Phase of the touch.
         phase: Phase,
         /// Where the finger is, in mm.
         at_mm: [f64; 2],
@@ -82,7 +82,7 @@ pub enum Command {
     },
 }
 
-/// What a finger did.
+/// The phase of a finger's touch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Phase {

@@ -1,4 +1,4 @@
-//! What fingers feel of a drive, and what they do to the waves.
+//! Sensations of fingers under a drive, and the power that they absorb and scatter.
 
 use super::ActError;
 use crate::core::{Contact, Drive, Responses, Surface};
@@ -6,10 +6,10 @@ use crate::field::Field;
 use crate::{Touch, touch};
 use serde::Serialize;
 
-/// What one finger feels of a drive, and what it does to the waves.
+/// The sensation of one finger under a drive, and what the finger does to the waves.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Felt {
-    /// What the finger feels and the power that it takes.
+    /// Sensation of the finger and the power that it absorbs.
     #[serde(flatten)]
     pub loaded: Touch,
     /// Velocity of the same contact disc without the fingers, over that with them.
@@ -18,7 +18,7 @@ pub struct Felt {
     pub displacement_attenuation: f64,
 }
 
-/// What every finger feels of a drive up to `until` (s), from the responses under all of them and those without.
+/// The sensation of every finger under a drive up to `until` (s), from the responses under all of them and those without.
 ///
 /// # Errors
 /// Those of [`Field::new`] and [`touch()`].

@@ -1,4 +1,4 @@
-//! What a drive does to a surface: figures, traces, maps.
+//! The field that a drive makes on a surface: figures, traces, maps.
 
 use super::ActError;
 use super::note::{self, Note};

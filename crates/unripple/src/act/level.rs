@@ -36,7 +36,7 @@ pub(super) struct Step {
 }
 
 impl Level {
-    /// What brings a drive to this level; `None` for the limit, and where nothing is known that decides.
+    /// The factor that brings a drive to this level; `None` for the limit, and where nothing is known that decides.
     ///
     /// # Errors
     /// [`ActError::Level`] for numbers without meaning and a target that does not move; those of [`Field::traces`] and
@@ -148,7 +148,7 @@ fn micrometres(metres: f64) -> String {
     format!("{um:.12e}").parse::<f64>().unwrap_or(um).to_string()
 }
 
-/// What is felt at the first target, in dB above the threshold of touch.
+/// Sensation level at the first target, in dB above the threshold of touch.
 fn felt(responses: &Responses, drive: &Drive, aimed: &Aimed) -> Result<f64, ActError> {
     let field = Field::new(responses, drive, 1.0)?;
     let first = &aimed.aims[..aimed.aims.len().min(1)];

@@ -4,7 +4,7 @@ use crate::core::Drive;
 use crate::focus::Options;
 use serde::Serialize;
 
-/// What decided the level of a drive.
+/// The limit or wish that decided the level of a drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DecidedBy {

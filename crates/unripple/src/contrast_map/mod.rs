@@ -49,8 +49,8 @@ pub struct ContrastMap {
     pub contrast: Vec<Option<f64>>,
 }
 
-/// What time reversal from all actuators gives at every place of a surface: the `contrast` of a focus there, without making a
-/// drive.
+/// The map of what time reversal from all actuators achieves at every place of a surface: the `contrast` of a focus
+/// there, without making a drive.
 ///
 /// A target x is played its responses backwards, so that the modes end in `G φ(x)` with
 /// `G = (BᵀB) ∘ Σ_i p(i) p(i)ᵀ`, B the input weights and p the impulse response of every mode, summed over the samples of the

@@ -1,11 +1,11 @@
-//! What time reversal gives at one place.
+//! Figures of a time-reversal focus at one place.
 
 use crate::act::{ActError, CELLS};
 use crate::core::{Point, Responses};
 use crate::field::Field;
 use crate::focus::{Options, Target, focus};
 
-/// What time reversal gives at one place, at its focal instant.
+/// Figures of a time-reversal focus at one place, at its focal instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
     /// The place, in metres.

@@ -24,7 +24,7 @@ pub struct Report {
     pub command: &'static str,
     /// Name of the surface.
     pub surface: String,
-    /// What figures were taken on, where it is not that surface with the modes of its band.
+    /// The model that figures were computed on, where it is not that surface with the modes of its band.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub judged_on: Option<String>,
     /// How the drive was made.

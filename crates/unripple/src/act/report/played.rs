@@ -34,7 +34,7 @@ pub struct Stroked {
     pub peak_range_db: [f64; 2],
 }
 
-/// What each target and point of silence does, a line each.
+/// Motion of each target and point of silence, a line each.
 pub(super) fn lines(
     waveforms: &[Followed],
     silent: &[SilenceFigures],

@@ -111,7 +111,7 @@ impl Report {
         parts.concat()
     }
 
-    /// What is felt elsewhere than at the targets.
+    /// The line on sensations elsewhere than at the targets.
     fn felt_line(&self) -> Option<String> {
         let outside = self.felt_outside_db?;
         let reached = self.targets.iter().any(|target| target.felt_level_db.is_some_and(|level| level > 0.0));
@@ -156,7 +156,7 @@ fn prefixed(value: f64) -> String {
     }
 }
 
-/// What a finger feels and takes, in a line.
+/// The line on a finger: its sensation and the power that it absorbs.
 fn finger_line(finger: &Felt) -> String {
     let Touch { at_m: [x, y], peak_displacement_m, peak_force_n, peak_power_w, energy_j, .. } = finger.loaded;
     format!(
