@@ -100,12 +100,13 @@ fn text(all: &[Cavity], window: f64) -> String {
         "The paper asks for a chaotic cavity, in which the echoes of one actuator reach the target from everywhere. With one \
          actuator and {:.0} ms the contrast is {:.1} on the rectangle, {:.1} on the irregular polygon, {:.1} on the stadium, \
          {:.1} on the square and {:.1} on the circle. Symmetry does cost: a square and a circle have modes in pairs of one \
-         frequency, of which one actuator drives a single combination, so that part of the surface's freedom is out of its reach, \
-         however long it plays. But chaos as such gains nothing. Once no two modes share a frequency, what matters is how evenly \
-         modes are spread: those of a chaotic cavity swing like random waves, and an actuator drives some of them hardly at all, \
-         while a rectangle's are products of sines, more even by 5/4 to 2 in the scatter of their squares. So the plain rectangle \
-         of sides that do not divide each other is the best of the five. With eight actuators and {:.0} ms all lie within \
-         {:.1} (circle) and {:.1} (rectangle): places without symmetry, as the paper's, do what an irregular outline would.",
+         frequency, of which one actuator drives a single combination, and cannot excite the other, however long it plays. But \
+         of these five outlines the chaotic ones gain nothing. Once no two modes share a frequency, what matters is how evenly \
+         the modes are excited: the mode shapes of a chaotic cavity are like random waves, and an actuator excites some of \
+         them hardly at all, while those of a rectangle are products of sines, whose squares have a relative variance of 5/4 \
+         instead of 2. So the plain rectangle, whose longer side is no multiple of the shorter, is the best of the five. With \
+         eight actuators and {:.0} ms all lie within {:.1} (circle) and {:.1} (rectangle): places without symmetry, as the \
+         paper's, do what an irregular outline would.",
         long * 1e3,
         of(rectangle, 1, long),
         of(polygon, 1, long),

@@ -65,14 +65,14 @@ fn text(rows: &[Coiled]) -> String {
     let contrast = |i: usize| at(i).map_or(f64::NAN, |r| r.contrast);
     let peak = |i: usize| at(i).map_or(f64::NAN, |r| r.peak_velocity_m_s);
     format!(
-        "A magnet that rides on the film loads it by its mass and, where the amplifier holds the voltage, by the current that its \
-         motion induces: a damper of (bl)²/R. The mass matters first. With 100 mg on each of eight places (the paper prints no \
-         mass) and held currents, the film rings as long as before ({:.0} ms) but the contrast falls from {:.1} to {:.1}, and the \
-         focal velocity for a force of 1 N at rest from {:.0} to {:.0} m/s, since above some hundred hertz the coils move their own \
-         magnets and not the film; 7 mg leave {:.1}. Held voltages damp: 6 N/A take the median decay time to {:.0} ms and the peak \
-         to {:.1} m/s with 100 mg on the film, the contrast to {:.1}: a drive that is mostly spent on the damper is \
-         nearly flat over the band. 0.6 N/A and 7 mg are a good match for this film: {:.0} ms, {:.1}, and {:.0} m/s. All \
-         levels are far past linear theory and scale down together.",
+        "A magnet that rides on the film loads it by its mass and, where the amplifier holds the voltage, by the current that \
+         its motion induces: a damper of (bl)²/R. The moving mass matters most. With 100 mg on each of eight places (the paper \
+         prints no mass) and current drive, the film rings as long as before ({:.0} ms) but the contrast falls from {:.1} to \
+         {:.1}, and the focal velocity for a force of 1 N at rest from {:.0} to {:.0} m/s, since above a few hundred hertz the \
+         inertia of the magnets takes nearly all of the force; 7 mg leave a contrast of {:.1}. Voltage drive damps: 6 N/A and \
+         100 mg give a median decay time of {:.0} ms, a peak of {:.1} m/s and a contrast of {:.1}: the response to a drive \
+         that works mostly against the damper is nearly flat over the band. 0.6 N/A and 7 mg are a good match for this film: \
+         {:.0} ms, {:.1}, and {:.0} m/s. All levels are far past linear theory and scale down together.",
         tau(1),
         contrast(0),
         contrast(1),
@@ -91,12 +91,12 @@ fn text(rows: &[Coiled]) -> String {
 /// Why 6 N/A is not credible.
 fn doubt(c: &Credibility) -> String {
     format!(
-        "The printed force constant of 6 N/A is not credible for actuators that drive a film. At a voltage it would be a damper \
-         of {} N·s/m where a point of the film resists with {} N·s/m at {HZ:.0} Hz: eight of them would hold the film \
-         still at eight places and reflect what comes there, a poor way to drive it. In a field of half a good magnet's remanence, 6 N/A takes \
-         {:.0} m of wire, {:.0} g of copper at 6.2 Ω. And 1.9 mH at the size of a magnet of {:.1} mm makes some {:.0} turns, which \
-         reach about {} N/A with it. A misplaced decimal point (0.6 N/A), or a force per volt or per ampere of all coils in series, \
-         would fit the rest of the paper.",
+        "The printed force constant of 6 N/A is hard to reconcile with actuators that drive a film. With voltage drive it \
+         would be a damper of {} N·s/m, where the mechanical impedance of the film at a point is {} N·s/m at {HZ:.0} Hz: eight \
+         of them would hold the film still at eight places and reflect what comes there, a poor way to drive it. In a field of \
+         half a good magnet's remanence, 6 N/A takes {:.0} m of wire, {:.0} g of copper at 6.2 Ω. And 1.9 mH at the size of a \
+         magnet of {:.1} mm makes some {:.0} turns, which reach about {} N/A with it. A misplaced decimal point (0.6 N/A), or \
+         a force per volt or per ampere of all coils in series, would fit the rest of the paper.",
         three(c.coil_damping),
         three(c.sheet_resistance),
         c.wire_length_m,

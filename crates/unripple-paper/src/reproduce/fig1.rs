@@ -58,10 +58,10 @@ pub fn section(bed: &Bed) -> Result<Section, TaskError> {
             "contrast_all_actuators": all,
         }),
         text: vec![format!(
-            "The steps of the paper's Fig. 1, on its film: a blow at A is heard at B, one of the eight actuators, and what is heard \
-             in the first {:.0} ms is played backwards from B alone. Nothing but that recording goes into the drive; the field it \
-             makes is computed from the drive, mode by mode. The force peaks at {:.0} mN; the displacement at A then reaches \
-             {:.1} µm, the film being {:.0} µm thick.",
+            "The steps of the paper's Fig. 1, on its film: a blow at A is recorded at B, one of the eight actuators, and the \
+             first {:.0} ms of the recording are played backwards from B alone. Nothing but that recording goes into the \
+             drive; the field it makes is computed from the drive, mode by mode. The force peaks at {:.0} mN; the displacement \
+             at A then reaches {:.1} µm, the film being {:.0} µm thick.",
             bed.window * 1e3,
             FORCE * 1e3,
             refocus.figures.peak_displacement_m.abs() * 1e6,

@@ -184,8 +184,9 @@ fn text([glass, film]: &[Vec<Scattering>; 2]) -> Vec<String> {
             .into(),
         format!(
             "A finger is a spring below its resonance and a mass above it. It holds the film nearly still at every frequency: \
-             at most {:.2} of the amplitude goes on. Of a wave in glass up to {:.2} does. At the same frequency glass takes less power \
-             than the film to move a finger; it loses at the same wavelength, which is what resolution asks for.",
+             at most {:.2} of the amplitude is transmitted. Of a wave in glass up to {:.2} is. At the same frequency glass \
+             takes less power than the film to move a finger; it loses at the same wavelength, which is what resolution asks \
+             for.",
             most(film),
             most(glass)
         ),

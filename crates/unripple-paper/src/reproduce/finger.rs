@@ -95,12 +95,13 @@ fn text(rows: &[&Touched]) -> String {
     let share = rows.iter().map(|r| r.finger_energy_j / r.drive_energy_j).fold(0.0, f64::max);
     format!(
         "The finger is the paper's: a mass, a damper and a spring to the ground, moving with the mean of the sheet over its \
-         contact, coupled both ways. Its impedance at 1 to 3 kHz is ten times the film's own under such a contact, so \
-         that it nearly holds the film still: the focus is {} times slower and {} times lower with it than without, for contacts \
-         of 3 to 8 mm radius, and the noise under it {} times. Focus and noise are attenuated alike, as the paper found: the ratio \
-         of the two, what is felt against what is not meant, survives the touch. That the paper's factor is smaller may be where \
-         it looked: within the contact the sheet bulges, and at its centre it moves more than on the mean. A drive made with the finger known gains the more the smaller the contact. \
-         At most {:.0} % of the energy driven into the film stays in the finger.",
+         contact, coupled both ways. Its impedance at 1 to 3 kHz is ten times the film's own under such a contact, so that it \
+         nearly holds the film still: the focus is {} times slower and {} times lower with it than without, for contacts of 3 \
+         to 8 mm radius, and the noise under it {} times. Focus and noise are attenuated alike, as the paper found: the ratio \
+         of the two, of the intended to the unintended motion, survives the touch. That the paper's factor is smaller may be \
+         where it looked: within the contact the sheet bulges, and at its centre it moves more than on the mean. A drive made \
+         with the finger known gains the more the smaller the contact. At most {:.0} % of the energy driven into the film \
+         stays in the finger.",
         span(rows, |r| r.focus_velocity),
         span(rows, |r| r.focus_displacement),
         span(rows, |r| r.noise_under_finger),

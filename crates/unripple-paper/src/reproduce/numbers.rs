@@ -95,7 +95,7 @@ fn modes(surface: &Surface, design: &Design, [vacuum, one, both]: [f64; 3]) -> V
             format!("{vacuum:.1} Hz"),
             format!(
                 "the air that moves along lowers it: {one:.1} Hz with air on one side, {both:.1} Hz on both, as if the film \
-                 were endless"
+                 were infinite"
             ),
         ),
         Compared::new(
