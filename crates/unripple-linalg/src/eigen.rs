@@ -18,14 +18,15 @@ pub fn symmetric<T: Entry>(matrix: MatRef<'_, T>) -> Option<(Vec<f64>, Mat<T>)> 
     T::symmetric(matrix)
 }
 
-/// The same by QR iteration, to machine precision of the largest eigenvalue.
+/// Eigenvalues and eigenvectors as [`symmetric`] has them, of a symmetric n x n matrix, by QR iteration: to machine
+/// precision of the largest eigenvalue.
 pub fn exact_symmetric(matrix: MatRef<'_, f64>) -> Option<(Vec<f64>, Mat<f64>)> {
     let mut params: SelfAdjointEvdParams = Auto::<f64>::auto();
     params.recursion_threshold = usize::MAX;
     decomposed(matrix, params)
 }
 
-/// What [`symmetric`] does.
+/// Eigenvalues and eigenvectors by divide and conquer, as [`symmetric`] has them.
 pub(crate) fn divided<T: ComplexField<Real = f64>>(matrix: MatRef<'_, T>) -> Option<(Vec<f64>, Mat<T>)> {
     decomposed(matrix, Auto::<T>::auto())
 }
@@ -46,9 +47,9 @@ fn decomposed<T: ComplexField<Real = f64>>(
 /// The eigenvalues of a matrix of any kind, in no order, and an eigenvector in each column.
 #[derive(Clone, Debug)]
 pub struct General {
-    /// The eigenvalues.
+    /// The n eigenvalues.
     pub values: Vec<c64>,
-    /// Their right eigenvectors.
+    /// Their right eigenvectors, n x n, one in each column.
     pub vectors: Mat<c64>,
 }
 

@@ -106,12 +106,12 @@ pub fn sparse_times(left: SparseColMatRef<'_, usize, f64>, right: MatRef<'_, f64
     left * right
 }
 
-/// Σ|a|² over all entries.
+/// The square of the Frobenius norm, Σ|a|² over all entries of an m x n matrix.
 pub fn squared_norm(matrix: MatRef<'_, f64>) -> f64 {
     matrix.squared_norm_l2()
 }
 
-/// √Σ|a|² over all entries.
+/// The Frobenius norm, √Σ|a|² over all entries of an m x n matrix.
 pub fn norm(matrix: MatRef<'_, f64>) -> f64 {
     matrix.norm_l2()
 }

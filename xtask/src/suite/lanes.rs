@@ -6,6 +6,7 @@ use std::collections::VecDeque;
 /// One of [`ALONE`]: package, program, why it is there.
 type Alone = (&'static str, &'static str, &'static str);
 
+/// Reasons why a program of [`ALONE`] runs one at a time.
 const REGISTRY: &str = "JACK keeps one registry of servers and clients for a user";
 const CLOCK: &str = "it holds times against the machine's clock";
 const CROWD: &str = "it opens as many connections as the machine grants";

@@ -21,7 +21,7 @@ impl Tally {
         Some(Self { passed: count("passed"), failed: count("failed") })
     }
 
-    /// Adds another's.
+    /// Adds the counts of another program.
     pub fn add(&mut self, other: &Self) {
         self.passed += other.passed;
         self.failed += other.failed;
