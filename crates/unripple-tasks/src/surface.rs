@@ -2,8 +2,8 @@
 
 use crate::TaskError;
 use serde::{Deserialize, Serialize};
-use unripple::core::Surface;
 use std::collections::BTreeMap;
+use unripple::core::Surface;
 use unripple_store::{Library, load_surface_with, parse_surface};
 
 /// A surface: by the name of a built-in surface or file, that with some keys set otherwise, or as the text of a surface file.

@@ -81,7 +81,6 @@ pub(super) fn rims(rims: &Rims) -> Result<(), Vec<OutlineFault>> {
     if faults.is_empty() { Ok(()) } else { Err(faults) }
 }
 /// A fault for each side that starts farther from the end of the one before it than [`OPEN`] allows.
-
 fn open(rims: &Rims) -> Result<(), Vec<OutlineFault>> {
     let fault = |side: usize| {
         let (end, start) = (rims.sides[rims.previous(side)].0.at(1.0), rims.sides[side].0.at(0.0));

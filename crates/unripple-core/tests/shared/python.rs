@@ -22,7 +22,7 @@ pub fn python(name: &str, modules: &str, packages: &[&str]) -> Result<PathBuf, S
         return Ok(python);
     }
     let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
-    if !set("CI") && !std::env::var_os("UNRIPPLE_NOTHING_SKIPPED").is_some_and(|value| value == "1") {
+    if !set("CI") && std::env::var_os("UNRIPPLE_NOTHING_SKIPPED").is_none_or(|value| value != "1") {
         return Err("only ./check --all installs it".into());
     }
     let run = |command: &mut Command| match command.output() {

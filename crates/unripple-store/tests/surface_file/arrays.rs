@@ -84,7 +84,7 @@ kind = "force"
 "#,
     );
     let radius = |i: usize| match surface.actuators[i].kind {
-        ActuatorKind::Piezo { radius, moment, .. } if moment == 0.002 => radius,
+        ActuatorKind::Piezo { radius, moment: 0.002, .. } => radius,
         kind => panic!("{kind:?}"),
     };
     assert_eq!([0, 1, 2, 3].map(radius), [4e-3, 4e-3, 4e-3, 9e-3]);
