@@ -29,6 +29,7 @@ mod play;
 mod progress;
 mod reproduce;
 mod respond;
+mod shell;
 mod targets;
 mod view;
 mod waveforms;
@@ -65,5 +66,7 @@ fn run(arguments: &Arguments) -> Result<(), CliError> {
         Command::Devices(options) => devices::run(options, common),
         Command::Doctor(options) => doctor::run(options, common),
         Command::Reproduce(options) => reproduce::run(options, common),
+        Command::Completions(options) => shell::completions(options, common),
+        Command::Man(options) => shell::man(options, common),
     }
 }

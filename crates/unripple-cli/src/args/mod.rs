@@ -5,6 +5,7 @@ mod export;
 mod fit;
 mod names;
 mod play;
+mod shell;
 mod view;
 
 pub use calibrate::{CalibrateOptions, DeviceOptions};
@@ -13,6 +14,7 @@ pub use export::ExportOptions;
 pub use fit::FitOptions;
 pub use names::{BetweenName, DeviceName, LossName, MethodName, WayName};
 pub use play::{DoctorOptions, PlayOptions};
+pub use shell::{CompletionsOptions, ManOptions};
 use std::path::PathBuf;
 pub use view::ViewOptions;
 
@@ -20,7 +22,7 @@ pub use view::ViewOptions;
 ///
 /// SURFACE is a TOML file or the name of a built-in surface, such as hudin-2012. LIBRARY is a folder of responses.
 #[derive(Debug, Parser)]
-#[command(version, propagate_version = true)]
+#[command(version = version(), propagate_version = true, after_help = EXITS)]
 pub struct Arguments {
     /// Print the report as one JSON object (SI units) on standard output, everything else on standard error.
     #[arg(long, global = true)]
@@ -32,6 +34,18 @@ pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
+}
+
+/// What exit codes mean, at the end of the help.
+const EXITS: &str =
+    "Exit codes: 0 the work is done; 1 it failed, or its result is doubtful; 2 bad usage or bad input.";
+
+/// The version, with the commit that the program was built from where that is known.
+fn version() -> &'static str {
+    match env!("UNRIPPLE_COMMIT") {
+        "" => env!("CARGO_PKG_VERSION"),
+        _ => concat!(env!("CARGO_PKG_VERSION"), " (", env!("UNRIPPLE_COMMIT"), ")"),
+    }
 }
 
 /// What to do.
@@ -67,6 +81,10 @@ pub enum Command {
     Doctor(DoctorOptions),
     /// Reproduce the paper's table and figures beside ours, as one page.
     Reproduce(ReproduceOptions),
+    /// Print a script with which a shell completes commands and options.
+    Completions(CompletionsOptions),
+    /// Write manual pages, one for each command.
+    Man(ManOptions),
 }
 
 /// Options of `check`.
