@@ -6,6 +6,7 @@ mod descriptions;
 mod docs;
 mod floors;
 mod items;
+mod matrices;
 mod openings;
 mod quantities;
 mod seeds;
@@ -49,6 +50,7 @@ fn main() -> ExitCode {
 /// Every breach of the house rules, one line each.
 fn tidy(root: &Path) -> Vec<String> {
     let mut faults = floors::check(root);
+    faults.extend(matrices::check(root));
     faults.extend(openings::check(root));
     faults.extend(seeds::check(root));
     faults.extend(sizes::check(root));

@@ -27,7 +27,6 @@ mod lu;
 mod number;
 mod product;
 mod singular;
-mod solve;
 pub mod sparse;
 
 pub use cholesky::{Cholesky, CholeskyInPlace, solve_lower, solve_lower_alone, solve_upper_alone};
@@ -40,4 +39,3 @@ pub use product::{
     times_column,
 };
 pub use singular::{Singular, singular};
-pub use solve::{solve_cholesky, solve_lu};
