@@ -31,7 +31,7 @@ struct Block {
 impl<'a> Feeling<'a> {
     /// The field of a passage, as it is felt.
     pub fn of(field: &'a ModalField<'a>, passage: &'a Passage) -> Self {
-        let mut own = vec![Vec::new(); field.points.len().div_ceil(POINTS)];
+        let mut own = vec![Vec::new(); field.points().len().div_ceil(POINTS)];
         field.for_chunks(&mut own, |weights, own| {
             let largest = |m: usize| weights.col_as_slice(m).iter().fold(0.0, |r: f32, w| r.max(w.abs()));
             *own = (0..weights.ncols()).map(largest).collect();
@@ -45,7 +45,7 @@ impl<'a> Feeling<'a> {
         let span = &self.passage.span;
         let stride = (HELD / self.field.modes().max(1)).max(1);
         let mut tallies: Vec<Tally> =
-            self.field.points.chunks(POINTS).map(|points| Tally::zeros(points.len())).collect();
+            self.field.points().chunks(POINTS).map(|points| Tally::zeros(points.len())).collect();
         let mut snapshots = vec![Vec::new(); self.passage.instants.len()];
         for start in span.clone().step_by(stride) {
             let part = start..span.end.min(start + stride);

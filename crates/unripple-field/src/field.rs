@@ -3,7 +3,7 @@
 use crate::modal::ModalField;
 use crate::sampled::SampledField;
 use crate::source::{Quantity, Source};
-use crate::{FieldError, Grid, Trace};
+use crate::{FieldError, Grid, Readout, Trace};
 use unripple_core::{Conditions, Drive, Point, Responses, require};
 use unripple_dsp::Threshold;
 
@@ -51,16 +51,19 @@ impl<'a> Field<'a> {
     /// [`FieldError::Channels`] and [`FieldError::Rate`] if the drive is not for these responses,
     /// [`FieldError::Count`] if it is empty, [`FieldError::Range`] if the grid would have no or too many cells.
     pub fn new(responses: &'a Responses, drive: &'a Drive, cells: f64) -> Result<Self, FieldError> {
-        let conditions = responses.conditions();
         check(responses, drive)?;
-        let (source, grid): (Box<dyn Source + 'a>, _) = match responses {
-            Responses::Modal(modal) => {
-                let grid = Grid::new(conditions, cells)?;
-                (Box::new(ModalField::new(modal, drive, grid.points())), Some(grid))
-            }
-            Responses::Sampled(sampled) => (Box::new(SampledField::new(sampled, drive)), None),
+        Ok(Self::on(&Readout::new(responses, cells)?, responses, drive))
+    }
+
+    /// The field of a drive that is for these responses, which are those of the readout.
+    fn on(readout: &Readout<'_>, responses: &'a Responses, drive: &'a Drive) -> Self {
+        let source: Box<dyn Source + 'a> = match responses {
+            Responses::Modal(modal) => Box::new(ModalField::new(modal, drive, readout.kept.clone())),
+            Responses::Sampled(sampled) => Box::new(SampledField::new(sampled, drive)),
         };
-        Ok(Self { source, conditions, drive, threshold: Threshold::default(), grid })
+        let (conditions, threshold, grid) =
+            (responses.conditions(), Threshold::default(), readout.grid.clone());
+        Self { source, conditions, drive, threshold, grid }
     }
 
     /// The same field, felt above another threshold than the published one.
@@ -136,6 +139,20 @@ impl<'a> Field<'a> {
     /// Spot diameters in metres, for [`crate::measure()`].
     pub(crate) fn spots(&self, requests: &[(Point, usize, Quantity)]) -> Vec<Option<f64>> {
         self.source.spots(requests)
+    }
+}
+
+impl<'a> Readout<'a> {
+    /// The field of a drive on these points.
+    ///
+    /// # Errors
+    /// [`FieldError::Channels`] and [`FieldError::Rate`] if the drive is not for these responses, [`FieldError::Count`] if it is empty.
+    pub fn field<'b>(&self, drive: &'b Drive) -> Result<Field<'b>, FieldError>
+    where
+        'a: 'b,
+    {
+        check(self.responses, drive)?;
+        Ok(Field::on(self, self.responses, drive))
     }
 }
 

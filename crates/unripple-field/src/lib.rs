@@ -6,7 +6,8 @@
 //! # In reading order
 //!
 //! [`Field`] is the motion a drive makes, as traces at points and snapshots on a [`Grid`]; [`Aim`] says where and when a
-//! focus should be; [`measure()`] judges it, in velocity, in displacement and as felt above a [`Threshold`].
+//! focus should be; [`measure()`] judges it, in velocity, in displacement and as felt above a [`Threshold`]. Fields of many
+//! drives share a [`Readout`].
 //!
 //! ```
 //! use unripple_linalg::Mat;
@@ -56,6 +57,7 @@ mod modal;
 mod motion;
 mod pulse;
 mod reach;
+mod readout;
 mod sampled;
 mod source;
 mod spot;
@@ -70,6 +72,7 @@ pub use grid::Grid;
 pub use instant::Instant;
 pub use measure::measure;
 pub use reach::Reach;
+pub use readout::Readout;
 pub use source::Trace;
 pub use steepness::Steepness;
 pub use unripple_dsp::Threshold;

@@ -2,12 +2,13 @@
 
 use crate::feeling::Feeling;
 use crate::motion::Motion;
+use crate::readout::Kept;
 use crate::source::{Passage, Quantity, Source, Survey, Tally, Trace, Weighed};
 use crate::spot::Around;
 use crate::{FieldError, spot};
 use rayon::prelude::*;
 use std::ops::Range;
-use std::sync::OnceLock;
+use std::sync::Arc;
 use unripple_core::{Drive, ModalResponses, Point};
 use unripple_linalg::{Accum, Mat, MatRef, Number, Par, multiply, product};
 
@@ -34,9 +35,7 @@ pub(crate) struct ModalField<'a> {
     pub(crate) responses: &'a ModalResponses,
     /// What is sent.
     pub(crate) drive: &'a Drive,
-    /// The points that it is read at, in metres.
-    pub(crate) points: Vec<Point>,
-    readout: OnceLock<Vec<Mat<f32>>>,
+    pub(crate) kept: Arc<Kept>,
 }
 
 /// Displacement and velocity of every mode at one instant.
@@ -57,8 +56,12 @@ impl State {
 
 impl<'a> ModalField<'a> {
     /// The field at points (m) of responses under a drive.
-    pub fn new(responses: &'a ModalResponses, drive: &'a Drive, points: Vec<Point>) -> Self {
-        Self { responses, drive, points, readout: OnceLock::new() }
+    pub fn new(responses: &'a ModalResponses, drive: &'a Drive, kept: Arc<Kept>) -> Self {
+        Self { responses, drive, kept }
+    }
+
+    pub(crate) fn points(&self) -> &[Point] {
+        &self.kept.points
     }
 
     /// Number of modes.
@@ -80,13 +83,12 @@ impl<'a> ModalField<'a> {
     /// Applies `work` to the weights (points x modes) of every chunk of points and what belongs to it, in
     /// parallel.
     pub(crate) fn for_chunks<T: Send>(&self, owned: &mut [T], work: impl Fn(&Mat<f32>, &mut T) + Sync) {
-        if self.points.len() * self.modes() > KEPT {
-            let chunks = self.points.par_chunks(POINTS);
+        if self.points().len() * self.modes() > KEPT {
+            let chunks = self.points().par_chunks(POINTS);
             chunks.zip(owned.par_iter_mut()).for_each(|(points, own)| work(&self.weights(points), own));
         } else {
-            let kept = self
-                .readout
-                .get_or_init(|| self.points.par_chunks(POINTS).map(|p| self.weights(p)).collect());
+            let weights = || self.points().par_chunks(POINTS).map(|p| self.weights(p)).collect();
+            let kept = self.kept.weights.get_or_init(weights);
             kept.par_iter().zip(owned.par_iter_mut()).for_each(|(weights, own)| work(weights, own));
         }
     }
@@ -113,7 +115,7 @@ impl<'a> ModalField<'a> {
             let state = &states[column / 2];
             if column % 2 == 0 { state.velocity[m] as f32 } else { state.displacement[m] as f32 }
         });
-        let mut read = vec![Mat::<f32>::zeros(0, 0); self.points.len().div_ceil(POINTS)];
+        let mut read = vec![Mat::<f32>::zeros(0, 0); self.points().len().div_ceil(POINTS)];
         self.for_chunks(&mut read, |weights, own| *own = product(weights.as_ref(), both.as_ref()));
         let column = |c: usize| read.iter().flat_map(|chunk| chunk.col_as_slice(c)).copied().collect();
         (0..states.len()).map(|i| [column(2 * i), column(2 * i + 1)]).collect()
@@ -122,7 +124,7 @@ impl<'a> ModalField<'a> {
 
 impl Source for ModalField<'_> {
     fn points(&self) -> &[Point] {
-        &self.points
+        &self.kept.points
     }
 
     fn locate(&self, place: Point) -> Result<Point, FieldError> {
@@ -165,7 +167,7 @@ impl Source for ModalField<'_> {
     fn survey(&self, segments: &[Range<usize>], instants: &[usize]) -> Survey {
         let chunk =
             |points: &[Point]| vec![[Tally::zeros(points.len()), Tally::zeros(points.len())]; segments.len()];
-        let mut tallies: Vec<Vec<[Tally; 2]>> = self.points.chunks(POINTS).map(chunk).collect();
+        let mut tallies: Vec<Vec<[Tally; 2]>> = self.points().chunks(POINTS).map(chunk).collect();
         let mut motion = Motion::new(self.responses, self.drive);
         for (segment, range) in segments.iter().enumerate() {
             motion.skip_to(range.start, self.samples_at_once());

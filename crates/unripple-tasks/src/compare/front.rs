@@ -4,7 +4,6 @@ use super::row::{self, Row};
 use super::run::Ground;
 use crate::{Progress, TaskError, go_on};
 use serde::Serialize;
-use unripple::field::Field;
 use unripple::focus::{Focused, Focuser, Method, Options};
 
 /// What turning a method's knob gives, point by point.
@@ -24,9 +23,6 @@ pub struct Front {
     pub peak: Vec<f64>,
 }
 
-/// Cells per shortest wavelength, half as many as figures are taken on: enough for a curve.
-const CELLS: f64 = 4.0;
-
 /// Strengths at which a method is tried, closer where it is near its own limit and contrast changes fastest.
 const STRENGTHS: [f64; 7] = [0.0, 0.3, 0.6, 0.8, 0.9, 0.96, 0.99];
 /// The same for `robust`, fewer, since planning for several plants takes its time.
@@ -36,11 +32,15 @@ const ECONOMIES: [[f64; 2]; 5] = [[0.01, 0.04], [0.06, 0.04], [0.2, 0.05], [0.5,
 const PUSHES: [f64; 6] = [0.1, 0.3, 0.5, 0.7, 0.85, 0.95];
 
 /// Contrast, energy per squared peak, peak.
-type Trade = [f64; 3];
+pub(super) type Trade = [f64; 3];
 
 /// What is felt elsewhere against the drive that it takes: one row per weight of energy, the first that of time reversal.
-pub(super) fn felt(ground: &Ground<'_>, progress: &mut dyn Progress) -> Result<Vec<Row>, TaskError> {
-    let mut rows = vec![row::with(ground, ground.options)?];
+pub(super) fn felt(
+    ground: &Ground<'_>,
+    reversal: Row,
+    progress: &mut dyn Progress,
+) -> Result<Vec<Row>, TaskError> {
+    let mut rows = vec![reversal];
     for [economy, worst] in ECONOMIES {
         go_on(progress)?;
         rows.push(row::with(
@@ -52,10 +52,13 @@ pub(super) fn felt(ground: &Ground<'_>, progress: &mut dyn Progress) -> Result<V
     Ok(rows)
 }
 
-/// The fronts of all methods that have a knob.
-pub(super) fn all(ground: &Ground<'_>, progress: &mut dyn Progress) -> Result<Vec<Front>, TaskError> {
+/// The fronts of all methods that have a knob, against what time reversal trades.
+pub(super) fn all(
+    ground: &Ground<'_>,
+    reversal: Trade,
+    progress: &mut dyn Progress,
+) -> Result<Vec<Front>, TaskError> {
     progress.stage("the tradeoffs of the methods' parameters");
-    let reversal = trade(ground, ground.options)?;
     let strong = |method, values: &[f64]| front(ground, reversal, method, "strength", values, progress);
     Ok(vec![
         strong(Method::Inverse, &STRENGTHS)?,
@@ -103,7 +106,7 @@ fn trade(ground: &Ground<'_>, options: &Options) -> Result<Trade, TaskError> {
 /// What a drive trades at the first target and its focal instant.
 pub(super) fn traded(ground: &Ground<'_>, focused: &Focused) -> Result<Trade, TaskError> {
     let drive = focused.drive.clone().as_emitted();
-    let field = Field::new(ground.plant, &drive, CELLS).map_err(TaskError::input)?;
+    let field = ground.on.coarse()?.field(&drive).map_err(TaskError::input)?;
     let places: Vec<_> = ground.targets.iter().flat_map(|target| target.points.iter().copied()).collect();
     let found =
         field.at_instant(focused.instant(), &ground.targets[0].points, &places).map_err(TaskError::input)?;

@@ -1,14 +1,13 @@
 //! One method of a comparison, and the table of all.
 
-use super::front::traded;
+use super::front::{Trade, traded};
 use super::run::Ground;
 use crate::TaskError;
-use crate::judge::CELLS;
 use serde::Serialize;
 use std::fmt::Write;
 use std::time::Instant;
 use unripple::act::{Act, Level, Note, Strength};
-use unripple::field::{DriveFigures, Field, Measured, TargetFigures};
+use unripple::field::{DriveFigures, Measured, TargetFigures};
 use unripple::focus::{Focuser, Method, Options};
 
 /// Figures of one method, as emitted at the level asked for, or at its limit where that is beyond.
@@ -36,6 +35,9 @@ pub struct Row {
     pub level: Strength,
     /// Notes on the drive.
     pub notes: Vec<Note>,
+    /// What it trades at the drive limit.
+    #[serde(skip)]
+    pub(super) trade: Trade,
 }
 
 /// Makes and evaluates the drive of one method.
@@ -51,11 +53,12 @@ pub fn with(ground: &Ground<'_>, options: &Options) -> Result<Row, TaskError> {
     let start = Instant::now();
     let focused = focuser.focus(ground.targets).map_err(TaskError::input)?;
     let drive_s = start.elapsed().as_secs_f64();
-    let [contrast_at_limit, _, peak_at_limit] = traded(ground, &focused)?;
-    let Ground { surface, plant: responses, targets, level, .. } = *ground;
+    let trade = traded(ground, &focused)?;
+    let [contrast_at_limit, _, peak_at_limit] = trade;
+    let Ground { surface, plant: responses, on, targets, level, .. } = *ground;
     let act = Act { surface, responses, targets, options, level };
-    let sent = act.send_at_most(&focuser, focused)?;
-    let field = Field::new(responses, &sent.drive, CELLS).map_err(TaskError::input)?;
+    let sent = act.send_at_most(&focuser, focused, on)?;
+    let field = on.fine()?.field(&sent.drive).map_err(TaskError::input)?;
     let Measured { targets, drive, .. } = field.measure(&sent.aims, sent.period).map_err(TaskError::input)?;
     Ok(Row {
         method: options.method.name(),
@@ -69,6 +72,7 @@ pub fn with(ground: &Ground<'_>, options: &Options) -> Result<Row, TaskError> {
         drive,
         level: sent.strength,
         notes: sent.notes,
+        trade,
     })
 }
 

@@ -1,11 +1,12 @@
 //! Every method on the same targets.
 
-use super::{Ask, Report, figure, front, row};
+use super::row::{self, Row};
+use super::{Ask, Report, figure, front};
 use crate::numbers::above_zero;
 use crate::target::targets;
 use crate::window::{carries, of_window};
 use crate::{Progress, TaskError, figures, folder, go_on, judge};
-use unripple::act::{Level, chosen_window};
+use unripple::act::{Level, Readouts, chosen_window};
 use unripple::core::{Responses, Surface};
 use unripple::focus::{Method, Options, Target};
 use unripple_store::OutputDir;
@@ -18,12 +19,22 @@ pub(super) struct Ground<'a> {
     pub known: &'a Responses,
     /// Responses that drives are evaluated on.
     pub plant: &'a Responses,
+    /// What it takes to read that, made once for all of them.
+    pub on: &'a Readouts<'a>,
     /// The targets in common.
     pub targets: &'a [Target],
     /// The options in common: window, level.
     pub options: &'a Options,
     /// How strongly each method drives.
     pub level: Level,
+}
+
+/// The row of time reversal, which knobs are held against, before it is related to itself.
+fn reversal(rows: &[Row]) -> Result<Row, TaskError> {
+    let found = rows.iter().find(|row| row.method == Method::TimeReversal.name());
+    found
+        .cloned()
+        .ok_or_else(|| TaskError::Work("time reversal: expected among the methods, found none".into()))
 }
 
 /// Makes and evaluates the drive of every method on the same targets, and what their knobs trade.
@@ -50,6 +61,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
         surface: &surface,
         known: &known,
         plant: &plant,
+        on: &Readouts::of(&plant),
         targets: &targets,
         options: &settings,
         level,
@@ -60,9 +72,10 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
         progress.stage(method.name());
         rows.push(row::judge(&ground, method).map_err(|error| of_window(error, asked.is_some()))?);
     }
+    let reversal = reversal(&rows)?;
     row::relate(&mut rows);
-    let fronts = front::all(&ground, progress)?;
-    let felt = front::felt(&ground, progress)?;
+    let fronts = front::all(&ground, reversal.trade, progress)?;
+    let felt = front::felt(&ground, reversal, progress)?;
 
     let mut found = Report {
         program: "unripple",

@@ -97,8 +97,9 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     let level = ask.level.level_on(unscaled.as_deref())?;
     let act =
         Act { surface: judged_surface, responses: judging, targets: &targets, options: &settings, level };
-    let sent = act.send(&focuser, focused)?;
-    let judged = judge::seen(sent.until, progress, || act.judge(&sent))?;
+    let on = act.readouts();
+    let sent = act.send(&focuser, focused, &on)?;
+    let judged = judge::seen(sent.until, progress, || act.judge(&sent, &on))?;
     let (focused, drive) = (sent.focused, sent.drive);
     let mut report = Report::of_focus(&surface, &focused, settings.window, &drive, &judged);
     report.level = Some(sent.strength);

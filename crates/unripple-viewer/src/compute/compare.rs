@@ -5,7 +5,7 @@ use crate::edition::Edition;
 use crate::simulation::Replay;
 use serde_json::json;
 use std::sync::Arc;
-use unripple::act::{Act, Level};
+use unripple::act::{Act, Level, Readouts};
 use unripple::core::{Drive, Point};
 use unripple::focus::{Method, Target};
 use unripple::physics::Modes;
@@ -27,11 +27,12 @@ impl ComputeWorker {
         let targets: Vec<Target> = places.into_iter().map(Target::at).collect();
         let (mut drives, mut panes): (Vec<Drive>, Vec<_>) = (Vec::new(), Vec::new());
         let (mut focus, mut used) = (0.0, Vec::<Point>::new());
+        let on = Readouts::of(&responses);
         for method in methods {
             let options = options(surface, method, window);
             let level = if self.unscaled(of).is_some() { Level::Limit } else { Level::default() };
             let act = Act { surface, responses: &responses, targets: &targets, options: &options, level };
-            let acted = act.run().map_err(text)?;
+            let acted = act.run_on(&on).map_err(text)?;
             focus = acted.focused.instant();
             used = acted.focused.points.iter().flatten().copied().collect();
             panes.push(

@@ -1,15 +1,13 @@
 //! How strong a drive is to be: by linear theory, by limit, by peak, as felt.
 
+use super::Readouts;
 use super::error::{ActError, LevelKind};
-use super::judge::{CELLS, known, linear};
+use super::judge::{known, linear};
 use super::send::Aimed;
 use super::strength::DecidedBy;
-use crate::core::{Drive, Responses, Surface};
-use crate::field::Field;
+use crate::core::{Drive, Surface};
+use crate::field::Readout;
 use crate::physics::design::{LinearBound, LinearLevel};
-
-/// Cells of the grid per shortest wavelength: enough for displacements, while slopes take as many as figures.
-const COARSE: f64 = 4.0;
 
 /// Level that a drive is brought to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -44,19 +42,19 @@ impl Level {
     pub(super) fn step(
         self,
         surface: &Surface,
-        responses: &Responses,
+        on: &Readouts<'_>,
         drive: &Drive,
         aimed: &Aimed,
     ) -> Result<Option<Step>, ActError> {
         Ok(match self {
             Self::Limit => None,
             Self::Linear => {
-                let found = |cells: f64| -> Result<Option<LinearLevel>, ActError> {
-                    let reach = Field::new(responses, drive, cells)?.reach(&aimed.aims, aimed.seconds())?;
+                let found = |readout: &Readout<'_>| -> Result<Option<LinearLevel>, ActError> {
+                    let reach = readout.field(drive)?.reach(&aimed.aims, aimed.seconds())?;
                     Ok(LinearLevel::of(surface, &linear(surface, &reach)))
                 };
-                let level = match found(COARSE)? {
-                    Some(level) if level.bound != LinearBound::Thickness => found(CELLS)?,
+                let level = match found(on.coarse()?)? {
+                    Some(level) if level.bound != LinearBound::Thickness => found(on.fine()?)?,
                     level => level,
                 };
                 level.map(Step::from)
@@ -65,11 +63,11 @@ impl Level {
                 let legal = wanted.is_finite() && wanted > 0.0;
                 let found = || micrometres(wanted);
                 refuse(!legal, LevelKind::Peak, "a number above 0 µm", found)?;
-                Some(Step { factor: wanted / largest(responses, drive, aimed)?, by: DecidedBy::PeakUm })
+                Some(Step { factor: wanted / largest(on, drive, aimed)?, by: DecidedBy::PeakUm })
             }
             Self::Felt(wanted) => {
                 refuse(!wanted.is_finite(), LevelKind::Felt, "a finite number of dB", || wanted.to_string())?;
-                let found = felt(responses, drive, aimed)?;
+                let found = felt(on, drive, aimed)?;
                 Some(Step { factor: 10f64.powf((wanted - found) / 20.0), by: DecidedBy::FeltDb })
             }
         })
@@ -149,8 +147,8 @@ fn micrometres(metres: f64) -> String {
 }
 
 /// Sensation level at the first target, in dB above the threshold of touch.
-fn felt(responses: &Responses, drive: &Drive, aimed: &Aimed) -> Result<f64, ActError> {
-    let field = Field::new(responses, drive, 1.0)?;
+fn felt(on: &Readouts<'_>, drive: &Drive, aimed: &Aimed) -> Result<f64, ActError> {
+    let field = on.fewest()?.field(drive)?;
     let first = &aimed.aims[..aimed.aims.len().min(1)];
     let targets = field.measure(first, aimed.seconds())?.targets;
     targets.first().and_then(|target| target.felt_level_db).ok_or_else(|| ActError::Level {
@@ -161,8 +159,9 @@ fn felt(responses: &Responses, drive: &Drive, aimed: &Aimed) -> Result<f64, ActE
 }
 
 /// Largest displacement of the first target's mean over the time measured, in metres.
-fn largest(responses: &Responses, drive: &Drive, aimed: &Aimed) -> Result<f64, ActError> {
-    let field = Field::new(responses, drive, 1.0)?;
+fn largest(on: &Readouts<'_>, drive: &Drive, aimed: &Aimed) -> Result<f64, ActError> {
+    // Traces read no grid.
+    let field = on.fine()?.field(drive)?;
     let points = aimed.aims.first().map_or(&[][..], |aim| &aim.points);
     let traces = field.traces(points, aimed.until.min(known(&field)))?;
     let first = aimed.period.map_or(0, |period| drive.samples().saturating_sub(period));

@@ -11,6 +11,7 @@ mod judge;
 mod level;
 mod model;
 mod note;
+mod readouts;
 mod report;
 mod send;
 mod strength;
@@ -24,13 +25,13 @@ pub use judge::{CELLS, Judged, judge, known};
 pub use level::Level;
 pub use model::{accuracy, model};
 pub use note::{Note, nearby};
+pub use readouts::Readouts;
 pub use report::{Channel, Followed, Report, Stroked, unit};
 pub use send::Sent;
 pub use strength::{DecidedBy, Headroom, Strength};
 pub use window::{chosen_window, lasting, recommended_window};
 
 use crate::core::{Drive, Responses, Surface};
-use crate::field::Field;
 use crate::focus::{Focused, Focuser, Options, Target};
 
 /// One act of focusing.
@@ -81,25 +82,38 @@ pub struct Acted {
     pub judged: Judged,
 }
 
-impl Act<'_> {
+impl<'a> Act<'a> {
+    /// What it takes to read the act's responses, for [`Act::send`] and [`Act::judge`]; acts on the same responses can share it.
+    pub fn readouts(&self) -> Readouts<'a> {
+        Readouts::of(self.responses)
+    }
+
     /// Makes the drive, brings it to its level and evaluates it.
     ///
     /// # Errors
     /// Those of [`carries`], [`Focuser`], [`Act::send`] and [`Act::judge`].
     pub fn run(&self) -> Result<Acted, ActError> {
+        self.run_on(&self.readouts())
+    }
+
+    /// The same, reading the act's responses as acts before did.
+    ///
+    /// # Errors
+    /// Those of [`Act::run`].
+    pub fn run_on(&self, on: &Readouts<'_>) -> Result<Acted, ActError> {
         carries(self.responses.conditions(), self.options.window)?;
         let focuser = Focuser::new(self.responses, self.options)?;
-        let sent = self.send(&focuser, focuser.focus(self.targets)?)?;
-        let judged = self.judge(&sent)?;
+        let sent = self.send(&focuser, focuser.focus(self.targets)?, on)?;
+        let judged = self.judge(&sent, on)?;
         Ok(Acted { focused: sent.focused, drive: sent.drive, strength: sent.strength, judged })
     }
 
     /// Judges a drive on the act's own responses.
     ///
     /// # Errors
-    /// Those of [`Field::new`] and [`judge()`].
-    pub fn judge(&self, sent: &Sent) -> Result<Judged, ActError> {
-        let field = Field::new(self.responses, &sent.drive, CELLS)?;
+    /// Those of [`Readouts::fine`] and [`judge()`].
+    pub fn judge(&self, sent: &Sent, on: &Readouts<'_>) -> Result<Judged, ActError> {
+        let field = on.fine()?.field(&sent.drive)?;
         let mut judged = judge(self.surface, &field, &sent.aims, sent.period, sent.until)?;
         judged.notes.extend(sent.notes.iter().cloned());
         Ok(judged)

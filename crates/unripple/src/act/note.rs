@@ -1,9 +1,9 @@
 //! Notes: what a reader of the figures must know.
 
 use super::level::Beyond;
-use super::{Act, ActError};
+use super::{Act, ActError, Readouts};
 use crate::core::{Drive, Surface};
-use crate::field::{Aim, Field, Measured};
+use crate::field::{Aim, Measured};
 use crate::focus::{Focused, Focuser, Method, Options, Target, focus};
 use crate::physics::design::Linearity;
 use serde::Serialize;
@@ -101,7 +101,7 @@ pub(super) fn beyond(beyond: &Beyond) -> Note {
 /// A note on what a method loses below the limit of the drive.
 pub(super) fn idle(
     act: &Act<'_>,
-    focuser: &Focuser<'_>,
+    (focuser, on): (&Focuser<'_>, &Readouts<'_>),
     focused: &Focused,
     drive: &Drive,
     aims: &[Aim],
@@ -116,19 +116,24 @@ pub(super) fn idle(
              effect",
             act.options.strength.unwrap_or(focused.method.strength())
         ),
-        Method::OneBit => one_bit(act, focuser, drive, aims)?,
+        Method::OneBit => one_bit(act, (focuser, on), drive, aims)?,
         _ => return Ok(None),
     };
     Ok(Some(Note { topic: "method", text }))
 }
 
 /// One-bit below the limit, beside time reversal at the same peak.
-fn one_bit(act: &Act<'_>, focuser: &Focuser<'_>, drive: &Drive, aims: &[Aim]) -> Result<String, ActError> {
+fn one_bit(
+    act: &Act<'_>,
+    (focuser, on): (&Focuser<'_>, &Readouts<'_>),
+    drive: &Drive,
+    aims: &[Aim],
+) -> Result<String, ActError> {
     let options = Options { method: Method::TimeReversal, ..act.options.clone() };
     let reversed = focus(focuser.responses(), act.targets, &options)?.drive;
     let peak = |drive: &Drive| -> Result<f64, ActError> {
         let Some(aim) = aims.first() else { return Ok(0.0) };
-        let traces = Field::new(act.responses, drive, 1.0)?.traces(&aim.points, aim.instant)?;
+        let traces = on.fine()?.field(drive)?.traces(&aim.points, aim.instant)?;
         let sum: f64 = traces.iter().filter_map(|trace| trace.velocity.last()).sum();
         Ok((sum / traces.len().max(1) as f64).abs())
     };

@@ -2,7 +2,7 @@
 
 use super::level::Step;
 use super::strength::{DecidedBy, Strength};
-use super::{Act, ActError, Level, Note, note};
+use super::{Act, ActError, Level, Note, Readouts, note};
 use crate::core::Drive;
 use crate::field::Aim;
 use crate::focus::{FocusError, Focused, Focuser, Method};
@@ -76,18 +76,18 @@ struct Levelled {
 }
 
 impl Act<'_> {
-    /// Brings a drive that was made at its limit to the level asked for. A method whose drives take another shape at another
+    /// Brings a drive that was made at its limit to the level asked for, as found on the act's own responses. A method whose drives take another shape at another
     /// level is asked for that level.
     ///
     /// # Errors
     /// [`ActError::Level`] for numbers without meaning, levels above what the drive limit gives, a target that does not
     /// move; those of [`Focuser::focus_at`] and of the field.
-    pub fn send(&self, focuser: &Focuser<'_>, focused: Focused) -> Result<Sent, ActError> {
+    pub fn send(&self, focuser: &Focuser<'_>, focused: Focused, on: &Readouts<'_>) -> Result<Sent, ActError> {
         let aimed = Aimed::of(self, &focused);
         let full = focused.drive.clone().as_emitted();
-        let step = self.step(&full, &aimed)?;
+        let step = self.step(on, &full, &aimed)?;
         step.map_or(Ok(()), |step| self.level.within(step))?;
-        self.brought(focuser, focused, full, step, aimed)
+        self.brought((focuser, on), focused, full, step, aimed)
     }
 
     /// As [`send`](Self::send), but for a level above what the drive limit gives the drive is at its limit, and a note says how far
@@ -95,15 +95,20 @@ impl Act<'_> {
     ///
     /// # Errors
     /// As [`send`](Self::send), but for such levels.
-    pub fn send_at_most(&self, focuser: &Focuser<'_>, focused: Focused) -> Result<Sent, ActError> {
+    pub fn send_at_most(
+        &self,
+        focuser: &Focuser<'_>,
+        focused: Focused,
+        on: &Readouts<'_>,
+    ) -> Result<Sent, ActError> {
         let aimed = Aimed::of(self, &focused);
         let full = focused.drive.clone().as_emitted();
-        let step = self.step(&full, &aimed)?;
+        let step = self.step(on, &full, &aimed)?;
         let Some(beyond) = step.and_then(|step| self.level.beyond(step)) else {
-            return self.brought(focuser, focused, full, step, aimed);
+            return self.brought((focuser, on), focused, full, step, aimed);
         };
         let at_limit = Act { level: Level::Limit, ..*self };
-        let mut sent = at_limit.brought(focuser, focused, full, None, aimed)?;
+        let mut sent = at_limit.brought((focuser, on), focused, full, None, aimed)?;
         sent.notes.push(note::beyond(&beyond));
         Ok(sent)
     }
@@ -111,13 +116,13 @@ impl Act<'_> {
     /// Takes the step from a drive at its limit, `full` as it is emitted.
     fn brought(
         &self,
-        focuser: &Focuser<'_>,
+        (focuser, on): (&Focuser<'_>, &Readouts<'_>),
         focused: Focused,
         full: Drive,
         step: Option<Step>,
         aimed: Aimed,
     ) -> Result<Sent, ActError> {
-        let levelled = self.level(focuser, focused, full, step, &aimed)?;
+        let levelled = self.level((focuser, on), focused, full, step, &aimed)?;
         let strength = Strength::of(&levelled.drive, self.options, levelled.by).allowing(
             levelled.factor.filter(|_| levelled.by == DecidedBy::Limit && self.level == Level::Linear),
         );
@@ -128,7 +133,7 @@ impl Act<'_> {
         if levelled.factor.is_some_and(|factor| factor < 1.0) {
             notes.extend(note::idle(
                 self,
-                focuser,
+                (focuser, on),
                 &levelled.focused,
                 &levelled.drive,
                 &aimed.aims,
@@ -142,7 +147,7 @@ impl Act<'_> {
 
     fn level(
         &self,
-        focuser: &Focuser<'_>,
+        (focuser, on): (&Focuser<'_>, &Readouts<'_>),
         focused: Focused,
         full: Drive,
         step: Option<Step>,
@@ -156,7 +161,7 @@ impl Act<'_> {
         }
         let (by, factor) = (step.by, Some(step.factor));
         if focused.method == Method::Limited
-            && let Some((focused, drive)) = self.solve(focuser, step, aimed)?
+            && let Some((focused, drive)) = self.solve((focuser, on), step, aimed)?
         {
             return Ok(Levelled { focused, drive, by, factor, scaled: false });
         }
@@ -168,7 +173,7 @@ impl Act<'_> {
     /// The drive whose own level is the one asked for; `None` if it is not found.
     fn solve(
         &self,
-        focuser: &Focuser<'_>,
+        (focuser, on): (&Focuser<'_>, &Readouts<'_>),
         mut step: Step,
         aimed: &Aimed,
     ) -> Result<Option<(Focused, Drive)>, ActError> {
@@ -180,7 +185,7 @@ impl Act<'_> {
                 found => found?,
             };
             let emitted = focused.drive.clone().as_emitted();
-            let Some(next) = self.step(&emitted, aimed)? else { return Ok(None) };
+            let Some(next) = self.step(on, &emitted, aimed)? else { return Ok(None) };
             step = next;
             if (step.factor - 1.0).abs() < MET {
                 let room = Strength::of(&emitted, self.options, step.by).below_limit;
@@ -191,7 +196,7 @@ impl Act<'_> {
         Ok(None)
     }
 
-    fn step(&self, drive: &Drive, aimed: &Aimed) -> Result<Option<Step>, ActError> {
-        self.level.step(self.surface, self.responses, drive, aimed)
+    fn step(&self, on: &Readouts<'_>, drive: &Drive, aimed: &Aimed) -> Result<Option<Step>, ActError> {
+        self.level.step(self.surface, on, drive, aimed)
     }
 }

@@ -64,7 +64,8 @@ fn levels_are_met_and_those_beyond_the_limit_refused() {
     ] {
         let focuser = Focuser::new(&responses, &options).unwrap();
         let focused = focuser.focus(&targets).unwrap();
-        let error = act(level).send(&focuser, focused).unwrap_err();
+        let act = act(level);
+        let error = act.send(&focuser, focused, &act.readouts()).unwrap_err();
         assert!(matches!(&error, ActError::Level { what, .. } if *what == kind), "{error}");
         assert!(error.to_string().contains("expected") && !error.is_failed_work(), "{error}");
     }

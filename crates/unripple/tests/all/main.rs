@@ -1,6 +1,7 @@
 //! Tests of unripple that share one program: a file a kind of truth. What needs a process of its own is beside it.
 
 mod act_oracle;
+mod act_readouts;
 #[path = "../bench/mod.rs"]
 mod bench;
 mod contrast_map_oracle;
