@@ -3,6 +3,7 @@
 use crate::CalibrateError;
 use crate::signals::Band;
 use unripple_core::{Point, Surface, require};
+use unripple_dsp::median;
 
 /// Least noise of responses over themselves: what models of a band's edges and a device's latency are good for.
 const FLOOR: f64 = 1e-3;
@@ -82,9 +83,7 @@ impl Measured {
             let samples = there.len().min(back.len()) as f64;
             Some((left / samples * rate / (2.0 * width)).sqrt())
         };
-        let mut all: Vec<f64> = responses.iter().enumerate().filter_map(off).collect();
-        all.sort_unstable_by(f64::total_cmp);
-        let noise = all.get(all.len() / 2).copied().ok_or(CalibrateError::Count {
+        let noise = median(responses.iter().enumerate().filter_map(off)).ok_or(CalibrateError::Count {
             what: "actuators with responses between them both ways",
             expected: "at least 2".into(),
             found: 0,

@@ -3,6 +3,7 @@
 use super::Account;
 use super::telling::around;
 use crate::signals::{Band, Quality, Sweep, band_powers};
+use unripple_dsp::mean_square;
 
 /// The responses that one input recorded of every actuator, and their quality.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -87,10 +88,6 @@ impl Noise {
         let all = mean_square(response);
         ratio_db(all - self.power, self.power.max(LEAST_NOISE * all))
     }
-}
-
-pub(super) fn mean_square(signal: &[f64]) -> f64 {
-    signal.iter().map(|x| x * x).sum::<f64>() / signal.len().max(1) as f64
 }
 
 fn ratio_db(signal: f64, noise: f64) -> f64 {

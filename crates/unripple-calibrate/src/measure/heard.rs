@@ -1,12 +1,13 @@
 //! From recordings to responses and their quality: deconvolution, cutting, averaging.
 
-use super::channel::{Noise, by_bands, mean_square, thirds};
+use super::channel::{Noise, by_bands, thirds};
 use super::knock::Sweeps;
 use super::session::{LEAD, Session, Take};
 use super::telling::around;
 use super::{Account, Channel, Knocked};
 use crate::CalibrateError;
 use crate::signals::{Average, Band, Harmonics, Outliers, Quality, Remap, Split, band_powers};
+use unripple_dsp::mean_square;
 
 impl Session {
     /// All of a deconvolution.

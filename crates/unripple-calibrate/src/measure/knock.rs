@@ -3,6 +3,7 @@
 use crate::signals::{Band, Sweep};
 use realfft::RealFftPlanner;
 use std::f64::consts::TAU;
+use unripple_dsp::median;
 
 /// Seconds of a frame: lines of 47 Hz.
 const FRAME: f64 = 0.0213;
@@ -69,10 +70,10 @@ impl Sweeps<'_> {
                 let known = expected[line - first][frame] + FLOOR * most;
                 10.0 * ((powers[frame][line] + FLOOR * most) / known).log10()
             };
-            median((first..end).map(ratio).collect())
+            median((first..end).map(ratio)).unwrap_or(0.0)
         };
         let scores: Vec<f64> = (0..powers.len()).map(over).collect();
-        let usual = median(scores.clone()).max(0.0);
+        let usual = median(scores.iter().copied()).unwrap_or(0.0).max(0.0);
         let loud: Vec<usize> = (0..scores.len()).filter(|i| scores[*i] > usual + STANDS_OUT).collect();
         if loud.len() as f64 > MOST * scores.len() as f64 {
             return Vec::new();
@@ -133,9 +134,4 @@ fn spectrogram(signal: &[f64], size: usize) -> Vec<Vec<f64>> {
             lines.iter().map(|x| x.norm_sqr()).collect()
         })
         .collect()
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_unstable_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
 }

@@ -6,7 +6,7 @@ use crate::CalibrateError;
 use crate::signals::{Band, Delay};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
-use unripple_dsp::DspError;
+use unripple_dsp::{DspError, median};
 use unripple_linalg::c64;
 use unripple_physics::Sensor;
 
@@ -163,9 +163,8 @@ fn parts(model: &Hearing, band: Band) -> Vec<(Part, usize)> {
     let mut low = band.low[1].max(0.8 * lowest).min(0.9 * top);
     let mut parts = Vec::new();
     while low < top {
-        let mut rates: Vec<f64> = known[place(low)..place(NEAR * low)].iter().map(|tone| tone[1]).collect();
-        rates.sort_unstable_by(f64::total_cmp);
-        let rate = rates.get(rates.len() / 2).copied().unwrap_or(0.0);
+        let rates = known[place(low)..place(NEAR * low)].iter().map(|tone| tone[1]);
+        let rate = median(rates).unwrap_or(0.0);
         let passed = (OF_RINGING / rate).min(PASSED).max(PERIODS / low);
         let edge = Part::new(low, top, passed).edge;
         let last = known.get(place(low - edge) + TONES).map_or(top, |tone| tone[0]);

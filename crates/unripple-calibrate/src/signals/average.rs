@@ -1,7 +1,7 @@
 //! Averages of repeats without outliers.
 
-use super::{mean_square, same};
-use unripple_dsp::DspError;
+use super::same;
+use unripple_dsp::{DspError, mean_square};
 
 /// Which repeats are left out of an [`Average`].
 #[derive(Clone, Copy, Debug, PartialEq)]

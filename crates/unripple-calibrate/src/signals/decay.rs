@@ -1,7 +1,7 @@
 //! Decay time of a response: an exponential and a noise floor fitted to its energy.
 
-use super::{mean_square, positive};
-use unripple_dsp::DspError;
+use super::positive;
+use unripple_dsp::{DspError, mean_square};
 
 /// How a response dies away: its power modelled as `power · e^{-2t/time} + noise` from its strongest moment on.
 ///

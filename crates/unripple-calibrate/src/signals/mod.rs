@@ -52,8 +52,3 @@ fn positive(what: &'static str, found: f64) -> Result<(), DspError> {
 fn same(what: &'static str, expected: usize, found: usize) -> Result<(), DspError> {
     if expected == found { Ok(()) } else { Err(DspError::Size { what, expected, found }) }
 }
-
-/// Mean of squares; 0 of nothing.
-fn mean_square(signal: &[f64]) -> f64 {
-    signal.iter().map(|x| x * x).sum::<f64>() / signal.len().max(1) as f64
-}

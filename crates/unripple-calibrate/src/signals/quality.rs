@@ -1,7 +1,7 @@
 //! Quality of a measured response: signal-to-noise ratio, coherence, clipping.
 
-use super::{Decay, mean_square, onset};
-use unripple_dsp::DspError;
+use super::{Decay, onset};
+use unripple_dsp::{DspError, mean_square};
 
 /// Quality of one measured response.
 ///

@@ -6,6 +6,7 @@ use super::sheet::{Sheet, Spot};
 use super::verdict::VerifyOptions;
 use rayon::prelude::*;
 use unripple_core::{Point, Surface};
+use unripple_dsp::median;
 
 /// A response is not the model's if more than this share of it is unexplained, or so many times what is of the sensors'.
 const UNLIKE: f64 = 0.4;
@@ -152,11 +153,9 @@ impl Bench<'_> {
     /// The least delay (s) of a probe that is worth taking out: one that a response of so good a fit determines, and
     /// that turns the top of the band by some degrees.
     pub fn worth(&self, judged: &[Judged]) -> f64 {
-        let mut left: Vec<f64> = judged.iter().map(|j| j.nearby.found.unexplained()).collect();
-        left.sort_unstable_by(f64::total_cmp);
-        let median = left.get(left.len() / 2).copied().unwrap_or(1.0);
+        let left = median(judged.iter().map(|j| j.nearby.found.unexplained())).unwrap_or(1.0);
         let turn = std::f64::consts::TAU * self.quick.band[1];
-        let told = 5.0 * median / turn * self.told();
+        let told = 5.0 * left / turn * self.told();
         told.max(TURNED / self.surface.emission.band[1])
     }
 

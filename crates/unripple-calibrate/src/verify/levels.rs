@@ -1,6 +1,7 @@
 //! Gains of points beside each other.
 
 use super::judge::{Judged, Kind};
+use unripple_dsp::median;
 
 /// A gain this far from the others', as a logarithm, is another gain. It stands for 15 %.
 const ANOTHER: f64 = 0.14;
@@ -26,9 +27,7 @@ impl Levels {
     pub fn of(judged: &[Judged]) -> Self {
         let gains: Vec<f64> =
             judged.iter().filter(|j| j.kind == Kind::Here).map(|j| j.nearby.found.gain).collect();
-        let mut sizes: Vec<f64> = gains.iter().map(|g| g.abs()).collect();
-        sizes.sort_unstable_by(f64::total_cmp);
-        let scale = sizes.get(sizes.len() / 2).copied().unwrap_or(1.0);
+        let scale = median(gains.iter().map(|g| g.abs())).unwrap_or(1.0);
         let agree = |g: f64| gains.iter().filter(|other| same(**other, g)).count();
         // The gain that most share; of two, the one that is the sensors' own.
         let best = gains.iter().copied().max_by(|a, b| agree(*a).cmp(&agree(*b)));
@@ -45,12 +44,8 @@ impl Levels {
             }
             false => common,
         };
-        let median = |common: f64| {
-            let mut all: Vec<f64> = gains.iter().copied().filter(|g| same(*g, common)).collect();
-            all.sort_unstable_by(f64::total_cmp);
-            all.get(all.len() / 2).copied().unwrap_or(common)
-        };
-        let common = common.map(median);
+        let typical = |common: f64| median(gains.iter().copied().filter(|g| same(*g, common))).unwrap_or(common);
+        let common = common.map(typical);
         Self { common, scale: common.unwrap_or(scale) }
     }
 

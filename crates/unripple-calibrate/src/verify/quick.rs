@@ -6,6 +6,7 @@ use super::verdict::VerifyOptions;
 use crate::fit::{FitOptions, Fitted, Measured, Spectra, fit, lag};
 use std::f64::consts::{PI, TAU};
 use unripple_core::{Point, SampledResponses, Surface};
+use unripple_dsp::median;
 use unripple_linalg::c64;
 use unripple_physics::Medium;
 
@@ -187,9 +188,7 @@ fn chosen(surface: &Surface, measured: &Measured, options: &VerifyOptions) -> Re
     let all = surface.actuators.len();
     let pairs = measured.pairs.iter().flat_map(|p| &p.responses);
     let powers: Vec<f64> = pairs.map(|h| h.iter().map(|x| x * x).sum()).collect();
-    let mut sorted: Vec<f64> = powers.iter().copied().filter(|p| *p > 0.0).collect();
-    sorted.sort_unstable_by(f64::total_cmp);
-    let least = SILENT * sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
+    let least = SILENT * median(powers.iter().copied().filter(|p| *p > 0.0)).unwrap_or(0.0);
     let best = |n: &dyn Fn(usize) -> usize| (0..all).map(n).map(|n| powers[n]).fold(0.0, f64::max);
     let works = |a: &usize| {
         best(&|b| a * all + b) > least && best(&|b| b * all + a) > least && !options.dead.contains(a)

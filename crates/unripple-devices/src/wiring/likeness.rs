@@ -1,9 +1,9 @@
 //! Which channel is which: an assignment by normalised correlation.
 
-use super::take::{Takes, rms};
+use super::take::Takes;
 use std::collections::HashMap;
 use unripple_core::Layout;
-use unripple_dsp::Convolver;
+use unripple_dsp::{Convolver, rms};
 
 /// A channel counts as carrying a signal where it exceeds the noise by this factor (10 dB), and the loudest channel
 /// by this share (-40 dB). With half the factor noise alone may pass for a signal.

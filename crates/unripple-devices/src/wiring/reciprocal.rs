@@ -1,6 +1,6 @@
 //! Which wires contradict reciprocity: responses between actuators show it without any model of the surface.
 
-use super::take::rms;
+use unripple_dsp::rms;
 
 /// Above this share of what is not reciprocal wires are suspected: noise at 20 dB leaves 0.14, and with half the
 /// limit recordings as noisy as that would be suspected.

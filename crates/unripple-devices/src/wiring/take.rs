@@ -3,6 +3,7 @@
 use super::{Expected, WiringOptions};
 use std::f64::consts::TAU;
 use unripple_core::{Device, DeviceError, Layout};
+use unripple_dsp::rms;
 
 /// Recordings of every input while each output plays its burst, from the burst's start on.
 #[derive(Clone, Debug)]
@@ -117,9 +118,4 @@ pub(super) fn predict(expected: &Expected, layout: &Layout, options: &WiringOpti
             line
         })
         .collect()
-}
-
-/// Root mean square; 0 of nothing.
-pub(super) fn rms(line: &[f64]) -> f64 {
-    (line.iter().map(|x| x * x).sum::<f64>() / line.len().max(1) as f64).sqrt()
 }

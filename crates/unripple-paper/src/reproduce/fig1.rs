@@ -100,11 +100,6 @@ pub(super) fn cells(field: &Field) -> Result<field::Grid, TaskError> {
     field.grid().cloned().ok_or_else(|| TaskError::Work("the field has no grid to draw".into()))
 }
 
-/// Root mean square of some values; 0 without any.
-pub(super) fn rms(values: &[f64]) -> f64 {
-    (values.iter().map(|x| x * x).sum::<f64>() / values.len().max(1) as f64).sqrt()
-}
-
 /// Largest magnitude of some values; 0 without any.
 pub(super) fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |m, x| m.max(x.abs()))

@@ -4,7 +4,7 @@ mod figures;
 
 use self::figures::{closely, closely_caption, overview, overview_caption};
 use super::bed::Bed;
-use super::fig1::{cells, closed_contrast, largest, modal, rms};
+use super::fig1::{cells, closed_contrast, largest, modal};
 use super::section::{Compared, Picture, Section};
 use serde::Serialize;
 use serde_json::json;
@@ -12,6 +12,7 @@ use unripple::core::{Drive, Point, window_samples};
 use unripple::field::{self, Field, Snapshot, Trace};
 use unripple::focus::{Focused, Focuser, Options, Target};
 use unripple::physics::design::closed;
+use unripple_dsp::rms;
 use unripple_tasks::TaskError;
 use unripple_tasks::judge::CELLS;
 

@@ -3,6 +3,7 @@
 use super::StudyError;
 use std::f64::consts::{PI, TAU};
 use unripple_core::{ActuatorKind, CoilDrive, Point, Responses, Surface};
+use unripple_dsp::median;
 use unripple_field::Field;
 use unripple_focus::{Options, Target, focus};
 use unripple_physics::{Medium, ResponseOptions, responses};
@@ -105,9 +106,7 @@ fn median_decay(responses: &Responses) -> f64 {
     let mut poles: Vec<(f64, f64)> =
         modal.poles.iter().filter(|p| p.sigma < p.omega).map(|p| (p.omega, p.sigma)).collect();
     poles.dedup();
-    let mut times: Vec<f64> = poles.iter().map(|(_, sigma)| 1.0 / sigma).collect();
-    times.sort_by(f64::total_cmp);
-    times.get(times.len() / 2).copied().unwrap_or(f64::NAN)
+    median(poles.iter().map(|(_, sigma)| 1.0 / sigma)).unwrap_or(f64::NAN)
 }
 
 /// Whether a force constant can belong to a coil and a magnet, in numbers.

@@ -2,6 +2,7 @@
 
 use super::StudyError;
 use unripple_core::{Contact, Drive, Finger, Point, Responses, Surface};
+use unripple_dsp::rms;
 use unripple_field::{Field, Trace};
 use unripple_focus::{Options, Target, focus};
 use unripple_physics::{Footprint, ResponseOptions, responses};
@@ -168,8 +169,4 @@ fn work(responses: &Responses, drive: &Drive, surface: &Surface, end: f64) -> Re
 
 fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, v| v.abs().max(most))
-}
-
-fn rms(values: &[f64]) -> f64 {
-    (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
 }

@@ -6,6 +6,7 @@ use crate::late::comes;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use unripple::core::{ModalResponses, Point, SampledResponses, Surface};
+use unripple::dsp::median;
 use unripple_calibrate::Measured;
 use unripple_calibrate::measure::MeasureOptions;
 use unripple_calibrate::signals::{Band, shift};
@@ -189,9 +190,7 @@ fn correct(
 
 /// The delay that was taken out before, in s, if any was: where nothing shows another, it is that of all points.
 fn before(taken: &[Taken]) -> Option<f64> {
-    let mut known: Vec<f64> = taken.iter().map(|taken| taken.delay).filter(|delay| *delay != 0.0).collect();
-    known.sort_unstable_by(f64::total_cmp);
-    known.get(known.len() / 2).copied()
+    median(taken.iter().map(|taken| taken.delay).filter(|delay| *delay != 0.0))
 }
 
 /// Keeps what is doubted. Without a model nothing takes back what one said before of points that are as they were.

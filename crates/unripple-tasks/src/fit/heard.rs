@@ -4,6 +4,7 @@ use crate::calibrate::before::SWEPT;
 use crate::own;
 use crate::{Progress, TaskError};
 use unripple::core::{SampledResponses, Surface};
+use unripple::dsp::median;
 use unripple_calibrate::Measured;
 use unripple_calibrate::measure::MeasureOptions;
 use unripple_calibrate::signals::Band;
@@ -109,8 +110,7 @@ fn noise(
             found.extend(own::noise(quality).filter(|_| power > 0.0).map(|noise| power.sqrt() * noise));
         }
     }
-    found.sort_unstable_by(f64::total_cmp);
-    Ok(found.get(found.len() / 2).copied())
+    Ok(median(found))
 }
 
 /// The lowest and the highest frequency that a library was measured with, in Hz: what it says, or what `calibrate` sweeps.

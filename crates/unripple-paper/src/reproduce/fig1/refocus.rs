@@ -1,10 +1,11 @@
 //! The reversed recording, played.
 
-use super::{C, FORCE, IMPULSE, Recording, cells, curve, driven_at, first, largest, place, rms, strip};
+use super::{C, FORCE, IMPULSE, Recording, cells, curve, driven_at, first, largest, place, strip};
 use crate::reproduce::Bed;
 use unripple::core::{Drive, ModalResponses, Port, window_samples};
 use unripple::field::{self, Aim, Field, Snapshot, TargetFigures, Trace};
 use unripple::focus::{Options, Target, focus};
+use unripple_dsp::rms;
 use unripple_plot::{Axis, Figure, Ink, Rule, Traces, prefixed};
 use unripple_tasks::TaskError;
 use unripple_tasks::figures::Scene;

@@ -6,6 +6,7 @@ use super::read::{Needed, Reader};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use unripple::core::{Drive, Layout};
+use unripple::dsp::median;
 use unripple_calibrate::measure::Wires;
 use unripple_calibrate::signals::{Delay, shift};
 
@@ -162,11 +163,11 @@ impl Takes {
         }
         let delays = self.known.iter().map(|(input, known)| self.like(&lines[*input], known));
         let delays: Vec<Delay> = delays.flatten().collect();
-        let likeness = median(delays.iter().map(|delay| delay.correlation).collect()).unwrap_or(0.0);
+        let likeness = median(delays.iter().map(|delay| delay.correlation)).unwrap_or(0.0);
         if likeness < LIKE {
             self.in_place(wanted, lines)?;
         }
-        let late = median(delays.iter().map(|delay| delay.samples).collect());
+        let late = median(delays.iter().map(|delay| delay.samples));
         let late = late.filter(|_| likeness >= LEAST).ok_or_else(|| self.unlike(wanted, likeness))?;
         match self.begun(wanted, late) {
             Ok(()) => Ok(late),
@@ -280,9 +281,4 @@ fn loudest(lines: &[Vec<f64>], mut inputs: Vec<usize>) -> Vec<usize> {
 fn sum(channels: &[Vec<f64>]) -> Vec<f64> {
     let length = channels.first().map_or(0, Vec::len);
     (0..length).map(|i| channels.iter().map(|channel| channel[i]).sum()).collect()
-}
-
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_unstable_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
 }

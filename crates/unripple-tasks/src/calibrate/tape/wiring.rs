@@ -6,6 +6,7 @@ use crate::TaskError;
 use crate::calibrate::middle;
 use std::collections::BTreeSet;
 use unripple::core::{Layout, PROBE, Point};
+use unripple::dsp::median;
 use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{Channel, Listen, Session};
 use unripple_devices::{DevicesError, Expected, WiringOptions, WiringReport, check_responses, reciprocal};
@@ -302,14 +303,7 @@ fn is_dead(hearing: &[Hearing<'_>], drive: usize) -> bool {
         let most = all.map(power).fold(0.0, f64::max);
         (most > 0.0).then(|| (power(drive) / most).sqrt())
     };
-    let noise = middle_of(others.clone().map(|one| one.channel.quality[drive].snr_db).collect());
+    let noise = median(others.clone().map(|one| one.channel.quality[drive].snr_db));
     let noise = noise.is_none_or(|db| db.is_nan() || db < DEAF);
-    middle_of(others.filter_map(share).collect())
-        .is_some_and(|share| share < DEAD || (noise && share < QUIET))
-}
-
-/// The median of values; nothing of none.
-fn middle_of(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_unstable_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
+    median(others.filter_map(share)).is_some_and(|share| share < DEAD || (noise && share < QUIET))
 }
