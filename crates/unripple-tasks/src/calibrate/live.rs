@@ -4,7 +4,7 @@ use super::devices::{self, Opened};
 use super::finish::{ASKED, PROBE_DELAY, begin, finish, log_run};
 use super::report;
 use super::shelf::Shelf;
-use super::wires::{Asked, Found};
+use super::wires::{self, Asked, Found};
 use super::{By, Campaign, Hands, Report, before, doubted, figure, levels, middle, points};
 use crate::{TaskError, go_on};
 use serde_json::Value;
@@ -37,7 +37,7 @@ pub(super) fn run(mut known: Campaign<'_>, hands: Hands) -> Result<Report, TaskE
     let wired = wiring(&known, rig.as_mut(), &layout, middle)?;
     known.settings.without.clone_from(&wired.dead);
     same_dead(&known, &library)?;
-    wired.tell(&known);
+    wires::tell(&known, &wired.notes, &wired.faults);
     wired.keep(&mut library)?;
     begin(&known, &mut library)?;
     let without = known.settings.without.clone();

@@ -99,12 +99,13 @@ impl<'a> Asked<'a> {
     }
 }
 
+/// Tells what was found of wires: what nobody knew of, and faults that are gone on with.
+pub fn tell(campaign: &Campaign<'_>, notes: &[String], faults: &[String]) {
+    notes.iter().for_each(|note| campaign.tell(&format!("warning: {note}")));
+    faults.iter().for_each(|fault| campaign.tell(&format!("wiring: {fault}")));
+}
+
 impl Found {
-    /// Shows people what was found.
-    pub fn tell(&self, campaign: &Campaign<'_>) {
-        self.notes.iter().for_each(|note| campaign.tell(&format!("warning: {note}")));
-        self.faults.iter().for_each(|fault| campaign.tell(&format!("wiring: {fault}")));
-    }
 
     /// Keeps in the library what was found; it is doubtful where it goes on with faults. Points that are there were measured with the wires
     /// of then: what was doubted of these stays.

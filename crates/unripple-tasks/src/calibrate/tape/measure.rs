@@ -11,7 +11,7 @@ use crate::calibrate::finish::{begin, finish, log_run};
 use crate::calibrate::middle;
 use crate::calibrate::report::Report;
 use crate::calibrate::shelf::Shelf;
-use crate::calibrate::wires::WIRING;
+use crate::calibrate::wires::{self, WIRING};
 use serde_json::{Value, json};
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
@@ -149,15 +149,15 @@ impl Bench<'_> {
 
     /// Refuses wires that are not as they should be, or says so in the library.
     fn wires(&self, library: &mut Library, tried: &Tried) -> Result<(), TaskError> {
-        tried.notes.iter().for_each(|note| self.campaign.tell(&format!("warning: {note}")));
-        if !tried.faults.is_empty() && !self.campaign.ask.any_wiring {
+        let refused = !tried.faults.is_empty() && !self.campaign.ask.any_wiring;
+        wires::tell(&self.campaign, &tried.notes, if refused { &[] } else { &tried.faults });
+        if refused {
             return Err(TaskError::Work(format!(
                 "wiring: {} (mend it and record again; name channels as they were recorded with `tape_inputs`, or turn a reversed one with \
                  `input_scales` NAME=-1; or go on with `any_wiring`)",
                 tried.faults.join("; ")
             )));
         }
-        tried.faults.iter().for_each(|fault| self.campaign.tell(&format!("wiring: {fault}")));
         let doubts = tried.faults.iter().map(|fault| Doubt::of(WIRING, fault)).collect();
         Ok(library.set_doubts(WIRING, doubts)?)
     }
