@@ -64,6 +64,8 @@ pub enum Drift {
         error: f64,
         /// Its rate of change, 1/s.
         rate: f64,
+        /// The rate's standard error, 1/s.
+        rate_error: f64,
         /// Residual over noise and model error.
         excess: f64,
     },

@@ -4,8 +4,9 @@ use super::run::{Course, Instants, Motion, Sheet};
 use super::warp::warped;
 use super::{Drift, Tracking};
 use crate::CalibrateError;
-use unripple_core::{ModalResponses, require};
+use unripple_core::{ModalResponses, Surface, require};
 use unripple_linalg::{Mat, Scale, squared_norm};
+use unripple_physics::{sensed, sensors};
 
 /// Change of the tension's ratio by which derivatives are taken: the highest modes turn by far less than a radian,
 /// and the change of a response still is far above rounding.
@@ -148,6 +149,45 @@ impl Tracker {
         })
     }
 
+    /// A tracker for a surface as its file describes it: each actuator hears in its own unit what its
+    /// [`Sensor`](unripple_physics::Sensor) does.
+    ///
+    /// # Errors
+    /// Those of [`Tracker::with_sensors`]; [`CalibrateError::Unsolvable`] for coils on a voltage with an inductance, which hear the sheet
+    /// through a circuit; [`CalibrateError::Physics`] for actuators that cannot be.
+    pub fn of_surface(
+        surface: &Surface,
+        responses: &ModalResponses,
+        bending_shares: &[f64],
+        options: &Tracking,
+    ) -> Result<Self, CalibrateError> {
+        let all = sensors(surface)?;
+        let gains = all.iter().map(|sensor| match sensor.circuit {
+            None => Ok(sensor.gain),
+            Some(circuit) if circuit.inductance == 0.0 => Ok(sensor.gain / circuit.resistance),
+            Some(_) => Err(CalibrateError::Unsolvable {
+                what: "tension",
+                expected: "actuators that hear the sheet at once: forces, patches, coils on a current",
+                found: "coils on a voltage with an inductance".into(),
+            }),
+        });
+        let gains = gains.collect::<Result<Vec<f64>, _>>()?;
+        let felt = sensed(&all, responses);
+        let sense = Mat::from_fn(felt.nrows(), felt.ncols(), |sensor, m| gains[sensor] * felt[(sensor, m)]);
+        Self::with_sensors(responses, bending_shares, &sense, options)
+    }
+
+    /// The same without some actuators, which neither drive nor hear: dead ones.
+    #[must_use]
+    pub fn without(mut self, actuators: &[usize]) -> Self {
+        let count = self.sheet.input.ncols();
+        for actuator in actuators.iter().copied().filter(|actuator| *actuator < count) {
+            self.sheet.input.col_mut(actuator).fill(0.0);
+            self.sheet.sense.col_mut(actuator).fill(0.0);
+        }
+        self
+    }
+
     /// The same, what it says of a surface that has just been calibrated (see [`Tracker::tension`]) counting as 1 from now on.
     ///
     /// A model that is fitted puts the modes that a focus moves a little off, which looks like some 1e-4 of tension, as much under
@@ -209,9 +249,11 @@ impl Tracker {
             self.motion = self.sheet.run(&self.motion, drive, samples, &instants, course).1;
         }
         self.pass(0.5 * time);
-        let (tension, error) = (self.tension(0.0), self.spread[0][0].sqrt() / self.zero);
+        let tension = self.tension(0.0);
+        let [error, rate_error] = [0, 1].map(|i| self.spread[i][i].sqrt() / self.zero);
+        let (rate, excess) = (self.state[1] / self.zero, found.excess);
         Ok(match explained {
-            true => Drift::Followed { tension, error, rate: self.state[1] / self.zero, excess: found.excess },
+            true => Drift::Followed { tension, error, rate, rate_error, excess },
             false => Drift::Unexplained { tension, excess: found.excess, limit: self.options.limit },
         })
     }

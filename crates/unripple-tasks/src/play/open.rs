@@ -159,5 +159,5 @@ fn recovering(
 pub(super) fn tracker(surface: &Surface, modal: &ModalResponses) -> Result<Tracker, TaskError> {
     let warp = Warp::new(&Medium::of(&surface.sheet));
     let shares: Vec<f64> = modal.poles.iter().map(|pole| warp.bending_share(pole.omega)).collect();
-    Ok(Tracker::new(modal, &shares, &Tracking { model: MODEL, ..Tracking::default() })?)
+    Ok(Tracker::of_surface(surface, modal, &shares, &Tracking { model: MODEL, ..Tracking::default() })?)
 }
