@@ -16,6 +16,7 @@ mod compare;
 mod design;
 mod devices;
 mod doctor;
+mod drift;
 mod error;
 mod export;
 mod field;
@@ -65,6 +66,7 @@ fn run(arguments: &Arguments) -> Result<(), CliError> {
         Command::View(options) => view::run(options, common),
         Command::Devices(options) => devices::run(options, common),
         Command::Doctor(options) => doctor::run(options, common),
+        Command::Drift(options) => drift::run(options, common),
         Command::Reproduce(options) => reproduce::run(options, common),
         Command::Completions(options) => shell::completions(options, common),
         Command::Man(options) => shell::man(options, common),

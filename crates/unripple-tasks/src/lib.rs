@@ -24,6 +24,7 @@ pub mod design;
 pub mod device;
 pub mod devices;
 pub mod doctor;
+pub mod drift;
 mod error;
 pub mod export;
 pub mod field;

@@ -1,6 +1,6 @@
 //! Places in asks.
 
-use unripple::core::Point;
+use unripple::core::{Outline, Point};
 
 /// A place on the surface, x and y in metres from the lower-left corner of the outline's bounding box.
 pub type Place = [f64; 2];
@@ -8,4 +8,14 @@ pub type Place = [f64; 2];
 /// The place as a point of the library, in m.
 pub fn point(place: &Place) -> Point {
     Point::new(place[0], place[1])
+}
+
+/// A place to try a focus at where none is asked for, as shares of the outline's width and height: on no line of symmetry, where half of the
+/// modes would stand still.
+const ANYWHERE: [f64; 2] = [0.41, 0.6];
+
+/// A place of an outline to try a focus at.
+pub(crate) fn anywhere(outline: &Outline) -> Point {
+    let (width, height) = outline.extent();
+    outline.nearest(Point::new(ANYWHERE[0] * width, ANYWHERE[1] * height))
 }

@@ -77,14 +77,23 @@ pub fn open_again(ask: &SurfaceAsk) -> Result<Source, TaskError> {
     }
 }
 
+/// The surface that a library was made for.
+///
+/// # Errors
+/// [`TaskError::Input`] of a library that does not describe it.
+pub(crate) fn described(library: &Library) -> Result<Surface, TaskError> {
+    library.plan().surface.clone().ok_or_else(|| {
+        TaskError::Input(format!(
+            "{}: expected a library that describes its surface, found one without",
+            library.path().display()
+        ))
+    })
+}
+
 /// A library by its folder.
 fn library(name: &str) -> Result<Source, TaskError> {
     let library = Library::open(name)?;
-    let Some(surface) = library.plan().surface.clone() else {
-        return Err(TaskError::Input(format!(
-            "{name}: expected a library that describes its surface, found one without"
-        )));
-    };
+    let surface = described(&library)?;
     let names = |list: Vec<&String>| list.into_iter().cloned().collect::<Vec<_>>().join(", ");
     let (ports, actuators) = (&library.plan().ports, &surface.actuators);
     let expected = names(actuators.iter().map(|a| &a.name).collect());

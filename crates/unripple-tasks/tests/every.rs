@@ -37,6 +37,7 @@ fn asks_go_through_json() {
     through_json(&export::Ask { format: Some(export::Format::Sofa), ..export::Ask::default() });
     through_json(&devices::Ask::default());
     through_json(&doctor::Ask::default());
+    through_json(&drift::Ask { changed: 0.005, ..drift::Ask::default() });
     through_json(&fit::Ask::default());
     through_json(&calibrate::Ask { by: calibrate::By::Tap, ..calibrate::Ask::default() });
     through_json(&play::Ask::default());
@@ -81,6 +82,7 @@ fn a_cancelled_task_leaves_nothing() {
     does_nothing(&modes::Ask::default(), modes::run);
     does_nothing(&devices::Ask::default(), devices::run);
     does_nothing(&doctor::Ask::default(), doctor::run);
+    does_nothing(&drift::Ask::default(), drift::run);
     does_nothing(
         &respond::Ask { pitch_m: 0.02, output: output.clone(), ..respond::Ask::default() },
         respond::run,
@@ -121,6 +123,13 @@ fn an_ask_names_the_field_that_is_wrong() {
     assert_eq!(field(focus::run(&ask, &mut Silent).unwrap_err()), "points, shapes");
     let ask = focus::Ask { points: vec![target::PointAsk::at(0.05, 0.05)], window_s: Some(-1.0), ..ask };
     assert_eq!(field(focus::run(&ask, &mut Silent).unwrap_err()), "window_s");
+    let ask = drift::Ask { seconds: 0.1, ..drift::Ask::default() };
+    assert_eq!(field(drift::run(&ask, &mut Silent).unwrap_err()), "seconds");
+    let ask = drift::Ask { range: f64::NAN, ..drift::Ask::default() };
+    assert_eq!(field(drift::run(&ask, &mut Silent).unwrap_err()), "range");
+    let device = DeviceAsk { device: DeviceKind::Jack, ..DeviceAsk::default() };
+    let ask = drift::Ask { changed: 0.01, device, ..drift::Ask::default() };
+    assert_eq!(field(drift::run(&ask, &mut Silent).unwrap_err()), "changed");
     let ask = modes::Ask { top_hz: Some(f64::NAN), ..modes::Ask::default() };
     assert_eq!(field(modes::run(&ask, &mut Silent).unwrap_err()), "top_hz");
 }

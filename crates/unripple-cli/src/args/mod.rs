@@ -1,6 +1,7 @@
 //! What can be typed. Lengths in mm, times in ms.
 
 mod calibrate;
+mod drift;
 mod export;
 mod fit;
 mod names;
@@ -10,6 +11,7 @@ mod view;
 
 pub use calibrate::{CalibrateOptions, DeviceOptions};
 use clap::{Args, Parser, Subcommand};
+pub use drift::DriftOptions;
 pub use export::ExportOptions;
 pub use fit::FitOptions;
 pub use names::{BetweenName, DeviceName, LossName, MethodName, WayName};
@@ -69,6 +71,8 @@ pub enum Command {
     Export(ExportOptions),
     /// Drive a surface live: touches in, waves out.
     Play(PlayOptions),
+    /// Measure whether a sheet's tension is still what its responses were made for, and whether it goes on changing.
+    Drift(DriftOptions),
     /// Show a surface in a browser: touch it, see its numbers, design it, compare methods.
     View(ViewOptions),
     /// Fit the model to the responses between actuators of a calibrated library, and compute its responses anywhere.

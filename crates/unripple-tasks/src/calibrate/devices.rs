@@ -29,8 +29,18 @@ fn failed(error: DevicesError) -> TaskError {
 
 /// Opens the device of an ask; `hands` move the probe of a real one.
 pub fn open(options: &DeviceAsk, surface: &Surface, hands: Hands) -> Result<Opened, TaskError> {
+    open_under(options, surface, hands, Vec::new())
+}
+
+/// The same; a virtual surface under a tension as a share of its own against time (s).
+pub fn open_under(
+    options: &DeviceAsk,
+    surface: &Surface,
+    hands: Hands,
+    tension: Vec<(f64, f64)>,
+) -> Result<Opened, TaskError> {
     match options.device {
-        DeviceKind::Virtual => virtual_surface(options, surface),
+        DeviceKind::Virtual => virtual_surface(options, surface, tension),
         DeviceKind::Jack => jack(options, surface, hands),
         DeviceKind::Card => card(options, surface, hands),
         DeviceKind::Tape => Err(TaskError::Input(
@@ -39,9 +49,14 @@ pub fn open(options: &DeviceAsk, surface: &Surface, hands: Hands) -> Result<Open
     }
 }
 
-fn virtual_surface(options: &DeviceAsk, surface: &Surface) -> Result<Opened, TaskError> {
+fn virtual_surface(
+    options: &DeviceAsk,
+    surface: &Surface,
+    tension: Vec<(f64, f64)>,
+) -> Result<Opened, TaskError> {
     let plain = VirtualOptions::to_be_measured(surface).map_err(failed)?;
-    let plain = VirtualOptions { accuracy: judge::accuracy(surface), ..plain };
+    let mut plain = VirtualOptions { accuracy: judge::accuracy(surface), ..plain };
+    plain.mishaps.tension = tension;
     let (device, unknowns) = device::virtual_surface(options, surface, &plain).map_err(failed)?;
     let seed = unknowns.as_ref().map_or(0, |unknowns| unknowns.seed);
     Ok(Opened { rig: Box::new(VirtualRig::new(device, seed)), truth: unknowns.as_ref().map(said) })

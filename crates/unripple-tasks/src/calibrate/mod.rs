@@ -19,7 +19,7 @@ mod verify;
 mod wires;
 
 pub use ask::{Ask, By, InputScales};
-pub(crate) use devices::open;
+pub(crate) use devices::{open, open_under};
 pub use hands::{Hands, nobody};
 pub use levels::Levels;
 pub use outcome::Report;
@@ -158,7 +158,7 @@ fn within(level: f64, scales: &Scales, surface: &Surface) -> Result<(), TaskErro
     )))
 }
 
-fn middle(surface: &Surface) -> Point {
+pub(crate) fn middle(surface: &Surface) -> Point {
     let (width, height) = surface.outline.extent();
     Point::new(width / 2.0, height / 2.0)
 }

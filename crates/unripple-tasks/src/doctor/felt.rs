@@ -3,8 +3,9 @@
 use super::check::Check;
 use crate::TaskError;
 use crate::judge;
+use crate::place::anywhere;
 use std::sync::Arc;
-use unripple::core::{Contact, Point, Responses, Surface};
+use unripple::core::{Contact, Responses, Surface};
 use unripple::field::{Aim, Field, TargetFigures};
 use unripple::focus::{Options, Target, focus};
 use unripple_live::Window;
@@ -23,8 +24,7 @@ const CELLS: f64 = 4.0;
 
 /// The focus as the model has it, and under a finger.
 pub fn checks(surface: &Surface, model: &Arc<Responses>, window: Window) -> Result<Vec<Check>, TaskError> {
-    let (width, height) = surface.outline.extent();
-    let at = surface.outline.nearest(Point::new(0.41 * width, 0.6 * height));
+    let at = anywhere(&surface.outline);
     let options = Options { window: window.seconds, limit: surface.emission.limit, ..Options::default() };
     let drive = focus(model, &[Target::at(at)], &options).map_err(TaskError::input)?.drive.as_emitted();
     let judged = |responses: &Responses| -> Result<TargetFigures, TaskError> {

@@ -13,6 +13,9 @@ use unripple_store::{Doubt, Library, LibraryPlan};
 /// What the log of a measurement says of all that is made from it: whether its scale is known, and which actuators are dead.
 const KEPT: [&str; 2] = ["scale", "dead"];
 
+/// The key of a plan's provenance for the library that the model was fitted to.
+pub const FITTED_TO: &str = "fitted to";
+
 /// Writes responses at some points, blended with those probed, as long as the measured ones. Dead actuators have none. What is doubted
 /// is written first: a library that is filled only in part is doubted as well.
 pub fn fill(
@@ -62,7 +65,7 @@ fn plan(
     let now = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
     let about = [
         ("device", "fitted model".to_owned()),
-        ("fitted to", source.path().display().to_string()),
+        (FITTED_TO, source.path().display().to_string()),
         ("corrected by measured points", probed.points.len().to_string()),
         ("verdict", verdict),
         ("modes", fitted.modal().poles.len().to_string()),

@@ -8,5 +8,8 @@ mod report;
 mod run;
 
 pub use ask::Ask;
+pub(crate) use fill::FITTED_TO;
+pub(crate) use heard::Heard;
 pub use report::Report;
+pub(crate) use run::model;
 pub use run::run;

@@ -1,11 +1,12 @@
 //! The model fitted to a library, and its responses anywhere.
 
-use super::{Ask, Report, fill, heard, probed::Probed, report};
+use super::heard::Heard;
+use super::{Ask, Report, fill, probed::Probed, report};
 use crate::{Progress, TaskError, go_on, grid, source};
 use std::path::Path;
 use std::time::Instant;
 use unripple::core::{Point, Surface};
-use unripple_calibrate::Verdict;
+use unripple_calibrate::{FitOptions, Fitted, Verdict};
 use unripple_store::{Library, StoreError};
 
 /// Most half waves of a profile, and most stray loads: beyond, a fit takes hours.
@@ -29,11 +30,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     }
     let library = Library::open(&ask.library)?;
     let warned = source::warn(&library, progress);
-    let Some(surface) = library.plan().surface.clone() else {
-        return Err(TaskError::Input(format!(
-            "{name}: expected a library that describes its surface, found one without"
-        )));
-    };
+    let surface = source::described(&library)?;
     for (field, value) in [("strays", ask.strays), ("profile", ask.profile)] {
         if value > MOST {
             return Err(TaskError::ask(field, format!("at most {MOST}"), value));
@@ -41,20 +38,8 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     }
     let wanted = wanted(ask, &surface)?;
     room(ask)?;
-    let heard = heard::Heard::of(&library, &surface, progress)?;
-    progress.tell(&format!("fitting {} responses; minutes in a band of some kHz", heard.count()));
-    go_on(progress)?;
-    progress.stage("fit");
     let start = Instant::now();
-    let plan = unripple_calibrate::FitOptions {
-        band: Some(heard.band),
-        profile: ask.profile,
-        strays: ask.strays,
-        reach: (KNOWN / heard.band[1]).clamp(1.4, 2.8),
-        ..unripple_calibrate::FitOptions::default()
-    };
-    let fitted = unripple_calibrate::fit(&surface, &heard.measured, &plan)?;
-    go_on(progress)?;
+    let (heard, fitted) = model(&library, &surface, [ask.strays, ask.profile], progress)?;
     let probed = Probed::of(&fitted, &surface, &heard)?;
     let fitted = fitted.scaled(probed.gain);
     let seconds = start.elapsed().as_secs_f64();
@@ -74,6 +59,33 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     }
     report.failure = why.map(|why| failure(ask, &why));
     Ok(report)
+}
+
+/// What a library's actuators heard of each other, and the model fitted to it, with at most so many stray masses, and half waves of the
+/// tension's profile.
+///
+/// # Errors
+/// [`TaskError::Input`] of a library whose actuators do not listen; those of the fit; [`TaskError::Cancelled`].
+pub(crate) fn model(
+    library: &Library,
+    surface: &Surface,
+    [strays, profile]: [usize; 2],
+    progress: &mut dyn Progress,
+) -> Result<(Heard, Fitted), TaskError> {
+    let heard = Heard::of(library, surface, progress)?;
+    progress.tell(&format!("fitting {} responses; minutes in a band of some kHz", heard.count()));
+    go_on(progress)?;
+    progress.stage("fit");
+    let plan = FitOptions {
+        band: Some(heard.band),
+        profile,
+        strays,
+        reach: (KNOWN / heard.band[1]).clamp(1.4, 2.8),
+        ..FitOptions::default()
+    };
+    let fitted = unripple_calibrate::fit(surface, &heard.measured, &plan)?;
+    go_on(progress)?;
+    Ok((heard, fitted))
 }
 
 /// Why a doubtful fit counts as failed, and whether anything was written.

@@ -1,0 +1,19 @@
+//! `unripple drift`: whether a sheet's tension is still what its responses were made for.
+
+use crate::args::DriftOptions;
+use crate::common::Common;
+use crate::error::CliError;
+use crate::output;
+use unripple_tasks::drift::{self, Ask};
+
+pub fn run(options: &DriftOptions, common: &Common) -> Result<(), CliError> {
+    let ask = Ask {
+        surface: common.surface(&options.surface),
+        device: options.device.ask(),
+        seconds: options.seconds,
+        range: options.within_percent / 100.0,
+        changed: options.changed_percent / 100.0,
+        changing_per_min: options.changing_percent_per_min / 100.0,
+    };
+    output::perform(common.json, &ask, drift::run)
+}

@@ -1,0 +1,59 @@
+//! What a focus loses that is made for the tension of before.
+
+use crate::TaskError;
+use crate::place::anywhere;
+use serde::Serialize;
+use unripple::act::recommended_window;
+use unripple::core::{Drive, ModalResponses, Point, Responses, Surface};
+use unripple::field::{Field, Instant};
+use unripple::focus::{Options, Target, focus};
+
+/// Cells of the grid per shortest wavelength: enough for a share.
+const CELLS: f64 = 4.0;
+
+/// A focus by time reversal that is made from the responses as they were: what it is worth there, and on the sheet as it is.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Cost {
+    /// Where it is tried, in m.
+    pub at_m: [f64; 2],
+    /// Its window, the one that `focus` takes by itself.
+    pub window_s: f64,
+    /// Peak velocity on the sheet as it is, over that on the sheet as it was.
+    pub peak_share: f64,
+    /// Contrast on the sheet as it was.
+    pub contrast_before: f64,
+    /// Contrast on the sheet as it is.
+    pub contrast_now: f64,
+}
+
+impl Cost {
+    /// Between responses as they were and as they are.
+    ///
+    /// # Errors
+    /// Those of making and judging the focus.
+    pub fn of(surface: &Surface, before: &ModalResponses, now: ModalResponses) -> Result<Self, TaskError> {
+        let at = anywhere(&surface.outline);
+        let [before, now] = [before.clone(), now].map(Responses::Modal);
+        let window = recommended_window(surface, &before);
+        let options = Options { window, limit: surface.emission.limit, ..Options::default() };
+        let drive = focus(&before, &[Target::at(at)], &options).map_err(TaskError::input)?.drive;
+        let [then, found] = [judged(&before, &drive, at, window)?, judged(&now, &drive, at, window)?];
+        Ok(Self {
+            at_m: [at.x, at.y],
+            window_s: window,
+            peak_share: found.velocity / then.velocity,
+            contrast_before: then.contrast().unwrap_or(0.0),
+            contrast_now: found.contrast().unwrap_or(0.0),
+        })
+    }
+
+    /// Share of the contrast that is left.
+    pub fn contrast_share(&self) -> f64 {
+        self.contrast_now / self.contrast_before
+    }
+}
+
+fn judged(responses: &Responses, drive: &Drive, at: Point, instant: f64) -> Result<Instant, TaskError> {
+    let field = Field::new(responses, drive, CELLS).map_err(TaskError::input)?;
+    field.at_instant(instant, &[at], &[at]).map_err(TaskError::input)
+}

@@ -1,0 +1,198 @@
+//! The model whose tension is followed: that of a surface file, or the one fitted to what a library's actuators heard.
+
+use crate::fit::{FITTED_TO, Heard, model};
+use crate::{Progress, SurfaceAsk, TaskError, fit, judge, source};
+use unripple::core::{ModalResponses, Pole, Responses, Surface};
+use unripple::dsp::convolve;
+use unripple::physics::Modes;
+use unripple_calibrate::{Drift, Fitted, PingOptions, Tracker, Tracking, Verdict};
+use unripple_store::Library;
+
+/// Share of what is heard that the model of a file may leave unexplained: a microphone's noise and the float32 of a device are far below,
+/// a place that is off by a millimetre is far above.
+const MODEL: f64 = 0.02;
+
+/// How much the rate of change wanders in a second, as a share per second: 0.06 % a minute more or less. A sheet warms over minutes; the
+/// more it may wander, the less the rate is known.
+const WANDER: f64 = 1e-5;
+
+/// What the tension of a surface file is held against.
+pub(super) const FILE: &str = "the surface file";
+
+/// What is known of a surface before it is listened to.
+pub(super) struct Known {
+    pub surface: Surface,
+    /// Its responses as they were made or measured.
+    pub modal: ModalResponses,
+    /// What tension is held against, in words.
+    pub against: String,
+    /// Actuators that neither drive nor hear.
+    pub dead: Vec<usize>,
+    library: Option<Measured>,
+}
+
+/// A library with the model fitted to it.
+struct Measured {
+    name: String,
+    heard: Heard,
+    fitted: Fitted,
+    /// What sensors hear is to be multiplied by, and the drive of a sample at full scale, where the library was told.
+    scales: Vec<f64>,
+    output: Option<f64>,
+}
+
+impl Known {
+    /// Of a surface or a library.
+    ///
+    /// # Errors
+    /// Those of reading either; [`TaskError::Input`] of a library whose actuators do not listen, and of a sheet without tension; those of
+    /// the model or fit.
+    pub fn of(ask: &SurfaceAsk, progress: &mut dyn Progress) -> Result<Self, TaskError> {
+        let known = match ask {
+            SurfaceAsk::Name(name) if Library::is_at(name) => {
+                Self::of_library(Library::open(name)?, progress)?
+            }
+            _ => Self::of_surface(ask.load()?, FILE.into(), progress)?,
+        };
+        match known.surface.sheet.tension > 0.0 {
+            true => Ok(known),
+            false => Err(TaskError::Input(format!(
+                "{}: expected a sheet under tension, found a plate without, whose stiffness alone holds it",
+                known.surface.name
+            ))),
+        }
+    }
+
+    fn of_surface(surface: Surface, against: String, progress: &mut dyn Progress) -> Result<Self, TaskError> {
+        progress.stage("responses");
+        let Responses::Modal(modal) = judge::model(&surface, None, &[])? else {
+            return Err(TaskError::Work("expected a model with modes, found samples".into()));
+        };
+        Ok(Self { surface, modal, against, dead: Vec::new(), library: None })
+    }
+
+    fn of_library(library: Library, progress: &mut dyn Progress) -> Result<Self, TaskError> {
+        let surface = source::described(&library)?;
+        let provenance = &library.plan().provenance;
+        let name = library.path().display().to_string();
+        if provenance.get("device").is_some_and(|device| device == "model") {
+            return Self::of_surface(
+                surface,
+                format!("the surface file that {name} was computed from"),
+                progress,
+            );
+        }
+        if let Some(measured) = provenance.get(FITTED_TO) {
+            if !Library::is_at(measured) {
+                return Err(TaskError::Input(format!(
+                    "{name}: expected the library that it was fitted to, `{measured}`, whose actuators tell of the tension, found none there"
+                )));
+            }
+            return Self::of_library(Library::open(measured)?, progress);
+        }
+        source::warn(&library, progress);
+        let usual = fit::Ask::default();
+        let (heard, fitted) = model(&library, &surface, [usual.strays, usual.profile], progress)?;
+        if let Verdict::Doubtful { why, .. } = &fitted.verdict {
+            return Err(TaskError::Work(format!(
+                "{name}: expected a model that explains what its actuators heard, found a doubtful one: {why}"
+            )));
+        }
+        let told = library.logged("scale").cloned().unwrap_or_default();
+        let scale = |name: &str| told["input"][name].as_f64().or(told["input_all"].as_f64()).unwrap_or(1.0);
+        Ok(Self {
+            modal: fitted.modal().clone(),
+            against: format!("when {name} was measured"),
+            dead: heard.dead.clone(),
+            library: Some(Measured {
+                scales: surface.actuators.iter().map(|actuator| scale(&actuator.name)).collect(),
+                output: told["output"].as_f64(),
+                name,
+                heard,
+                fitted,
+            }),
+            surface,
+        })
+    }
+
+    /// Mean tension that the responses assume, in N/m.
+    pub fn tension(&self) -> f64 {
+        self.library.as_ref().map_or(self.surface.sheet.tension, |library| library.fitted.tension.value)
+    }
+
+    /// What an actuator's sensor hears is to be multiplied by.
+    pub fn scale(&self, actuator: usize) -> f64 {
+        self.library.as_ref().and_then(|library| library.scales.get(actuator)).copied().unwrap_or(1.0)
+    }
+
+    /// Drive of a sample at full scale, as the library was told.
+    pub fn output_scale(&self) -> Option<f64> {
+        self.library.as_ref().and_then(|library| library.output)
+    }
+
+    /// Band of the pings, as shares of the band's top: high frequencies tell most, and a fit leaves out the highest.
+    pub fn ping_band(&self) -> [f64; 2] {
+        let fitted = |library: &Measured| library.heard.band[1] / self.modal.conditions.band[1];
+        let top = self.library.as_ref().map_or(1.0, fitted);
+        PingOptions::default().band.map(|share| share * top)
+    }
+
+    /// Share of what is heard that the model leaves unexplained.
+    pub fn unexplained(&self) -> f64 {
+        self.library.as_ref().map_or(MODEL, |library| library.fitted.unexplained().max(MODEL))
+    }
+
+    /// What follows the tension, by a ping and with so much noise on each sensor. Of a library, its own responses say what the ping would
+    /// have sounded like when it was measured: that counts as no change.
+    ///
+    /// # Errors
+    /// Those of the trackers; [`TaskError::Work`] of a library that its model does not explain.
+    pub fn tracker(&self, ping: &[Vec<f64>], noise: f64, range: f64) -> Result<Tracker, TaskError> {
+        let options = Tracking { noise, range, model: MODEL, wander: WANDER, ..Tracking::default() };
+        let Some(Measured { name, heard, fitted, .. }) = &self.library else {
+            let shares = bending_shares(&self.surface, &self.modal)?;
+            return Ok(Tracker::of_surface(&self.surface, &self.modal, &shares, &options)?);
+        };
+        let fresh = fitted.tracker(&options)?.without(&self.dead);
+        let mut then = fresh.clone();
+        match then.observe(ping, &sounded(ping, heard))? {
+            Drift::Followed { tension, .. } => Ok(fresh.with_zero(tension)?),
+            Drift::Unexplained { excess, limit, .. } => Err(TaskError::Work(format!(
+                "{name}: expected a model that explains a ping through what was measured, found {excess:.1} times the noise and error \
+                 that it may leave, {limit:.0} at most"
+            ))),
+        }
+    }
+}
+
+/// Bending's share of the energy of each oscillation of a surface: that of the sheet's own mode nearest in frequency, which what hangs on
+/// it moves little. An endless sheet's share would be off by some per cent near clamped edges.
+fn bending_shares(surface: &Surface, modal: &ModalResponses) -> Result<Vec<f64>, TaskError> {
+    let modes =
+        Modes::solve(surface, modal.conditions.band[1], judge::accuracy(surface)).map_err(TaskError::work)?;
+    let known: Vec<(f64, f64)> =
+        modes.poles().iter().map(|pole| pole.omega).zip(modes.bending_shares().iter().copied()).collect();
+    let nearest = |pole: &Pole| {
+        let apart = |mode: &&(f64, f64)| (mode.0 - pole.omega).abs();
+        known.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).map_or(0.0, |(_, share)| *share)
+    };
+    Ok(modal.poles.iter().map(nearest).collect())
+}
+
+/// What sensors would have heard of a drive when a library was measured, for as long as its responses are known.
+fn sounded(drive: &[Vec<f64>], heard: &Heard) -> Vec<Vec<f64>> {
+    let rate = heard.measured.rate;
+    let pairs: Vec<&Vec<f64>> = heard.measured.pairs.iter().flat_map(|pairs| &pairs.responses).collect();
+    let samples = pairs.iter().map(|response| response.len()).max().unwrap_or(0);
+    let sensor = |sensor: usize| {
+        let mut sum = vec![0.0; samples];
+        for (driven, signal) in drive.iter().enumerate() {
+            let Some(response) = pairs.get(driven * drive.len() + sensor) else { continue };
+            if !response.is_empty() {
+                sum.iter_mut().zip(convolve(signal, response)).for_each(|(sum, x)| *sum += x / rate);
+            }
+        }
+        sum
+    };
+    (0..drive.len()).map(sensor).collect()
+}

@@ -1,0 +1,242 @@
+//! What became of a sheet's tension.
+
+use super::Cost;
+use super::known::Known;
+use serde::{Serialize, Serializer};
+use std::fmt::Write;
+use unripple_calibrate::{Drift, Ping};
+
+/// Standard errors above which a change or a rate is one.
+const SURE: f64 = 3.0;
+
+/// Rate below which a sheet counts as steady, as a share in a minute: it turns the phases of waves at 3 kHz that ring for 70 ms by half a
+/// radian, which a focus hardly notices.
+const STEADY: f64 = 1e-3;
+
+/// Share of its contrast that a focus keeps where nothing need be done.
+const KEPT: f64 = 0.95;
+
+/// What a sheet's tension does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// It holds still, where it was or elsewhere.
+    Steady,
+    /// It goes on changing.
+    Drifting,
+    /// No tension explains what is heard.
+    Unexplained,
+}
+
+impl Verdict {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Steady => "steady",
+            Self::Drifting => "drifting",
+            Self::Unexplained => "unexplained",
+        }
+    }
+}
+
+impl Serialize for Verdict {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
+/// What was thought after one ping.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Step {
+    /// Seconds since the first ping began.
+    pub time_s: f64,
+    /// Change of tension, as a share; absent where none explains what was heard.
+    pub change: Option<f64>,
+    /// What is left of what was heard, over the noise and error that the model may leave.
+    pub excess: f64,
+    #[serde(skip)]
+    errors: [f64; 2],
+    #[serde(skip)]
+    rate: f64,
+    #[serde(skip)]
+    limit: Option<f64>,
+}
+
+impl Step {
+    /// From an observation that ended at a time (s).
+    pub(super) fn of(time_s: f64, drift: &Drift) -> Self {
+        match *drift {
+            Drift::Followed { tension, error, rate, rate_error, excess } => Self {
+                time_s,
+                change: Some(tension - 1.0),
+                excess,
+                errors: [error, rate_error],
+                rate,
+                limit: None,
+            },
+            Drift::Unexplained { excess, limit, .. } => {
+                Self { time_s, change: None, excess, errors: [f64::NAN; 2], rate: 0.0, limit: Some(limit) }
+            }
+        }
+    }
+}
+
+/// A sheet's tension against what its responses were made for, SI units.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    program: &'static str,
+    version: &'static str,
+    command: &'static str,
+    surface: String,
+    /// What the change is held against, in words.
+    pub against: String,
+    /// What the tension does.
+    #[serde(rename = "state")]
+    pub verdict: Verdict,
+    /// Change of tension, as a share, at the end; absent where none explains what was heard.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub change: Option<f64>,
+    /// Its standard error.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub change_error: Option<f64>,
+    /// Change in a minute, as a share.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub change_per_min: Option<f64>,
+    /// Its standard error.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub change_per_min_error: Option<f64>,
+    /// Tension that the responses assume, and as it is, in N/m.
+    tension_assumed_n_per_m: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tension_n_per_m: Option<f64>,
+    /// What is left of the last ping, over the noise and error that the model may leave.
+    excess: f64,
+    /// Share of what is heard that the model may leave unexplained.
+    model_error: f64,
+    /// Root mean square of the noise on the sensors, in their own unit.
+    pub noise: f64,
+    /// Samples by which what is heard comes late.
+    pub latency_samples: f64,
+    /// Level of a ping where it is felt most, in dB above threshold.
+    ping_felt_db: f64,
+    /// What a focus loses that is made for the tension of before.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub focus: Option<Cost>,
+    /// Ping by ping.
+    pub pings: Vec<Step>,
+}
+
+impl Report {
+    /// Of all pings. `missed` is what the model's error may look like as a change, `law` what the law of change may be off by as a share of
+    /// it.
+    pub(super) fn of(known: &Known, ping: &Ping, pings: Vec<Step>, (missed, law): (f64, f64)) -> Self {
+        let last = pings.last().copied();
+        let followed = last.and_then(|step| step.change.map(|change| (step, change)));
+        let change_error = followed.map(|(step, change)| step.errors[0].hypot(missed).hypot(law * change));
+        let change_per_min = followed.map(|(step, _)| 60.0 * step.rate);
+        let change_per_min_error = followed.map(|(step, _)| 60.0 * step.errors[1].hypot(law * step.rate));
+        let verdict = match change_per_min.zip(change_per_min_error) {
+            None => Verdict::Unexplained,
+            Some((rate, error)) if rate.abs() > STEADY.max(SURE * error) => Verdict::Drifting,
+            Some(_) => Verdict::Steady,
+        };
+        let assumed = known.tension();
+        let change = followed.map(|(_, change)| change);
+        Self {
+            program: "unripple",
+            version: env!("CARGO_PKG_VERSION"),
+            command: "drift",
+            surface: known.surface.name.clone(),
+            against: known.against.clone(),
+            verdict,
+            change,
+            change_error,
+            change_per_min,
+            change_per_min_error,
+            tension_assumed_n_per_m: assumed,
+            tension_n_per_m: change.map(|change| assumed * (1.0 + change)),
+            excess: last.map_or(0.0, |step| step.excess),
+            model_error: known.unexplained(),
+            noise: 0.0,
+            latency_samples: 0.0,
+            ping_felt_db: ping.felt_db,
+            focus: None,
+            pings,
+        }
+    }
+
+    /// What is to be done about it.
+    fn advice(&self) -> String {
+        let little = self.focus.is_none_or(|focus| focus.contrast_share() >= KEPT);
+        match self.verdict {
+            Verdict::Unexplained => "calibrate again".into(),
+            Verdict::Drifting => {
+                "let `play` follow it (`follow_tension`), or wait until it holds still, and calibrate then"
+                    .into()
+            }
+            Verdict::Steady if little => "nothing need be done".into(),
+            Verdict::Steady => match self.tension_n_per_m {
+                Some(tension) if self.against == super::known::FILE => format!(
+                    "set the surface file's `tension_n_per_m` to {tension:.2}, or let `play` follow it (`follow_tension`)"
+                ),
+                _ => "calibrate again, or let `play` follow it (`follow_tension`)".into(),
+            },
+        }
+    }
+}
+
+/// `+0.500 ± 0.001 %` of a share and its error.
+fn percent(share: f64, error: f64) -> String {
+    format!("{:+.4} ± {:.4} %", 100.0 * share, 100.0 * error)
+}
+
+impl crate::Report for Report {
+    fn text(&self) -> String {
+        let mut text = format!(
+            "{}: {}, by {} pings {:.0} dB below what is felt\n",
+            self.surface,
+            self.verdict.name(),
+            self.pings.len(),
+            -self.ping_felt_db
+        );
+        if let Some((change, error)) = self.change.zip(self.change_error) {
+            let sure = if change.abs() > SURE * error { "" } else { ": none that could be told from 0" };
+            let _ = writeln!(text, "  tension   {} against {}{sure}", percent(change, error), self.against);
+        }
+        if let Some((rate, error)) = self.change_per_min.zip(self.change_per_min_error) {
+            let _ = writeln!(text, "  rate      {} a minute", percent(rate, error));
+        }
+        if let Some(tension) = self.tension_n_per_m {
+            let _ = writeln!(
+                text,
+                "            {tension:.3} N/m, where the responses assume {:.3}",
+                self.tension_assumed_n_per_m
+            );
+        }
+        if let Some(focus) = &self.focus {
+            let [x, y] = focus.at_m.map(|metres| metres * 1e3);
+            let _ = writeln!(
+                text,
+                "  focus     made for the tension of before, at {x:.0},{y:.0} mm: {:.0} % of its peak, contrast {:.1} instead of {:.1}",
+                100.0 * focus.peak_share,
+                focus.contrast_now,
+                focus.contrast_before
+            );
+        }
+        let _ = writeln!(text, "  to do     {}", self.advice());
+        text
+    }
+
+    fn failure(&self) -> Option<String> {
+        let limit = self.pings.last().and_then(|step| step.limit)?;
+        Some(format!(
+            "no tension explains what is heard: {:.1} times the noise and error that the model may leave remain, at most {limit:.0} would do; \
+             {}",
+            self.excess,
+            match self.against == super::known::FILE {
+                true =>
+                    "a surface file alone seldom explains a real sheet: calibrate it, and ask of the library",
+                false => "the sheet has changed in other ways: calibrate again",
+            }
+        ))
+    }
+}

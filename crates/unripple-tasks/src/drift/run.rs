@@ -1,0 +1,123 @@
+//! Pings, one after the other, and what each says of the tension.
+
+use super::bench::Bench;
+use super::known::Known;
+use super::report::{Report, Step};
+use super::{Ask, Cost};
+use crate::{DeviceKind, Progress, TaskError, go_on};
+use std::f64::consts::TAU;
+use unripple_calibrate::{Drift, Ping, PingOptions, Tracker};
+
+/// Length of an observation, in s: a ping, and until it is over.
+const PERIOD: f64 = 0.4;
+
+/// Fewest seconds of pings, two of them, which a rate takes, and most.
+const SECONDS: [f64; 2] = [2.0 * PERIOD, 3600.0];
+
+/// Largest change that may be looked for, as a share: beyond, another sheet is meant.
+const MOST: f64 = 0.5;
+
+/// What the law by which modes move with tension may be off by, as a share of the change: bending's share of a mode is that of before, to
+/// first order in what tension changes in the shapes, and of a fit it is right to 1e-3.
+const LAW: f64 = 1e-3;
+
+/// Finds out whether a sheet's tension is still what its responses were made for, by how much not, and whether it goes on changing.
+///
+/// ```
+/// use unripple_tasks::{Silent, drift};
+/// use unripple_tasks::drift::Verdict;
+///
+/// let ask = drift::Ask { seconds: 1.2, changed: 0.005, ..drift::Ask::default() };
+/// let report = drift::run(&ask, &mut Silent)?;
+/// assert_eq!(report.verdict, Verdict::Steady);
+/// assert!((report.change.unwrap() - 0.005).abs() < 3.0 * report.change_error.unwrap());
+/// # Ok::<(), unripple_tasks::TaskError>(())
+/// ```
+///
+/// # Errors
+/// [`TaskError::Ask`] of what makes no sense; those of surfaces, libraries, fits and devices; [`TaskError::Input`] of a library without a
+/// model to follow, whose actuators do not listen; [`TaskError::Cancelled`].
+pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    check(ask)?;
+    go_on(progress)?;
+    let known = Known::of(&ask.surface, progress)?;
+    go_on(progress)?;
+    progress.stage("device");
+    let mut bench = Bench::open(ask, &known, progress)?;
+    let limit = known.surface.emission.limit;
+    let options = PingOptions { band: known.ping_band(), limit, ..PingOptions::default() };
+    let mut ping = Ping::design(&known.modal, &options)?;
+    known.dead.iter().for_each(|actuator| ping.drive[*actuator].fill(0.0));
+    ping.drive = bench.as_sent(&ping.drive);
+    go_on(progress)?;
+    progress.stage("noise");
+    let noise = bench.noise(progress)?;
+    // No noise at all is none that is known.
+    let mut tracker = known.tracker(&ping.drive, noise.max(f64::MIN_POSITIVE.sqrt()), ask.range)?;
+    let steps = follow(ask, &mut bench, &mut tracker, &ping, progress)?;
+    go_on(progress)?;
+    progress.stage("focus");
+    let missed = missed(&known, &options);
+    let mut report = Report::of(&known, &ping, steps, (missed, LAW));
+    (report.noise, report.latency_samples) = (noise, bench.latency);
+    if report.change.is_some() {
+        report.focus = Some(Cost::of(&known.surface, &known.modal, tracker.responses(0.0))?);
+    }
+    Ok(report)
+}
+
+/// Refuses numbers that make no sense, before there is work to lose.
+fn check(ask: &Ask) -> Result<(), TaskError> {
+    let [least, most] = SECONDS;
+    if !(least..=most).contains(&ask.seconds) {
+        return Err(TaskError::ask("seconds", format!("{least} to {most} s"), ask.seconds));
+    }
+    if !(ask.range > 0.0 && ask.range <= MOST) {
+        return Err(TaskError::ask("range", format!("a share above 0, at most {MOST}"), ask.range));
+    }
+    let virtually = [("changed", ask.changed), ("changing_per_min", ask.changing_per_min)];
+    for (field, share) in virtually.into_iter().filter(|(_, share)| *share != 0.0) {
+        if ask.device.device != DeviceKind::Virtual {
+            return Err(TaskError::ask(field, "the virtual device, whose tension can be chosen", "another"));
+        }
+        if !(share.is_finite() && share.abs() <= MOST) {
+            return Err(TaskError::ask(field, format!("a share of at most {MOST}, up or down"), share));
+        }
+    }
+    Ok(())
+}
+
+/// Observations, one for each ping.
+fn follow(
+    ask: &Ask,
+    bench: &mut Bench,
+    tracker: &mut Tracker,
+    ping: &Ping,
+    progress: &mut dyn Progress,
+) -> Result<Vec<Step>, TaskError> {
+    progress.stage("pings");
+    let (period, count) = (bench.samples(PERIOD), (ask.seconds / PERIOD).round() as usize);
+    let mut steps = Vec::with_capacity(count);
+    for n in 1..=count {
+        let heard = bench.listen(&ping.drive, period, progress)?;
+        let drift = tracker.observe(&ping.drive, &heard)?;
+        steps.push(Step::of(n as f64 * PERIOD, &drift));
+        progress.done(n as f64 / count as f64);
+    }
+    Ok(steps)
+}
+
+/// What a model's own error may look like, as a share of tension: a mode that rings for τ tells its tension from a phase of ωτ/2, and each
+/// mode of the ping's band is wrong in a way of its own.
+fn missed(known: &Known, ping: &PingOptions) -> f64 {
+    let top = known.modal.conditions.band[1];
+    let [low, high] = ping.band.map(|share| TAU * share * top);
+    let within = known.modal.poles.iter().filter(|pole| (low..=high).contains(&pole.omega));
+    let phases: Vec<f64> = within.map(|pole| 0.5 * pole.omega / pole.sigma.max(1.0)).collect();
+    let modes = phases.len().max(1) as f64;
+    let phase = match phases.is_empty() {
+        true => 0.5 * low * ping.length,
+        false => phases.iter().sum::<f64>() / modes,
+    };
+    known.unexplained() / (phase * modes.sqrt())
+}
