@@ -6,7 +6,7 @@ use super::report::{Report, Step};
 use super::{Ask, Cost};
 use crate::{DeviceKind, Progress, TaskError, go_on};
 use std::f64::consts::TAU;
-use unripple_calibrate::{Drift, Ping, PingOptions, Tracker};
+use unripple_calibrate::{Ping, PingOptions, Tracker};
 
 /// Length of an observation, in s: a ping, and until it is over.
 const PERIOD: f64 = 0.4;
