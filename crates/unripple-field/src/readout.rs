@@ -1,9 +1,9 @@
 //! The points that fields are read on, with what reading there takes.
 
 use crate::{FieldError, Grid};
-use faer::Mat;
 use std::sync::{Arc, OnceLock};
 use unripple_core::{Point, Responses};
+use unripple_linalg::Mat;
 
 /// The points that fields of some responses are read on: those of a [`Grid`], or a library's own. What reading there takes (the weights of
 /// every mode at every point) is made once, for the fields of any number of drives.

@@ -44,7 +44,8 @@ impl Levels {
             }
             false => common,
         };
-        let typical = |common: f64| median(gains.iter().copied().filter(|g| same(*g, common))).unwrap_or(common);
+        let typical =
+            |common: f64| median(gains.iter().copied().filter(|g| same(*g, common))).unwrap_or(common);
         let common = common.map(typical);
         Self { common, scale: common.unwrap_or(scale) }
     }

@@ -56,7 +56,7 @@ fn virtual_surface(
 ) -> Result<Opened, TaskError> {
     let plain = VirtualOptions::to_be_measured(surface).map_err(failed)?;
     let mut plain = VirtualOptions { accuracy: judge::accuracy(surface), ..plain };
-    plain.mishaps.tension = tension;
+    plain.faults.tension = tension;
     let (device, unknowns) = device::virtual_surface(options, surface, &plain).map_err(failed)?;
     let seed = unknowns.as_ref().map_or(0, |unknowns| unknowns.seed);
     Ok(Opened { rig: Box::new(VirtualRig::new(device, seed)), truth: unknowns.as_ref().map(said) })

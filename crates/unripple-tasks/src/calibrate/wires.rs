@@ -106,7 +106,6 @@ pub fn tell(campaign: &Campaign<'_>, notes: &[String], faults: &[String]) {
 }
 
 impl Found {
-
     /// Keeps in the library what was found; it is doubtful where it goes on with faults. Points that are there were measured with the wires
     /// of then: what was doubted of these stays.
     pub fn keep(&self, library: &mut Library) -> Result<(), TaskError> {

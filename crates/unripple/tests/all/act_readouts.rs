@@ -1,6 +1,5 @@
 //! An act reads the surface on two grids at most, whatever level it is brought to, and judges what is emitted.
 
-use faer::Mat;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex};
 use unripple::act::{Act, Level, Readouts, model};
@@ -8,6 +7,7 @@ use unripple::core::{ModalResponses, Point, Responses, Shapes};
 use unripple::field::{Field, Grid};
 use unripple::focus::{Method, Options, Target};
 use unripple::physics::design::papers_surface;
+use unripple_linalg::Mat;
 
 /// Points of a grid that are read at once, all but the last.
 const CHUNK: usize = 256;
