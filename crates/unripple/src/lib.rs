@@ -77,6 +77,7 @@ pub use unripple_dsp as dsp;
 pub use unripple_effects as effects;
 pub use unripple_field as field;
 pub use unripple_focus as focus;
+pub use unripple_linalg as linalg;
 pub use unripple_physics as physics;
 pub use unripple_plates as plates;
 pub use unripple_player as player;
