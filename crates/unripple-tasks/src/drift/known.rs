@@ -12,10 +12,6 @@ use unripple_store::Library;
 /// a place that is off by a millimetre is far above.
 const MODEL: f64 = 0.02;
 
-/// How much the rate of change wanders in a second, as a share per second: 0.06 % a minute more or less. A sheet warms over minutes; the
-/// more it may wander, the less the rate is known.
-const WANDER: f64 = 1e-5;
-
 /// What the tension of a surface file is held against.
 pub(super) const FILE: &str = "the surface file";
 
@@ -120,6 +116,11 @@ impl Known {
         self.library.as_ref().map_or(self.surface.sheet.tension, |library| library.fitted.tension.value)
     }
 
+    /// Whether the model was fitted to a library.
+    pub fn is_fitted(&self) -> bool {
+        self.library.is_some()
+    }
+
     /// What an actuator's sensor hears is to be multiplied by.
     pub fn scale(&self, actuator: usize) -> f64 {
         self.library.as_ref().and_then(|library| library.scales.get(actuator)).copied().unwrap_or(1.0)
@@ -148,7 +149,7 @@ impl Known {
     /// # Errors
     /// Those of the trackers; [`TaskError::Work`] of a library that its model does not explain.
     pub fn tracker(&self, ping: &[Vec<f64>], noise: f64, range: f64) -> Result<Tracker, TaskError> {
-        let options = Tracking { noise, range, model: MODEL, wander: WANDER, ..Tracking::default() };
+        let options = Tracking { noise, range, model: MODEL, ..Tracking::default() };
         let Some(Measured { name, heard, fitted, .. }) = &self.library else {
             let shares = bending_shares(&self.surface, &self.modal)?;
             return Ok(Tracker::of_surface(&self.surface, &self.modal, &shares, &options)?);

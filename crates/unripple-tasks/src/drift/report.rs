@@ -13,7 +13,10 @@ const SURE: f64 = 3.0;
 /// radian, which a focus hardly notices.
 const STEADY: f64 = 1e-3;
 
-/// Share of its contrast that a focus keeps where nothing need be done.
+/// What a rate may be off by, as a share of it: rates come out low by a sixth where the band ends at 1 kHz, and by less in wider ones.
+const RATE: f64 = 0.2;
+
+/// Share of its peak and contrast that a focus keeps where nothing need be done.
 const KEPT: f64 = 0.95;
 
 /// What a sheet's tension does.
@@ -54,9 +57,7 @@ pub struct Step {
     /// What is left of what was heard, over the noise and error that the model may leave.
     pub excess: f64,
     #[serde(skip)]
-    errors: [f64; 2],
-    #[serde(skip)]
-    rate: f64,
+    error: f64,
     #[serde(skip)]
     limit: Option<f64>,
 }
@@ -65,16 +66,11 @@ impl Step {
     /// From an observation that ended at a time (s).
     pub(super) fn of(time_s: f64, drift: &Drift) -> Self {
         match *drift {
-            Drift::Followed { tension, error, rate, rate_error, excess } => Self {
-                time_s,
-                change: Some(tension - 1.0),
-                excess,
-                errors: [error, rate_error],
-                rate,
-                limit: None,
-            },
+            Drift::Followed { tension, error, excess, .. } => {
+                Self { time_s, change: Some(tension - 1.0), excess, error, limit: None }
+            }
             Drift::Unexplained { excess, limit, .. } => {
-                Self { time_s, change: None, excess, errors: [f64::NAN; 2], rate: 0.0, limit: Some(limit) }
+                Self { time_s, change: None, excess, error: f64::NAN, limit: Some(limit) }
             }
         }
     }
@@ -131,9 +127,15 @@ impl Report {
     pub(super) fn of(known: &Known, ping: &Ping, pings: Vec<Step>, (missed, law): (f64, f64)) -> Self {
         let last = pings.last().copied();
         let followed = last.and_then(|step| step.change.map(|change| (step, change)));
-        let change_error = followed.map(|(step, change)| step.errors[0].hypot(missed).hypot(law * change));
-        let change_per_min = followed.map(|(step, _)| 60.0 * step.rate);
-        let change_per_min_error = followed.map(|(step, _)| 60.0 * step.errors[1].hypot(law * step.rate));
+        // What is left beyond what the model may leave is the model's error as well.
+        let missed = missed * last.map_or(1.0, |step| step.excess.max(1.0));
+        let change_error = followed.map(|(step, change)| step.error.hypot(missed).hypot(law * change));
+        let line = followed.and_then(|_| slope(&pings));
+        let (change_per_min, change_per_min_error) = line.map_or((None, None), |[rate, error]| {
+            // What the model misses is nearly the same at each ping; it is allowed to be another at the last than at the first.
+            let time = last.map_or(1.0, |step| step.time_s);
+            (Some(60.0 * rate), Some(60.0 * error.hypot(missed / time).hypot(RATE * rate)))
+        });
         let verdict = match change_per_min.zip(change_per_min_error) {
             None => Verdict::Unexplained,
             Some((rate, error)) if rate.abs() > STEADY.max(SURE * error) => Verdict::Drifting,
@@ -166,7 +168,7 @@ impl Report {
 
     /// What is to be done about it.
     fn advice(&self) -> String {
-        let little = self.focus.is_none_or(|focus| focus.contrast_share() >= KEPT);
+        let little = self.focus.is_none_or(|focus| focus.contrast_share().min(focus.peak_share) >= KEPT);
         match self.verdict {
             Verdict::Unexplained => "calibrate again".into(),
             Verdict::Drifting => {
@@ -182,6 +184,23 @@ impl Report {
             },
         }
     }
+}
+
+/// Rate of the change and its standard error (1/s): a straight line through what single pings say, by least squares, and their scatter about
+/// it. The first is left out, which knows nothing of the rate yet.
+fn slope(pings: &[Step]) -> Option<[f64; 2]> {
+    let known: Vec<[f64; 2]> =
+        pings.iter().skip(1).filter_map(|step| Some([step.time_s, step.change?])).collect();
+    let count = known.len() as f64;
+    let mean = |axis: usize| known.iter().map(|point| point[axis]).sum::<f64>() / count;
+    let (time, change) = (mean(0), mean(1));
+    let square = known.iter().map(|[t, _]| (t - time).powi(2)).sum::<f64>();
+    if square <= 0.0 {
+        return None;
+    }
+    let rate = known.iter().map(|[t, x]| (t - time) * (x - change)).sum::<f64>() / square;
+    let left = known.iter().map(|[t, x]| (x - change - rate * (t - time)).powi(2)).sum::<f64>();
+    Some([rate, (left / (count - 2.0).max(1.0) / square).sqrt()])
 }
 
 /// `+0.500 ± 0.001 %` of a share and its error.
