@@ -8,12 +8,13 @@ type Alone = (&'static str, &'static str, &'static str);
 
 /// Reasons why a program of [`ALONE`] runs one at a time.
 const REGISTRY: &str = "JACK keeps one registry of servers and clients for a user";
-const CLOCK: &str = "it holds times against the machine's clock";
+const CLOCK: &str = "it holds times against the machine's clock, or interrupts at moments of it";
 const CROWD: &str = "it opens as many connections as the machine grants";
 
-/// Programs that run one at a time, beside all others and before them when cores are given away.
+/// Programs that run one at a time, beside all others and before them when cores are given away; those that take longest begin.
 #[rustfmt::skip]
 pub const ALONE: &[Alone] = &[
+    ("unripple-cli", "interrupts", CLOCK),
     ("unripple-devices", "jack_server", REGISTRY),
     ("unripple-viewer", "crowds", CROWD),
     ("unripple-cli", "jack_lock", REGISTRY),
@@ -21,16 +22,12 @@ pub const ALONE: &[Alone] = &[
     ("unripple-calibrate", "measured_jack", REGISTRY),
     ("unripple-live", "served", REGISTRY),
     ("unripple-live", "called", CLOCK),
-    ("unripple-live", "drifting", CLOCK),
     ("unripple-live", "jack", REGISTRY),
-    ("unripple-live", "played", CLOCK),
     ("unripple-live", "silence", CLOCK),
     ("unripple-live", "day", CLOCK),
     ("unripple-live", "lib", CLOCK),
     ("unripple-devices", "lib", REGISTRY),
     ("unripple-devices", "cards", CLOCK),
-    ("unripple-devices", "wiring", CLOCK),
-    ("unripple-devices", "unknowns", CLOCK),
     ("unripple-touch", "touch", CLOCK),
     ("unripple-cli", "devices", REGISTRY),
     ("unripple-cli", "doctor", REGISTRY),
@@ -49,7 +46,6 @@ const LONG: &[(&str, &str)] = &[
     ("unripple-physics", "all"),
     ("unripple", "all"),
     ("unripple-plates", "all"),
-    ("unripple-cli", "interrupts"),
     ("unripple-tasks", "any_surface"),
     ("unripple-focus", "all"),
     ("unripple-live", "sessions"),
