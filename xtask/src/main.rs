@@ -83,14 +83,16 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// Files below `folder` whose name ends in one of `endings`, build output and version control left out.
+/// Files below `folder` whose name ends in one of `endings`. Build output is left out, what the README's commands write, which may be under
+/// way, and hidden folders.
 fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
     let mut found = Vec::new();
     for path in entries.flatten().map(|entry| entry.path()) {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if path.is_dir() {
-            if !matches!(name.as_str(), "target" | ".git" | "out" | "corpus" | "artifacts") {
+            let output = matches!(name.as_str(), "target" | "out" | "out-field" | "corpus" | "artifacts");
+            if !output && !name.starts_with('.') {
                 found.extend(files(&path, endings));
             }
         } else if endings.iter().any(|ending| name.ends_with(ending)) {
