@@ -40,10 +40,11 @@ impl Shapes for Counted {
 #[test]
 fn an_act_reads_two_grids_at_most_once_each() {
     let mut surface = papers_surface();
-    surface.emission.band = [0.0, 2000.0];
-    // Thin, so that slopes bound the level and the fine grid is asked for it too; thick, so that they do not.
-    for thickness in [0.1e-3, 2e-3] {
+    // Thin, so that slopes bound the level and the fine grid is asked for it too; thick, so that they do not, and to a higher frequency, since
+    // its waves are longer and a grid is to have whole chunks.
+    for (thickness, top) in [(0.1e-3, 2000.0), (2e-3, 8000.0)] {
         surface.sheet.thickness = thickness;
+        surface.emission.band = [0.0, top];
         let Responses::Modal(known) = model(&surface, None, &[]).unwrap() else { panic!() };
         let chunks = |cells: f64| Grid::new(&known.conditions, cells).unwrap().inside.len() / CHUNK;
         let most = chunks(4.0) + chunks(8.0);
