@@ -6,6 +6,7 @@ use crate::error::CliError;
 use crate::output;
 use unripple_tasks::drift::{self, Ask};
 
+/// Prints whether a sheet's tension has changed.
 pub fn run(options: &DriftOptions, common: &Common) -> Result<(), CliError> {
     let ask = Ask {
         surface: common.surface(&options.surface),

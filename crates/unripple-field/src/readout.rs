@@ -35,7 +35,9 @@ pub struct Readout<'a> {
 /// Points of a grid, and the weights of every mode there by chunks of points, once a field asked for them.
 #[derive(Debug, Default)]
 pub(crate) struct Kept {
+    /// The points that are read, in metres.
     pub points: Vec<Point>,
+    /// Weights of every mode at them (points x modes), in chunks of points; made when they are first read.
     pub weights: OnceLock<Vec<Mat<f32>>>,
 }
 

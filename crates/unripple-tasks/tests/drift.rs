@@ -109,7 +109,7 @@ fn what_has_no_model_is_refused_by_name() {
         error.to_string()
     };
     let error = refused("probed", &[("device", "jack")]);
-    assert!(error.contains("found 0 of them that listen"), "{error}");
+    assert!(error.contains("found 0 of them with sensors"), "{error}");
     let error = refused("fitted", &[("device", "fitted model"), ("fitted to", "no-such-library")]);
     assert!(error.contains("no-such-library"), "{error}");
     // One that was computed is followed by the file that it was computed from.

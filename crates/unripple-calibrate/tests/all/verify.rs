@@ -235,6 +235,10 @@ fn without_a_model_the_answer_says_so() {
     believed.actuators.truncate(6);
     let found = check(&believed, &measured, &probed, &VerifyOptions::default()).unwrap();
     println!("{}", said(&found));
-    assert!(matches!(&found.model, Checked::Not { why } if why.contains("not explained")), "{}", said(&found));
+    assert!(
+        matches!(&found.model, Checked::Not { why } if why.contains("not explained")),
+        "{}",
+        said(&found)
+    );
     assert!(found.points.is_empty() && found.doubts.is_empty());
 }

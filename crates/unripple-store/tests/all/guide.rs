@@ -11,7 +11,7 @@ const GUIDE: &str = include_str!("../../../../docs/surface-file.md");
 #[test]
 fn examples_load() {
     let examples = blocks(GUIDE, "```toml");
-    assert_eq!(examples.len(), 3);
+    assert_eq!(examples.len(), 4);
     for example in examples {
         if let Err(faults) = parse_surface(&example, "guide.toml") {
             panic!("{faults:#}");
@@ -37,11 +37,12 @@ fn expected(table: &str, key: &str) -> Vec<String> {
     let mut texts = Vec::new();
     for example in blocks(GUIDE, "```toml") {
         if table == "Springs" {
-            texts.push(
-                example
-                    .replace(&format!("{key} = 0.5"), &format!("{key} = nan"))
-                    .replace("tilt_n = 2.0", "tilt_n = nan"),
-            );
+            // The values that the examples have.
+            let spoil = |text: String, value: &str| {
+                text.replace(&format!("{key} = {value}"), &format!("{key} = nan"))
+            };
+            let text = ["0.5", "0.6", "3", "0.25"].into_iter().fold(example.clone(), spoil);
+            texts.push(text.replace("tilt_n = 2.0", "tilt_n = nan"));
         }
         let headers = [format!("[{table}]"), format!("[[{table}]]")];
         let starts = example.lines().enumerate().filter(|(_, l)| headers.iter().any(|h| h == l));
@@ -72,7 +73,7 @@ fn ranges_are_those_of_the_reader() {
         );
         checked += 1;
     }
-    assert_eq!(checked, 40);
+    assert_eq!(checked, 43);
 }
 
 /// Unknown keys are answered with the list of known ones: the guide has exactly those.

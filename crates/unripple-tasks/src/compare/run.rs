@@ -29,6 +29,12 @@ pub(super) struct Ground<'a> {
     pub level: Level,
 }
 
+/// Options of all methods: the window (s) and the surface's limits.
+fn settings(surface: &Surface, window: f64) -> Options {
+    let (limit, rms_limit) = (surface.emission.limit, surface.emission.rms_limit);
+    Options { window, limit, rms_limit, ..Options::default() }
+}
+
 /// The row of time reversal, which knobs are held against, before it is related to itself.
 fn reversal(rows: &[Row]) -> Result<Row, TaskError> {
     let found = rows.iter().find(|row| row.method == Method::TimeReversal.name());
@@ -54,8 +60,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     let chosen = asked.is_none().then(|| chosen_window(&surface, &known));
     let window = asked.or(chosen.as_ref().map(|chosen| chosen.seconds)).unwrap_or_default();
     carries(known.conditions(), window, "window_s")?;
-    let (limit, rms_limit) = (surface.emission.limit, surface.emission.rms_limit);
-    let settings = Options { window, limit, rms_limit, ..Options::default() };
+    let settings = settings(&surface, window);
     let level = ask.level.level()?;
     let ground = Ground {
         surface: &surface,

@@ -74,7 +74,7 @@ impl Bench {
         (seconds * self.layout.rate).round() as usize
     }
 
-    /// A drive as the device sends it: float32 of full scale.
+    /// A drive (actuators x samples) as the device sends it: float32 of full scale.
     pub fn as_sent(&self, drive: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let full = self.layout.full_scale;
         drive.iter().map(|line| line.iter().map(|x| f64::from((x / full) as f32) * full).collect()).collect()

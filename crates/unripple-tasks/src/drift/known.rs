@@ -17,6 +17,7 @@ pub(super) const FILE: &str = "the surface file";
 
 /// What is known of a surface before it is listened to.
 pub(super) struct Known {
+    /// The surface as its file or its library has it.
     pub surface: Surface,
     /// Its responses as they were made or measured.
     pub modal: ModalResponses,
@@ -121,7 +122,7 @@ impl Known {
         self.library.is_some()
     }
 
-    /// What an actuator's sensor hears is to be multiplied by.
+    /// The dimensionless factor by which an actuator's sensor signal is multiplied; actuators count from 0.
     pub fn scale(&self, actuator: usize) -> f64 {
         self.library.as_ref().and_then(|library| library.scales.get(actuator)).copied().unwrap_or(1.0)
     }
