@@ -13,7 +13,12 @@ use unripple_tasks::{Progress, Report, TaskError, folder};
 pub fn answer(as_json: bool, report: &impl Serialize, text: &str) -> Result<(), CliError> {
     let mut line = options::spoken(&if as_json { folder::json(report)? } else { text.trim_end().to_owned() });
     line.push('\n');
-    match std::io::stdout().lock().write_all(line.as_bytes()) {
+    print(line.as_bytes())
+}
+
+/// Writes bytes to standard output. A reader that has gone away, as in `unripple … | head`, is no failure.
+pub fn print(bytes: &[u8]) -> Result<(), CliError> {
+    match std::io::stdout().lock().write_all(bytes) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(CliError::work(error)),
         _ => Ok(()),
     }

@@ -3,6 +3,7 @@
 use crate::args::{Arguments, CompletionsOptions, ManOptions};
 use crate::common::Common;
 use crate::error::CliError;
+use crate::output;
 use crate::progress::Terminal;
 use clap::CommandFactory;
 use clap_mangen::Man;
@@ -17,10 +18,7 @@ pub fn completions(options: &CompletionsOptions, common: &Common) -> Result<(), 
     common.without_surface()?;
     let mut script = Vec::new();
     clap_complete::generate(options.shell, &mut Arguments::command(), NAME, &mut script);
-    match std::io::Write::write_all(&mut std::io::stdout().lock(), &script) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(CliError::work(error)),
-        _ => Ok(()),
-    }
+    output::print(&script)
 }
 
 /// Writes a page for the program and one for each command, section 1.
