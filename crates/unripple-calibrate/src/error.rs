@@ -1,16 +1,16 @@
-//! Why responses could not be made from what was measured.
+//! Errors of measuring, interpolating and fitting responses.
 
 use unripple_core::{CoreError, DeviceError, OutOfRange, Point};
 use unripple_dsp::DspError;
 use unripple_physics::PhysicsError;
 
-/// Why responses could not be made from what was measured.
+/// Error of measuring, interpolating or fitting responses.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CalibrateError {
     /// A place lies outside the surface.
     #[error("place {}: {at} is outside the surface, nearest legal point {nearest}", place + 1)]
     Outside {
-        /// Index of the place.
+        /// Index of the place, from 0.
         place: usize,
         /// The place asked for.
         at: Point,
@@ -30,28 +30,28 @@ pub enum CalibrateError {
         /// How many there are.
         found: usize,
     },
-    /// What is said of noise leaves a system that cannot be solved.
+    /// The kriging equations cannot be solved: their covariance matrix is not positive definite.
     #[error(
         "{points} points at {hz:.1} Hz: expected responses that the noise given can tell apart, found a singular system \
          (two points at one place, or too little noise)"
     )]
     Singular {
-        /// Points of the system.
+        /// Number of points in the system of equations.
         points: usize,
         /// Frequency of the bin, in Hz.
         hz: f64,
     },
-    /// The equations of a fit have no solution in the arithmetic there is.
+    /// A quantity cannot be determined, since its equations have no solution in floating-point arithmetic.
     #[error("{what}: expected {expected}, found {found}")]
     Unsolvable {
-        /// What was to be solved.
+        /// Quantity that was to be determined.
         what: &'static str,
-        /// What there should be.
+        /// What the solution needs.
         expected: &'static str,
-        /// What there is.
+        /// What was found instead.
         found: String,
     },
-    /// An actuator has no channel on the device.
+    /// An actuator has no output channel on the device.
     #[error(
         "actuator `{actuator}`: expected {actuators} outputs of `{device}`, one by that name, found {count} ({outputs}); {mend}"
     )]
@@ -60,13 +60,13 @@ pub enum CalibrateError {
         actuator: String,
         /// Name of the device.
         device: String,
-        /// Actuators that there are.
+        /// Number of actuators of the surface.
         actuators: usize,
-        /// Names of the outputs.
+        /// Names of the device's outputs.
         outputs: String,
-        /// Outputs that there are.
+        /// Number of the device's outputs.
         count: usize,
-        /// What would help.
+        /// How to correct this, in words.
         mend: String,
     },
     /// A device lost blocks during a recording.
@@ -77,7 +77,7 @@ pub enum CalibrateError {
         /// Number of blocks lost.
         lost: u64,
     },
-    /// Whoever moves the probe or taps the surface could not.
+    /// The rig, which moves the probe or taps the surface, reported a failure.
     #[error("point {}: {why}", number + 1)]
     Rig {
         /// Index of the point.
@@ -85,7 +85,7 @@ pub enum CalibrateError {
         /// What the rig reported.
         why: String,
     },
-    /// What was measured could not be kept.
+    /// Measured responses could not be stored.
     #[error("point {}: {why}", number + 1)]
     Sink {
         /// Index of the point.
@@ -93,23 +93,23 @@ pub enum CalibrateError {
         /// What the sink reported.
         why: String,
     },
-    /// What was recorded is not what could be measured from.
+    /// A recording, or the device it comes from, is not suitable for measuring responses.
     #[error("{what}: expected {expected}, found {found}")]
     Recording {
-        /// What was recorded.
+        /// Part of the recording or device that is not suitable.
         what: String,
-        /// What there should be.
+        /// What was expected of it.
         expected: String,
-        /// What there is.
+        /// What was found instead.
         found: String,
     },
     /// The device failed.
     #[error(transparent)]
     Device(#[from] DeviceError),
-    /// Signals that do not fit.
+    /// Signal processing failed.
     #[error(transparent)]
     Dsp(#[from] DspError),
-    /// Responses were refused.
+    /// Responses are not valid.
     #[error(transparent)]
     Core(#[from] CoreError),
     /// The physics of the nominal surface failed.

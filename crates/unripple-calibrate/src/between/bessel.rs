@@ -5,10 +5,12 @@ use unripple_dsp::bessel_j;
 /// Nodes per unit of argument: cubics between them are off by 3e-9.
 const DENSITY: f64 = 32.0;
 
-/// J0(x) and 2 J1(x)/x from tables: the covariances of isotropic fields of one wavenumber and of all up to one.
+/// Tables of J0(x) and 2 J1(x)/x: the spatial covariances of isotropic wave fields of one wavenumber, and of all
+/// wavenumbers up to a largest one.
 #[derive(Clone, Debug)]
 pub(crate) struct Bessel {
-    /// Values and slopes (per node) of both at each node.
+    /// Value and slope (per node interval) of each of the two functions at each node, `[node][function][value,
+    /// slope]`.
     nodes: Vec<[[f64; 2]; 2]>,
 }
 

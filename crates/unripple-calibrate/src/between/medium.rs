@@ -7,43 +7,45 @@ use crate::CalibrateError;
 use std::f64::consts::TAU;
 use unripple_core::require;
 
-/// The waves of the nugget have any wavenumber up to this multiple of the one given by the dispersion relation. A
-/// wider disc makes the nugget more like noise that differs from point to point, a narrower one more like the field
-/// itself.
+/// Largest wavenumber in the nugget, as a multiple of the wavenumber of the dispersion relation. A larger multiple
+/// makes the nugget more like noise that differs from point to point, a smaller one more like the field itself.
 const NUGGET: f64 = 1.5;
 
-/// Least power of the errors of a response over its own power: well above what the tables of covariances are off by.
+/// Smallest power of the errors of a response, relative to the power of the field: well above the interpolation
+/// errors of the tables of covariances.
 const LEAST: f64 = 1e-6;
 
-/// Waves of one frequency as the points see them.
+/// Covariance model of the wave field at one frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SpectralLine {
     /// Wavenumber, in rad/m.
     pub k: f64,
     /// Largest wavenumber of the nugget's waves, in rad/m.
     pub stray_k: f64,
-    /// Share of the power in the nugget: waves of other wavenumbers.
+    /// Share (0 to 1) of the field's power in the nugget: waves of wavenumbers other than `k`.
     pub nugget: f64,
-    /// Power of the errors at one point, independent of other points', over that of the field.
+    /// Power of the errors of a response at one point, relative to the power of the field. Errors at different points
+    /// are independent.
     pub error: f64,
-    /// Factor by which errors of position weaken the field's covariance.
+    /// Factor, at most 1, by which errors of the points' positions reduce the field's covariance.
     pub kept: f64,
 }
 
-/// Waves of every frequency.
+/// Covariance models of the wave field at all frequency bins.
 #[derive(Clone, Debug)]
 pub(crate) struct Waves {
-    /// One for each bin of the spectra, frequencies ascending.
+    /// One model for each bin of the spectra, frequencies ascending.
     pub lines: Vec<SpectralLine>,
     bessel: Bessel,
 }
 
 impl Waves {
-    /// Waves for the bins of `spectra`; `wavenumber` gives k (rad/m) of an angular frequency (rad/s), distances go up
-    /// to `reach` (m).
+    /// Covariance models for the bins of `spectra`. `wavenumber` gives k (rad/m) at an angular frequency (rad/s);
+    /// `floor` is the smallest value (rad/m) of the nugget's largest wavenumber; `reach` is the largest distance (m)
+    /// between two places.
     ///
     /// # Errors
-    /// [`CalibrateError::Range`] for a wavenumber that cannot be.
+    /// [`CalibrateError::Range`] for a wavenumber that is negative, or 1e7 rad/m or more.
     pub fn of(
         spectra: &Spectra,
         wavenumber: impl Fn(f64) -> f64,

@@ -1,4 +1,5 @@
-//! Responses at any place from those at points, by what is known of waves.
+//! Interpolation of impulse responses between measured points: nearest point, linear, or kriging with the covariance
+//! of waves.
 
 mod bessel;
 mod medium;

@@ -8,19 +8,20 @@ use rayon::prelude::*;
 use unripple_core::Point;
 use unripple_linalg::Mat;
 
-/// Points around a place and what they say of every place near it: (K + N)⁻¹ h for each bin and actuator.
+/// A group of neighbouring measured points, with the solution (K + N)⁻¹ h of the kriging equations for each frequency
+/// bin and actuator, where h are the responses at the points.
 #[derive(Debug)]
 pub(crate) struct Neighbourhood {
     points: Vec<Point>,
-    /// The factors, `[bin][point][actuator]`.
+    /// Kriging solutions (K + N)⁻¹ h, `[bin][point][actuator]`.
     solved: Vec<f64>,
 }
 
 impl Neighbourhood {
-    /// Solves the kriging equations for the points of these indices.
+    /// Solves the kriging equations for the points `all[indices]`.
     ///
     /// # Errors
-    /// [`CalibrateError::Singular`].
+    /// [`CalibrateError::Singular`] if the covariance matrix of the points is not positive definite.
     pub fn solve(
         spectra: &Spectra,
         waves: &Waves,
@@ -47,7 +48,7 @@ impl Neighbourhood {
         Ok(Self { points, solved })
     }
 
-    /// The bins of every actuator at a place, `[bin][actuator]`.
+    /// Interpolated spectra of all actuators' responses at a place, `[bin][actuator]`.
     pub fn bins(&self, waves: &Waves, place: Point, actuators: usize) -> Vec<f64> {
         let distances: Vec<f64> = self.points.iter().map(|point| point.distance(place)).collect();
         let mut bins = vec![0.0; waves.lines.len() * actuators];
@@ -63,19 +64,20 @@ impl Neighbourhood {
     }
 }
 
-/// Which neighbourhood a place belongs to.
+/// All neighbourhoods of a surface, with their centres: a place belongs to the one whose centre is nearest.
 #[derive(Debug)]
 pub(crate) struct Patches {
     centres: Vec<Point>,
-    /// The neighbourhoods, each of points that overlap with the others'.
+    /// The neighbourhoods; adjacent ones have points in common.
     pub neighbourhoods: Vec<Neighbourhood>,
 }
 
 impl Patches {
-    /// One neighbourhood of all points if they are at most `most`, or overlapping ones of half as many.
+    /// One neighbourhood of all points if there are at most `most`, otherwise overlapping neighbourhoods of `most /
+    /// 2` points.
     ///
     /// # Errors
-    /// [`CalibrateError::Singular`].
+    /// [`CalibrateError::Singular`] if the covariance matrix of a neighbourhood is not positive definite.
     pub fn of(
         spectra: &Spectra,
         waves: &Waves,
@@ -103,7 +105,7 @@ impl Patches {
     }
 }
 
-/// Indices of the points nearest to a place.
+/// Indices of the `count` points nearest to a place, in no particular order.
 pub(crate) fn nearest(points: &[Point], place: Point, count: usize) -> Vec<usize> {
     let mut indices: Vec<usize> = (0..points.len()).collect();
     let count = count.min(points.len());
@@ -115,7 +117,7 @@ pub(crate) fn nearest(points: &[Point], place: Point, count: usize) -> Vec<usize
     indices
 }
 
-/// Middles of patches of at most `most` points: halved across their longer side until they are.
+/// Centres of patches of at most `most` points. A patch with more is halved across its longer side.
 fn centres(points: &[Point], indices: &[usize], most: usize) -> Vec<Point> {
     let range = |of: fn(&Point) -> f64| {
         let values = indices.iter().map(|i| of(&points[*i]));

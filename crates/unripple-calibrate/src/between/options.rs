@@ -3,20 +3,22 @@
 use crate::CalibrateError;
 use unripple_core::require;
 
-/// How responses between the points are made.
+/// Method of interpolating responses between measured points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Interpolation {
     /// The response of the nearest point.
     Nearest,
-    /// Linear over the triangle of points around the place (Delaunay); beyond the outermost points, along their hull.
+    /// Linear over the Delaunay triangle of points around the place; beyond the outermost points, the value at the nearest
+    /// place of their convex hull.
     Linear,
-    /// The most likely field of waves with the sheet's own wavenumber at each frequency, given all points around.
+    /// Kriging: the most likely field of waves with the sheet's wavenumber at each frequency, given the responses at the
+    /// points around the place.
     #[default]
     Kernel,
 }
 
 impl Interpolation {
-    /// Every way, the simplest first.
+    /// All methods, the simplest first.
     pub const ALL: [Self; 3] = [Self::Nearest, Self::Linear, Self::Kernel];
 
     /// Name of the method in figures and on the command line.
@@ -29,28 +31,30 @@ impl Interpolation {
     }
 }
 
-/// How responses between the points are made, and what is known of the errors of those at the points.
+/// Options of interpolation: the method, and the errors of the measured responses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BetweenOptions {
-    /// The way of interpolating.
+    /// Method of interpolation between points.
     pub interpolation: Interpolation,
     /// Rms of the noise that adds to every response, over the rms of all responses; white up to half the sample rate.
     pub noise: f64,
     /// Rms of the relative error of each response's gain, independent from one to the next.
     pub gain_error: f64,
-    /// Rms distance of the points from where they are said to be, in metres.
+    /// Rms distance of the points from their stated places, in metres.
     pub position_error: f64,
-    /// The nugget: share of the power in waves of other wavenumbers than the dispersion relation's, as edges,
-    /// unevenness and errors of that relation make them.
+    /// The nugget of kriging: share (0 to 1) of the field's power in waves whose wavenumber differs from that of the
+    /// dispersion relation, as edges, unevenness and errors of that relation cause.
     pub nugget: f64,
-    /// Top of what is kept over the top of the band, at least 1; a raised cosine ends it over the upper half of the excess.
+    /// Highest frequency kept, as a multiple (1 to 10) of the top of the band. A raised cosine fades the spectrum out over
+    /// the upper half of the range above the band.
     pub top: f64,
-    /// Most points that are solved together; of more, each neighbourhood has half as many of its own.
+    /// Largest number of points (4 to 5000) in one system of kriging equations. More points are divided into overlapping
+    /// neighbourhoods of half this number.
     pub most: usize,
 }
 
 impl Default for BetweenOptions {
-    /// The kernel, with noise at -50 dB, gains within 0.5 %, points where they are said to be.
+    /// Kriging, with noise at -50 dB, gain errors of 0.5 % rms and no errors of position.
     fn default() -> Self {
         Self {
             interpolation: Interpolation::Kernel,
@@ -65,7 +69,7 @@ impl Default for BetweenOptions {
 }
 
 impl BetweenOptions {
-    /// Refuses numbers without meaning.
+    /// Checks that every option is in its range.
     pub(crate) fn check(&self) -> Result<(), CalibrateError> {
         let share = |x: f64| (0.0..=1.0).contains(&x);
         let length = self.position_error.is_finite() && self.position_error >= 0.0;

@@ -1,4 +1,4 @@
-//! Responses at any place from those at measured points: kriging with the waves' own covariance.
+//! Interpolation of responses at any place from those at measured points: kriging with the covariance of waves.
 
 use super::medium::{SpectralLine, Waves};
 use super::neighbourhood::{Patches, nearest};
@@ -11,28 +11,30 @@ use crate::CalibrateError;
 use rayon::prelude::*;
 use unripple_core::{Point, SampledResponses};
 
-/// Frequencies that an error is worked out at, the others by straight lines between: it is smooth in frequency. Twice
-/// as many take twice as long and change it little.
+/// Number of frequencies at which the expected error is computed; between them it is interpolated linearly, since it is smooth in
+/// frequency. Twice as many take twice as long and change the result little.
 const NODES: usize = 32;
 
-/// Nearest points that an error is worked out from: those farther away hardly explain anything. The work grows as
-/// their cube.
+/// Number of nearest points from which the expected error is computed: points farther away explain hardly anything. The work
+/// grows with the cube of this number.
 const WITNESSES: usize = 160;
 
-/// A plan that makes responses at any place from those at points.
+/// Interpolator of impulse responses: computes the responses at any place from those at measured points.
 ///
-/// With [`Interpolation::Kernel`], what an actuator makes of the surface is taken, frequency by frequency, for a random
-/// isotropic field of the sheet's wavenumber k, whose values at two places a distance r apart have the covariance J0(kr) (Cook et
-/// al., J. Acoust. Soc. Am. 27, 1955, in two dimensions). The most likely value at a place given those at the points is a
-/// Gaussian process's (Rasmussen and Williams, *Gaussian Processes for Machine Learning*, 2006, eqs. 2.25 and 2.26):
+/// With [`Interpolation::Kernel`], the field of each actuator is modelled, frequency by frequency, as a random isotropic field of
+/// the sheet's wavenumber k, whose values at two places a distance r apart have the covariance J0(kr) (Cook et al., J. Acoust.
+/// Soc. Am. 27, 1955, in two dimensions). The most likely value at a place, given those at the points, is that of a Gaussian
+/// process (Rasmussen and Williams, *Gaussian Processes for Machine Learning*, 2006, eqs. 2.25 and 2.26):
 ///
 /// ```text
 /// h(x) = k(x)ᵀ (K + N)⁻¹ h,   variance 1 - k(x)ᵀ (K + N)⁻¹ k(x)
 /// ```
 ///
-/// with N the power of noise, of errors of gain and of errors of position. Factors are made once; a new place is a product.
+/// where h are the responses at the points, K their covariances with each other, k(x) those with the place x, and N the power of
+/// noise, of gain errors and of position errors. The equations are solved once; each new place costs one product.
 ///
-/// The whole of the band that the plan keeps is interpolated; the two plainer ways interpolate every sample as it is.
+/// Kriging returns frequencies up to [`BetweenOptions::top`] only; the two simpler methods interpolate the samples themselves,
+/// unfiltered.
 ///
 /// ```
 /// use unripple_calibrate::{Between, BetweenOptions};
@@ -73,12 +75,13 @@ enum Way {
 }
 
 impl<'r> Between<'r> {
-    /// Plans from `responses` at their points; `wavenumber` gives k (rad/m) of the sheet's waves at an angular frequency
-    /// (rad/s).
+    /// Prepares the interpolation of `responses` between their points; `wavenumber` gives k (rad/m) of the sheet's waves at an
+    /// angular frequency (rad/s).
     ///
     /// # Errors
-    /// [`CalibrateError::Count`] without points, actuators or samples; [`CalibrateError::Range`] for numbers without meaning;
-    /// [`CalibrateError::Singular`] if two points are at one place and nothing is said of their errors.
+    /// [`CalibrateError::Count`] without points, actuators or samples; [`CalibrateError::Range`] for options, wavenumbers or
+    /// responses out of range; [`CalibrateError::Singular`] if two points coincide and their responses are said to have no
+    /// errors.
     pub fn plan(
         responses: &'r SampledResponses,
         wavenumber: impl Fn(f64) -> f64,
@@ -107,7 +110,7 @@ impl<'r> Between<'r> {
         self.onto(&[place])
     }
 
-    /// The responses of every actuator at places of one's own, such as a denser grid.
+    /// The responses of every actuator at several places, such as those of a denser grid; `places` are the points of the result.
     ///
     /// # Errors
     /// As [`Between::at`].
@@ -124,10 +127,11 @@ impl<'r> Between<'r> {
         Ok(SampledResponses::new(self.responses.ports.clone(), places.to_vec(), conditions, samples, data)?)
     }
 
-    /// The kriging standard error: how far the responses at a place (m) are expected to be off, as powers and ratios.
+    /// Expected error of the interpolated responses at a place (m): the kriging variance, or for the simpler methods that of
+    /// their fixed weights.
     ///
     /// # Errors
-    /// As [`Between::at`], and [`CalibrateError::Singular`].
+    /// As [`Between::at`], and [`CalibrateError::Singular`] if the covariance matrix is not positive definite.
     pub fn error(&self, place: Point) -> Result<Uncertainty, CalibrateError> {
         self.check(0, place)?;
         let bins = self.spectra.bins();
@@ -160,7 +164,7 @@ impl<'r> Between<'r> {
         Err(CalibrateError::Outside { place, at, nearest: outline.nearest(at) })
     }
 
-    /// The weights of points that the plainer ways take at all frequencies.
+    /// Indices and weights of the points that the two simpler methods use, the same at all frequencies; `None` for kriging.
     fn weights(&self, place: Point) -> Option<Vec<(usize, f64)>> {
         match &self.way {
             Way::Nearest => Some(self.responses.nearest(place).map(|i| (i, 1.0)).into_iter().collect()),
@@ -189,7 +193,8 @@ impl<'r> Between<'r> {
         }
     }
 
-    /// The waves around a bin, with errors over the power there: that of single bins is mostly their distance from a resonance.
+    /// Covariance model of a bin, its relative error averaged over the bins around: the power of a single bin mostly tells how
+    /// far it is from a resonance.
     fn line(&self, bin: usize) -> SpectralLine {
         let reach = self.waves.lines.len() / NODES + 6;
         let around = bin.saturating_sub(reach)..(bin + reach).min(self.waves.lines.len());
@@ -202,7 +207,8 @@ impl<'r> Between<'r> {
         SpectralLine { error: errors / powers, ..self.waves.lines[bin] }
     }
 
-    /// Expected power of the error of fixed weights w: wᵀ (K + N) w - 2 wᵀ k + 1.
+    /// Expected power of the error of interpolation with fixed weights w: wᵀ (K + N) w - 2 wᵀ k + 1, relative to the field's
+    /// power.
     fn plain_share(&self, line: &SpectralLine, weights: &[(usize, f64)], place: Point) -> f64 {
         let points = &self.responses.points;
         let covariance = |a: Point, b: Point| self.waves.covariance(line, a.distance(b));
@@ -214,7 +220,7 @@ impl<'r> Between<'r> {
         share.max(0.0)
     }
 
-    /// Shares known at some bins, spread over all.
+    /// Expected error at all bins, interpolated linearly between the bins `nodes`, where its shares are `known`.
     fn uncertainty(&self, nodes: &[usize], known: &[f64]) -> Uncertainty {
         let spectra = &self.spectra;
         let share: Vec<f64> = (0..spectra.bins())

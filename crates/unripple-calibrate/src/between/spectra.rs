@@ -1,4 +1,4 @@
-//! Cosine and sine transforms of responses, even and odd parts apart.
+//! Cosine transforms of impulse responses: real spectra of their even parts.
 
 use crate::CalibrateError;
 use rayon::prelude::*;
@@ -36,12 +36,12 @@ impl Cosines {
         Self { samples, forward: planner.plan_fft_forward(period), inverse: planner.plan_fft_inverse(period) }
     }
 
-    /// Samples of the even part's period.
+    /// Period of the even part, in samples: twice one less than a response has.
     pub fn period(&self) -> usize {
         self.forward.len()
     }
 
-    /// The first bins of a response's even part.
+    /// Transforms the even part of a response into its first `bins.len()` bins.
     fn bins(&self, response: &[f32], bins: &mut [f64]) {
         let mut even = self.forward.make_input_vec();
         let last = self.samples - 1;
@@ -54,7 +54,8 @@ impl Cosines {
         bins.iter_mut().zip(spectrum).for_each(|(bin, x)| *bin = x.re);
     }
 
-    /// The response, as many samples as `response` has, whose even part has these first bins.
+    /// Inverse transform: writes to `response` the samples of the response whose even part has these first bins; all others
+    /// count as 0.
     pub fn response(&self, bins: impl Iterator<Item = f64>, response: &mut [f32]) {
         let mut spectrum = self.inverse.make_input_vec();
         spectrum.iter_mut().zip(bins).for_each(|(x, bin)| *x = Complex::new(bin, 0.0));
@@ -69,26 +70,28 @@ impl Cosines {
 /// The spectra of many responses, up to a top frequency.
 #[derive(Clone, Debug)]
 pub(crate) struct Spectra {
-    /// The transforms, forward and inverse.
+    /// Cosine transforms, forward and inverse.
     pub cosines: Cosines,
-    /// Hz between bins.
+    /// Distance between frequency bins, in Hz.
     pub step: f64,
     /// Number of actuators.
     pub actuators: usize,
-    /// Even parts, `[bin][point][actuator]`.
+    /// Spectra of the responses' even parts, `[bin][point][actuator]`.
     pub values: Vec<f64>,
-    /// Mean square of each actuator's over all points, `[bin][actuator]`.
+    /// Mean square of `values` over all points, `[bin][actuator]`.
     pub powers: Vec<f64>,
     /// Mean square of all samples of all responses.
     pub square: f64,
 }
 
 impl Spectra {
-    /// Up to `top` times the band's top, the upper half of the excess tapered.
+    /// Spectra of `responses` from 0 Hz up to `top` times the top of the band. A raised cosine fades them out over the upper
+    /// half of the range above the band.
     ///
     /// # Errors
-    /// [`CalibrateError::Count`] without points, actuators or samples; [`CalibrateError::Range`] for a rate or band that cannot
-    /// be, or a sample that is not finite.
+    /// [`CalibrateError::Count`] without points or actuators, or for fewer than two samples; [`CalibrateError::Range`] for a
+    /// sample rate that is not positive, a band whose top is not between 0 and half the sample rate, or a coordinate or sample
+    /// that is not finite.
     pub fn of(responses: &SampledResponses, top: f64) -> Result<Self, CalibrateError> {
         check(responses)?;
         let conditions = &responses.conditions;

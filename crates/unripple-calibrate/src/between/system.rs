@@ -9,7 +9,7 @@ pub(crate) fn distances(points: &[Point]) -> Vec<f64> {
     points.iter().enumerate().flat_map(|(i, p)| points[..i].iter().map(|q| p.distance(*q))).collect()
 }
 
-/// The factor of the covariance of what is measured at points, errors included: K + N = L Lᵀ.
+/// Cholesky factor of the covariance matrix of the responses at the points, errors included: K + N = L Lᵀ.
 #[derive(Debug)]
 pub(crate) struct System {
     covariance: CholeskyInPlace,
@@ -30,12 +30,13 @@ impl System {
         CholeskyInPlace::new(lower).map(|covariance| Self { covariance })
     }
 
-    /// (K + N)⁻¹ times columns, in place.
+    /// Solves (K + N) x = b for each column b of `columns`, in place.
     pub fn solve(&self, columns: MatMut<'_, f64>) {
         self.covariance.solve(columns);
     }
 
-    /// kᵀ (K + N)⁻¹ k.
+    /// Share of a response's power at one place that the measured points explain: kᵀ (K + N)⁻¹ k, where `row` is k, the covariances
+    /// of that place with the points.
     pub fn explained(&self, row: &[f64]) -> f64 {
         let mut column = Mat::from_fn(row.len(), 1, |i, _| row[i]);
         self.solve(column.as_mut());

@@ -3,7 +3,7 @@
 use spade::{DelaunayTriangulation, FloatTriangulation, HasPosition, Point2, Triangulation};
 use unripple_core::Point;
 
-/// Points joined by triangles.
+/// Delaunay triangulation of the measured points.
 #[derive(Debug)]
 pub(crate) struct Triangles {
     mesh: DelaunayTriangulation<Corner>,
@@ -24,7 +24,7 @@ impl HasPosition for Corner {
 }
 
 impl Triangles {
-    /// Points too far out for the triangulation's arithmetic are left out.
+    /// Triangulates `points`. Points whose coordinates are too large for the triangulation's arithmetic are left out.
     pub fn of(points: &[Point]) -> Self {
         let mut mesh = DelaunayTriangulation::new();
         for (index, point) in points.iter().enumerate() {
@@ -33,7 +33,8 @@ impl Triangles {
         Self { mesh }
     }
 
-    /// Indices and weights of the corners around a place; of the nearest ends of the hull for places beyond it.
+    /// Indices and barycentric weights of the corners of the triangle around a place; beyond the hull, those of the
+    /// two ends of its nearest edge.
     pub fn weights(&self, place: Point) -> Vec<(usize, f64)> {
         let at = Point2::new(place.x, place.y);
         let mut corners = Vec::new();

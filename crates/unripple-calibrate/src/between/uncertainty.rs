@@ -1,13 +1,14 @@
 //! Expected error of interpolated responses: the kriging variance.
 
-/// How far an interpolated response is expected to be off.
+/// Expected error of the interpolated responses at one place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uncertainty {
-    /// Frequencies, in Hz, ascending from 0 to the top of what is kept.
+    /// Frequencies, in Hz, ascending from 0 to the highest that is kept.
     pub hz: Vec<f64>,
-    /// At each of them the expected power of the error, over the mean power of the responses at the points.
+    /// Expected power of the error at each frequency of `hz`, relative to the mean power of the responses at the
+    /// points.
     pub share: Vec<f64>,
-    /// Rms over the response of the expected error for each actuator, in m/s per unit impulse of drive.
+    /// Expected error of each actuator's response, rms over its samples, in m/s per unit impulse of drive.
     pub rms: Vec<f64>,
     /// The rms of the expected error over the rms of all responses at the points, a ratio.
     pub relative: f64,

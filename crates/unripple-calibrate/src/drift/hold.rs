@@ -6,8 +6,9 @@ use unripple_physics::sample;
 
 /// Holds the peak of a focus at one level while tension changes.
 ///
-/// A drive that just reaches its limit makes another peak under another tension. With a little headroom below the limit each
-/// drive can be scaled to the peak of the first one, which follows from the responses of the moment: v(A, T) = Σ h·d.
+/// A drive at its limit makes a different peak velocity when the tension is different. The first drive is therefore scaled to a
+/// level a little below the limit (the headroom), and each later one so that it makes the same peak. The peak at place A and
+/// instant T is predicted from the present responses: v(A, T) = Σ h·d.
 ///
 /// ```
 /// use unripple_calibrate::{Hold, Warp};
@@ -36,20 +37,20 @@ pub struct Hold {
     wanted: Option<f64>,
 }
 
-/// A drive scaled to the level that is held.
+/// Result of scaling a drive with [`Hold::scale`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Held {
-    /// The peak that it will make, in m/s.
+    /// Predicted velocity at the focus, in m/s, with its sign.
     pub predicted: f64,
     /// Factor that the drive was multiplied by.
     pub gain: f64,
-    /// Whether the limit was reached before the level was.
+    /// Whether the limit of the drive keeps the peak below the level that is held.
     pub short: bool,
 }
 
 impl Hold {
-    /// A hold for a drive limit, and the share of it (0 to 1, 0.05 does for ±5 % of tension) that the first drive
-    /// leaves free.
+    /// A hold for a limit of the drive's largest value, in the drive's unit. `headroom` is the share of it (0 to 1) that the first
+    /// drive leaves free; 0.05 is enough for ±5 % of tension.
     ///
     /// # Errors
     /// [`CalibrateError::Range`] for a limit that is not positive or a headroom that is no share.
@@ -59,13 +60,14 @@ impl Hold {
         Ok(Self { limit, headroom, wanted: None })
     }
 
-    /// The level that is held, in m/s: that of the first drive that makes any.
+    /// Peak velocity that is held, in m/s: that of the first drive that moves its focus. `None` before there was one.
     pub fn level(&self) -> Option<f64> {
         self.wanted
     }
 
-    /// Scales a drive, one signal per channel, to the level held: that of the first one at the limit less headroom. The peak is the
-    /// velocity at `at` and sample `instant`, by the responses of the moment.
+    /// Scales a drive, `[channel][sample]`, so that it makes the peak velocity that is held. The first drive, scaled to the limit
+    /// less the headroom, sets that velocity. The peak is the velocity at `at` and sample `instant`, predicted by `responses` under
+    /// the present tension.
     ///
     /// # Errors
     /// [`CalibrateError::Count`] for another number of channels than actuators, [`CalibrateError::Range`] for samples that are

@@ -1,4 +1,4 @@
-//! Tension followed while the surface is in use.
+//! Tracking of a sheet's tension while the surface is in use.
 
 mod hold;
 mod ping;
@@ -19,15 +19,19 @@ use unripple_core::require;
 pub struct Tracking {
     /// Root mean square of the noise on each sensor, in its unit.
     pub noise: f64,
-    /// Error of the model itself, as a share of what is heard.
+    /// Rms error of the model, as a share of the rms of the sensors' signals.
     pub model: f64,
-    /// Largest departure from nominal tension that is looked for, as a share.
+    /// Largest departure from nominal tension that is searched, as a share; also the standard deviation of the
+    /// tension before the first observation.
     pub range: f64,
-    /// Fastest change of tension at first, as a share per second.
+    /// Standard deviation of the rate of change of tension before the first observation, as a share of the tension
+    /// per second.
     pub speed: f64,
-    /// How much the rate of change wanders: its standard deviation after one second, as a share per second.
+    /// Random walk of the rate of change of tension: the standard deviation that it gains in one second, as a share
+    /// of the tension per second.
     pub wander: f64,
-    /// Residual over noise and model error above which the model no longer explains what is heard.
+    /// Largest ratio of the rms residual to noise and model error with which the model counts as explaining the
+    /// signals.
     pub limit: f64,
 }
 
@@ -56,26 +60,26 @@ impl Tracking {
 /// Result of one observation of the tension.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Drift {
-    /// The model under some tension explains what was heard.
+    /// The model with some tension explains the sensors' signals.
     Followed {
-        /// Tension over nominal at the end of the observation.
+        /// Tension over that at calibration, a ratio, at the end of the observation.
         tension: f64,
-        /// Its standard error.
+        /// Standard error of `tension`.
         error: f64,
-        /// Its rate of change, 1/s.
+        /// Rate of change of `tension`, in 1/s.
         rate: f64,
-        /// The rate's standard error, 1/s.
+        /// Standard error of `rate`, in 1/s.
         rate_error: f64,
-        /// Residual over noise and model error.
+        /// Rms residual, relative to noise and model error.
         excess: f64,
     },
-    /// No tension explains what was heard: time to calibrate again.
+    /// No tension explains the sensors' signals: the surface should be calibrated again.
     Unexplained {
-        /// Tension over nominal as predicted.
+        /// Tension over that at calibration, predicted from earlier observations.
         tension: f64,
-        /// Residual over noise and model error at best.
+        /// Smallest rms residual found, relative to noise and model error.
         excess: f64,
-        /// What it may be.
+        /// Largest `excess` with which the model counts as explaining the signals.
         limit: f64,
     },
 }

@@ -7,39 +7,39 @@ use unripple_core::{ModalResponses, Outline, Point, require};
 use unripple_dsp::{Threshold, Weighting};
 use unripple_linalg::{Mat, times};
 
-/// Points looked at for each shortest wavelength, along each axis: half a wave apart. Twice as many take four times
-/// as long and find the loudest place a little better.
+/// Points per shortest wavelength, along each axis, at which the level is computed: half a wave apart. Twice as many
+/// take four times as long and find the loudest place a little better.
 const DENSE: f64 = 2.0;
 
-/// Samples looked at for each period at the top of the band. A peak between two samples is missed by 13 % at most,
-/// about 1 dB; twice as many take twice as long.
+/// Samples per period at the top of the band at which the level is computed. A peak between two samples is missed by 13
+/// % at most, about 1 dB; twice as many take twice as long.
 const FINE: f64 = 6.0;
 
-/// Time of swelling and of fading, in s. Shorter, and its ends spread over frequencies that are felt; longer, and
-/// less of it sounds at full strength.
+/// Duration of the fade-in and of the fade-out, in s. A shorter one spreads the signal over frequencies that are felt; a
+/// longer one leaves less of the signal at full strength.
 const RAMP: f64 = 10e-3;
 
-/// Nepers of decay after which a ping is over.
+/// Decay, in nepers, after which the response to a ping is no longer computed: 2 % of its amplitude is left.
 const OVER: f64 = 4.0;
 
 /// Options of a ping: band, length, level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PingOptions {
-    /// Its band, as shares of the top of the responses' band. High frequencies are felt least and show a change of
-    /// tension most.
+    /// Lowest and highest frequency of the ping, as shares of the top of the responses' band. High frequencies are felt
+    /// least and show a change of tension most.
     pub band: [f64; 2],
     /// Length of the ping, in s.
     pub length: f64,
-    /// Level as felt where it is felt most, in dB above threshold.
+    /// Level at the place where the ping is felt most, in dB above the threshold of touch.
     pub felt_db: f64,
     /// Largest drive of an actuator, in the drive's unit.
     pub limit: f64,
-    /// The least that is felt.
+    /// Vibrotactile threshold against frequency.
     pub threshold: Threshold,
 }
 
 impl Default for PingOptions {
-    /// 100 ms at the top of the band, 3 dB below the threshold. At most 1.
+    /// 100 ms near the top of the band, 3 dB below the threshold, with a drive of at most 1.
     fn default() -> Self {
         Self {
             band: [0.88, 0.97],
@@ -51,11 +51,12 @@ impl Default for PingOptions {
     }
 }
 
-/// A short drive that nobody feels, for a [`Tracker`](crate::Tracker) when nothing else is driven.
+/// A short drive below the threshold of touch, for a [`Tracker`](crate::Tracker) when nothing else is driven.
 ///
-/// Every actuator sweeps the band, the louder the less is felt, and swells and fades over 10 ms. Phases
-/// grow with the square of the actuator's number, so that waves meet nowhere. What a bare sheet does is weighed by the
-/// threshold at points all over it, half a wavelength apart. It may still be heard.
+/// Every actuator sweeps the band, fades in and out over 10 ms, and is louder at frequencies that are felt less. Phases
+/// grow with the square of the actuator's number, so that the waves focus nowhere. The level is that of the displacement
+/// of the sheet without a finger, weighted by the threshold, at points half a wavelength apart. The ping may still be
+/// audible.
 ///
 /// ```
 /// use unripple_calibrate::{Ping, PingOptions};
@@ -76,17 +77,17 @@ pub struct Ping {
     pub drive: Vec<Vec<f64>>,
     /// Largest value of the drive, in the drive's unit.
     pub peak: f64,
-    /// Level as felt where it is felt most, in dB above threshold.
+    /// Level at the place where the ping is felt most, in dB above the threshold of touch.
     pub felt_db: f64,
     /// Place where the ping is felt most, in m.
     pub felt_at: Point,
 }
 
 impl Ping {
-    /// A ping for a surface of some responses: as strong as level and limit allow.
+    /// Designs a ping for a surface with these responses, as strong as `felt_db` and `limit` of the options allow.
     ///
     /// # Errors
-    /// [`CalibrateError::Range`] for options without meaning; [`CalibrateError::Unsolvable`] if the drive moves nothing.
+    /// [`CalibrateError::Range`] for options out of range; [`CalibrateError::Unsolvable`] if the drive moves nothing.
     pub fn design(responses: &ModalResponses, options: &PingOptions) -> Result<Self, CalibrateError> {
         let [low, high] = options.band;
         require("bottom of a ping's band", low > 0.0 && low < high, "above 0, below its top", low)?;

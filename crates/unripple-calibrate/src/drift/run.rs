@@ -1,13 +1,13 @@
-//! Modal responses run in time under a tension that drifts.
+//! Simulation in time of modal responses under a drifting tension.
 
 use super::warp::tuned;
 use unripple_core::Pole;
 use unripple_linalg::Mat;
 
-/// Seconds over which the tension counts as even while a stretch of time is run.
+/// Duration, in s, over which the simulation takes the tension as constant: short against the time in which tension drifts.
 const EVEN: f64 = 5e-3;
 
-/// The modes of a surface running under a tension that changes.
+/// Modal model of a surface, for simulation under a changing tension.
 #[derive(Clone, Debug)]
 pub(super) struct Sheet {
     /// Decay rate and angular frequency of each mode at nominal tension.
@@ -20,23 +20,24 @@ pub(super) struct Sheet {
     pub sense: Mat<f64>,
     /// Samples per second.
     pub rate: f64,
-    /// Samples between two instants that are looked at, while nothing drives.
+    /// Samples between two compared instants after the drive has ended.
     pub stride: usize,
 }
 
-/// When sensors are looked at: at every sample while something drives, then at every few, at means over those around.
+/// Instants at which sensor signals are compared: every sample while a drive lasts; then one of every few samples, each a mean
+/// over the samples around it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Instants {
-    /// Numbers of the samples, ascending.
+    /// Sample numbers of the instants, ascending.
     pub at: Vec<usize>,
-    /// Number of instants that are single samples.
+    /// Number of instants at the start of `at` that are single samples, not means.
     pub single: usize,
-    /// Samples before and after each of the others that belong to its mean.
+    /// Samples on either side of each later instant that its mean includes.
     pub reach: usize,
 }
 
 impl Instants {
-    /// Nothing is looked at.
+    /// No instants: nothing is compared.
     pub fn none() -> Self {
         Self { at: Vec::new(), single: 0, reach: 0 }
     }
@@ -46,8 +47,8 @@ impl Instants {
         (2 * self.reach + 1) as f64
     }
 
-    /// What is looked at of signals, instants x channels: samples, and means times the root of their number, so that white noise
-    /// stays what it is.
+    /// Values of `signals`, `[channel][sample]`, at the instants, as instants x channels. Means are multiplied by the square
+    /// root of their number of samples, so that white noise keeps its standard deviation.
     pub fn look(&self, signals: &[Vec<f64>]) -> Mat<f64> {
         Mat::from_fn(self.at.len(), signals.len(), |n, c| match n < self.single {
             true => signals[c][self.at[n]],
@@ -88,8 +89,9 @@ impl Sheet {
         Instants { at: (0..single).chain(rest).collect(), single, reach }
     }
 
-    /// Weights of the sensors on displacement and on velocity in what is looked at of a free sheet, under a tension: a mean over
-    /// samples is the mean of as many steps of each oscillation from its middle, damping and all.
+    /// Weights of displacement and of velocity (each modes x channels) in the means of the sensors' signals at `instants`, for
+    /// an undriven sheet whose tension is `ratio` times nominal. The mean over samples is that of the free, damped oscillation
+    /// of each mode, computed from the instant at its middle.
     fn meant(&self, instants: &Instants, ratio: f64) -> [Mat<f64>; 2] {
         let reach = instants.reach as isize;
         let mean = |(pole, share): (&Pole, &f64)| {
@@ -104,8 +106,8 @@ impl Sheet {
         })
     }
 
-    /// Signals of the sensors at some instants, as [`Instants::look`] has it, and the motion at the end. `drive` is
-    /// `[channel][sample]`; the answer's rows are instants, its columns channels, in the sensors' unit.
+    /// Simulates `samples` samples from the motion `start`: returns the sensors' signals at `instants` as [`Instants::look`]
+    /// forms them, instants x channels, in the sensors' unit, and the motion at the end. `drive` is `[channel][sample]`.
     pub fn run(
         &self,
         start: &Motion,

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use unripple_core::{CoreError, ModalResponses, Pole, SampledResponses};
 use unripple_physics::Medium;
 
-/// Longer than a response by this, so that its end does not wrap into its beginning.
+/// Length of the Fourier transform over that of the response, so that its end does not wrap into its beginning.
 const PADDED: usize = 4;
 
 /// An oscillation under tension `ratio` times as large, bending's share of its elastic energy being `share`:
@@ -14,11 +14,12 @@ pub(super) fn tuned(pole: &Pole, share: f64, ratio: f64) -> Pole {
     Pole { omega: pole.omega * (1.0 + (ratio - 1.0) * (1.0 - share)).max(0.0).sqrt(), ..*pole }
 }
 
-/// Responses as they are under another tension: every mode moved along the dispersion relation, which is not a stretch, since
-/// bending does not change.
+/// Transforms responses to another tension: every frequency moves along the dispersion relation. This is not a mere stretch
+/// of the frequency axis, since bending stiffness does not change.
 ///
-/// A sheet of wavenumber k has `ω² = k² (R + D k²)/ρ`. Shapes, and so wavenumbers, stay; tension R becomes `ratio · R`, and
-/// each frequency moves by its own share of tension. Exact to first order in what tension changes in the shapes.
+/// Waves of wavenumber k have `ω² = k² (R + D k²)/ρ`, with tension R, bending stiffness D and mass per area ρ. Mode shapes,
+/// and so wavenumbers, are taken as unchanged; tension R becomes `ratio · R`, and each frequency moves by the share of
+/// tension in its elastic energy. This is exact to first order in the change of the shapes.
 ///
 /// ```
 /// use unripple_calibrate::Warp;
@@ -57,9 +58,10 @@ impl Warp {
         warped(responses, &shares, ratio)
     }
 
-    /// A sampled response under tension `ratio` times as large, of the same length: each frequency component moved,
-    /// `h'(t) = 1/π Re ∫ H(ω) e^{jω't} dω`. Decay rates change by the slope of ω'(ω), which is divided out for a decay rate
-    /// `sigma` (1/s). What is within a few periods of the end suffers from the response's being cut there.
+    /// A sampled response under tension `ratio` times as large, of the same length; `rate` is in Hz. Each frequency component
+    /// is moved: `h'(t) = 1/π Re ∫ H(ω) e^{jω't} dω`. This multiplies decay rates by the slope of ω'(ω), which is compensated
+    /// for a decay rate `sigma` (1/s). Samples within a few periods of the end are inaccurate, since the response is cut
+    /// there.
     pub fn signal(&self, signal: &[f64], rate: f64, ratio: f64, sigma: f64) -> Vec<f64> {
         let samples = signal.len();
         if samples == 0 || ratio == 1.0 {
@@ -89,7 +91,7 @@ impl Warp {
         out
     }
 
-    /// A library under tension `ratio` times as large; `sigma` as in [`Warp::signal`].
+    /// All responses of a library under tension `ratio` times as large; `sigma` as in [`Warp::signal`].
     ///
     /// # Errors
     /// Those of [`SampledResponses::new`].
