@@ -10,7 +10,7 @@ use unripple_core::{Outline, Point, Shapes, Surface};
 use unripple_linalg::{Mat, MatRef, times};
 use unripple_physics::{Entry, Footprint, Medium, Modes, Transducer, sensors, transducers};
 
-/// Half the distance over which slopes are taken, in metres: of a wave of 1000 rad/m, to 2e-7.
+/// Half the distance of the central difference for slopes of mode shapes, in metres: relative error 2e-7 for a wave of 1000 rad/m.
 const STEP: f64 = 1e-6;
 
 /// The nominal modes as a Ritz basis, with the stiffness of other tensions in their coordinates.
@@ -22,19 +22,19 @@ pub(super) struct Basis {
     pub medium: Medium,
     /// Squares of the nominal frequencies, (rad/s)².
     pub squares: Vec<f64>,
-    /// Stiffness of the nominal tension, in (rad/s)².
+    /// Stiffness of the nominal tension, modes x modes, in (rad/s)².
     pub tension: Mat<f64>,
     /// Stiffness of the tension along x less that along y.
     pub skew: Mat<f64>,
     /// Stiffness of each term of the tension's profile.
     pub terms: Vec<Mat<f64>>,
-    /// Half waves along x and y of each term.
+    /// Numbers of half waves along x and y in each term of the profile.
     pub waves: Vec<[u32; 2]>,
     /// The actuators, and their nominal places.
     pub transducers: Vec<(Transducer, Point)>,
     /// Circuits of the actuators, for coils on a voltage with an inductance; `None` for all others.
     pub coils: Vec<Option<Coil>>,
-    /// The rim of the sheet.
+    /// Outline of the sheet.
     pub outline: Outline,
 }
 
@@ -77,7 +77,8 @@ impl Basis {
         })
     }
 
-    /// The contact points of an actuator, or of a stray load beyond the actuators, when it is at a place.
+    /// Contact points of load `number` when it is at the place `at`: of an actuator, or, for numbers beyond the actuators, of a
+    /// stray mass at a point.
     pub fn footprint(&self, number: usize, at: Point) -> Footprint {
         let Some((transducer, nominal)) = self.transducers.get(number) else { return Footprint::point(at) };
         let (dx, dy) = (at.x - nominal.x, at.y - nominal.y);
@@ -85,7 +86,8 @@ impl Basis {
         Footprint { points: transducer.footprint.points.iter().map(moved).collect() }
     }
 
-    /// Logarithms of the actuators' nominal gains, of drive and sensor alike: force per unit of drive, a coil's as of a resistance.
+    /// Natural logarithms of the actuators' nominal gains (force per unit of drive), the same as drives and as sensors; for a coil
+    /// driven by a voltage, that of its resistance alone.
     pub fn gains(&self) -> Vec<f64> {
         let gain = |(t, _): &(Transducer, Point)| match (t.entry, t.load.as_ref().and_then(|l| l.circuit)) {
             (Entry::Voltage, Some(coil)) => t.gain / coil.resistance,
@@ -99,7 +101,7 @@ impl Basis {
         self.coils.get(number).and_then(Option::as_ref)
     }
 
-    /// How many of the modes lie below a frequency.
+    /// Number of modes at or below a frequency (Hz).
     pub fn below(&self, hz: f64) -> usize {
         self.squares.partition_point(|square| square.sqrt() <= TAU * hz)
     }

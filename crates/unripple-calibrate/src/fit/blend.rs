@@ -7,16 +7,18 @@ use rayon::prelude::*;
 use unripple_core::{Point, SampledResponses, require};
 use unripple_physics::sample;
 
-/// Reach of a measured point's correction, in shortest wavelengths: half of what a standing wave keeps its sign over.
+/// Reach of a measured point's correction, in shortest wavelengths: half the distance between an antinode of a standing wave
+/// and its next node.
 const REACH: f64 = 0.125;
 
 impl Fitted {
-    /// The model's responses at some points as they would be measured, circuits of coils included, so many samples of each.
+    /// The model's responses at `points` as they would be measured, with the circuits of coils, `samples` samples of each.
     ///
-    /// A measurement that is limited to a band reaches beyond the surface's own, and so do these.
+    /// If the model was fitted to responses limited to a band ([`Pairs::limited`](crate::Pairs::limited)), these are limited
+    /// to the same band, which extends beyond that of the surface.
     ///
     /// # Errors
-    /// [`CalibrateError::Core`] for more than can be held.
+    /// [`CalibrateError::Core`] for more samples than can be held.
     pub fn sampled(&self, points: &[Point], samples: usize) -> Result<SampledResponses, CalibrateError> {
         let reached = self.reached();
         let all = sample(reached.map_or(self.modal(), |reached| &reached.responses), points, samples);
@@ -42,14 +44,15 @@ impl Fitted {
         Ok(SampledResponses::new(ports, points, conditions, samples, rows.concat())?)
     }
 
-    /// Responses at some points: the model's, corrected by what was measured nearby.
+    /// Responses at `points`: those of the model, corrected by responses measured nearby.
     ///
-    /// What the model misses at a measured point x is added at y with the weight e^{-|x-y|²/2ℓ²}, ℓ an eighth of the shortest
-    /// wavelength, divided by the sum of weights where that is above 1; at a measured point alone the measurement itself is
-    /// left, far from all of them the model.
+    /// The difference between measurement and model at a measured point x is added at y with the weight e^{-|x-y|²/2ℓ²}, ℓ an
+    /// eighth of the shortest wavelength, divided by the sum of weights where that is above 1. At a measured point with no
+    /// others near, this gives the measurement itself; far from all measured points, the model.
     ///
     /// # Errors
-    /// [`CalibrateError::Count`] if the measured responses have other actuators; [`CalibrateError::Range`] for another rate.
+    /// [`CalibrateError::Count`] if the measured responses have another number of actuators; [`CalibrateError::Range`] for
+    /// another sample rate.
     pub fn blend(
         &self,
         measured: &SampledResponses,

@@ -1,4 +1,4 @@
-//! A surface's model as fitted from its actuators alone.
+//! A fitted model of a surface: values, standard errors and responses.
 
 use super::coil::Coil;
 use super::following::Following;
@@ -13,15 +13,14 @@ use unripple_core::{Conditions, ModalResponses, Point, Port, Responses, Surface}
 use unripple_linalg::{Mat, Scale};
 use unripple_physics::Medium;
 
-/// The share of what was measured that neither model nor noise explains from which a model is called doubtful: a
-/// tenth, as amplitude.
+/// Smallest unexplained share of the measured signals, as amplitude, with which a model is called doubtful.
 const DOUBTED: f64 = 0.1;
 
-/// How many spreads an unknown may be from what was expected. Of values drawn from a normal distribution one in 16
-/// 000 lies farther.
+/// Largest accepted distance of an unknown from its expected value, in standard deviations of its prior. Of values from a normal
+/// distribution one in 16 000 lies farther.
 const FAR: f64 = 4.0;
 
-/// How many spreads a mass may be below none. Less than that is what noise makes of a mass of 0.
+/// Largest accepted negative mass, in standard deviations of its prior: noise turns a mass of 0 into values down to this.
 const NEGATIVE: f64 = 0.2;
 
 /// A value and its standard error.
@@ -29,43 +28,44 @@ const NEGATIVE: f64 = 0.2;
 pub struct Estimate {
     /// The value found, in SI.
     pub value: f64,
-    /// Its standard error: as large as noise and residual make it if the model is right, and no larger than its prior.
+    /// Standard error of the value, from noise and residual, if the model is right; at most the standard deviation of its prior.
     pub error: f64,
 }
 
 /// An actuator, or a stray mass, as fitted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FittedLoad {
-    /// Where, in metres: x and y.
+    /// Place on the surface, x and y, in metres.
     pub at: [Estimate; 2],
-    /// Mass that moves along, in kg. Far less than noise allows may come out negative.
+    /// Mass that moves with the sheet, in kg. A mass much smaller than its error may come out negative.
     pub mass: Estimate,
     /// Damping to the ground, in N·s/m.
     pub damping: Estimate,
-    /// Gain of the drive over nominal; 1 for a stray. Drive and sense are known but for a factor from one to the other.
+    /// Gain of the drive, relative to nominal; 1 for a stray mass. A factor common to all drives cannot be told from its inverse on
+    /// all sensors.
     pub drive: Estimate,
-    /// Gain of the sensor over nominal.
+    /// Gain of the sensor, relative to nominal; 1 for a stray mass.
     pub sense: Estimate,
 }
 
 /// Whether a fitted model is to be trusted.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
-    /// It explains what was measured.
+    /// The model explains the measurement.
     Good,
-    /// It does not: the surface is something that no value of the unknowns makes.
+    /// The model does not explain the measurement, or only with values far from nominal.
     Doubtful {
-        /// Share of what was measured that neither model nor noise explains.
+        /// Share of the measured signals, as amplitude, that neither model nor noise explains.
         unexplained: f64,
         /// Why, in words.
         why: String,
     },
 }
 
-/// A model fitted to what was measured, with responses anywhere.
+/// A model of a surface fitted to measurements, with responses at any place.
 ///
-/// The mass per area is that of the nominal surface: only tension, bending stiffness and loads over it can be found
-/// from responses, the mass itself only together with all gains.
+/// The mass per area is that of the nominal surface: responses determine only the ratios of tension, bending stiffness and loads to
+/// it. The mass itself cannot be told from a gain common to all responses.
 #[derive(Clone, Debug)]
 pub struct Fitted {
     /// Mean tension, in N/m.
@@ -74,7 +74,8 @@ pub struct Fitted {
     pub bending_stiffness: Estimate,
     /// Half the difference of the tensions along x and y, over their mean.
     pub anisotropy: Estimate,
-    /// Terms cos(pπx/a) cos(qπy/b) of the tension's profile as shares of the mean: [p, q] and the value.
+    /// Terms cos(pπx/a) cos(qπy/b) of the tension's profile, a and b the width and height of the surface: [p, q] and the amplitude as
+    /// a share of the mean tension.
     pub profile: Vec<([u32; 2], Estimate)>,
     /// Amplitude decay time (s) at some frequencies (Hz).
     pub decay: Vec<(f64, Estimate)>,
@@ -82,18 +83,18 @@ pub struct Fitted {
     pub actuators: Vec<FittedLoad>,
     /// Masses found elsewhere on the sheet.
     pub strays: Vec<FittedLoad>,
-    /// Seconds by which responses between actuators came late.
+    /// Latency that the responses between actuators still have, in s.
     pub late: Estimate,
-    /// Root of the mean square of the residual, over noise: 1 for a perfect model.
+    /// Rms residual, relative to the noise: 1 for a perfect model.
     pub excess: f64,
-    /// Residual over what was measured.
+    /// Rms residual, relative to the rms of the measured signals.
     pub residual: f64,
     unexplained: f64,
-    /// Whether to trust it.
+    /// Whether the model explains the measurement.
     pub verdict: Verdict,
     responses: ModalResponses,
     beyond: ModalResponses,
-    /// Beyond the surface's band as far as the measurement's, where that has one.
+    /// The model up to the measurement's band, beyond that of the surface, where the measurement was limited to one.
     reached: Option<Reached>,
     sensors: Mat<f64>,
     bending_shares: Vec<f64>,
@@ -116,7 +117,7 @@ impl Answers<'_> {
         Estimate { value: *self.found.values.clone().of(unknown), error }
     }
 
-    /// Of a logarithm.
+    /// Estimate of `by` times e to the unknown, a logarithm.
     fn ratio(&self, unknown: Unknown, by: f64) -> Estimate {
         let Estimate { value, error } = self.of(unknown);
         Estimate { value: by * value.exp(), error: by * value.exp() * error }
@@ -137,7 +138,7 @@ impl Answers<'_> {
         }
     }
 
-    /// Unknowns that are farther from what was expected than such values are. Gains may be anything.
+    /// Names of unknowns that are farther than [`FAR`] from what was expected. Gains are not checked.
     fn far(&self, expected: &Values) -> Vec<String> {
         let (mut values, mut thought) = (self.found.values.clone(), expected.clone());
         let far = |u: &Unknown| {
@@ -154,7 +155,7 @@ impl Answers<'_> {
         all.iter().map(|u| format!("{u:?}").to_lowercase()).collect()
     }
 
-    /// Modes of a band (Hz) as responses, and as the sensors'.
+    /// Modal responses of a band (Hz), and the modes' weights in the sensors' signals.
     fn responses(&self, band: [f64; 2], nominal: &Surface) -> Result<Modelled, CalibrateError> {
         let values = &self.found.values;
         let system = self.case.system(values)?;
@@ -188,7 +189,7 @@ impl Answers<'_> {
     }
 }
 
-/// Modes with all that is read from them.
+/// Modal responses, the sensors' weights (actuators x modes) and the share of bending in each mode's elastic energy.
 struct Modelled {
     responses: ModalResponses,
     sensors: Mat<f64>,
@@ -238,8 +239,8 @@ impl Fitted {
         })
     }
 
-    /// The responses of the fitted surface, per unit of each actuator's drive, anywhere; of coils on a voltage, as if they had no
-    /// inductance: with it they are those of [`Fitted::sampled`].
+    /// Responses of the fitted surface at any place, per unit of each actuator's drive. Coils driven by a voltage count as without
+    /// inductance; [`Fitted::sampled`] includes it.
     pub fn responses(&self) -> Responses {
         Responses::Modal(self.responses.clone())
     }
@@ -249,7 +250,7 @@ impl Fitted {
         &self.responses
     }
 
-    /// The same model with some of its actuators only.
+    /// This model with only the actuators of these indices.
     pub(crate) fn among(&self, actuators: &[usize]) -> Self {
         let part = |responses: &ModalResponses| ModalResponses {
             ports: actuators.iter().map(|a| responses.ports[*a].clone()).collect(),
@@ -268,23 +269,22 @@ impl Fitted {
         }
     }
 
-    /// The same with all modes that the fit worked with, those outside the band too.
+    /// Modal responses with all modes of the fit, also those outside the surface's band.
     pub(crate) fn beyond(&self) -> &ModalResponses {
         &self.beyond
     }
 
-    /// The model through the measurement's band, where that has one.
+    /// The model limited to the measurement's band, where the measurement was limited to one.
     pub(super) fn reached(&self) -> Option<&Reached> {
         self.reached.as_ref()
     }
 
-    /// The circuit of an actuator, if it is a coil on a voltage.
+    /// The circuit of an actuator that is a coil driven by a voltage; `None` for others.
     pub(crate) fn coil(&self, actuator: usize) -> Option<&Coil> {
         self.coils.get(actuator).and_then(Option::as_ref)
     }
 
-    /// The same model with all responses multiplied by a gain, a ratio: in the scale of a probe that is not the
-    /// sensors'.
+    /// This model with all responses multiplied by `gain`, a ratio: for a probe whose scale differs from that of the sensors.
     #[must_use]
     pub fn scaled(mut self, gain: f64) -> Self {
         let reached = self.reached.as_mut().map(|reached| &mut reached.responses);
@@ -299,19 +299,19 @@ impl Fitted {
         &self.sensors
     }
 
-    /// Bending's share of each mode's elastic energy.
+    /// Share of bending in the elastic energy of each mode, 0 to 1.
     pub fn bending_shares(&self) -> &[f64] {
         &self.bending_shares
     }
 
-    /// Share of what was measured, as amplitude, that neither model nor noise explains: what of the residual is large where the signal
-    /// is large, whatever the noise was said to be.
+    /// Share of the measured signals, as amplitude, that neither model nor noise explains. It is estimated from the part of the
+    /// residual that grows with the signal, whatever noise was stated.
     pub fn unexplained(&self) -> f64 {
         self.unexplained
     }
 
-    /// What follows tension, over that at calibration, by this model. What the model leaves unexplained counts as its error, if it is
-    /// more than the options say.
+    /// A tracker of the tension, relative to that at calibration, with this model. The share that the model leaves unexplained counts
+    /// as its error, if it is larger than that of the options.
     ///
     /// # Errors
     /// Those of [`Tracker::with_sensors`].

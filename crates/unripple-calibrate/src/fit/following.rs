@@ -1,25 +1,26 @@
-//! How much of a residual follows what was measured.
+//! Separation of a residual into noise and a share of the measured signal.
 
-/// Steps of the fit, which settles in a few.
+/// Number of steps of the iteration, which converges in a few.
 const STEPS: usize = 30;
 
-/// What is left in a step of one of the two that seems to be less than none.
+/// Factor by which noise or share is reduced in a step whose least-squares estimate of it is negative.
 const LESS: f64 = 0.1;
 
-/// Noise in a residual and the share of what was measured that is left in it beside the noise.
+/// The two parts of a residual: noise, and a share of the measured signal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Following {
-    /// Mean square of the noise on a line.
+    /// Mean square of the noise on a spectral line.
     pub noise: f64,
-    /// Share of what was measured, as amplitude, that is in the residual.
+    /// Share of the measured signal that is in the residual, as amplitude.
     pub share: f64,
 }
 
 impl Following {
-    /// From squares of residual and measurement, line by line. `lines` are pairs |r|², |y|², `[line][2]`.
+    /// Estimates both parts from the squared magnitudes |r|² of the residual and |y|² of the measurement at each spectral line,
+    /// `[line][2]`.
     ///
-    /// Noise is as large where there is much signal as where there is little; what a model gets wrong is large where the signal is.
-    /// So |r|² = n² + c² |y|², by least squares, each line weighed by the inverse of what it is expected to scatter by.
+    /// Noise does not depend on the signal, whereas the error of a model grows with it. So |r|² = n² + c² |y|² is fitted by least
+    /// squares, each line weighted by the inverse of its expected variance.
     pub fn of(lines: &[[f64; 2]]) -> Self {
         let count = lines.len() as f64;
         let mean = |k: usize| lines.iter().map(|l| l[k]).sum::<f64>() / count.max(1.0);
@@ -41,7 +42,7 @@ impl Following {
             (noise, share) = match (a > 0.0, b > 0.0) {
                 _ if det.is_nan() || det <= 0.0 => (0.0, left / power),
                 (true, true) => (a, b),
-                // Not to none at once: without one of the two, single lines that are very loud weigh so much that it never comes back.
+                // Not set to 0 at once: without one of the two parts, single strong lines get so much weight that it never recovers.
                 (false, _) => (LESS * noise, ry / yy),
                 (_, false) => (r / one, LESS * share),
             };

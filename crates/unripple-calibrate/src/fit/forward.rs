@@ -18,33 +18,33 @@ const CHUNK: usize = 8;
 pub(super) struct Answer {
     /// Places x places, in m/s/N.
     pub admittance: Mat<c64>,
-    /// One for each unknown that the sheet's responses depend on, in their order.
+    /// Derivatives of the admittance by each unknown that the sheet's responses depend on, in the order of `Layout::unknowns`.
     pub derivatives: Vec<Mat<c64>>,
 }
 
-/// One frequency's intermediate results.
+/// Intermediate results at one frequency.
 struct Point {
     s: c64,
     /// Modal velocities under loads, modes x places.
     moved: Mat<c64>,
-    /// (1 + Z Y₀)⁻¹.
+    /// (1 + Z Y₀)⁻¹, with Z the impedance of the loads and Y₀ the admittance of the sheet alone.
     shared: Mat<c64>,
     admittance: Mat<c64>,
 }
 
-/// Admittances at one frequency between places of the sheet that are candidates for a mass, and all others.
+/// Admittances at one frequency of candidate places for a point mass: between them and the other places, and of each at itself.
 #[derive(Clone, Debug)]
 pub(super) struct Look {
     s: c64,
     admittance: Mat<c64>,
-    /// Candidates by places.
+    /// Admittances between candidates and places, candidates x places.
     between: Mat<c64>,
     /// Admittance of each candidate at its own place.
     own: Vec<c64>,
 }
 
 impl Look {
-    /// The change that a mass (kg) at each candidate makes, as derivatives.
+    /// The change of the admittance that a mass (kg) at each candidate makes, in place of the derivatives.
     pub fn with(&self, mass: f64) -> Answer {
         let places = self.admittance.nrows();
         let change = |c: usize| {
@@ -56,7 +56,8 @@ impl Look {
 }
 
 impl System {
-    /// Admittances between candidates and the places at complex frequencies (1/s).
+    /// For each complex frequency (1/s), the admittances at candidate places of a point mass, and between them and the places of
+    /// actuators and taps.
     pub fn looks(
         &self,
         basis: &Basis,
@@ -87,7 +88,7 @@ impl System {
         frequencies.par_iter().map(look).collect()
     }
 
-    /// Velocity per force of all modes left out, where the force is.
+    /// Driving-point admittance (m/s/N) of all modes that are left out.
     fn compliance(&self, s: c64) -> c64 {
         let sigma = self.sheet.sigmas.last().copied().unwrap_or(0.0);
         s * self.rest.weight / (s * s + s * (2.0 * sigma) + self.rest.square)
@@ -95,7 +96,7 @@ impl System {
 
     /// The admittances at complex frequencies (1/s).
     ///
-    /// With Y₀ that of the sheet alone and Z the impedance of the loads, Y = Y₀ G, G = (1 + Z Y₀)⁻¹ (Woodbury).
+    /// With Y₀ the admittance of the sheet alone and Z the impedance of the loads, Y = Y₀ G, G = (1 + Z Y₀)⁻¹ (Woodbury).
     pub fn admittances(&self, frequencies: &[c64]) -> Vec<Mat<c64>> {
         frequencies.par_iter().map(|s| self.point(*s).admittance).collect()
     }
@@ -115,7 +116,7 @@ impl System {
             .collect()
     }
 
-    /// Changes of the stiffness by each unknown that changes it, by the nominal modes.
+    /// Derivatives of the stiffness by each unknown that changes it: a matrix, nominal modes x nominal modes, and a factor.
     fn stiffnesses<'a>(&'a self, basis: &'a Basis) -> Vec<(MatRef<'a, f64>, f64)> {
         let count = self.sheet.squares.len();
         let mut all = vec![(self.sheet.tension.as_ref(), 1.0), (self.sheet.bending.as_ref(), 1.0)];
@@ -148,7 +149,7 @@ impl System {
         Point { s, moved, admittance: times(alone.as_ref(), shared.as_ref()), shared }
     }
 
-    /// Derivatives by all that changes the stiffness, at each of some frequencies.
+    /// Derivatives of the admittance by each unknown that changes the stiffness, `[frequency][unknown]`.
     fn stiffened(&self, points: &[Point], stiffnesses: &[(MatRef<'_, f64>, f64)]) -> Vec<Vec<Mat<c64>>> {
         let (modes, places) = (self.shapes.nrows(), self.places());
         let block = |i: usize| (2 * i * places, (2 * i + 1) * places);
@@ -205,7 +206,7 @@ impl System {
         Answer { admittance: point.admittance, derivatives }
     }
 
-    /// By the logarithms of the decay rates at the knots: d(mobility)/dσ = -2 mobility².
+    /// Derivatives of the admittance by the logarithms of the decay rates at the knots: d(mobility)/dσ = -2 mobility².
     fn damped(&self, point: &Point) -> Vec<Mat<c64>> {
         let places = self.places();
         let mut all = vec![Mat::<c64>::zeros(places, places); super::layout::KNOTS.len()];
@@ -224,11 +225,11 @@ impl System {
         all
     }
 
-    /// By a place's coordinate along an axis.
+    /// Derivative of the admittance by the coordinate of a place along an axis (0 for x, 1 for y).
     fn displaced(&self, point: &Point, place: usize, axis: usize) -> Mat<c64> {
         let (modes, places) = (self.shapes.nrows(), self.places());
         let slope = self.slopes[axis].col(place);
-        // What moves there under loads, by the slope of the shapes instead of the shapes.
+        // Slope of the loaded sheet's velocity at the place along the axis.
         let felt: Vec<c64> =
             (0..places).map(|q| (0..modes).map(|m| point.moved[(m, q)] * slope[m]).sum()).collect();
         let shared: Vec<c64> = (0..places).map(|q| point.shared[(place, q)]).collect();
@@ -247,7 +248,7 @@ fn transposed_real(a: &Mat<f64>, b: &Mat<c64>) -> Mat<c64> {
     Mat::from_fn(a.ncols(), b.ncols(), |i, j| a.col(i).iter().zip(b.col(j).iter()).map(|(x, y)| y * *x).sum())
 }
 
-/// On one thread: frequencies run side by side.
+/// Matrix product on one thread, since frequencies already run in parallel.
 fn product(out: &mut Mat<f64>, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
     multiply(out.as_mut(), Accum::Replace, a, b, 1.0, Par::Seq);
 }

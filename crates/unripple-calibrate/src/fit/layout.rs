@@ -6,11 +6,10 @@ use unripple_core::Point;
 /// the lowest modes are too few to determine more.
 pub(super) const KNOTS: [f64; 5] = [0.0625, 0.125, 0.25, 0.5, 1.0];
 
-/// Priors: how far values are expected to be from nominal ones, one standard deviation each. In order: logarithm of
-/// tension, of bending stiffness, share of anisotropy, share of each term of the profile at one half wave, logarithm
-/// of decay rates, metres, logarithm of gains, kg, N·s/m, metres of a stray, the logarithm of what all sensors have
-/// in common, seconds by which responses came late. Twice as much leaves an unknown freer by that, half as much holds
-/// it nearer to the surface file.
+/// Standard deviations of the priors around the nominal values. In order: logarithm of tension, logarithm of bending stiffness,
+/// anisotropy as a share, each term of the profile with one half wave as a share, logarithm of decay rates, place of an actuator
+/// (m), logarithm of gains, mass (kg), damping (N·s/m), place of a stray mass (m), logarithm of the gain common to all sensors,
+/// latency (s). Twice as much leaves an unknown freer by that, half as much holds it nearer to the surface file.
 const TENSION: f64 = 0.1;
 const BENDING: f64 = 0.1;
 const SKEW: f64 = 0.02;
@@ -29,7 +28,7 @@ const LATE: f64 = 2e-5;
 pub(super) struct Layout {
     /// Number of actuators.
     pub actuators: usize,
-    /// Half waves of each term of the profile.
+    /// Numbers of half waves along x and y in each term of the profile.
     pub waves: Vec<[u32; 2]>,
     /// Number of stray masses.
     pub strays: usize,
@@ -43,7 +42,7 @@ pub(super) enum Unknown {
     Skew,
     Term(usize),
     Knot(usize),
-    /// Of a place, along x (0) or y (1).
+    /// Coordinate of an actuator or stray mass: its number, then 0 for x or 1 for y.
     Place(usize, usize),
     Mass(usize),
     Resistance(usize),
@@ -76,9 +75,9 @@ pub(super) struct Values {
     pub drive: Vec<f64>,
     /// Logarithm of each actuator's gain as a sensor.
     pub sense: Vec<f64>,
-    /// Logarithm of a gain of all sensors.
+    /// Logarithm of the gain common to all sensors.
     pub level: f64,
-    /// Seconds by which responses between actuators came late.
+    /// Latency of the responses between actuators, in s.
     pub late: f64,
 }
 
@@ -130,7 +129,7 @@ impl Layout {
 }
 
 impl Values {
-    /// Gain, a ratio to nominal, from one actuator's drive to another's sensor.
+    /// Product of the gains of one actuator's drive and another's sensor, in SI units.
     pub fn gain(&self, driven: usize, heard: usize) -> f64 {
         (self.drive[driven] + self.sense[heard] + self.level).exp()
     }

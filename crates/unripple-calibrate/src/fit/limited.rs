@@ -11,35 +11,39 @@ use std::f64::consts::TAU;
 use unripple_dsp::ModalSynth;
 use unripple_linalg::{Mat, c64};
 
-/// Error of the synthesis, over the sum of magnitudes. Far below the noise floor of 60 dB that
-/// [`Measured`](super::Measured) assumes at least.
+/// Error of the modal synthesis, relative to the sum of the weights' magnitudes: far below the noise, at least -60 dB, that
+/// [`Measured`](super::Measured) assumes.
 const ACCURACY: f64 = 1e-6;
 
-/// Samples before time 0 that what comes early is drawn from. The ringing of the band's edges has died away so far
-/// before; more changes nothing.
+/// Samples before time 0 in which the early ringing of the band's edges is computed. Still earlier it has decayed; more samples
+/// change nothing.
 const BEFORE: usize = 64;
 
 /// Responses between actuators by a model, in the order of [`Pairs`](super::Pairs), from time 0 on.
 #[derive(Clone, Debug)]
 pub(crate) struct Limited {
-    /// The model's responses themselves, `[pair][sample]`.
+    /// The model's responses, not limited to a band, `[pair][sample]`.
     pub whole: Vec<Vec<f64>>,
-    /// As they are measured: limited to a band without phase, late, and without what then precedes time 0.
+    /// The same responses as they would be measured, `[pair][sample]`: limited to a band by a zero-phase filter, delayed by `late`,
+    /// and cut off before time 0.
     pub cut: Vec<Vec<f64>>,
-    /// Seconds by which they are late.
+    /// Latency of the responses `cut`, in s.
     pub late: f64,
-    /// What an impulse and its odd derivatives become on the same way: all that is measured of modes far above the band.
+    /// An impulse and its odd derivatives ([`DERIVATIVES`]), limited, delayed and cut off like `cut`, `[derivative][sample]`: all
+    /// that is measured of modes far above the band.
     pub far: Vec<Vec<f64>>,
 }
 
-/// Derivatives of an impulse that modes far above the band make: an impulse's own sample, their compliance, inertia and what is left.
+/// Orders of the derivatives of an impulse that represent modes far above the band: 0 for an impulse within one sample, 1 for the
+/// modes' compliance, 3 for their inertia, 5 for the next term.
 pub(crate) const DERIVATIVES: [i32; 4] = [0, 1, 3, 5];
 
 impl Limited {
-    /// The responses of some values by the first `count` nominal modes, as many samples as measured.
+    /// Responses for `values` by the first `count` nominal modes, as many samples as measured; `top` is the top of the surface's band
+    /// in Hz.
     ///
-    /// A band with soft edges rings for the inverse of their width, before and after. What rings before is cut off
-    /// when responses are kept from time 0 on, and what is left has other spectra than the model's.
+    /// A band-pass filter rings before and after an impulse, for about the inverse of the width of its edges. The ringing before time
+    /// 0 is cut off in measured responses, so that their spectra differ from those of the model.
     pub(super) fn new(
         basis: &Basis,
         layout: &Layout,
@@ -48,7 +52,7 @@ impl Limited {
         (band, rate, samples): (Band, f64, usize),
     ) -> Result<Self, CalibrateError> {
         let system = System::new(basis, layout, values, &[], (count, top))?;
-        // All that are known; what stands for those that are not is too fast to be sampled.
+        // All modes of the basis; the coordinates that stand for modes left out are too fast to be sampled.
         let highest = system.sheet.squares.last().copied().unwrap_or(0.0).max(0.0).sqrt() / TAU;
         let modes = LoadedModes::new(basis, &system, values, [0.0, highest.max(band.high[1])])?;
         let actuators = layout.actuators;
@@ -71,7 +75,8 @@ impl Limited {
     }
 }
 
-/// A response as it is measured: limited to a band without phase, late by so many seconds, and without what then precedes time 0.
+/// A response as it would be measured: limited to `band` by a zero-phase filter, delayed by `late` seconds, and without what then
+/// precedes time 0.
 pub(super) fn through(
     band: Band,
     response: &[f64],
@@ -84,7 +89,8 @@ pub(super) fn through(
     Ok(shift(&signal, late * rate).split_off(BEFORE))
 }
 
-/// A derivative of an impulse at sample `BEFORE`, limited to a band, over a power of the band's top.
+/// The derivative of order `order` of an impulse at sample `BEFORE`, limited to a band, with frequencies relative to the top of the
+/// band.
 fn derivative(order: i32, band: Band, rate: f64, samples: usize) -> Vec<f64> {
     let size = (2 * (samples + BEFORE)).next_power_of_two();
     let plan = RealFftPlanner::<f64>::new().plan_fft_inverse(size);

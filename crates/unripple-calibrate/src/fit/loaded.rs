@@ -16,7 +16,7 @@ use unripple_physics::Modes;
 pub(super) struct LoadedModes {
     /// Decay rate (1/s) and damped angular frequency (rad/s) of each mode.
     pub poles: Vec<Pole>,
-    /// Bending's share of each mode's elastic energy, 0 to 1.
+    /// Share of bending in the elastic energy of each mode, 0 to 1.
     pub bending_shares: Vec<f64>,
     /// Weights of the actuators, actuators x modes.
     pub weights: Mat<f64>,
@@ -24,11 +24,11 @@ pub(super) struct LoadedModes {
     pub shapes: Arc<dyn Shapes>,
 }
 
-/// Nominal modes combined.
+/// Mode shapes that are linear combinations of the nominal ones.
 #[derive(Debug)]
 struct Combined {
     base: Arc<Modes>,
-    /// Nominal modes x modes.
+    /// Coefficients of the combinations, nominal modes x modes.
     mixing: Mat<f64>,
 }
 
@@ -48,9 +48,9 @@ impl Shapes for Combined {
 }
 
 impl LoadedModes {
-    /// Modes of a band (Hz): those of K with the mass 1 + Σ μ b bᵀ, what each load feels of the modes left out being one more
-    /// coordinate. Dampers, and what inductances make of those of coils, count by their work in each mode, as light ones do; masses below
-    /// none count as none.
+    /// Modes within `band` (Hz): eigenvectors of the stiffness K with the mass 1 + Σ μ b bᵀ, where μ is the mass of a load and b holds the
+    /// modes' values at it. At each load one more coordinate stands for the modes that are left out. Dampers, and the inductances of coils,
+    /// are added to each mode in first order, as is right for light ones; negative masses count as zero.
     pub fn new(
         basis: &Basis,
         system: &System,
@@ -112,7 +112,7 @@ impl LoadedModes {
     }
 }
 
-/// What dampers and the circuits of coils add to the stiffness of a mode of unit mass, and to its decay rate, by what it moves of each load.
+/// Stiffness and decay rate that dampers and coil circuits add to a mode of unit modal mass, from its values at the loads.
 fn hung(basis: &Basis, values: &Values, loads: ColRef<'_, f64>, omega: f64) -> [f64; 2] {
     let one = |(p, moved): (usize, &f64)| {
         let [stiffness, damping] = basis.coil(p).map_or([0.0; 2], |coil| coil.in_mode(omega));
@@ -121,7 +121,8 @@ fn hung(basis: &Basis, values: &Values, loads: ColRef<'_, f64>, omega: f64) -> [
     loads.iter().enumerate().map(one).fold([0.0; 2], |[a, b], [x, y]| [a + x, b + y])
 }
 
-/// Bending's share of a mode's elastic energy, from what its shape and the bending of it make, and what is close to loads.
+/// Share of bending in a mode's elastic energy, from its shape, the bending stiffness times its shape, and the bending energy close to
+/// loads.
 fn bending_share(shape: ColRef<'_, f64>, bent: ColRef<'_, f64>, near: f64, square: f64) -> f64 {
     let energy = near + shape.iter().zip(bent.iter()).map(|(x, b)| x * b).sum::<f64>();
     (energy / square.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0)

@@ -5,7 +5,8 @@ use crate::signals::Band;
 use unripple_core::{Point, Surface, require};
 use unripple_dsp::median;
 
-/// Least noise of responses over themselves: what models of a band's edges and a device's latency are good for.
+/// Smallest noise assumed, relative to the rms of the responses: the accuracy of the models of a band's edges and of a device's
+/// latency.
 const FLOOR: f64 = 1e-3;
 
 /// The data of a fit: responses between a surface's actuators, taps recorded by them, or both.
@@ -27,12 +28,12 @@ pub struct Pairs {
     pub responses: Vec<Vec<f64>>,
     /// Root mean square of the noise on each sample, taken as white up to half the rate, in the responses' unit.
     pub noise: f64,
-    /// The band that they were limited to without phase before what precedes time 0 was cut off, as
-    /// [`Session`](crate::measure::Session) measures them; `None` if they are whole.
+    /// Band that the responses were limited to by a zero-phase filter, after which all before time 0 was cut off, as
+    /// [`Session`](crate::measure::Session) measures them; `None` if they are not limited.
     pub limited: Option<Band>,
 }
 
-/// A tap at a known place, heard by every actuator. The force's shape and strength are unknown.
+/// A tap at a known place, recorded by every actuator as a sensor. The force's shape and strength are unknown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tap {
     /// Where the tap was, in m.
@@ -44,17 +45,17 @@ pub struct Tap {
 }
 
 impl Measured {
-    /// Responses from actuator to actuator alone.
+    /// Responses between actuators alone, in the order of [`Pairs::responses`]: `rate` in Hz, `noise` as in [`Pairs::noise`].
     pub fn pairs(rate: f64, responses: Vec<Vec<f64>>, noise: f64) -> Self {
         Self { rate, pairs: Some(Pairs { responses, noise, limited: None }), taps: Vec::new() }
     }
 
-    /// Responses from actuator to actuator, in the order of [`Pairs::responses`], whose noise is what reciprocity leaves: `h_ij` and
-    /// `h_ji` differ by gains and noise alone. The median over all pairs, 60 dB below the responses at least, as white noise that has
-    /// the same density within `band` (Hz), where the signals are.
+    /// Responses between actuators, in the order of [`Pairs::responses`], with the noise estimated from reciprocity: `h_ij` and
+    /// `h_ji` differ by gains and noise alone. The noise is the median over all pairs, at least -60 dB relative to the responses,
+    /// given as white noise that has the same density as within `band` (Hz), where the signals are.
     ///
     /// # Errors
-    /// [`CalibrateError::Count`] without two responses that are each other's reverse, [`CalibrateError::Range`] for an empty band.
+    /// [`CalibrateError::Count`] without two actuators measured in both directions, [`CalibrateError::Range`] for an empty band.
     ///
     /// ```
     /// use unripple_calibrate::Measured;
@@ -91,8 +92,8 @@ impl Measured {
         Ok(Self::pairs(rate, responses, noise.max(f64::MIN_POSITIVE)))
     }
 
-    /// The same with noise that was measured as such, root mean square on each sample; no less than 60 dB below the responses between
-    /// actuators.
+    /// These data with a measured noise, rms on each sample, for the responses between actuators; it is at least -60 dB relative to
+    /// their rms.
     #[must_use]
     pub fn with_noise(mut self, noise: f64) -> Self {
         if let Some(pairs) = &mut self.pairs {
@@ -103,7 +104,7 @@ impl Measured {
         self
     }
 
-    /// The same, the responses between actuators limited to a band; see [`Pairs::limited`].
+    /// These data with the responses between actuators marked as limited to a band; see [`Pairs::limited`].
     pub fn limited_to(mut self, band: Band) -> Self {
         if let Some(pairs) = &mut self.pairs {
             pairs.limited = Some(band);
@@ -111,12 +112,12 @@ impl Measured {
         self
     }
 
-    /// Taps alone, as many as there are, recorded at `rate` samples per second.
+    /// Data of taps alone, recorded at `rate` samples per second.
     pub fn taps(rate: f64, taps: Vec<Tap>) -> Self {
         Self { rate, pairs: None, taps }
     }
 
-    /// Samples of the shortest signal.
+    /// Number of samples of the shortest signal.
     pub(crate) fn samples(&self) -> usize {
         let pairs = self.pairs.iter().flat_map(|p| &p.responses).map(Vec::len).filter(|n| *n > 0);
         pairs.chain(self.taps.iter().flat_map(|tap| &tap.heard).map(Vec::len)).min().unwrap_or(0)

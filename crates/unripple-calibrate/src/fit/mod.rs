@@ -1,4 +1,4 @@
-//! The model of a surface fitted to what was measured on it.
+//! Fit of a surface's model to measured responses and taps.
 
 mod basis;
 mod blend;

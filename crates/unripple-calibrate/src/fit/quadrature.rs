@@ -3,17 +3,17 @@
 use unripple_core::{Outline, Point, Shape};
 use unripple_physics::Footprint;
 
-/// Points along a side for each radian that a wave turns over half of it, and some more.
+/// Quadrature points along a side: `DENSE` for each radian of phase over half the side, and `MORE`, so that the error is near rounding.
 const DENSE: f64 = 0.6;
 const MORE: f64 = 12.0;
 
-/// Parts of a cell along each side, by which its share inside the outline is found.
+/// Parts of a cell along each side, by which the share of it inside the outline is counted.
 const PARTS: usize = 4;
 
 /// Points and weights (m²) of an integral over an outline of functions with wavenumbers up to `k` (rad/m).
 ///
-/// Gauss-Legendre quadrature on whole rectangles, to about rounding; elsewhere cells of a tenth of a wavelength, weighed by how much of them
-/// lies inside.
+/// Gauss-Legendre quadrature on whole rectangles, to about rounding; elsewhere cells of a tenth of a wavelength, weighted by the share of
+/// each that lies inside.
 pub(super) fn over(outline: &Outline, k: f64) -> Vec<(Point, f64)> {
     match outline.shape {
         Shape::Rectangle { width, height } if outline.holes.is_empty() => {

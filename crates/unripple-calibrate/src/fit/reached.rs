@@ -1,4 +1,4 @@
-//! A fitted model through the band of the measurement that it was fitted to.
+//! A fitted model limited to the band of its measurement.
 
 use crate::signals::Band;
 use std::f64::consts::TAU;
@@ -6,24 +6,25 @@ use std::sync::Arc;
 use unripple_core::{ModalResponses, Point, Shapes};
 use unripple_linalg::Mat;
 
-/// Highest mode that is sampled, over the sample rate. Near one half of the rate a mode is folded back; a tenth is
+/// Highest natural frequency that is kept, relative to the sample rate. Modes above half the rate would alias; a tenth of the range is
 /// left for the filters.
 const FASTEST: f64 = 0.45;
 
-/// A model through the band of a measurement.
+/// A model limited to the band of its measurement.
 ///
-/// Sweeps end above a surface's band and fade out there, and what is focused by a measurement has the modes in between: a model that ended
-/// at the band would not only focus less well, it would also leave all of them over where it is corrected by what was measured.
+/// Sweeps end above a surface's band and fade out there, so that measured responses contain modes in between. A model that ended at the
+/// surface's band would focus less well, and [`Fitted::blend`](super::Fitted::blend) would take all of those modes for an error of the
+/// model.
 #[derive(Clone, Debug)]
 pub(super) struct Reached {
-    /// All modes that can be sampled: of those above the measurement's band is heard what they give way.
+    /// All modes that can be sampled. Those above the measurement's band contribute their compliance.
     pub responses: ModalResponses,
     /// The band of the measurement.
     pub band: Band,
 }
 
 impl Reached {
-    /// The model through a band, as far above the surface's own as that reaches.
+    /// The model limited to `band`, which may extend above the surface's own.
     pub fn of(model: &ModalResponses, band: Band) -> Self {
         let most = TAU * FASTEST * model.conditions.rate;
         let kept: Vec<usize> = (0..model.poles.len()).filter(|m| model.poles[*m].omega < most).collect();
@@ -33,13 +34,13 @@ impl Reached {
         Self { responses: ModalResponses { input, poles, shapes, ..model.clone() }, band }
     }
 
-    /// A model with other responses of the same modes.
+    /// This model with changed responses of the same modes.
     pub fn with(&self, change: impl Fn(&ModalResponses) -> ModalResponses) -> Self {
         Self { responses: change(&self.responses), band: self.band }
     }
 }
 
-/// Some of all shapes.
+/// A selection of mode shapes.
 #[derive(Debug)]
 struct Part {
     base: Arc<dyn Shapes>,

@@ -15,11 +15,11 @@ use unripple_linalg::{Mat, c64};
 pub(super) struct Residual {
     /// Model less measurement, whitened: in standard deviations of the noise.
     pub values: Vec<f64>,
-    /// Rows by unknowns; empty unless asked for.
+    /// Derivatives of `values` by the unknowns in units of their spreads, values x unknowns; empty unless asked for.
     pub slopes: Mat<f64>,
-    /// Number of independent real data, before unknowns are counted.
+    /// Number of independent real data, before the number of unknowns is subtracted.
     pub data: f64,
-    /// Sum of squares of what was measured, in the same units.
+    /// Sum of squares of the measurement, in squared standard deviations of the noise.
     pub power: f64,
     /// Squares of residual and measurement, line by line of every response's spectrum.
     pub lines: Vec<[f64; 2]>,
@@ -102,8 +102,9 @@ impl Case<'_> {
             .collect()
     }
 
-    /// A response between actuators. What modes far above the band are in it is left out of both model and measurement: the same at all
-    /// frequencies (the impulse's own sample), or growing with s, s³ and s⁵ (their compliance and inertia).
+    /// Rows of a response between actuators. The contribution of modes far above the band is projected out of both model and
+    /// measurement: a part that is the same at all frequencies (an impulse within one sample), and parts that grow with s, s³ and s⁵
+    /// (compliance, inertia and the next term).
     fn pair(&self, pair: usize, values: &Values, answers: &[Answer], unknowns: &[Unknown]) -> Block {
         let actuators = self.layout.actuators;
         let (driven, heard) = (pair / actuators, pair % actuators);
@@ -144,8 +145,8 @@ impl Case<'_> {
         }
     }
 
-    /// A tap: at each frequency what the actuators hear is known but for a common factor, the force's spectrum, whose best value
-    /// leaves what is orthogonal to the model (variable projection: Kaufman, *BIT* 15, 49, 1975).
+    /// Rows of a tap. At each frequency the model gives the sensors' signals up to a common factor, the force's spectrum. Its best
+    /// value leaves a residual orthogonal to the model (variable projection: Kaufman, *BIT* 15, 49, 1975).
     fn tap(&self, tap: usize, values: &Values, answers: &[Answer], unknowns: &[Unknown]) -> Block {
         let actuators = self.layout.actuators;
         let at = self.layout.loaded() + tap;
@@ -192,9 +193,9 @@ impl Case<'_> {
 
 /// Rows of one response or tap.
 pub(super) struct Block {
-    /// Model less measurement.
+    /// Model less measurement, in standard deviations of the noise.
     pub values: Vec<f64>,
-    /// Derivatives, by the unknowns that were asked for.
+    /// Derivatives of `values`, a column for each unknown that was asked for.
     pub columns: Vec<Vec<f64>>,
     lines: Vec<[f64; 2]>,
     data: f64,
@@ -217,7 +218,7 @@ fn columns(blocks: &[Block], count: usize) -> Mat<f64> {
     all
 }
 
-/// Orthonormal columns of what is left out of responses between actuators.
+/// Orthonormal columns that are projected out of responses between actuators: those of modes far above the band.
 struct Nuisance(Vec<Vec<f64>>);
 
 impl Nuisance {

@@ -1,4 +1,4 @@
-//! The model fitted to measured responses: Gauss-Newton steps, damped as by Levenberg-Marquardt.
+//! Fit of the model to measured responses: Gauss-Newton steps, damped as by Levenberg-Marquardt.
 
 use super::basis::Basis;
 use super::fitted::Fitted;
@@ -18,13 +18,13 @@ use unripple_physics::{Medium, Transducer};
 pub struct FitOptions {
     /// Frequencies that are fitted, in Hz; up to 0.97 of the surface's own band where `None`.
     pub band: Option<[f64; 2]>,
-    /// Half waves in all that the terms of the tension's profile have at most; 0 for an even tension.
+    /// Largest number of half waves, along x and y together, in a term of the tension's profile; 0 for uniform tension.
     pub profile: usize,
-    /// Stray masses that may be found on the sheet.
+    /// Largest number of stray masses that the fit may find on the sheet.
     pub strays: usize,
-    /// Nominal modes are known up to this multiple of the band's top.
+    /// Highest frequency of the nominal modes that are computed, as a multiple (1.05 to 4) of the top of the band.
     pub reach: f64,
-    /// Time from the impulse that is looked at, in s.
+    /// Duration of the responses that is fitted, from the impulse on, in s.
     pub window: f64,
 }
 
@@ -34,37 +34,39 @@ impl Default for FitOptions {
     }
 }
 
-/// Windows e^{-αt} of the descents and of the last one, in 1/s. Half as much lets lines be narrower, so that
-/// frequencies weigh more and a start has to be nearer.
+/// Decay rates α, in 1/s, of the window e^{-αt}: `COARSE` while the band grows, `FINE` for the whole band. Half as much makes
+/// spectral lines narrower, so that frequencies weigh more and a start has to be nearer.
 const COARSE: f64 = 60.0;
 const FINE: f64 = 30.0;
 
-/// Top of the first band, over the first mode's frequency. It holds the first ten or so modes of a membrane; with
-/// more a descent may settle beside the truth, with fewer it knows too little.
+/// Top of the first fitted band, relative to the frequency of the first mode. It holds the first ten or so modes of a membrane;
+/// with more a descent may converge to a false minimum, with fewer the data are too few.
 const FIRST: f64 = 3.5;
 
 /// Factor from one band's top to the next. A longer step may leave modes more than a line's width off, a shorter one
 /// costs more fits.
 const WIDER: f64 = 1.6;
 
-/// Times that the whole band is fitted before the last, where the model has to say what a limited band took away.
+/// Fits of the whole band before the last one, for responses limited to a band: what that removed from them is computed from the
+/// model.
 const AGAIN: usize = 1;
 
-/// Lowest residual over noise at which stray masses are looked for, and the share of it that one has to leave at most.
+/// Smallest residual relative to noise at which stray masses are searched, and (`WORTH`) the largest factor by which the residual
+/// must fall for one to be kept.
 const SUSPECT: f64 = 1.5;
 const WORTH: f64 = 0.85;
 
-/// The model fitted to what was measured on a surface.
+/// Fits the model of a surface to responses and taps that were measured on it.
 ///
-/// Unknown are the mean tension, bending stiffness, anisotropy and profile of the tension, a damping law, places, masses, damping
-/// and gains of the actuators, and a few stray masses wherever they lie; each is held to its nominal value as weakly as such
-/// values are known. Spectra are compared from low to high frequencies, so that a mode's frequency is known to within its line's
-/// width before its phase matters (Gauss-Newton steps, damped as by Levenberg-Marquardt). Another
-/// tension turns the nominal modes into combinations of each other; loads on the sheet add to it by Woodbury's identity.
+/// The unknowns are the mean tension, bending stiffness, anisotropy and profile of the tension, a damping law, places, masses,
+/// damping and gains of the actuators, and a few stray masses anywhere. Each has a normal prior around its nominal value, as wide
+/// as such values are uncertain. Spectra are compared from low to high frequencies, so that a mode's frequency is known to within
+/// the width of its spectral line before its phase matters (Gauss-Newton steps, damped as by Levenberg-Marquardt). Modes under
+/// another tension are combinations of the nominal ones (Rayleigh-Ritz); loads on the sheet are added by Woodbury's identity.
 ///
 /// # Errors
-/// [`CalibrateError::Count`] and [`CalibrateError::Range`] for measurements or options that cannot be,
-/// [`CalibrateError::Physics`] for a nominal surface without modes, [`CalibrateError::Unsolvable`] if a fit breaks down.
+/// [`CalibrateError::Count`] and [`CalibrateError::Range`] for measurements or options out of range, [`CalibrateError::Physics`]
+/// for a nominal surface without modes, [`CalibrateError::Unsolvable`] if the equations of a fit have no solution.
 ///
 /// ```
 /// use unripple_calibrate::{FitOptions, Measured, Verdict, fit};
@@ -120,7 +122,7 @@ pub fn fit(nominal: &Surface, measured: &Measured, options: &FitOptions) -> Resu
     Fitted::new(&fit.case(&fit.layout, &spectra, count), &found, &fit.expected, (nominal, limited))
 }
 
-/// A fit on its way.
+/// State of a fit in progress.
 #[derive(Clone)]
 struct Fit<'a> {
     nominal: &'a Surface,
@@ -134,7 +136,8 @@ struct Fit<'a> {
 }
 
 impl Fit<'_> {
-    /// Looks for where to begin, by the lowest modes: each of the likeliest starts is followed for a while, and the best kept.
+    /// Searches starting values with the lowest modes: each of the likeliest starts is fitted in a small band, and the best is
+    /// kept.
     fn begin(&mut self, band: [f64; 2], more: bool) -> Result<(), CalibrateError> {
         let modes_hz = self.options.reach * band[1];
         let spectra = self.spectra(band, COARSE)?;
@@ -163,7 +166,7 @@ impl Fit<'_> {
         Ok(())
     }
 
-    /// The measured spectra in a band under a window.
+    /// The measured spectra in a band (Hz) under the window e^{-αt}.
     fn spectra(&self, band: [f64; 2], alpha: f64) -> Result<Spectra, CalibrateError> {
         let limited = self.limited()?;
         let spectra = Spectra::of(self.measured, limited.as_ref(), band, (alpha, self.options.window));
@@ -177,7 +180,7 @@ impl Fit<'_> {
         }
     }
 
-    /// Descends in a band under a window, with the modes below some frequency, and looks for stray loads.
+    /// Fits a band (Hz) under the window e^{-αt}, with the nominal modes up to `modes_hz`, and searches stray masses.
     fn widen(
         &mut self,
         band: [f64; 2],
@@ -210,7 +213,7 @@ impl Fit<'_> {
 }
 
 impl Fit<'_> {
-    /// What the values found so far make of responses that are limited to a band.
+    /// Responses by the values found so far, limited to the measurement's band; `None` if the measurement is not limited.
     fn limited(&self) -> Result<Option<Limited>, CalibrateError> {
         let Some(band) = self.measured.pairs.as_ref().and_then(|pairs| pairs.limited) else {
             return Ok(None);
@@ -225,7 +228,7 @@ impl Fit<'_> {
     }
 }
 
-/// The values with one stray more.
+/// These values with one more stray mass (kg) at a place.
 fn with(values: &Values, at: Point, mass: f64) -> Values {
     let mut more = values.clone();
     more.places.push(at);

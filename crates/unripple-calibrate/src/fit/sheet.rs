@@ -13,19 +13,19 @@ pub(super) struct Sheet {
     pub squares: Vec<f64>,
     /// Decay rates, 1/s.
     pub sigmas: Vec<f64>,
-    /// Nominal modes x modes.
+    /// The sheet's modes as combinations of the nominal ones, a column for each: nominal modes x modes.
     pub turn: Mat<f64>,
-    /// Stiffness of all tension, and of bending, by the nominal modes.
+    /// Stiffness of all tension, nominal modes x nominal modes, in (rad/s)².
     pub tension: Mat<f64>,
-    /// Stiffness of bending, modes x modes, in (rad/s)².
+    /// Stiffness of bending, nominal modes x nominal modes, in (rad/s)².
     pub bending: Mat<f64>,
 }
 
 impl Sheet {
-    /// The sheet by the first `count` nominal modes; the band's top in Hz.
+    /// The sheet for `values`, by the first `count` nominal modes; `top` is the top of the band in Hz.
     ///
-    /// In the nominal modes the stiffness is Ω² + ΔK, whole: its eigenvectors are the new modes, exact but for the nominal modes
-    /// left out.
+    /// By the nominal modes the stiffness is Ω² + ΔK. Its eigenvectors are the new modes, exact but for the nominal modes that
+    /// are left out.
     pub fn new(basis: &Basis, values: &Values, count: usize, top: f64) -> Result<Self, CalibrateError> {
         let part = |all: &Mat<f64>| all.submatrix(0, 0, count, count).to_owned();
         let nominal = part(&basis.tension);
@@ -43,7 +43,8 @@ impl Sheet {
     }
 }
 
-/// Decay rate (1/s) at an angular frequency by the logarithms at the knots.
+/// Decay rate (1/s) at an angular frequency (rad/s), interpolated between its logarithms `knots`; `top` is the top of the band
+/// in Hz.
 pub(super) fn decay_rate(knots: &[f64], omega: f64, top: f64) -> f64 {
     around(omega / (TAU * top)).iter().map(|(k, w)| w * knots[*k]).sum::<f64>().exp()
 }

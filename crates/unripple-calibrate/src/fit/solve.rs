@@ -6,44 +6,45 @@ use crate::CalibrateError;
 use unripple_core::Point;
 use unripple_linalg::{Cholesky, Mat, times};
 
-/// Steps of one descent, and what share of the cost its change is when it ends: on the way, and in the end, where it is far less than
-/// what a standard error more would cost.
+/// Largest number of steps of a descent, and the change of the cost that ends it: `STEPS` and `SETTLED`, a share of the cost, for all
+/// descents but the last; `LAST_STEPS` and `LAST_CHANGE`, far less than the cost of one standard error, 1, for the last.
 const STEPS: usize = 12;
 const SETTLED: f64 = 1e-3;
 const LAST_STEPS: usize = 40;
 const LAST_CHANGE: f64 = 0.01;
 
-/// Least residual over what was said of noise that errors are made of. Otherwise a measurement with overstated noise
-/// would claim errors of nothing.
+/// Smallest residual, relative to the stated noise, that standard errors are computed from. Otherwise a measurement with overstated
+/// noise would have errors near 0.
 const LEAST: f64 = 0.05;
 
-/// What groups say of errors is multiplied by, since the fit bends towards each of them and they are few: of 100 random truths 95 %
-/// intervals then hold in about 95.
+/// Factor of variances that are computed from groups of rows, since the groups are few and the fit follows each of them: with it, 95
+/// % intervals contain the truth in about 95 of 100 random cases.
 const FEW: f64 = 1.5;
 
-/// How near to the rim a place may come, in metres. A tenth of a millimetre: on the rim itself modes of a clamped
+/// Smallest distance of a place from the rim of the sheet, in metres. A tenth of a millimetre: on the rim itself modes of a clamped
 /// sheet vanish, and with them all derivatives.
 const INSIDE: f64 = 1e-4;
 
-/// The least trust in a step before the descent is given up. With so much damping a step no longer changes any digit
-/// that matters.
+/// Damping of a Levenberg-Marquardt step above which the descent ends. With so much damping a step no longer changes any digit that
+/// matters.
 const STUCK: f64 = 1e6;
 
-/// Values that fit, and how well.
+/// Result of a descent: fitted values and their residual.
 #[derive(Clone, Debug)]
 pub(super) struct Found {
     /// The values of the unknowns.
     pub values: Values,
-    /// Residual over noise: the root of chi squared per degree of freedom.
+    /// Rms residual relative to noise: the root of chi squared per degree of freedom.
     pub excess: f64,
-    /// Residual over what was measured.
+    /// Rms residual, relative to the rms of the measurement.
     pub share: f64,
     /// The residual at these values.
     pub residual: Residual,
 }
 
 impl Case<'_> {
-    /// The values that fit best, by the Levenberg-Marquardt method, each unknown held to its prior.
+    /// The values that fit best, by the Levenberg-Marquardt method from `start`, each unknown with its prior around `expected`.
+    /// `last` asks for the final accuracy.
     ///
     /// Where the residual stays above the noise, the noise counts as that much larger, so that a wrong model does not overrule
     /// the priors.
@@ -83,13 +84,14 @@ impl Case<'_> {
         Ok(Found { values, excess, share, residual })
     }
 
-    /// Residual over noise, a ratio: the root of chi squared per degree of freedom.
+    /// Rms residual relative to noise: the root of chi squared per degree of freedom.
     pub fn excess(&self, residual: &Residual) -> f64 {
         let free = (residual.data - self.layout.unknowns().len() as f64).max(1.0);
         (square(&residual.values) / free).sqrt()
     }
 
-    /// The damped normal equations JᵀJ/κ² + 1 and -(Jᵀr/κ² + z), unknowns x unknowns and unknowns x 1.
+    /// The normal equations with priors: the matrix JᵀJ/κ² + 1, unknowns x unknowns, and the right side -(Jᵀr/κ² + z), unknowns x 1.
+    /// J and r are slopes and values of the residual, κ is `excess`, z is `offsets`.
     pub fn normal(&self, residual: &Residual, offsets: &[f64], excess: f64) -> (Mat<f64>, Mat<f64>) {
         let weight = 1.0 / excess.powi(2);
         let mut system = weight * times(residual.slopes.transpose(), residual.slopes.as_ref());
@@ -104,26 +106,26 @@ impl Case<'_> {
 
     /// Variances of the unknowns in units of the squares of their spreads.
     ///
-    /// Once from the noise, as if the residual were white; once from how much responses pull apart, and once from how much
-    /// frequencies do: with g_b = J_bᵀ r_b what each says of the unknowns, H⁻¹ (Σ g_b g_bᵀ) H⁻¹ (the sandwich
-    /// estimator: White, *Econometrica* 48, 817, 1980, by groups). What a wrong model leaves is not white, and is
-    /// alike in all responses at one frequency. The largest counts.
+    /// The largest of three estimates counts: from the noise, as if the residual were white; from the scatter between responses; and
+    /// from the scatter between frequencies. The latter two are H⁻¹ (Σ g_b g_bᵀ) H⁻¹, with H the normal matrix and g_b = J_bᵀ r_b the
+    /// gradient of group b (the sandwich estimator: White, *Econometrica* 48, 817, 1980, by groups). The residual of a wrong model is
+    /// not white, and is similar in all responses at one frequency.
     pub fn variances(&self, found: &Found) -> Result<Vec<f64>, CalibrateError> {
-        // The residual is a better estimate of the noise than what the caller said of it.
+        // The residual is a better estimate of the noise than the stated one.
         let excess = found.excess.max(LEAST) * self.spectra.overlap.sqrt();
         let unknowns = found.residual.slopes.ncols();
         let (system, _) = self.normal(&found.residual, &vec![0.0; unknowns], excess);
         let inverse = Cholesky::new(system.as_ref()).ok_or_else(singular)?.inverse();
         let apart = [0, 1].map(|way| pulled_apart(&found.residual, way, &inverse, excess));
         let variance = |u: usize| {
-            // The priors have their own share in these sums.
+            // Contribution of the priors to these sums.
             let held: f64 = (0..unknowns).map(|v| inverse[(u, v)].powi(2)).sum();
             inverse[(u, u)].max(apart[0][u] + held).max(apart[1][u] + held).min(1.0)
         };
         Ok((0..unknowns).map(variance).collect())
     }
 
-    /// How far values are from those expected, in spreads.
+    /// Distance of each unknown from its expected value, in standard deviations of its prior.
     fn offsets(&self, values: &Values, expected: &Values) -> Vec<f64> {
         let (mut values, mut expected) = (values.clone(), expected.clone());
         let unknowns = self.layout.unknowns().into_iter();
@@ -140,7 +142,7 @@ impl Case<'_> {
     }
 }
 
-/// Variances of the unknowns by how far groups of rows pull apart: responses (0) or frequencies (1).
+/// Variances of the unknowns from the scatter between groups of rows: responses (`way` 0) or frequencies (1).
 fn pulled_apart(residual: &Residual, way: usize, inverse: &Mat<f64>, excess: f64) -> Vec<f64> {
     let unknowns = inverse.nrows();
     let groups = residual.belongs.iter().map(|row| row[way] + 1).max().unwrap_or(0);
@@ -171,7 +173,7 @@ impl Case<'_> {
     }
 }
 
-/// Solves a positive definite system, its diagonal raised by a share.
+/// Solves a positive definite system whose diagonal is multiplied by 1 + `damping`.
 pub(super) fn solve(system: &Mat<f64>, right: &Mat<f64>, damping: f64) -> Result<Mat<f64>, CalibrateError> {
     let mut damped = system.clone();
     (0..damped.nrows()).for_each(|i| damped[(i, i)] *= 1.0 + damping);

@@ -1,4 +1,4 @@
-//! Laplace transforms of measured responses on a line right of their poles.
+//! Laplace transforms of measured responses along a line to the right of their poles.
 
 use super::limited::{DERIVATIVES, Limited};
 use super::measured::Measured;
@@ -7,38 +7,40 @@ use std::f64::consts::{PI, TAU};
 use unripple_core::Point;
 use unripple_linalg::c64;
 
-/// Nepers of decay that the window has to give by the end of the signals. What is cut off there is 0.25 % of the
-/// beginning; half as many would leave 5 %.
+/// Least decay of the window by the end of the signals, in nepers. The window is then 0.25 % of its beginning; half as many would
+/// leave 5 %.
 const ENDED: f64 = 6.0;
 
-/// Distance of frequencies in half widths of a line under the window.
+/// Distance between frequencies, in full widths (at half power) of a spectral line under the window.
 const SPACING: f64 = 1.0;
 
-/// What was measured as Laplace transforms along a line s = α + jω: spectra under a window e^{-αt}, which ends the signals
-/// without an edge and widens all lines alike.
+/// Measured signals as Laplace transforms along the line s = α + jω: spectra under a window e^{-αt}, which fades the signals out
+/// without an edge and widens all spectral lines equally.
 #[derive(Clone, Debug)]
 pub(crate) struct Spectra {
     /// The complex frequencies, 1/s.
     pub frequencies: Vec<c64>,
     /// Spectra of the responses between actuators, in the order of [`Pairs`](super::Pairs); empty where not measured.
     pub pairs: Vec<Vec<c64>>,
-    /// Standard deviation of the noise in real and imaginary parts of those.
+    /// Standard deviation of the noise in real and imaginary parts of `pairs`.
     pub pair_noise: f64,
-    /// What modes far above the band are in those: an impulse and its odd derivatives.
+    /// Spectra, `[term][frequency]`, of which modes far above the band are composed in `pairs`: an impulse and its odd
+    /// derivatives; for responses limited to a band also these as limited.
     pub far: Vec<Vec<c64>>,
-    /// Spectra of each tap at each actuator.
+    /// Spectra of each tap at each actuator, `[tap][actuator][frequency]`.
     pub taps: Vec<Vec<Vec<c64>>>,
     /// Places of the taps.
     pub places: Vec<Point>,
-    /// Standard deviation of the noise in real and imaginary parts of those.
+    /// Standard deviation of the noise in real and imaginary parts of `taps`, for each tap.
     pub tap_noise: Vec<f64>,
-    /// How many times more frequencies there are than independent ones.
+    /// Number of frequencies, relative to the number of independent ones.
     pub overlap: f64,
 }
 
 impl Spectra {
-    /// Transforms between two frequencies (Hz) under a window of at least `alpha` (1/s), of at most `window` seconds. To responses
-    /// between actuators that were limited to a band, what a model says that this took from them is added.
+    /// Transforms from `low` to `high` (Hz), of at most `window` seconds of the signals, under a window of at least the decay rate
+    /// `alpha` (1/s). To responses between actuators that were limited to a band, the part that this removed is added from the
+    /// model `limited`.
     pub fn of(
         measured: &Measured,
         limited: Option<&Limited>,

@@ -1,37 +1,37 @@
-//! Where a fit begins: a surface file may be off by more than a descent can mend.
+//! Starting values of a fit, where a surface file is off by more than a descent can correct.
 
 use super::forward::Answer;
 use super::layout::{Unknown, Values};
 use super::residual::Case;
 use crate::CalibrateError;
 
-/// Tensions and stiffnesses that are tried, as logarithms of the ratio to nominal: how far from it, and by what steps.
+/// Tensions and bending stiffnesses that are tried, as logarithms of the ratio to nominal: largest distance from nominal, and step.
 const TENSION: (f64, f64) = (0.36, 0.03);
 const BENDING: (f64, f64) = (0.3, 0.3);
 
-/// The same for a plate, which stiffness alone brings back.
+/// Bending stiffnesses that are tried for a plate without tension: largest distance from nominal and step, as above.
 const PLATE: (f64, f64) = (0.48, 0.03);
 
-/// Starts that are followed: neighbours of the best, where a tension and a stiffness explain the lowest modes about
-/// as well. Each costs a descent.
+/// Largest number of starts that are fitted: pairs of tension and stiffness that explain the lowest modes about as well as the
+/// best. Each costs a descent.
 const FOLLOWED: usize = 3;
 
-/// A start is worth following if it leaves at most so many times what the best leaves.
+/// Largest residual power of a start that is fitted, relative to that of the best.
 const WORTH: f64 = 2.0;
 
-/// A gain of a single channel this far from the others', as a logarithm, is believed before it is fitted: places and a tension that
-/// are not found yet make half of that.
+/// Difference of a single channel's gain from the others, as a logarithm, from which it is taken over before the fit: places and a
+/// tension that are not found yet make half of that.
 const ANOTHER: f64 = 0.4;
 
-/// How well some values do at first sight.
+/// Trial values, and the power of the residual that they leave.
 struct Try {
     values: Values,
     left: f64,
 }
 
 impl Case<'_> {
-    /// Values to descend from, the likeliest first, with what is to be expected of gains: the tension and the stiffness with which
-    /// the lowest modes lie where they were measured, whatever their strengths.
+    /// Values to descend from, the likeliest first: tension and bending stiffness with which the model explains the lowest modes
+    /// best, and gains estimated with them.
     pub fn starts(&self, expected: &Values) -> Result<Vec<Values>, CalibrateError> {
         let steps = |(most, step): (f64, f64)| {
             let count = (most / step).round() as i32;
@@ -61,7 +61,7 @@ impl Case<'_> {
         best.into_iter().map(|t| self.balanced(t.values)).collect()
     }
 
-    /// Values with the common gain that fits best.
+    /// These values with the common gain that fits best, and the residual power.
     fn levelled(&self, mut values: Values) -> Result<Try, CalibrateError> {
         let products = self.products(&values)?;
         let sum = |k: usize| products.iter().map(|p| p.1[k]).sum::<f64>();
@@ -74,7 +74,8 @@ impl Case<'_> {
         Ok(Try { values, left })
     }
 
-    /// The same with gains of single channels, where they are far from all others.
+    /// These values with gains of single channels where they differ from the others by more than [`ANOTHER`], and then with the
+    /// best common gain.
     fn balanced(&self, mut values: Values) -> Result<Values, CalibrateError> {
         let count = self.layout.actuators;
         for sensors in [true, false] {
@@ -92,8 +93,8 @@ impl Case<'_> {
         Ok(self.levelled(values)?.values)
     }
 
-    /// Of each response between actuators: its number, and what model and measurement, the model with itself, and the measurement
-    /// with itself have in common. Taps have no gains to be found.
+    /// For each response between actuators its number and three inner products: of model and measurement, of the model with itself,
+    /// of the measurement with itself. Taps have the number `usize::MAX`, since they determine no gains.
     fn products(&self, values: &Values) -> Result<Vec<(usize, [f64; 3])>, CalibrateError> {
         let answers = self.system(values)?.admittances(&self.spectra.frequencies);
         let answers: Vec<Answer> =
@@ -111,7 +112,7 @@ impl Case<'_> {
     }
 }
 
-/// Those that do better than both their neighbours.
+/// Trials that leave less than both their neighbours.
 fn dips(row: Vec<Try>) -> Vec<Try> {
     let left: Vec<f64> = row.iter().map(|t| t.left).collect();
     let before = |n: usize| n.checked_sub(1).map_or(f64::INFINITY, |m| left[m]);

@@ -12,7 +12,7 @@ use unripple_linalg::{Mat, Scale, product, times};
 /// leads the rest of the way.
 const TRIED: [f64; 3] = [3e-6, 10e-6, 30e-6];
 
-/// Places tried for each shortest wavelength of the band looked at. Half as many may miss a mass between two places;
+/// Places that are tried per shortest wavelength of the fitted band. Half as many may miss a mass between two places;
 /// twice as many take four times as long.
 const DENSE: f64 = 6.0;
 
@@ -20,10 +20,10 @@ const DENSE: f64 = 6.0;
 const BATCH: usize = 128;
 
 impl Case<'_> {
-    /// Where a point mass would explain most of what is left, and how heavy it would be.
+    /// Place and mass (kg) of the point mass that would explain most of the residual; `None` if none explains enough.
     ///
-    /// A mass μ at x changes every response by -z Y_ix Y_xj, z = sμ/(1 + sμ Y_xx). What the other unknowns could explain of
-    /// that is taken out first.
+    /// A mass μ at x changes every response by -z Y_ix Y_xj, z = sμ/(1 + sμ Y_xx). The part of this change that the other
+    /// unknowns could explain is removed first.
     pub fn stray(&self, found: &Found, outline: &Outline) -> Result<Option<(Point, f64)>, CalibrateError> {
         let places = self.grid(outline);
         let system = self.system(&found.values)?;
@@ -50,7 +50,7 @@ impl Case<'_> {
                     } else {
                         0.0
                     };
-                    // Close to the mass supposed, or the supposition is wrong.
+                    // The linear estimate holds only near the mass that was tried.
                     let strength = (-along[(n, 0)] / own.max(f64::MIN_POSITIVE)).clamp(0.1, 3.0);
                     if drop.is_finite() && best.is_none_or(|(most, ..)| drop > most) {
                         best = Some((drop, *place, mass * strength));

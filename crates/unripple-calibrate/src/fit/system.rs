@@ -12,22 +12,22 @@ use unripple_physics::{Footprint, Medium};
 /// Half the distance over which slopes of shapes are taken, in metres.
 const STEP: f64 = 1e-6;
 
-/// A point contact is no smaller than this, in metres: what a membrane without stiffness needs to have a compliance at all.
+/// Smallest size of a point contact, in metres: without one, a membrane without bending stiffness would have an infinite compliance at
+/// a point.
 const FINEST: f64 = 1e-4;
 
-/// What a load feels of all modes that are left out, as one more mode: its weight squared (1/kg), its frequency squared, and bending's
-/// share of its elastic energy.
+/// The modes that are left out, as one equivalent mode at each load (residual flexibility).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rest {
     /// Squared weight at the load, in 1/kg.
     pub weight: f64,
     /// Squared angular frequency, in (rad/s)².
     pub square: f64,
-    /// Bending's share of its elastic energy, 0 to 1.
+    /// Share of bending in its elastic energy, 0 to 1.
     pub bending_share: f64,
 }
 
-/// A sheet with places on it and what hangs there.
+/// A sheet with loads on it: actuators and stray masses.
 #[derive(Clone, Debug)]
 pub(super) struct System {
     /// The bare sheet at these values.
@@ -36,15 +36,15 @@ pub(super) struct System {
     pub layout: Layout,
     /// Shapes at the places, modes x places: actuators, stray loads, then taps.
     pub shapes: Mat<f64>,
-    /// Slopes of the shapes along x and y, for actuators and stray loads.
+    /// Slopes of the shapes along x and y at actuators and stray masses, each modes x loads.
     pub slopes: [Mat<f64>; 2],
     /// Residual flexibility: the modes that are left out, as one more.
     pub rest: Rest,
-    /// Mass at each actuator and stray, in kg.
+    /// Mass at each actuator and stray mass, in kg.
     pub masses: Vec<f64>,
-    /// Damping to the ground at each of them, in N·s/m.
+    /// Damping to the ground at each actuator and stray mass, in N·s/m.
     pub resistances: Vec<f64>,
-    /// Circuits of those of them that have one.
+    /// Circuit of each actuator and stray mass; `None` where there is none.
     pub coils: Vec<Option<Coil>>,
     /// The band's top, in Hz.
     pub top: f64,
@@ -53,7 +53,8 @@ pub(super) struct System {
 }
 
 impl System {
-    /// The system of some values by the first `count` nominal modes, with taps at some places.
+    /// The system for `values`, by the first `count` nominal modes, with taps at the places `taps`; `top` is the top of the band in
+    /// Hz.
     pub fn new(
         basis: &Basis,
         layout: &Layout,
@@ -105,9 +106,9 @@ impl System {
 }
 
 impl Rest {
-    /// What an endless sheet answers with wavenumbers above `k` (rad/m) to a force at a point: compliance
-    /// C₀ = 1/4π ∫ du/(u(R + Du)) and inertia C₁ = ρ/4π ∫ du/(u(R + Du))², u from k² on. One mode of weight² C₀²/C₁ and
-    /// frequency² C₀/C₁ has both. Of the energy that C₀ stands for, 1/4π ∫ D du/(R + Du)² is bending's.
+    /// Response of an infinite sheet, with wavenumbers above `k` (rad/m) only, to a force at a point: compliance C₀ = 1/4π ∫ du/(u(R +
+    /// Du)) and inertia C₁ = ρ/4π ∫ du/(u(R + Du))², u from k² on. One mode of weight² C₀²/C₁ and frequency² C₀/C₁ has both. Bending
+    /// contributes 1/4π ∫ D du/(R + Du)² to the energy of C₀.
     fn above(medium: &Medium, k: f64) -> Self {
         let (tension, bending) = (medium.tension, medium.bending_stiffness);
         let (start, end) = (k * k, (1.0 / FINEST).powi(2).max(100.0 * k * k));
