@@ -1,48 +1,49 @@
-//! How much later, and under how much more tension, some responses are than the same ones of another time.
+//! Delay and change of tension between two takes of the same responses.
 
 use super::law::Law;
 use crate::signals::{Band, Remap};
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
-/// Largest change of tension that is looked for, as a share: twice what is promised, and more than any warm hand does.
+/// Largest relative change of tension that is searched: twice what is promised, and more than the warmth of a hand makes.
 const MOST_CHANGE: f64 = 0.016;
 
-/// Radians that the end of a response turns from one change that is tried to the next. With twice as much the
-/// likeness between two tries may be lost, half as much takes twice as long.
+/// Phase by which the end of a response turns from one tried change to the next, in radians. With twice as much a maximum of
+/// the correlation may be missed, half as much takes twice as long.
 const TURN: f64 = 1.0;
 
-/// Largest delay in samples, either way, that is looked for: whole ones are taken out beforehand.
+/// Largest delay that is searched, either way, in samples: whole ones are removed beforehand.
 const MOST_DELAY: f64 = 2.5;
 
 /// The differences between two takes of the same responses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Apart {
-    /// Samples by which the one comes later than the other.
+    /// Delay of the found responses relative to the known ones, in samples.
     pub late: f64,
-    /// Change of tension (or stiffness), as a share.
+    /// Relative change of tension (or stiffness) from known to found.
     pub change: f64,
     /// Correlation of the two takes once delay and change are taken out, from -1 to 1.
     pub likeness: f64,
-    /// Standard error of `late` and of `change`, from what is left.
+    /// Standard errors of `late` and of `change`, from what the two leave unexplained.
     pub errors: [f64; 2],
 }
 
-/// Pairs of responses, what was known and what was found, ready to be compared.
+/// Pairs of a known and a found response, as spectra to be compared.
 pub(super) struct Pairs<'a> {
     known: Vec<Remap>,
     found: Vec<Vec<Complex<f64>>>,
     law: &'a Law,
     /// First and last frequency, in Hz.
     band: [f64; 2],
-    /// Radians per sample and line, and of the first line.
+    /// Phase per sample of delay, in radians: of the first line, and from line to line.
     turns: [f64; 2],
     samples: usize,
     rate: f64,
 }
 
 impl<'a> Pairs<'a> {
-    /// Of responses of equal length whose time 0 is their sample `origin`. Silent ones do not count; `None` if none is left.
+    /// Prepares pairs, each known and found, of responses of equal length whose time 0 is sample `origin`. Pairs with a
+    /// silent response are left out; `None` if no pair is left.
     pub fn of(
         pairs: &[(&[f64], &[f64])],
         origin: usize,
@@ -70,7 +71,7 @@ impl<'a> Pairs<'a> {
         (!made.known.is_empty()).then_some(made)
     }
 
-    /// The delay and the change under which they agree best; with `still` no change is looked for.
+    /// The delay and the change of tension with which the pairs agree best; with `still` no change is searched.
     pub fn apart(&self, still: bool) -> Apart {
         let top = TAU * self.band[1] * self.samples as f64 / self.rate;
         let step = (2.0 * TURN / top).min(MOST_CHANGE / 4.0);
@@ -95,7 +96,7 @@ impl<'a> Pairs<'a> {
         Apart { late, change: best, likeness, errors: self.errors(best, late, likeness, step) }
     }
 
-    /// The delay at which they agree best under a change, and how well.
+    /// The delay (samples) at which the pairs agree best with a given change, and their correlation there.
     fn at(&self, change: f64) -> [f64; 2] {
         let cross = self.cross(change);
         let (mut best, mut most) = (0.0, f64::NEG_INFINITY);
@@ -120,7 +121,7 @@ impl<'a> Pairs<'a> {
         [best, most]
     }
 
-    /// Cross-spectrum of all pairs, each of power 1.
+    /// Sum of the cross-spectra of all pairs, each of power 1.
     fn cross(&self, change: f64) -> Vec<Complex<f64>> {
         let mut sum: Vec<Complex<f64>> = Vec::new();
         for pair in 0..self.known.len() {
@@ -137,15 +138,15 @@ impl<'a> Pairs<'a> {
         moved.iter().zip(&self.found[pair]).map(|(known, found)| found * known.conj()).collect()
     }
 
-    /// Which of the pairs, in their order without silent ones, are less alike than so when what sets all of them
-    /// apart is taken out. `least` is a likeness, -1 to 1.
+    /// Which pairs, in their order without silent ones, have a correlation below `least` (-1 to 1) once the common delay and
+    /// change are taken out.
     pub fn strange(&self, apart: &Apart, least: f64) -> Vec<bool> {
         let count = self.known.len() as f64;
         let likeness = |pair: usize| count * self.read(&self.crossed(pair, apart.change), apart.late);
         (0..self.known.len()).map(|pair| likeness(pair) < least).collect()
     }
 
-    /// The other pairs alone; `None` unless they are more than half of all.
+    /// These pairs without the marked ones; `None` unless more than half of them are left.
     pub fn without(mut self, strange: &[bool]) -> Option<Self> {
         let keep = |n: usize| !strange.get(n).copied().unwrap_or(false);
         let count = self.known.len();
@@ -156,7 +157,7 @@ impl<'a> Pairs<'a> {
         (2 * self.known.len() > count).then_some(self)
     }
 
-    /// Mean likeness of all pairs at a delay.
+    /// Mean correlation of all pairs at a delay (samples).
     fn read(&self, cross: &[Complex<f64>], late: f64) -> f64 {
         let mut turn = Complex::from_polar(1.0, self.turns[0] * late);
         let step = Complex::from_polar(1.0, self.turns[1] * late);
@@ -168,7 +169,7 @@ impl<'a> Pairs<'a> {
         sum / self.known.len() as f64
     }
 
-    /// Standard errors, from the curvature of the likeness and what it leaves unexplained.
+    /// Standard errors of delay and change, from the curvature of the correlation and what it leaves unexplained.
     fn errors(&self, change: f64, late: f64, likeness: f64, step: f64) -> [f64; 2] {
         let left = (1.0 - likeness * likeness).max(1e-12);
         let width = self.band[1] - self.band[0];

@@ -7,28 +7,29 @@ use unripple_core::Point;
 
 /// Store of finished points, which keeps them one by one.
 pub trait Sink {
-    /// Points that are still to be measured.
+    /// Indices of the points that are still to be measured.
     fn missing(&self) -> Vec<usize>;
 
-    /// Keeps a point; what is kept must outlive whatever happens next. `fault` says why it is bad, if it is.
+    /// Stores the responses of point `number` so that they survive even a crash of the program. `fault` says why the point is
+    /// bad, if it is.
     ///
     /// # Errors
-    /// [`CalibrateError::Sink`] if it could not be kept.
+    /// [`CalibrateError::Sink`] if the point could not be stored.
     fn keep(&mut self, number: usize, channel: &Channel, fault: Option<&str>) -> Result<(), CalibrateError>;
 }
 
 /// Progress of a campaign.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Progress {
-    /// Points kept so far, in this run.
+    /// Number of points stored so far, in this run.
     pub done: usize,
-    /// Points that this run has to measure.
+    /// Number of points that this run has to measure.
     pub total: usize,
-    /// The point last kept.
+    /// Index of the point stored last.
     pub number: usize,
-    /// Recordings that it took.
+    /// Number of recordings of that point.
     pub attempts: u64,
-    /// Reason for which the point was kept as bad, if it was.
+    /// Reason why the point is bad; `None` if it is good.
     pub fault: Option<String>,
 }
 
@@ -37,7 +38,7 @@ pub struct Progress {
 pub enum Way {
     /// A probe on the surface, actuators driving.
     Probe(Box<Session>),
-    /// Taps on the surface, actuators listening.
+    /// Taps on the surface, actuators as sensors.
     Tap(Box<TapSession>),
 }
 
@@ -70,11 +71,13 @@ impl Way {
     }
 }
 
-/// Measures every point that a sink misses, in order, each kept as soon as it is finished; returns how many were kept as bad.
-/// A bad point is measured again, up to `again` times, and the best of its recordings is kept. Ends early where `tell` says so.
+/// Measures every point that is missing in a sink, in order, and stores each as soon as it is finished; returns the number of
+/// bad points. A bad point is measured again, up to `again` times, and the best of its recordings is stored. Ends early if
+/// `tell` returns [`ControlFlow::Break`].
 ///
 /// # Errors
-/// Those of rig, device and sink. What was kept before stays kept, and a later run goes on from there.
+/// Those of rig, device and sink, and [`CalibrateError::Count`] for a missing point that is not among `points`. Points stored
+/// before stay stored, and a later run continues from there.
 pub fn campaign(
     rig: &mut dyn Rig,
     way: &Way,
@@ -93,7 +96,7 @@ pub fn campaign(
         let (mut best, mut attempts) = (None::<(f64, Channel, Option<String>)>, 0);
         while attempts <= again && best.as_ref().is_none_or(|(_, _, fault)| fault.is_some()) {
             let channel = match way.measure(rig, number, at, attempts) {
-                // A gap is the device's, and passes.
+                // A gap is a passing failure of the device.
                 Err(CalibrateError::Gap { .. }) if attempts < again => {
                     attempts += 1;
                     continue;

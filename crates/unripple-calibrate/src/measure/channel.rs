@@ -12,14 +12,14 @@ pub struct Channel {
     pub responses: Vec<Vec<f64>>,
     /// Quality of each response.
     pub quality: Vec<Quality>,
-    /// How good each is in each third of an octave, `[actuator][band]`, bands ascending.
+    /// Quality of each response by thirds of an octave, `[actuator][band]`, bands ascending.
     pub bands: Vec<Vec<BandQuality>>,
     /// Side findings of the take: clock, gaps, drift, knocks.
     pub account: Account,
 }
 
 impl Channel {
-    /// Responses `[actuator][sample]` of which nothing else is known: those of a library.
+    /// A channel of responses `[actuator][sample]` alone, without quality or account: those of a library.
     pub fn of_responses(responses: Vec<Vec<f64>>) -> Self {
         Self { responses, ..Self::default() }
     }
@@ -30,39 +30,39 @@ impl Channel {
 pub struct BandQuality {
     /// Middle frequency of the band, in Hz.
     pub hz: f64,
-    /// Signal over noise, in dB; −∞ if there is no more than noise.
+    /// Signal-to-noise ratio, in dB; −∞ if there is no more than noise.
     pub snr_db: f64,
-    /// Share of the power that repeats have in common, where there were repeats.
+    /// Coherence: share of the power that repeats have in common; `None` without repeats.
     pub coherence: Option<f64>,
 }
 
-/// Noise over signal that no recording is better than, as a ratio of powers: what float32 itself rounds.
+/// Smallest ratio of noise to signal in any recording, as powers: the rounding of float32.
 const LEAST_NOISE: f64 = 1e-15;
 
-/// Where noise is looked for, as shares of the time by which the second harmonic comes before the linear response.
+/// Start and end of the interval before the linear response in which noise is measured, as shares of the time by which the
+/// second harmonic precedes that response.
 const QUIET: [f64; 2] = [0.9, 0.2];
 
-/// Stretches of that time, half as long as it, of which the quietest counts.
+/// Number of segments of that interval, each half as long, of which the quietest counts.
 const STRETCHES: usize = 5;
 
-/// Lines of a stretch that the edges of the band reach: there its own ringing comes before time 0.
+/// Spectral lines of a segment that are left out at each edge of the band: the ringing of the edges precedes time 0.
 const EDGES: f64 = 3.0;
 
-/// Noise as it is in a deconvolution: before the first sweep's response begins, where nothing of the drive can be but harmonics
-/// that die away.
+/// Noise of a deconvolved recording, before the first sweep's response begins, where the drive leaves nothing but decaying
+/// harmonics.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Noise {
-    /// The whole stretch that was looked at.
+    /// Samples of the whole interval in which noise is measured.
     pub whole: Vec<f64>,
-    /// Another stretch, before the third harmonic comes: of what is beside the second and the third.
+    /// Samples of another interval, between the fourth and the third harmonic: the noise beside the second and the third.
     pub early: Vec<f64>,
-    /// Mean square where it is least, all of the band.
+    /// Mean square of the noise in the quietest segment, for the whole band.
     pub power: f64,
 }
 
 impl Noise {
-    /// Of a whole deconvolution, limited to a band, whose first response has its time 0 at `lead`. `lead` is in
-    /// samples.
+    /// Noise of a whole deconvolved recording that is limited to `band`; sample `lead` is time 0 of the first response.
     pub fn of(deconvolved: &[f64], sweep: &Sweep, lead: usize, band: Band) -> Self {
         let second = sweep.lead(2) * sweep.rate;
         let [from, to] = QUIET.map(|share| (share * second).round() as i64);
@@ -83,7 +83,7 @@ impl Noise {
         Self { early, whole, power }
     }
 
-    /// Signal over this noise, in dB, of a response with it: that of the sample format at best.
+    /// Signal-to-noise ratio, in dB, of a response that contains this noise; at best that of the sample format.
     pub fn snr_db(&self, response: &[f64]) -> f64 {
         let all = mean_square(response);
         ratio_db(all - self.power, self.power.max(LEAST_NOISE * all))
@@ -102,7 +102,7 @@ pub(super) fn thirds(band: Band) -> Vec<[f64; 2]> {
     (-24..24).map(third).filter(|[from, to]| *from >= 0.999 * low && *to <= 1.001 * high).collect()
 }
 
-/// Quality by thirds of an octave: of the repeats of one response, by what they differ in; of one alone, by a stretch of noise.
+/// Quality by thirds of an octave: of repeats of one response, from their differences; of a single one, from `noise`.
 pub(super) fn by_bands(repeats: &[&[f64]], noise: &Noise, band: Band, rate: f64) -> Vec<BandQuality> {
     let thirds = thirds(band);
     let count = repeats.len() as f64;
@@ -118,7 +118,7 @@ pub(super) fn by_bands(repeats: &[&[f64]], noise: &Noise, band: Band, rate: f64)
     let alone = band_powers(&noise.whole, rate, &thirds);
     let one = |(i, [from, to]): (usize, &[f64; 2])| {
         let several = repeats.len() > 1;
-        // Of one repeat.
+        // Noise power of one repeat.
         let noise =
             if several { scatter.iter().map(|left| left[i]).sum::<f64>() / (count - 1.0) } else { alone[i] };
         let noise = noise.max(LEAST_NOISE * whole[i]);

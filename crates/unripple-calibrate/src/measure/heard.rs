@@ -10,7 +10,7 @@ use crate::signals::{Average, Band, Harmonics, Outliers, Quality, Remap, Split, 
 use unripple_dsp::mean_square;
 
 impl Session {
-    /// All of a deconvolution.
+    /// Deconvolves a recording: the responses to all sweeps, one after the other.
     pub(super) fn whole(&self, heard: &[f64]) -> Result<Vec<f64>, CalibrateError> {
         let mut whole = vec![0.0; self.plan.size()];
         self.plan.deconvolve(
@@ -21,7 +21,7 @@ impl Session {
         Ok(whole)
     }
 
-    /// Responses and their quality from what one input heard, take by take, without the first `from` samples of the lead.
+    /// Responses and their quality from the signal of one input in all takes, without the first `from` of the samples before time 0.
     pub(super) fn channel(
         &self,
         takes: &[Take],
@@ -58,7 +58,8 @@ impl Session {
         Ok(channel)
     }
 
-    /// The most sweeps of a take that sensors did not know again, those apart that something knocked into, and all sweeps; if they are many.
+    /// Largest number of sweeps of a take that the sensors did not recognise, without those that a knock hit, and number of all sweeps;
+    /// `None` unless they are many.
     fn unlike(&self, takes: &[Take], hits: &[Vec<bool>]) -> Option<[usize; 2]> {
         let all = self.wires.drives.len();
         let missed = |(take, hits): (&Take, &Vec<bool>)| {
@@ -68,7 +69,7 @@ impl Session {
         (MANY * most > all).then_some([most, all])
     }
 
-    /// Which actuators' responses something knocked into, in what one input heard; said in the account.
+    /// Which actuators' responses a knock hit, in the signal of one input; the knocks are added to the account.
     fn knocked(&self, channel: &mut Channel, line: &[f64]) -> Vec<bool> {
         let starts = self.schedule.starts();
         let sweeps = Sweeps {
@@ -81,7 +82,7 @@ impl Session {
         let rate = self.sweep.rate;
         let mut hits = vec![false; starts.len()];
         for knock in sweeps.knocks(line) {
-            // Deconvolved, it lies from a sweep's length before where it was, to where it has died away.
+            // In the deconvolved signal a knock lies from a sweep's length before its time to where it has died away.
             let until = knock.at as f64 + 2.0 * self.decay() * rate;
             let since = knock.at as f64 - (self.sweep.sounding() + self.options.response_length) * rate;
             let hit = |start: &usize| (since..until).contains(&(*start as f64 + self.options.latency));
@@ -120,7 +121,7 @@ impl Session {
         let kept = LEAD + self.options.samples(self.sweep.rate);
         let rows: Vec<&[f64]> = cuts.iter().map(|cut| &cut[..kept.min(cut.len())]).collect();
         let average = Average::of(&rows, Outliers::default())?;
-        // It dies away in all of the window.
+        // Its decay is that over the whole window.
         let mut quality = Quality::of(&cuts[0][LEAD..], &[], self.sweep.rate)?;
         quality.snr_db = noise.snr_db(&average.mean[LEAD..]);
         if average.kept.iter().filter(|kept| **kept).count() > 1 {
@@ -142,7 +143,7 @@ impl Session {
         Ok(average.mean)
     }
 
-    /// Whether a response is more than what the sweeps before it left ringing.
+    /// Whether a response has more energy than what earlier sweeps left ringing.
     fn stands_out(&self, response: &[f64], whole: &[f64], actuator: usize, noise: &Noise) -> bool {
         let rate = self.sweep.rate;
         let start = (self.schedule.starts()[actuator] + LEAD) as i64;
@@ -155,12 +156,12 @@ impl Session {
         all > MORE * left
     }
 
-    /// Amplitude decay time that the plan is made for, in s: what is left of a response when the next begins is e⁻⁵.
+    /// Amplitude decay time, in s, that the schedule is made for: e⁻⁵ of a response is left when the next begins.
     fn decay(&self) -> f64 {
         self.options.settle_time / 5.0
     }
 
-    /// Harmonics as shares of the drive's amplitude, from the second, where they stand out of the noise.
+    /// Harmonics as shares of the drive's amplitude, from the second on; `None` where one does not stand out of the noise.
     fn harmonics(&self, whole: &[f64], actuator: usize, noise: &Noise) -> Vec<Option<f64>> {
         if self.options.highest_order < 2 {
             return Vec::new();
@@ -180,25 +181,26 @@ impl Session {
     }
 }
 
-/// Takes that nothing knocked into, which stand in for those that something did; all, if there is none.
+/// Takes in which no knock hit the actuator's response; all takes, if there is none.
 fn unhit(hits: &[Vec<bool>], actuator: usize) -> Vec<usize> {
     let hit = |take: &usize| hits[*take].get(actuator).copied().unwrap_or(false);
     let clean: Vec<usize> = (0..hits.len()).filter(|take| !hit(take)).collect();
     if clean.is_empty() { (0..hits.len()).collect() } else { clean }
 }
 
-/// One sweep of so many that sensors do not know again may be a dead actuator's; more are not.
+/// Unrecognised sweeps are many if they are more than one in three of all: fewer may be those of dead actuators.
 const MANY: usize = 3;
 
-/// Where before a response is seen what still rings, in decay times: not so close that the response's own band rings there.
+/// Start and end of the interval before a response in which the ringing of earlier sweeps is measured, in decay times: not so close that
+/// the ringing of the band's edges reaches it.
 const BEFORE: [f64; 2] = [0.6, 0.4];
 
-/// Times the energy of what still rings that a response must have. With less, ringing that is left would pass for a
-/// response; with much more, weak actuators would count as silent.
+/// Smallest energy of a response, relative to what is left ringing of earlier sweeps. With less, that ringing would pass for a response;
+/// with much more, weak actuators would count as silent.
 const MORE: f64 = 3.0;
 
-/// The frequency (Hz) at whose sweeping a change of tension was felt: the mean over a response's power, in octaves, each
-/// weighted by how far its phase goes, in proportion to frequency.
+/// The frequency (Hz) whose time in the sweep counts as that of a change of tension: the mean of its logarithm over thirds of an octave,
+/// weighted by the power of the response and the square of the frequency, since phases change in proportion to frequency.
 fn felt_at(response: &[f64], band: Band, rate: f64) -> f64 {
     let thirds = thirds(band);
     let powers = band_powers(response, rate, &thirds);

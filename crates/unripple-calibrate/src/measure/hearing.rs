@@ -9,16 +9,17 @@ use unripple_physics::{Sensor, sensed, sensors};
 #[derive(Clone, Debug)]
 pub struct Hearing {
     sensors: Vec<Sensor>,
-    /// Weight of each oscillation at each sensor, sensors x oscillations.
+    /// Weight of each oscillation (pole of the model) at each sensor, sensors x oscillations.
     felt: Mat<f64>,
     model: ModalResponses,
 }
 
 impl Hearing {
-    /// The model of a surface with these responses.
+    /// The model of a surface with these modal responses.
     ///
     /// # Errors
-    /// [`CalibrateError::Physics`] for actuators that cannot be, [`CalibrateError::Count`] if the responses have others.
+    /// [`CalibrateError::Physics`] for actuators that are not valid, [`CalibrateError::Count`] if the responses have another number of
+    /// them.
     pub fn of(surface: &Surface, model: &ModalResponses) -> Result<Self, CalibrateError> {
         let sensors = sensors(surface)?;
         if sensors.len() != model.ports.len() {
@@ -33,28 +34,29 @@ impl Hearing {
         self.sensors.len()
     }
 
-    /// The actuators in their sensing role.
+    /// The actuators as sensors, in channel order.
     pub fn sensors(&self) -> &[Sensor] {
         &self.sensors
     }
 
-    /// Frequency (Hz) and decay rate (1/s) of each oscillation, frequencies ascending; one may stand there several times.
+    /// Frequency (Hz) and decay rate (1/s) of each oscillation (pole) of the model, frequencies ascending; several may have the same.
     pub fn tones(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
         self.model.poles.iter().map(|pole| [pole.omega / std::f64::consts::TAU, pole.sigma])
     }
 
-    /// Whether an actuator hears each oscillation in step with its own drive: where no circuit comes between, and damping does not couple
-    /// modes. Coils on a voltage couple them much; masses on a sheet that dissipates where they do not, a little.
+    /// Whether every oscillation that an actuator senses is in phase with that actuator's own drive: no circuits between, and no damping
+    /// that couples modes ([`Onset::Velocity`] throughout). Coils driven by a voltage couple modes strongly; masses that do not
+    /// dissipate, on a sheet that does, couple them a little.
     pub fn in_step(&self) -> bool {
         !self.closed() && self.model.poles.iter().all(|pole| pole.onset == Onset::Velocity)
     }
 
-    /// Whether any actuator is a coil on a voltage.
+    /// Whether any actuator is a coil driven by a voltage.
     pub fn closed(&self) -> bool {
         self.sensors.iter().any(|sensor| sensor.circuit.is_some())
     }
 
-    /// Response at a sensor to a unit impulse of a drive, from time 0 on.
+    /// Response at a sensor, in its unit, to a unit impulse of a drive, from time 0 on.
     pub fn response(&self, sensor: usize, drive: usize, samples: usize) -> Vec<f64> {
         let rate = self.model.conditions.rate;
         let mut moved = vec![0.0; samples];

@@ -1,57 +1,58 @@
-//! Something short that is not of the drive: a knock, a door, a dropped tool.
+//! Detection of knocks: short sounds in a recording that the drive does not explain, such as a door or a dropped tool.
 
 use crate::signals::{Band, Sweep};
 use realfft::RealFftPlanner;
 use std::f64::consts::TAU;
 use unripple_dsp::median;
 
-/// Seconds of a frame: lines of 47 Hz.
+/// Duration of a frame of the spectrogram, in s: spectral lines are 47 Hz apart.
 const FRAME: f64 = 0.0213;
 
-/// dB above what the sweeps explain, in half of all lines, from which a frame holds something else. White noise scatters by 1.5 dB.
+/// Level above what sweeps and noise explain, in dB, median over all spectral lines, from which a frame contains a knock. For white
+/// noise this median scatters by 1.5 dB.
 const STANDS_OUT: f64 = 8.0;
 
-/// Share of all frames above which it is not short: noise, or a surface that rings longer than its file says.
+/// Largest share of all frames that knocks may take up. More is not short: noise, or a surface that rings longer than its file
+/// says.
 const MOST: f64 = 0.25;
 
 /// Quantile of the power of a line over time that noise is estimated by, and the factor from it to the mean power of
 /// noise. 0.357 is -ln(1 - 0.3): the power of noise in a line is exponentially distributed.
 const QUIETEST: (f64, f64) = (0.3, 1.0 / 0.357);
 
-/// Power below which nothing counts, as a share of the most there is in any line: a knock that matters is 30 dB above it, and
-/// what a frame's window lets through from other lines is below it.
+/// Power below which spectral lines are ignored, relative to the largest power of any line: a knock that matters is 30 dB above it,
+/// and leakage of a frame's window from other lines is below it.
 const FLOOR: f64 = 1e-5;
 
-/// Frames without anything that separate two knocks: 43 ms, since frames overlap by half. With fewer, a bounce counts
-/// as a knock of its own.
+/// Quiet frames that separate two knocks: 43 ms, since frames overlap by half. With fewer, a bounce counts as a knock of its own.
 const APART: usize = 4;
 
-/// Something that was heard and not played.
+/// A knock: a short sound in a recording that was not played.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Knock {
     /// Beginning of the knock, in samples.
     pub at: usize,
-    /// Its energy over that of an average sweep, both as they were heard in the band.
+    /// Energy of the knock, relative to that of an average sweep, both as recorded in the band.
     pub share: f64,
 }
 
-/// When sweeps pass which frequency.
+/// The times at which the sweeps pass each frequency.
 pub(super) struct Sweeps<'a> {
     /// The sweep that every actuator plays.
     pub sweep: &'a Sweep,
     /// First sample of each actuator's sweep.
     pub starts: &'a [usize],
-    /// Samples by which all that is heard comes late.
+    /// Latency of the recording, in samples.
     pub latency: f64,
-    /// Slowest amplitude decay, in s.
+    /// Longest amplitude decay time of the surface, in s.
     pub decay: f64,
     /// The band in which responses are measured.
     pub band: Band,
 }
 
 impl Sweeps<'_> {
-    /// What was knocked in a line, in order of time: where half of all frequencies are louder than what the sweeps left of
-    /// them when they last passed. `line` holds the samples of one input.
+    /// Knocks in the recording of one input, `line`, in order of time: frames in which half of all spectral lines are louder than
+    /// noise and what is left of the sweeps that passed them. None if such frames are too many.
     pub fn knocks(&self, line: &[f64]) -> Vec<Knock> {
         let rate = self.sweep.rate;
         let size = ((FRAME * rate) as usize).next_multiple_of(2).max(16);
@@ -93,7 +94,7 @@ impl Sweeps<'_> {
             .collect()
     }
 
-    /// Power of a line that sweeps and noise explain, frame by frame.
+    /// Power of a spectral line that sweeps and noise explain, frame by frame.
     fn expected(&self, powers: &[Vec<f64>], line: usize, hz: f64, size: usize) -> Vec<f64> {
         let rate = self.sweep.rate;
         let half = size as f64 / 2.0;

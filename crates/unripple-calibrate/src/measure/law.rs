@@ -1,19 +1,20 @@
-//! Where frequencies go when tension or stiffness changes by a little.
+//! Shift of natural frequencies with a small change of tension or stiffness.
 
 use unripple_core::Sheet;
 use unripple_physics::Medium;
 
-/// Frequencies at which bending's share is known; between them by straight lines, right to 1e-4.
+/// Number of frequencies at which the share of bending is tabulated; linear interpolation between them is accurate to
+/// 1e-4.
 const POINTS: usize = 256;
 
-/// How the frequencies of a sheet move: with its tension, each by its own share of it; those of a plate without tension
-/// with its stiffness (temperature), all by the same share.
+/// Shift of a sheet's natural frequencies: with its tension, each by the share of tension in its elastic energy; those
+/// of a plate without tension with its stiffness (temperature), all by the same share.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Law {
     step: f64,
-    /// What the square of a frequency follows of the change, from 0 to 1.
+    /// Relative change of the square of a frequency per relative change of tension or stiffness, from 0 to 1.
     follows: Vec<f64>,
-    /// Whether it is tension that changes.
+    /// Whether tension changes; otherwise bending stiffness does.
     pub tension: bool,
 }
 
@@ -37,12 +38,14 @@ impl Law {
         (1.0 + change * follows).max(0.25).sqrt()
     }
 
-    /// Where a frequency (Hz) that is there without the change goes with it (a share), and the slope.
+    /// The frequency (Hz) to which `hz` moves under a relative change of tension or stiffness, and its derivative by
+    /// `hz`.
     pub fn changed(&self, hz: f64, change: f64) -> [f64; 2] {
         self.sloped(hz, |hz| hz * self.ratio(hz, change))
     }
 
-    /// Where a frequency (Hz) that is there with the change comes from. To first order in the change of bending's share.
+    /// The frequency (Hz) that moves to `hz` under a relative change of tension or stiffness, and its derivative by
+    /// `hz`. To first order in the change of the share of bending.
     pub fn unchanged(&self, hz: f64, change: f64) -> [f64; 2] {
         self.sloped(hz, |hz| hz / self.ratio(hz / self.ratio(hz, change), change))
     }

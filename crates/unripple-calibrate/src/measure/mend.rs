@@ -1,4 +1,4 @@
-//! A recording brought to the clock and the time of what was played.
+//! Correction of a recording to the clock and the time of the played signal.
 
 use crate::signals::shift;
 use unripple_dsp::resample;
@@ -6,19 +6,19 @@ use unripple_dsp::resample;
 /// The corrections to a recording.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Mend {
-    /// Error of the recording's clock, as a share: positive if it is quick.
+    /// Relative error of the recording's clock, positive if it is fast.
     pub quick: f64,
-    /// Samples by which it is late.
+    /// Delay of the recording, in samples.
     pub late: f64,
-    /// Samples lost (negative: heard twice), and where in the recording, once its clock is right.
+    /// Number of samples lost (negative: recorded twice), and the sample at which that happened, once the clock is corrected.
     pub lost: Option<(i64, usize)>,
 }
 
-/// Delays below this many samples are left alone, as are clocks that differ by no more over all of the recording.
+/// Smallest delay that is corrected, in samples; also the smallest deviation of the clock over the whole recording.
 const LEAST: f64 = 0.02;
 
 impl Mend {
-    /// Whether there is anything to be done to a recording of so many samples.
+    /// Whether a recording of so many samples needs a correction.
     pub fn is_needed(&self, samples: usize) -> bool {
         self.lost.is_some() || self.late.abs() >= LEAST || self.resampled(samples)
     }
@@ -27,7 +27,7 @@ impl Mend {
         self.quick.abs() * samples as f64 >= LEAST
     }
 
-    /// The recording as it should have been, of the same length, zero where nothing is known.
+    /// The corrected recording, of the same length, zero where nothing is known.
     pub fn of(&self, line: &[f64]) -> Vec<f64> {
         let samples = line.len();
         let mut mended = line.to_vec();
@@ -46,7 +46,7 @@ impl Mend {
     }
 }
 
-/// Puts a straight line in place of samples that were lost, or takes out those that were heard twice.
+/// Inserts a straight line in place of samples that were lost, or removes those that were recorded twice.
 fn put_back(line: &mut Vec<f64>, lost: i64, at: usize) {
     if lost < 0 {
         let end = (at + lost.unsigned_abs() as usize).min(line.len());
@@ -60,13 +60,13 @@ fn put_back(line: &mut Vec<f64>, lost: i64, at: usize) {
     line.splice(at..at, (0..count).map(between));
 }
 
-/// Where `lost` samples are missing in some recordings, given what they would be without: the place at which what is left over is
-/// least. Looked for between two samples.
+/// The sample, within `between`, at which `lost` samples are missing in some recordings: that which leaves the smallest residual
+/// to the `expected` recordings, which have no gap.
 pub(super) fn place(heard: &[&[f64]], expected: &[Vec<f64>], lost: i64, between: [usize; 2]) -> usize {
     let [from, to] = between;
     let length = heard.first().map_or(0, |line| line.len());
     let to = to.min(length);
-    // By how much more is left over at a sample if nothing is missing before it than if all is.
+    // Squared residual at a sample if nothing is missing before it, less that if all is.
     let more = |i: usize| -> f64 {
         let one = |(heard, expected): (&&[f64], &Vec<f64>)| {
             let x = heard.get(i).copied().unwrap_or(0.0);

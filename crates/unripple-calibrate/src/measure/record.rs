@@ -3,17 +3,18 @@
 use crate::CalibrateError;
 use unripple_core::Device;
 
-/// Blocks of silence before a recording: a device that counts what was missed in a pause does so by then.
+/// Blocks of silence before a recording: by their end a device has counted the blocks that it missed in a pause.
 pub const SILENCE: usize = 8;
 
-/// Plays signals on some outputs of a device and returns what some inputs hear meanwhile.
+/// Plays signals on some outputs of a device and returns the recordings of some inputs.
 ///
-/// Some blocks of silence come first, unheard, for devices that count what was missed in a pause only when they run again.
-/// `drive[i]` is sent to output `outputs[i]`, in the actuators' own unit, silence to all others; it ends with silence until
-/// `samples` have passed, in whole blocks. The answer is `inputs` x that many samples, or a few more to the end of a block.
+/// [`SILENCE`] blocks come first and are not returned, for devices that count what was missed in a pause only when they run
+/// again. `drive[i]` is sent to output `outputs[i]`, in the actuators' own unit, silence to all others; it is continued
+/// with silence until `samples` have passed. The result is `[input][sample]`, of `samples` samples or a few more, to the
+/// end of a block.
 ///
 /// # Errors
-/// [`CalibrateError::Device`] from the device; [`CalibrateError::Gap`] if it lost blocks meanwhile, so that what was heard
+/// [`CalibrateError::Device`] from the device; [`CalibrateError::Gap`] if it lost blocks meanwhile, so that the recording
 /// has a gap.
 pub fn record(
     device: &mut dyn Device,

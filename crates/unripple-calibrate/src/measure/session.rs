@@ -1,4 +1,4 @@
-//! Responses of one place to all actuators by overlapping sweeps, from what the probe and the sensors heard.
+//! Responses at one place to all actuators, measured by overlapping sweeps with the probe or the sensors.
 
 use super::channel::Noise;
 use super::law::Law;
@@ -8,24 +8,25 @@ use crate::CalibrateError;
 use crate::signals::{Band, Deconvolver, Delay, Inversion, Schedule, Sweep, shift};
 use unripple_core::{Layout, ModalResponses, PROBE, Point, Surface};
 
-/// Longest latency that is looked for, in s. Longer than any sound system's buffers; each second of it is a second
-/// more of every recording.
+/// Longest latency that is searched, in s. Longer than any sound system's buffers; each second of it is a second more of every
+/// recording.
 const LATEST: f64 = 0.25;
 
 /// Samples before time 0 that deconvolved responses begin with, for latency and noise: 5 ms at 48 kHz.
 pub(super) const LEAD: usize = 240;
 
-/// Signal over noise, in dB, of all that a sensor heard of a take, above which noise does not make it unlike itself.
+/// Signal-to-noise ratio of a sensor's whole recording, in dB, above which noise is not the reason for sweeps that are not
+/// recognised.
 const CLEAR_DB: f64 = 15.0;
 
-/// Sensors that clock, gaps and tension are found from, at most: more give the same and take longer.
+/// Largest number of sensors from which clock, gaps and tension are found: more give the same and take longer.
 const TELLING: usize = 8;
 
 /// A plan for measuring at any number of places, with all actuators driven one after the other.
 ///
 /// Sweeps overlap: the next actuator begins while the last still sounds, as soon as their responses, and harmonics up to
-/// [`MeasureOptions::highest_order`], stay apart after one deconvolution of all. Where actuators have sensors, these are heard
-/// in every take: errors of clock, gaps and changes of tension found from them are taken out of what is measured
+/// [`MeasureOptions::highest_order`], stay apart after one deconvolution of all. Where actuators have sensors, these are
+/// recorded in every take: errors of clock, gaps and changes of tension found from them are corrected in the measured responses
 /// ([`Account`](super::Account)).
 #[derive(Clone, Debug)]
 pub struct Session {
@@ -39,9 +40,9 @@ pub struct Session {
     pub(super) heard: usize,
     pub(super) band: Band,
     pub(super) law: Law,
-    /// Numbers of the actuators whose sensors clock, gaps and tension are found from.
+    /// Indices of the actuators from whose sensors clock, gaps and tension are found.
     telling: Vec<usize>,
-    /// Responses at these in the first take, `[sensor][actuator][sample]`.
+    /// Responses at these sensors in the first take, `[sensor][actuator][sample]`.
     known: Option<Vec<Vec<Vec<f64>>>>,
 }
 
@@ -54,11 +55,11 @@ pub enum Listen {
     Sensors,
 }
 
-/// One recording of some inputs, mended.
+/// One recording of some inputs, corrected.
 pub(super) struct Take {
     /// The recordings, `[input][sample]`.
     pub lines: Vec<Vec<f64>>,
-    /// Account of the recording, and how it was mended.
+    /// Account of the recording, and its corrections.
     pub verdict: Verdict,
 }
 
@@ -109,9 +110,9 @@ impl Session {
         })
     }
 
-    /// Holds all takes to come against what the sensors heard in this one, from [`Listen::Sensors`] or out of a library: their
-    /// clock, their latency and the sheet's tension are brought to it. Responses that are all zeros, of dead actuators and bad
-    /// sensors, show nothing and are left out.
+    /// Sets the reference for all later takes: responses between actuators, measured with [`Listen::Sensors`] or read from a
+    /// library. Later takes are corrected to its clock, its latency and its tension. Responses that are all zeros, of dead
+    /// actuators and bad sensors, are left out.
     ///
     /// # Errors
     /// [`CalibrateError::Count`] for another number of sensors or responses than actuators.
@@ -136,21 +137,22 @@ impl Session {
         self.band
     }
 
-    /// The wires it was planned for.
+    /// The channels of the device that this plan uses.
     pub fn wires(&self) -> &Wires {
         &self.wires
     }
 
-    /// Time in seconds that a place takes, its repeats included, without what the surface needs to come to rest.
+    /// Duration of the recordings of one place, in s, repeats included, without the time in which the surface comes to rest.
     pub fn seconds(&self) -> f64 {
         self.options.repeats as f64 * self.heard as f64 / self.sweep.rate
     }
 
-    /// Plays the sweeps and finds the responses, of the probe or of each sensor in turn.
+    /// Plays the sweeps and finds the responses: one channel for the probe, or one for each sensor. `number`, `at` and `attempt`
+    /// are those of [`Rig::ready`].
     ///
     /// # Errors
-    /// [`CalibrateError::Recording`] without an input for the probe, for clocks too far apart, or for samples lost where nothing
-    /// tells the place; those of the rig and of [`record`].
+    /// [`CalibrateError::Recording`] without an input for the probe, for clocks too far apart, or for samples lost at a place
+    /// that cannot be found; those of the rig and of [`record`].
     pub fn measure(
         &self,
         rig: &mut dyn Rig,
@@ -183,7 +185,7 @@ impl Session {
         (0..inputs.len()).map(|input| self.channel(&takes, input, LEAD)).collect()
     }
 
-    /// Records some inputs, and those that clock, gaps and tension are found from.
+    /// Records some inputs, and those from which clock, gaps and tension are found.
     fn take(&self, rig: &mut dyn Rig, inputs: &[usize]) -> Result<Take, CalibrateError> {
         let mut asked = inputs.to_vec();
         let own: Vec<usize> = self.telling.iter().map(|actuator| self.wires.sensors[*actuator]).collect();
@@ -199,7 +201,7 @@ impl Session {
         let sensors: Vec<usize> = telling.iter().map(|i| self.telling[*i]).collect();
         let known: Option<Vec<Vec<Vec<f64>>>> =
             known.map(|known| telling.iter().map(|i| known[*i].clone()).collect());
-        // Rows of zeros are of nobody: dead actuators and bad sensors.
+        // Rows of zeros belong to dead actuators and bad sensors.
         let sounds = |known: &Vec<Vec<Vec<f64>>>| known.iter().flatten().flatten().any(|h| *h != 0.0);
         let known = known.filter(sounds);
         if lines.is_empty() {
@@ -237,8 +239,8 @@ impl Session {
         judge.judge(lines)
     }
 
-    /// Samples by which what is heard comes late, and how far actuators disagree on it: by the reference channel if there is
-    /// one, otherwise by what actuators hear of themselves. See [`latency`]. `None` if there is neither.
+    /// Latency of the device and its uncertainty, both in samples: from the reference channel if there is one (uncertainty 0),
+    /// otherwise from responses between actuators, by [`latency`]. `None` if there is neither reference nor sensor.
     ///
     /// # Errors
     /// Those of the rig, of [`record`] and of [`latency`]; of [`Session::measure`] for clocks and samples lost.
@@ -267,7 +269,7 @@ impl Session {
                 Delay::of_impulse(loudest.map_or(&[][..], Vec::as_slice), self.sweep.rate, self.band)?;
             return Ok(Some([found.samples - LEAD as f64 + known, 0.0]));
         }
-        // What is left out has nothing to say.
+        // Actuators that are left out are not used.
         for actuator in &self.options.without {
             if let Some(window) = windows.get_mut(*actuator) {
                 window.clear();
@@ -278,7 +280,8 @@ impl Session {
         Ok(Some([late + known, spread]))
     }
 
-    /// The responses to all actuators from what one input heard, as long as they are kept apart, with the lead.
+    /// The responses to all actuators from the recording of one input, `[actuator][sample]`, each as long as the schedule keeps
+    /// them apart, lead included.
     fn windows(&self, heard: &[f64]) -> Result<Vec<Vec<f64>>, CalibrateError> {
         let whole = self.whole(heard)?;
         let cut = |actuator: usize| {
@@ -288,7 +291,8 @@ impl Session {
         Ok((0..self.wires.drives.len()).map(cut).collect::<Result<Vec<_>, _>>()?)
     }
 
-    /// Why a channel is bad, if it is: its worst response against the least that is asked.
+    /// Why a channel is bad, in words: a knock, unrecognised sweeps or the first response below the limits; `None` if it is
+    /// good.
     pub fn fault(&self, channel: &Channel) -> Option<String> {
         self.options.fault(channel, "actuator")
     }

@@ -10,44 +10,44 @@ use crate::CalibrateError;
 use crate::signals::Band;
 use unripple_dsp::convolve;
 
-/// Largest difference of clocks that is made up for, in millionths, with a little to spare for what 200 is measured as.
+/// Largest error of the clock that is corrected, in parts per million: 200, and a little more for the error of measuring it.
 const MOST_PPM: f64 = 203.0;
 
-/// Rounds of finding and mending: what is left after one is a hundredth of it.
+/// Largest number of rounds of estimating and correcting: each leaves a hundredth of the error.
 const ROUNDS: usize = 5;
 
-/// Standard errors above which a difference is one.
+/// Number of standard errors above which a difference counts as real.
 const SURE: f64 = 5.0;
 
-/// Difference of clocks, in millionths, below which they count as equal, however small the standard error.
+/// Error of the clock, in parts per million, below which clocks count as equal, however small the standard error.
 const LEAST_PPM: f64 = 0.2;
 
-/// Change of tension, as a share, below which it counts as none, however small the standard error.
+/// Relative change of tension below which it counts as none, however small the standard error.
 const LEAST_CHANGE: f64 = 2e-5;
 
 /// Fewest sweeps that an error of the clock is found from, unless they are the only two and very alike.
 const FEWEST: usize = 3;
 
-/// Likeness that two sweeps need when they are all there is. By chance two sweeps are that alike hardly ever, as
-/// their responses differ.
+/// Correlation that two sweeps need when there are no others. By chance two sweeps hardly ever correlate that well, as their responses
+/// differ.
 const ALIKE: f64 = 0.95;
 
-/// What sweeps may be early or late by for no reason that is known, root mean square, as a share of the shortest period swept: it costs a
-/// focus 2 % of its height.
+/// Largest unexplained rms deviation of the sweeps' times that is accepted, as a share of the shortest period swept: it costs a focus 2 %
+/// of its height.
 const HARMLESS: f64 = 1.0 / 32.0;
 
-/// Turns what one input recorded into a periodic deconvolution.
+/// Function that deconvolves the recording of one input by the sweep; the result is periodic.
 type Deconvolve<'a> = dyn Fn(&[f64]) -> Result<Vec<f64>, CalibrateError> + 'a;
 
-/// The references of a take: the first take, the schedule, the band.
+/// What a take is compared with: the first take, the schedule, the band.
 pub(super) struct Judge<'a> {
-    /// Numbers of the actuators whose sensors are used; none where it is a reference, which hears what is sent.
+    /// Indices of the actuators whose sensors are used; empty if a reference channel, which records the sent signal, is used instead.
     pub sensors: &'a [usize],
-    /// Responses at them in the first take, `[sensor][actuator]` from time 0; nothing in the first take itself.
+    /// Responses at these sensors in the first take, `[sensor][actuator][sample]` from time 0; `None` in the first take itself.
     pub known: Option<&'a [Vec<Vec<f64>>]>,
     /// First sample of each actuator's sweep.
     pub starts: &'a [usize],
-    /// Samples of a sweep that sound.
+    /// Length of a sweep without the silence after it, in samples.
     pub sounding: usize,
     /// The signals that are played, `[output][sample]`.
     pub drive: &'a [Vec<f64>],
@@ -55,39 +55,39 @@ pub(super) struct Judge<'a> {
     pub lead: usize,
     /// Samples of a response that are compared, lead included: without the sweeps before and after.
     pub length: usize,
-    /// Samples by which all that is heard comes late.
+    /// Latency of the device, in samples.
     pub latency: f64,
     /// Samples per second.
     pub rate: f64,
     /// The band in which responses are measured.
     pub band: Band,
-    /// Where frequencies go when tension changes.
+    /// Shift of natural frequencies with tension or stiffness.
     pub law: &'a Law,
-    /// Turns what was heard into a deconvolution.
+    /// Deconvolves a recording by the sweep.
     pub deconvolve: &'a Deconvolve<'a>,
-    /// Whether a deconvolution is far more than noise.
+    /// Whether a deconvolved recording is well above the noise.
     pub clear: &'a dyn Fn(&[f64]) -> bool,
 }
 
 /// The findings on a take, and the corrections that they call for.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Verdict {
-    /// Account of the recording, for people.
+    /// Account of the recording, for the user.
     pub account: Account,
     /// Corrections of clock, delay and gaps.
     pub mend: Mend,
-    /// Change of tension at each sweep's begin and its rate per second, where there is any.
+    /// Relative change of tension at the start of each sweep, and its rate per second; `None` if there is none.
     pub changes: Option<Vec<[f64; 2]>>,
-    /// Sweeps that sensors heard otherwise than in the first take, where noise is not why.
+    /// Indices of sweeps that the sensors recorded otherwise than in the first take, where noise is not the reason.
     pub unlike: Vec<usize>,
 }
 
 impl Judge<'_> {
-    /// Finds out what became of a take by what its sensors heard, one line each.
+    /// Finds clock error, delay, gaps and change of tension of a take from the recordings of its sensors, one each.
     ///
     /// # Errors
-    /// [`CalibrateError::Recording`] for clocks too far apart, samples lost where nothing shows the place, and sweeps heard
-    /// at times that neither explains.
+    /// [`CalibrateError::Recording`] for clocks too far apart, samples lost at a place that cannot be found, and sweeps at times that
+    /// neither explains.
     pub fn judge(&self, heard: &[&[f64]]) -> Result<Verdict, CalibrateError> {
         let mut verdict = Verdict::default();
         if heard.is_empty() || self.starts.len() < 2 {
@@ -113,7 +113,7 @@ impl Judge<'_> {
         Ok(verdict)
     }
 
-    /// Sweeps of actuators that sensors heard in the first take, and do not know again though they are loud enough.
+    /// Sweeps that the sensors recorded in the first take and do not recognise now, though the recording is well above the noise.
     fn unlike(
         &self,
         verdict: &Verdict,
@@ -153,7 +153,7 @@ impl Judge<'_> {
         })
     }
 
-    /// Clock error and lost samples by the sweeps' delays; nothing of too few.
+    /// Clock error and lost samples from the sweeps' delays; `None` for too few sweeps.
     fn timing(
         &self,
         verdict: &mut Verdict,
@@ -194,7 +194,7 @@ impl Judge<'_> {
         Ok(near)
     }
 
-    /// Takes over what the delays show; whether that is anything new.
+    /// Adds the corrections that the delays call for; returns whether there are any new ones.
     fn learn(
         &self,
         verdict: &mut Verdict,
@@ -227,7 +227,7 @@ impl Judge<'_> {
             verdict.mend.late += timing.late;
             verdict.account.late = Some(verdict.mend.late);
         }
-        // The place is looked for once all else is right.
+        // The place is searched once all else is right.
         if let Some((lost, numbers)) = timing.lost.filter(|_| !new) {
             self.lose(verdict, lost, numbers, lines)?;
             new = true;
@@ -277,7 +277,7 @@ impl Judge<'_> {
         if self.latency == 0.0 { sum } else { crate::signals::shift(&sum, self.latency) }
     }
 
-    /// Says what tension there was, and keeps what is to be undone.
+    /// Stores the course of tension in the account, and in `changes` if it is to be corrected.
     fn tell(&self, verdict: &mut Verdict, found: &[Option<Apart>]) {
         verdict.account.of_stiffness = !self.law.tension;
         let known: Vec<(f64, Apart)> = found
@@ -292,7 +292,7 @@ impl Judge<'_> {
         let course = Course::of(&known);
         let first_last = [0, self.starts.len() - 1].map(|i| course.at(self.starts[i] as f64 / self.rate)[0]);
         verdict.account.drift = Some(first_last);
-        // One that stands out by chance is no drift: half of them do.
+        // A single change may stand out by chance: it counts as drift if those of half of the sweeps do.
         if 2 * known.iter().filter(|(_, apart)| sure(apart)).count() >= known.len() {
             let at = |start: &usize| course.at(*start as f64 / self.rate);
             verdict.changes = Some(self.starts.iter().map(at).collect());
@@ -302,10 +302,10 @@ impl Judge<'_> {
     }
 }
 
-/// Delays below this many samples are not looked into again.
+/// Delay, in samples, below which no further round of correction follows.
 const LEAST_LATE: f64 = 0.02;
 
-/// Change of tension over the time of a take: a straight line, or from sweep to sweep where that does not do.
+/// Change of tension over the time of a take: a straight line, or straight lines from sweep to sweep where one does not fit.
 struct Course {
     line: Option<[f64; 2]>,
     known: Vec<[f64; 2]>,

@@ -1,4 +1,4 @@
-//! Assumptions about a tap before it is recorded: length, strength, trust in the model.
+//! Responses from taps of unknown force: estimate of the force, then deconvolution by it.
 
 use crate::CalibrateError;
 use crate::signals::{Band, Deconvolver, Inversion, Stimulus};
@@ -9,9 +9,11 @@ use unripple_linalg::{Cholesky, Mat, product, squared_norm, times};
 pub struct TapOptions {
     /// Longest time a tap takes, bounces included, in s.
     pub length: f64,
-    /// Seconds after a tap in which the model is believed: the first echoes, that a tension slightly off hardly moves.
+    /// Time after a tap, in s, in which the model is trusted: that of the first reflections, which a small error of
+    /// tension hardly moves.
     pub early: f64,
-    /// Power of the tap's spectrum, as a share of its strongest line, that frequencies without any are given.
+    /// Regularisation of the deconvolution: power added to the tap's spectrum, relative to its strongest line in the
+    /// band.
     pub floor: f64,
 }
 
@@ -24,25 +26,25 @@ impl Default for TapOptions {
 /// Responses found from taps at a place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tapped {
-    /// Response of each actuator at the place, by reciprocity, in m/s per unit impulse; the tap's begin is time 0.
+    /// Response of each actuator at the place, by reciprocity, in m/s per unit impulse; time 0 is the start of the tap.
     pub responses: Vec<Vec<f64>>,
     /// Force of each tap in N, at the rate of the recording.
     pub forces: Vec<Vec<f64>>,
-    /// Share of the early sound, as power, that force and model do not explain.
+    /// Share of the power of the early signals that force and model do not explain.
     pub unexplained: f64,
 }
 
-/// Responses of actuators at a place from taps there, of any shape and strength, heard by the actuators' own sensors.
+/// Responses of actuators at a place from taps there, of any shape and strength, recorded by the actuators as sensors.
 ///
-/// The signal of sensor a is `s_a = h_a * f`, with the same force f for all. f is sought first, as the smooth force
+/// The signal of sensor a is `s_a = h_a * f`, with the same force f for all. First f is estimated, as the smooth force
 /// of at most [`TapOptions::length`] that, with the model's responses, best explains the first [`TapOptions::early`]
-/// seconds of all sensors in the least-squares sense; then each h_a is s_a with f divided out. The model so gives the
-/// strength and fine shape of a pulse of a few milliseconds, and nothing of the responses themselves.
+/// seconds of all sensors in the least-squares sense; then each h_a is s_a deconvolved by f. The model thus determines
+/// the strength and fine shape of a pulse of a few milliseconds, and nothing of the responses themselves.
 ///
 /// `heard` is `[tap][sensor][sample]`, latency removed; `model` is `[sensor][sample]` at the same place and rate.
 ///
 /// # Errors
-/// [`CalibrateError::Recording`] if a tap was not heard; [`CalibrateError::Count`] if sensors and model disagree;
+/// [`CalibrateError::Recording`] if no sensor has a signal; [`CalibrateError::Count`] if sensors and model disagree;
 /// [`CalibrateError::Dsp`] from deconvolution.
 pub fn tapped(
     heard: &[Vec<Vec<f64>>],
@@ -96,7 +98,7 @@ pub fn tapped(
     Ok(Tapped { responses: total, forces, unexplained: unexplained * scale })
 }
 
-/// A tap's length before the sample at which any sensor first hears something: the loudest sensor's tenth.
+/// The sample one tap's length before that at which any sensor first reaches a tenth of its own peak.
 fn begin(sensors: &[Vec<f64>], rate: f64, options: &TapOptions) -> Option<usize> {
     let first = |s: &Vec<f64>| {
         let peak = s.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
@@ -106,7 +108,7 @@ fn begin(sensors: &[Vec<f64>], rate: f64, options: &TapOptions) -> Option<usize>
     Some(first.saturating_sub((options.length * rate) as usize))
 }
 
-/// The force, and the share of the early sound that it leaves unexplained.
+/// The force of a tap, and the share of the power of the early signals that it leaves unexplained.
 fn force(
     heard: &[Vec<f64>],
     model: &[Vec<f64>],
@@ -119,7 +121,7 @@ fn force(
     let span = (2.0 * options.length * rate) as usize;
     let early = span + (options.early * rate) as usize;
     let knots = span / step + 1;
-    // Motion by the hat at a knot: hats add up to a line between knots.
+    // Response to a triangular force at a knot; triangles add up to straight lines between knots.
     let hat: Vec<f64> =
         (0..2 * step - 1).map(|i| 1.0 - (i as f64 + 1.0 - step as f64).abs() / step as f64).collect();
     let rows = heard.len() * early;
@@ -159,7 +161,7 @@ fn force(
     Ok((force, left))
 }
 
-/// Each sensor's sound with the force divided out.
+/// Each sensor's signal deconvolved by the force.
 fn divided(
     heard: &[Vec<f64>],
     force: &[f64],

@@ -1,4 +1,5 @@
-//! Responses of a place from taps of unknown force: the actuators listen, and reciprocity turns that round.
+//! Responses at a place from taps of unknown force: actuators are the sensors, and reciprocity gives their responses as
+//! drives.
 
 use super::{Channel, MeasureOptions, Rig, TapOptions, Wires, record, tapped};
 use crate::CalibrateError;
@@ -6,7 +7,7 @@ use crate::signals::{Band, Quality, shift};
 use unripple_core::{Layout, ModalResponses, Point, Surface};
 use unripple_physics::sample;
 
-/// A plan for tapping places, all actuators listening: responses by reciprocity, with no probe.
+/// A plan for tapping places with all actuators as sensors: responses by reciprocity, with no probe.
 #[derive(Clone, Debug)]
 pub struct TapSession {
     options: MeasureOptions,
@@ -19,8 +20,8 @@ pub struct TapSession {
 }
 
 impl TapSession {
-    /// A plan for a surface whose sensors have these wires. `model` is what is known of the surface beforehand: see
-    /// [`tapped`] for the little that is taken from it.
+    /// A plan for a surface whose sensors have these wires. `model` holds the expected responses of the surface; [`tapped`]
+    /// says how little is taken from it.
     ///
     /// # Errors
     /// [`CalibrateError::Recording`] without sensors or for a device of another rate; [`CalibrateError::Range`] for options
@@ -41,7 +42,7 @@ impl TapSession {
                 found: layout.inputs.join(", "),
             });
         }
-        // A tap may come late in the recording: twice what the surface rings.
+        // A tap may come late in the recording: its length is twice the settle time.
         let samples = (2.0 * options.settle_time * sweep.rate) as usize;
         Ok(Self {
             options: options.clone(),
@@ -55,7 +56,7 @@ impl TapSession {
     }
 
     /// Has a place tapped, as often as there are repeats, and finds the responses. `at` is in m, `attempt` counts the
-    /// recordings there from 0.
+    /// recordings at this place from 0.
     ///
     /// # Errors
     /// Those of the rig, of [`record`] and of [`tapped`].
@@ -97,7 +98,7 @@ impl TapSession {
         Ok(Channel { responses: found.responses, quality, ..Channel::default() })
     }
 
-    /// Why a channel is bad, if it is: too little signal.
+    /// Why a channel is bad, in words: its first response with too little signal; `None` if it is good.
     pub fn fault(&self, channel: &Channel) -> Option<String> {
         self.options.fault(channel, "sensor")
     }

@@ -1,40 +1,40 @@
-//! When sweeps were heard, and under what tension: sensors' signals compared with another take, or with each other.
+//! Delay and change of tension of each sweep of a take, from sensors' signals compared with another take or with each other.
 
 use super::apart::{Apart, Pairs};
 use super::law::Law;
 use crate::signals::{Band, Delay};
 
-/// Seconds by which a sweep is looked for before and after where it should be.
+/// Largest deviation of a sweep from its expected time that is searched, either way, in s.
 const REACH: f64 = 0.1;
 
-/// Likeness below which a sweep is not known again.
+/// Correlation below which a sweep is not recognised.
 const LEAST: f64 = 0.7;
 
-/// Likeness that the coarse search asks for: it sees the neighbouring sweeps too, and is small even where all is
+/// Correlation that the coarse search requires. Neighbouring sweeps are in its segment too, so that it is small even where all is
 /// well.
 const COARSE: f64 = 0.4;
 
-/// Sensors that take part in the coarse search. The second decides where the first is spoilt by a knock; more take
+/// Number of sensors, the loudest ones, in the coarse search. The second decides where the first is spoilt by a knock; more take
 /// longer.
 const LOUDEST: usize = 2;
 
-/// Energy over that of the loudest from which a reference hears a sweep.
+/// Smallest energy of a sweep in the reference channel, relative to the loudest, with which the sweep counts as present.
 const HEARD: f64 = 0.1;
 
-/// Times that a delay is looked for anew where the last one led. A delay that has not settled by then is left as it
+/// Largest number of searches for a delay, each starting where the last one led. A delay that has not settled by then is left as it
 /// is.
 const STEPS: usize = 6;
 
-/// Rounds in which delays between pairs become delays of sweeps.
+/// Iterations that turn delays between pairs of sweeps into delays of sweeps.
 const ROUNDS: usize = 200;
 
-/// Periodic deconvolutions of what some sensors recorded of all sweeps of one take.
+/// Deconvolved recordings of some sensors, each with all sweeps of one take.
 pub(super) struct Telling<'a> {
-    /// For each sensor, the number of its own actuator.
+    /// For each sensor, the index of its own actuator.
     pub sensors: &'a [usize],
-    /// For each sensor, its whole deconvolution.
+    /// For each sensor, its deconvolved recording, which is periodic.
     pub wholes: &'a [Vec<f64>],
-    /// Where each sweep's response begins in them, lead included.
+    /// Sample of these recordings at which the response to each sweep begins, lead included.
     pub starts: &'a [usize],
     /// Samples before time 0 that a response begins with.
     pub lead: usize,
@@ -42,11 +42,11 @@ pub(super) struct Telling<'a> {
     pub rate: f64,
     /// The band in which responses are compared.
     pub band: Band,
-    /// Where frequencies go when tension changes.
+    /// Shift of natural frequencies with tension or stiffness.
     pub law: &'a Law,
 }
 
-/// `length` samples of a periodic signal.
+/// `length` samples of a periodic signal, from sample `first` on, which may be negative.
 pub(super) fn around(whole: &[f64], first: i64, length: usize) -> Vec<f64> {
     let size = whole.len().max(1) as i64;
     (0..length as i64)
@@ -55,7 +55,8 @@ pub(super) fn around(whole: &[f64], first: i64, length: usize) -> Vec<f64> {
 }
 
 impl Telling<'_> {
-    /// Each sweep beside what the same sensors heard of it before, `known[sensor][actuator]` from time 0.
+    /// How each sweep differs from the responses of the same sensors in another take, `known[sensor][actuator][sample]` from time 0:
+    /// in delay and, unless `still`, in tension. `None` for a sweep that is not recognised.
     pub fn beside(&self, known: &[Vec<Vec<f64>>], still: bool) -> Vec<Option<Apart>> {
         let one = |(sweep, start): (usize, &usize)| {
             let pairs: Vec<(&[f64], usize)> =
@@ -65,8 +66,8 @@ impl Telling<'_> {
         self.starts.iter().enumerate().map(one).collect()
     }
 
-    /// The sweeps whose actuators' sensors are known beside each other, by reciprocity: what a hears of b is what b hears
-    /// of a, at another time. Delays and changes are known but for one that is common to all.
+    /// Delay and change of tension of each sweep relative to the others, for actuators whose sensors are recorded, by reciprocity:
+    /// the response of sensor a to actuator b equals that of b to a, at another time. A part common to all sweeps cannot be found.
     pub fn beside_each_other(&self, length: usize, still: bool) -> Vec<Option<Apart>> {
         let count = self.sensors.len();
         let mut pairs: Vec<(usize, usize, Apart)> = Vec::new();
@@ -95,8 +96,8 @@ impl Telling<'_> {
         all
     }
 
-    /// Each sweep beside the loudest, as one input heard them that hears what is sent (all of it, or the sum): how much later
-    /// than it should be. `None` for those that it does not hear.
+    /// Delay of each sweep relative to the loudest, in the recording of an input that carries the sent signals (their sum, or one of
+    /// them). `None` for sweeps that it does not carry.
     pub fn beside_the_loudest(&self, length: usize) -> Vec<Option<Apart>> {
         let Some(whole) = self.wholes.first() else { return vec![None; self.starts.len()] };
         let cuts: Vec<Vec<f64>> =
@@ -113,7 +114,8 @@ impl Telling<'_> {
         self.starts.iter().zip(&powers).map(one).collect()
     }
 
-    /// The differences of known responses from those around `at`, which have their time 0 after `origin` samples.
+    /// Difference of known responses and those found around sample `at`, both with time 0 after `origin` samples; `None` if the
+    /// correlation is too low.
     fn compared(&self, known: &[(&[f64], usize)], at: i64, origin: usize, still: bool) -> Option<Apart> {
         let mut whole = self.coarse(known, at)?;
         let mut best = None::<Apart>;
@@ -125,7 +127,7 @@ impl Telling<'_> {
                 known.iter().zip(&found).map(|((k, _), f)| (*k, &f[..])).collect();
             let apart = agreed(Pairs::of(&pairs, origin, self.rate, self.band, self.law)?, still);
             best = Some(Apart { late: apart.late + whole as f64, ..apart });
-            // Another tension moves what is coarsely seen: whole samples are taken out until none is left.
+            // A change of tension shifts the coarse delay: whole samples are removed until none is left.
             if apart.late.abs() < 1.0 {
                 break;
             }
@@ -134,7 +136,7 @@ impl Telling<'_> {
         best.filter(|apart| apart.likeness >= LEAST)
     }
 
-    /// Whole samples by which what was found comes late.
+    /// Delay of the found responses in whole samples, by correlation; `None` if it is too low.
     fn coarse(&self, known: &[(&[f64], usize)], at: i64) -> Option<i64> {
         let power = |signal: &[f64]| signal.iter().map(|x| x * x).sum::<f64>();
         let mut loudest: Vec<&(&[f64], usize)> = known.iter().collect();
@@ -145,13 +147,14 @@ impl Telling<'_> {
             let delay = Delay::between(&long, known, self.rate, self.band).ok()?;
             (!delay.inverted).then_some(delay)
         });
-        // The correlation is of the whole stretch, in which neighbours sound too: it is small even where all is well.
+        // The segment holds neighbouring sweeps too: the correlation is small even where all is well.
         let best = found.max_by(|a, b| a.correlation.total_cmp(&b.correlation))?;
         (best.correlation >= COARSE).then(|| best.samples.round() as i64 - reach)
     }
 }
 
-/// The common difference of pairs: of most of them, where the others have nothing in common, as at a dead sensor.
+/// The common difference of pairs; if they do not agree, that of the majority, without pairs that do not fit, as those of a dead
+/// sensor.
 fn agreed(pairs: Pairs<'_>, still: bool) -> Apart {
     let apart = pairs.apart(still);
     if apart.likeness >= LEAST {
@@ -161,8 +164,8 @@ fn agreed(pairs: Pairs<'_>, still: bool) -> Apart {
     pairs.without(&strange).map_or(apart, |others| others.apart(still))
 }
 
-/// What each of `count` has, when pairs (later minus earlier number's: the first of the pair less the second) are known, each
-/// with its error: weighted least squares by damped Jacobi iterations, mean 0. `None` for those in no pair.
+/// Values of `count` items and their errors, from differences of pairs (the first item's value less the second's), each with its
+/// error: weighted least squares by damped Jacobi iterations, mean 0. `None` for items in no pair.
 fn levelled(
     count: usize,
     pairs: &[(usize, usize, Apart)],
@@ -183,7 +186,7 @@ fn levelled(
         }
         for i in 0..count {
             if weights[i] > 0.0 {
-                // Half of the way, so that two that only know each other do not swing.
+                // Half of the step, so that two items that are only paired with each other do not oscillate.
                 level[i] = 0.5 * (level[i] + sums[i] / weights[i]);
             }
         }

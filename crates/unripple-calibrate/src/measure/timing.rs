@@ -5,43 +5,43 @@
 pub(super) struct Sweep {
     /// Number of the sweep, from 0.
     pub number: usize,
-    /// First sample of the sweep in what is played.
+    /// First sample of the sweep in the played signal.
     pub start: f64,
     /// Delay of the sweep against where it should be, in samples.
     pub late: f64,
-    /// Standard error of that.
+    /// Standard error of `late`, in samples.
     pub error: f64,
 }
 
 /// Times of a take against its drive: `late + slope · start`, and from some sweep on `lost` samples less.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Timing {
-    /// Samples by which a sweep that begins at 0 is late.
+    /// Delay of a sweep that begins at sample 0, in samples.
     pub late: f64,
-    /// Samples more for each sample of what is played: by how much the recording's clock is quick.
+    /// Growth of the delay per sample of the played signal: the relative error of the recording's clock, positive if it is fast.
     pub slope: f64,
     /// Standard error of `slope`.
     pub slope_error: f64,
     /// Whether there were enough sweeps to find an error of the clock; without it `slope` is 0.
     pub clock: bool,
-    /// Samples lost (negative: repeated), the last sweep before and the first after.
+    /// Number of samples lost (negative: repeated), and the numbers of the last sweep before and the first after.
     pub lost: Option<(i64, [usize; 2])>,
-    /// Root mean square of what is left, in samples, of the sweeps that count.
+    /// Rms residual of the delays, in samples, over the sweeps that are used.
     pub rest: f64,
 }
 
-/// Samples that delays may be off by for no reason of the clock's: the surface is not quite the same from take to take.
+/// Deviation of delays, in samples, that is accepted for no reason of the clock's: the surface is not quite the same from take to take.
 const SLACK: f64 = 0.25;
 
 /// Least number of samples that are taken to be lost: less is taken for an error of the clock.
 const LEAST_LOST: f64 = 1.5;
 
-/// Sweeps that sound while samples are lost, at most: their delay is neither the one nor the other.
+/// Largest number of sweeps that sound while samples are lost: their delay is neither that before nor that after.
 const SOUNDING: usize = 2;
 
 impl Timing {
-    /// The simplest that explains the sweeps: one clock, then one clock and a place where samples were lost. Two sweeps that are as late
-    /// as each other say so, and nothing of a clock. `None` if nothing explains them, or there are fewer than two.
+    /// The simplest timing that explains the sweeps: one clock, then one clock and a place where samples were lost. Two sweeps determine
+    /// a common delay, but no error of a clock. `None` if nothing explains them, or there are fewer than two.
     pub fn of(sweeps: &[Sweep]) -> Option<Self> {
         if sweeps.len() < LINE {
             let level = Self::level(sweeps)?;
@@ -66,20 +66,21 @@ impl Timing {
         best.map(|(_, timing)| timing)
     }
 
-    /// What is nearest to sweeps that nothing explains: a line, or one delay for two. Its errors are those of what is left.
+    /// The best fit to sweeps that no timing explains: a line, or one delay for two sweeps. Its standard error follows from the
+    /// residual.
     pub fn nearest(sweeps: &[Sweep]) -> Option<Self> {
         let near = if sweeps.len() < LINE { Self::level(sweeps) } else { Self::line(sweeps) }?;
         let slope_error = near.slope_error * (near.rest / error(sweeps).max(FLOOR)).max(1.0);
         Some(Self { slope_error, ..near })
     }
 
-    /// One delay for all, of two sweeps or more.
+    /// One delay for all sweeps, of which there must be two or more.
     fn level(sweeps: &[Sweep]) -> Option<Self> {
         let fit = Fit::of(sweeps, 1, |_| [1.0, 0.0, 0.0]).filter(|_| sweeps.len() > 1)?;
         Some(Self { late: fit.x[0], rest: fit.rest, ..Self::default() })
     }
 
-    /// A straight line through all.
+    /// A straight line through all sweeps: a delay and an error of the clock.
     fn line(sweeps: &[Sweep]) -> Option<Self> {
         let fit = Fit::of(sweeps, 2, |sweep| [1.0, sweep.start, 0.0])?;
         let ([late, slope, _], slope_error) = (fit.x, fit.errors[1]);
@@ -91,7 +92,7 @@ impl Timing {
         let kept: Vec<Sweep> = [&sweeps[..first], sweeps.get(first + hit..)?].concat();
         let after = sweeps.get(first + hit)?;
         let step = |sweep: &Sweep| if sweep.start >= after.start { -1.0 } else { 0.0 };
-        // Of few sweeps a slope and a step would explain anything: there the clock is taken to be right.
+        // With few sweeps a slope and a step would explain anything: there the clock is taken to be right.
         let timing = if kept.len() < FEW {
             let fit = Fit::of(&kept, 2, |sweep| [1.0, step(sweep), 0.0])?;
             (Self { late: fit.x[0], rest: fit.rest, ..Self::default() }, fit.x[1])
@@ -110,10 +111,10 @@ impl Timing {
     }
 }
 
-/// Sweeps below which an error of the clock cannot be separated from a step.
+/// Number of sweeps below which an error of the clock cannot be separated from a step.
 const FEW: usize = 5;
 
-/// Sweeps below which a line says nothing: it goes through any two.
+/// Number of sweeps below which a line says nothing: it goes through any two.
 const LINE: usize = 3;
 
 /// Largest residual of an explanation of the delays, in samples.
@@ -161,10 +162,10 @@ impl Fit {
     }
 }
 
-/// Samples that a delay is never surer than. Otherwise one very clean sweep would outweigh all others.
+/// Smallest error of a delay, in samples. Otherwise one very clean sweep would outweigh all others.
 const FLOOR: f64 = 1e-3;
 
-/// By Cramer's rule; `None` if singular.
+/// Inverse of a matrix by Cramer's rule; `None` if it is singular.
 fn inverted(m: [[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
     let minor = |i: usize, j: usize| {
         let [a, b] = [(i + 1) % 3, (i + 2) % 3];

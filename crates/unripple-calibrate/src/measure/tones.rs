@@ -1,21 +1,23 @@
-//! The decaying tones that a surface's responses are made of, found in what is left once their beginning has passed.
+//! The decaying tones in a surface's responses, found in the part after their beginning.
 
 use realfft::RealFftPlanner;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use unripple_linalg::{General, Lu, Mat, adjoint_times, c64, general, product, symmetric, times_adjoint};
 
-/// What a part of the band rings for at its soft edges, times their width in Hz: a thousandth is left.
+/// Time that the soft edges of a part of the band ring for, times their width in Hz: a thousandth is left then.
 const RINGING: f64 = 2.5;
 
-/// Rows of the largest system solved, and the least time steps that are worth it. Work grows as the cube of the rows.
+/// Largest number of rows of the system that is solved, and (`FEWEST`) the smallest number of time steps. Work grows as the cube of
+/// the rows.
 const ROWS: usize = 240;
 const FEWEST: usize = 12;
 
-/// A direction with less than this share of the power of the strongest is noise, and so is one within this factor of the weakest half.
+/// Smallest power of a direction of the signal space that is kept: relative to the strongest, and (`OVER_NOISE`) relative to the lower
+/// quartile of all, which is noise.
 const LEAST: f64 = 1e-9;
 const OVER_NOISE: f64 = 20.0;
 
-/// Nepers of decay, until the beginning has passed, beyond which a tone is not followed back to it.
+/// Largest decay of a tone over the beginning that is left out, in nepers. One that decays more is not extrapolated back to time 0.
 const DEEPEST: f64 = 2.5;
 
 /// A part of a band, in Hz: all between `low` and `high`, with soft edges of width `edge` outside.
@@ -30,7 +32,7 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// A part whose soft edges ring for so many seconds.
+    /// A part whose soft edges ring for `passed` seconds.
     pub fn new(low: f64, high: f64, passed: f64) -> Self {
         Self { low, high, edge: RINGING / passed }
     }
@@ -42,16 +44,16 @@ impl Part {
     }
 }
 
-/// A decaying tone Re(own · e^{st}) in what each actuator hears of itself.
+/// A decaying tone Re(own · e^{st}) in the response of each actuator at itself.
 #[derive(Clone, Debug)]
 pub(super) struct Tone {
     /// Complex frequency, in 1/s.
     pub s: c64,
-    /// Amplitude at time 0 of what each actuator hears of itself.
+    /// Complex amplitude at time 0 in the response of each actuator at itself.
     pub own: Vec<c64>,
 }
 
-/// Responses `[sensor][drive][sample]`, as many sensors as drives, with their time 0 at a sample.
+/// Responses of as many sensors as drives, with the sample that is their time 0.
 pub(super) struct Heard<'a> {
     /// The responses, `[sensor][drive][sample]`.
     pub responses: &'a [Vec<Vec<f64>>],
@@ -61,7 +63,7 @@ pub(super) struct Heard<'a> {
     pub rate: f64,
 }
 
-/// The remaining signal of a part of the band, its lowest line at 0 Hz: sensors x drives at each instant.
+/// The responses after their beginning in a part of the band, its lowest line at 0 Hz: sensors x drives at each instant.
 struct Baseband {
     instants: Vec<Mat<c64>>,
     /// Time of each instant, in s.
@@ -72,11 +74,10 @@ struct Baseband {
 
 /// The tones within a part, `expected` being about how many there are with those at its edges.
 ///
-/// Responses between several places that share their tones are a linear system's: shifted by an instant, the directions that they span
-/// turn by the tones' e^{s dt}: the eigensystem realization algorithm (J.-N. Juang and R. S. Pappa, *J. Guidance* 8,
-/// 620, 1985). Tones that overlap are separated by what the places hear of each; and where two are not, their sum is
-/// still right. Nothing is used of the beginning, which holds what is not of this band: the slow answer of everything
-/// above it.
+/// Responses between several places that share their tones are those of a linear system: a shift by dt in time multiplies the
+/// directions of the signal space by the tones' e^{s dt} (the eigensystem realization algorithm: J.-N. Juang and R. S. Pappa, *J.
+/// Guidance* 8, 620, 1985). Tones that overlap are separated by their different amplitudes at the places; where two are not, their sum
+/// is still right. The beginning is not used, since it holds the quasi-static response of all modes above this band.
 pub(super) fn tones(heard: &Heard, part: &Part, expected: usize) -> Vec<Tone> {
     let count = heard.responses.len();
     let baseband = Baseband::of(heard, part);
@@ -96,7 +97,7 @@ pub(super) fn tones(heard: &Heard, part: &Part, expected: usize) -> Vec<Tone> {
         .filter(|(_, s)| s.re.is_finite() && s.re * lasted < 1.0 && -s.re * passed < DEEPEST)
         .collect();
     let amplitudes = amplitudes(&baseband, &shapes, &kept);
-    // What was brought down to 0 Hz was so from the signals' beginning on.
+    // The shift to 0 Hz has its phase 0 at the signals' first sample, not at time 0.
     let base = c64::new(0.0, TAU * baseband.base);
     let turn = (base * (heard.zero / heard.rate)).exp();
     kept.iter()
@@ -144,7 +145,7 @@ impl Baseband {
     }
 }
 
-/// The factors by which tones go on from instant to instant, and what each place hears of each (places x tones).
+/// The factor of each tone from instant to instant, and its complex amplitude at each place (places x tones).
 fn directions(instants: &[Mat<c64>], blocks: usize) -> Option<(Vec<c64>, Mat<c64>)> {
     let count = instants[0].nrows();
     let (rows, starts) = (count * blocks, instants.len() - blocks + 1);
@@ -172,8 +173,8 @@ fn directions(instants: &[Mat<c64>], blocks: usize) -> Option<(Vec<c64>, Mat<c64
     Some((poles, shapes))
 }
 
-/// Amplitudes at time 0 of what each actuator hears of itself, tone by tone: those that explain all instants best, given what each
-/// place hears of each tone.
+/// Complex amplitude at time 0 of each tone in each actuator's response at itself, `[tone][actuator]`: the least-squares fit to all
+/// instants, given the tones' amplitudes at the places.
 fn amplitudes(baseband: &Baseband, shapes: &Mat<c64>, tones: &[(usize, c64)]) -> Vec<Vec<c64>> {
     let (count, tones_found) = (shapes.nrows(), tones.len());
     let going =

@@ -3,29 +3,29 @@
 use crate::CalibrateError;
 use unripple_core::{Layout, PROBE, Port};
 
-/// Name of the input that hears what a reference output sends.
+/// Name of the input that records the sent signal, the reference channel.
 pub const REFERENCE: &str = "reference";
 
-/// Which channel of a device is what: actuators by name, their sensors by the same names, a probe, a reference.
+/// Channels of a device: actuators by name, their sensors by the same names, a probe, a reference.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Wires {
-    /// Output of each actuator.
+    /// Index of each actuator's output.
     pub drives: Vec<usize>,
-    /// Input of each actuator's own sensor; empty unless all have one.
+    /// Index of the input of each actuator's own sensor; empty unless all have one.
     pub sensors: Vec<usize>,
-    /// Input of the probe on the surface.
+    /// Index of the input of the probe on the surface.
     pub probe: Option<usize>,
-    /// Input that hears what is sent.
+    /// Index of the input that records the sent signal.
     pub reference: Option<usize>,
 }
 
 impl Wires {
-    /// Maps channels by name. `named` gives the channel of a name where they differ: `("a1", "playback_3")`; it goes for
-    /// outputs and inputs alike. Where no output at all has an actuator's name, actuators take the outputs in order, and
-    /// sensors and probe the inputs.
+    /// Assigns channels by name. `named` holds pairs of a name and the channel that it stands for, such as `("a1",
+    /// "playback_3")`, for outputs and inputs alike. Where no output at all has an actuator's name, actuators take the
+    /// outputs in order, and sensors and probe the inputs.
     ///
     /// # Errors
-    /// [`CalibrateError::Wire`] when an actuator finds no output, with what there is and how to mend it.
+    /// [`CalibrateError::Wire`] if an actuator has no output; it says which outputs there are and how to correct that.
     ///
     /// ```
     /// use unripple_calibrate::measure::Wires;
