@@ -9,12 +9,12 @@ pub struct Outliers {
     /// A repeat is left out if it differs from the median of all by more than this many times what they usually differ
     /// by (rms, the median over repeats).
     pub times: f64,
-    /// But never if it differs by less than this share of the median's rms.
+    /// No repeat is left out that differs from the median by less (rms) than this share of the median's rms.
     pub least: f64,
 }
 
 impl Default for Outliers {
-    /// Three times, and no less than 1e-6.
+    /// A limit of three times, and of at least 1e-6 of the median's rms.
     fn default() -> Self {
         Self { times: 3.0, least: 1e-6 }
     }
@@ -47,7 +47,7 @@ pub struct Average {
 }
 
 impl Average {
-    /// The average of repeats. With fewer than three, none is called an outlier. All have as many samples.
+    /// The average of repeats, which must all have as many samples. With fewer than three, none is an outlier.
     ///
     /// # Errors
     /// [`DspError::Size`] without repeats, or if their lengths differ.
@@ -79,14 +79,14 @@ impl Average {
         Ok(Self { mean, kept, correlations, noise, signal })
     }
 
-    /// Signal over noise of the mean, in dB; of one repeat it is 10 log10 of the number kept less.
+    /// Signal-to-noise ratio of the mean, in dB. That of one repeat is less by 10 log10 of the number of repeats kept.
     pub fn snr_db(&self) -> f64 {
         let count = self.kept.iter().filter(|kept| **kept).count();
         10.0 * (self.signal * count as f64 / self.noise).log10()
     }
 
-    /// Share of the power of one repeat that all have in common: their coherence, noise and distortion that varies left
-    /// out, estimated without bias.
+    /// Coherence of the repeats: share of the power of one repeat that all have in common, without noise and varying
+    /// distortion, estimated without bias.
     pub fn coherence(&self) -> f64 {
         let whole = self.signal + self.noise;
         if whole > 0.0 { self.signal / whole } else { f64::NAN }
@@ -105,7 +105,7 @@ pub(super) fn correlation(a: &[f64], b: &[f64]) -> f64 {
     if norms > 0.0 { product / norms } else { 0.0 }
 }
 
-/// Sample by sample.
+/// Median of the repeats at each sample.
 fn medians(repeats: &[&[f64]], samples: usize) -> Vec<f64> {
     let mut column = vec![0.0; repeats.len()];
     (0..samples)
@@ -116,7 +116,7 @@ fn medians(repeats: &[&[f64]], samples: usize) -> Vec<f64> {
         .collect()
 }
 
-/// The value in the middle, or the mean of the two; 0 of nothing.
+/// The value in the middle, or the mean of the two; 0 without values.
 pub(super) fn median(values: &mut [f64]) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
     match values.len() {

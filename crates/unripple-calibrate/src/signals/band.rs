@@ -8,8 +8,8 @@ use unripple_dsp::DspError;
 /// A band of frequencies with soft edges: nothing below `low[0]` and above `high[1]`, all between `low[1]` and
 /// `high[0]`, and squared sines between. In Hz.
 ///
-/// The softer an edge, the shorter it rings: about the inverse of its width in Hz, before and after, since a band is
-/// applied without phase.
+/// The softer an edge, the shorter it rings: about the inverse of its width in Hz, before and after an impulse, since
+/// a band is applied as a zero-phase filter.
 ///
 /// ```
 /// use unripple_calibrate::signals::Band;
@@ -19,9 +19,9 @@ use unripple_dsp::DspError;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Band {
-    /// Where the lower edge begins and where it ends.
+    /// Start and end of the lower edge, in Hz.
     pub low: [f64; 2],
-    /// Where the upper edge begins and where it ends.
+    /// Start and end of the upper edge, in Hz.
     pub high: [f64; 2],
 }
 
@@ -29,7 +29,8 @@ impl Band {
     /// The band of all frequencies.
     pub const ALL: Self = Self { low: [0.0; 2], high: [f64::INFINITY; 2] };
 
-    /// The band that fills `low` to `high`, edges included: half an octave and a bit below, a quarter above.
+    /// The band from `low` to `high` (Hz), edges included: the lower one a bit more than half an octave wide, the
+    /// upper one a quarter.
     pub fn within(low: f64, high: f64) -> Self {
         Self { low: [low, 1.5 * low], high: [high / 1.2, high] }
     }
@@ -48,7 +49,7 @@ impl Band {
         }
     }
 
-    /// Limits a signal to the band without moving its phase; zero beyond both its ends. `rate` is in samples per
+    /// Limits a signal, zero beyond both its ends, to the band by a zero-phase filter. `rate` is in samples per
     /// second.
     ///
     /// # Errors
@@ -71,6 +72,8 @@ impl Band {
         Ok(())
     }
 
+    /// Checks that the edges ascend.
+    ///
     /// # Errors
     /// [`DspError::Range`] if the edges do not ascend.
     pub(crate) fn check(&self) -> Result<(), DspError> {

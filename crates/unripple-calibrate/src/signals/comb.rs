@@ -4,8 +4,8 @@ use super::transform::{Transform, turns};
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
-/// Transforms of which only a stretch of lines counts, by decimation in time: a signal of `teeth` interleaved signals,
-/// each transformed alone where caches reach, and joined in the lines that count only.
+/// Fourier transform that yields only a range of spectral lines, by decimation in time: the signal is split into `teeth`
+/// interleaved signals, each transformed alone within the processor's caches, and joined in the lines of the range only.
 ///
 /// Source: H. V. Sorensen, C. S. Burrus, "Efficient computation of the DFT with only a subset of input or output points",
 /// IEEE Trans. Signal Processing 41 (1993), section III (transform decomposition).
@@ -15,32 +15,33 @@ pub(super) struct Comb {
     teeth: usize,
     part: Transform,
     first: usize,
-    /// e^{-2πjk/size} of the lines that count.
+    /// e^{-2πjk/size} of the lines k of the range.
     turns: Vec<Complex<f64>>,
 }
 
-/// Where one thread works.
+/// Workspace of one thread.
 pub(super) struct CombWork {
     /// The interleaved signals, one after another.
     parts: Vec<f64>,
     lines: Vec<Complex<f64>>,
     scratch: Vec<Complex<f64>>,
-    /// The lines that count.
+    /// Spectrum at the lines of the range.
     pub band: Vec<Complex<f64>>,
 }
 
 impl CombWork {
-    /// Samples of the signal that it has room for.
+    /// Number of samples of the signal that it has room for.
     pub fn size(&self) -> usize {
         self.parts.len()
     }
 }
 
-/// Most interleaved signals: beyond, joining them takes longer than is won. Half as many give up some of the speed.
+/// Largest number of interleaved signals: with more, joining them takes longer than is won. Half as many give up some of
+/// the speed.
 const MOST: usize = 8;
 
 impl Comb {
-    /// A transform of `size` samples, of which the lines from `first` up to `end` count.
+    /// A transform of `size` samples that yields only the lines `first..end` of the spectrum.
     pub fn new(size: usize, first: usize, end: usize) -> Self {
         let fits = |teeth: &usize| size.is_multiple_of(*teeth) && end <= size / teeth / 2;
         let teeth = [MOST, MOST / 2, MOST / 4].into_iter().find(fits).unwrap_or(1);
@@ -54,12 +55,12 @@ impl Comb {
         }
     }
 
-    /// Samples of the signal that is transformed.
+    /// Number of samples of the signal that is transformed.
     pub fn size(&self) -> usize {
         self.size
     }
 
-    /// Room for one thread to work in.
+    /// Creates a workspace for one thread.
     pub fn work(&self) -> CombWork {
         let one = self.part.work();
         CombWork {
@@ -70,7 +71,7 @@ impl Comb {
         }
     }
 
-    /// The lines that count of a signal, zero beyond its end, into `work.band`.
+    /// Transforms the samples of a signal, zero beyond its end, and writes the lines of the range to `work.band`.
     pub fn forward(&self, signal: &[f64], work: &mut CombWork) {
         let length = self.size / self.teeth;
         for (tooth, part) in work.parts.chunks_mut(length).enumerate() {

@@ -6,11 +6,11 @@ use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 use unripple_dsp::DspError;
 
-/// Spectra of repeats of a drive and what was heard of it, summed: for drives that differ from repeat to repeat (taps), and
-/// for a reference channel, which is the drive as it was heard on its way (through converters and amplifiers).
+/// Summed spectra of repeats of a drive and its recording: for drives that differ from repeat to repeat (taps), and for a
+/// reference channel, which records the drive on its way (after converters and amplifiers).
 ///
-/// The response is the least-squares one, `H = rate · Σ V D* / (Σ |D|² + ε)`, and the coherence the share of what was heard
-/// that follows the drive.
+/// The response is the least-squares one, `H = rate · Σ V D* / (Σ |D|² + ε)`, and the coherence the share of the
+/// recording's power that follows the drive linearly.
 ///
 /// Source: J. S. Bendat, A. G. Piersol, "Random Data" (2010), section 6.1 (optimum frequency response, ordinary
 /// coherence).
@@ -42,7 +42,8 @@ pub struct CrossSpectra {
 }
 
 impl CrossSpectra {
-    /// For repeats of at most `samples` samples, of the drive and of what was heard alike, silence included.
+    /// Sums for repeats of at most `samples` samples, silence included, of drive and recording alike; `rate` is in samples
+    /// per second.
     ///
     /// # Errors
     /// [`DspError::Size`] for 0 samples, [`DspError::Range`] if `rate` is not positive.
@@ -66,7 +67,7 @@ impl CrossSpectra {
         })
     }
 
-    /// Adds a repeat; both signals are zero beyond their ends. Each has one sample per 1/rate.
+    /// Adds a repeat, a drive and its recording, both sampled at the planned rate and zero beyond their ends.
     ///
     /// # Errors
     /// [`DspError::Size`] if either is longer than planned.
@@ -92,9 +93,9 @@ impl CrossSpectra {
         self.count
     }
 
-    /// The response, band limited and regularised as [`super::Deconvolver`] does; `inversion.band` should be the band in
-    /// which the drives have power, and is everything if `None`. `response` gets its first samples, in the unit of
-    /// what was recorded per unit of drive and second.
+    /// Estimates the response, limited to a band and regularised as by [`super::Deconvolver`]. `inversion.band` should be
+    /// the band in which the drives have power; `None` means all frequencies. The first samples are written to `response`,
+    /// in the unit of the recording per unit of drive and second.
     ///
     /// # Errors
     /// [`DspError::Size`] if `response` is longer than the plan; [`DspError::Range`] for a band whose edges do not
@@ -122,8 +123,8 @@ impl CrossSpectra {
         Ok(())
     }
 
-    /// Coherence line by line, from 0 Hz to half the rate, each from 0 to 1; 0 where nothing was driven or heard. Of
-    /// noise alone it is 1/n on average over n repeats: one repeat says nothing.
+    /// Coherence at each spectral line, from 0 Hz to half the rate, each from 0 to 1; 0 where drive or recording is silent.
+    /// Of noise alone it is 1/n on average over n repeats: one repeat says nothing.
     pub fn coherence(&self) -> Vec<f64> {
         let sums = self.cross.iter().zip(&self.drive).zip(&self.heard);
         sums.map(|((cross, drive), heard)| share(cross.norm_sqr(), drive * heard)).collect()

@@ -1,4 +1,4 @@
-//! A stretch of a periodic signal.
+//! Copy of a part of a periodic signal.
 
 /// Copies `out.len()` samples of a periodic signal, from sample `start` on, which may be negative.
 pub(super) fn cut(circle: &[f64], start: i64, out: &mut [f64]) {

@@ -3,7 +3,7 @@
 use super::positive;
 use unripple_dsp::{DspError, mean_square};
 
-/// How a response dies away: its power modelled as `power · e^{-2t/time} + noise` from its strongest moment on.
+/// Exponential decay of a response: its power modelled as `power · e^{-2t/time} + noise` from its strongest moment on.
 ///
 /// Fitted to the power in short blocks, whose scatter is in proportion to their mean, by gamma quasi-likelihood; so noise is
 /// neither subtracted nor cut off beforehand. Source of the model: M. Karjalainen et al., J. Audio Eng. Soc. 50 (2002),
@@ -23,13 +23,13 @@ pub struct Decay {
     pub time: f64,
     /// Standard error of `time` in seconds, from how the blocks scatter about the model.
     pub error: f64,
-    /// Mean square at the strongest moment, noise left out.
+    /// Mean square of the response at its strongest moment, without noise.
     pub power: f64,
-    /// Mean square of the noise that it sinks into; for a response without noise, of what is left at its end.
+    /// Mean square of the noise in which the decay ends; for a response without noise, of what is left at its end.
     pub noise: f64,
 }
 
-/// Blocks that a response is divided into: twice as many follow the decay more finely, and scatter more each.
+/// Number of blocks that a response is divided into: twice as many follow the decay more finely, and scatter more each.
 const BLOCKS: usize = 200;
 
 /// Fewest blocks, from the strongest on, that a decay is fitted to. Three unknowns need some more than three, since
@@ -39,7 +39,7 @@ const FEWEST: usize = 8;
 /// Least power over noise of the strongest block, a ratio: 5 dB. With half of it noise alone may pass for a decay.
 const LEAST_RATIO: f64 = 3.0;
 
-/// Most steps of the descent, which settles in far fewer.
+/// Largest number of steps of the descent, which settles in far fewer.
 const STEPS: usize = 200;
 
 impl Decay {
@@ -70,12 +70,12 @@ impl Decay {
     }
 }
 
-/// Powers below this share of the largest count as this.
+/// Smallest power of a block, relative to the largest: lower ones are raised to it.
 const LEAST: f64 = 1e-24;
 
 /// Log power, fall per block and log noise that fit best, and the standard error of the fall.
 fn fitted(powers: &[f64]) -> Option<([f64; 3], f64)> {
-    // Two beginnings, as a decay that is not over looks like one that sinks into noise: the better end counts.
+    // Two starting models, since a decay that is cut off looks like one that ends in noise: the better result counts.
     let best = [settled(powers), unsettled(powers)].into_iter().flatten().map(|start| descend(powers, start));
     let (model, _) = best.min_by(|a, b| a.1.total_cmp(&b.1))?;
     let (_, mut curve) = gradient(powers, &model);
@@ -85,7 +85,7 @@ fn fitted(powers: &[f64]) -> Option<([f64; 3], f64)> {
     Some((model, variance.max(0.0).sqrt()))
 }
 
-/// A model by moments, if the last tenth is noise.
+/// Starting model from moments, if the last tenth is noise.
 fn settled(powers: &[f64]) -> Option<[f64; 3]> {
     let last = powers.len() - powers.len() / 10 - 1;
     let noise = powers[last..].iter().sum::<f64>() / (powers.len() - last) as f64;
@@ -96,7 +96,7 @@ fn settled(powers: &[f64]) -> Option<[f64; 3]> {
     (sum > 0.0).then(|| [powers[0].ln(), sum / moment, noise.ln()])
 }
 
-/// A model from the first and the last third, if there is hardly any noise.
+/// Starting model from the first and the last third, if there is hardly any noise.
 fn unsettled(powers: &[f64]) -> Option<[f64; 3]> {
     let third = powers.len() / 3;
     let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
@@ -105,7 +105,7 @@ fn unsettled(powers: &[f64]) -> Option<[f64; 3]> {
     (fall > 0.0).then(|| [first.ln() + fall * third as f64 / 2.0, fall, last.ln() - 7.0])
 }
 
-/// The model that fits best from a beginning on, and its cost: Fisher scoring, damped as by Levenberg-Marquardt.
+/// The model that fits best, from a starting one, and its cost: Fisher scoring, damped as by Levenberg-Marquardt.
 fn descend(powers: &[f64], mut model: [f64; 3]) -> ([f64; 3], f64) {
     let (mut cost, mut damping) = (cost(powers, &model), 1e-3);
     for _ in 0..STEPS {
@@ -128,7 +128,7 @@ fn descend(powers: &[f64], mut model: [f64; 3]) -> ([f64; 3], f64) {
     (model, cost)
 }
 
-/// Power of the decay and of all at a block.
+/// Modelled power of the decay alone, and with noise, at a block.
 fn at(model: &[f64; 3], block: usize) -> [f64; 2] {
     let decaying = (model[0] - model[1] * block as f64).exp();
     [decaying, decaying + model[2].exp()]
@@ -147,7 +147,7 @@ fn residuals<'a>(powers: &'a [f64], model: &'a [f64; 3]) -> impl Iterator<Item =
     powers.iter().enumerate().map(|(k, x)| x / at(model, k)[1] - 1.0)
 }
 
-/// Of the cost: its gradient and the expectation of its Hessian.
+/// Gradient of the cost, and expectation of its Hessian.
 fn gradient(powers: &[f64], model: &[f64; 3]) -> ([f64; 3], [[f64; 3]; 3]) {
     let (mut slope, mut curve) = ([0.0; 3], [[0.0; 3]; 3]);
     for (k, residual) in residuals(powers, model).enumerate() {

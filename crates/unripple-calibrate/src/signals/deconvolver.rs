@@ -1,4 +1,4 @@
-//! Deconvolution: impulse responses from what was played and heard, with Tikhonov regularisation.
+//! Deconvolution: impulse responses from a stimulus and its recording, with Tikhonov regularisation.
 
 use super::comb::{Comb, CombWork};
 use super::transform::Transform;
@@ -9,15 +9,15 @@ use std::f64::consts::TAU;
 use unripple_core::OutOfRange;
 use unripple_dsp::DspError;
 
-/// How responses are made of what was heard.
+/// Options of a deconvolution: band, regularisation, latency, lead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inversion {
     /// The band that responses are limited to; the stimulus's own if `None`.
     pub band: Option<Band>,
-    /// Power below which the spectrum of the stimulus is no longer divided by, as a share of its largest in the band.
-    /// The response at a line of power P is too small by this share of the largest power over P.
+    /// Regularisation ε, added to the power of the stimulus at each spectral line before dividing by it, relative to
+    /// the largest power in the band. The response at a line of power P is too small by about the share ε/P.
     pub regularisation: f64,
-    /// Samples by which all that was heard came late, taken out of the responses; fractions count.
+    /// Latency of the recording in samples, which may be fractional; it is removed from the responses.
     pub latency: f64,
     /// Samples before time 0 that a response begins with.
     pub lead: usize,
@@ -30,12 +30,12 @@ impl Default for Inversion {
     }
 }
 
-/// A plan that turns what was heard of one stimulus into responses.
+/// A plan that turns recordings of one stimulus into responses.
 ///
-/// With what was heard `v[i] = Σ_j h[i-j] d[j] / rate`, spectra V, D of n lines, and the band's weight W, the response
-/// is the inverse transform of `rate · W · V D* / (|D|² + ε)`: the band-limited h, without the stimulus's envelope. A
-/// periodic stimulus is divided over exactly one period, any other over all that was heard, zero after its end;
-/// harmonics of a sweep then lie before time 0, which is the end of the circle.
+/// With the recording `v[i] = Σ_j h[i-j] d[j] / rate`, spectra V, D of n lines, and the band's weight W, the response
+/// is the inverse transform of `rate · W · V D* / (|D|² + ε)`: the band-limited h, without the spectrum of the
+/// stimulus. A periodic stimulus is divided over exactly one period, any other over the whole recording, zero after its
+/// end; harmonics of a sweep then lie before time 0, at the end of the periodic response.
 ///
 /// Source: A. Farina, AES Convention 122, paper 7121 (2007), section 4 (Kirkeby's regularised inverse); the division is
 /// exact where ε is negligible.
@@ -60,15 +60,15 @@ pub struct Deconvolver {
     plan: Comb,
     heard: usize,
     rate: f64,
-    /// Of the lines that the band lets through.
+    /// Factors of the spectral lines that the band lets through.
     factors: Vec<Complex<f64>>,
 }
 
-/// Where a [`Deconvolver`] works: one for each thread.
+/// Workspace of a [`Deconvolver`]; each thread needs its own.
 pub struct Workspace(CombWork);
 
 impl Deconvolver {
-    /// A plan for channels of `heard` samples.
+    /// A plan for recordings of `heard` samples.
     ///
     /// # Errors
     /// [`DspError::Size`] if `heard` is not one period of a periodic stimulus, or is shorter than another one;
@@ -118,7 +118,7 @@ impl Deconvolver {
         Ok(Self { plan: Comb::new(plan.size(), first, end), heard, rate, factors })
     }
 
-    /// Samples of a channel that was heard.
+    /// Number of samples of a recording.
     pub fn heard(&self) -> usize {
         self.heard
     }
@@ -133,12 +133,12 @@ impl Deconvolver {
         self.rate
     }
 
-    /// Room for one thread to work in.
+    /// Creates a workspace for one thread.
     pub fn workspace(&self) -> Workspace {
         Workspace(self.plan.work())
     }
 
-    /// The first samples of one response, as many as `response` has. Does not allocate.
+    /// Deconvolves one recording into the first samples of its response, as many as `response` has. Does not allocate.
     ///
     /// # Errors
     /// [`DspError::Size`] if `heard` has not the planned length, `response` is longer than [`Deconvolver::size`], or
@@ -162,12 +162,12 @@ impl Deconvolver {
         Ok(())
     }
 
-    /// The responses of many channels, one after another in `heard` and, `samples` of each, in `responses`; on all
-    /// threads of the current pool.
+    /// Deconvolves many recordings, one after another in `heard`, into `samples` samples of each response, one after
+    /// another in `responses`; on all threads of the current pool.
     ///
     /// # Errors
-    /// [`DspError::Size`] if the slices are not of the same number of whole channels, or `samples` is 0 or more than
-    /// [`Deconvolver::size`].
+    /// [`DspError::Size`] if the slices are not of the same number of whole recordings and responses, or `samples` is 0
+    /// or more than [`Deconvolver::size`].
     pub fn deconvolve_all(
         &self,
         heard: &[f64],

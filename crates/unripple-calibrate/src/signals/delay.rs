@@ -6,7 +6,7 @@ use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 use unripple_dsp::DspError;
 
-/// How much later one signal is than another, to a fraction of a sample.
+/// Delay of one signal relative to another, to a fraction of a sample.
 ///
 /// ```
 /// use unripple_calibrate::signals::{Band, Delay, shift};
@@ -19,20 +19,20 @@ use unripple_dsp::DspError;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Delay {
-    /// Samples by which the one is later.
+    /// Delay of the found signal relative to the model, in samples.
     pub samples: f64,
-    /// Their correlation in the band at that delay, from 0 to 1: 1 if they differ by a delay and a factor only.
+    /// Correlation of the two in the band at that delay, from 0 to 1: 1 if they differ by a delay and a factor only.
     pub correlation: f64,
-    /// Whether that factor is negative.
+    /// Whether the two have opposite signs.
     pub inverted: bool,
 }
 
 impl Delay {
-    /// How much later `found` is than `model` (what it would be without latency), both zero beyond their ends.
+    /// Delay of `found` relative to `model`, the signal as it would be without latency; both are zero beyond their ends.
     ///
-    /// Generalised cross-correlation: the delay at which their correlation in the band is largest in magnitude,
-    /// sought continuously; the maximum-likelihood one in white noise, and where the phase of the cross-spectrum is
-    /// least away from a straight line, weighted by its magnitude.
+    /// Generalised cross-correlation: the delay, to a fraction of a sample, at which the correlation in the band is
+    /// largest in magnitude. It is the maximum-likelihood estimate in white noise, and that whose linear phase is nearest
+    /// to the phase of the cross-spectrum, weighted by its magnitude.
     ///
     /// Source: C. H. Knapp, G. C. Carter, IEEE Trans. ASSP 24 (1976), eq. 1 and table I.
     ///
@@ -58,7 +58,7 @@ impl Delay {
         Ok(Self::largest(&plan, cross, found.len(), (powers[0] * powers[1]).sqrt()))
     }
 
-    /// How much later a loopback's response is than an impulse at time 0.
+    /// Delay of a loopback's response relative to an impulse at sample 0.
     ///
     /// # Errors
     /// As [`Delay::between`].
@@ -66,10 +66,11 @@ impl Delay {
         Self::between(found, &[1.0], rate, band)
     }
 
-    /// With `latest` delays from 0 on; those below 0 are at the end of the circle.
+    /// Delay of the largest correlation. The first `latest` delays count from 0; the others are negative, at the end of
+    /// the periodic correlation.
     fn largest(plan: &Transform, mut cross: Work, latest: usize, norm: f64) -> Self {
         let lines = Lines::of(&cross.lines, plan.size());
-        // Lines stand for their mirror images too, whose half the inverse transform adds by itself.
+        // Lines hold the power of their mirror images too, which the inverse transform adds by itself.
         cross.lines.iter_mut().enumerate().for_each(|(line, x)| *x /= plan.copies(line));
         plan.inverse(&mut cross);
         let peak =
@@ -85,7 +86,7 @@ impl Delay {
     }
 }
 
-/// The maximum of `sign` times the correlation within a sample of `whole`: Newton's steps, or halving where they leave the
+/// Maximum of `sign` times the correlation within a sample of `whole`: Newton's steps, or halving where they leave the
 /// bracket.
 fn refined(lines: &Lines, whole: f64, sign: f64) -> f64 {
     let (mut low, mut high, mut at) = (whole - 1.0, whole + 1.0, whole);
@@ -107,14 +108,14 @@ fn refined(lines: &Lines, whole: f64, sign: f64) -> f64 {
     at
 }
 
-/// Most steps to the maximum: halving alone reaches 1e-12 of a sample in as many.
+/// Largest number of steps to the maximum: halving alone reaches 1e-12 of a sample in as many.
 const STEPS: usize = 40;
 
 /// The lines of a cross-spectrum from the first to the last that is not zero.
 struct Lines {
     first: usize,
     values: Vec<Complex<f64>>,
-    /// Radians per line and sample of delay.
+    /// Phase per line and sample of delay, in radians.
     step: f64,
 }
 
@@ -137,8 +138,8 @@ impl Lines {
     }
 }
 
-/// A signal later by any number of samples, negative for earlier: a phase ramp in the spectrum, exact for a signal that
-/// is band limited and zero near its ends. What is moved beyond an end is lost.
+/// Delays a signal by any number of samples, fractional or negative too, by a phase ramp in its spectrum: exact for a
+/// signal that is band limited and zero near its ends. What is moved beyond an end is lost.
 ///
 /// ```
 /// let moved = unripple_calibrate::signals::shift(&[0.0, 1.0, 2.0, 0.0], 1.0);

@@ -4,7 +4,7 @@ use super::positive;
 use std::f64::consts::PI;
 use unripple_dsp::DspError;
 
-/// A window in time that is flat between half cosines, in samples from the signal's begin.
+/// A window in time that is flat between half cosines; its times are in samples from the start of the signal.
 ///
 /// ```
 /// use unripple_calibrate::signals::Gate;
@@ -18,11 +18,11 @@ use unripple_dsp::DspError;
 pub struct Gate {
     /// Sample at which the window begins to open.
     pub begin: f64,
-    /// Samples it takes to open.
+    /// Duration of the opening, in samples.
     pub rise: f64,
     /// Sample at which the window is closed again.
     pub end: f64,
-    /// Samples it takes to close.
+    /// Duration of the closing, in samples.
     pub fall: f64,
 }
 
@@ -39,14 +39,14 @@ impl Gate {
         edge(since, self.rise) * edge(left, self.fall)
     }
 
-    /// Multiplies a signal by it. Sample by sample, in place.
+    /// Multiplies the samples of a signal by the window, in place.
     pub fn apply(&self, signal: &mut [f64]) {
         signal.iter_mut().enumerate().for_each(|(i, x)| *x *= self.at(i as f64));
     }
 }
 
-/// Where a response begins, in samples: where its magnitude first passes `db` below its largest, between samples by a
-/// straight line. `None` for silence.
+/// Onset of a response, in samples: where its magnitude first passes `db` below its largest, interpolated linearly
+/// between samples. `None` for silence.
 ///
 /// # Errors
 /// [`DspError::Range`] if `db` is not positive.

@@ -6,14 +6,14 @@ use super::{Band, Gate, Sweep, positive, same, shift};
 use unripple_core::OutOfRange;
 use unripple_dsp::DspError;
 
-/// How the harmonics of a sweep are separated in a whole deconvolution.
+/// Settings for separating the harmonics of a sweep in a deconvolved recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Split {
-    /// Where the linear response is cut from, lead included: 0, or the actuator's start in a schedule.
+    /// Sample at which the linear response begins, lead included: 0, or the actuator's start in a schedule.
     pub start: usize,
     /// Samples before time 0 that every response begins with.
     pub lead: usize,
-    /// Samples of every response; harmonics have fewer where the next lower order comes sooner.
+    /// Length of every response, in samples; those at harmonics are shorter where the next lower order follows sooner.
     pub window: usize,
     /// Highest order of harmonics.
     pub highest_order: usize,
@@ -28,8 +28,7 @@ pub struct Harmonic {
     pub order: usize,
     /// Response at the harmonic, aligned with the linear one.
     pub response: Vec<f64>,
-    /// Its amplitude over that of the linear response, rms over the drive's frequencies whose harmonic lies in the
-    /// band too.
+    /// Amplitude relative to the linear response, rms over the drive's frequencies whose harmonic lies in the band too.
     pub ratio: f64,
 }
 
@@ -40,11 +39,11 @@ impl Harmonic {
     }
 }
 
-/// The linear response of a channel and those at harmonics of the drive, separated by when they come.
+/// The linear response of a channel and those at harmonics of the drive, separated by their times.
 ///
-/// The m-th harmonic of an exponential sweep is the sweep itself, earlier by `L ln m`: there its response lies. Noise counts
-/// as distortion where it is stronger. Where windows are longer than the time between orders, the tail of a higher order
-/// counts to the next lower one; a slower sweep keeps them apart.
+/// The m-th harmonic of an exponential sweep is the sweep itself, earlier by `L ln m` with L the sweep's [growth](Sweep::growth): its
+/// response precedes the linear one by that time. Noise counts as distortion where it is stronger. Where windows are longer than the
+/// time between orders, the tail of a higher order counts to the next lower one; a slower sweep keeps them apart.
 ///
 /// Source: A. Farina, AES Convention 108, paper 5093 (2000), section 3; A. Novak et al., J. Audio Eng. Soc. 63 (2015),
 /// eq. 26-33.
@@ -72,7 +71,7 @@ pub struct Harmonics {
 }
 
 impl Harmonics {
-    /// Tells them apart in `deconvolved`, all samples of a deconvolution of what was heard of `sweep`.
+    /// Separates the responses in `deconvolved`, all samples of the deconvolved recording of `sweep`.
     ///
     /// # Errors
     /// [`DspError::Size`] if the window is empty or longer than the deconvolution; [`DspError::Range`] if the highest order
@@ -110,7 +109,7 @@ impl Harmonics {
         Ok(Self { linear, orders })
     }
 
-    /// The response of an order, or as many samples right `before` it.
+    /// The response of an order, 1 for the linear one, aligned with the linear one.
     fn response(deconvolved: &[f64], sweep: &Sweep, split: &Split, order: usize) -> Vec<f64> {
         let lead = sweep.lead(order) * sweep.rate;
         let gap = if order > 1 { lead - sweep.lead(order - 1) * sweep.rate } else { f64::INFINITY };
@@ -132,9 +131,10 @@ impl Harmonics {
         response
     }
 
-    /// What share of the amplitude of the drive each order is, from the second, if the drive alone makes it: then its response is the
-    /// linear one's, over and above its own frequencies. `None` where it does not stand out of `noise`, as it is in
-    /// the deconvolution (any length), and from what rang before and dies away with an amplitude decay time (s).
+    /// Amplitude of each harmonic of the drive, from the second, relative to the drive, if the drive alone is nonlinear: its
+    /// harmonics then have the linear response at their own frequencies. `None` where a harmonic does not stand out of the noise, of
+    /// which `noise` holds samples in the deconvolution (any length), and of earlier ringing, which decays with the amplitude decay
+    /// time `decay` (s).
     pub fn of_drive(
         &self,
         deconvolved: &[f64],
@@ -166,7 +166,7 @@ impl Harmonics {
             let noise = self::power(&noise, split.window, sweep.rate, within) * length as f64 / stretch;
             let left = (-2.0 * length as f64 / sweep.rate / decay).exp();
             let known = noise + left * (before - noise).max(0.0);
-            // Of powers of so many independent values each, their scatter.
+            // Relative scatter of the two powers, from their numbers of independent values.
             let width = (within[1] - within[0]).max(0.0) / sweep.rate;
             let scatter = (1.0 / (width * length as f64) + 1.0 / (width * stretch)).sqrt();
             let told = own > known * (1.0 + SURE * scatter).max(TOLD);
@@ -186,24 +186,23 @@ impl Harmonics {
     }
 }
 
-/// Power over its background from which a harmonic is one.
+/// Smallest power of a harmonic, relative to its background, with which it counts as present.
 const TOLD: f64 = 2.0;
 
-/// Standard deviations by which it has to stand out.
+/// Number of standard deviations by which a harmonic has to stand out of its background.
 const SURE: f64 = 6.0;
 
-/// Share of the time from one order to the next that is looked at. The rest holds the beginning of the next order,
-/// which the band brings forward.
+/// Share of the time from one order to the next that is used. The rest holds the beginning of the next order, which the band brings
+/// forward.
 const SHARE: f64 = 0.75;
 
-/// Opens over the lead and closes over as much, so that what is cut off does not spread.
+/// Fades a signal in and out over the lead, so that its cut ends do not spread in frequency.
 fn gated(signal: &mut [f64], lead: usize) {
     let (length, edge) = (signal.len() as f64, lead.min(signal.len() / 2) as f64);
     Gate { begin: 0.0, rise: edge / 2.0, end: length, fall: edge }.apply(signal);
 }
 
-/// How far into the sweep, in frequency, its fades reach. Below and above that factor amplitudes are not those of the
-/// drive.
+/// Ratio of frequencies over which the fades of a sweep reach, at either end. There amplitudes are not those of the drive.
 const EDGE: f64 = 1.1;
 
 /// Sum of squares of the spectrum between two frequencies, of transforms all of one size.

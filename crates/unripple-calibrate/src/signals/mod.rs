@@ -1,4 +1,4 @@
-//! Measuring responses: what to play, responses from what was heard, and how good they are.
+//! Signal processing for measuring responses: stimuli, deconvolution, and quality of the responses.
 
 mod average;
 mod band;
@@ -38,6 +38,8 @@ pub use sweep::Sweep;
 use unripple_core::OutOfRange;
 use unripple_dsp::DspError;
 
+/// Checks that a number is positive and finite.
+///
 /// # Errors
 /// [`DspError::Range`] if a number is not positive and finite.
 fn positive(what: &'static str, found: f64) -> Result<(), DspError> {
@@ -47,6 +49,8 @@ fn positive(what: &'static str, found: f64) -> Result<(), DspError> {
     Err(DspError::Range(OutOfRange::new(what, "positive and finite", found)))
 }
 
+/// Checks that two counts are equal.
+///
 /// # Errors
 /// [`DspError::Size`] if two counts differ.
 fn same(what: &'static str, expected: usize, found: usize) -> Result<(), DspError> {

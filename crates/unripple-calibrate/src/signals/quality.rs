@@ -19,12 +19,12 @@ use unripple_dsp::{DspError, mean_square};
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Quality {
-    /// Signal over noise, in dB, over the whole response.
+    /// Signal-to-noise ratio, in dB, over the whole response.
     pub snr_db: f64,
-    /// Share of what was heard that repeats have in common, or that follows the drive, from 0 to 1, where there were repeats.
+    /// Coherence, from 0 to 1: share of the recorded power that repeats have in common, or that follows the drive; `None` without
+    /// repeats.
     pub coherence: Option<f64>,
-    /// Total harmonic distortion relative to the linear response, in dB, where the stimulus was a sweep that
-    /// separates it.
+    /// Total harmonic distortion relative to the linear response, in dB; `None` unless the stimulus was a sweep that separates it.
     pub distortion_db: Option<f64>,
     /// Decay of the response; `None` if it does not stand out of its noise.
     pub decay: Option<Decay>,
@@ -33,7 +33,7 @@ pub struct Quality {
 }
 
 impl Quality {
-    /// The quality of a response, judged by itself and by a stretch of noise, any length, that went through the same
+    /// The quality of a response, from itself and from samples of noise, any number of them, that went through the same
     /// deconvolution: before the response's time 0, or where it has died away.
     ///
     /// # Errors
@@ -49,8 +49,8 @@ impl Quality {
     }
 }
 
-/// Signal over noise in dB, from a noisy signal and a stretch of noise alone, any length: −∞ if there is no more in the one
-/// than in the other, ∞ without noise.
+/// Signal-to-noise ratio in dB, from a noisy signal and samples of noise alone, any number of them: −∞ if the signal has no more
+/// power than the noise, ∞ without noise.
 ///
 /// ```
 /// assert!((unripple_calibrate::signals::snr_db(&[10.0, -10.0], &[1.0, -1.0, 1.0]) - 10.0 * 99f64.log10()).abs() < 1e-12);
@@ -60,8 +60,8 @@ pub fn snr_db(signal: &[f64], noise: &[f64]) -> f64 {
     if all > noise { 10.0 * (all / noise - 1.0).log10() } else { f64::NEG_INFINITY }
 }
 
-/// How many samples of a channel are clipped: in runs of four or more that stay within a millionth of the largest magnitude, or at
-/// `full_scale` or beyond.
+/// Number of clipped samples of a channel: those in runs of four or more that stay within a millionth of the largest magnitude, or
+/// at `full_scale` or beyond.
 ///
 /// ```
 /// let clipped: Vec<f64> = (0..480).map(|i| (f64::from(i) * 0.05).sin().clamp(-0.9, 0.9)).collect();

@@ -4,7 +4,7 @@ use super::average::correlation;
 use super::same;
 use unripple_dsp::DspError;
 
-/// How far a set of responses between actuators that also sense is from being reciprocal, h_ab = h_ba.
+/// Deviation of responses between actuators that also sense from reciprocity, h_ab = h_ba.
 ///
 /// ```
 /// use unripple_calibrate::signals::Reciprocity;
@@ -18,31 +18,32 @@ use unripple_dsp::DspError;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reciprocity {
-    /// Rms of h_ab − h_ba over that of both, over all pairs; 0 if all are silent.
+    /// Rms of h_ab − h_ba, relative to the rms of both, over all pairs; 0 if all are silent.
     pub error: f64,
-    /// The pair with the largest error; `None` of fewer than two.
+    /// The pair with the largest error; `None` for fewer than two actuators.
     pub worst: Option<Pair>,
     /// All pairs, a < b.
     pub pairs: Vec<Pair>,
 }
 
-/// Two actuators, each heard by the other.
+/// Reciprocity between two actuators.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
-    /// Which, the lower first.
+    /// Indices of the two actuators, the lower first.
     pub pair: [usize; 2],
-    /// Rms of h_ab − h_ba over that of both.
+    /// Rms of h_ab − h_ba, relative to the rms of both.
     pub error: f64,
-    /// Their correlation: near 1 with a large error if one hears louder than it should, near −1 if one is reversed.
+    /// Correlation of h_ab and h_ba: near 1 with a large error if the gain of one sensor is wrong, near −1 if one is
+    /// reversed.
     pub correlation: f64,
 }
 
 impl Reciprocity {
-    /// Of responses in the order `[drives][hears][sample]`, `actuators` both ways; those that hear themselves do not
-    /// count.
+    /// Reciprocity of responses in the order `[drive][sensor][sample]`, `actuators` of each; those of an actuator at
+    /// itself are not used.
     ///
     /// # Errors
-    /// [`DspError::Size`] if `responses` is not a whole number of samples each.
+    /// [`DspError::Size`] if the length of `responses` is not a multiple of `actuators` squared.
     pub fn of(responses: &[f64], actuators: usize) -> Result<Self, DspError> {
         let count = actuators * actuators;
         let samples = responses.len().checked_div(count).unwrap_or(0);

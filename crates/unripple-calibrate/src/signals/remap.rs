@@ -1,4 +1,4 @@
-//! Signals whose frequencies are moved, each by its own share.
+//! Signals with their frequencies moved, each by its own amount.
 
 use super::transform::{Transform, turns};
 use realfft::num_complex::Complex;
@@ -6,15 +6,15 @@ use std::f64::consts::TAU;
 use std::sync::LazyLock;
 use unripple_dsp::{kaiser, sinc};
 
-/// Lines on either side that a value between lines is made of. With half as many the kernel's error rises from -120
-/// dB to about -60 dB.
+/// Spectral lines on either side from which a value between lines is interpolated. With half as many the kernel's error
+/// rises from -120 dB to about -60 dB.
 const HALF: usize = 8;
 
-/// Shape of the window over them. A signal that fills half of the circle leaves half of it for the kernel to fall in: with
-/// 16 lines and this shape it is down by 120 dB (Kaiser's rule).
+/// Shape of the Kaiser window over the interpolation kernel. A signal that fills half of the transform leaves the other half
+/// for the kernel to fall in: with 16 lines and this shape it is down by 120 dB (Kaiser's rule).
 const BETA: f64 = 12.0;
 
-/// Steps of the kernel between two lines: read by straight lines, it is right to 1e-7.
+/// Steps of the tabulated kernel between two lines: interpolated linearly, it is accurate to 1e-7.
 const FINE: usize = 1024;
 
 /// The kernel at `i / FINE` lines from its middle.
@@ -26,10 +26,11 @@ static KERNEL: LazyLock<Vec<f64>> = LazyLock::new(|| {
     (0..=HALF * FINE + 1).map(value).collect()
 });
 
-/// A signal that is to be had with its frequencies moved: `h'(t) = 1/π Re ∫ H(ω) e^{jω't} dω`, for any rising ω'(ω).
+/// A signal prepared for moving its frequencies: `h'(t) = 1/π Re ∫ H(ω) e^{jω't} dω`, for any rising ω'(ω).
 ///
-/// Where frequencies come from, the spectrum is read between its lines by a windowed sinc, which is exact as far as the
-/// signal, padded to twice its length, leaves room for the kernel to fall. Decay rates change as the slope of ω'(ω) does.
+/// The spectrum is interpolated between its lines by a windowed sinc, at the frequencies that move to the lines of the
+/// result. This is accurate to about -120 dB, since the signal is padded to twice its length. Decay rates are multiplied by
+/// the slope of ω'(ω).
 ///
 /// ```
 /// use unripple_calibrate::signals::Remap;
@@ -46,7 +47,7 @@ pub struct Remap {
     plan: Transform,
     samples: usize,
     rate: f64,
-    /// Of the signal moved to the middle of the circle, so that the spectrum turns slowly from line to line.
+    /// Spectrum of the signal with its middle moved to time 0, so that phases change slowly from line to line.
     lines: Vec<Complex<f64>>,
     centre: f64,
     origin: f64,
@@ -76,8 +77,8 @@ impl Remap {
         [at(band[0]), (at(band[1]) + 1).min(self.lines.len())]
     }
 
-    /// Spectrum of the moved signal at the lines of a band. `from` says of a frequency (Hz) where it came from (Hz), and the
-    /// derivative of that.
+    /// Spectrum of the moved signal at the lines of a band (Hz). `from` returns, for a frequency (Hz) after moving, the
+    /// frequency before (Hz), and the derivative of the latter by the former.
     pub fn lines(&self, band: [f64; 2], from: impl Fn(f64) -> [f64; 2]) -> Vec<Complex<f64>> {
         let [first, end] = self.within(band);
         let step = self.rate / self.plan.size() as f64;
@@ -87,7 +88,7 @@ impl Remap {
             if !(at >= 0.0 && at <= (self.lines.len() - 1) as f64) {
                 return Complex::default();
             }
-            // Back from the middle, and moved about time 0.
+            // Back from the middle of the signal, and moved about its time 0.
             let back = (self.centre - self.origin) * at + self.origin * line as f64;
             self.between(at) * Complex::from_polar(slope, -TAU * back / self.plan.size() as f64)
         };

@@ -5,10 +5,11 @@ use super::{Stimulus, Sweep, same};
 use unripple_core::OutOfRange;
 use unripple_dsp::DspError;
 
-/// When each actuator plays, so that one deconvolution of all that was heard holds every actuator's response apart.
+/// Start times of the actuators' stimuli, such that one deconvolution of the recording separates the responses of all
+/// actuators.
 ///
-/// Actuators play the same stimulus, later each than the one before. A response needs `window` samples; what an
-/// actuator's response is cut from is its own.
+/// Actuators play the same stimulus, each later than the one before. A response takes up `window` samples of the
+/// deconvolution, which no other response overlaps.
 ///
 /// ```
 /// use unripple_calibrate::signals::{Schedule, Sweep};
@@ -79,8 +80,8 @@ impl Schedule {
         Self::made(stimulus, starts, window)
     }
 
-    /// All at once: each actuator plays the same periodic stimulus, turned by an equal share of the period, which is the
-    /// window. What is heard is one period, once the surface has settled.
+    /// All actuators at once: each plays the same periodic stimulus, shifted cyclically by an equal share of the period,
+    /// which is the window. One period is recorded, once the surface has settled.
     ///
     /// # Errors
     /// [`DspError::Size`] without actuators, or for a period shorter than their number; [`DspError::Range`] for a
@@ -103,7 +104,7 @@ impl Schedule {
         Ok(Self { stimulus, starts, window })
     }
 
-    /// What each actuator plays, and what a [`super::Deconvolver`] of this schedule is made for.
+    /// The stimulus that each actuator plays, and that the [`super::Deconvolver`] of this schedule is made for.
     pub fn stimulus(&self) -> &Stimulus {
         &self.stimulus
     }
@@ -118,8 +119,8 @@ impl Schedule {
         self.window
     }
 
-    /// Samples to be heard: until the last response has ended, or one period. Of a periodic stimulus, at least a window
-    /// must have been played before.
+    /// Number of samples to record: until the last response has ended, or one period. At least one window of a periodic
+    /// stimulus must have been played before.
     pub fn samples(&self) -> usize {
         if self.stimulus.periodic {
             return self.stimulus.samples.len();
@@ -127,7 +128,7 @@ impl Schedule {
         self.starts.last().map_or(0, |last| last + self.stimulus.samples.len() + self.window)
     }
 
-    /// Writes what an actuator plays; a periodic stimulus goes on for as long as `drive` is.
+    /// Writes the signal of an actuator; a periodic stimulus fills all of `drive`.
     ///
     /// # Errors
     /// [`DspError::Size`] if there is no such actuator.
@@ -163,7 +164,7 @@ impl Schedule {
     }
 }
 
-/// Each start as early as the starts before allow.
+/// Start times, each as early as the starts before allow.
 fn earliest(actuators: usize, window: usize, forbidden: &[[usize; 2]]) -> Vec<usize> {
     let mut starts: Vec<usize> = Vec::with_capacity(actuators);
     for _ in 0..actuators {
@@ -183,7 +184,7 @@ fn earliest(actuators: usize, window: usize, forbidden: &[[usize; 2]]) -> Vec<us
     starts
 }
 
-/// Starts at one distance, the least that there is.
+/// Start times at equal distances, the smallest possible.
 fn evenly(actuators: usize, window: usize, forbidden: &[[usize; 2]]) -> Vec<usize> {
     let fits = |step: usize| {
         let clear = |behind: usize| forbidden.iter().all(|[low, high]| behind <= *low || behind >= *high);

@@ -5,7 +5,7 @@ use super::{Band, positive};
 use unripple_core::OutOfRange;
 use unripple_dsp::DspError;
 
-/// What is played, or the force that was recorded: samples whose spectrum is known.
+/// A signal that is played, or a force that was recorded: samples whose spectrum is known.
 ///
 /// ```
 /// use unripple_calibrate::signals::Stimulus;
@@ -40,12 +40,13 @@ impl Stimulus {
         Ok(Self { samples, rate, band: Band::ALL, periodic: false })
     }
 
-    /// The same, played round and round, so that what is heard is periodic too once the surface has settled.
+    /// This stimulus as one period of a periodic signal, so that the recording is periodic too once the surface has
+    /// settled.
     pub fn repeated(self) -> Self {
         Self { periodic: true, ..self }
     }
 
-    /// The same stimulus with the band that it is useful in.
+    /// This stimulus with the band in which it is useful.
     ///
     /// # Errors
     /// [`DspError::Range`] if the band's edges do not ascend.
@@ -64,7 +65,7 @@ impl Stimulus {
         self.rate
     }
 
-    /// The band that it is useful in.
+    /// The band in which the stimulus is useful.
     pub fn band(&self) -> Band {
         self.band
     }
@@ -80,7 +81,7 @@ impl Stimulus {
     }
 
     /// Lowest and highest frequency in Hz around the strongest one between which the spectrum nowhere falls `db`
-    /// decibels below its maximum: where a tap has something to say.
+    /// decibels below its maximum: for a tap, the band in which it has power.
     pub fn usable_band(&self, db: f64) -> [f64; 2] {
         let plan = Transform::smooth(self.samples.len().max(1024));
         let mut work = plan.work();

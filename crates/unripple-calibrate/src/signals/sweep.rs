@@ -27,15 +27,16 @@ pub struct Sweep {
     pub from: f64,
     /// Last frequency of the sweep, in Hz, below half the rate.
     pub to: f64,
-    /// Seconds it sounds. A synchronized sweep takes the nearest time it can: see [`Sweep::sounding`].
+    /// Duration of the sweep, in s. A synchronized sweep takes the nearest duration that it can have: see
+    /// [`Sweep::sounding`].
     pub seconds: f64,
     /// Amplitude of the sweep, in the unit of the drive.
     pub amplitude: f64,
-    /// Seconds over which it fades in.
+    /// Duration of the fade-in, in s.
     pub fade_in: f64,
-    /// Seconds over which it fades out.
+    /// Duration of the fade-out, in s.
     pub fade_out: f64,
-    /// Seconds of silence after it.
+    /// Duration of the silence after the sweep, in s.
     pub silence: f64,
     /// Whether the phase is such that harmonics are the sweep itself exactly, phase included (Novak), or begins with 0
     /// whatever the length (Farina).
@@ -66,18 +67,18 @@ impl Sweep {
         if self.synchronized { (self.from * growth).round().max(1.0) / self.from } else { growth }
     }
 
-    /// Seconds it sounds. A synchronized one rounds its [growth](Sweep::growth) to whole periods of its lowest
-    /// frequency, and so differs a little from `seconds`.
+    /// Duration of the sweep without silence, in s. A synchronized one rounds its [growth](Sweep::growth) to whole
+    /// periods of its lowest frequency, and so differs a little from `seconds`.
     pub fn sounding(&self) -> f64 {
         self.growth() * (self.to / self.from).ln()
     }
 
-    /// Seconds by which the response at the harmonic of an order, 1 being the linear one, comes before the linear one.
+    /// Time, in s, by which the response at a harmonic precedes the linear response, which has the order 1.
     pub fn lead(&self, order: usize) -> f64 {
         self.growth() * (order.max(1) as f64).ln()
     }
 
-    /// Its samples, silence included, with its band.
+    /// The samples of the sweep, silence included, and its band, as a stimulus.
     ///
     /// # Errors
     /// [`DspError::Range`] if a field is out of its range, or the fades are longer than the sweep.

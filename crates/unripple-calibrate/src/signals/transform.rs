@@ -6,8 +6,8 @@ use std::cell::RefCell;
 use std::sync::Arc;
 use unripple_dsp::smooth_size;
 
-/// Plans that a thread keeps: a measurement goes through the same few sizes again and again, and to plan one takes as long as three
-/// transforms of it. Of twice as many, each holds as much memory as a signal.
+/// Number of plans that a thread keeps: a measurement uses the same few sizes again and again, and planning one takes as long as
+/// three transforms of it. Each plan holds as much memory as a signal.
 const KEPT: usize = 8;
 
 thread_local! {
@@ -23,7 +23,7 @@ pub(super) struct Transform {
     inverse: Arc<dyn ComplexToReal<f64>>,
 }
 
-/// Where one transform works.
+/// Workspace of one transform.
 pub(super) struct Work {
     /// The signal in time.
     pub signal: Vec<f64>,
@@ -73,7 +73,7 @@ impl Transform {
         line as f64 * rate / self.size as f64
     }
 
-    /// Room for one transform.
+    /// Creates a workspace for one transform.
     pub fn work(&self) -> Work {
         let scratch = self.forward.get_scratch_len().max(self.inverse.get_scratch_len());
         Work {
@@ -83,7 +83,7 @@ impl Transform {
         }
     }
 
-    /// The spectrum of a signal, zero beyond its end, into `work.lines`, size / 2 + 1 lines from 0 Hz.
+    /// Transforms a signal, zero beyond its end, into `work.lines`, size / 2 + 1 lines from 0 Hz.
     pub fn forward(&self, signal: &[f64], work: &mut Work) {
         let given = signal.len().min(self.size);
         work.signal[..given].copy_from_slice(&signal[..given]);
@@ -91,18 +91,18 @@ impl Transform {
         self.forward_in(&mut work.signal, &mut work.lines, &mut work.scratch);
     }
 
-    /// The spectrum of `signal`, a number of samples, into `lines`, size / 2 + 1 of them; `signal` is overwritten.
+    /// Transforms the `size` samples of `signal` into `lines`, size / 2 + 1 of them; `signal` is overwritten.
     pub fn forward_in(&self, signal: &mut [f64], lines: &mut [Complex<f64>], scratch: &mut [Complex<f64>]) {
         let done = self.forward.process_with_scratch(signal, lines, scratch);
         debug_assert!(done.is_ok(), "sizes come from the plan itself");
     }
 
-    /// The signal of `work.lines`, `size` times as large, into `work.signal`.
+    /// Inverse transform of `work.lines` into `work.signal`, `size` times as large.
     pub fn inverse(&self, work: &mut Work) {
         self.inverse_in(&mut work.lines, &mut work.signal, &mut work.scratch);
     }
 
-    /// The samples of the signal with this spectrum, `size` times as large; `lines` are overwritten.
+    /// Inverse transform of `lines` into the `size` samples of `signal`, `size` times as large; `lines` are overwritten.
     pub fn inverse_in(&self, lines: &mut [Complex<f64>], signal: &mut [f64], scratch: &mut [Complex<f64>]) {
         // The lines at 0 and at half the rate are their own mirror images: real.
         if let Some(first) = lines.first_mut() {
@@ -121,18 +121,18 @@ impl Transform {
     }
 }
 
-/// `e^{j step k}` for `k` = `first`, `first` + 1, …: how far lines turn that a signal turns when it is moved.
+/// `e^{j step k}` for `k` = `first`, `first` + 1, …: the phase factors of spectral lines when a signal is moved in time.
 ///
-/// Each is the one before turned on, which takes a tenth of the time of a sine and a cosine; every [`AFRESH`] lines one is computed
-/// afresh, so that rounding adds up to 1e-14 at most beside that of the angle.
+/// Each is the one before times `e^{j step}`, which takes a tenth of the time of a sine and a cosine; every [`AFRESH`] lines one is
+/// computed anew, so that rounding adds up to 1e-14 at most, besides that of the angle.
 pub(super) fn turns(step: f64, first: usize) -> Turns {
     Turns { step, line: first, now: Complex::cis(step * first as f64), by: Complex::cis(step) }
 }
 
-/// Lines after which a turn is computed afresh.
+/// Number of lines after which a phase factor is computed anew.
 const AFRESH: usize = 64;
 
-/// See [`turns`].
+/// Iterator over phase factors; see [`turns`].
 pub(super) struct Turns {
     step: f64,
     line: usize,

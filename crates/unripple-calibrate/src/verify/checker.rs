@@ -6,35 +6,35 @@ use unripple_linalg::{Mat, c64, product, times};
 /// Responses of a model between its actuators and any place, ready to be compared with those measured there.
 ///
 /// With w the actuators' weights, φ the shapes and μ the modes' mobilities, the model at x is Y_a(s) = Σ_m φ_m(x) w_am μ_m(s): linear
-/// in φ(x). So is its product with what was heard, and its own power is a quadratic form of φ(x): a whole sheet of
-/// places (matched-field processing) costs two products of matrices.
+/// in φ(x). So is its inner product with a measured response, and its own power is a quadratic form of φ(x). Comparing a response
+/// with all places of a sheet (matched-field processing) thus costs two products of matrices.
 #[derive(Debug)]
 pub(super) struct Checker<'a> {
     model: &'a ModalResponses,
     frequencies: &'a [c64],
-    /// Modes x frequencies.
+    /// Mobility of each mode, modes x frequencies.
     mobilities: Mat<c64>,
-    /// Of the model's power in the shapes.
+    /// Matrix of the quadratic form of the shapes that is the model's power, modes x modes.
     gram: Mat<f64>,
 }
 
-/// How alike a response and the model's are at one place.
+/// Agreement of a measured response with the model's at one place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Match {
     /// Correlation of the response with the model's, from -1 to 1: 1 for responses that differ by a gain alone.
     pub likeness: f64,
-    /// Measured over modelled.
+    /// Gain of the measured response, relative to the model's.
     pub gain: f64,
 }
 
 impl Match {
-    /// Share of what was heard (as amplitude) that the model does not explain.
+    /// Share of the measured response, as amplitude, that the model does not explain.
     pub fn unexplained(self) -> f64 {
         (1.0 - self.likeness.powi(2)).max(0.0).sqrt()
     }
 }
 
-/// The measured responses at a point, by the model's modes: modes x frequencies, and its power.
+/// Products of the measured responses at a point with the model's modes, modes x frequencies, and the power of the responses.
 #[derive(Debug)]
 pub(super) struct Projected {
     crossed: Mat<c64>,
@@ -42,7 +42,7 @@ pub(super) struct Projected {
 }
 
 impl<'a> Checker<'a> {
-    /// A model at complex frequencies (1/s) on one line.
+    /// Prepares a model for complex frequencies (1/s) that have one real part.
     pub fn new(model: &'a ModalResponses, frequencies: &'a [c64]) -> Self {
         let mobilities = mobilities(&model.poles, frequencies);
         let modes = model.poles.len();
@@ -62,7 +62,7 @@ impl<'a> Checker<'a> {
         Self { model, frequencies, mobilities, gram }
     }
 
-    /// The spectra `[actuator][frequency]` heard at a point by the model's modes.
+    /// Projects spectra measured at a point, `[actuator][frequency]`, onto the model's modes.
     pub fn project(&self, spectra: &[Vec<c64>]) -> Projected {
         let (modes, count) = (self.mobilities.nrows(), self.frequencies.len());
         let mut crossed = Mat::<c64>::zeros(modes, count);
@@ -81,7 +81,7 @@ impl<'a> Checker<'a> {
         Projected { crossed, power: spectra.iter().flatten().map(|y| y.norm_sqr()).sum() }
     }
 
-    /// Products with the model's modes when what was heard is late by each of some times (s): modes x delays.
+    /// Products with the model's modes if the measured responses are late by each of `delays` (s): modes x delays.
     pub fn products(&self, heard: &Projected, delays: &[f64]) -> Mat<f64> {
         let turned = Mat::from_fn(self.frequencies.len(), delays.len(), |n, d| {
             c64::new(0.0, self.frequencies[n].im * delays[d]).exp()
@@ -101,12 +101,12 @@ impl<'a> Checker<'a> {
         self.model.shapes.at_all(places)
     }
 
-    /// How alike they are at one place and one delay (s).
+    /// Agreement with the model at one place and one delay (s).
     pub fn at(&self, heard: &Projected, place: Point, delay: f64) -> Match {
         self.late(heard, place, &[delay]).first().copied().unwrap_or(Match { likeness: 0.0, gain: 0.0 })
     }
 
-    /// How alike they are at one place and several delays (s).
+    /// Agreement with the model at one place and each of several delays (s).
     pub fn late(&self, heard: &Projected, place: Point, delays: &[f64]) -> Vec<Match> {
         let shapes = self.shapes(&[place]);
         let power = self.powers(&shapes)[0];
@@ -115,7 +115,7 @@ impl<'a> Checker<'a> {
         delays.iter().enumerate().map(one).collect()
     }
 
-    /// A match from a product and the model's power.
+    /// Agreement from a product, as of [`Checker::products`], and the model's power.
     pub fn matched(&self, product: f64, power: f64, heard: &Projected, delay: f64) -> Match {
         let alpha = self.frequencies.first().map_or(0.0, |s| s.re);
         let both = (power * heard.power).sqrt();

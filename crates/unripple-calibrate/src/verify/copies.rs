@@ -1,20 +1,21 @@
-//! Recordings that are one recording.
+//! Points whose responses are copies of one recording.
 
 use super::verdict::{Doubted, VerifyOptions};
 use unripple_core::SampledResponses;
 
-/// Two places farther apart than this share of the shortest wavelength do not answer alike.
+/// Distance, in shortest wavelengths, beyond which two places have different responses.
 const APART: f64 = 0.25;
 
-/// Likeness from which two responses count as one recording: two true repeats, each with noise 30 dB below the
-/// signal, are as alike as that.
+/// Correlation from which two responses count as one recording: two true repeats, each with noise 30 dB below the
+/// signal, correlate as well as that.
 const ONE: f64 = 0.999;
 
-/// Actuators that are compared at first, and samples of each: the others only where these are alike.
+/// Number of actuators that are compared first, and (`SAMPLES`) of samples of each response: the other actuators only
+/// where these agree.
 const ACTUATORS: usize = 4;
 const SAMPLES: usize = 1024;
 
-/// Points whose responses are those of another point, but for a gain.
+/// Points whose responses equal those of another point, except for a gain.
 pub(super) fn doubts(probed: &SampledResponses, options: &VerifyOptions) -> Vec<Doubted> {
     let samples = probed.samples().min(SAMPLES);
     let signature = |p: usize, count: usize| {
@@ -30,7 +31,8 @@ pub(super) fn doubts(probed: &SampledResponses, options: &VerifyOptions) -> Vec<
     let far = APART * probed.conditions.lambda_min;
     let mut doubts = Vec::new();
     for (p, one) in all.iter().enumerate() {
-        // Actuators on an axis of symmetry are heard alike at points that mirror each other: all of them have to be.
+        // An actuator on an axis of symmetry has the same responses at points that mirror each other: all actuators
+        // have to agree.
         let whole = |q: usize| {
             let [a, b] = [p, q].map(|point| signature(point, probed.ports.len()));
             likeness(&a, &b) > ONE

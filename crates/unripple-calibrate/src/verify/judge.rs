@@ -8,31 +8,32 @@ use rayon::prelude::*;
 use unripple_core::{Point, Surface};
 use unripple_dsp::median;
 
-/// A response is not the model's if more than this share of it is unexplained, or so many times what is of the sensors'.
+/// Largest unexplained share, as amplitude, of a response that fits the model: `UNLIKE`, or `TIMES` that of the sensors'
+/// responses if that is larger.
 const UNLIKE: f64 = 0.4;
 const TIMES: f64 = 2.5;
 
-/// Delays that are looked for, in s: of a probe's electronics, and of a recording that lost samples.
+/// Smallest and largest delay that are searched, in s: of a probe's electronics, and of a recording that lost samples.
 const DELAYS: [f64; 2] = [-2e-3, 12e-3];
 
-/// Share of a period of the band's top that a probe's delay has to be. 5.4 degrees of phase at the band's top, which
-/// costs a focus 0.5 % of its height at most; half as much would correct what is noise.
+/// Smallest delay of a probe that is corrected, in periods of the band's top: 5.4 degrees of phase there, which costs a
+/// focus 0.5 % of its height at most; half as much would correct what is noise.
 const TURNED: f64 = 0.015;
 
-/// Points whose common delay is taken for the probe's: more take longer and change it little.
+/// Number of points from which the probe's delay is found: more take longer and change it little.
 const TELLING: usize = 24;
 
-/// A place is nobody else's if it is farther from all of them than this share of the shortest wave looked at.
+/// Distance, in shortest wavelengths compared, within which a place counts as that of a point or actuator.
 const NEAR: f64 = 0.2;
 
 /// The findings on a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Judged {
-    /// At its own place and the common delay.
+    /// Agreement with the model at the stated place and the common delay.
     pub own: Match,
-    /// The best place in the neighbourhood.
+    /// The best place near the stated one.
     pub nearby: Spot,
-    /// Error of that place (m), along each axis.
+    /// Estimated error of the place `nearby` along each axis, in metres.
     pub error: f64,
     /// Finding about the point.
     pub kind: Kind,
@@ -41,45 +42,45 @@ pub(super) struct Judged {
 /// Whether a point's responses fit its place, another place, or none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
-    /// Where it is said to be, or close by.
+    /// It fits its stated place, or one close by.
     Here,
     /// It fits another place.
     Elsewhere(Spot, Whose),
     /// It fits its place, but not with the others' delay.
     Late(f64),
-    /// It fits nothing.
+    /// It fits no place of the surface.
     Nothing,
 }
 
-/// Whose a place is.
+/// What is at a place: a probed point, an actuator, or neither.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Whose {
-    /// Another probed point's.
+    /// Another probed point, by its index.
     Point(usize),
-    /// An actuator's place, by its index.
+    /// An actuator, by its index.
     Actuator(usize),
-    /// Nobody's: a place between the points.
+    /// Neither: a place between the points.
     Nobody,
 }
 
 /// The references that points are compared with: model, places, options.
 pub(super) struct Bench<'a> {
-    /// The fitted model, and what was recorded in its frequencies.
+    /// The fitted model, and the measured spectra at its frequencies.
     pub quick: &'a Quick,
-    /// Places all over the sheet, to look for where a response fits.
+    /// Places all over the sheet, to search for where a response fits.
     pub sheet: &'a Sheet<'a>,
-    /// The surface as its file has it.
+    /// The surface as its file describes it.
     pub surface: &'a Surface,
-    /// Where the points are said to be, in m.
+    /// Stated places of the points, in m.
     pub places: &'a [Point],
-    /// How points are checked.
+    /// Options of the check.
     pub options: &'a VerifyOptions,
-    /// The shortest wave looked at, in metres.
+    /// Shortest wavelength that is compared, in metres.
     pub wave: f64,
 }
 
 impl Bench<'_> {
-    /// The largest share that the model leaves unexplained of a good point.
+    /// Largest share that the model leaves unexplained of a good point's responses, as amplitude.
     pub fn limit(&self) -> f64 {
         UNLIKE.max(TIMES * self.quick.fitted.unexplained()).min(0.8)
     }
@@ -112,7 +113,7 @@ impl Bench<'_> {
         let sum = |d: usize| tables.iter().map(|t| t[d]).sum::<f64>();
         let best = (0..delays.len()).max_by(|a, b| sum(*a).total_cmp(&sum(*b))).map_or(none, |d| delays[d]);
         let start = if 2 * here(none) > heard.len() && here(none) >= here(best) { none } else { best };
-        // Fine, by the median of what points say that fit there.
+        // Then finely, by the median over the points that fit there.
         let mut all: Vec<f64> = (0..heard.len())
             .into_par_iter()
             .filter_map(|p| {
@@ -150,8 +151,8 @@ impl Bench<'_> {
         judged(Kind::Nothing)
     }
 
-    /// The least delay (s) of a probe that is worth taking out: one that a response of so good a fit determines, and
-    /// that turns the top of the band by some degrees.
+    /// Smallest delay (s) of a probe that is worth correcting: it exceeds the error of the fit, and shifts the phase at
+    /// the top of the band by some degrees.
     pub fn worth(&self, judged: &[Judged]) -> f64 {
         let left = median(judged.iter().map(|j| j.nearby.found.unexplained())).unwrap_or(1.0);
         let turn = std::f64::consts::TAU * self.quick.band[1];
@@ -159,12 +160,13 @@ impl Bench<'_> {
         told.max(TURNED / self.surface.emission.band[1])
     }
 
-    /// How much more precisely a fit determines a place or a delay than one mode alone does, a ratio.
+    /// Factor by which the number of modes reduces the error of a place or a delay found by a fit.
     fn told(&self) -> f64 {
         (8.0 / self.quick.fitted.beyond().poles.len().max(4) as f64).sqrt()
     }
 
-    /// The place's error (m) by what is left unexplained: as if each mode were one independent measurement.
+    /// Error (m) of a place along each axis, from the unexplained share: as if each mode were one independent
+    /// measurement.
     fn error(&self, spot: &Spot) -> f64 {
         let k = std::f64::consts::TAU / self.wave;
         spot.found.unexplained() / k * self.told()

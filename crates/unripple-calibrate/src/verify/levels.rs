@@ -1,19 +1,19 @@
-//! Gains of points beside each other.
+//! Gains of the points, compared with each other.
 
 use super::judge::{Judged, Kind};
 use unripple_dsp::median;
 
-/// A gain this far from the others', as a logarithm, is another gain. It stands for 15 %.
+/// Difference of two gains, as a logarithm, from which they count as different: 15 %.
 const ANOTHER: f64 = 0.14;
 
-/// How near to 1 a gain over the sensors' is, as a logarithm, that speaks for itself where points disagree evenly.
-/// The same 15 %.
+/// Largest distance from 1, as a logarithm, of a gain relative to the sensors' that is believed where two points disagree. The same 15
+/// %.
 const ONE: f64 = 0.14;
 
-/// Standard errors that a gain has to be off by to be another. By chance one point in 370 is off by that.
+/// Number of standard errors by which a gain has to differ to be corrected. By chance one point in 370 differs by that.
 const SURE: f64 = 3.0;
 
-/// What most points have for a gain.
+/// The gain that most points have.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Levels {
     /// The gain of most points, its sign included; `None` where no two points agree.
@@ -50,14 +50,15 @@ impl Levels {
         Self { common, scale: common.unwrap_or(scale) }
     }
 
-    /// Factor that would bring a point's responses to the common gain, if theirs is another.
+    /// Factor that would bring a point's responses to the common gain; `None` if they have it.
     pub fn off(&self, judged: &Judged) -> Option<f64> {
         let gain = judged.nearby.found.gain;
         self.common.filter(|common| !same(gain, *common)).map(|common| common / gain)
     }
 
-    /// The same where it is sure: a probe that stands a little beside its place hears another gain near a node, so that the gain at the
-    /// very place has to be that nearby; and what the model leaves unexplained, of as many actuators as drive, makes another one too.
+    /// The factor of [`Levels::off`] where it is certain. The gain at the stated place has to equal that at the best place nearby,
+    /// since a probe a little beside its place has another gain near a node; and it has to differ by more than the share that the model
+    /// leaves unexplained accounts for, averaged over `actuators`.
     pub fn correction(&self, judged: &Judged, actuators: usize) -> Option<f64> {
         let [own, nearby] = [judged.own, judged.nearby.found];
         let left = own.unexplained().max(nearby.unexplained());
@@ -68,7 +69,7 @@ impl Levels {
     }
 }
 
-/// Whether two gains are one.
+/// Whether two gains count as equal.
 pub(super) fn same(a: f64, b: f64) -> bool {
     a * b > 0.0 && (a / b).ln().abs() < ANOTHER
 }

@@ -23,14 +23,14 @@ use std::f64::consts::TAU;
 use unripple_core::{SampledResponses, Surface, require};
 use unripple_physics::Medium;
 
-/// Holds each probed response against a model at its place, its gain, sign and delay free.
+/// Compares each probed response with a model at its place; gain, sign and delay are free.
 ///
-/// The model is [fitted](crate::fit) to what actuators heard of each other, in the lowest modes, so that a surface file that is
-/// wrong condemns no good data; where it leaves too much of that unexplained there is none, and the answer says so. A point that does
-/// not fit its place is looked for on the whole sheet, so that exchanged recordings, a probe beside its place and a probe on an
-/// actuator's channel are reported by name.
+/// The model is [fitted](crate::fit) to the responses between actuators, in the lowest modes, so that a surface file that is wrong
+/// does not make good data look bad. If it leaves too much of them unexplained, there is no comparison, and the result says so. For a
+/// point that does not fit its place the whole sheet is searched, so that exchanged recordings, a probe beside its place and a probe
+/// on an actuator's channel are reported by name.
 ///
-/// `measured` is what actuators heard of each other, `probed` the responses of the same actuators at the probed points.
+/// `measured` holds the responses between actuators, `probed` the responses of the same actuators at the probed points.
 ///
 /// # Errors
 /// [`CalibrateError::Count`] and [`CalibrateError::Range`] for measurements that do not belong together.
@@ -74,7 +74,7 @@ pub fn check(
     Ok(judged(quick, surface, probed, options, copies))
 }
 
-/// Checks against a model that was fitted before, to what all the actuators heard.
+/// As [`check`], with a model that was fitted before to the responses between all actuators.
 ///
 /// # Errors
 /// Those of [`check`].
@@ -91,7 +91,7 @@ pub fn check_by(
     Ok(judged(quick, surface, probed, options, copies))
 }
 
-/// Refuses responses of other actuators, or at another rate, than what was measured.
+/// Refuses responses of another number of actuators, or at another rate, than those measured.
 fn together(surface: &Surface, measured: &Measured, probed: &SampledResponses) -> Result<(), CalibrateError> {
     let (expected, found) = (surface.actuators.len(), probed.ports.len());
     if expected != found {

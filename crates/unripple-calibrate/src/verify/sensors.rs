@@ -5,7 +5,7 @@ use super::judge::Bench;
 use super::verdict::Doubted;
 use unripple_core::{ActuatorKind, Point};
 
-/// A sensor whose row is less like the model's than this is not what it is said to be.
+/// Correlation of a sensor's responses with the model at its place, from which the sensor is not doubted.
 const UNLIKE: f64 = 0.5;
 
 /// Doubts about single sensors.
@@ -17,7 +17,7 @@ pub(super) fn doubts(bench: &Bench) -> Vec<Doubted> {
         Point::new(x, y)
     };
     let name = |n: usize| bench.surface.actuators[quick.actuators[n]].name.clone();
-    // A patch hears how the sheet bends, which says nothing of how its place moves.
+    // A piezoelectric patch senses the bending of the sheet, not the velocity of its place.
     let listens =
         |n: usize| !matches!(bench.surface.actuators[quick.actuators[n]].kind, ActuatorKind::Piezo { .. });
     let heard: Vec<Projected> = quick.sensed.iter().map(|row| bench.sheet.checker.project(row)).collect();

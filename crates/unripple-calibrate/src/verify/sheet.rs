@@ -1,22 +1,22 @@
-//! Where on the sheet, and how late, a response fits the model best.
+//! Search for the place and the delay at which a response fits the model best.
 
 use super::checker::{Checker, Match, Projected};
 use std::f64::consts::TAU;
 use unripple_core::{Outline, Point};
 use unripple_linalg::{Mat, product};
 
-/// Places along the shortest wave looked at: likeness has fallen to 0.9 half a step from where it is best.
+/// Places per shortest wavelength compared: half a step from the best place, the correlation has fallen to 0.9.
 const DENSE: f64 = 7.0;
 
-/// Most places along a side: 8100 in all, which bounds time and memory; a longer sheet is searched less finely.
+/// Largest number of places along a side: 8100 in all, which bounds time and memory; a longer sheet is searched less
+/// finely.
 const MOST: f64 = 90.0;
 
-/// Delays tried within the shortest period looked at: an eighth of it apart, where a likeness has fallen to 0.92 at
-/// most.
+/// Delays tried per shortest period compared: an eighth of it apart, where a correlation has fallen to 0.92 at most.
 const DELAYS: f64 = 8.0;
 
-/// The finest step of a search, in metres and in periods of the highest frequency. Finer than any error of place that
-/// matters; coarser, and the likeness of a good point would suffer.
+/// Finest step of a search, in metres and (`FINE_PERIOD`) in periods of the highest frequency. Finer than any error
+/// of place that matters; with a coarser one the correlation of a good point would suffer.
 const FINE: f64 = 2e-5;
 const FINE_PERIOD: f64 = 1e-3;
 
@@ -32,19 +32,19 @@ pub(super) struct Sheet<'a> {
     period: f64,
 }
 
-/// Where a response fits best.
+/// A place and a delay, and how well a response fits the model there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Spot {
     /// The place, in m.
     pub at: Point,
-    /// Seconds by which it comes late.
+    /// Delay of the response, in s.
     pub late: f64,
-    /// How well it fits there.
+    /// Agreement with the model there.
     pub found: Match,
 }
 
 impl<'a> Sheet<'a> {
-    /// Places `DENSE` to a wave of `wavenumber` (rad/m), for frequencies up to `top_hz`.
+    /// Places all over the sheet, `DENSE` per wavelength of `wavenumber` (rad/m), for frequencies up to `top_hz`.
     pub fn new(checker: &'a Checker<'a>, outline: &'a Outline, wavenumber: f64, top_hz: f64) -> Self {
         let pitch = TAU / wavenumber / DENSE;
         let (width, height) = outline.extent();
@@ -67,7 +67,7 @@ impl<'a> Sheet<'a> {
         (0..=count).map(|n| from + n as f64 * step).collect()
     }
 
-    /// For each delay (s) the best square of the likeness over all places, 0 to 1.
+    /// For each delay (s), the largest square of the correlation over all places, 0 to 1.
     pub fn likest(&self, heard: &Projected, delays: &[f64]) -> Vec<f64> {
         let products = product(self.shapes.as_ref(), self.checker.products(heard, delays).as_ref());
         (0..delays.len())
@@ -117,7 +117,7 @@ impl<'a> Sheet<'a> {
         best
     }
 
-    /// The best delay (s) of some at one place (m).
+    /// The best of some delays (s) at one place (m).
     pub fn latest(&self, heard: &Projected, at: Point, delays: &[f64]) -> Option<Spot> {
         let found = self.checker.late(heard, at, delays);
         let spots = delays.iter().zip(found).map(|(late, found)| Spot { at, late: *late, found });
@@ -126,7 +126,7 @@ impl<'a> Sheet<'a> {
 }
 
 impl Spot {
-    /// Takes another place and delay if it is more alike there.
+    /// Takes another place and delay if the correlation is larger there, and returns whether it is.
     fn better(&mut self, at: Point, late: f64, found: Match) -> bool {
         let better = found.likeness.abs() > self.found.likeness.abs() * (1.0 + 1e-12);
         if better {

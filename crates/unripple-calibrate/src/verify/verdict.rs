@@ -5,19 +5,19 @@ use unripple_core::Point;
 /// Options of the check of probed points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VerifyOptions {
-    /// Whether they are compared with a model; without one only the checks that need none are made.
+    /// Whether the points are compared with a model; without one only the checks that need none are made.
     pub model: bool,
-    /// The probe's own delay in s, if it was taken out of the responses because it is known.
+    /// Known delay of the probe relative to the sensors, in s, if it was removed from the responses.
     pub probe_delay: Option<f64>,
-    /// Seconds that were taken out of each point's responses before; empty for none.
+    /// Delay that was removed from the responses of each point before, in s; empty for none.
     pub removed: Vec<f64>,
-    /// Actuators that are dead, by their index: left out.
+    /// Indices of dead actuators, which are left out.
     pub dead: Vec<usize>,
-    /// Whether a probe heard them, of one gain and one delay; taps have neither in common.
+    /// Whether the points were measured by a probe, which has one gain and one delay; taps have neither in common.
     pub probe: bool,
-    /// Numbers of the points for people, from 1; empty for their order.
+    /// Numbers of the points in messages, from 1; empty to number them in their order.
     pub numbers: Vec<usize>,
-    /// Modes of the band that is looked at, about.
+    /// Approximate number of modes in the band that is compared.
     pub modes: usize,
 }
 
@@ -45,24 +45,25 @@ impl Default for VerifyOptions {
 /// The result of a check of probed points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verified {
-    /// The model that they were compared with, or why there was none.
+    /// The model that the points were compared with, or why there was none.
     pub model: Checked,
-    /// One for each probed point, in their order; empty without a model.
+    /// Verdict on each probed point, in their order; empty without a model.
     pub points: Vec<PointVerdict>,
-    /// Seconds by which the probe's signals come later than the sensors', what was taken out before included.
+    /// Delay of the probe relative to the sensors, in s, including what was removed before; `None` if it is too small
+    /// to matter, or not found.
     pub probe_delay: Option<f64>,
-    /// Gain of the probe over the model, which has the sensors' scale: what most points agree on.
+    /// Gain of the probe relative to the sensors, on which most points agree; `None` if they do not.
     pub gain: Option<f64>,
-    /// Findings that are worth mentioning and cast no doubt.
+    /// Findings that are reported but cast no doubt.
     pub notes: Vec<String>,
-    /// Doubts that need no model: points whose responses are those of another.
+    /// Doubts that need no model: points whose responses are copies of another point's.
     pub copies: Vec<Doubted>,
     /// Reasons to doubt points, or all of the calibration, copies first.
     pub doubts: Vec<Doubted>,
 }
 
 impl Verified {
-    /// Where there is no model.
+    /// The result without a model, and why there is none.
     pub(super) fn without(why: String, copies: Vec<Doubted>) -> Self {
         Self {
             model: Checked::Not { why },
@@ -76,14 +77,14 @@ impl Verified {
     }
 }
 
-/// Whether there was a model to hold probed points against.
+/// Whether there was a model to compare probed points with.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Checked {
-    /// One that was fitted to what sensors heard.
+    /// The points were compared with a model that was fitted to the sensors' responses.
     Against {
         /// Frequencies that were compared, in Hz.
         band: [f64; 2],
-        /// Share of what sensors heard there that it leaves unexplained.
+        /// Share of the sensors' responses there, as amplitude, that the model leaves unexplained.
         unexplained: f64,
     },
     /// There was no model.
@@ -105,19 +106,20 @@ pub struct Doubted {
 /// The result of a check of one probed point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointVerdict {
-    /// Place where the point is said to be, in m.
+    /// Stated place of the point, in m.
     pub at: Point,
-    /// Share of what was heard there (as amplitude) that the model does not explain at that place, gain and delay free.
+    /// Share of the point's responses, as amplitude, that the model does not explain at that place, with gain and delay
+    /// free.
     pub unexplained: f64,
-    /// Gain over the median of the points, negative if reversed.
+    /// Gain relative to that of most points (to the median of all if they disagree), negative if reversed.
     pub gain: f64,
-    /// Seconds by which it comes later than the points' common delay.
+    /// Delay relative to the points' common delay, in s.
     pub late: f64,
-    /// The place nearby that fits best, where it differs from the stated one by more than its error, and what is left
-    /// unexplained there.
+    /// The place nearby that fits best, and the share that is unexplained there, as amplitude; `None` if it is less
+    /// than three standard errors from the stated place, or too near to matter.
     pub fits: Option<(Point, f64)>,
     /// Reason to doubt the point, if there is one.
     pub doubt: Option<String>,
-    /// Factor that corrects its responses, if its gain or sign is not that of the others and the rest of it is good.
+    /// Factor that corrects the point's responses, if only their gain or sign differs from that of the other points.
     pub correction: Option<f64>,
 }

@@ -1,4 +1,4 @@
-//! Tension followed on a virtual surface that drifts.
+//! Tension tracked on a virtual surface that drifts.
 
 use crate::drift_bench;
 

@@ -1,4 +1,4 @@
-//! Tension followed on a true surface that is known by a fit from its actuators alone, in a third of the paper's band.
+//! Tension tracked on a true surface whose model is a fit to its actuators alone, in a third of the paper's band.
 
 use crate::drift_bench;
 

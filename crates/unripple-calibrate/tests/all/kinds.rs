@@ -13,7 +13,7 @@ const AT: Point = Point::new(0.062, 0.090);
 const ON_GLASS: Point = Point::new(0.0617, 0.0553);
 const ON_TABLE: Point = Point::new(0.47, 0.33);
 
-/// Of latency, in samples, and of contrast.
+/// Tolerances of latency, in samples, and of contrast.
 const LATE: f64 = 0.05;
 const SHARE: f64 = 0.97;
 
@@ -81,8 +81,8 @@ fn every_kind_calibrates_right() {
     assert!(wrong.is_empty(), "{wrong:?}");
 }
 
-/// What a coil heard, turned into velocities, is what a probe hears where the coil is, its own sweep included: that response is loudest where
-/// what precedes time 0 was cut away.
+/// The signal of a coil, turned into velocities, is that of a probe at the coil's place, its own sweep included: that response is loudest
+/// where what precedes time 0 was cut away.
 ///
 /// Coils have mass here: one without, and little inductance, moves at once with each sample of the virtual drive, and the probe hears
 /// images of the band that the coil's current hardly has.

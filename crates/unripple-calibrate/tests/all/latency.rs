@@ -19,7 +19,7 @@ fn film(top: f64) -> Surface {
     film
 }
 
-/// What the film is that is measured: its tension, how long it rings, how far its actuators are off, how far it rings.
+/// The measured film: its tension, how long it rings, how far its actuators are off, and its highest mode.
 struct Truth {
     tension: f64,
     decay: f64,
@@ -28,7 +28,7 @@ struct Truth {
 }
 
 impl Truth {
-    /// What actuators hear of each other, by the closed form, limited to a band and late.
+    /// Responses between the actuators by the closed form, limited to a band and delayed.
     fn heard(&self, film: &Surface, samples: usize, late: f64, band: Band) -> Vec<Vec<Vec<f64>>> {
         let (density, side) = (film.sheet.density * film.sheet.thickness, 0.15);
         let bending =

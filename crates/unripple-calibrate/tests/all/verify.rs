@@ -7,7 +7,7 @@ use unripple_calibrate::Measured;
 use unripple_calibrate::verify::{Checked, Verified, VerifyOptions, check};
 use unripple_core::{Point, Surface};
 
-/// Holds what a truth brings home against the surface that is believed.
+/// Checks the calibration data of a true surface against its surface file.
 fn verified(
     truth: &mut Truth,
     believed: &Surface,

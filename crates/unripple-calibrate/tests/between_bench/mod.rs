@@ -1,4 +1,4 @@
-//! The paper's surface measured at points, with errors that the software is not told of.
+//! The paper's surface measured at points, with errors that the software does not know.
 
 #![allow(dead_code)]
 
@@ -14,7 +14,7 @@ use unripple_physics::{Medium, ResponseOptions, responses, sample};
 pub const WINDOW: f64 = 0.030;
 pub const RATE: f64 = 48e3;
 
-/// What goes wrong in measuring: relative rms of noise and gains, rms distance (m) of points from where they should be.
+/// Errors of a measurement: relative rms of noise and gains, rms distance (m) of points from their stated places.
 #[derive(Clone, Copy)]
 pub struct Errors {
     pub noise: f64,
@@ -41,8 +41,8 @@ impl Truth {
         Self::of(&papers_surface())
     }
 
-    /// The paper's surface as it is not told: actuators off by 1 mm, drives by 0.5 %, tension varying by 1 %, another law of
-    /// damping, two stray masses of 20 mg.
+    /// A true surface that differs from the paper's: actuators off by 1 mm, drives by 0.5 %, tension varying by 1 %, another
+    /// law of damping, two stray masses of 20 mg.
     pub fn unknown() -> Self {
         static TRUTH: LazyLock<Truth> = LazyLock::new(|| {
             let truth = Perturbation::default().truth(&papers_surface()).unwrap();
@@ -107,7 +107,7 @@ impl Truth {
         peak.abs() / (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
     }
 
-    /// Contrasts at places of drives made from responses.
+    /// Contrasts at places, of drives that are made from responses.
     pub fn contrasts(&self, known: &Responses, method: Method, places: &[Point]) -> Vec<f64> {
         let options = Options { method, window: WINDOW, ..Options::default() };
         let focuser = Focuser::new(known, &options).unwrap();
@@ -120,7 +120,7 @@ impl Truth {
     }
 }
 
-/// Wavenumber of the paper's film as the software is told.
+/// Wavenumber (rad/m) of the paper's film by the surface file, at an angular frequency (rad/s).
 pub fn told() -> impl Fn(f64) -> f64 {
     let medium = Medium::of(&papers_surface().sheet);
     move |omega| medium.wavenumber(omega)

@@ -1,10 +1,10 @@
-//! The contrast that known responses give on a surface as it truly is.
+//! Contrast on the true surface of a focus made from known responses.
 
 use unripple_core::{Point, Responses};
 use unripple_field::Field;
 use unripple_focus::{Focuser, Method, Options, Target};
 
-/// Velocity at a place over the root mean square outside its disc, both at the end of the window (s).
+/// Contrast at the end of the window (s): velocity at a place, relative to the rms velocity outside its focal disc.
 pub fn contrast(known: &Responses, plant: &Responses, method: Method, at: Point, window: f64) -> f64 {
     let options = Options { method, window, ..Options::default() };
     let drive = Focuser::new(known, &options).unwrap().focus(&[Target::at(at)]).unwrap().drive.as_emitted();

@@ -21,33 +21,33 @@ pub const PERIOD: f64 = 0.2;
 const BLOCK: usize = 240;
 const RATE: f64 = 48e3;
 
-/// Share of the limit that the undrifted drive leaves free.
+/// Share of the drive's limit that the first drive, before any drift, leaves free.
 pub const HEADROOM: f64 = 0.05;
 
-/// What is done about the drift.
+/// What is done against the drift of tension.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Against {
-    /// The tension is known without looking.
+    /// The true tension is known, without tracking.
     Knowledge,
     Dispersion,
     Stretch,
     Nothing,
 }
 
-/// What is sent.
+/// The drive that is sent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sent {
     Focus(Method),
     Ping,
 }
 
-/// One focus.
+/// The result of one focus.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
     pub time: f64,
     /// Tension over that at calibration, at the focal instant.
     pub tension: f64,
-    /// As the tracker had it, before it heard of this focus.
+    /// Tension by the tracker, before it observed this focus.
     pub known: f64,
     pub error: f64,
     pub peak: f64,
@@ -56,14 +56,14 @@ pub struct Row {
     pub excess: f64,
 }
 
-/// A surface as it really is and as it is known.
+/// A true surface, and its model.
 pub struct Bench {
     pub surface: Surface,
     pub modes: Arc<Modes>,
     pub reference: ModalResponses,
     pub shares: Vec<f64>,
     sensors: Mat<f64>,
-    /// The model's error, as the fit has it.
+    /// Error of the model by the fit, as a share.
     pub model: f64,
     drive_gains: Vec<f64>,
     sense_gains: Vec<f64>,
@@ -71,12 +71,12 @@ pub struct Bench {
     /// True shapes at the target and outside its disc, points x modes.
     shapes: [Mat<f64>; 2],
     pub noise: f64,
-    /// By how much the tension moves either way, as a share, and how often a minute.
+    /// Largest change of tension either way, as a share, and number of cycles per minute.
     pub swing: [f64; 2],
 }
 
 impl Bench {
-    /// The paper's surface, known as it is, with so many dB of signal to noise within the band.
+    /// The paper's surface, with itself as the model, and a signal-to-noise ratio of so many dB within the band.
     pub fn new(snr: f64) -> Self {
         let surface = papers_surface();
         let modes = Arc::new(Modes::solve(&surface, surface.emission.band[1], 1e-6).unwrap());
@@ -93,7 +93,7 @@ impl Bench {
         Self::of(surface, modes, [vec![1.0; 8], vec![1.0; 8]], known, snr)
     }
 
-    /// A surface that is not as told, known by what its actuators hear of each other alone: a fit.
+    /// A true surface whose model is a fit to the responses between its actuators alone.
     pub fn truth(top: f64, snr: f64) -> (Self, Fitted) {
         let mut truth = Truth::new(&Faults::default(), top);
         let measured = truth.pairs(0.25);
@@ -138,7 +138,7 @@ impl Bench {
         bench
     }
 
-    /// The undrifted focus, the last of a few, and what the sensors hear over a period.
+    /// The last of a few foci without drift, and the sensors' signals over a period.
     pub fn silent_run(&self, method: Method) -> (Row, Vec<f64>) {
         let mut plant = self.plant(Vec::new(), 0.0);
         let drive = self.drive(&self.reference, method, &mut Hold::new(1.0, HEADROOM).unwrap());

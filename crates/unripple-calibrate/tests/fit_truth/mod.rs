@@ -1,4 +1,4 @@
-//! A surface that no model here is told about, what is measured on it, and a judge.
+//! A true surface that differs from its model, measurements on it, and the contrast that fitted responses reach.
 
 #![allow(dead_code)]
 
@@ -17,18 +17,18 @@ use unripple_physics::{Medium, Modes, sample};
 
 pub const WINDOW: f64 = 0.030;
 
-/// What is wrong with the truth.
+/// Differences of the true surface from its model.
 #[derive(Clone, Debug)]
 pub struct Faults {
     /// Signal-to-noise ratio within the band, in dB.
     pub snr: f64,
-    /// Standard deviation of gains.
+    /// Standard deviation of the relative error of gains.
     pub gain: f64,
-    /// Distance that each actuator is off by, in metres.
+    /// Distance of each actuator from its stated place, in metres.
     pub place: f64,
-    /// Largest variation of tension over the sheet.
+    /// Largest variation of tension over the sheet, as a share.
     pub uneven: f64,
-    /// Tension over nominal.
+    /// Tension relative to nominal, a ratio.
     pub tension: f64,
     pub another_decay: bool,
     /// Stray masses, in kg.
@@ -69,15 +69,15 @@ impl Shapes for First {
     }
 }
 
-/// A true surface, its true responses and how its channels are off.
+/// A true surface, its true responses and the errors of its channels.
 pub struct Truth {
     pub nominal: Surface,
     pub surface: Surface,
-    /// Its modes to 1.4 times the band's top.
+    /// Modes of the true surface up to 1.4 times the band's top.
     pub modes: Arc<Modes>,
-    /// The modes of the band.
+    /// Responses with the modes of the band.
     pub plant: Responses,
-    /// With modes above it.
+    /// Responses with the modes above the band too.
     pub whole: ModalResponses,
     pub drive: Vec<f64>,
     pub sense: Vec<f64>,
@@ -113,7 +113,7 @@ impl Truth {
         Self::of(nominal, surface, faults, random)
     }
 
-    /// A surface that is true, known as another; gains and noise are drawn.
+    /// A true surface whose file is `nominal`; gains and noise are drawn.
     pub fn of(nominal: Surface, surface: Surface, faults: &Faults, mut random: Random) -> Self {
         let top = nominal.emission.band[1];
         let modes = Arc::new(Modes::solve(&surface, 1.4 * top, 1e-5).unwrap());
@@ -152,7 +152,7 @@ impl Truth {
         noise
     }
 
-    /// Every actuator driven, all listening.
+    /// Responses between all actuators, of so many seconds.
     pub fn pairs(&mut self, seconds: f64) -> Measured {
         let places: Vec<Point> = self.surface.actuators.iter().map(|a| a.at).collect();
         let rate = self.nominal.emission.rate;
@@ -165,7 +165,8 @@ impl Truth {
         Measured::pairs(rate, signals, noise)
     }
 
-    /// The same as a calibration brings them home: limited to a band and cut at time 0, that long.
+    /// These responses as a calibration measures them: limited to a band and cut off before time 0, of so many
+    /// seconds.
     pub fn swept(&mut self, seconds: f64) -> Measured {
         let rate = self.nominal.emission.rate;
         let [from, to] = [60.0, 1.2 * self.nominal.emission.band[1]];
@@ -181,7 +182,7 @@ impl Truth {
         measured.limited_to(band)
     }
 
-    /// Taps of unknown shape and strength, heard by all actuators.
+    /// Taps of unknown shape and strength, recorded by all actuators.
     pub fn taps(&mut self, places: &[Point], seconds: f64) -> Measured {
         let rate = self.nominal.emission.rate;
         let sampled = sample(&self.whole, places, (seconds * rate) as usize);
@@ -247,7 +248,7 @@ fn modal(surface: &Surface, modes: &Arc<Modes>) -> ModalResponses {
     }
 }
 
-/// Peak over the rms outside, at the end of the window.
+/// Contrast: peak relative to the rms outside the focal disc, at the end of the window.
 pub fn contrast(plant: &Responses, drive: &Drive, at: Point) -> f64 {
     let field = Field::new(plant, drive, 8.0).unwrap();
     let shot = &field.snapshots(&[WINDOW]).unwrap()[0];

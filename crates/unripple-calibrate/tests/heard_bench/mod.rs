@@ -1,4 +1,4 @@
-//! What a calibration brings home from supported sheets whose modes are known in closed form, with modes above the band.
+//! Calibration data of supported sheets whose modes are known in closed form, with modes above the band.
 
 #![allow(dead_code)]
 
@@ -11,11 +11,12 @@ use unripple_core::{
 };
 use unripple_physics::Medium;
 
-/// Seconds kept of each response, and samples that what is before time 0 is drawn from.
+/// Duration of each response that is kept, in s, and samples before time 0 in which ringing of the band's edges is
+/// computed.
 pub const KEPT: f64 = 0.1;
 const BEFORE: usize = 64;
 
-/// The paper's film in half its band, its rim supported.
+/// The paper's film in half its band, with a supported rim.
 pub fn film() -> Surface {
     let places =
         [(12., 31.), (9., 84.), (40., 140.), (95., 137.), (141., 106.), (138., 44.), (103., 11.), (50., 9.)];
@@ -80,13 +81,13 @@ fn sheet(
 /// A true surface, its sensors and its probe.
 pub struct Truth {
     pub surface: Surface,
-    /// How far above the band it rings, as a multiple.
+    /// Highest mode, as a multiple of the top of the band.
     pub rings: f64,
-    /// Signal to noise of sensors and of the probe, in dB.
+    /// Signal-to-noise ratio of the sensors and of the probe, in dB.
     pub snr: f64,
-    /// Samples by which all comes late that was not found.
+    /// Latency that was not found, in samples.
     pub late: f64,
-    /// What its probe sees of a point: gain and further seconds late.
+    /// The probe's gain, and its delay relative to the sensors in s.
     pub probe: (f64, f64),
     pub random: Random,
 }
@@ -105,7 +106,8 @@ impl Truth {
         [60.0, 1.2 * self.surface.emission.band[1]]
     }
 
-    /// Velocity at one place per impulse at another by the closed form, no band, no noise.
+    /// Velocity at one place per unit impulse of force at another, by the closed form, not limited to a band, without
+    /// noise.
     pub fn whole(&self, from: Point, to: Point) -> Vec<f64> {
         let Shape::Rectangle { width, height } = self.surface.outline.shape else { panic!("a rectangle") };
         let medium = Medium::of(&self.surface.sheet);
@@ -142,7 +144,7 @@ impl Truth {
         h
     }
 
-    /// The same as it is measured: late, limited to what was swept, cut at time 0, with noise.
+    /// The response as it would be measured: delayed, limited to the swept band, cut off before time 0, with noise.
     pub fn heard(&mut self, from: Point, to: Point, late: f64, gain: f64) -> Vec<f64> {
         let [low, high] = self.swept();
         let rate = self.surface.emission.rate;
@@ -156,7 +158,7 @@ impl Truth {
         signal
     }
 
-    /// What actuators hear of each other.
+    /// Measured responses between the actuators.
     pub fn pairs(&mut self) -> Measured {
         let places: Vec<Point> = self.surface.actuators.iter().map(|a| a.at).collect();
         let mut all = Vec::new();
@@ -170,7 +172,8 @@ impl Truth {
         measured.limited_to(Band::within(low, high))
     }
 
-    /// What the probe hears where it stands, by the places said, with its gain at each.
+    /// Responses that the probe measures at the places `stood`, with its gain at each, given as those of the places
+    /// `said`.
     pub fn probed(&mut self, said: &[Point], stood: &[Point], gains: &[f64]) -> SampledResponses {
         let places: Vec<Point> = self.surface.actuators.iter().map(|a| a.at).collect();
         let (gain, late) = self.probe;

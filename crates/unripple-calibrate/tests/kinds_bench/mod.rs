@@ -1,4 +1,4 @@
-//! A virtual calibration of any surface, from its wires to the focus that it gives on what is true.
+//! A virtual calibration of any surface, from its wires to the contrast of a focus on the true surface.
 
 #![allow(dead_code)]
 
@@ -21,22 +21,22 @@ use unripple_focus::Method;
 use unripple_physics::design::papers_surface;
 use unripple_physics::{ResponseOptions, responses, sensors};
 
-/// What came of a calibration.
+/// The result of a calibration.
 #[derive(Clone, Debug)]
 pub struct Found {
-    /// What the wiring test found wrong.
+    /// Faults that the wiring test found.
     pub faults: Vec<String>,
-    /// Latency and how far actuators disagree on it, in samples.
+    /// Latency and its uncertainty, in samples.
     pub latency: [f64; 2],
-    /// How far what a hears of b is from what b hears of a, as a share.
+    /// Difference of the responses between a and b in both directions, as a share.
     pub reciprocity: f64,
-    /// Contrast of the measured responses' time reversal on the true surface over that of the true responses.
+    /// Contrast on the true surface of time reversal by the measured responses, relative to that by the true responses.
     pub share: f64,
     /// Contrast of the true responses.
     pub contrast: f64,
 }
 
-/// The paper's film up to a frequency, its actuators of some kind.
+/// The paper's film up to a frequency (Hz), with actuators of some kind.
 pub fn film(top: f64, kind: impl Fn(usize) -> ActuatorKind) -> Surface {
     let mut film = papers_surface();
     film.sheet.strength = None;
@@ -72,7 +72,7 @@ pub fn glass(top: f64, mass: f64) -> Surface {
     glass
 }
 
-/// A table of 1.2 x 0.8 m of fibreboard on its rim, with exciters on a current.
+/// A table of 1.2 x 0.8 m of fibreboard, held at its rim, with exciters driven by a current.
 pub fn table(exciters: usize) -> Surface {
     let mut table = papers_surface();
     let sheet = &mut table.sheet;
@@ -124,7 +124,7 @@ pub fn modal(surface: &Surface, max_hz: Option<f64>, accuracy: f64) -> ModalResp
     }
 }
 
-/// Measures a target of a surface as `calibrate` does, and focuses there by what was measured.
+/// Measures the responses at a target of a surface as `calibrate` does, and focuses there with them.
 pub fn calibrate(
     surface: &Surface,
     unknowns: Option<&Perturbation>,
@@ -192,8 +192,8 @@ fn in_time(
     (latency, Session::new(surface, &layout, wires, &settings).unwrap())
 }
 
-/// Velocities under an actuator's contact, as told by what it heard and as a probe hears them at the same place: the share by which they
-/// differ, of the response to the actuator's own drive and of that to the others' where they differ most.
+/// Difference between the velocity under an actuator's contact by its own sensor and by a probe at the same place, as a share: for the
+/// response to the actuator's own drive, and the largest for those to the others'.
 pub fn at_an_actuator(surface: &Surface, actuator: usize) -> [f64; 2] {
     let (settings, model) = (MeasureOptions::default(), modal(surface, None, 1e-6));
     let device = Virtual::new(surface, &VirtualOptions::to_be_measured(surface).unwrap()).unwrap();

@@ -1,4 +1,4 @@
-//! The paper's surface as it is not told: a virtual device, what is believed of it, and what is true.
+//! A true surface that differs from the paper's, as a virtual device, with its model.
 
 #![allow(dead_code)]
 
@@ -16,7 +16,7 @@ use unripple_physics::{Modes, ResponseOptions, responses};
 
 pub const WINDOW: f64 = 0.030;
 
-/// What is believed, what is true, and its modes.
+/// The surface file with its model, and the true surface with its modes.
 pub struct World {
     pub surface: Surface,
     pub model: ModalResponses,
@@ -62,7 +62,7 @@ impl World {
         Session::new(&self.surface, device.layout(), wires, options).unwrap()
     }
 
-    /// What a probe finds at each of some points.
+    /// Responses that a probe measures at some points.
     pub fn probed(&self, rig: &mut dyn Rig, session: &Session, points: &[Point]) -> SampledResponses {
         let channels = points
             .iter()
@@ -83,19 +83,20 @@ impl World {
         contrast::contrast(known, &self.plant, method, at, WINDOW)
     }
 
-    /// Share of the contrast of time reversal by the true responses.
+    /// Contrast of a focus made from known responses, relative to that from the true responses, both by time
+    /// reversal.
     pub fn share(&self, known: &SampledResponses, at: Point) -> f64 {
         let known = Responses::Sampled(known.clone());
         self.contrast(&known, Method::TimeReversal, at) / self.contrast(&self.plant, Method::TimeReversal, at)
     }
 }
 
-/// Moves the probe of a virtual surface and taps it, whoever holds the device.
+/// A rig that moves the probe of a virtual surface and taps it, for any device that leads to it.
 pub struct Hands<D> {
     pub device: D,
     pub handle: Handle,
     pub rate: f64,
-    /// Whether the surface begins anew before each recording.
+    /// Whether the surface is reset before each recording.
     pub rest: bool,
 }
 

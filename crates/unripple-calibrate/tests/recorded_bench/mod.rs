@@ -16,45 +16,45 @@ pub const RATE: f64 = 48e3;
 const BLOCK: usize = 256;
 const SIDE: f64 = 0.15;
 
-/// Samples of silence before what is played.
+/// Samples of silence before the played signal.
 const PAUSE: f64 = 2048.0;
 
-/// Highest mode, over the top of the band: real sheets do not end there.
+/// Highest mode, as a multiple of the top of the band: real sheets do not end there.
 const BEYOND: f64 = 1.4;
 
 /// Where the probe stands.
 pub const AT: Point = Point { x: 0.062, y: 0.090 };
 
-/// What is wrong with a take.
+/// Faults of one take of a recording.
 #[derive(Clone)]
 pub struct Faults {
-    /// Millionths by which the recording's clock is fast.
+    /// Error of the recording's clock in parts per million, positive if it is fast.
     pub ppm: f64,
-    /// Samples that the recording is late by.
+    /// Delay of the recording, in samples.
     pub late: f64,
     /// Samples lost (negative: repeated), and where in the recording.
     pub lost: Option<(i64, usize)>,
-    /// The same at another place, once those are lost.
+    /// A second such gap at another place, counted after the first.
     pub lost_again: Option<(i64, usize)>,
-    /// Samples by which all that is heard comes early or late, another number ten times.
+    /// Largest jitter of the latency, in samples, which takes ten values over the recording.
     pub jitter: f64,
-    /// Tension beside the first take, as a share: at the begin and at the end.
+    /// Relative change of tension since the first take, at the beginning and at the end.
     pub tension: [f64; 2],
-    /// Noise under the loudest sweep's rms in each channel, in dB.
+    /// Noise of each channel below the rms of the loudest sweep, in dB.
     pub noise_db: Option<f64>,
     /// Share of the second and the third harmonic in the drive.
     pub harmonics: [f64; 2],
-    /// A knock on the film: s, and its strength in units of a full drive's sample.
+    /// A knock on the film: its time in s, and its strength relative to one sample of full drive.
     pub knock: Option<[f64; 2]>,
-    /// Samples that the probe alone is late by.
+    /// Delay of the probe alone, in samples.
     pub probe_late: f64,
-    /// Bits of the file.
+    /// Bits per sample of the file.
     pub bits: Option<u32>,
-    /// Drive beyond which it is cut.
+    /// Level at which the drive is clipped.
     pub clip: Option<f64>,
     /// An actuator that does nothing.
     pub dead: Option<usize>,
-    /// A sensor that hears noise alone.
+    /// A sensor that records noise alone.
     pub deaf: Option<usize>,
 }
 
@@ -79,7 +79,7 @@ impl Default for Faults {
     }
 }
 
-/// The film as told, and its modes.
+/// The film as its file describes it, and its modes.
 pub struct Bench {
     pub surface: Surface,
     pub model: ModalResponses,
@@ -159,7 +159,7 @@ impl Bench {
         self.surface.actuators.iter().map(one).collect()
     }
 
-    /// What all inputs hear of a drive (full scale 1).
+    /// Signals of all inputs for a drive (full scale 1).
     pub fn hear(&self, drive: &[Vec<f32>], faults: &Faults, seed: u64) -> Vec<Vec<f32>> {
         let samples = drive[0].len();
         let places = self.surface.actuators.iter().map(|actuator| actuator.at).chain([AT]);
@@ -211,7 +211,7 @@ impl Bench {
         self.modes.iter().map(turn).collect()
     }
 
-    /// What a recorder makes of it.
+    /// The signals as a recorder stores them, with its faults.
     fn recorded(&self, heard: Vec<Vec<f64>>, faults: &Faults, seed: u64) -> Vec<Vec<f32>> {
         let probe = heard.len() - 1;
         let one = |(input, line): (usize, Vec<f64>)| -> Vec<f32> {
@@ -261,7 +261,7 @@ impl Bench {
         lines
     }
 
-    /// What a session plays.
+    /// The drive that a session plays.
     pub fn drive(&self, session: &Session) -> Vec<Vec<f32>> {
         let mut recorder = Recorder(Tape::recorder(self.layout.clone()).unwrap());
         // What it makes of silence does not matter.
@@ -269,13 +269,13 @@ impl Bench {
         recorder.0.into_drive()
     }
 
-    /// A rig whose takes have one fault after another, the last for ever.
+    /// A rig whose takes have one set of faults after the other; the last stays.
     pub fn rig(&self, session: &Session, faults: &[Faults]) -> Takes<'_> {
         let drive = self.drive(session);
         Takes { bench: self, drive, faults: faults.to_vec(), count: 0, tape: None }
     }
 
-    /// A session that follows a first take with some faults, and what the probe hears in a second one with others.
+    /// A session with a first take as its reference, and the probe's responses in a second take, each with its faults.
     pub fn measured(
         &self,
         options: &MeasureOptions,
@@ -290,7 +290,7 @@ impl Bench {
         Ok((sensors, found, session))
     }
 
-    /// Rms of the difference over rms of the truth, all actuators at once, without the first millisecond, which holds what the
+    /// Rms error relative to the rms of the truth, over all actuators, without the first millisecond, which holds what the
     /// band takes from the onset.
     pub fn off(&self, channel: &Channel, session: &Session) -> f64 {
         let truth = self.truth(session.band(), channel.responses[0].len());
@@ -298,7 +298,7 @@ impl Bench {
     }
 }
 
-/// Rms of the difference over rms of the truth.
+/// Rms error relative to the rms of the truth.
 pub fn off(found: &[Vec<f64>], truth: &[Vec<f64>]) -> f64 {
     let (mut apart, mut all) = (0.0, 0.0);
     for (found, truth) in found.iter().zip(truth) {
@@ -323,7 +323,7 @@ fn wandering(most: f64, samples: usize) -> Vec<f64> {
     (0..samples).map(at).collect()
 }
 
-/// Between samples by Lagrange's polynomial through twelve: signals here stay below a tenth of the rate.
+/// Value between samples by Lagrange's polynomial through twelve: signals here stay below a tenth of the rate.
 fn between(line: &[f64], at: f64) -> f64 {
     let first = at.floor() as i64 - 5;
     (0..12)

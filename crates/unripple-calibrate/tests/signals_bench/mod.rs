@@ -1,4 +1,4 @@
-//! What the tests of measuring share: noise with a seed, a plant whose response is a sum of decaying oscillations.
+//! Shared by the tests of measuring: noise with a seed, and a plant whose response is a sum of decaying oscillations.
 
 #![allow(dead_code)]
 
@@ -39,7 +39,7 @@ impl Noise {
 pub struct Plant {
     /// Angular frequency per sample and weight.
     pub modes: Vec<[f64; 2]>,
-    /// Decay per sample.
+    /// Decay rate, per sample.
     pub sigma: f64,
 }
 
@@ -89,7 +89,7 @@ pub fn fourier(signal: &[f64], omega: f64, start: f64) -> [f64; 2] {
     })
 }
 
-/// What is heard of a drive: h convolved with d, over the rate, for so many samples.
+/// Recording of a drive: h convolved with d, over the rate, for so many samples.
 pub fn hear(response: &[f64], drive: &[f64], samples: usize) -> Vec<f64> {
     let mut heard = unripple_dsp::convolve(drive, response);
     heard.resize(samples, 0.0);
@@ -101,7 +101,7 @@ pub fn rms(signal: &[f64]) -> f64 {
     (signal.iter().map(|x| x * x).sum::<f64>() / signal.len().max(1) as f64).sqrt()
 }
 
-/// Rms of the difference over rms of the second.
+/// Rms of the difference, relative to the rms of the second signal.
 pub fn error(found: &[f64], truth: &[f64]) -> f64 {
     assert_eq!(found.len(), truth.len());
     let difference: Vec<f64> = found.iter().zip(truth).map(|(a, b)| a - b).collect();
