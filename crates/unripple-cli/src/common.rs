@@ -1,19 +1,19 @@
-//! What can be typed with every command: how it prints, and keys of the surface file that are set otherwise.
+//! Options common to all commands: how results are printed, and keys of the surface file that are changed.
 
 use crate::args::Arguments;
 use crate::error::CliError;
 use std::collections::BTreeMap;
 use unripple_tasks::SurfaceAsk;
 
-/// What was typed that is no command's own.
+/// The options that are common to all commands.
 pub struct Common {
-    /// Whether one JSON object is printed.
+    /// Whether the report is printed as one JSON object.
     pub json: bool,
     set: BTreeMap<String, String>,
 }
 
 impl Common {
-    /// What was typed.
+    /// Reads the common options.
     ///
     /// # Errors
     /// [`CliError::Input`] of `--set` without a key and a value, or with one key twice.
@@ -32,7 +32,7 @@ impl Common {
         Ok(Self { json: arguments.json, set })
     }
 
-    /// The surface of this name, with the keys that were set.
+    /// The surface of this name, with the changed keys.
     pub fn surface(&self, name: &str) -> SurfaceAsk {
         match self.set.is_empty() {
             true => SurfaceAsk::Name(name.into()),

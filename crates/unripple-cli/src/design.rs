@@ -6,7 +6,7 @@ use crate::error::CliError;
 use crate::output;
 use unripple_tasks::design::{self, Ask};
 
-/// Prints what a surface would do.
+/// Prints the design figures of a surface.
 pub fn run(options: &DesignOptions, common: &Common) -> Result<(), CliError> {
     let ask = Ask { surface: common.surface(&options.surface) };
     output::perform(common.json, &ask, design::run)

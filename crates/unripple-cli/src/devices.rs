@@ -1,4 +1,4 @@
-//! `unripple devices`: what drives can be played through.
+//! `unripple devices`: lists the devices through which drives can be played.
 
 use crate::args::DevicesOptions;
 use crate::common::Common;
@@ -6,7 +6,7 @@ use crate::error::CliError;
 use crate::output;
 use unripple_tasks::devices::{self, Ask};
 
-/// Lists what drives can be played through.
+/// Lists the devices through which drives can be played.
 pub fn run(options: &DevicesOptions, common: &Common) -> Result<(), CliError> {
     common.without_surface()?;
     let ask = Ask { server: options.server.clone() };

@@ -1,4 +1,4 @@
-//! `unripple doctor`: each stage between a touch and what is felt, checked in turn.
+//! `unripple doctor`: checks each stage between a touch and what is felt.
 
 use crate::args::DoctorOptions;
 use crate::common::Common;

@@ -1,4 +1,4 @@
-//! `unripple drift`: whether a sheet's tension is still what its responses were made for.
+//! `unripple drift`: measures how much a sheet's tension differs from the one that its responses assume.
 
 use crate::args::DriftOptions;
 use crate::common::Common;

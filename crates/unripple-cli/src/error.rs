@@ -1,4 +1,4 @@
-//! What goes wrong, and the exit status it gives: 1 the work failed, 2 bad usage or bad input.
+//! Errors of commands, and their exit statuses: 1 the work failed, 2 bad usage or bad input.
 
 use crate::options;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
@@ -6,14 +6,14 @@ use std::process::ExitCode;
 use unripple::act::{ActError, LevelKind};
 use unripple_tasks::TaskError;
 
-/// Why a command did not do its work.
+/// Error that ended a command.
 #[derive(Debug)]
 pub enum CliError {
-    /// The input or its combination makes no sense: exit status 2.
+    /// An input, or a combination of inputs, is not accepted: exit status 2.
     Input(String),
-    /// A file has faults that can be pointed at: exit status 2.
+    /// A file has faults, each with its line and column: exit status 2.
     Faults(Box<dyn Diagnostic + Send + Sync>),
-    /// The work could not be done: exit status 1.
+    /// The work failed: exit status 1.
     Work(String),
 }
 
@@ -58,12 +58,12 @@ impl std::fmt::Display for CliError {
 }
 
 impl CliError {
-    /// Bad input, in words.
+    /// Error of bad input, from its message.
     pub fn input(error: impl std::fmt::Display) -> Self {
         Self::Input(error.to_string())
     }
 
-    /// Failed work, in words.
+    /// Error of failed work, from its message.
     pub fn work(error: impl std::fmt::Display) -> Self {
         Self::Work(error.to_string())
     }

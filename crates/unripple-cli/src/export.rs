@@ -1,4 +1,4 @@
-//! `unripple export`: a library in formats that others read.
+//! `unripple export`: writes a library in formats that other programs read.
 
 use crate::args::ExportOptions;
 use crate::common::Common;

@@ -1,4 +1,4 @@
-//! `unripple fit`: the model fitted to what a library's actuators heard of each other.
+//! `unripple fit`: fits the model to the responses between a library's actuators.
 
 use crate::args::FitOptions;
 use crate::common::Common;

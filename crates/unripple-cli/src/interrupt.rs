@@ -1,4 +1,4 @@
-//! Ctrl+C, and other wishes that the program end: nothing unfinished is left behind.
+//! Handling of Ctrl+C and other signals that end the program, so that nothing unfinished is left behind.
 
 use crate::error::CliError;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
@@ -7,11 +7,12 @@ use signal_hook::low_level::emulate_default_handler;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 
-/// What becomes true when somebody wants a command to stop that ends by itself.
+/// Flag that the first signal sets, for a command that then stops by itself.
 static WISHED: OnceLock<Arc<AtomicBool>> = OnceLock::new();
 
-/// From now on whoever ends this program leaves nothing unfinished behind: what is under construction is taken away, no call of JACK is
-/// cut short, and then the program ends as the signal would have ended it, so that shells see that (status 128 and its number).
+/// Handles the signals that end the program from now on. Files under construction are removed, calls of JACK are completed, and the program
+/// then ends as the signal would have ended it, so that shells see status 128 and the signal's number. If a command uses [`wished`], the
+/// first signal only sets that flag.
 pub fn watch() -> Result<(), CliError> {
     let wishes =
         [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| *signal != SIGHUP || !is_ignored(SIGHUP));
@@ -32,7 +33,7 @@ pub fn watch() -> Result<(), CliError> {
     Ok(())
 }
 
-/// Becomes true when somebody wants to stop, for a command that then ends by itself.
+/// Flag that the first signal sets, for a command that then stops by itself.
 pub fn wished() -> Arc<AtomicBool> {
     WISHED.get_or_init(Arc::default).clone()
 }

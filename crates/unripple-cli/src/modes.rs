@@ -1,4 +1,4 @@
-//! `unripple modes`: frequencies and decay times.
+//! `unripple modes`: lists natural frequencies and decay times.
 
 use crate::args::ModesOptions;
 use crate::common::Common;

@@ -1,6 +1,6 @@
-//! Fields of asks by the options that give them.
+//! Names of the options that set the fields of asks, for messages.
 
-/// Fields whose option is not merely `--` and the name with hyphens: those in other units, and those named otherwise.
+/// Fields whose option is not merely `--` and the field's name with hyphens: other units, or other names.
 const OTHERWISE: &[(&str, &str)] = &[
     ("top_hz", "--max-hz"),
     ("pitch_m", "--grid-mm"),
@@ -65,7 +65,7 @@ const OTHERWISE: &[(&str, &str)] = &[
     ("waveforms and path", "--waveform and --path"),
 ];
 
-/// The option that gives a field, or the options of several.
+/// The option that sets a field of an ask; for fields separated by commas, the options of all.
 pub fn option(field: &str) -> String {
     let one = |name: &str| match OTHERWISE.iter().find(|(field, _)| *field == name) {
         Some((_, option)) => (*option).to_owned(),
@@ -77,7 +77,7 @@ pub fn option(field: &str) -> String {
     field.split(", ").map(one).collect::<Vec<_>>().join(", ")
 }
 
-/// A text that names fields in backticks, naming options instead; what else stands in backticks stays.
+/// Replaces the names of fields in backticks by their options; other text in backticks stays.
 pub fn spoken(text: &str) -> String {
     let mut spoken = String::with_capacity(text.len());
     let mut rest = text;

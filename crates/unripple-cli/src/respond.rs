@@ -1,4 +1,4 @@
-//! `unripple respond`: responses from the model, as a library.
+//! `unripple respond`: computes responses from the model, as a library.
 
 use crate::args::RespondOptions;
 use crate::common::Common;

@@ -1,4 +1,4 @@
-//! `unripple completions` and `unripple man`: what shells and manual readers want, made from the options themselves.
+//! `unripple completions` and `unripple man`: shell completions and manual pages, generated from the options.
 
 use crate::args::{Arguments, CompletionsOptions, ManOptions};
 use crate::common::Common;
@@ -13,7 +13,7 @@ use unripple_tasks::folder;
 /// The program's name, in completions and on its pages.
 const NAME: &str = "unripple";
 
-/// Prints what a shell reads to complete commands, options and their values.
+/// Prints the script with which a shell completes commands, options and their values.
 pub fn completions(options: &CompletionsOptions, common: &Common) -> Result<(), CliError> {
     common.without_surface()?;
     let mut script = Vec::new();
@@ -21,7 +21,7 @@ pub fn completions(options: &CompletionsOptions, common: &Common) -> Result<(), 
     output::print(&script)
 }
 
-/// Writes a page for the program and one for each command, section 1.
+/// Writes a manual page for the program and one for each command, section 1.
 pub fn man(options: &ManOptions, common: &Common) -> Result<(), CliError> {
     common.without_surface()?;
     let out = OutputDir::create(&options.output).map_err(CliError::work)?;

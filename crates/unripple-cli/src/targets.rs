@@ -1,4 +1,4 @@
-//! Targets of focusing as typed: `X,Y[,GAIN[,HZ]]` and shapes, in millimetres.
+//! Targets on the command line: `X,Y[,GAIN[,HZ]]` and shapes, in millimetres.
 
 use crate::args::TargetOptions;
 use crate::error::CliError;
@@ -6,7 +6,7 @@ use unripple::core::Point;
 use unripple_tasks::Place;
 use unripple_tasks::target::{LevelAsk, PointAsk, ShapeAsk};
 
-/// Numbers separated by commas, between `least` and `most` of them, as typed; `option` and `form` are for messages.
+/// Parses `least` to `most` numbers separated by commas; `option` and `form` are named in errors.
 pub fn numbers(
     text: &str,
     option: &str,
@@ -28,13 +28,13 @@ pub fn numbers(
         .collect()
 }
 
-/// A place from `X,Y` in millimetres.
+/// Parses a place `X,Y` in millimetres.
 pub fn place(text: &str, option: &str) -> Result<Point, CliError> {
     let mm = numbers(text, option, "X,Y in mm", 2, 2)?;
     Ok(Point::from_mm(mm[0], mm[1]))
 }
 
-/// A positive number, or an error naming its option and unit.
+/// Checks that a number is above 0; the error names its option and unit.
 pub fn positive(value: f64, option: &str, unit: &str) -> Result<f64, CliError> {
     if value.is_finite() && value > 0.0 {
         Ok(value)
@@ -43,7 +43,7 @@ pub fn positive(value: f64, option: &str, unit: &str) -> Result<f64, CliError> {
     }
 }
 
-/// How strong a drive is to be.
+/// The level of the drive that the options ask for.
 pub fn level(options: &TargetOptions) -> Result<LevelAsk, CliError> {
     Ok(match (options.felt_db, options.peak_um, options.full_limit) {
         (Some(db), ..) => LevelAsk::FeltDb(db),
@@ -53,7 +53,7 @@ pub fn level(options: &TargetOptions) -> Result<LevelAsk, CliError> {
     })
 }
 
-/// A positive time given in milliseconds, in seconds.
+/// Converts a time above 0 from milliseconds to seconds.
 pub fn seconds(ms: Option<f64>, option: &str) -> Result<Option<f64>, CliError> {
     ms.map(|ms| Ok(positive(ms, option, "ms")? / 1e3)).transpose()
 }
@@ -75,7 +75,8 @@ fn point(text: &str) -> Result<PointAsk, CliError> {
     Ok(PointAsk { at_m: [values[0] / 1e3, values[1] / 1e3], gain, rate_hz: rate.transpose()? })
 }
 
-/// `triangle:X,Y,SIZE` and `circle:X,Y,R` are outlines; an SVG file says by itself what is filled and what is stroked.
+/// Parses a shape: `triangle:X,Y,SIZE` or `circle:X,Y,R`, which are outlines, or an SVG file, whose paths say whether
+/// they are filled or stroked.
 pub fn shape(text: &str, option: &str) -> Result<ShapeAsk, CliError> {
     let form = |rest: &str, name: &str| {
         let values = numbers(rest, &format!("{option} {name}"), "X,Y and a size in mm", 3, 3)?;
@@ -91,7 +92,7 @@ pub fn shape(text: &str, option: &str) -> Result<ShapeAsk, CliError> {
     }
 }
 
-/// Places typed as `X,Y` in mm.
+/// Parses places `X,Y` in millimetres; gives them in metres.
 pub fn places(typed: &[String], option: &str) -> Result<Vec<Place>, CliError> {
     typed.iter().map(|text| place(text, option).map(|at| [at.x, at.y])).collect()
 }

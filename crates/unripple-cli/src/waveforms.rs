@@ -1,4 +1,4 @@
-//! Waveforms, points of silence and strokes as typed, in millimetres, micrometres and milliseconds.
+//! Waveforms, still places and strokes on the command line, in millimetres, micrometres and milliseconds.
 
 use crate::args::{FocusOptions, TargetOptions};
 use crate::error::CliError;
@@ -13,7 +13,7 @@ const LEVEL: f64 = 1e-6;
 /// Velocity of the pulses of a stroke if none is typed, in m/s.
 const STROKE: f64 = 10e-3;
 
-/// Refuses options that do not go together.
+/// Refuses combinations of options that are not possible.
 pub fn check(options: &FocusOptions) -> Result<(), CliError> {
     let TargetOptions {
         at,
@@ -50,7 +50,8 @@ pub fn check(options: &FocusOptions) -> Result<(), CliError> {
     Ok(())
 }
 
-/// `X,Y,sine:HZ,MS[,UM]`, `X,Y,burst:HZ,CYCLES[,UM]`, `X,Y,click:MS[,UM]` or `X,Y,FILE.wav[,UM]`.
+/// Parses the values of `--waveform`: `X,Y,sine:HZ,MS[,UM]`, `X,Y,burst:HZ,CYCLES[,UM]`, `X,Y,click:MS[,UM]` or
+/// `X,Y,FILE.wav[,UM]`.
 pub fn waveforms(options: &TargetOptions) -> Result<Vec<WaveformAsk>, CliError> {
     options.waveform.iter().map(|text| waveform(text)).collect()
 }
@@ -85,7 +86,7 @@ fn waveform(text: &str) -> Result<WaveformAsk, CliError> {
     Ok(WaveformAsk { at_m: [at.x, at.y], sound, level_m })
 }
 
-/// The path of a stroke, how fast it is and how strong (m/s), of `--path`.
+/// Parses the path of a stroke, and gives it with its speed and the velocity of its pulses (both m/s).
 pub fn stroke(options: &TargetOptions, text: &str) -> Result<(ShapeAsk, f64, f64), CliError> {
     let Some(speed) = options.speed_mm_s else {
         return Err(CliError::Input("--path: expected --speed-mm-s V beside it, found none".into()));

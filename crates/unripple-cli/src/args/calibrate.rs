@@ -5,7 +5,7 @@ use clap::Args;
 use std::path::PathBuf;
 use unripple_tasks::DeviceAsk;
 
-/// The device, and what is virtual about it.
+/// Options of the device: its kind, and options of each kind, which the others ignore.
 #[derive(Clone, Debug, Args)]
 pub struct DeviceOptions {
     /// The device that plays and records.
@@ -51,7 +51,7 @@ pub struct DeviceOptions {
 }
 
 impl DeviceOptions {
-    /// The same in SI units.
+    /// Converts the options to a [`DeviceAsk`], in SI units.
     pub fn ask(&self) -> DeviceAsk {
         DeviceAsk {
             device: self.device.kind(),

@@ -6,23 +6,23 @@ use clap::Args;
 /// Options of `drift`.
 #[derive(Debug, Args)]
 pub struct DriftOptions {
-    /// A surface file, the name of a built-in surface, or a library that `calibrate` measured with actuators that listen, or that `fit`
+    /// A surface file, the name of a built-in surface, or a library that `calibrate` measured with sensors at the actuators, or that `fit`
     /// wrote.
     #[arg(value_name = "SURFACE|LIBRARY")]
     pub surface: String,
-    /// What plays and listens.
+    /// The device that plays and records.
     #[command(flatten)]
     pub device: DeviceOptions,
-    /// Seconds of pings, which nobody feels; two and a half in a second.
+    /// Duration of the sequence of pings, in s: two and a half pings a second, too weak to be felt.
     #[arg(long, value_name = "S", default_value_t = 4.0, allow_negative_numbers = true)]
     pub seconds: f64,
-    /// Largest change of tension that is looked for, up and down, in per cent.
+    /// Largest change of tension that is searched for, up and down, in per cent.
     #[arg(long, value_name = "PERCENT", default_value_t = 8.0, allow_negative_numbers = true)]
     pub within_percent: f64,
-    /// Virtual: the true tension is another by so many per cent.
+    /// Virtual: deviation of the simulated sheet's tension from SURFACE, in per cent.
     #[arg(long, value_name = "PERCENT", default_value_t = 0.0, allow_negative_numbers = true)]
     pub changed_percent: f64,
-    /// Virtual: it changes by so many per cent a minute.
+    /// Virtual: change of the simulated sheet's tension, in per cent a minute.
     #[arg(long, value_name = "PERCENT", default_value_t = 0.0, allow_negative_numbers = true)]
     pub changing_percent_per_min: f64,
 }

@@ -13,7 +13,7 @@ pub enum FormatName {
 }
 
 impl FormatName {
-    /// What it stands for.
+    /// The format that the name stands for.
     pub fn format(self) -> unripple_tasks::export::Format {
         use unripple_tasks::export::Format;
         match self {
@@ -37,7 +37,7 @@ pub struct ExportOptions {
     /// SOFA: author to contact, with an address.
     #[arg(long, value_name = "TEXT")]
     pub author: Option<String>,
-    /// SOFA: where it was measured or computed.
+    /// SOFA: organization where the responses were measured or computed.
     #[arg(long, value_name = "TEXT")]
     pub organization: Option<String>,
     /// SOFA: licence of the data.

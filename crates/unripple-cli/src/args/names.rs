@@ -1,4 +1,4 @@
-//! Names of devices, methods and interpolations as they are typed.
+//! Names on the command line of devices, methods and interpolations.
 
 use clap::ValueEnum;
 
@@ -17,7 +17,7 @@ pub enum DeviceName {
 }
 
 impl DeviceName {
-    /// What it stands for.
+    /// The kind of device that the name stands for.
     pub fn kind(self) -> unripple_tasks::DeviceKind {
         use unripple_tasks::DeviceKind;
         match self {
@@ -39,7 +39,7 @@ pub enum WayName {
     Tap,
 }
 
-/// Methods by the names the command line and reports use.
+/// Focusing methods by their names on the command line and in reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum MethodName {
     /// The response from every actuator to the target, played backwards.
@@ -59,7 +59,7 @@ pub enum MethodName {
 }
 
 impl MethodName {
-    /// What it stands for.
+    /// The focusing method that the name stands for.
     pub fn method(self) -> unripple::focus::Method {
         use unripple::focus::Method;
         match self {
@@ -87,7 +87,7 @@ pub enum BetweenName {
 }
 
 impl BetweenName {
-    /// What it stands for.
+    /// The interpolation that the name stands for.
     pub fn interpolation(self) -> unripple_calibrate::Interpolation {
         use unripple_calibrate::Interpolation;
         match self {

@@ -24,8 +24,8 @@ pub struct PlayOptions {
     /// Method of focusing.
     #[arg(long, value_enum, default_value = "time-reversal")]
     pub method: MethodName,
-    /// Window T in ms, by which every focus comes after the touch; by default the shortest with three quarters of the largest
-    /// contrast.
+    /// Window T in ms, which is the delay from a touch to its focus; by default the shortest window that reaches three quarters of
+    /// the largest contrast.
     #[arg(long, value_name = "MS", allow_negative_numbers = true)]
     pub window_ms: Option<f64>,
     /// Samples per block.
@@ -47,8 +47,8 @@ pub struct PlayOptions {
     /// Virtual: let the tension drift by this many per cent, up and down within a minute.
     #[arg(long, value_name = "PERCENT", allow_negative_numbers = true)]
     pub drift_percent: Option<f64>,
-    /// Store everything that was played, at most a minute, as a WAV file in the actuators' unit. The file of an earlier run is
-    /// replaced.
+    /// Store the drive that was played as a WAV file in the actuators' unit; of a run longer than a minute, the first minute. The file of
+    /// an earlier run is replaced.
     #[arg(long, value_name = "WAV")]
     pub keep_drive: Option<PathBuf>,
 }
@@ -74,7 +74,7 @@ pub struct TouchOptions {
     /// A multi-touch screen, such as /dev/input/event5. Repeatable.
     #[arg(long, value_name = "DEVICE")]
     pub screen: Vec<PathBuf>,
-    /// Play a recorded session.
+    /// Replay the touches of a recorded session.
     #[arg(long, value_name = "FILE")]
     pub session: Option<PathBuf>,
     /// Record all touches to a new file, for --session.
@@ -83,7 +83,7 @@ pub struct TouchOptions {
 }
 
 impl TouchOptions {
-    /// The same as a task takes it.
+    /// Converts the options to a [`TouchAsk`].
     pub fn ask(&self) -> TouchAsk {
         TouchAsk {
             fingers: self.fingers,

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 /// Options of `completions`.
 #[derive(Debug, Args)]
 pub struct CompletionsOptions {
-    /// The shell that they are for.
+    /// The shell that the completions are for.
     #[arg(value_enum)]
     pub shell: Shell,
 }
@@ -15,7 +15,7 @@ pub struct CompletionsOptions {
 /// Options of `man`.
 #[derive(Debug, Args)]
 pub struct ManOptions {
-    /// Folder for the pages, one for each command. An earlier run's folder is replaced whole, unless something else is in it.
+    /// Folder for the pages, one for each command. The folder of an earlier run is replaced, unless it holds anything else.
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
 }
