@@ -1,30 +1,32 @@
-//! A cycle of a device that calls whoever plays, and the work that is done in it.
+//! The real-time callback of an audio device: the buffers of one cycle, and the code called to fill them.
 
 use std::any::Any;
 use std::time::Instant;
 
-/// One cycle of a device with a clock of its own: the buffers that it wants filled and those that it filled. All have
-/// [`Cycle::frames`] samples, which may differ from cycle to cycle.
+/// The buffers of one callback cycle of a device with its own clock: outputs to be filled, and recorded inputs. All have
+/// [`Cycle::frames`] samples, a number that may differ from cycle to cycle.
 pub trait Cycle {
-    /// Samples of each channel in this cycle: the length of every [`Cycle::drive`] and [`Cycle::heard`].
+    /// Number of samples per channel in this cycle: the length of every [`Cycle::drive`] and [`Cycle::heard`] buffer.
     fn frames(&self) -> usize;
 
-    /// When the first sample leaves at the device's ports, by the device's own clock; what lies behind them comes later still.
+    /// When the cycle began, by the device's own clock: the time at which its first sample passes the device's ports. The latency of
+    /// converters and cables behind the ports comes on top.
     fn began(&self) -> Instant;
 
-    /// What is to be played by an output; samples as [`Device::exchange`](crate::Device::exchange) has them. Empty beyond the last.
+    /// The buffer to fill for an output (by its index), with samples scaled as in [`Device::exchange`](crate::Device::exchange).
+    /// An empty slice for an output beyond the last.
     fn drive(&mut self, output: usize) -> &mut [f32];
 
-    /// What an input hears in this cycle, as float32 of full scale, [`Cycle::frames`] samples. Empty for an
-    /// input beyond the last.
+    /// The samples that an input (by its index) recorded, as float32 with full scale 1, [`Cycle::frames`] of them. An empty
+    /// slice for an input beyond the last.
     fn heard(&self, input: usize) -> &[f32];
 }
 
-/// What is done in each cycle of a device that calls: what is computed there leaves in the same cycle, with no block waiting
-/// between.
+/// A real-time callback that a device calls once per cycle. Samples that it writes leave in the same cycle, without a
+/// block of buffering in between.
 ///
-/// It is called on the device's own thread, in real time: it must not allocate, lock, wait or fail.
+/// It runs on the device's own thread, in real time: it must not allocate, lock, wait or fail.
 pub trait Work: Any + Send {
-    /// Fills the drive of one cycle.
+    /// Reads the inputs and fills the outputs of one cycle.
     fn cycle(&mut self, cycle: &mut dyn Cycle);
 }

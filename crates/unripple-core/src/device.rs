@@ -1,48 +1,48 @@
-//! The trait of whatever plays drives and records what comes back: sound cards, sound servers, virtual
+//! The interface of audio devices, which play drives and record signals: sound cards, sound servers, virtual
 //! surfaces, files.
 
 use crate::Work;
 use std::fmt;
 use std::time::Duration;
 
-/// Where drives meet the world: blocks of drive go out, blocks of what is heard come back. Virtual surfaces, sound
-/// servers and files all are devices; so calibration and play know one kind of thing.
+/// An audio device: it plays blocks of drive samples and returns blocks of recorded samples. Sound cards, sound servers, virtual
+/// surfaces and files all have this interface, so that calibration and playback work with any of them.
 ///
-/// A device is open from when it is made until it is dropped. Samples are float32 between -1 and 1 of full scale, or in the
-/// actuator's own unit where the device knows it: [`Layout::full_scale`] says how much drive one is.
+/// A device is open from its construction until it is dropped. Samples are float32 between -1 and 1 of full scale, or in the
+/// actuator's own unit where the device knows it: [`Layout::full_scale`] is the drive that a sample of 1 stands for.
 pub trait Device: Send {
-    /// Its channels, rate and block.
+    /// The device's channels, sample rate and block length.
     fn layout(&self) -> &Layout;
 
-    /// How it fares: whether blocks pass, how many did, how many were late.
+    /// The state of the device: whether blocks pass, how many have passed, and how many were late or lost.
     fn status(&self) -> Status;
 
-    /// Plays one block and hears one, taking as long as the device's own clock takes. `drive` holds [`Layout::block`]
-    /// samples for each output, one output after another, and `heard` as many for each input. What is heard in a block
-    /// answers drive of the same and earlier blocks, later by the round trip's latency.
+    /// Plays one block and records one, blocking as long as the device's clock takes. `drive` holds [`Layout::block`]
+    /// samples for each output, one output after another; `heard` receives as many for each input. The recorded signal is
+    /// the response to the drive of this and earlier blocks, delayed by the round-trip latency.
     ///
     /// # Errors
     /// [`DeviceError::Size`] for slices of another length; [`DeviceError::Lost`] once the device is gone;
-    /// [`DeviceError::Stalled`] when no block passed within the device's patience.
+    /// [`DeviceError::Stalled`] if no block passed within the device's time limit.
     fn exchange(&mut self, drive: &[f32], heard: &mut [f32]) -> Result<(), DeviceError>;
 
-    /// Hands over what the device is to call in each of its cycles from now on, instead of being asked to
-    /// [exchange](Device::exchange) blocks; [`Device::dismiss`] has it back.
+    /// Installs a callback that the device calls in each of its cycles from now on, instead of
+    /// [exchanging](Device::exchange) blocks. [`Device::dismiss`] returns it.
     ///
     /// # Errors
-    /// The work itself, for a device that calls nobody: most have no clock of their own.
+    /// Returns the callback itself if the device cannot call it: most devices have no clock of their own.
     fn employ(&mut self, work: Box<dyn Work>) -> Result<(), Box<dyn Work>> {
         Err(work)
     }
 
-    /// Calls no longer, and gives back what was called: after the cycle under way, if there is one. Nothing comes back from a device that
-    /// stands still and cannot be left.
+    /// Removes the callback that [`Device::employ`] installed and returns it, once the current cycle is over. `None` if no callback was
+    /// installed, or if the device has stopped calling it and does not release it.
     fn dismiss(&mut self) -> Option<Box<dyn Work>> {
         None
     }
 
-    /// Looks after a device that calls, and returns the time (a [`Duration`]) until it wants to be looked
-    /// after again.
+    /// Checks a device that calls a callback and updates its [`Status`]; to be called at intervals. Returns the time (a
+    /// [`Duration`]) until the next check.
     ///
     /// # Errors
     /// [`DeviceError::Lost`] once the device is gone for good.
@@ -54,31 +54,31 @@ pub trait Device: Send {
     }
 }
 
-/// How often a device that calls is looked after, and so how late its loss is noticed at most. Doubled, it is
-/// noticed twice as late; the drive itself does not wait for it.
+/// Default interval between checks of a device that calls a callback ([`Device::tend`]): its loss is noticed at most this
+/// late. Doubled, it is noticed twice as late; the drive itself does not wait for it.
 pub const TEND: Duration = Duration::from_millis(100);
 
-/// Name of the input that hears a probe on the surface.
+/// Name of the input that records a velocity probe on the surface, in [`Layout::inputs`].
 pub const PROBE: &str = "probe";
 
-/// What a device has: name, sample rate, block length, channels and scale.
+/// The configuration of a device: name, sample rate, block length, channels and full scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
-    /// What it is called: `virtual`, `jack`, a file's name.
+    /// Name of the device: `virtual`, `jack`, a file's name.
     pub device: String,
     /// Samples per second.
     pub rate: f64,
-    /// Samples per block.
+    /// Samples per channel in a block.
     pub block: usize,
-    /// Names of the outputs, in the order of the drive.
+    /// Names of the outputs, in the order of the drive's channels.
     pub outputs: Vec<String>,
-    /// Names of the inputs, in the order of what is heard.
+    /// Names of the inputs, in the order of the recorded channels.
     pub inputs: Vec<String>,
-    /// Drive, in the actuators' unit, of a sample of 1.
+    /// The drive that a sample of 1 stands for, in the actuators' unit.
     pub full_scale: f64,
 }
 
-/// How a device fares: its state, and blocks passed and lost.
+/// The status of a device: its state, and the numbers of blocks passed and lost.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Status {
     /// Whether blocks pass, and if not, why.
@@ -87,40 +87,41 @@ pub struct Status {
     pub blocks: u64,
     /// Blocks that came late or were lost so far.
     pub lost: u64,
-    /// Samples that drive given by [`Device::exchange`] waits until it leaves the device, as far as that is known.
+    /// Delay of the drive given to [`Device::exchange`] until it leaves the device, in samples, as far as it is known.
     pub waiting: u64,
-    /// What the server behind it says, where there is one.
+    /// What the sound server behind the device reports; `None` without a server.
     pub server: Option<Server>,
 }
 
-/// What a sound server says of itself and of how it fares.
+/// What a sound server reports: its period, latencies, and counts of late cycles.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Server {
-    /// Samples of a cycle as it is now; a server may change it at any time.
+    /// Present number of samples per cycle; a server may change it at any time.
     pub period: usize,
-    /// Real-time priority (1 to 99) of the thread on which it calls its clients; `None` where that has none. Whoever works for
-    /// a client stays below it.
+    /// Real-time priority (1 to 99) of the thread on which the server calls this client; `None` without real-time scheduling.
+    /// Other threads of the client should have a lower one.
     pub priority: Option<u8>,
-    /// Samples from our ports to the air, as the server knows it: the largest over all ports.
+    /// Playback latency from our output ports to the converter's output, in samples, as the server reports it: the largest over
+    /// all ports.
     pub playback: u64,
-    /// Samples from the air to our ports, likewise.
+    /// Capture latency from the converter's input to our input ports, in samples: the largest over all ports.
     pub capture: u64,
-    /// Cycles that it says came late, whoever's fault that was: all its clients are told of each.
+    /// Number of cycles that the server reported as late (xruns), whichever client caused them.
     pub late: u64,
-    /// Cycles whose time was over before our own part of them was done. The time until we were called counts,
-    /// the work of other clients does not.
+    /// Number of cycles that ended before our own callback was done. A callback that began late counts; time taken by other
+    /// clients afterwards does not.
     pub own_late: u64,
-    /// Samples that it left out between cycles: silence, and a jump in what sounds.
+    /// Number of samples that the server skipped between cycles: a gap in the output, and a jump in the signals.
     pub skipped: u64,
 }
 
 /// Whether blocks pass, and if not, why.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum State {
-    /// Blocks pass as they should.
+    /// Blocks pass at the device's rate.
     #[default]
     Running,
-    /// No block has passed for a while, for this reason; some may pass again.
+    /// No block has passed for a while, for this reason; the device may recover.
     Stalled(String),
     /// No block will pass any more, for this reason.
     Lost(String),
@@ -139,16 +140,16 @@ impl fmt::Display for State {
 /// Why a device did not exchange a block.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum DeviceError {
-    /// A block of another size than the device's.
+    /// A buffer does not have the size of the device's block.
     #[error("device `{device}`: expected {expected} samples of {what}, found {found}")]
     Size {
         /// Name of the device, as [`Layout::device`] says it.
         device: String,
-        /// `drive` or `heard`.
+        /// Which buffer: `drive` or `heard`.
         what: &'static str,
-        /// Samples there should be.
+        /// Number of samples there should be.
         expected: usize,
-        /// Samples there are.
+        /// Number of samples there are.
         found: usize,
     },
     /// The device is gone for good, for the reason given.
@@ -159,7 +160,7 @@ pub enum DeviceError {
         /// What happened, in words for people.
         why: String,
     },
-    /// No block passed within the device's patience.
+    /// No block passed within the device's time limit.
     #[error("device `{device}` stalled: {why}")]
     Stalled {
         /// Name of the device, as [`Layout::device`] says it.
@@ -170,10 +171,10 @@ pub enum DeviceError {
 }
 
 impl Layout {
-    /// Compares the lengths of a block's two buffers, in samples over all channels, with the layout's.
+    /// Checks the lengths of a block's two buffers, in samples over all channels, against this layout.
     ///
     /// # Errors
-    /// [`DeviceError::Size`] with what was expected and found.
+    /// [`DeviceError::Size`] for the first buffer whose length differs.
     pub fn fits(&self, drive: usize, heard: usize) -> Result<(), DeviceError> {
         let wanted = [("drive", self.outputs.len(), drive), ("heard", self.inputs.len(), heard)];
         for (what, channels, found) in wanted {

@@ -1,9 +1,9 @@
-//! The drive: what is sent, one channel of samples per actuator.
+//! The drive: the input signals of the actuators, one channel of samples per actuator.
 
 use crate::CoreError;
 use crate::OutOfRange;
 
-/// What is sent: one channel of samples per actuator, in the actuator's own unit.
+/// A drive: the input signals of all actuators, actuators x samples, each channel in its actuator's own unit (N, A or V).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
     rate: f64,
@@ -16,8 +16,8 @@ impl Drive {
     /// `rate` samples per second.
     ///
     /// # Errors
-    /// [`CoreError::Size`] if names or lengths do not match, [`CoreError::NotFinite`] at the first bad sample,
-    /// [`CoreError::Range`] if the rate is not positive.
+    /// [`CoreError::Size`] if the number of names is not that of channels or if channels differ in length,
+    /// [`CoreError::NotFinite`] at the first sample that is not finite, [`CoreError::Range`] if the rate is not positive.
     pub fn new(rate: f64, names: Vec<String>, channels: Vec<Vec<f64>>) -> Result<Self, CoreError> {
         if !(rate.is_finite() && rate > 0.0) {
             return Err(CoreError::Range(OutOfRange::new("sample rate", "a positive number", rate)));
@@ -75,7 +75,7 @@ impl Drive {
         self.samples() as f64 / self.rate
     }
 
-    /// Largest magnitude over all channels, in the drive's unit.
+    /// Largest magnitude over all channels and samples, in the drive's unit.
     pub fn peak(&self) -> f64 {
         self.channels.iter().flatten().fold(0.0, |m, x| f64::max(m, x.abs()))
     }
@@ -86,7 +86,7 @@ impl Drive {
         (self.channels.iter().flatten().map(|x| x * x).sum::<f64>() / count).sqrt()
     }
 
-    /// Energy Σ∫d²dt, in the drive's unit squared times seconds.
+    /// Energy of the drive, Σ∫d²dt over all channels, in the drive's unit squared times seconds.
     pub fn energy(&self) -> f64 {
         self.channels.iter().flatten().map(|x| x * x).sum::<f64>() / self.rate
     }
@@ -97,7 +97,7 @@ impl Drive {
         self
     }
 
-    /// The drive as a device with float32 samples emits it.
+    /// The same drive with every sample rounded to float32, as a sound device or a WAV file takes it.
     pub fn as_emitted(mut self) -> Self {
         self.channels.iter_mut().flatten().for_each(|x| *x = f64::from(*x as f32));
         self

@@ -1,24 +1,24 @@
-//! Why a value of this crate could not be made.
+//! The errors of this crate.
 
 use crate::OutOfRange;
 
-/// Why a core value could not be made.
+/// Why a value of this crate was refused: a wrong size, or a number that is not finite or out of range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CoreError {
     /// Two sizes that must agree do not.
     #[error("{what}: expected {expected}, found {found}")]
     Size {
-        /// What was counted.
+        /// Name of the quantity that was counted.
         what: &'static str,
         /// How many there should be.
         expected: usize,
         /// How many there are.
         found: usize,
     },
-    /// A value that must be finite is not.
+    /// A sample is infinite or not a number.
     #[error("{what}: expected a finite number, found {found} at sample {sample} of channel `{channel}`")]
     NotFinite {
-        /// What holds the value.
+        /// What the sample belongs to, such as `drive`.
         what: &'static str,
         /// Name of the channel that holds it.
         channel: String,

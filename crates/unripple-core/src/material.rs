@@ -1,9 +1,9 @@
 //! Materials: density, Young's modulus, Poisson's ratio, strength.
 
-/// What a sheet is made of. Typical room-temperature values; every one can be overridden in a surface file.
+/// The constants of a material. Typical values at room temperature; each can be overridden in a surface file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
-    /// The name surface files use.
+    /// The name of the material in surface files.
     pub name: &'static str,
     /// Young's modulus E, in Pa.
     pub young: f64,
@@ -15,8 +15,8 @@ pub struct Material {
     pub strength: f64,
 }
 
-/// The built-in materials, by name: typical values at room temperature. Doubled, a Young's modulus raises the
-/// modes of a plate by √2, and a density lowers them by √2.
+/// The built-in materials, by name: typical values at room temperature. If a Young's modulus is doubled, the frequencies of
+/// a plate rise by √2; if a density is doubled, they fall by √2.
 pub const MATERIALS: &[Material] = &[
     Material { name: "BoPET", young: 4.0e9, density: 1400.0, poisson: 0.3, strength: 100e6 },
     Material { name: "glass", young: 69.0e9, density: 2300.0, poisson: 0.22, strength: 40e6 },
@@ -30,7 +30,7 @@ pub const MATERIALS: &[Material] = &[
 ];
 
 impl Material {
-    /// The built-in material of that name, letter case aside.
+    /// The built-in material of that name, whatever the case of its letters; `None` if there is none.
     pub fn named(name: &str) -> Option<&'static Self> {
         MATERIALS.iter().find(|m| m.name.eq_ignore_ascii_case(name))
     }

@@ -1,8 +1,8 @@
-//! The rim of a sheet: its shape, holes, and how each side is held.
+//! The outline of a sheet: its outer boundary, its holes, and the edge condition of each side.
 
 use crate::{Point, Shape, Side};
 
-/// How a side of the sheet is held.
+/// The edge condition of one side of the sheet's boundary.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Edge {
     /// Clamped edge: no displacement, no slope.
@@ -11,33 +11,33 @@ pub enum Edge {
     Supported,
     /// Free edge: no shear force, no bending moment.
     Free,
-    /// Elastically restrained edge: springs along the side against displacement and against tilt.
+    /// Elastically restrained edge: springs along the side against displacement and against rotation.
     Elastic {
-        /// Force per length and displacement, in N/m².
+        /// Translational stiffness per length of edge, in N/m².
         lift: f64,
-        /// Moment per length and tilt, in N·m/(m·rad).
+        /// Rotational stiffness per length of edge, in N·m/(m·rad).
         tilt: f64,
     },
 }
 
 impl Edge {
-    /// Whether the side may be displaced: true of free and of elastic edges.
+    /// Whether the edge can move up and down: true of free and of elastic edges.
     pub fn moves(self) -> bool {
         matches!(self, Self::Free | Self::Elastic { .. })
     }
 }
 
-/// How a whole rim is held.
+/// The edge conditions of all sides of a closed boundary.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Edges {
-    /// All sides are held the same way.
+    /// The same condition on all sides.
     All(Edge),
-    /// One per side, in the order of [`Shape::sides`].
+    /// One condition per side, in the order of [`Shape::sides`].
     PerSide(Vec<Edge>),
 }
 
 impl Edges {
-    /// How side `i` is held, an index in the order of [`Shape::sides`]; clamped if the list is too short.
+    /// The edge condition of side `i`, an index in the order of [`Shape::sides`]; clamped if the list is too short.
     pub fn of(&self, i: usize) -> Edge {
         match self {
             Self::All(edge) => *edge,
@@ -46,24 +46,24 @@ impl Edges {
     }
 }
 
-/// What is cut out of a sheet: a hole, or a slit as a thin stadium or rectangle.
+/// A hole in a sheet; a slit is a thin hole.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hole {
-    /// Its sides, the lower-left corner of their bounding box at the origin.
+    /// The sides of the hole, in order, placed so that the lower-left corner of their bounding box is at the origin.
     pub sides: Vec<Side>,
-    /// Where that corner is on the sheet.
+    /// Position of that lower-left corner on the sheet, in metres.
     pub at: Point,
-    /// Edge condition of each side of its rim.
+    /// The edge conditions of the sides.
     pub edges: Edges,
 }
 
 impl Hole {
-    /// A hole with a free rim of some shape, the corner of the shape's bounding box at `at`.
+    /// A hole of a given shape with free edges; `at` (m) is the lower-left corner of its bounding box on the sheet.
     pub fn new(shape: &Shape, at: Point) -> Self {
         Self { sides: shape.sides(), at, edges: Edges::All(Edge::Free) }
     }
 
-    /// A slit from one point to another of width `width` (m), its ends round and its rim free.
+    /// A slit with round ends and free edges; `from` and `to` are the centres of its ends, `width` its width, all in metres.
     pub fn slit(from: Point, to: Point, width: f64) -> Self {
         let (length, radius) = (from.distance(to), width / 2.0);
         let angle = (to.y - from.y).atan2(to.x - from.x);
@@ -81,7 +81,7 @@ impl Hole {
         Self { sides, at: corner, edges: Edges::All(Edge::Free) }
     }
 
-    /// Its sides on the sheet, anticlockwise around the hole.
+    /// The sides of the hole in the coordinates of the sheet, anticlockwise around the hole.
     pub fn sides(&self) -> Vec<Side> {
         self.sides.iter().map(|side| side.moved(self.at)).collect()
     }
@@ -91,21 +91,21 @@ impl Hole {
     }
 }
 
-/// A closed rim with the sheet to its left.
+/// A closed boundary curve of the sheet, run through so that the sheet lies to its left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loop {
     /// The sides in order, and the edge condition of each.
     pub sides: Vec<(Side, Edge)>,
 }
 
-/// A rim: its shape, how it is held, and what is cut out within.
+/// The outline of a sheet: its outer boundary, the edge conditions there, and its holes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
-    /// The outer rim's curve.
+    /// The curve of the outer boundary.
     pub shape: Shape,
-    /// The edge condition of each side of the outer rim.
+    /// The edge condition of each side of the outer boundary.
     pub edges: Edges,
-    /// Holes, apart from each other and from the rim.
+    /// The holes, which must not touch each other or the outer boundary.
     pub holes: Vec<Hole>,
 }
 
@@ -115,19 +115,19 @@ impl Outline {
         Self { shape, edges: Edges::All(Edge::Clamped), holes: Vec::new() }
     }
 
-    /// The same outline with other edge conditions on its outer rim.
+    /// The same outline with other edge conditions on its outer boundary.
     pub fn with_edges(mut self, edges: Edges) -> Self {
         self.edges = edges;
         self
     }
 
-    /// The same outline with another hole.
+    /// The same outline with one hole more.
     pub fn with_hole(mut self, hole: Hole) -> Self {
         self.holes.push(hole);
         self
     }
 
-    /// All rims, the sheet to their left: the outer one anticlockwise, then those of holes clockwise.
+    /// All boundary curves with the sheet to their left: the outer one anticlockwise, then those of the holes clockwise.
     pub fn loops(&self) -> Vec<Loop> {
         let held = |sides: Vec<Side>, edges: &Edges| {
             sides.into_iter().enumerate().map(|(i, side)| (side, edges.of(i))).collect::<Vec<_>>()
@@ -145,7 +145,7 @@ impl Outline {
         self.shape.extent()
     }
 
-    /// Whether a point (in metres) lies on the sheet or on its rim.
+    /// Whether a point (in metres) lies on the sheet or on its boundary.
     pub fn contains(&self, p: Point) -> bool {
         let cut = |hole: &Hole| {
             let shape = hole.shape();
@@ -155,8 +155,8 @@ impl Outline {
         self.shape.contains(p) && !self.holes.iter().any(cut)
     }
 
-    /// The legal point nearest to `p` (both in metres), to be told to people: `p` itself if it is inside,
-    /// else the closest inside point whose coordinates in millimetres have four decimals, as [`Point`]
+    /// The point of the sheet nearest to `p` (both in metres), for messages: `p` itself if it lies on the sheet,
+    /// else the closest point on the sheet whose coordinates in millimetres have four decimals, as [`Point`]
     /// displays them.
     ///
     /// ```
@@ -187,13 +187,14 @@ impl Outline {
             .unwrap_or(on_rim)
     }
 
-    /// Distance of a point from the nearest rim, that of the sheet or of a hole, in metres.
+    /// Distance of a point from the nearest boundary, outer or of a hole, in metres.
     pub fn to_rim(&self, p: Point) -> f64 {
         let sides = self.loops().into_iter().flat_map(|rim| rim.sides);
         sides.map(|(side, _)| side.at(side.nearest(p)).distance(p)).fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether a disc around a point of the sheet, its radius in metres, keeps within the rims; it may touch them.
+    /// Whether a disc, whose centre is a point of the sheet, lies wholly on the sheet; it may touch the boundary. Centre and
+    /// radius are in metres.
     ///
     /// ```
     /// use unripple_core::{Outline, Point, Shape};
@@ -207,33 +208,33 @@ impl Outline {
         self.to_rim(centre) >= radius * (1.0 - 1e-9)
     }
 
-    /// Area of the sheet S, holes taken out, in m².
+    /// Area S of the sheet without its holes, in m².
     pub fn area(&self) -> f64 {
         self.shape.area() - self.holes.iter().map(|hole| hole.shape().area()).sum::<f64>()
     }
 
-    /// Length of all rims P, those of holes too, in metres.
+    /// Total length P of the outer boundary and of those of the holes, in metres.
     pub fn perimeter(&self) -> f64 {
         self.shape.perimeter() + self.holes.iter().map(|hole| hole.shape().perimeter()).sum::<f64>()
     }
 
-    /// Lengths of the outer sides in metres, one per side, in the order that edges are listed in.
+    /// Length of each side of the outer boundary, in metres, in the order of [`Shape::sides`].
     pub fn side_lengths(&self) -> Vec<f64> {
         self.shape.sides().iter().map(Side::length).collect()
     }
 
-    /// How outer side `i` is held, the index counted as in [`Outline::side_lengths`].
+    /// The edge condition of side `i` of the outer boundary, an index in the order of [`Shape::sides`].
     pub fn edge(&self, i: usize) -> Edge {
         self.edges.of(i)
     }
 
-    /// Length of the rims that may be displaced, in metres.
+    /// Total length of the free and elastic edges, those of holes too, in metres.
     pub fn free_length(&self) -> f64 {
         let sides = self.loops().into_iter().flat_map(|rim| rim.sides);
         sides.filter(|(_, edge)| edge.moves()).map(|(side, _)| side.length()).sum()
     }
 
-    /// Whether some rim, however short, keeps the sheet from moving off as a whole.
+    /// Whether some edge, however short, resists displacement: without one, the whole sheet can move as a rigid body.
     pub fn holds(&self) -> bool {
         let fixed = |edge: Edge| match edge {
             Edge::Clamped | Edge::Supported => true,
@@ -243,13 +244,13 @@ impl Outline {
         self.loops().iter().any(|rim| rim.sides.iter().any(|(_, edge)| fixed(*edge)))
     }
 
-    /// The outer rim as a closed polygon for drawing, points in metres, round shapes in `steps` pieces per
+    /// The outer boundary as a closed polygon for drawing, points in metres; arcs have `steps` pieces per
     /// full turn.
     pub fn rim(&self, steps: usize) -> Vec<Point> {
         self.shape.flattened(steps)
     }
 
-    /// The rims of the holes as closed polygons for drawing, points in metres, `steps` pieces per full turn.
+    /// The boundaries of the holes as closed polygons for drawing, points in metres; arcs have `steps` pieces per full turn.
     pub fn hole_rims(&self, steps: usize) -> Vec<Vec<Point>> {
         self.holes.iter().map(|hole| hole.shape().flattened(steps)).collect()
     }

@@ -3,9 +3,9 @@
 /// A place on the surface, in metres from the lower-left corner of the outline's bounding box.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Point {
-    /// To the right, in metres.
+    /// The x coordinate, to the right, in metres.
     pub x: f64,
-    /// Up, in metres.
+    /// The y coordinate, upwards, in metres.
     pub y: f64,
 }
 

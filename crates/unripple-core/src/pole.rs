@@ -1,44 +1,44 @@
-//! A damped oscillator as a pole: natural frequency, decay rate, impulse response, onset.
+//! A damped oscillator as a pole: natural frequency, decay rate, impulse response, and its initial condition.
 
-/// What an impulse does to an oscillation at first.
+/// The initial condition that a unit impulse gives an oscillation: a velocity or a displacement.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Onset {
-    /// Sets its velocity to 1: an oscillator struck. Undamped normal modes, and modes whose damping is not
-    /// coupled, are struck.
+    /// Displacement 0 and velocity 1: an oscillator excited by a force impulse. Undamped normal modes, and modes that damping
+    /// does not couple, start like this.
     #[default]
     Velocity,
-    /// Moves it by 1/ω, at rest: the quadrature, which modes coupled by damping need too. Their phase depends on the
-    /// place, so that each takes both.
+    /// Displacement 1/ω and velocity 0: the quadrature part. The phase of complex modes, which damping couples, depends on the
+    /// place, so that each needs oscillations of both kinds.
     Displacement,
 }
 
-/// A decaying oscillation: ü + 2σu̇ + ω²u = impulse, for unit modal mass.
+/// A decaying oscillation, the solution of ü + 2σu̇ + ω²u = unit impulse, for unit modal mass.
 ///
-/// Underdamped, critical, overdamped and rigid (ω = 0) oscillators are all exact.
+/// Its closed forms hold for underdamped, critically damped, overdamped and rigid (ω = 0) oscillators.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pole {
     /// Undamped angular frequency ω, in rad/s.
     pub omega: f64,
     /// Decay rate of the amplitude σ = 1/τ, in 1/s.
     pub sigma: f64,
-    /// What an impulse does to it at first.
+    /// The initial condition that a unit impulse gives it.
     pub onset: Onset,
 }
 
 impl Pole {
-    /// An oscillation of angular frequency `omega` (rad/s) and decay rate `sigma` (1/s) that an impulse sets
-    /// going with velocity 1.
+    /// An oscillation of angular frequency `omega` (rad/s) and decay rate `sigma` (1/s) that starts with
+    /// velocity 1 after a unit impulse ([`Onset::Velocity`]).
     pub fn new(omega: f64, sigma: f64) -> Self {
         Self { omega, sigma, onset: Onset::Velocity }
     }
 
-    /// An oscillation of angular frequency `omega` (rad/s) and decay rate `sigma` (1/s) that an impulse moves
-    /// by 1/ω, at rest.
+    /// An oscillation of angular frequency `omega` (rad/s) and decay rate `sigma` (1/s) that starts with
+    /// displacement 1/ω, at rest, after a unit impulse ([`Onset::Displacement`]).
     pub fn moved(omega: f64, sigma: f64) -> Self {
         Self { omega, sigma, onset: Onset::Displacement }
     }
 
-    /// Displacement and velocity just after a unit impulse, per unit of modal input.
+    /// The initial state `[displacement, velocity]` just after a unit impulse, per unit of modal input.
     pub fn kick(self) -> [f64; 2] {
         match self.onset {
             Onset::Velocity => [0.0, 1.0],
@@ -47,15 +47,16 @@ impl Pole {
         }
     }
 
-    /// Displacement a time `t` (s, of either sign) after a unit impulse: e^{-σt} sin(ω_d t)/ω_d where it is struck.
+    /// Displacement at time `t` (s, of either sign) after a unit impulse: e^{-σt} sin(ω_d t)/ω_d for [`Onset::Velocity`],
+    /// with ω_d = √(ω² - σ²).
     pub fn displacement(self, t: f64) -> f64 {
         let (c, s) = self.swing(t);
         let [u, v] = self.kick();
         u * (c + self.sigma * s) + v * s
     }
 
-    /// Velocity a time `t` (s) after a unit impulse, the derivative of [`Pole::displacement`]; 1 at t = 0 where it is
-    /// struck.
+    /// Velocity at time `t` (s) after a unit impulse, the derivative of [`Pole::displacement`]; 1 at t = 0 for
+    /// [`Onset::Velocity`].
     ///
     /// For negative `t` it is the analytic continuation, not zero.
     pub fn velocity(self, t: f64) -> f64 {
@@ -66,8 +67,8 @@ impl Pole {
         }
     }
 
-    /// Exact propagator (state-transition matrix) over `dt` seconds:
-    /// `[u, v]` becomes `[[a, b], [c, d]] [u, v]`.
+    /// Exact state-transition matrix over `dt` seconds of free decay: displacement and velocity `[u, v]` become
+    /// `[[a, b], [c, d]] [u, v]`.
     pub fn step(self, dt: f64) -> [[f64; 2]; 2] {
         let (c, s) = self.swing(dt);
         let (sigma, omega) = (self.sigma, self.omega);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-/// Repeatable random numbers: SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
+/// A pseudorandom number generator with repeatable sequences: SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
 ///
 /// ```
 /// use unripple_core::Random;
@@ -16,23 +16,23 @@ pub struct Random {
 }
 
 impl Random {
-    /// The sequence that belongs to a seed, any integer: the same on every machine.
+    /// A generator started from a seed, any integer. The same seed gives the same sequence on every machine.
     pub fn seeded(seed: u64) -> Self {
         Self { state: seed }
     }
 
-    /// A number evenly distributed between 0 and 1, 1 left out.
+    /// A uniformly distributed number from 0 (included) to 1 (excluded).
     pub fn uniform(&mut self) -> f64 {
         // The upper 53 bits fill a double's mantissa.
         (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// A number evenly distributed from `low` up to `high`, in their unit.
+    /// A uniformly distributed number from `low` to `high`, in their unit.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.uniform()
     }
 
-    /// A number between two positive ones, evenly distributed in its logarithm, in their unit.
+    /// A number from `low` to `high`, both positive, whose logarithm is uniformly distributed; in their unit.
     pub fn decades(&mut self, low: f64, high: f64) -> f64 {
         self.between(low.ln(), high.ln()).exp()
     }

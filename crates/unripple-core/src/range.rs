@@ -22,7 +22,7 @@ pub struct OutOfRange {
 }
 
 impl OutOfRange {
-    /// A number, in the unit that `what` names, that is not among the legal values.
+    /// The error for a number `found`, in the unit that `what` names, outside the allowed values `expected`.
     pub fn new(
         what: impl Into<Cow<'static, str>>,
         expected: impl Into<Cow<'static, str>>,
@@ -32,7 +32,7 @@ impl OutOfRange {
     }
 }
 
-/// Refuses a number unless it is `legal` and finite.
+/// Checks a number: `Ok` if `legal` is true and `found` is finite, else the error.
 ///
 /// # Errors
 /// [`OutOfRange`], with what was expected and what was found.

@@ -4,17 +4,17 @@ use crate::{CoreError, Outline, Point, Pole};
 use std::sync::Arc;
 use unripple_linalg::Mat;
 
-/// What the surface does: a linear system seen from outside, sampled or factored into decaying oscillations.
+/// Impulse responses from the actuators to points of the surface: as modes (poles and residues), or as samples.
 #[derive(Clone, Debug)]
 pub enum Responses {
-    /// Poles, an input weight per actuator, a readout weight per point: a readout anywhere is one product.
+    /// Responses in modal form, which can be evaluated at any point.
     Modal(ModalResponses),
-    /// Samples at a fixed set of points.
+    /// Sampled responses at a fixed set of points.
     Sampled(SampledResponses),
 }
 
 impl Responses {
-    /// Band, sample rate, shortest wavelength λ_min and region in which the responses hold.
+    /// Frequency band, sample rate, shortest wavelength λ_min and region for which the responses are valid.
     pub fn conditions(&self) -> &Conditions {
         match self {
             Self::Modal(r) => &r.conditions,
@@ -22,7 +22,7 @@ impl Responses {
         }
     }
 
-    /// The actuators, in channel order.
+    /// The actuators (names and places), in channel order.
     pub fn ports(&self) -> &[Port] {
         match self {
             Self::Modal(r) => &r.ports,
@@ -31,7 +31,7 @@ impl Responses {
     }
 }
 
-/// Where and at what rate responses hold.
+/// The sample rate, frequency band and region for which responses are valid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conditions {
     /// Samples per second.
@@ -40,14 +40,13 @@ pub struct Conditions {
     pub band: [f64; 2],
     /// Shortest wavelength of the band, in metres: 2π/k at its top.
     pub lambda_min: f64,
-    /// The region that points may lie in.
+    /// The outline of the sheet: the region that points may lie in.
     pub outline: Outline,
 }
 
-/// Radius of the focal disc over the shortest wavelength, dimensionless: around its target, a focus has its
-/// main lobe and the first side lobe there, and only what lies beyond counts as outside. Halved, the first
-/// side lobe would count as noise and every contrast would fall; doubled, less of the surface would be left
-/// to compare with.
+/// Radius of the focal disc around a target, as a multiple of the shortest wavelength. The disc holds the main lobe and
+/// the first side lobe of a focus; only points beyond it count as outside. Halved, the first side lobe would count as
+/// noise and every contrast would fall; doubled, less of the surface would be left to compare with.
 pub const FOCAL_RADIUS: f64 = 4.0 / 3.0;
 
 impl Conditions {
@@ -57,7 +56,7 @@ impl Conditions {
     }
 }
 
-/// An actuator as the responses know it.
+/// An actuator of a set of responses: its name and its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Port {
     /// Name of the actuator.
@@ -66,15 +65,16 @@ pub struct Port {
     pub at: Point,
 }
 
-/// Readout weights anywhere: mass-normalised mode shapes, or whatever stands for them. In 1/√kg.
+/// Readout weights of all modes at any point of the surface, in 1/√kg: mass-normalised mode shapes, or linear combinations of
+/// them where loads couple the modes.
 pub trait Shapes: Send + Sync + std::fmt::Debug {
     /// Number of modes n, the length of a row of weights.
     fn modes(&self) -> usize;
 
-    /// Weights of every mode at one point (m), in 1/√kg, into `row` of length [`Shapes::modes`].
+    /// Writes the weights of every mode at one point (m), in 1/√kg, into `row` of length [`Shapes::modes`].
     fn at(&self, point: Point, row: &mut [f64]);
 
-    /// Weights at many points (m), in 1/√kg, as points x modes.
+    /// The weights of every mode at many points (m), in 1/√kg, as a matrix of points x modes.
     fn at_all(&self, points: &[Point]) -> Mat<f64> {
         let mut weights = Mat::zeros(points.len(), self.modes());
         let mut row = vec![0.0; self.modes()];
@@ -86,40 +86,41 @@ pub trait Shapes: Send + Sync + std::fmt::Debug {
     }
 }
 
-/// Responses factored mode by mode: `h(t) = Σ_m input[a, m] · shapes[m](x) · velocity_m(t)`.
+/// Impulse responses in modal form. The velocity at a point x after a unit impulse at actuator a is
+/// `h(t) = Σ_m input[a, m] · shapes[m](x) · velocity_m(t)`, with [`Pole::velocity`] of each mode m.
 #[derive(Clone, Debug)]
 pub struct ModalResponses {
     /// The actuators, in channel order.
     pub ports: Vec<Port>,
-    /// The decaying oscillations, frequencies ascending.
+    /// The poles of the modes, in order of ascending frequency.
     pub poles: Vec<Pole>,
-    /// Input weights of the actuators (force per mode and unit of drive), actuators x modes.
+    /// Input weights of the actuators (modal force per unit of drive), actuators x modes.
     pub input: Mat<f64>,
     /// Readout weights at any point: mode shapes, in 1/√kg.
     pub shapes: Arc<dyn Shapes>,
-    /// Band, rate and region in which they hold.
+    /// Frequency band, sample rate and region for which the responses are valid.
     pub conditions: Conditions,
 }
 
-/// Responses at fixed points, as float32 samples in the order `[point][actuator][sample]`.
+/// Sampled impulse responses at fixed points, as float32 values in m/s per unit impulse, stored as `[point][actuator][sample]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SampledResponses {
     /// The actuators, in channel order.
     pub ports: Vec<Port>,
-    /// The points, in the order of the samples.
+    /// The points, in the order in which their responses are stored.
     pub points: Vec<Point>,
-    /// Band, rate and region in which they hold.
+    /// Frequency band, sample rate and region for which the responses are valid.
     pub conditions: Conditions,
     samples: usize,
     data: Vec<f32>,
 }
 
 impl SampledResponses {
-    /// Responses from `points · ports · samples` values in m/s per unit impulse, in the order
-    /// `[point][actuator][sample]`.
+    /// Responses from an array `data` of values in m/s per unit impulse, in the order `[point][actuator][sample]`, with
+    /// `samples` values in each response.
     ///
     /// # Errors
-    /// [`CoreError::Size`] if `data` has another length.
+    /// [`CoreError::Size`] if the length of `data` is not the product of the numbers of points, actuators and samples.
     pub fn new(
         ports: Vec<Port>,
         points: Vec<Point>,
@@ -139,16 +140,16 @@ impl SampledResponses {
         self.samples
     }
 
-    /// The response of one actuator at one point, by their indices: samples in m/s per unit impulse.
+    /// The response from one actuator to one point, given by their indices: samples in m/s per unit impulse.
     pub fn response(&self, actuator: usize, point: usize) -> &[f32] {
         let start = (point * self.ports.len() + actuator) * self.samples;
         &self.data[start..start + self.samples]
     }
 
-    /// The responses at some of the points, by their indices, in the order given.
+    /// The responses at some of the points only, given by their indices, in the order given.
     ///
     /// # Errors
-    /// [`CoreError::Size`] for an index beyond the points.
+    /// [`CoreError::Size`] for an index that is not below the number of points.
     pub fn select(&self, chosen: &[usize]) -> Result<Self, CoreError> {
         let expected = self.points.len();
         if let Some(found) = chosen.iter().copied().find(|point| *point >= expected) {
@@ -164,10 +165,11 @@ impl SampledResponses {
         })
     }
 
-    /// The same with the points of another, of as many actuators and samples, after its own.
+    /// Appends the points of another set of responses and their responses. Both sets must have the same numbers of actuators
+    /// and samples; ports and conditions stay those of `self`.
     ///
     /// # Errors
-    /// [`CoreError::Size`] if they have others.
+    /// [`CoreError::Size`] if the numbers of actuators or of samples differ.
     pub fn joined(mut self, other: Self) -> Result<Self, CoreError> {
         for (what, expected, found) in [
             ("actuators of the responses to be joined", self.ports.len(), other.ports.len()),
@@ -182,7 +184,7 @@ impl SampledResponses {
         Ok(self)
     }
 
-    /// Index of the stored point nearest to a place (m); `None` without points.
+    /// Index of the stored point nearest to a place (m); `None` if there are no points.
     pub fn nearest(&self, place: Point) -> Option<usize> {
         (0..self.points.len())
             .min_by(|&a, &b| self.points[a].distance(place).total_cmp(&self.points[b].distance(place)))

@@ -3,11 +3,11 @@
 use crate::{Point, Side};
 use std::f64::consts::PI;
 
-/// Pieces that a curved side of a path is cut into where a polygon will do: for drawing, and for the test of
-/// inside near a corner. Doubled, such a polygon lies four times as near its curve.
+/// Number of straight pieces that stand for a curved side of a path, for drawing and for the inside test near a corner.
+/// Doubled, such a polygon lies four times as near its curve.
 const FLAT: usize = 24;
 
-/// A closed curve, its bounding box cornered at the origin. Lengths in metres.
+/// A closed curve whose bounding box has its lower-left corner at the origin. Lengths and coordinates are in metres.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// A rectangle with its lower-left corner at the origin.
@@ -31,13 +31,14 @@ pub enum Shape {
     },
     /// A simple closed polygon, anticlockwise.
     Polygon(Vec<Point>),
-    /// Sides that meet end to end, anticlockwise, straight or curved.
+    /// Straight or curved sides joined end to end, anticlockwise.
     Path(Vec<Side>),
 }
 
 impl Shape {
-    /// The sides in order, anticlockwise: of a rectangle and a stadium from the bottom, of a circle from its lowest
-    /// point, of a polygon and a path from the first. None of them has no length.
+    /// The sides in order, anticlockwise. Those of a rectangle and a stadium begin with the bottom side, those of a polygon and a
+    /// path with the first given; a circle is one side that begins at its lowest point. Sides of a stadium without length are left
+    /// out.
     pub fn sides(&self) -> Vec<Side> {
         let p = Point::new;
         let line = |from, to| Side::Line { from, to };
@@ -94,7 +95,7 @@ impl Shape {
         }
     }
 
-    /// Whether a point (m) lies inside or on the curve.
+    /// Whether a point (m) lies inside the curve or on it.
     pub fn contains(&self, p: Point) -> bool {
         if !p.is_finite() {
             return false;
@@ -144,8 +145,8 @@ impl Shape {
         }
     }
 
-    /// The curve as a closed polygon for drawing, points in metres: round shapes in `steps` pieces per full
-    /// turn, other curves in 24 a side.
+    /// The curve as a closed polygon for drawing, points in metres: arcs are cut into `steps` pieces per full turn (at least
+    /// 2 for each arc), Bézier sides into 24 pieces.
     pub fn flattened(&self, steps: usize) -> Vec<Point> {
         let pieces = |side: &Side| match side {
             Side::Line { .. } => 1,
@@ -160,9 +161,8 @@ impl Shape {
     }
 }
 
-/// Within this distance of a side, in metres, a point is on it: some thousand times the rounding of
-/// coordinates of a metre, and a hundred-thousandth of the last decimal that a file's millimetres are written
-/// with.
+/// A point nearer to a side than this, in metres, counts as lying on it: some thousand times the rounding error of
+/// coordinates of a metre, and a hundred-thousandth of the last decimal (0.1 µm) that points are written with.
 const ON: f64 = 1e-12;
 
 /// Whether a polygon holds a point, by counting the sides that a ray to the right crosses; sides count as
@@ -184,7 +184,8 @@ fn polygon_contains(vertices: &[Point], p: Point) -> bool {
     inside
 }
 
-/// Near the middle of a side, its tangent decides; elsewhere the polygon through the sides' ends and pieces does.
+/// Whether a path holds a point. If the nearest point of the path is within a side, the side's tangent there decides; if it is a
+/// corner, the polygon through the corners and points of curved sides does.
 fn path_contains(sides: &[Side], p: Point) -> bool {
     let nearest = sides
         .iter()

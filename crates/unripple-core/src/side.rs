@@ -1,16 +1,17 @@
-//! One smooth side of a rim: a line, an arc or a Bézier curve.
+//! One smooth side of a boundary curve: a line, an arc or a Bézier curve.
 
 use crate::Point;
 use std::f64::consts::TAU;
 
-/// One smooth piece of a rim, run through as a parameter goes from 0 to 1; the sheet lies to its left.
+/// One smooth side of a boundary curve, given by a parameter from 0 (start) to 1 (end). The sides of a
+/// [`Shape`](crate::Shape) have its inside to their left, those of a [`Loop`](crate::Loop) the sheet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Side {
     /// A straight line.
     Line {
-        /// Where it starts.
+        /// Start point, in metres.
         from: Point,
-        /// Where it ends.
+        /// End point, in metres.
         to: Point,
     },
     /// An arc of a circle.
@@ -19,17 +20,17 @@ pub enum Side {
         centre: Point,
         /// The radius, in metres.
         radius: f64,
-        /// Direction of the start seen from the centre, in radians from x.
+        /// Angle of the start point seen from the centre, in radians anticlockwise from x.
         start: f64,
-        /// How far it turns, in radians: positive anticlockwise.
+        /// Angle from start to end, in radians, positive anticlockwise.
         sweep: f64,
     },
-    /// A cubic Bézier curve of four control points.
+    /// A cubic Bézier curve, by its four control points in metres.
     Cubic([Point; 4]),
 }
 
-/// A cubic's length is summed over this many pieces of Gauss quadrature, each exact for a speed that is a
-/// polynomial of degree 7. Twice as many cost twice the evaluations and lower the error about 256-fold.
+/// Number of intervals of Gauss quadrature for the length of a cubic curve. Each is exact if |dr/dt| is a polynomial of
+/// degree 7. Twice as many cost twice the evaluations and lower the error about 256-fold.
 const PIECES: usize = 8;
 
 impl Side {
@@ -48,7 +49,7 @@ impl Side {
         }
     }
 
-    /// The first derivative by the parameter, in metres, at parameter `t` (0 to 1).
+    /// The first derivative dr/dt of the point with respect to the parameter, in metres, at `t` (0 to 1).
     pub fn derivative(&self, t: f64) -> Point {
         match *self {
             Self::Line { from, to } => Point::new(to.x - from.x, to.y - from.y),
@@ -64,7 +65,7 @@ impl Side {
         }
     }
 
-    /// The second derivative by the parameter, in metres, at parameter `t` (0 to 1).
+    /// The second derivative d²r/dt² of the point with respect to the parameter, in metres, at `t` (0 to 1).
     pub fn second_derivative(&self, t: f64) -> Point {
         match *self {
             Self::Line { .. } => Point::new(0.0, 0.0),
@@ -76,13 +77,13 @@ impl Side {
         }
     }
 
-    /// Curvature at parameter `t`, in 1/m: positive where the side turns to its left.
+    /// Curvature at parameter `t` (0 to 1), in 1/m: positive where the curve turns left.
     pub fn curvature(&self, t: f64) -> f64 {
         let (d, dd) = (self.derivative(t), self.second_derivative(t));
         (d.x * dd.y - d.y * dd.x) / d.x.hypot(d.y).powi(3).max(f64::MIN_POSITIVE)
     }
 
-    /// Length from the start to parameter `t`, in metres.
+    /// Arc length from the start to parameter `t` (0 to 1), in metres.
     pub fn length_to(&self, t: f64) -> f64 {
         match *self {
             Self::Line { from, to } => from.distance(to) * t,
@@ -98,17 +99,17 @@ impl Side {
         }
     }
 
-    /// Length, in metres.
+    /// Length of the whole side, in metres.
     pub fn length(&self) -> f64 {
         self.length_to(1.0)
     }
 
-    /// Whether it is straight.
+    /// Whether the side is a straight line.
     pub fn is_straight(&self) -> bool {
         matches!(self, Self::Line { .. })
     }
 
-    /// The same side run through the other way round.
+    /// The same side with start and end exchanged.
     pub fn reversed(self) -> Self {
         match self {
             Self::Line { from, to } => Self::Line { from: to, to: from },
@@ -119,7 +120,7 @@ impl Side {
         }
     }
 
-    /// The same side moved by a vector (m).
+    /// The same side translated by a vector (m).
     pub fn moved(self, by: Point) -> Self {
         let shift = |p: Point| Point::new(p.x + by.x, p.y + by.y);
         match self {

@@ -2,18 +2,18 @@
 
 use crate::{Outline, Point, Uneven};
 
-/// A whole surface: sheet, rim, actuators, band and finger. What a surface file says, in SI.
+/// A whole surface: sheet, outline, actuators, frequency band and finger. Holds the contents of a surface file, in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
     /// Name of the surface, for people.
     pub name: String,
-    /// The rim, its edge conditions and its holes.
+    /// The outer boundary of the sheet, its edge conditions and its holes.
     pub outline: Outline,
-    /// The sheet inside it.
+    /// The sheet: a thin plate or membrane, with its material, thickness, tension and damping.
     pub sheet: Sheet,
-    /// Band, rate and limits of what is sent.
+    /// Frequency band, sample rate and limits of the drive.
     pub emission: Emission,
-    /// The finger that touches it.
+    /// The mechanical impedance assumed for a fingertip that touches the surface.
     pub finger: Finger,
     /// The actuators, in channel order.
     pub actuators: Vec<Actuator>,
@@ -34,17 +34,17 @@ pub struct Sheet {
     pub strength: Option<f64>,
     /// Thickness h, in metres.
     pub thickness: f64,
-    /// Tension R, in N/m; 0 for a plate.
+    /// Tension R, force per length in N/m; 0 for a plate without tension.
     pub tension: f64,
-    /// Damping: how vibration dies out.
+    /// Damping: decay times of the modes, or a loss factor.
     pub decay: Decay,
-    /// Air that moves with the sheet.
+    /// Added mass of the air that moves with the sheet.
     pub air: Air,
-    /// What makes it other than uniform and isotropic.
+    /// Orthotropy, variation over the surface, and attached masses; empty for a uniform, isotropic sheet.
     pub uneven: Uneven,
 }
 
-/// How vibration dies out: the damping of the sheet.
+/// The damping of the sheet, as decay times or as a loss factor.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Decay {
     /// One amplitude decay time for all modes, in seconds.
@@ -77,16 +77,16 @@ impl Air {
     }
 }
 
-/// What may be sent: band, sample rate and limits.
+/// What the drive may contain: frequency band, sample rate and limits of amplitude.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Emission {
     /// Lowest and highest frequency, in Hz. Modes outside are left out of responses.
     pub band: [f64; 2],
     /// Samples per second.
     pub rate: f64,
-    /// Largest drive per actuator, in the drive's unit.
+    /// Largest magnitude of the drive of each actuator, in the actuator's unit (N, A or V).
     pub limit: f64,
-    /// Largest rms of the drive per actuator, in the drive's unit.
+    /// Largest rms of the drive of each actuator, in the actuator's unit; `None` for no such limit.
     pub rms_limit: Option<f64>,
 }
 
@@ -104,48 +104,48 @@ pub struct Finger {
 }
 
 impl Default for Finger {
-    /// The paper's fingertip (section 3.5), with a contact disc of 5 mm radius.
+    /// The fingertip of Hudin et al. (2012), section 3.5, with a contact disc of 5 mm radius.
     fn default() -> Self {
         Self { mass: 0.2e-3, damping: 1.0, stiffness: 1e3, contact_radius: 5e-3 }
     }
 }
 
-/// A finger on the surface.
+/// A finger at a place on the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
-    /// Where the centre of the disc is, in metres.
+    /// Where the centre of the contact disc is, in metres.
     pub at: Point,
     /// Mass, damping, stiffness and contact radius of the finger.
     pub finger: Finger,
 }
 
-/// One actuator: a channel of the drive.
+/// One actuator, driven by one channel of the drive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Actuator {
-    /// Its name, unique on the surface.
+    /// Name of the actuator, unique on the surface.
     pub name: String,
     /// Where it acts, in metres.
     pub at: Point,
     /// Kind of transducer and its constants.
     pub kind: ActuatorKind,
-    /// Radius of the disc that a force or a magnet acts on evenly, in metres; 0 for a point.
+    /// Radius of the disc over which the force of a point force or a magnet is evenly spread, in metres; 0 for a point.
     pub contact_radius: f64,
 }
 
-/// What an actuator is, and the unit of its drive.
+/// The kind of transducer of an actuator, its constants, and the unit of its drive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ActuatorKind {
-    /// An ideal point force; its drive is in N.
+    /// An ideal force on the sheet, without mass or stiffness; its drive is in N.
     Force,
-    /// A coil with a magnet that rides on the sheet; its drive is in A or V.
+    /// A coil that acts on a magnet fixed to the sheet; its drive is in A or V.
     MovingMagnet {
-        /// Force constant bl, in N/A.
+        /// Force constant Bl (force per coil current), in N/A.
         force_constant: f64,
         /// Coil resistance, in Ω.
         resistance: f64,
         /// Coil inductance, in H.
         inductance: f64,
-        /// Mass that rides on the sheet, in kg.
+        /// Mass of the magnet, which moves with the sheet, in kg.
         moving_mass: f64,
         /// Whether the amplifier sets the current or the voltage.
         driven_by: CoilDrive,
@@ -154,7 +154,7 @@ pub enum ActuatorKind {
     Piezo {
         /// Radius of the patch, in metres.
         radius: f64,
-        /// Moment per length of rim and volt, in N/V.
+        /// Bending moment per length of the patch's rim and per volt, in N·m/(m·V) = N/V.
         moment: f64,
         /// Mass of the patch, in kg.
         mass: f64,
@@ -162,7 +162,7 @@ pub enum ActuatorKind {
 }
 
 impl ActuatorKind {
-    /// The name of the kind that surface files use.
+    /// The name of this kind in surface files: `force`, `moving-magnet` or `piezo`.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Force => "force",
@@ -172,17 +172,17 @@ impl ActuatorKind {
     }
 }
 
-/// The quantity that an amplifier holds on a coil: a current source or a voltage source.
+/// The quantity that the amplifier of a coil controls: its current or its voltage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CoilDrive {
-    /// Coil current, in A: the motor's back-EMF does not damp the sheet.
+    /// Coil current, in A: the back-EMF of the coil drives no current, so it does not damp the sheet.
     Current,
-    /// Coil voltage, in V: the back-EMF drives a current that damps the sheet.
+    /// Coil voltage, in V: the back-EMF of the coil drives a current that damps the sheet.
     Voltage,
 }
 
-/// Index n of the focal instant of a window of `window` seconds at `rate` Hz: `round(window · rate)`, a
-/// number of samples. The window holds n + 1 samples.
+/// Sample index n of the focal instant, the end of a window of `window` seconds at `rate` Hz: `round(window · rate)`.
+/// The window holds n + 1 samples.
 pub fn window_samples(window: f64, rate: f64) -> usize {
     (window * rate).round().max(0.0) as usize
 }

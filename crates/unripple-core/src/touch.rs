@@ -1,8 +1,8 @@
-//! One touch event: which finger came, moved or left, where and when.
+//! One touch event: which finger was put down, moved or lifted, where and when.
 
 use crate::Point;
 
-/// What one finger just did, wherever that was learnt: a screen, a network, a recording.
+/// One touch event of one finger, from any source: a touch screen, a network or a recording.
 ///
 /// ```
 /// use unripple_core::{Phase, Point, Touch};
@@ -12,25 +12,25 @@ use crate::Point;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch {
-    /// Which finger: the same from its `Down` to its `Up`, and nobody else's before or after.
+    /// Number of the contact: the same from `Down` to `Up`, and never used for another contact.
     pub finger: u64,
-    /// What it did: came, moved or left.
+    /// Whether the finger was put down, moved or was lifted.
     pub phase: Phase,
-    /// Where it is, in m on the surface, its origin at the lower-left corner. With `Up`, where it was last.
+    /// Position on the surface, in metres. With `Up`, the last position.
     pub at: Point,
-    /// When, in s of the clock of whoever tells; never runs back.
+    /// Time of the event, in s of the clock of its source; it never decreases.
     pub time: f64,
-    /// How hard it presses, in N, where that is known.
+    /// Pressing force, in N; `None` where it is not known.
     pub force: Option<f64>,
 }
 
-/// The phase of a touch.
+/// The phase of a touch: what the finger did.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
-    /// The finger came onto the surface.
+    /// The finger was put down on the surface.
     Down,
-    /// The finger moved, or pressed otherwise.
+    /// The finger moved, or its force changed.
     Move,
-    /// The finger left the surface.
+    /// The finger was lifted from the surface.
     Up,
 }

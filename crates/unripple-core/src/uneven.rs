@@ -1,30 +1,31 @@
-//! What makes a sheet non-uniform or orthotropic.
+//! Deviations of a sheet from uniform and isotropic: orthotropy, profiles of its properties, attached masses.
 
 use crate::Point;
 
-/// What makes a sheet other than uniform and isotropic. The default is nothing: a uniform, isotropic sheet.
+/// Deviations of a sheet from uniform and isotropic. The default is none: a uniform, isotropic sheet.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Uneven {
-    /// Orthotropy: another stiffness across the grain than along it.
+    /// Orthotropy: a different stiffness along and across the grain of the material.
     pub grain: Option<Grain>,
-    /// Thickness over the surface, as a factor of the sheet's.
+    /// Thickness over the surface, as a factor on the thickness of the sheet.
     pub thickness: Option<Profile>,
-    /// Tension over the surface, as a factor of the sheet's.
+    /// Tension over the surface, as a factor on the tension of the sheet.
     pub tension: Option<Profile>,
-    /// Mass that lies on the sheet without stiffening it, in kg/m².
+    /// Distributed mass on the sheet that does not stiffen it, in kg/m².
     pub added_mass: Option<Profile>,
-    /// What is fixed to the sheet.
+    /// Point masses and discs fixed to the sheet.
     pub scatterers: Vec<Scatterer>,
 }
 
 impl Uneven {
-    /// Whether the sheet is uniform and isotropic after all.
+    /// Whether there are no deviations: the sheet is uniform and isotropic.
     pub fn is_nothing(&self) -> bool {
         *self == Self::default()
     }
 }
 
-/// An orthotropic sheet: the sheet's Young's modulus holds along the grain, its Poisson's ratio for stress along it.
+/// The elastic constants of an orthotropic sheet that are not in [`Sheet`](crate::Sheet). Its Young's modulus is the one along the
+/// grain, its Poisson's ratio the one for stress along the grain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grain {
     /// Direction of the grain (of a film, the machine direction), in radians from x.
@@ -35,8 +36,8 @@ pub struct Grain {
     pub shear: f64,
 }
 
-/// A quantity over the surface: values at the nodes of a regular grid over the outline's bounding box, its borders
-/// included, with smooth (Catmull-Rom) interpolation between.
+/// A quantity that varies over the surface: values at the nodes of a regular grid that spans the outline's bounding box,
+/// borders included, with Catmull-Rom interpolation between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
     columns: usize,
@@ -44,10 +45,10 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// A profile from rows of values (factors, or kg/m² of added mass), the lowest row first, each from left
+    /// A profile from rows of values (dimensionless factors, or kg/m² for added mass), the lowest row first, each from left
     /// to right.
     ///
-    /// Returns `None` without values, or if rows differ in length, or a value is not finite.
+    /// Returns `None` if there are no values, if rows differ in length, or if a value is not finite.
     pub fn new(rows: &[Vec<f64>]) -> Option<Self> {
         let columns = rows.first()?.len();
         let values = rows.concat();
@@ -60,14 +61,15 @@ impl Profile {
         self.values.chunks(self.columns)
     }
 
-    /// Least and greatest of the nodes' values, in the unit of the profile.
+    /// Least and greatest value at the nodes, in the unit of the profile.
     pub fn range(&self) -> (f64, f64) {
         let ends = (f64::INFINITY, f64::NEG_INFINITY);
         self.values.iter().fold(ends, |(low, high), v| (low.min(*v), high.max(*v)))
     }
 
-    /// The value, in the profile's unit, at a point (m) of an outline of that extent (width and height, m);
-    /// places outside take the nearest border's. Held within the range of the nodes.
+    /// The interpolated value at a point (m), in the profile's unit; `extent` is the width and height of the outline's bounding
+    /// box, in metres. Points outside the box take the value at its nearest border. The result is limited to the range of the
+    /// nodes' values.
     pub fn at(&self, point: Point, extent: (f64, f64)) -> f64 {
         let rows = self.values.len() / self.columns;
         let (columns, wx) = weights(point.x / extent.0, self.columns);
@@ -81,8 +83,8 @@ impl Profile {
     }
 }
 
-/// The four nodes around a place between 0 and 1, and their Catmull-Rom weights. Beyond both ends the line goes on
-/// straight.
+/// The four nodes around a position from 0 to 1 along one axis, and their Catmull-Rom weights. Nodes beyond the ends are
+/// extrapolated linearly.
 fn weights(place: f64, nodes: usize) -> ([usize; 4], [f64; 4]) {
     if nodes == 1 {
         return ([0; 4], [1.0, 0.0, 0.0, 0.0]);
@@ -110,21 +112,21 @@ fn weights(place: f64, nodes: usize) -> ([usize; 4], [f64; 4]) {
     (at, w)
 }
 
-/// Something fixed to the sheet that scatters waves.
+/// A mass or disc fixed to the sheet, which scatters waves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scatterer {
-    /// Where its centre is, in metres.
+    /// Position of its centre, in metres.
     pub at: Point,
-    /// What kind of thing it is, with its mass and stiffness.
+    /// Point mass or disc, with its constants.
     pub kind: ScattererKind,
 }
 
-/// What is fixed to a sheet: a mass at a point or a disc.
+/// The kinds of scatterers: a point mass or a disc.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ScattererKind {
     /// A mass at a point, in kg.
     Mass(f64),
-    /// A disc glued on: mass, and stiffness as a laminate with the sheet.
+    /// A disc glued to the sheet: it adds mass, and stiffness as a laminate with the sheet.
     Disc {
         /// Its radius, in metres.
         radius: f64,

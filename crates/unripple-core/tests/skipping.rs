@@ -1,11 +1,11 @@
-//! The rule for tests that cannot run: they say so where a person sees it, and fail where nothing may be skipped.
+//! Tests that cannot run report it where a person sees it, and fail if no test may be skipped.
 
 #[path = "shared/skip.rs"]
 mod skip;
 
 use std::process::{Command, Output};
 
-/// Set where this program runs as the one that is watched.
+/// Environment variable that is set in the child process, whose test is to be skipped.
 const ROLE: &str = "UNRIPPLE_SKIPPING";
 const WHY: &str = "there is no such program here";
 
@@ -16,7 +16,7 @@ fn a_test_that_needs_what_is_not_here() {
     }
 }
 
-/// Runs the test above with this in its environment, its output captured as `cargo test` does.
+/// Runs the test above in a child process with these environment variables, its output captured as `cargo test` does.
 fn watched(environment: &[(&str, &str)]) -> Output {
     let mut command = Command::new(std::env::current_exe().unwrap());
     for name in ["CI", "UNRIPPLE_NOTHING_SKIPPED", "UNRIPPLE_SKIPPED"] {

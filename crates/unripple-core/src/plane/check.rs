@@ -1,4 +1,4 @@
-//! The test whether rims bound a sheet: closed, without crossings, anticlockwise, holes inside and apart.
+//! The check that rims enclose a sheet: closed, without crossings, anticlockwise, holes inside and apart.
 
 use super::faults::OutlineFault;
 use super::meeting::{Endless, meetings};
@@ -9,12 +9,12 @@ use std::ops::Range;
 /// Largest gap between the end of a side and the start of the next, as a share of the extent: above the
 /// rounding of coordinates that were computed. Doubled, gaps twice as wide would count as closed.
 const OPEN: f64 = 1e-9;
-/// Least area of a sheet, as a share of the extent squared: less is a line run there and back.
+/// Least area of a sheet, as a share of the extent squared: an outline with less encloses no area but for rounding.
 const AREA: f64 = 1e-9;
 
 impl Outline {
-    /// Why the outline bounds no sheet; nothing if it bounds one. The one judge of outlines: of surface files, and of what is covered with
-    /// triangles.
+    /// All faults for which the outline encloses no valid sheet; empty for a valid one. Both the reader of surface files and the
+    /// mesh generator rely on this check.
     ///
     /// ```
     /// use unripple_core::{Outline, Point, Shape};
@@ -28,7 +28,7 @@ impl Outline {
     }
 }
 
-/// Faults of sides that cannot be cut into pieces: no sides, no finite coordinates, no length. `loops` holds
+/// Checks that each rim has sides, and that all sides have finite coordinates and a length. `loops` holds
 /// the index range of each rim's sides.
 pub(super) fn sides(sides: &[(Side, Edge)], loops: &[Range<usize>]) -> Result<(), Vec<OutlineFault>> {
     let mut faults = Vec::new();
@@ -62,7 +62,7 @@ fn is_whole(side: &Side) -> bool {
     }
 }
 
-/// Faults unless the rims cross nothing, enclose an area anticlockwise and their holes lie within.
+/// Checks that rims are closed, do not meet, enclose an area anticlockwise, and that holes lie inside.
 pub(super) fn rims(rims: &Rims) -> Result<(), Vec<OutlineFault>> {
     open(rims)?;
     let met = meetings(rims).map_err(|Endless| vec![OutlineFault::TooMany])?;
@@ -71,7 +71,7 @@ pub(super) fn rims(rims: &Rims) -> Result<(), Vec<OutlineFault>> {
         .iter()
         .map(|(pair, (sides, at))| OutlineFault::Meeting { rims: *pair, sides: sides.map(local), at: *at })
         .collect();
-    // What a rim that meets another encloses cannot be told.
+    // The area that a rim encloses is not defined if it meets itself or an earlier rim.
     let apart: Vec<bool> =
         (0..rims.loops.len()).map(|rim| met.keys().all(|[_, later]| *later != rim)).collect();
     for rim in (0..rims.loops.len()).filter(|rim| apart[*rim]) {
@@ -96,10 +96,10 @@ fn open(rims: &Rims) -> Result<(), Vec<OutlineFault>> {
     if faults.is_empty() { Ok(()) } else { Err(faults) }
 }
 
-/// What is wrong with the area of a rim, or with the place of a hole.
+/// The fault of a rim's area or direction, or of the place of a hole, if there is one.
 fn course(rims: &Rims, rim: usize, apart: &[bool]) -> Option<OutlineFault> {
     let at = rims.sides[rims.loops[rim].start].0.at(0.0);
-    // Holes run the other way.
+    // The rims of holes run clockwise.
     let area = if rim == 0 { rims.area(rim) } else { -rims.area(rim) };
     let least = if rim == 0 { AREA * rims.extent * rims.extent } else { 0.0 };
     if area.abs() <= least {

@@ -1,9 +1,9 @@
-//! Why an outline bounds no sheet.
+//! The faults for which an outline encloses no valid sheet.
 
 use crate::Point;
 
-/// Why an outline bounds no sheet. Rims are counted with the outer one as 0 and hole i as i + 1, sides within their rim in the order of
-/// [`Outline::loops`](crate::Outline::loops).
+/// A fault for which an outline encloses no valid sheet. Rim 0 is the outer one, rim i + 1 that of hole i. Sides are numbered
+/// within their rim, in the order of [`Outline::loops`](crate::Outline::loops).
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("expected {}, found {}", self.expected(), self.found())]
 pub enum OutlineFault {
@@ -25,25 +25,25 @@ pub enum OutlineFault {
         rim: usize,
         /// Index of the side within its rim.
         side: usize,
-        /// Where it is, in metres.
+        /// Where the side is, in metres.
         at: Point,
     },
-    /// A side does not start where the one before it ends.
+    /// A side does not start where the previous one ends.
     Open {
         /// Index of the rim.
         rim: usize,
         /// Index of the side within its rim.
         side: usize,
-        /// Where the one before it ends.
+        /// Where the previous side ends, in metres.
         end: Point,
-        /// Where it starts.
+        /// Where this side starts, in metres.
         start: Point,
     },
     /// Sides touch, cross or run back over each other.
     Meeting {
-        /// Indices of both rims, the first in the order above first.
+        /// Indices of both rims, the smaller first.
         rims: [usize; 2],
-        /// Indices of both sides within their rims.
+        /// Indices of both sides, each within its rim.
         sides: [usize; 2],
         /// Where they meet, in metres.
         at: Point,
@@ -52,32 +52,32 @@ pub enum OutlineFault {
     Flat {
         /// Index of the rim.
         rim: usize,
-        /// What it encloses, in m².
+        /// The area that it encloses, in m².
         area: f64,
-        /// Where it starts.
+        /// Where the rim starts, in metres.
         at: Point,
     },
     /// The sides of a rim are listed clockwise.
     Clockwise {
         /// Index of the rim.
         rim: usize,
-        /// Where it starts, in metres.
+        /// Where the rim starts, in metres.
         at: Point,
     },
     /// A hole lies outside the outer rim.
     Outside {
         /// Index of the rim.
         rim: usize,
-        /// Where it starts.
+        /// Where the rim of the hole starts, in metres.
         at: Point,
     },
     /// A hole lies within another.
     Nested {
-        /// Index of the rim that lies within.
+        /// Index of the inner rim.
         rim: usize,
-        /// Index of the rim that it lies within.
+        /// Index of the rim around it.
         within: usize,
-        /// Where it starts.
+        /// Where the inner rim starts, in metres.
         at: Point,
     },
     /// Sides lie along each other in too many places to compare.
@@ -85,7 +85,7 @@ pub enum OutlineFault {
 }
 
 impl OutlineFault {
-    /// What an outline has to be, in words for people: the part of the message after "expected".
+    /// What a valid outline has, in words for people: the part of the message after "expected".
     pub fn expected(&self) -> &'static str {
         match self {
             Self::Empty { .. } => "rims of at least one side",
@@ -124,7 +124,7 @@ impl OutlineFault {
         }
     }
 
-    /// Index of the rim at fault: of two that meet, the later one. Nothing if it is all of them.
+    /// Index of the rim at fault; of two rims that meet, the later one. `None` for [`OutlineFault::TooMany`], which concerns all.
     pub fn rim(&self) -> Option<usize> {
         match *self {
             Self::Empty { rim }

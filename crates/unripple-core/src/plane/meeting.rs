@@ -1,5 +1,5 @@
-//! Where rims meet that should not. Pieces of curves are compared by their chords, and halved only where these come near, so what is said
-//! is said of the curves themselves, not of polygons through them.
+//! Places where rims cross or touch each other or themselves. Pieces of curves are compared by their chords and halved where
+//! the chords come near each other, so that the result holds for the curves themselves, not for polygons through them.
 
 use super::piece::Piece;
 use super::rims::{Rims, tangent};
@@ -9,7 +9,8 @@ use crate::{Point, Side};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-/// Pieces of one rim nearer than this share of the extent touch: a mesh of anything closer has more triangles than any memory holds.
+/// Pieces of one rim that are nearer than this share of the extent count as touching: a mesh of anything closer has more
+/// triangles than any memory holds.
 const TOUCH: f64 = 1e-7;
 /// Least distance between different rims, in metres. Doubled, strips of sheet up to 2 µm wide would be
 /// refused as well.
@@ -20,10 +21,10 @@ const SHARPEST: f64 = 0.01;
 /// Halvings after which two pieces that cannot be told apart are taken to meet: parameters then differ in the
 /// last bits only.
 const DEEPEST: u32 = 60;
-/// Chords are told from their curves to this share of the distance that is asked for: a verdict errs by a
-/// thousandth of it. Halved, curves that nearly touch take about one more halving.
+/// Pieces are halved until their sagittas are below this share of the least distance allowed, so that the comparison with it
+/// errs by a thousandth. Halved, curves that nearly touch take about one more halving.
 const BLUR: f64 = 1e-3;
-/// Most pairs of pieces that are compared: with the two limits below, a second or so. What needs more has
+/// Most pairs of pieces that are compared: with the two limits below, about a second. Outlines that need more have
 /// sides that lie along each other. Doubled, such outlines would be refused after twice the time.
 const MOST_PAIRS: u64 = 5_000_000;
 /// Most times that pieces are halved, for the same bound on time.
@@ -31,16 +32,17 @@ const MOST_HALVINGS: u64 = 4_000_000;
 /// Most pairs of rims that meet before the search ends, for the same bound on time.
 const MOST_MEETINGS: usize = 10_000;
 
-/// Two sides that meet, by their places in their list, the smaller first; or that there is too much to compare.
+/// The result of [`within`] for a curve that crosses or touches itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Met {
-    /// These two sides meet, at this place (m).
+    /// Two sides, by their indices in the list of sides, the smaller first, meet at this point (m).
     Sides([usize; 2], Point),
-    /// Sides lie along each other in too many places.
+    /// The search was given up: sides lie along each other in too many places.
     TooMany,
 }
 
-/// The first sides of a closed curve that meet where they should not, a joint where they fold back before others.
+/// Checks a closed curve, given by its sides in order, for sides that cross or touch; `None` if there are none. Consecutive sides
+/// that fold back on each other are reported before all others; else the pair of smallest indices is reported.
 pub fn within(sides: &[Side]) -> Option<Met> {
     let all = sides.iter().map(|side| (*side, crate::Edge::Free)).collect();
     let rims = Rims::of(all, std::iter::once(0..sides.len()).collect());
@@ -50,25 +52,25 @@ pub fn within(sides: &[Side]) -> Option<Met> {
     }
 }
 
-/// Where rims meet: for each pair of rims that do (a rim with itself too), two sides counted through all rims, and the place.
+/// For each pair of rims that meet (also of a rim with itself): two sides that meet, numbered through all rims, and the place.
 pub(super) type Meetings = BTreeMap<[usize; 2], ([usize; 2], Point)>;
 
-/// There is too much to compare within the limits above.
+/// The search exceeded one of the limits above.
 pub(super) struct Endless;
 
-/// What is left of the work that one search may take, in pairs compared and pieces halved.
+/// The work that one search may still take, in pairs compared and pieces halved.
 struct Work {
     pairs: u64,
     halvings: u64,
 }
 
 impl Work {
-    /// Counts a pair that is compared.
+    /// Counts one pair of pieces compared.
     fn pair(&mut self) {
         self.pairs = self.pairs.saturating_sub(1);
     }
 
-    /// Counts a piece that is halved.
+    /// Counts one piece halved.
     fn halve(&mut self) {
         self.halvings = self.halvings.saturating_sub(1);
     }
@@ -98,7 +100,7 @@ struct Search<'r> {
 }
 
 impl Search<'_> {
-    /// Whether there is too much to compare.
+    /// Whether the search has reached one of its limits.
     fn is_done(&self) -> bool {
         self.work.is_done() || self.found.len() > MOST_MEETINGS
     }
@@ -108,14 +110,14 @@ impl Search<'_> {
         let sides = [one.min(other), one.max(other)];
         let pair = sides.map(|side| self.rims.rim_of(side));
         let new = (sides, at);
-        // Of each pair of rims the first sides that meet, whatever the order in which they are come across.
+        // Of each pair of rims the sides of smallest indices are kept, whatever the order in which they are found.
         let known = self.found.entry(pair).or_insert(new);
         if known.0 > sides {
             *known = new;
         }
     }
 
-    /// Finds pieces that follow each other and fold back.
+    /// Finds consecutive pieces that fold back on each other.
     fn joints(&mut self, touch: f64) {
         let rims = self.rims;
         for i in 0..rims.pieces.len() {
@@ -130,7 +132,7 @@ impl Search<'_> {
         }
     }
 
-    /// Finds pieces that meet without following each other. A rim that folds back is told of that alone.
+    /// Finds pieces that meet and are not consecutive. A rim that was found to fold back is not compared with itself.
     fn others(&mut self, touch: f64, clear: f64) {
         let rims = self.rims;
         let folded: Vec<usize> = self.found.keys().map(|[rim, _]| *rim).collect();
@@ -157,13 +159,13 @@ impl Search<'_> {
         }
     }
 
-    /// Whether sides that come earlier, or these, are known to meet.
+    /// Whether these sides, or sides of smaller indices on the same rims, are known to meet.
     fn is_known(&self, one: usize, other: usize) -> bool {
         let sides = [one.min(other), one.max(other)];
         self.found.get(&sides.map(|side| self.rims.rim_of(side))).is_some_and(|known| known.0 <= sides)
     }
 
-    /// Finds cusps: places where a curve turns round in a point.
+    /// Finds cusps: points where a curve reverses its direction.
     fn cusps(&mut self) {
         let rims = self.rims;
         for piece in rims.pieces.iter().filter(|piece| piece.turn > PI - SHARPEST) {
@@ -173,7 +175,7 @@ impl Search<'_> {
         }
     }
 
-    /// Where two pieces come nearer than `clear`, ends that belong together left out.
+    /// A point where two pieces are nearer than `clear` (m); an end that consecutive pieces share does not count.
     fn meet(&mut self, one: &Piece, other: &Piece, clear: f64, depth: u32) -> Option<Point> {
         let curved = one.sagitta + other.sagitta;
         if between_segments(one.ends, other.ends) > curved + clear {
@@ -201,8 +203,8 @@ impl Search<'_> {
         }
     }
 
-    /// The same of two pieces that follow each other: unless they turn by more than the angle between them, they have only
-    /// that point in common.
+    /// A point where two consecutive pieces meet other than at the end they share. If their tangents turn by less than the angle
+    /// between them, they have only that end in common.
     fn at_joint(&mut self, one: &Piece, other: &Piece, clear: f64, depth: u32) -> Option<Point> {
         let rims = self.rims;
         let back = tangent(&rims.sides[one.side].0, one.span[1]);
@@ -230,7 +232,7 @@ impl Search<'_> {
     }
 }
 
-/// Where two segments are nearest: where they cross, or an end of one of them.
+/// The point where two segments cross, or else the end of one of them that is nearest to the other.
 fn nearest([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Point {
     let (ab, cd, ac) = (minus(b, a), minus(d, c), minus(c, a));
     let (s, t) = (cross(ac, cd) / cross(ab, cd), cross(ac, ab) / cross(ab, cd));

@@ -1,4 +1,4 @@
-//! Geometry in the plane: vectors, boxes, pieces of curves, and whether rims bound a sheet.
+//! Plane geometry: vectors, bounding boxes, pieces of curves, and the check that boundary curves enclose a valid sheet.
 
 mod check;
 mod faults;

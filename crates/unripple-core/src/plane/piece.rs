@@ -1,4 +1,4 @@
-//! Sides cut into short pieces, each told from its chord by a known sagitta and turn.
+//! Sides cut into short pieces, with bounds on the deviation of each from its chord.
 
 use super::tree::Bounds;
 use super::vector::{angle, cross, from_segment, minus, norm};
@@ -6,31 +6,31 @@ use crate::side::gauss;
 use crate::{Point, Side};
 use std::f64::consts::PI;
 
-/// Most that a piece's tangent turns, in radians: so a circle has 63 pieces. Doubled, there would be half as
+/// Greatest turn of the tangent along a piece, in radians: a circle has 63 pieces. Doubled, there would be half as
 /// many, each four times as far from its chord, and the search for meetings would halve them again where they
-/// come near.
+/// come near each other.
 const TURN: f64 = 0.1;
-/// Halvings after which a cubic is cut no further: it has a cusp there. One more halving doubles the pieces
-/// at a cusp only.
+/// Number of halvings after which a cubic is cut no further, since it must have a cusp there. One more halving would
+/// double only the pieces at a cusp.
 const DEEPEST: u32 = 24;
 
-/// A short piece of a side, told apart from its chord by no more than `sagitta`.
+/// A short piece of a side, which lies within `sagitta` of its chord.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece {
-    /// Which side, counted through all rims.
+    /// Index of its side, numbered through all rims.
     pub side: usize,
     /// Parameters of the side at both ends, 0 to 1.
     pub span: [f64; 2],
-    /// Start and end, in metres.
+    /// Start and end points, in metres.
     pub ends: [Point; 2],
-    /// Greatest distance from the chord (a bound of it), in metres.
+    /// Upper bound of the distance between curve and chord, in metres.
     pub sagitta: f64,
-    /// By how much the tangent turns (a bound of it), in radians.
+    /// Upper bound of the angle by which the tangent turns along the piece, in radians.
     pub turn: f64,
 }
 
 impl Piece {
-    /// The piece of a side between two parameters (0 to 1); `index` is the side's, counted through all rims.
+    /// The piece of a side between two parameters (0 to 1); `index` is the index of the side, numbered through all rims.
     pub fn new(side: &Side, index: usize, span: [f64; 2]) -> Self {
         let ends = span.map(|t| side.at(t));
         let (sagitta, turn) = match *side {
@@ -44,19 +44,19 @@ impl Piece {
         Self { side: index, span, ends, sagitta, turn }
     }
 
-    /// Its two halves, cut at the middle of its parameters.
+    /// The two halves of the piece, cut at the middle of its parameter range; `side` is the side it belongs to.
     pub fn halves(&self, side: &Side) -> [Self; 2] {
         let half = 0.5 * (self.span[0] + self.span[1]);
         [[self.span[0], half], [half, self.span[1]]].map(|span| Self::new(side, self.side, span))
     }
 
-    /// A box that holds the curve of the piece, widened by `margin` (m).
+    /// A box along the axes that contains the piece of the curve, widened by `margin` (m).
     pub fn bounds(&self, margin: f64) -> Bounds {
         Bounds::around(&self.ends, self.sagitta + margin)
     }
 
-    /// The angle that it is seen under from a point (rad, positive anticlockwise): summed over a rim, 2π
-    /// times its winding number.
+    /// The angle that the piece subtends at a point (m), in radians, positive anticlockwise. Summed over a rim it is 2π
+    /// times the winding number of the rim around the point.
     pub fn seen_from(&self, p: Point, side: &Side) -> f64 {
         let [a, b] = self.ends;
         // Near the curve the chord does not tell on which side the point is: halves do, down to rounding.
@@ -67,8 +67,8 @@ impl Piece {
         angle(minus(a, p), minus(b, p))
     }
 
-    /// Its part of twice the enclosed area (m²), ∫ x dy - y dx with x and y from its start: Gauss-Legendre
-    /// quadrature of four points, exact for a cubic.
+    /// Twice the signed area between the piece and its chord, in m²: ∫ x dy - y dx with x and y measured from its start, by
+    /// four-point Gauss-Legendre quadrature, which is exact for a cubic.
     pub fn doubled_area(&self, side: &Side) -> f64 {
         let [from, to] = self.span;
         gauss(|t| cross(minus(side.at(t), self.ends[0]), side.derivative(t)), from, to - from)
@@ -92,7 +92,7 @@ fn hull(side: &Side, span: [f64; 2], ends: [Point; 2]) -> (f64, f64) {
     (inner.iter().map(|p| from_segment(*p, ends[0], ends[1])).fold(0.0, f64::max), turn)
 }
 
-/// A side cut into pieces that each turn by at most 0.1 rad; `index` is the side's, counted through all rims.
+/// A side cut into pieces whose tangents each turn by at most 0.1 rad; `index` is the index of the side, numbered through all rims.
 pub fn pieces(side: &Side, index: usize) -> Vec<Piece> {
     match *side {
         Side::Line { .. } => vec![Piece::new(side, index, [0.0, 1.0])],

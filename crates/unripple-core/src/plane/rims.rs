@@ -1,4 +1,4 @@
-//! Rims in pieces, and the distances between them.
+//! The boundary curves of an outline cut into short pieces, and distances across the sheet.
 
 use super::faults::OutlineFault;
 use super::piece::Piece;
@@ -8,32 +8,34 @@ use crate::{Edge, Outline, Point, Side};
 use std::f64::consts::PI;
 use std::ops::Range;
 
-/// All rims of an outline: closed, apart from each other, the sheet to their left.
+/// All rims (closed boundary curves) of an outline: the outer one and those of the holes, with the sheet to their left.
+///
+/// Sides and pieces are numbered through all rims, in order.
 #[derive(Clone, Debug)]
 pub struct Rims {
-    /// All sides and how they are held, rim by rim.
+    /// All sides and their edge conditions, rim by rim.
     pub sides: Vec<(Side, Edge)>,
-    /// The sides of each rim, the outer one first.
+    /// The range of side indices of each rim, the outer rim first.
     pub loops: Vec<Range<usize>>,
     /// The rim of each side.
     rims: Vec<usize>,
-    /// The angle of the sheet where each side starts, 0 to 2π.
+    /// The interior angle of the sheet at the corner where each side starts, in radians from 0 to 2π.
     pub angles: Vec<f64>,
-    /// The sides cut into pieces.
+    /// All sides cut into short pieces, in order.
     pub pieces: Vec<Piece>,
     /// The first piece of each side.
     firsts: Vec<usize>,
     /// Bounding boxes of the pieces, for searches.
     pub tree: Tree,
-    /// The longer side of the bounding box, in metres.
+    /// The longer side of the bounding box of all rims, in metres.
     pub extent: f64,
 }
 
 impl Rims {
-    /// The rims of an outline.
+    /// The rims of an outline, after a check that they enclose a sheet.
     ///
     /// # Errors
-    /// All faults of an outline that bounds no sheet: of broken or open rims these alone.
+    /// All faults found. If sides are invalid or rims are not closed, only these faults are listed.
     pub fn new(outline: &Outline) -> Result<Self, Vec<OutlineFault>> {
         let (mut sides, mut loops) = (Vec::new(), Vec::new());
         for rim in outline.loops() {
@@ -46,7 +48,7 @@ impl Rims {
         Ok(rims)
     }
 
-    /// Rims of sound sides, whether or not they bound a sheet; `loops` holds the index range of each rim's
+    /// Rims of valid sides, without the check that they enclose a sheet; `loops` holds the index range of each rim's
     /// sides.
     pub(super) fn of(sides: Vec<(Side, Edge)>, loops: Vec<Range<usize>>) -> Self {
         let rims: Vec<usize> =
@@ -67,24 +69,24 @@ impl Rims {
         found
     }
 
-    /// Index of the rim that a side belongs to; sides are counted through all rims.
+    /// Index of the rim that a side belongs to.
     pub fn rim_of(&self, side: usize) -> usize {
         self.rims.get(side).copied().unwrap_or(0)
     }
 
-    /// Index of the side that follows on the same rim.
+    /// Index of the next side on the same rim; the first follows the last.
     pub fn next(&self, side: usize) -> usize {
         let rim = &self.loops[self.rim_of(side)];
         if side + 1 < rim.end { side + 1 } else { rim.start }
     }
 
-    /// Index of the side before on the same rim.
+    /// Index of the previous side on the same rim; the last precedes the first.
     pub fn previous(&self, side: usize) -> usize {
         let rim = &self.loops[self.rim_of(side)];
         if side > rim.start { side - 1 } else { rim.end - 1 }
     }
 
-    /// Index of the piece that follows on the same rim.
+    /// Index of the next piece on the same rim.
     pub(super) fn following(&self, piece: usize) -> usize {
         let side = self.pieces[piece].side;
         match self.pieces.get(piece + 1) {
@@ -128,9 +130,9 @@ impl Rims {
         PI - angle(before, tangent(&self.sides[side].0, 0.0))
     }
 
-    /// How far it is across the sheet, in metres, from the place `t` on a side along a direction, up to
-    /// `most` (m); infinite if farther. What the narrowing of the sheet towards a corner of the side lets
-    /// expect does not count.
+    /// Width of the sheet, in metres, from the point at parameter `t` of a side to the opposite boundary along a unit vector
+    /// `direction`; infinite if it exceeds `most` (m). The sides that meet this side in a sharp corner do not count as opposite
+    /// where they are as near as the angle of the corner implies.
     pub fn gap(&self, side: usize, t: f64, direction: Point, most: f64) -> f64 {
         let from = self.sides[side].0.at(t);
         let beam = Bounds::around(&[from, along(from, direction, most)], 0.0);
@@ -141,7 +143,7 @@ impl Rims {
             let beside = piece.side == side && piece.span[0] <= t && t <= piece.span[1];
             let [a, b] = piece.ends;
             let (chord, to) = (minus(b, a), minus(a, from));
-            // The rim opposite runs the other way: it crosses the beam from its left to its right or not at all.
+            // The opposite boundary has the sheet to its left too, so only pieces that cross the ray in one sense count.
             let facing = cross(direction, chord);
             let (far, share) = (cross(to, chord) / facing, cross(to, direction) / facing);
             if facing > 0.0 && !beside && far > 0.0 && far < *found && (0.0..=1.0).contains(&share) {
@@ -154,7 +156,7 @@ impl Rims {
         if found <= most { found } else { f64::INFINITY }
     }
 
-    /// Whether the distance to a piece is what the corner between its side and another lets expect there.
+    /// Whether a piece is as near as follows from the angle of the corner between its side and the given one.
     fn expected(&self, side: usize, from: Point, piece: &Piece, far: f64) -> bool {
         let narrow = |corner: usize| {
             let opening = self.angles[corner];
@@ -167,7 +169,7 @@ impl Rims {
     }
 }
 
-/// Direction of travel at parameter `t` (0 to 1), a vector in metres of any length, also where the derivative
+/// A tangent vector of a side at parameter `t` (0 to 1), in metres, of any length; not zero even where the derivative
 /// vanishes.
 pub fn tangent(side: &Side, t: f64) -> Point {
     let d = side.derivative(t);

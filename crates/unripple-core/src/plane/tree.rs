@@ -1,4 +1,4 @@
-//! Bounding boxes along the axes, and a tree of them (a bounding volume hierarchy) for searches.
+//! Axis-aligned bounding boxes, and a tree of them (a bounding volume hierarchy) for searches.
 
 use crate::Point;
 
@@ -6,12 +6,12 @@ use crate::Point;
 /// results stay the same.
 const LEAF: usize = 4;
 
-/// A box with sides along the axes.
+/// An axis-aligned box.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
-    /// The corner of least coordinates.
+    /// The lower-left corner, in metres.
     pub low: Point,
-    /// The corner of greatest coordinates.
+    /// The upper-right corner, in metres.
     pub high: Point,
 }
 
@@ -61,19 +61,19 @@ impl Bounds {
     }
 }
 
-/// A branch: the box of all its items, the least of their weights, and where the next branch beside it starts.
+/// A node of a [`Tree`]: the bounding box of all its items, and the least of their weights.
 #[derive(Clone, Debug)]
 pub struct Node {
-    /// The box of all its items.
+    /// The bounding box of all its items.
     pub bounds: Bounds,
-    /// The least of their weights.
+    /// The least weight among its items.
     pub least: f64,
     items: [usize; 2],
     leaf: bool,
     after: usize,
 }
 
-/// A tree of boxes, each with a weight, for searches that leave out what is too far.
+/// A bounding volume hierarchy: a tree of boxes, each with a weight, for searches that skip whole branches.
 #[derive(Clone, Debug, Default)]
 pub struct Tree {
     nodes: Vec<Node>,
@@ -81,7 +81,7 @@ pub struct Tree {
 }
 
 impl Tree {
-    /// A tree of boxes and weights; searches name items by their index here.
+    /// A tree of items, each a box and a weight; searches give the indices of items in this list.
     pub fn new(items: &[(Bounds, f64)]) -> Self {
         let mut tree = Self { nodes: Vec::new(), order: (0..items.len()).collect() };
         if !items.is_empty() {
@@ -90,8 +90,7 @@ impl Tree {
         tree
     }
 
-    /// Grows the branch of the items `from..to` of the order: a leaf, or two halves along the box's longer
-    /// side.
+    /// Adds the node of the items `from..to` of `order`: a leaf, or two halves split along the longer side of the box.
     fn grow(&mut self, items: &[(Bounds, f64)], from: usize, to: usize) {
         let part = &mut self.order[from..to];
         let bounds = part.iter().map(|i| items[*i].0).reduce(Bounds::join);
@@ -111,8 +110,8 @@ impl Tree {
         self.nodes[index].after = self.nodes.len();
     }
 
-    /// Gives `item` the index of each item in the branches that `open` lets through; `state` is handed to
-    /// both.
+    /// Visits the tree from the root: calls `open` with each node reached, skips the branch if it returns false, and calls `item`
+    /// with the index of each item in the leaves reached. `state` is passed to both.
     pub fn search<S>(
         &self,
         state: &mut S,

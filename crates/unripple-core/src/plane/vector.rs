@@ -7,12 +7,12 @@ pub fn minus(a: Point, b: Point) -> Point {
     Point::new(a.x - b.x, a.y - b.y)
 }
 
-/// The sum a + s·b: a point moved along a vector by the factor `s`.
+/// The sum a + s·b, in metres: the point `a` moved by `s` times the vector `b`.
 pub fn along(a: Point, b: Point, s: f64) -> Point {
     Point::new(a.x + s * b.x, a.y + s * b.y)
 }
 
-/// The middle between two points, in metres.
+/// The midpoint of two points, in metres.
 pub fn middle(a: Point, b: Point) -> Point {
     Point::new(0.5 * (a.x + b.x), 0.5 * (a.y + b.y))
 }
@@ -32,7 +32,7 @@ pub fn norm(a: Point) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// A vector turned anticlockwise by an angle (rad).
+/// A vector rotated anticlockwise by an angle (rad).
 pub fn turned(a: Point, angle: f64) -> Point {
     let (s, c) = angle.sin_cos();
     Point::new(a.x * c - a.y * s, a.x * s + a.y * c)
@@ -68,7 +68,7 @@ pub fn between_segments([a, b]: [Point; 2], [c, d]: [Point; 2]) -> f64 {
     if cross && !level { 0.0 } else { nearest }
 }
 
-/// The circle through three points: centre and radius, in metres. Infinite where they are on a line.
+/// The circle through three points: its centre and radius, in metres. Not finite if the points lie on a line.
 pub fn circumcircle(a: Point, b: Point, c: Point) -> (Point, f64) {
     let (u, v) = (minus(b, a), minus(c, a));
     let (uu, vv, d) = (dot(u, u), dot(v, v), 2.0 * cross(u, v));
@@ -76,7 +76,7 @@ pub fn circumcircle(a: Point, b: Point, c: Point) -> (Point, f64) {
     (along(a, offset, 1.0), norm(offset))
 }
 
-/// Cotangent of the least angle of a triangle, dimensionless; infinite if it is clockwise.
+/// Cotangent of the smallest angle of a triangle, dimensionless; infinite if its corners run clockwise or it has no area.
 pub fn sharpness([a, b, c]: [Point; 3]) -> f64 {
     let (ab, bc, ca) = (minus(b, a), minus(c, b), minus(a, c));
     let area = cross(ab, bc);

@@ -1,11 +1,14 @@
-//! A Python with packages, for tests by other people's readers.
+//! A Python interpreter with packages, for tests that read our files with other software.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The system's Python if that has the modules, or that of an environment of this name in the target folder; why there is none.
+/// Path of a Python interpreter that has some modules: the system's, or that of a virtual environment of this name in the target folder.
 ///
-/// The environment is made, with packages from the network, where no test may be skipped: with `CI` or `UNRIPPLE_NOTHING_SKIPPED=1`.
+/// The environment is created, with packages from the network, only if no test may be skipped: with `CI` or `UNRIPPLE_NOTHING_SKIPPED=1`.
+///
+/// # Errors
+/// Why there is no such interpreter, in words.
 pub fn python(name: &str, modules: &str, packages: &[&str]) -> Result<PathBuf, String> {
     let has = |python: &Path| {
         let found = Command::new(python).args(["-c", &format!("import {modules}")]).output();
@@ -28,7 +31,7 @@ pub fn python(name: &str, modules: &str, packages: &[&str]) -> Result<PathBuf, S
     let run = |command: &mut Command| match command.output() {
         Ok(output) if output.status.success() => Ok(()),
         Ok(output) => {
-            // Where a package is missing `venv` says so on standard output.
+            // If a package is missing, `venv` reports it on standard output.
             let said = [output.stderr, output.stdout].concat();
             let said = String::from_utf8_lossy(&said).into_owned();
             Err(said.lines().rfind(|line| !line.trim().is_empty()).unwrap_or("").to_owned())
@@ -39,7 +42,7 @@ pub fn python(name: &str, modules: &str, packages: &[&str]) -> Result<PathBuf, S
         let pip = ["-m", "pip", "install", "--quiet", "--retries", "3", "--timeout", "20"];
         run(Command::new(python).args(pip).args(packages))
     };
-    // Anew each time: one that was cut short may have a Python without a `pip`.
+    // Created anew each time: an environment that was interrupted may have a Python without `pip`.
     run(Command::new("python3").args(["-m", "venv", "--clear"]).arg(&folder))?;
     pip(&python)?;
     if has(&python) { Ok(python) } else { Err(format!("after installing {packages:?}: no {modules}")) }

@@ -1,11 +1,12 @@
-//! What a test says that cannot run here, for want of a program that is no part of the workspace.
+//! Skipping of tests that need a program which is not part of the workspace and is not installed.
 
 use std::io::Write;
 
-/// Skips the calling test, or fails it where nothing may be skipped: with `CI` or `UNRIPPLE_NOTHING_SKIPPED=1` in the environment.
+/// Reports the calling test as skipped, or fails it if no test may be skipped, that is with `CI` or `UNRIPPLE_NOTHING_SKIPPED=1` in the
+/// environment.
 ///
-/// The reason goes past what captures the output of tests, so that a person sees it, and to the file that `UNRIPPLE_SKIPPED` names,
-/// which `./check` reads out at its end.
+/// The reason is written directly to standard error, past the capture of test output, so that a person sees it, and to the file that
+/// `UNRIPPLE_SKIPPED` names, which `./check` prints at its end.
 #[track_caller]
 pub fn skip(why: &str) {
     let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
@@ -13,7 +14,7 @@ pub fn skip(why: &str) {
     assert!(!none, "{why}; nothing may be skipped here");
     let thread = std::thread::current();
     let line = format!("SKIPPED: {}: {why}\n", thread.name().unwrap_or("a test"));
-    // The macros of printing would be captured.
+    // The output of printing macros would be captured.
     let _ = std::io::stderr().write_all(line.as_bytes());
     if let Some(path) = std::env::var_os("UNRIPPLE_SKIPPED") {
         let mut file = std::fs::OpenOptions::new().append(true).create(true).open(path).unwrap();
