@@ -6,8 +6,8 @@ use unripple_dsp::{kaiser, sinc};
 /// below 0.4 of the sample rate would be above 1e-4; twice as much doubles the least delay and the work.
 pub(crate) const HALF: usize = 24;
 
-/// Channels that come late by a number of samples that need not be whole: a windowed sinc (Kaiser, β = 10), whose error is
-/// below 1e-4 up to 0.4 of the sample rate.
+/// A delay of several channels by a number of samples that need not be whole: a windowed sinc (Kaiser, β = 10), whose
+/// error is below 1e-4 up to 0.4 of the sample rate.
 #[derive(Clone, Debug)]
 pub(crate) struct Delay {
     /// Weights of the samples from `first` back to the oldest; one weight of 1 where the delay is whole.
@@ -18,7 +18,7 @@ pub(crate) struct Delay {
 }
 
 impl Delay {
-    /// So many channels, late by `samples`: a whole number, or at least [`HALF`].
+    /// A delay of so many channels by `samples`: a whole number, or at least [`HALF`].
     pub(crate) fn new(channels: usize, samples: f64) -> Self {
         let whole = samples.floor();
         let (weights, first) = if whole == samples {
@@ -31,7 +31,7 @@ impl Delay {
         Self { weights, first, past }
     }
 
-    /// Delays planes of `frames` samples. Allocates nothing once the first block has passed.
+    /// Delays `planes`, `frames` samples of each channel, in place. Allocates nothing once the first block has passed.
     pub(crate) fn process(&mut self, planes: &mut [f64], frames: usize) {
         let reach = self.first + self.weights.len() - 1;
         if reach == 0 {

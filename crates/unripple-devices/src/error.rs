@@ -3,13 +3,13 @@
 use unripple_core::{DeviceError, OutOfRange};
 use unripple_physics::PhysicsError;
 
-/// Errors of devices, beyond a block that does not pass ([`DeviceError`]).
+/// Errors of devices: of opening them, of their options, and of exchanging blocks ([`DeviceError`]).
 #[derive(Debug, thiserror::Error)]
 pub enum DevicesError {
-    /// The surface behind a virtual device cannot be.
+    /// The surface of a virtual device is not valid.
     #[error(transparent)]
     Physics(#[from] PhysicsError),
-    /// A block did not pass.
+    /// A block could not be exchanged.
     #[error(transparent)]
     Device(#[from] DeviceError),
     /// A value is out of its range.

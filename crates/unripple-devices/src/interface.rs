@@ -5,11 +5,11 @@ use crate::delay::{Delay, HALF};
 use crate::error::same;
 use unripple_core::{Layout, Random, require};
 
-/// The chain between a computer and a surface: converters, amplifiers and wires. The default is perfect.
+/// The chain between a computer and a surface: converters, amplifiers and wires. The default has no faults.
 ///
 /// Faults of the surface itself, of its sensors and of whole channels are
-/// [`InjectedFaults`](unripple_physics::stepper::InjectedFaults); these here act on all outputs and inputs, the probe
-/// included.
+/// [`InjectedFaults`](unripple_physics::stepper::InjectedFaults); those of an interface act on all outputs and
+/// inputs, the probe included.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interface {
     /// Factor of each output's drive; empty for 1. Negative where a wire is reversed.
@@ -18,9 +18,9 @@ pub struct Interface {
     pub heard_gains: Vec<f64>,
     /// Root mean square of white noise on each input, in its own unit; empty for none.
     pub noise: Vec<f64>,
-    /// Samples by which all inputs come late: a whole number, or at least 24.
+    /// Latency of all inputs, in samples: a whole number, or at least 24.
     pub latency: f64,
-    /// Blocks after which the device is gone.
+    /// Number of blocks after which the device is lost; `None` for never.
     pub vanish_after: Option<u64>,
     /// Seed of the noise.
     pub seed: u64,
@@ -39,7 +39,7 @@ impl Default for Interface {
     }
 }
 
-/// An interface at work.
+/// An interface in use, with its delay line and its noise.
 #[derive(Clone, Debug)]
 pub(crate) struct Converter {
     interface: Interface,
@@ -72,17 +72,17 @@ impl Converter {
         Ok(Self { delay: Delay::new(inputs, late), random, interface })
     }
 
-    /// Other noise for another seed.
+    /// Begins the noise anew, another for each seed.
     pub(crate) fn reseed(&mut self, seed: u64) {
         self.random = Random::seeded(self.interface.seed ^ seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
     }
 
-    /// Whether the device is gone after so many blocks.
+    /// Whether the device is lost after so many blocks.
     pub(crate) fn vanished(&self, blocks: u64) -> bool {
         self.interface.vanish_after.is_some_and(|most| blocks >= most)
     }
 
-    /// What of a block's drive leaves, in the actuators' unit.
+    /// Converts a block of drive to the actuators' unit, with each output's gain.
     pub(crate) fn send(&self, layout: &Layout, drive: &[f32], sent: &mut [f64]) {
         let planes = sent.chunks_exact_mut(layout.block).zip(drive.chunks_exact(layout.block));
         for ((sent, drive), gain) in planes.zip(&self.interface.drive_gains) {

@@ -1,10 +1,9 @@
 //! Virtual surfaces, sound servers and files as one kind of device.
 //!
-//! [`Virtual`] is the surface of the time-stepper behind the trait [`Device`](unripple_core::Device), with a
-//! [`Perturbation`] that no model knows of; [`Tape`] keeps a drive and plays recordings to its inputs; [`Jack`] is a
-//! sound server; with the feature `cards`, `cards::Card` is a sound card; [`check_wiring`] says which channel is
-//! silent, swapped or reversed, [`check_responses`] and [`reciprocal`] the same of recordings; [`list`] says what
-//! there is.
+//! [`Virtual`] is a simulated surface as a [`Device`](unripple_core::Device); a [`Perturbation`] makes it differ from
+//! its model. [`Tape`] keeps a drive and plays recordings to its inputs; [`Jack`] is a sound server; with the feature
+//! `cards`, `cards::Card` is a sound card. [`check_wiring`] finds channels that are silent, swapped or reversed,
+//! [`check_responses`] and [`reciprocal`] find them in recordings; [`list`] lists the devices that are available.
 
 #[cfg(feature = "cards")]
 pub mod cards;

@@ -1,9 +1,9 @@
-//! The list of devices that there are.
+//! List of the devices that are available.
 
 use crate::jack;
 use std::path::Path;
 
-/// A device that there is, or what stands for one.
+/// A device that is available, or the reason why one is not.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Found {
     /// A virtual surface: as many channels as a surface has actuators, any rate and block.
@@ -12,15 +12,15 @@ pub enum Found {
     Tape,
     /// A JACK server that answers.
     Jack(Server),
-    /// No JACK server, and why.
+    /// No JACK server answers, and why.
     NoJack(String),
-    /// A sound card, by what the kernel says of it.
+    /// A sound card, as the kernel describes it.
     Card {
-        /// Its number, as the kernel counts cards.
+        /// Number of the card, as the kernel counts cards.
         index: usize,
-        /// Its name, as the kernel gives it.
+        /// Name of the card, as the kernel gives it.
         name: String,
-        /// Its streams, each one direction of one device.
+        /// Streams of the card, each one direction of one device.
         streams: Vec<Stream>,
     },
 }
@@ -45,13 +45,14 @@ pub struct Stream {
     pub device: String,
     /// Whether the stream plays; otherwise it records.
     pub playback: bool,
-    /// Channel counts it offers, ascending; empty where the kernel does not say (only USB cards do).
+    /// Channel counts that the stream offers, ascending; empty where the kernel does not say (only USB cards do).
     pub channels: Vec<usize>,
-    /// Sample rates it offers, in Hz, ascending; empty likewise.
+    /// Sample rates that the stream offers, in Hz, ascending; empty where the kernel does not say.
     pub rates: Vec<f64>,
 }
 
-/// Everything there is, the virtual surface first. Looks at the named JACK server, or at the default one.
+/// All devices that are available, the virtual surface first. Asks the JACK server of the given name, or the default
+/// one.
 ///
 /// ```
 /// assert_eq!(unripple_devices::list(None)[0], unripple_devices::Found::Virtual);

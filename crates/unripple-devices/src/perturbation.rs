@@ -11,8 +11,8 @@ use unripple_physics::{Entry, Medium, Modes, PhysicsError, transducers};
 /// change the profile little.
 const NODES: usize = 9;
 
-/// Seconds in which an actuator sweeps the band, how many actuators do, and samples at once. More of any takes longer
-/// and brings the mean over actuators and places nearer to that of all.
+/// Duration of an actuator's sweep of the band in s, (`SOME`) number of actuators that sweep, and (`BLOCK`) samples that are simulated
+/// at once. More of any takes longer and brings the mean over actuators and places nearer to that of all.
 const SWEPT: f64 = 0.5;
 const SOME: usize = 6;
 const BLOCK: usize = 64;
@@ -45,11 +45,11 @@ const NODES_APART: f64 = 1.1;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Perturbation {
-    /// Signal-to-noise at the inputs while one actuator sweeps the band at the drive limit, in dB: see [`Truth::noise`].
+    /// Signal-to-noise ratio at the inputs while one actuator sweeps the band at the drive limit, in dB: see [`Truth::noise`].
     pub snr_db: f64,
     /// Root mean square of the error of each drive's and each sensor's gain, as a share.
     pub gain: f64,
-    /// Distance of each actuator from where it is said to be, in m, in a random direction.
+    /// Distance of each actuator from its stated place, in m, in a random direction.
     pub misplacement: f64,
     /// Largest deviation of the tension from the nominal one, up or down, as a share: smooth over the sheet, 0 on average.
     pub tension: f64,
@@ -80,26 +80,26 @@ impl Default for Perturbation {
     }
 }
 
-/// A surface as it really is, and what its wires do.
+/// The true surface behind a surface file, with the gains of its channels and its noise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truth {
-    /// The true surface: where its actuators are, what hangs on it.
+    /// The true surface, with the true places of actuators and masses.
     pub surface: Surface,
     /// Factor of each actuator's drive.
     pub drive_gains: Vec<f64>,
     /// Factor of each sensor.
     pub sensor_gains: Vec<f64>,
-    /// Signal-to-noise, in dB.
+    /// Signal-to-noise ratio at the inputs, in dB.
     pub snr_db: f64,
     /// Seed of the noise.
     pub seed: u64,
 }
 
 impl Perturbation {
-    /// The truth behind a surface file.
+    /// Draws the true surface behind a surface file.
     ///
     /// # Errors
-    /// [`DevicesError::Range`] for shares, distances, masses or factors that cannot be.
+    /// [`DevicesError::Range`] for shares, distances, masses or factors out of range.
     pub fn truth(&self, surface: &Surface) -> Result<Truth, DevicesError> {
         require("share by which tension varies", (0.0..1.0).contains(&self.tension), "0 to 1", self.tension)?;
         require("error of gains", self.gain >= 0.0, "0 or more", self.gain)?;
@@ -169,7 +169,7 @@ impl Perturbation {
         )))
     }
 
-    /// The true decay times: the nominal law times the factor at each frequency, at as many of them as a straight line between asks for.
+    /// The true decay times: the nominal law times the factor, at enough frequencies for straight lines between them.
     fn damp(&self, surface: &Surface) -> Result<Vec<(f64, f64)>, DevicesError> {
         let top = surface.emission.band[1];
         let mut nodes = Vec::new();
@@ -236,12 +236,12 @@ impl Perturbation {
 }
 
 impl Truth {
-    /// Relative accuracy of the frequencies of [`Truth::modes`]. Point masses make finite elements converge slowly: a hundred
-    /// times less would take ten to thirty times as long, and the truth would be none the truer.
+    /// Relative accuracy of the frequencies of [`Truth::modes`]. Point masses make finite elements converge slowly: a hundred times less
+    /// would take ten to thirty times as long, and make the simulation no more realistic.
     pub const ACCURACY: f64 = 1e-4;
 
-    /// The true modes up to a frequency (Hz), or as far as a virtual device needs them: seconds of work, so solve them once for device
-    /// and judge.
+    /// The modes of the true surface up to a frequency (Hz), or as far as a virtual device needs them. That takes seconds, so solve them
+    /// once and share them.
     ///
     /// # Errors
     /// Those of [`Modes::solve`].
@@ -252,10 +252,11 @@ impl Truth {
 
     /// Root mean square of the noise on each sensor and on the probe, in their own units.
     ///
-    /// The signal of that ratio is what one actuator makes that sweeps the band at the drive limit L: white of variance
-    /// L²/2 over the band B, of which a mode passes L²/(2B) · (w_a w_i)²/(8σ), by Parseval's theorem and ∫h² = w²/(4σ).
-    /// Averaged over actuators and sensors; for the probe over places, where the mean of φ² is one over the sheet's mass.
-    /// Modes that overlap count as if they did not. Coils on a voltage, which damp the sheet, are swept one after the other.
+    /// The signal, of which `snr_db` gives the ratio, is that of one actuator that sweeps the band at the drive limit L: white of
+    /// variance L²/2 over the band B, of which a mode passes L²/(2B) · (w_a w_i)²/(8σ), by Parseval's theorem and ∫h² = w²/(4σ). It is
+    /// averaged over actuators and sensors; for the probe over places, where the mean of φ² is one over the sheet's mass. Modes that
+    /// overlap count as if they did not. With coils driven by a voltage, which damp the sheet, sweeps of single actuators are simulated
+    /// instead.
     pub fn noise(&self, modes: &Arc<Modes>) -> (f64, f64) {
         let surface = &self.surface;
         let Ok(actuators) = transducers(surface) else { return (0.0, 0.0) };
@@ -282,7 +283,7 @@ impl Truth {
         (down * sensors.sqrt(), down * probe.sqrt())
     }
 
-    /// The same by sweeping some of the actuators.
+    /// The noise of [`Truth::noise`], from simulated sweeps of some of the actuators.
     fn swept(&self, modes: &Arc<Modes>) -> Result<(f64, f64), PhysicsError> {
         let surface = &self.surface;
         let (sheet, rate, [low, high]) = (&surface.sheet, surface.emission.rate, surface.emission.band);
@@ -312,7 +313,7 @@ impl Truth {
         Ok((mean(sensors), mean(probe)))
     }
 
-    /// The wires of the truth, besides those of another interface.
+    /// The gains and the noise of the true surface, combined with those of the interface `besides`.
     pub(crate) fn interface(&self, modes: &Arc<Modes>, besides: &Interface) -> Interface {
         let (sensors, probe) = self.noise(modes);
         let or = |list: &[f64], at: usize, default: f64| list.get(at).copied().unwrap_or(default);
@@ -335,7 +336,7 @@ impl Truth {
     }
 }
 
-/// The decay time that the surface file says, in s.
+/// The amplitude decay time at a frequency (Hz) by the surface file, in s.
 pub(crate) fn nominal_decay(surface: &Surface, hz: f64) -> f64 {
     match &surface.sheet.decay {
         Decay::Time(time) => *time,

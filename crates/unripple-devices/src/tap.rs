@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use unripple_core::Random;
 
-/// A force pulse on the sheet: a fingertip's, a ballpoint's, a small hammer's. Samples of force in N.
+/// A force pulse on the sheet, as of a fingertip, a ballpoint pen or a small hammer: samples of force in N.
 ///
 /// ```
 /// use unripple_devices::Tap;
@@ -26,15 +26,15 @@ impl Tap {
         Self { force: force.into_iter().map(finite).collect() }
     }
 
-    /// Half a sine of some peak (N) and duration (s; at most a second counts), at so many samples per second.
+    /// Half a sine of some peak (N) and duration (s, one second at most); `rate` is in samples per second.
     pub fn half_sine(peak: f64, duration: f64, rate: f64) -> Self {
         let samples = (duration.clamp(0.0, 1.0) * rate).ceil() as usize;
         let at = |i: usize| (PI * (i as f64 + 0.5) / (duration * rate).max(1.0)).sin().max(0.0);
         Self::new((0..samples).map(|i| peak * at(i)).collect())
     }
 
-    /// A pulse such as nobody knows beforehand, the same for one seed: 0.1 to 1 ms long, 0.5 to 5 N strong, skewed, more or
-    /// less peaked, and in one of three cases with a weaker bounce 3 to 12 ms later.
+    /// A random pulse, the same for one seed: 0.1 to 1 ms long, 0.5 to 5 N strong, skewed, more or less peaked, and in one
+    /// of three cases with a weaker bounce 3 to 12 ms later.
     pub fn random(seed: u64, rate: f64) -> Self {
         let mut random = Random::seeded(seed);
         let mut force = Self::bump(&mut random, rate);

@@ -1,4 +1,4 @@
-//! A device that plays nowhere: drives are kept, recordings given beforehand.
+//! A device without a sound system: it keeps its drive, and its inputs play a recording given beforehand.
 
 use crate::DevicesError;
 use crate::error::same;
@@ -34,7 +34,7 @@ pub struct Tape {
 }
 
 impl Tape {
-    /// A tape for playing alone: its inputs are silent, its drive is kept.
+    /// A tape that only keeps its drive; its inputs are silent.
     ///
     /// # Errors
     /// [`DevicesError::Size`] for blocks of no samples.
@@ -44,8 +44,8 @@ impl Tape {
         Ok(Self { layout, drive, recording: None, status: Status::default() })
     }
 
-    /// A tape whose inputs play a recording, one line of samples for each input, 1 for full scale. After its end the
-    /// device is lost: what would have been recorded is not known.
+    /// A tape whose inputs play a recording, `[input][sample]`, 1 for full scale. After its end the device is lost,
+    /// since what would have been recorded is not known.
     ///
     /// # Errors
     /// [`DevicesError::Size`] for another number of lines than inputs or lines of different length.
@@ -56,12 +56,12 @@ impl Tape {
         Ok(Self { recording: Some(recording), ..Self::recorder(layout)? })
     }
 
-    /// The drive so far, a line of samples for each output, 1 for full scale.
+    /// The drive so far, `[output][sample]`, 1 for full scale.
     pub fn drive(&self) -> &[Vec<f32>] {
         &self.drive
     }
 
-    /// The whole drive, a line of samples for each output, 1 for full scale.
+    /// The whole drive, `[output][sample]`, 1 for full scale.
     pub fn into_drive(self) -> Vec<Vec<f32>> {
         self.drive
     }

@@ -1,4 +1,4 @@
-//! The truth that is not the model: what it is off by, and how much noise there is.
+//! The true surface that differs from its model: by how much, and with how much noise.
 
 mod common;
 

@@ -18,7 +18,7 @@ fn device(options: &VirtualOptions) -> Virtual {
     Virtual::new(&film(900.0), options).unwrap()
 }
 
-/// What actuators make at a point, per unit impulse.
+/// Responses of the actuators at a point, per unit impulse.
 fn exact(at: Point) -> Vec<Vec<f64>> {
     let Ok(Responses::Modal(modal)) = responses(&film(900.0), &ResponseOptions::default()) else { panic!() };
     let sampled = sample(&modal, &[at], SAMPLES);

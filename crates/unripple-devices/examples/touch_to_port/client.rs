@@ -1,4 +1,4 @@
-//! A client of a JACK server that uses nothing of ours: it watches ports, or answers packets from its own callback.
+//! A client of a JACK server, independent of this project: it watches ports, or answers packets from its own callback.
 #![allow(unsafe_code)]
 
 use libloading::Library;
@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 
 type Raw = *mut c_void;
 
-/// The functions used; they stay for ever.
+/// The functions of the JACK library that are used; the library stays loaded.
 pub struct Jack {
     open: unsafe extern "C" fn(*const c_char, c_uint, *mut c_uint, ...) -> Raw,
     register: unsafe extern "C" fn(Raw, *const c_char, *const c_char, c_ulong, c_ulong) -> Raw,
@@ -55,19 +55,19 @@ impl Jack {
     }
 }
 
-/// What a client's callback has and tells.
+/// State that a client shares with its callback.
 pub struct Shared {
     jack: &'static Jack,
     raw: Raw,
     rate: f64,
     ins: Vec<Raw>,
     out: Option<(Raw, UdpSocket)>,
-    /// Whether the next sample that is not 0 is to be noted, and when it left, in µs; 0 before.
+    /// Whether the next sample that is not 0 is to be noted, and the time at which it left, in µs; 0 before.
     pub armed: AtomicBool,
     pub found: AtomicU64,
-    /// When the last sample that was not 0 left, in µs.
+    /// Time at which the last sample that was not 0 left, in µs.
     pub last: AtomicU64,
-    /// Cycles in a row without a sound, cycles in all, and late ones.
+    /// Number of cycles in a row without a sound, of all cycles, and of late ones.
     pub silent: AtomicU64,
     pub cycles: AtomicU64,
     pub late: AtomicU64,
@@ -75,13 +75,13 @@ pub struct Shared {
     pub thread: AtomicU64,
 }
 
-/// A client that lives as long as this.
+/// A client that leaves the server when this is dropped.
 pub struct Client {
     pub shared: &'static Shared,
     name: String,
 }
 
-/// What it does in each cycle.
+/// What the client does in each cycle.
 pub enum Role {
     /// Watches so many ports.
     Watch(usize),
@@ -130,7 +130,7 @@ impl Client {
         }
     }
 
-    /// Connects a port of another client to one of ours.
+    /// Connects a port of another client to a port of this one.
     pub fn hear(&self, from: &str, input: usize) -> bool {
         let to = CString::new(format!("{}:in_{input}", self.name)).unwrap_or_default();
         let from = CString::new(from).unwrap_or_default();

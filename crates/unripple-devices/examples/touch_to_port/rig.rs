@@ -1,4 +1,4 @@
-//! A server of our own, the program on it, and what the kernel says of their work.
+//! A JACK server for this example, the program that plays through it, and the processor time of both.
 
 use serde_json::Value;
 use std::error::Error;
@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 /// How long to wait for anything.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// A process that is asked to end when this goes.
+/// A process that is asked to end when this is dropped.
 pub struct Process(pub Child);
 
 impl Process {
@@ -30,7 +30,7 @@ impl Process {
     }
 }
 
-/// Tries until something comes.
+/// Tries until there is a result, 20 s at most.
 pub fn patiently<T>(mut try_it: impl FnMut() -> Option<T>) -> Result<T, Box<dyn Error>> {
     let start = Instant::now();
     loop {
@@ -64,7 +64,7 @@ pub fn server(name: &str, period: usize, real_time: bool) -> Option<Process> {
     Some(Process(child))
 }
 
-/// The program, playing through a server and hearing touches at a port.
+/// Starts the program, which plays through a server and receives touches at a port.
 pub fn program(path: &str, server: &str, port: u16, more: &[&str]) -> std::io::Result<Process> {
     let child = Command::new(path)
         .args(["play", "hudin-2012", "--json", "--device", "jack", "--jack-server", server])
@@ -76,12 +76,12 @@ pub fn program(path: &str, server: &str, port: u16, more: &[&str]) -> std::io::R
     Ok(Process(child))
 }
 
-/// A port that nobody has.
+/// A network port that is free.
 pub fn free_port() -> std::io::Result<u16> {
     Ok(UdpSocket::bind("127.0.0.1:0")?.local_addr()?.port())
 }
 
-/// Seconds of processor that all threads of a process took so far, or one of them.
+/// Processor time of all threads of a process so far, or of one of them, in s.
 pub fn processor(pid: u32, thread: Option<u64>) -> f64 {
     let tasks = std::fs::read_dir(format!("/proc/{pid}/task")).into_iter().flatten().flatten();
     let wanted = tasks.filter(|task| thread.is_none_or(|id| task.file_name() == *id.to_string()));
@@ -92,7 +92,7 @@ pub fn processor(pid: u32, thread: Option<u64>) -> f64 {
     1e-9 * spent.sum::<f64>()
 }
 
-/// Who touches: packets to a port of this machine.
+/// A source of touches: packets to a port of this machine.
 pub struct Finger {
     socket: UdpSocket,
     random: u64,
@@ -105,7 +105,7 @@ impl Finger {
         Ok(Self { socket, random: 0x9e37_79b9_7f4a_7c15 })
     }
 
-    /// A number from 0 to 1.
+    /// A pseudorandom number from 0 to 1.
     pub fn chance(&mut self) -> f64 {
         self.random ^= self.random << 13;
         self.random ^= self.random >> 7;
@@ -124,7 +124,7 @@ impl Finger {
         let _ = self.socket.send(&parts.concat());
     }
 
-    /// Ten fingers that circle, told of a hundred times a second, for some seconds.
+    /// Sends ten fingers that circle, a hundred times a second, for some seconds.
     pub fn ten(&self, seconds: f64) {
         for step in 0..(100.0 * seconds) as usize {
             for finger in 0..10i32 {

@@ -9,20 +9,21 @@ use std::thread::{Thread, ThreadId};
 pub(super) struct Bell(RwLock<Option<Thread>>);
 
 impl Bell {
-    /// From now on the calling thread is woken. Who calls this looks again for what it waits for before it parks.
+    /// Registers the calling thread as the one to wake. After this call, and before it parks, the thread has to look
+    /// again for what it waits for.
     pub(super) fn listen(&self) {
         *self.0.write().unwrap_or_else(PoisonError::into_inner) = Some(std::thread::current());
         // Either the ringer sees who listens, or the listener sees what the ringer brought.
         fence(Ordering::SeqCst);
     }
 
-    /// Whether a thread is the one that is woken.
+    /// Whether a thread is the registered one.
     pub(super) fn wakes(&self, thread: ThreadId) -> bool {
         let listener = self.0.read().unwrap_or_else(PoisonError::into_inner);
         listener.as_ref().is_some_and(|listener| listener.id() == thread)
     }
 
-    /// Wakes whoever listens. While somebody begins to listen nobody need be woken: that one looks by itself.
+    /// Wakes the registered thread. While one registers, none has to be woken: that one looks by itself.
     pub(super) fn ring(&self) {
         fence(Ordering::SeqCst);
         if let Ok(listener) = self.0.try_read()

@@ -1,28 +1,28 @@
-//! How far the two sides of a card have counted their frames, and whether they count together.
+//! Frame counters of the two sides of a card, and whether both run on one clock.
 
 use super::streams::Side;
 use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU32, Ordering};
 
-/// How far a side may be behind the other on one clock, in largest chunks of both: a card holds two of each, and whoever
-/// carries them between card and program may be late by one more.
+/// Largest lag of a side behind the other on one clock, in largest chunks of both: a card holds two of each, and the
+/// system that carries them between card and program may be late by one more.
 const SLACK: u32 = 3;
 
-/// Chunks with which a side begins. A card's sides start one after the other, and the first chunks that are played only
-/// fill what the card holds: being behind in these says where a side begins, not that it runs on another clock.
+/// Number of chunks at the beginning of a side in which a lag does not count as another clock. A card's sides start one
+/// after the other, and the first chunks that are played only fill the card's buffer.
 const FIRST: u32 = 8;
 
-/// How far one side has counted.
+/// Counter of one side.
 #[derive(Debug, Default)]
 struct Count {
-    /// Frames, around 2^32.
+    /// Number of frames so far, modulo 2^32.
     at: AtomicU32,
-    /// Chunks, around 2^32.
+    /// Number of chunks so far, modulo 2^32.
     chunks: AtomicU32,
-    /// The largest of them, in frames.
+    /// Largest chunk so far, in frames.
     largest: AtomicU32,
 }
 
-/// Frames of both sides.
+/// Frame counters of both sides of a card.
 ///
 /// Recorded samples are matched to played ones by their number, so both have to count the same time. A side that was
 /// not called for a while, or whose clock is slower, is behind; it then counts on from where the other one is, so
@@ -30,9 +30,10 @@ struct Count {
 #[derive(Debug, Default)]
 pub(super) struct Counts {
     sides: [Count; 2],
-    /// Frames by which a side was behind when that was noticed first: playing positive, recording negative; 0 if never.
+    /// Frames by which a side was behind when that was first noticed: positive for playing, negative for recording; 0 if
+    /// never.
     apart: AtomicI64,
-    /// Recording is to count on from where playing is, however little it is behind.
+    /// Whether recording has to count on from where playing is, however little it is behind.
     catch_up: AtomicBool,
 }
 
@@ -65,7 +66,7 @@ impl Counts {
         at.wrapping_add(behind as u32)
     }
 
-    /// A side has come to a frame.
+    /// Notes that a side has passed a chunk and come to frame `at`.
     pub(super) fn passed(&self, side: Side, at: u32) {
         let own = self.side(side);
         own.at.store(at, Ordering::Release);
@@ -74,12 +75,13 @@ impl Counts {
         let _ = own.chunks.fetch_update(Ordering::Release, Ordering::Relaxed, more);
     }
 
-    /// Recording is too far behind for the program, though not too far for one clock.
+    /// Asks recording to count on from where playing is: it is too late for the program, though not too late for one
+    /// clock.
     pub(super) fn catch_up(&self) {
         self.catch_up.store(true, Ordering::Relaxed);
     }
 
-    /// Chunks of a side so far, around 2^32.
+    /// Number of chunks of a side so far, modulo 2^32.
     pub(super) fn chunks(&self, side: Side) -> u32 {
         self.side(side).chunks.load(Ordering::Acquire)
     }
@@ -89,7 +91,7 @@ impl Counts {
         self.side(side).largest.load(Ordering::Relaxed) as usize
     }
 
-    /// The message where the counts of the two sides drift apart.
+    /// Message that the counters of the two sides have drifted apart; `None` if they have not.
     pub(super) fn apart(&self) -> Option<String> {
         let [late, ahead] = match self.apart.load(Ordering::Relaxed) {
             0 => return None,

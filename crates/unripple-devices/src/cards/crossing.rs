@@ -10,40 +10,41 @@ use std::sync::{Arc, Mutex};
 /// Events of a card, as its two threads report them.
 #[derive(Debug, Default)]
 pub(super) struct Events {
-    /// How far its sides have come. Frames are counted from when it begins to play.
+    /// Frame counters of the two sides, which begin when the card begins to play.
     pub(super) counts: Counts,
     /// Wakes the program whenever a side has moved on, or is gone.
     pub(super) bell: Bell,
-    /// Times that the card itself ran out of samples.
+    /// Number of times that the card itself ran out of samples.
     pub(super) xruns: AtomicU64,
-    /// Why it is gone, once it is.
+    /// Why the card is gone, once it is.
     pub(super) gone: Mutex<Option<String>>,
 }
 
 impl Events {
-    /// Why it is gone.
+    /// Why the card is gone; `None` while it is not.
     pub(super) fn why_gone(&self) -> Option<String> {
         self.gone.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).clone()
     }
 
-    /// Says that it is gone; the first reason stays.
+    /// Marks the card as gone; the first reason stays.
     pub(super) fn lose(&self, why: String) {
         self.gone.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).get_or_insert(why);
         self.bell.ring();
     }
 }
 
-/// The side of the thread that plays. It neither waits nor allocates: where drive is late it plays silence.
+/// The end of the thread that plays. It neither waits nor allocates: where drive is late it plays silence.
 pub(super) struct Player {
     outputs: usize,
     drive: Consumer<f32>,
-    /// When each frame of drive was played, in frames since the card began, around 2^32.
+    /// When each frame of drive was played, in frames since the card began, modulo 2^32.
     when: Producer<u32>,
     at: u32,
     events: Arc<Events>,
 }
 
-/// The side of the thread that records. It neither waits nor allocates: what nobody takes is dropped.
+/// The end of the thread that records. It neither waits nor allocates: samples that the program does not take are
+/// dropped.
 pub(super) struct Recorder {
     inputs: usize,
     heard: Producer<u32>,
@@ -51,7 +52,7 @@ pub(super) struct Recorder {
     events: Arc<Events>,
 }
 
-/// The side of the program.
+/// The program's end of the rings: drive, the times at which it was played, and recorded frames.
 pub(super) struct Shore {
     pub(super) drive: Producer<f32>,
     pub(super) when: Consumer<u32>,
@@ -59,7 +60,7 @@ pub(super) struct Shore {
     pub(super) heard: Consumer<u32>,
 }
 
-/// The three sides, with room for so many frames.
+/// The ends of player, recorder and program, with rings for so many frames.
 pub(super) fn crossing(
     outputs: usize,
     inputs: usize,
@@ -107,7 +108,8 @@ impl Recorder {
         self.at = at;
     }
 
-    /// Hears so many frames: `get` gives the sample of a frame and an input. Before anything is played none counts.
+    /// Records so many frames: `get` gives the sample of a frame and an input. Frames before the first played one do
+    /// not count.
     pub(super) fn hear(&mut self, frames: usize, get: impl Fn(usize, usize) -> f32) {
         if self.events.counts.chunks(Side::Playback) == 0 {
             return;

@@ -10,14 +10,14 @@ use std::sync::Arc;
 use std::time::Duration;
 use unripple_core::{Device, DeviceError, Layout, Status, require};
 
-/// Frames that the rings hold at least, should the card take many at once. A second and more at usual rates.
+/// Smallest number of frames that the rings hold, since the card may take many at once: more than a second at usual rates.
 const ROOM: usize = 65_536;
 
-/// Periods of the card that drive is ahead of it at least. Two are in the card, and as many pass until what was recorded
-/// with them is heard; with fewer a card of larger periods than blocks would be late each time.
+/// Smallest lead of the drive, in periods of the card. Two are in the card's buffer, and as many pass until samples recorded with
+/// them arrive; with fewer, a card whose periods are longer than blocks would be late each time.
 const PERIODS: usize = 4;
 
-/// How to open a sound card.
+/// Options for opening a sound card.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CardOptions {
     /// The device that plays, as [`found`](super::found) calls it; the system's own choice where `None`.
@@ -32,15 +32,16 @@ pub struct CardOptions {
     pub rate: f64,
     /// Samples per block.
     pub block: usize,
-    /// Drive, in the actuators' unit, of a sample of 1.
+    /// Drive that a sample of 1 stands for, in the actuators' unit.
     pub full_scale: f64,
-    /// Blocks that drive is ahead of the card: so many blocks a program may be late, and so many more all latencies are.
-    /// With a card of larger periods than blocks it is four of its periods, if that is more.
+    /// Number of blocks by which the drive is ahead of the card: the program may be late by them, and all latencies are longer by
+    /// them. Four periods of the card, if that is more.
     pub lead: usize,
-    /// How long neither side may give a sign before the card counts as stalled, in s.
+    /// Time without a chunk of one of the two sides after which the card counts as stalled, in s.
     pub patience: f64,
-    /// Whether a card is lost that itself ran out of samples, or whose two sides do not count together. Its latency is another
-    /// then, which matters when measuring. Otherwise playing goes on, and the side that is behind goes on where the other is.
+    /// Whether a card counts as lost if it ran out of samples itself, or if its two sides do not count together: its latency has
+    /// changed then, which matters when measuring. Otherwise playing continues, and the side that is behind continues where the
+    /// other is.
     pub strict: bool,
 }
 
@@ -63,11 +64,11 @@ impl Default for CardOptions {
 
 /// A sound card as a device, playing and recording at once.
 ///
-/// The card's threads neither wait nor allocate: where drive is late silence is played, and what nobody takes is dropped.
-/// What was missed, a pause between exchanges included, is in [`Status::lost`] as soon as the first block after it is
-/// recorded, and latency is the same after it as before. Both sides have to run on one clock: where they count apart
-/// by more than their buffers explain, a strict card is lost, and says so. So let some blocks of silence pass before
-/// a measurement, and hold `lost` after them against `lost` at its end.
+/// The card's threads neither wait nor allocate: where drive is late, silence is played, and samples that the program does not
+/// take are dropped. Missed blocks, those of a pause between exchanges included, are in [`Status::lost`] as soon as the first
+/// block after them is recorded, and the latency after them is the same as before. Both sides have to run on one clock: if their
+/// counts differ by more than their buffers explain, a strict card is lost, and the error says so. Before a measurement let some
+/// blocks of silence pass, and compare `lost` after them with `lost` at its end.
 ///
 /// ```no_run
 /// use unripple_core::Device;
@@ -91,7 +92,8 @@ impl std::fmt::Debug for Card {
     }
 }
 
-/// Blocks that drive is ahead: as many as asked for, or as a card of some period needs, as far as the rings hold them.
+/// Number of blocks by which the drive is ahead: as many as asked for, or as a card of some period (frames) needs, as far as the
+/// rings hold them.
 pub(super) fn blocks_ahead(asked: usize, block: usize, period: usize, room: usize) -> usize {
     let needed = (PERIODS * period).div_ceil(block);
     needed.min((room / block).saturating_sub(2)).max(asked)
@@ -103,7 +105,7 @@ impl Card {
     /// # Errors
     /// [`DevicesError::Card`] if there is none by that name, or it refuses the rate or the format of samples;
     /// [`DevicesError::Channels`] if it has fewer channels than asked for; [`DevicesError::Range`] and [`DevicesError::Size`] for
-    /// options that cannot be.
+    /// options out of range.
     pub fn open(options: &CardOptions) -> Result<Self, DevicesError> {
         let (block, lead) = (options.block as f64, options.lead as f64);
         require("samples of a block", (1.0..=65_536.0).contains(&block), "1 to 65536", block)?;

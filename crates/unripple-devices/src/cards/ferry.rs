@@ -1,4 +1,4 @@
-//! A card as the program sees it, whatever plays and records behind it.
+//! The program's side of a card: blocks exchanged with the threads that play and record, or with a stand-in for them.
 
 use super::crossing::{Events, Shore};
 use super::streams::{Side, Streams};
@@ -7,43 +7,43 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 use unripple_core::{Device, DeviceError, Layout, State, Status};
 
-/// Blocks in a row whose sound came too late for playing to wait, after which recording counts anew: a callback that was late
-/// once is none of them.
+/// Number of blocks in a row that were recorded too late for playing to wait, after which recording counts on from where
+/// playing is: a callback that was late once does not reach it.
 const LATE: u32 = 8;
 
-/// How a card is waited for.
+/// Settings of waiting for a card.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Manners {
-    /// Blocks that drive is ahead.
+    /// Number of blocks by which the drive is ahead.
     pub(super) lead: u64,
-    /// How long a side may be waited for without a sign of it.
+    /// Time without a chunk of a side after which the card counts as stalled.
     pub(super) patience: Duration,
-    /// Whether a card that ran out of samples, or whose sides do not count together, is lost, since its latency is no longer
-    /// what it was. Otherwise playing goes on, and does not wait for sound that comes too late.
+    /// Whether a card counts as lost if it ran out of samples, or if its sides do not count together, since its latency has
+    /// changed. Otherwise playing continues, and does not wait for recordings that come too late.
     pub(super) strict: bool,
 }
 
 /// Exchanges blocks with a card's two threads.
 ///
 /// Frame `i` of drive is answered by the frame that was recorded when it was handed to the card, so that latency stays the same
-/// whatever was missed in between: silence that was played for want of drive, or sound that nobody took.
+/// whatever was missed in between: silence that was played for want of drive, or recorded frames that the program did not take.
 pub(super) struct Ferry {
     layout: Layout,
     shore: Shore,
     events: Arc<Events>,
     streams: Box<dyn Streams>,
     manners: Manners,
-    /// Chunks of each side when last looked at, and for how long none came since.
+    /// Number of chunks of each side at the last look, and the time without new ones since.
     seen: [u32; 2],
     quiet: [Duration; 2],
     driven: u64,
     /// Blocks whose answer was not there in time.
     owed: u64,
-    /// Of the block that is being recorded: its frames so far, when its next frame was played, frames missed.
+    /// The block that is being recorded: its frames so far, when its next frame was played, and frames missed.
     frames: Vec<f32>,
     next: Option<u32>,
     missed: u64,
-    /// Whether some of them were not waited for, and of how many blocks in a row that was so.
+    /// Whether some frames were not waited for, and in how many blocks in a row.
     hurried: bool,
     late: u32,
     last: Option<u32>,
@@ -142,14 +142,15 @@ impl Ferry {
         Ok(())
     }
 
-    /// Whether waiting any longer would leave the side that plays without drive, where playing goes before hearing.
+    /// Whether waiting any longer would leave the side that plays without drive, if playing comes before recording (not
+    /// strict).
     fn starves(&self) -> bool {
         let waiting = self.shore.drive.buffer().capacity() - self.shore.drive.slots();
         let next = self.events.counts.largest(Side::Playback) * self.layout.outputs.len();
         !self.manners.strict && waiting < next
     }
 
-    /// Waits for one block and takes it. If that takes too long, what there is of it is kept for the next time.
+    /// Waits for one block and takes it. If that takes too long, the frames that have come are kept for the next call.
     fn pop(&mut self, heard: &mut [f32]) -> Result<(), DeviceError> {
         let (block, inputs) = (self.layout.block, self.layout.inputs.len());
         while self.frames.len() < block * inputs.max(1) {

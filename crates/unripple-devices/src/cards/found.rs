@@ -8,7 +8,7 @@ use cpal::traits::{DeviceTrait, HostTrait};
 pub struct CardFound {
     /// Identifier of the device, for [`CardOptions`](super::CardOptions).
     pub id: String,
-    /// Name of the device, for people.
+    /// Name of the device, for display.
     pub name: String,
     /// What the device can play; `None` if it cannot.
     pub playback: Option<Offer>,
@@ -27,7 +27,7 @@ pub struct Offer {
     pub blocks: Option<[usize; 2]>,
 }
 
-/// The devices of the sound system that can play or record; some may be ways to the same card.
+/// The devices of the sound system that can play or record; several may lead to the same card.
 ///
 /// ```
 /// for card in unripple_devices::cards::found() {

@@ -1,4 +1,4 @@
-//! A card with clocks of its own, as its two sides' callers see it. Time passes only while the program waits for it.
+//! A simulated card for tests, with a clock of its own for each side. Time passes only while the program waits for it.
 
 use super::crossing::{Events, Player, Recorder, crossing};
 use super::device::blocks_ahead;

@@ -10,19 +10,19 @@ use std::time::{Duration, Instant};
 
 /// What plays and records behind a card's two sides: streams of the sound system, or what stands in for them.
 pub(super) trait Streams: Send {
-    /// Returns as soon as a side may have moved on, or after so long; how long that took.
+    /// Waits until a side may have moved on, at most so long; returns the time that it waited.
     fn wait(&mut self, at_most: Duration) -> Duration;
 }
 
 /// Streams of the sound system, whose threads call the sides.
 pub(super) struct Running {
-    /// Playing and recording while they are there.
+    /// The open streams; they play and record until they are dropped.
     pub(super) streams: Vec<cpal::Stream>,
     pub(super) events: Arc<Events>,
 }
 
 impl Running {
-    /// The most frames that a side is given at once, as far as the system says.
+    /// Largest number of frames that a side is given at once, as far as the system says; 0 if it does not.
     pub(super) fn period(&self) -> usize {
         let told = self.streams.iter().filter_map(|stream| stream.buffer_size().ok());
         told.max().map_or(0, |frames| frames as usize)
@@ -52,7 +52,7 @@ pub(super) enum Side {
 }
 
 impl Side {
-    /// The other way.
+    /// The opposite direction.
     pub(super) fn other(self) -> Self {
         match self {
             Self::Playback => Self::Capture,
@@ -90,7 +90,7 @@ pub(super) fn name(device: &cpal::Device) -> String {
     device.id().map_or_else(|_| "card".into(), |id| id.id().to_owned())
 }
 
-/// The device of a name, with or without its host's before it, or the system's choice.
+/// The device of a name, with or without the name of its sound system before it; the system's default for `None`.
 pub(super) fn find(named: Option<&str>, side: Side) -> Result<cpal::Device, DevicesError> {
     let host = cpal::default_host();
     let found = match (named, side) {
@@ -151,7 +151,7 @@ pub(super) fn config(
     Ok((config, offer.sample_format()))
 }
 
-/// An error of the card's.
+/// Turns an error of a card into one that says how to fix it.
 pub(super) fn refused(name: &str, error: &Error) -> DevicesError {
     let fix = match error.kind() {
         ErrorKind::DeviceBusy => "another program has it: close that one, or go through JACK or PipeWire",

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use unripple_core::{Device, require};
 
-/// A device run as a client of a JACK server: what a virtual surface is to others, as a sound card with the surface on it would
-/// be. For tests, and for trying things.
+/// A device run as a client of a JACK server: a virtual surface then is to other clients what a sound card with the surface
+/// connected to it would be. For tests and experiments.
 ///
 /// It receives drive on ports `in_NAME`, one for each output of the device, and sends on `out_NAME`, one for each input;
 /// [`Links::Client`](super::Links::Client) connects to them. The server's own thread exchanges the blocks, so a device that
@@ -30,7 +30,7 @@ pub struct Bridge {
 }
 
 impl Bridge {
-    /// Joins the named server, or the default one.
+    /// Runs a device as a client of some name on the named server, or on the default one.
     ///
     /// # Errors
     /// [`DevicesError::Jack`] if there is no library or server or it refuses; [`DevicesError::Size`] if the device's block is not
@@ -53,7 +53,7 @@ impl Bridge {
         Ok(Self { client, faults })
     }
 
-    /// Cycles in which the device gave nothing: it was lost, or the server's period changed.
+    /// Number of cycles in which the device gave nothing: it was lost, or the server's period changed.
     pub fn faults(&self) -> u64 {
         self.faults.load(Ordering::Relaxed)
     }

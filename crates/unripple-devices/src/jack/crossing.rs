@@ -17,7 +17,7 @@ const FREEWHEEL_PATIENCE: Duration = Duration::from_secs(2);
 /// of each is usual.
 const HANDED: usize = 8;
 
-/// The side of the rings that the server's thread has.
+/// The end of the rings in the server's thread.
 ///
 /// Either the thread does work that it was given, or samples cross frame by frame: a frame of drive is one sample of every output
 /// and one 0; a recorded frame is one sample of every input and, in the first frame of a cycle, the number of cycles missed
@@ -30,7 +30,7 @@ pub(super) struct Crossing {
     heard: Producer<f32>,
     events: Arc<Events>,
     closing: Arc<AtomicBool>,
-    /// Nobody drives: not yet, or not any more.
+    /// Whether nobody drives: not yet, or not any more.
     idle: bool,
     started: bool,
     missed: u32,
@@ -46,7 +46,7 @@ pub(super) struct Crossing {
     due: Option<u32>,
 }
 
-/// The side of the rings that the program has.
+/// The end of the rings in the program.
 pub(super) struct Shore {
     pub(super) drive: Producer<f32>,
     pub(super) heard: Consumer<f32>,
@@ -59,7 +59,7 @@ pub(super) struct Shore {
 }
 
 impl Crossing {
-    /// Both sides of two rings of so many frames.
+    /// Both ends of two rings of so many frames.
     pub(super) fn new(outputs: usize, inputs: usize, frames: usize, events: Arc<Events>) -> (Self, Shore) {
         let (push, take) = RingBuffer::new(frames * (outputs + 1));
         let (give, pop) = RingBuffer::new(frames * (inputs + 1));
@@ -105,7 +105,7 @@ impl Crossing {
         self.drive.slots() >= frames * (self.outputs + 1) && self.heard.slots() >= frames * (self.inputs + 1)
     }
 
-    /// Whether a cycle of so many frames can pass; without a clock, drive is waited for.
+    /// Whether a cycle of so many frames can pass; while the server freewheels, drive is waited for.
     fn wait(&mut self, frames: usize) -> bool {
         if self.ready(frames) {
             self.idle = false;
@@ -162,7 +162,7 @@ impl Crossing {
         self.due = Some(frame.wrapping_add(cycle.frames() as u32));
     }
 
-    /// Takes over what the program handed in, and hands back what it wants to have.
+    /// Takes over threads and work from the program, and hands back those that it asks for.
     fn hand_over(&mut self) {
         while let Ok(waiter) = self.waiters.pop() {
             if let Some(before) = self.waiter.replace(waiter) {
@@ -178,7 +178,7 @@ impl Crossing {
         }
     }
 
-    /// Work, or samples that cross.
+    /// One cycle of work, or of samples that cross.
     fn serve(&mut self, cycle: &mut Cycle) {
         if let Some(work) = &mut self.work {
             return work.cycle(cycle);
@@ -233,7 +233,7 @@ impl unripple_core::Cycle for Cycle<'_> {
     }
 }
 
-/// A client that is closed calls no more: whoever lent it work has that back.
+/// A closed client makes no more calls: work that it was given is handed back.
 impl Drop for Crossing {
     fn drop(&mut self) {
         while let Ok(work) = self.hired.pop() {

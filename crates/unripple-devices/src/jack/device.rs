@@ -10,13 +10,13 @@ use std::thread::ThreadId;
 use std::time::{Duration, Instant};
 use unripple_core::{Device, DeviceError, Layout, Server, State, Status, TEND, Work, require};
 
-/// Frames that the rings hold at least, should the server's period grow: four periods of JACK's largest, 8192 frames.
+/// Smallest number of frames that the rings hold, in case the server's period grows: four periods of JACK's largest, 8192 frames.
 const ROOM: usize = 32768;
 
-/// How long to wait at a time for a block: a server that is gone wakes nobody.
+/// Longest wait for a block before looking again: a server that is gone wakes nobody.
 const NAP: Duration = Duration::from_millis(100);
 
-/// How to join a JACK server.
+/// Options for joining a JACK server.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JackOptions {
     /// Name of the client.
@@ -29,14 +29,15 @@ pub struct JackOptions {
     pub inputs: Vec<String>,
     /// What the client's ports are connected to.
     pub links: Links,
-    /// Drive, in the actuators' unit, of a sample of 1.
+    /// Drive that a sample of 1 stands for, in the actuators' unit.
     pub full_scale: f64,
-    /// Blocks that drive is ahead of the server: so many blocks a program may be late, and so many more all latencies are.
+    /// Number of blocks by which the drive is ahead of the server: the program may be late by them, and all latencies are longer by
+    /// them.
     pub lead: usize,
-    /// How long to wait for a cycle before the server counts as stalled, in s.
+    /// Time without a cycle after which the server counts as stalled, in s.
     pub patience: f64,
-    /// Whether the server is to run without a clock while the device is open, as fast as all can follow: nothing is lost then
-    /// however slow the machine. JACK 2 takes no new clients meanwhile: start those first.
+    /// Whether the server freewheels while the device is open: it runs without a clock, as fast as all clients can follow, and
+    /// nothing is lost however slow the machine. JACK 2 takes no new clients meanwhile: start those first.
     pub freewheel: bool,
 }
 
@@ -58,15 +59,14 @@ impl Default for JackOptions {
 
 /// A JACK server as a device. Its block is the server's period, as it was when it was opened.
 ///
-/// It calls whoever is [employed](Device::employ), in the server's own cycle and whatever the period is at the moment. Or blocks are
-/// [exchanged](Device::exchange) with it, which wait in a ring, `lead` of them; a period that grows meanwhile makes it more, and
-/// counts as a block lost.
+/// [`Work`] that is given to [`Device::employ`] is called in the server's own cycle, whatever the period is at the moment. Otherwise
+/// blocks are exchanged by [`Device::exchange`] through a ring in which `lead` of them wait; if the period grows, more of them wait,
+/// and that counts as a lost block.
 ///
-/// In real time the server's thread neither waits nor allocates: where drive is late it plays silence, records
-/// nothing, and counts.
-/// What was missed, a pause between exchanges included, is in [`Status::lost`] as soon as the first block after it is
-/// recorded. So let some blocks of silence pass before a measurement, and hold `lost` after them against `lost` at
-/// its end. A server that freewheels waits for drive instead, two seconds at most.
+/// In real time the server's thread neither waits nor allocates: where drive is late, it plays silence, records nothing, and counts
+/// the missed block. Missed blocks, those of a pause between exchanges included, are in [`Status::lost`] as soon as the first block
+/// after them is recorded. Before a measurement let some blocks of silence pass, and compare `lost` after them with `lost` at its
+/// end. A server that freewheels waits for drive instead, two seconds at most.
 ///
 /// ```no_run
 /// use unripple_core::Device;
@@ -85,13 +85,12 @@ pub struct Jack {
     layout: Layout,
     lead: u64,
     patience: Duration,
-    /// Blocks driven, blocks whose answer is still to come, and those of them that were not there in time and are to be thrown
-    /// away.
+    /// Blocks driven, blocks whose answer is still to come, and those of them that were not there in time and are to be discarded.
     driven: u64,
     under_way: u64,
     owed: u64,
     xruns: u64,
-    /// Who was last said to wait for blocks, and whether work is with the server.
+    /// The thread that was last registered as waiting for blocks, and whether the server has work to call.
     waiter: Option<ThreadId>,
     employs: bool,
     watch: Watch,
@@ -112,8 +111,8 @@ impl Jack {
     /// Joins a server, with ports connected.
     ///
     /// # Errors
-    /// [`DevicesError::Jack`] if there is no library or server, or it refuses a port or a connection;
-    /// [`DevicesError::Channels`] for fewer ports than channels; [`DevicesError::Range`] for options that cannot be.
+    /// [`DevicesError::Jack`] if there is no library or server, or it refuses a port or a connection; [`DevicesError::Channels`] for
+    /// fewer ports than channels; [`DevicesError::Range`] for options out of range.
     pub fn open(options: &JackOptions) -> Result<Self, DevicesError> {
         let lead = options.lead as f64;
         require("blocks of lead", (1.0..=1000.0).contains(&lead), "1 to 1000", lead)?;
@@ -186,7 +185,7 @@ impl Jack {
         if period <= block { self.lead } else { self.lead.max((2 * period).div_ceil(block) as u64) }
     }
 
-    /// Says who is to be woken when a block has passed.
+    /// Registers the calling thread as the one to wake when a block has passed.
     fn wait_here(&mut self) {
         let here = std::thread::current();
         if self.waiter != Some(here.id()) {
@@ -221,7 +220,7 @@ impl Jack {
         Ok(())
     }
 
-    /// Waits for one block and takes it; or else says that there is none before more drive is under way.
+    /// Waits for one block and takes it; `false` if none can come before more drive is sent.
     fn pop(&mut self, heard: &mut [f32]) -> Result<bool, DeviceError> {
         let (block, inputs) = (self.layout.block, self.layout.inputs.len());
         let wanted = block * (inputs + 1);
@@ -262,7 +261,7 @@ impl Jack {
         Ok(true)
     }
 
-    /// The next block that is not thrown away; silence while more drive must be under way.
+    /// The next block that is not discarded; silence while more drive has to be sent first.
     fn hear(&mut self, heard: &mut [f32]) -> Result<(), DeviceError> {
         if self.under_way <= self.lead {
             heard.fill(0.0);
@@ -314,7 +313,7 @@ impl Device for Jack {
 
     fn exchange(&mut self, drive: &[f32], heard: &mut [f32]) -> Result<(), DeviceError> {
         self.layout.fits(drive.len(), heard.len())?;
-        // Answers that came too late once are thrown away, so that latency stays what it is.
+        // Answers that came too late once are discarded, so that latency stays what it is.
         while self.owed > 0 && self.pop(heard)? {
             self.owed -= 1;
         }
@@ -322,7 +321,7 @@ impl Device for Jack {
         (self.driven, self.under_way) = (self.driven + 1, self.under_way + 1);
         self.hear(heard)?;
         let late = self.late();
-        // What came late before the first block is nobody's loss.
+        // Cycles that were late before the first block do not count as lost.
         self.status.lost += if self.driven > 1 { late } else { 0 };
         self.status.blocks += 1;
         self.status.state = State::Running;
@@ -343,7 +342,7 @@ impl Device for Jack {
             return None;
         }
         self.shore.dismissing.store(true, Ordering::Release);
-        // One that was seen to stand still before is not waited for again.
+        // A server that was seen to stand still before is not waited for again.
         let last = self.watch.last(self.client.events.cycles.load(Ordering::Acquire));
         while self.shore.fired.is_empty() && last.elapsed() < self.patience {
             if self.client.events.gone.load(Ordering::Acquire) {

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-/// Cycles after which a change holds: one may be under way already, and one begins the change.
+/// Number of cycles after which a change is in effect: one may be under way already, and one begins the change.
 const SETTLED: u64 = 3;
 
 /// Events of a client, as the server's callbacks report them, in atomics.
@@ -13,31 +13,31 @@ pub(super) struct Events {
     pub(super) cycles: AtomicU64,
     /// Cycles that the server says came late.
     pub(super) xruns: AtomicU64,
-    /// Cycles that were over before our part of them was done.
+    /// Cycles that ended before this client's part of them was done.
     pub(super) own_late: AtomicU64,
     /// Samples that the server left out between cycles so far.
     pub(super) skipped: AtomicU64,
     /// Samples of the last cycle.
     pub(super) period: AtomicUsize,
-    /// Whether the server waits for nobody's clock.
+    /// Whether the server freewheels: it runs without a clock.
     pub(super) freewheeling: AtomicBool,
     /// Whether the server is gone.
     pub(super) gone: AtomicBool,
 }
 
-/// Which ports to list.
+/// Direction of the ports to list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
-    /// Those that sound can be sent to.
+    /// Ports that sound can be sent to.
     Playback,
-    /// Those that sound comes from.
+    /// Ports that sound comes from.
     Capture,
 }
 
 impl Events {
-    /// Waits until what was just changed holds in all clients: a server takes up connections at the beginning of a cycle, and a client that
-    /// was late with its last cycle has no part in the first of a server that has begun to freewheel. What is sent before is lost without
-    /// a word. A server that stands still is found out by whoever waits for a block.
+    /// Waits until a change that was just made is in effect in all clients: a server takes up connections at the beginning of a cycle, and
+    /// a client that was late with its last cycle has no part in the first of a server that has begun to freewheel. Samples sent before are
+    /// lost without notice. A server that stands still is found later, when a block is waited for.
     pub(super) fn settle(&self, patience: Duration) {
         let (start, cycles) = (Instant::now(), self.cycles.load(Ordering::Acquire));
         while self.cycles.load(Ordering::Acquire) < cycles + SETTLED && start.elapsed() < patience {

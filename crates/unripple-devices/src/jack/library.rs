@@ -60,7 +60,7 @@ impl Cycle<'_> {
         self.frames as usize
     }
 
-    /// The server's count of samples at the beginning of the cycle, and its time of that; nothing from a server that does not know.
+    /// The server's count of samples at the beginning of the cycle, and the time of that; `None` from a server that does not know.
     pub(super) fn time(&self) -> Option<(u32, Instant)> {
         let (mut frame, mut began, mut next, mut period) = (0, 0, 0, 0.0);
         // SAFETY: the client is open while it is called; the places written to live until the call returns.
@@ -74,8 +74,7 @@ impl Cycle<'_> {
         (failed == 0).then(|| (frame, here.checked_sub(ago).unwrap_or(here) + ahead))
     }
 
-    /// When the next cycle is to begin, by the server's clock: to be read at the beginning of this one, since the server counts on
-    /// meanwhile.
+    /// Time by the server's clock, in µs, at which the next cycle is to begin; to be read before the server counts on.
     pub(super) fn next(&self) -> Option<u64> {
         let (mut frame, mut began, mut next, mut period) = (0, 0, 0, 0.0);
         // SAFETY: as above.
@@ -133,7 +132,7 @@ pub(super) struct Client {
     outputs: Vec<*mut RawPort>,
     /// Once active: what the callbacks get, owned.
     context: *mut Context,
-    /// Whether it let the server run without a clock.
+    /// Whether it made the server run without a clock.
     freewheels: bool,
     pub(super) events: Arc<Events>,
 }
@@ -215,7 +214,7 @@ impl Client {
         unsafe { (self.api.last_frame_time)(self.raw) }
     }
 
-    /// Adds a port of its own, before [`Client::start`]: an input, or an output.
+    /// Adds a port of this client, before [`Client::start`]: an input if `hears`, otherwise an output.
     pub(super) fn add(&mut self, name: &str, hears: bool) -> Result<(), DevicesError> {
         let (short, kind) = (text(name)?, c"32 bit float mono audio");
         let flags = if hears { PORT_IS_INPUT } else { PORT_IS_OUTPUT };
@@ -235,7 +234,7 @@ impl Client {
         Ok(())
     }
 
-    /// Begins to take part in cycles. Once for each client.
+    /// Begins to take part in cycles, with `process` called in each. Once for each client.
     pub(super) fn start(&mut self, process: Box<dyn Process>) -> Result<(), DevicesError> {
         let context = Context {
             api: self.api,
@@ -308,7 +307,8 @@ impl Client {
         u8::try_from(priority).ok().filter(|priority| real_time != 0 && *priority > 0)
     }
 
-    /// The largest latency in samples between our ports and the air, as the server knows it: of inputs, of outputs.
+    /// Largest latency in samples between this client's ports and the physical inputs and outputs, as the server knows it: of inputs, of
+    /// outputs.
     pub(super) fn latencies(&self) -> [u64; 2] {
         let sides = [(&self.inputs, CAPTURE_LATENCY), (&self.outputs, PLAYBACK_LATENCY)];
         sides.map(|(ports, mode)| {
@@ -322,8 +322,8 @@ impl Client {
         })
     }
 
-    /// Takes part no longer: once this returns, nobody has what was given to [`Client::start`], unless the server stands still. That is
-    /// left after a second, and drops what it has when it goes on. No other call may follow.
+    /// Closes the client: once this returns, nothing that was given to [`Client::start`] is in use any more, unless the server stands
+    /// still. Such a server is left after a second, and drops what it has when it goes on. No other call may follow.
     pub(super) fn close(&mut self) {
         let raw = std::mem::replace(&mut self.raw, ptr::null_mut());
         if raw.is_null() {

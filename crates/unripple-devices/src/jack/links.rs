@@ -11,21 +11,21 @@ pub enum Links {
     /// The system's playback and capture ports, in order.
     #[default]
     System,
-    /// Another client, by its name: our `out_a1` to its `in_a1`, its `out_a1` to our `in_a1`. [`Bridge`](super::Bridge) has
-    /// such ports.
+    /// Another client, by its name: the port `out_a1` of this client to its `in_a1`, its `out_a1` to the port `in_a1` of
+    /// this one. [`Bridge`](super::Bridge) has such ports.
     Client(String),
     /// Ports by their full names: one to play to for each output, one to record from for each input.
     Ports {
         /// Ports that receive, in the order of the outputs.
         playback: Vec<String>,
-        /// Ports that speak, in the order of the inputs.
+        /// Ports that send, in the order of the inputs.
         capture: Vec<String>,
     },
-    /// Nothing: somebody else connects them.
+    /// No ports: another program connects them.
     None,
 }
 
-/// Stands for our own client's name, which the server decides.
+/// Placeholder for the name of this client, which the server decides.
 pub(super) const OWN: &str = "\u{1}";
 
 /// Pairs of ports to connect, from and to.

@@ -25,16 +25,16 @@ pub(crate) struct Seen {
     pub(crate) capture: Vec<String>,
 }
 
-/// For a program that is about to be ended from outside: waits until none of its clients is just joining a JACK server or leaving it, ten
-/// seconds at most, and lets none do so any more. A program that ends by itself does so without this call.
+/// Prepares a program for being ended from outside: waits until none of its clients is joining a JACK server or leaving it, ten seconds
+/// at most, and lets none do so any more. A program that ends by itself needs no call of this.
 ///
-/// JACK 2 locks a database meanwhile that all JACK programs of a user share, and nobody takes the lock of one that ended within it: every
-/// JACK program started then waits for ever.
+/// While a client joins or leaves, JACK 2 locks a database that all JACK programs of a user share. The lock of a program that ends
+/// meanwhile is never released: every JACK program started later waits for ever.
 pub fn shut() {
     library::shut();
 }
 
-/// Looks at a server, if one answers.
+/// Asks a server for its properties, if one answers.
 pub(crate) fn look(server: Option<&str>) -> Result<Seen, crate::DevicesError> {
     let client = Client::open("unripple-devices", server)?;
     Ok(Seen {

@@ -2,8 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-/// Looks in a row that find the server at work and the client not called, after which it will not be: the first look after a server
-/// stood still may come just before it calls.
+/// Number of looks in a row that find the server running and the client not called, after which the client counts as left out: the
+/// first look after a server stood still may come just before it calls.
 const LOOKS: u32 = 3;
 
 /// The server's cycles and samples as last seen.
@@ -17,21 +17,21 @@ pub(super) struct Watch {
     moved: u32,
 }
 
-/// How the cycles fare.
+/// Progress of the server's cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Pace {
-    /// So many passed since the last look.
+    /// So many cycles passed since the last look.
     Passed(u64),
-    /// None did, for a while that is not too long yet.
+    /// No cycle passed, but the patience is not over yet.
     Waiting,
-    /// None did for too long.
+    /// No cycle passed for longer than the patience: the server stands still.
     Stands(Duration),
     /// The server goes on without its client.
     LeftOut(Duration),
 }
 
 impl Watch {
-    /// From now on, after so many cycles.
+    /// A watch from now on, after so many cycles.
     pub(super) fn new(cycles: u64) -> Self {
         Self { cycles, at: Instant::now(), frame: 0, moved: 0 }
     }
@@ -41,7 +41,8 @@ impl Watch {
         if cycles > self.cycles { Instant::now() } else { self.at }
     }
 
-    /// After so many cycles; the server's own count of samples is asked for only when none passed for too long.
+    /// Looks at the progress, after so many cycles. The server's own count of samples is asked for only when none passed for too
+    /// long.
     pub(super) fn look(&mut self, cycles: u64, patience: Duration, frame: impl FnOnce() -> u32) -> Pace {
         let (more, since) = (cycles - self.cycles, self.at.elapsed());
         if more > 0 {

@@ -1,4 +1,4 @@
-//! Sensations of fingers on a virtual surface.
+//! What fingers on a virtual surface feel.
 
 use super::Handle;
 use crate::DevicesError;
@@ -6,39 +6,39 @@ use unripple_core::{Contact, FOCAL_RADIUS, Finger, Outline, Phase, Point, Surfac
 use unripple_dsp::{Threshold, Weighting};
 use unripple_physics::Medium;
 
-/// One of so many samples of the surface is looked at: at 48 kHz every 83 µs, twelve times a period of 1 kHz. Twice
-/// as many cost half as much and may miss the largest displacement by more.
+/// Distance of the samples at which the surface is watched: at 48 kHz every 83 µs, twelve times a period of 1 kHz. Twice as much
+/// costs half as much and may miss the largest displacement by more.
 const STRIDE: usize = 4;
 
-/// Places beside the fingers that are looked at, along each side of the outline's bounding box: 36 in all, whose mean
+/// Number of places besides the fingers that are watched, along each side of the outline's bounding box: 36 in all, whose mean
 /// square stands for that of the whole sheet. Twice as many cost four times as much.
 const ACROSS: usize = 6;
 
 /// The sensation of one finger on a virtual surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Feeling {
-    /// The name that the finger was put down under.
+    /// Number of the finger, as in its [`Touch`].
     pub finger: u64,
     /// Place of the finger, in m.
     pub at: Point,
-    /// Largest displacement since the last look, weighed by the threshold of touch, in dB above it; `None` in silence.
+    /// Largest displacement since the last look, weighted by the threshold of touch, in dB above it; `None` in silence.
     pub level_db: Option<f64>,
-    /// Largest velocity since the last look over the rms of that of places outside all fingers' focal discs at the same
-    /// instant; `None` where nothing is felt.
+    /// Contrast: largest velocity since the last look, relative to the rms velocity of the places outside all fingers' focal discs
+    /// at the same instant; `None` where nothing is felt.
     pub contrast: Option<f64>,
 }
 
 /// Puts fingers on a virtual surface and computes what they feel.
 ///
-/// Each finger is a slot that is watched where the finger is; a grid of other places is watched for contrast. What is felt
-/// is what the sheet really does under the load of all fingers.
+/// Each finger is a slot that is watched where the finger is; a grid of other places is watched for contrast. The fingers load the
+/// sheet, and what they feel is its motion under the load of all of them.
 #[derive(Debug)]
 pub struct Feeler {
     handle: Handle,
-    /// The load of each finger on the surface; nothing where they only look.
+    /// The load of each finger on the surface; `None` where fingers do not load it.
     finger: Option<Finger>,
     outline: Outline,
-    /// Who is in each slot, whether they press on the surface yet, whether they have left since the last look, and where they are.
+    /// The finger in each slot, whether it presses on the surface yet, whether it has left since the last look, and where it is.
     slots: Vec<Option<u64>>,
     pressing: Vec<bool>,
     left: Vec<bool>,
@@ -77,14 +77,13 @@ impl Feeler {
         })
     }
 
-    /// The same feeler with fingers that weigh nothing: what is computed is what the free surface does where they
-    /// are.
+    /// This feeler with fingers that do not load the surface: it computes the motion of the free surface where they are.
     pub fn weightless(self) -> Self {
         Self { finger: None, ..self }
     }
 
-    /// A finger came, moved or went. One for which there is no slot is not felt; one for which the surface has no room while others
-    /// are still being lifted presses as soon as it has.
+    /// Takes in that a finger came, moved or went. One for which there is no slot is not felt; one for which the surface has no
+    /// room while others are still being lifted presses as soon as it has.
     ///
     /// # Errors
     /// [`DevicesError`] for a finger that the surface does not know.

@@ -7,8 +7,8 @@ use std::sync::{Arc, Mutex};
 use unripple_core::{Contact, Point, require};
 use unripple_physics::stepper::{FingerMotion, History, Plant};
 
-/// Reaches a virtual surface while its device is in other hands: moves the probe, taps, and puts fingers on it. What it
-/// does takes effect with the next block.
+/// A handle on a virtual surface, for use while another part of the program has its device: moves the probe, taps, and puts fingers
+/// on it. Its calls take effect with the next block.
 #[derive(Clone, Debug)]
 pub struct Handle {
     workings: Arc<Mutex<Workings>>,
@@ -24,8 +24,8 @@ impl Handle {
         lock(&self.workings).surface.surface().samples()
     }
 
-    /// Begins anew: the surface at rest as it was made, at time 0, no taps or fingers, the probe where it was at first. The noise
-    /// of the interface is another for each seed and the same for one.
+    /// Resets the surface: at rest as it was made, at time 0, without taps or fingers, the probe at its first place. The noise of the
+    /// interface is another for each seed and the same for one.
     pub fn rest(&self, seed: u64) {
         lock(&self.workings).rest(seed);
     }
@@ -39,7 +39,7 @@ impl Handle {
     }
 
     /// Watches displacement (m) at some places instead of any before, every `stride`-th sample from the next block on;
-    /// [`Handle::watched`] takes it. None of it is noisy or late.
+    /// [`Handle::watched`] returns it. It has neither noise nor latency.
     ///
     /// # Errors
     /// [`DevicesError::Physics`] for a place that is not finite.
@@ -47,8 +47,8 @@ impl Handle {
         lock(&self.workings).watch(places, stride)
     }
 
-    /// Moves the watched places (in m), as many as there are: their traces go on, and those that stay cost nothing. A
-    /// move takes effect at the next block.
+    /// Moves the watched places (in m), as many as there are: their traces go on, and places that stay cost nothing. A move takes
+    /// effect at the next block.
     ///
     /// # Errors
     /// [`DevicesError::Range`] for another number of places, [`DevicesError::Physics`] for one that is not finite; nothing has moved
@@ -66,8 +66,8 @@ impl Handle {
         lock(&self.workings).watch.take()
     }
 
-    /// Remembers from now on the state of all modes after every `stride`-th sample, the newest so many; [`Handle::history`] reads it.
-    /// To begin anew forgets it.
+    /// Records from now on the state of all modes after every `stride`-th sample, and keeps the newest `states` of them;
+    /// [`Handle::history`] reads them. [`Handle::rest`] discards them.
     ///
     /// # Errors
     /// [`DevicesError::Physics`], as [`remember`](unripple_physics::VirtualSurface::remember).
@@ -75,18 +75,18 @@ impl Handle {
         Ok(lock(&self.workings).surface.surface_mut().remember(stride, states)?)
     }
 
-    /// Shows what is remembered; the surface waits meanwhile.
+    /// Calls `look` with the recorded states, while the surface waits; `None` if nothing is recorded.
     pub fn history<R>(&self, look: impl FnOnce(&History) -> R) -> Option<R> {
         lock(&self.workings).surface.surface().history().map(look)
     }
 
-    /// The sheet, to read its modes anywhere.
+    /// The modal model of the sheet, to evaluate its modes at any place.
     pub fn plant(&self) -> Plant {
         lock(&self.workings).surface.surface().plant().clone()
     }
 
-    /// Taps at a place, some time (s) after the next block begins; that a tap lasts counts from there on. Its force acts as that
-    /// of an actuator would: with everything that hangs on the sheet.
+    /// Taps at a place (m); the force begins `after` seconds after the start of the next block. It acts like that of an actuator, on
+    /// the sheet with all its loads.
     ///
     /// # Errors
     /// [`DevicesError::Taps`] if more taps would fall into one block than the device was made for, [`DevicesError::Range`]
@@ -124,7 +124,7 @@ impl Handle {
         Ok(lock(&self.workings).surface.surface_mut().lift(id)?)
     }
 
-    /// Displacement, velocity and force of a finger, in m, m/s and N; nothing of one that is not down.
+    /// Displacement, velocity and force of a finger, in m, m/s and N; `None` for one that is not down.
     pub fn finger_motion(&self, id: u64) -> Option<FingerMotion> {
         lock(&self.workings).surface.surface().finger_motion(id)
     }

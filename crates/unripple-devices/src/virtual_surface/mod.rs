@@ -1,4 +1,4 @@
-//! The virtual surface as a device: it is computed in time, block by block.
+//! The virtual surface as a device: simulated in time, block by block.
 
 mod feeler;
 mod handle;
@@ -30,14 +30,14 @@ pub struct VirtualOptions {
     pub faults: InjectedFaults,
     /// Converters and amplifiers between program and surface.
     pub interface: Interface,
-    /// Where the probe is at first; in the middle of the outline's bounding box where `None`.
+    /// Place of the probe at first, in m; in the middle of the outline's bounding box where `None`.
     pub probe: Option<Point>,
-    /// Top frequency of the modes, in Hz. Where `None` the band's, and half as much again where coils or masses hang on the
-    /// surface, which feel modes above it.
+    /// Top frequency of the modes, in Hz. Where `None` the band's, and half as much again where coils or masses load the surface,
+    /// since they couple to modes above the band.
     pub max_hz: Option<f64>,
-    /// Relative accuracy of the frequencies.
+    /// Relative accuracy of the modes' natural frequencies.
     pub accuracy: f64,
-    /// Taps at once.
+    /// Largest number of taps at once.
     pub taps: usize,
     /// Whether a block takes as long as it lasts. Otherwise a block passes as fast as it can be computed.
     pub real_time: bool,
@@ -59,16 +59,16 @@ impl Default for VirtualOptions {
     }
 }
 
-/// Steps of a sample where something hangs on a surface that is to be measured. With one, the signals of coils on a
-/// voltage come up to 0.035 samples early; that falls as the square of their number.
+/// Simulation steps per sample for a surface with coils or masses that is to be measured. With one, the signals of voltage-driven
+/// coils come up to 0.035 samples early; that falls as the square of the number of steps.
 const FINE: usize = 3;
 
 impl VirtualOptions {
-    /// The defaults for a surface that is to be measured: where coils or masses hang on it, steps of a third of a sample, so that
+    /// The defaults for a surface that is to be measured: where coils or masses load it, steps of a third of a sample, so that
     /// nothing is late or early by more than a few hundredths of one.
     ///
     /// # Errors
-    /// [`DevicesError::Physics`] for actuators that cannot be.
+    /// [`DevicesError::Physics`] for actuators that are not valid.
     pub fn to_be_measured(surface: &Surface) -> Result<Self, DevicesError> {
         let top = surface.emission.band[1];
         let loaded = stepped_hz(surface, top)? > top;
@@ -79,10 +79,10 @@ impl VirtualOptions {
 
 /// A virtual surface as a device, microphone included.
 ///
-/// An output for each actuator, by its name; an input for the sensor of each, by the same names, then [`PROBE`], the normal
-/// velocity (m/s) at a place that can be moved. A sample of 1 drives with the surface's emission limit. What is heard of an actuator
-/// is the motion alone, in its sensor's own unit ([`Sensor`](unripple_physics::Sensor)): m/s for an ideal force, V for a coil on a
-/// current, A for one on a voltage and for a patch. Time passes only in [`Device::exchange`].
+/// An output for each actuator, by its name; an input for the sensor of each, by the same names, then [`PROBE`], the normal velocity
+/// (m/s) at a place that can be moved. A sample of 1 drives with the surface's emission limit. The signal of an actuator's sensor
+/// comes from the motion alone, in its own unit ([`Sensor`](unripple_physics::Sensor)): m/s for an ideal force, V for a coil driven
+/// by a current, A for one driven by a voltage and for a patch. Time passes only in [`Device::exchange`].
 ///
 /// ```
 /// use unripple_core::*;
@@ -115,7 +115,7 @@ pub struct Virtual {
 }
 
 impl Virtual {
-    /// A surface at rest, its modes solved here.
+    /// A surface at rest, whose modes are solved here.
     ///
     /// # Errors
     /// Those of [`Modes::solve`] and [`Virtual::with_modes`].
@@ -124,10 +124,10 @@ impl Virtual {
         Self::with_modes(surface, Arc::new(modes), options)
     }
 
-    /// A surface at rest with modes that are known.
+    /// A surface at rest, with modes that were solved before.
     ///
     /// # Errors
-    /// [`DevicesError::Range`] and [`DevicesError::Size`] for values that cannot be; those of [`VirtualSurface::new`].
+    /// [`DevicesError::Range`] and [`DevicesError::Size`] for values out of range; those of [`VirtualSurface::new`].
     pub fn with_modes(
         surface: &Surface,
         modes: Arc<Modes>,
@@ -166,8 +166,8 @@ impl Virtual {
         })
     }
 
-    /// The true surface, with its own gains and noise besides what the options say of faults, latency and vanishing. Its
-    /// modes are those of [`Truth::modes`], whatever accuracy the options ask for.
+    /// A device with the true surface, its gains and its noise, besides the faults, the latency and the loss of the device that the
+    /// options ask for. Its modes are those of [`Truth::modes`], whatever accuracy the options ask for.
     ///
     /// # Errors
     /// Those of [`Virtual::new`].
@@ -175,7 +175,7 @@ impl Virtual {
         Self::of_truth_with_modes(truth, truth.modes(options.max_hz)?, options)
     }
 
-    /// The true surface, its modes being known already.
+    /// As [`Virtual::of_truth`], with modes that were solved before.
     ///
     /// # Errors
     /// Those of [`Virtual::with_modes`].
@@ -188,7 +188,7 @@ impl Virtual {
         Self::with_modes(&truth.surface, modes, &VirtualOptions { interface, ..options.clone() })
     }
 
-    /// Reaches the surface while the device is in other hands.
+    /// A handle on the surface, for use while another part of the program has the device.
     pub fn handle(&self) -> Handle {
         Handle::new(self.workings.clone())
     }
@@ -229,10 +229,10 @@ impl Device for Virtual {
     }
 }
 
-/// Top frequency of a surface's modes, in Hz: that asked for, or what it takes for its band.
+/// Top frequency of a surface's modes, in Hz: `asked`, or what the surface's band needs.
 ///
 /// # Errors
-/// [`DevicesError::Physics`] for actuators that cannot be.
+/// [`DevicesError::Physics`] for actuators that are not valid.
 pub(crate) fn top(surface: &Surface, asked: Option<f64>) -> Result<f64, DevicesError> {
     match asked {
         Some(top) => Ok(top),

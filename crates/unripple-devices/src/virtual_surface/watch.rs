@@ -12,7 +12,7 @@ const KEPT: usize = 1 << 16;
 pub(super) const PROBE: usize = 0;
 const FIRST: usize = 1;
 
-/// Displacement at some places, kept for whoever looks.
+/// Displacement at some places, kept until it is taken.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Watch {
     /// Where displacement is recorded, in m.
@@ -26,7 +26,7 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    /// Every `stride`-th sample at these places.
+    /// A watch of every `stride`-th sample at these places (m).
     pub fn new(places: &[Point], stride: usize, probe: Option<Point>) -> Self {
         let traces = vec![VecDeque::new(); places.len()];
         Self { places: places.to_vec(), stride: stride.max(1), wait: 0, traces, probe }
@@ -37,7 +37,7 @@ impl Watch {
         self.probe = Some(at);
     }
 
-    /// The readings, by number, that would have to move for the places to be these (in m), as many as there are.
+    /// Readings, by number, that have to move for the places to become these (in m), as many as there are.
     pub fn moves(&self, places: &[Point]) -> Vec<(usize, Point)> {
         let both = self.places.iter().zip(places).enumerate();
         both.filter(|(_, (old, new))| old != new).map(|(i, (_, new))| (FIRST + i, *new)).collect()
@@ -64,7 +64,7 @@ impl Watch {
         [(probe, Reading::Velocity)].into_iter().chain(watched).collect()
     }
 
-    /// Keeps what is to be kept of a block, one plane for each place.
+    /// Keeps every `stride`-th sample of a block, which has one plane of samples for each place.
     pub fn keep(&mut self, planes: &[f64], frames: usize) {
         if self.places.is_empty() || frames == 0 {
             return;

@@ -19,8 +19,8 @@ pub(super) struct Workings {
     block: usize,
     outputs: usize,
     slots: Vec<Slot>,
-    /// Planes of drive, those of taps last; of sensors, those of taps last; of the probe and what is watched; and of what is
-    /// heard.
+    /// Buffers of one block, a plane for each channel: drives, with those of taps last; sensors, with those of taps last;
+    /// the probe and the watched places; the device's inputs.
     drive: Vec<f64>,
     sensors: Vec<f64>,
     probes: Vec<f64>,
@@ -78,7 +78,7 @@ impl Workings {
         }
     }
 
-    /// Begins anew, with noise of its own for each seed.
+    /// Resets surface and interface, with noise of its own for each seed.
     pub(super) fn rest(&mut self, seed: u64) {
         (self.surface, self.converter) = self.first.clone();
         self.converter.reseed(seed);
@@ -117,7 +117,7 @@ impl Workings {
         self.surface.lost() as u64
     }
 
-    /// Passes one block through converters, faults and surface; an error says why there is none any more.
+    /// Passes one block through converters, faults and surface; an error says why no more blocks pass.
     pub(super) fn exchange(
         &mut self,
         layout: &Layout,
@@ -147,7 +147,7 @@ impl Workings {
         Ok(())
     }
 
-    /// Lays the taps of this block on the spare channels.
+    /// Puts the forces of the taps in this block on the spare channels.
     fn strike(&mut self) -> Result<(), DevicesError> {
         let (now, block) = (self.surface.surface().samples(), self.block as u64);
         let planes = self.drive[self.outputs * self.block..].chunks_exact_mut(self.block);

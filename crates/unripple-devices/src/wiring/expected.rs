@@ -6,8 +6,8 @@ use crate::error::same;
 use unripple_core::{ModalResponses, Point, Surface, require};
 use unripple_physics::{Sensor, sensed, sensors};
 
-/// Decay times from burst to burst, the share of a burst's frequency whose decay counts, and the longest pause, in s.
-/// After five decay times an amplitude is at 0.7 %; half as many leave 8 % of one burst in the next.
+/// Decay times from burst to burst, (`LOW`) the share of a burst's frequency whose decay counts, and (`LONGEST`) the longest pause,
+/// in s. After five decay times an amplitude is at 0.7 %; half as many leave 8 % of one burst in the next.
 const PAUSE: f64 = 5.0;
 const LOW: f64 = 0.3;
 const LONGEST: f64 = 10.0;
@@ -61,11 +61,12 @@ impl Expected {
         Ok(Self { outputs, inputs, samples, data: responses.concat().concat() })
     }
 
-    /// Responses at each actuator, whatever its kind ([`Sensor`]), then at a probe (m/s) if there is one,
-    /// over some time (s).
+    /// The response of each actuator as a sensor, in the unit of its kind ([`Sensor`]), then the velocity (m/s) at a probe if there
+    /// is one, for `duration` seconds.
     ///
     /// # Errors
-    /// [`DevicesError::Physics`] for actuators that cannot be, [`DevicesError::Size`] if the responses have others.
+    /// [`DevicesError::Physics`] for actuators that are not valid, [`DevicesError::Size`] if the responses have another number of
+    /// them.
     pub fn of(
         surface: &Surface,
         responses: &ModalResponses,
@@ -79,15 +80,15 @@ impl Expected {
         Ok(Self::heard(responses, heard, &sensors, probe, duration))
     }
 
-    /// The same of ideal forces and of others that sense the velocity that their drive weighs: the sensor's weights
-    /// are the drive's.
+    /// As [`Expected::of`], for actuators whose sensors weight the velocity as their drives weight the force, such as ideal forces.
     pub fn of_modes(responses: &ModalResponses, probe: Option<Point>, duration: f64) -> Self {
         let input = &responses.input;
         let heard = (0..input.nrows()).map(|a| input.row(a).iter().copied().collect()).collect();
         Self::heard(responses, heard, &[], probe, duration)
     }
 
-    /// From what each input feels of every oscillation; `sensors` make of that what is heard, those beyond their end nothing else.
+    /// Responses from the weight of each oscillation at each input, `felt`. The first inputs have the circuits of `sensors`; the
+    /// others are velocities.
     fn heard(
         responses: &ModalResponses,
         mut felt: Vec<Vec<f64>>,

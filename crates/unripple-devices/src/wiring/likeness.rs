@@ -5,13 +5,13 @@ use std::collections::HashMap;
 use unripple_core::Layout;
 use unripple_dsp::{Convolver, rms};
 
-/// A channel counts as carrying a signal where it exceeds the noise by this factor (10 dB), and the loudest channel
-/// by this share (-40 dB). With half the factor noise alone may pass for a signal.
+/// A channel counts as carrying a signal where it exceeds the noise by `ABOVE_NOISE` (10 dB), and has at least the
+/// share `ABOVE_OTHERS` (-40 dB) of the loudest channel. With half the factor noise alone may pass for a signal.
 const ABOVE_NOISE: f64 = 3.0;
 const ABOVE_OTHERS: f64 = 0.01;
 
-/// What an exchange of wires must at least add to the likeness of each recording it touches, on average. Without it
-/// noise would exchange channels that are nearly alike.
+/// Correlation that an exchange of wires must add at least for each recording that it concerns, on average. Without
+/// it noise would exchange channels that are nearly alike.
 const WORTH: f64 = 0.05;
 
 /// Which actuator each output leads to, and which sensor each input comes from.
@@ -32,7 +32,7 @@ pub(super) struct Likeness<'a> {
     known: HashMap<(usize, usize), f64>,
 }
 
-/// The latency, in samples, at which recordings are most like what was predicted of them, over all pairs.
+/// The latency, in samples, at which recordings correlate best with their predictions, over all pairs.
 pub(super) fn latency(takes: &Takes, predicted: &[Vec<f64>]) -> usize {
     let plan = Convolver::new(takes.window + takes.most + takes.window);
     let mut sum = vec![0.0; takes.most + 1];
@@ -79,7 +79,7 @@ impl<'a> Likeness<'a> {
         Self { takes, predicted, latency, silent_outputs, silent_inputs, known: HashMap::new() }
     }
 
-    /// Likeness of a recording to a prediction, their normalised correlation, -1 to 1; 0 where a channel is silent.
+    /// Normalised correlation of a recording with a prediction, -1 to 1; 0 where a channel is silent.
     pub(super) fn of(&mut self, (output, input): (usize, usize), (actuator, sensor): (usize, usize)) -> f64 {
         if self.silent_outputs[output] || self.silent_inputs[input] {
             return 0.0;
@@ -102,7 +102,7 @@ impl<'a> Likeness<'a> {
         value
     }
 
-    /// Likeness of all recordings to what they should be, by magnitude.
+    /// Sum of the correlations of all recordings with their predictions, by magnitude.
     fn all(&mut self, routes: &Routes) -> f64 {
         let pairs = pairs(self.takes.outputs, self.takes.inputs);
         pairs.map(|(o, i)| self.of((o, i), (routes.outputs[o], routes.inputs[i])).abs()).sum()
@@ -113,7 +113,7 @@ fn pairs(outputs: usize, inputs: usize) -> impl Iterator<Item = (usize, usize)> 
     (0..outputs).flat_map(move |o| (0..inputs).map(move |i| (o, i)))
 }
 
-/// The wires that explain the recordings best.
+/// The routes that explain the recordings best: exchanges of wires, as long as they raise the sum of correlations.
 pub(super) fn routes(likeness: &mut Likeness, layout: &Layout) -> Routes {
     let Takes { outputs, inputs, .. } = *likeness.takes;
     let mut routes = Routes { outputs: (0..outputs).collect(), inputs: (0..inputs).collect() };
@@ -151,7 +151,8 @@ pub(super) fn routes(likeness: &mut Likeness, layout: &Layout) -> Routes {
     }
 }
 
-/// Signs of outputs and inputs whose products are those of the likenesses, the fewer of them negative.
+/// Signs of outputs and inputs whose products are the signs of the correlations, with as few negative ones as
+/// possible.
 pub(super) fn signs(likeness: &mut Likeness, routes: &Routes) -> (Vec<f64>, Vec<f64>) {
     let Takes { outputs, inputs, .. } = *likeness.takes;
     let (mut sent, mut heard) = (vec![1.0; outputs], vec![1.0; inputs]);

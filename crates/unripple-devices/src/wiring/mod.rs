@@ -34,11 +34,11 @@ pub struct WiringOptions {
     pub level: f64,
     /// Time compared with the model from the burst's start on, in s.
     pub listen: f64,
-    /// Longest latency that is looked for, in s.
+    /// Longest latency that is searched, in s.
     pub max_latency: f64,
     /// Silence before each burst, in s.
     pub pause: f64,
-    /// Likeness (0 to 1) that a channel must at least have to its model, on average.
+    /// Smallest mean correlation (0 to 1) of a channel's recordings with the model that is enough for a verdict.
     pub least_likeness: f64,
 }
 
@@ -80,16 +80,16 @@ impl WiringOptions {
     }
 }
 
-/// Sends a burst through one output at a time, listens on all inputs, and says which actuator and sensor each wire leads to.
+/// Sends a burst through one output at a time, records all inputs, and finds which actuator or sensor each channel is wired to.
 ///
-/// Each recording r of output o and input i is compared with each prediction p by its normalised correlation, at the
-/// one latency that explains most of all; the wires are those whose sum of magnitudes is largest, found from the
-/// expected ones by exchanging two outputs, two inputs, or both of one name as long as that helps. Signs follow from
-/// the product of an output's and an input's. That all outputs and all inputs are reversed together does not show.
+/// Each recording r of output o and input i is compared with each prediction p by its normalised correlation, at the one latency that
+/// explains most of all. The wiring is that whose sum of magnitudes is largest, found from the expected one by exchanging two outputs,
+/// two inputs, or both of one name as long as that helps. Signs follow from the product of an output's and an input's: a reversal of all
+/// outputs and all inputs together does not show.
 ///
 /// # Errors
-/// [`DevicesError::Device`] if a block does not pass, [`DevicesError::Size`] if the model has other channels than the
-/// device, [`DevicesError::Range`] for options that cannot be.
+/// [`DevicesError::Device`] if a block cannot be exchanged, [`DevicesError::Size`] if the model has other channels than the device,
+/// [`DevicesError::Range`] for options out of range.
 ///
 /// ```
 /// # use unripple_core::*;
@@ -127,9 +127,8 @@ pub fn check_wiring(
     Ok(judged(&takes, &predicted, &layout, options))
 }
 
-/// The same from responses that were measured some other way, `heard[output][input]`, as if bursts had been played: for recordings. They
-/// are per unit impulse of drive, later by any latency; how loud each input is does not matter. `layout` has the channels of the model
-/// alone.
+/// As [`check_wiring`], from measured responses, `heard[output][input][sample]`, instead of bursts. They are per unit impulse of drive,
+/// delayed by any latency; the level of each input does not matter. `layout` has the channels of the model alone.
 ///
 /// # Errors
 /// As [`check_wiring`].
@@ -153,7 +152,7 @@ pub fn check_responses(
     Ok(judged(&takes, &predicted, layout, options))
 }
 
-/// What recordings say of wires, compared with what was predicted of them.
+/// Report on the wiring, from a comparison of recordings and predictions.
 fn judged(takes: &Takes, predicted: &[Vec<f64>], layout: &Layout, options: &WiringOptions) -> WiringReport {
     let latency = likeness::latency(takes, predicted);
     let mut likeness = Likeness::new(takes, predicted, latency);

@@ -14,11 +14,11 @@ pub struct Lead {
     pub silent: bool,
     /// Whether the channel's sign is reversed.
     pub reversed: bool,
-    /// Name of what it leads to, if that is not its own.
+    /// Name of the channel that it is wired to instead of its own; `None` if it is right.
     pub instead: Option<String>,
-    /// Likeness to what the model says of what it leads to, on average, 0 to 1.
+    /// Mean correlation, 0 to 1, of its recordings with the model of the channel that it is wired to.
     pub likeness: f64,
-    /// Whether that is too little for a verdict.
+    /// Whether `likeness` is too little for a verdict: less than [`WiringOptions::least_likeness`].
     pub unlike: bool,
 }
 
@@ -39,14 +39,14 @@ impl WiringReport {
         self.faults().is_empty()
     }
 
-    /// What is wrong, a sentence each: silent, swapped and reversed channels. Where an output and the input of its name have
-    /// the same fault it is named once, as the actuator's.
+    /// Faults, one sentence each: silent, swapped and reversed channels. Where an output and the input of its name have the
+    /// same fault it is named once, as the actuator's.
     pub fn faults(&self) -> Vec<String> {
         self.each().iter().map(Fault::sentence).collect()
     }
 
-    /// The same in few lines, for people: what more than three channels have in common is said once, with how many they are of
-    /// how many, and the first names.
+    /// The faults in few lines, for display: one that more than three channels have is named once, with their number and the
+    /// first names.
     pub fn summary(&self) -> Vec<String> {
         let each = self.each();
         let mut lines = Vec::new();
@@ -82,8 +82,8 @@ impl WiringReport {
     }
 }
 
-/// Channels with the same fault that are named one by one, and names that are given of more: a report of a hundred
-/// channels stays a few lines long.
+/// Largest number of channels with the same fault that are named one by one, and (`NAMED`) number of names that are given of
+/// more: a report of a hundred channels stays a few lines long.
 const FEW: usize = 3;
 const NAMED: usize = 6;
 
@@ -100,7 +100,7 @@ impl Fault {
     }
 }
 
-/// What several channels of `all` have in common.
+/// One line for a fault that several channels of `all` have.
 fn together(group: &[&Fault], all: usize) -> String {
     let Some(first) = group.first() else { return String::new() };
     let what = match first.what.strip_prefix("is ") {

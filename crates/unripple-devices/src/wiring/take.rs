@@ -10,13 +10,13 @@ use unripple_dsp::rms;
 pub(super) struct Takes {
     pub(super) outputs: usize,
     pub(super) inputs: usize,
-    /// `[output · inputs + input]`.
+    /// Recordings, `[output · inputs + input][sample]`.
     pub(super) heard: Vec<Vec<f64>>,
     /// Root mean square of each input while nothing played.
     pub(super) noise: Vec<f64>,
     /// Samples compared with the model.
     pub(super) window: usize,
-    /// Largest latency looked for, in samples.
+    /// Largest latency that is searched, in samples.
     pub(super) most: usize,
 }
 
@@ -72,7 +72,7 @@ pub(super) fn record(
     Ok(Takes { outputs, inputs, heard: all, noise, window, most })
 }
 
-/// Takes of the same bursts as measured responses predict them.
+/// Recordings of the same bursts, as they follow from measured responses.
 pub(super) fn played(heard: &[Vec<Vec<f64>>], layout: &Layout, options: &WiringOptions) -> Takes {
     let samples = |time: f64| (time * layout.rate).ceil() as usize;
     let (window, most) = (samples(options.listen), samples(options.max_latency));
@@ -93,7 +93,7 @@ pub(super) fn played(heard: &[Vec<Vec<f64>>], layout: &Layout, options: &WiringO
     }
 }
 
-/// Brings all inputs to one level, each over all outputs.
+/// Scales all inputs to the same level, over all outputs.
 pub(super) fn level(lines: &mut [Vec<f64>], inputs: usize) {
     for input in 0..inputs {
         let own = lines.iter().skip(input).step_by(inputs);

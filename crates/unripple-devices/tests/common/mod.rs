@@ -1,11 +1,11 @@
-//! A film with actuators, and blocks through a device.
+//! A film with actuators, and functions that pass blocks through a device.
 #![allow(dead_code)] // Each test file uses its own part of this.
 
 pub mod server;
 
 use unripple_core::*;
 
-/// The paper's film, up to a frequency.
+/// The paper's film, up to a frequency (Hz).
 pub fn film(top: f64) -> Surface {
     let mut film = unripple_physics::design::papers_surface();
     film.name = "film".into();
@@ -14,7 +14,7 @@ pub fn film(top: f64) -> Surface {
     film
 }
 
-/// Every input over so many samples, while outputs play what they are told; 1 is full scale.
+/// Plays a drive, a function of output and sample with 1 for full scale, and returns so many samples of every input.
 pub fn play(device: &mut dyn Device, samples: usize, drive: impl Fn(usize, usize) -> f64) -> Vec<Vec<f64>> {
     let layout = device.layout().clone();
     let (outputs, inputs) = (layout.outputs.len(), layout.inputs.len());
@@ -33,7 +33,7 @@ pub fn play(device: &mut dyn Device, samples: usize, drive: impl Fn(usize, usize
     all
 }
 
-/// Nothing driven.
+/// A drive of zeros.
 pub fn silence(_: usize, _: usize) -> f64 {
     0.0
 }
@@ -42,14 +42,14 @@ pub fn rms(line: &[f64]) -> f64 {
     (line.iter().map(|x| x * x).sum::<f64>() / line.len() as f64).sqrt()
 }
 
-/// Largest difference, relative to the largest magnitude of the second.
+/// Largest difference of two signals, relative to the largest magnitude of the second.
 pub fn apart(found: &[f64], exact: &[f64]) -> f64 {
     assert_eq!(found.len(), exact.len());
     let most = exact.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     found.iter().zip(exact).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs())) / most
 }
 
-/// Numbers between -1 and 1 that look random.
+/// Pseudorandom numbers between -1 and 1.
 pub fn noise(seed: u64, count: usize) -> Vec<f64> {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     let mut next = || {

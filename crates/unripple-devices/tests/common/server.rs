@@ -7,24 +7,24 @@ use std::time::{Duration, Instant};
 use unripple_core::Device;
 use unripple_devices::{Bridge, DevicesError};
 
-/// Why there is no server.
+/// Message for a test that is skipped, since there is no server.
 pub const NONE: &str = "there is no jackd here (Debian: apt install jackd2)";
 
-/// A server of one test's own, gone afterwards.
+/// A server for one test, which ends with it.
 pub struct Server {
     child: Child,
     pub name: String,
 }
 
 impl Server {
-    /// `None` where there is no `jackd`.
+    /// Starts a server; `None` where there is no `jackd`.
     pub fn start(period: usize) -> Option<Self> {
         static STARTED: AtomicU32 = AtomicU32::new(0);
         let number = STARTED.fetch_add(1, Ordering::Relaxed);
         Self::named(&format!("unripple-test-{}-{number}", std::process::id()), period)
     }
 
-    /// The same under a name: a server that comes back.
+    /// Starts a server under a name, for one that comes back.
     pub fn named(name: &str, period: usize) -> Option<Self> {
         Self::with(name, period, &["--no-realtime"])
     }
@@ -46,7 +46,7 @@ impl Server {
         Some(Self { child, name: name.to_owned() })
     }
 
-    /// Lets the server stand still, as one does whose machine is out of breath, or go on.
+    /// Lets the server stand still, as on a machine that is overloaded, or go on.
     pub fn stand_still(&self, still: bool) {
         let signal = if still { "-STOP" } else { "-CONT" };
         let sent = Command::new("kill").args([signal, &self.child.id().to_string()]).status();
@@ -59,7 +59,7 @@ impl Server {
         }
     }
 
-    /// Whether the kernel says so of all its threads.
+    /// Whether all its threads stand still, by the kernel.
     fn stands_still(&self) -> bool {
         let tasks =
             std::fs::read_dir(format!("/proc/{}/task", self.child.id())).into_iter().flatten().flatten();
@@ -77,7 +77,7 @@ impl Server {
         }
     }
 
-    /// Puts a device behind ports, as soon as the server answers.
+    /// Runs a device as a client of the server, as soon as that answers.
     pub fn bridge(&self, client: &str, device: impl Fn() -> Box<dyn Device>) -> Result<Bridge, DevicesError> {
         let start = Instant::now();
         loop {

@@ -5,7 +5,7 @@ use libloading::Library;
 use std::ffi::{c_char, c_int, c_uint, c_ulong, c_void};
 use std::sync::OnceLock;
 
-/// A client as the library knows it, and a port.
+/// A client and a port, as the library knows them.
 pub(super) enum RawClient {}
 pub(super) enum RawPort {}
 
@@ -68,7 +68,7 @@ functions! {
     set_info_function: fn(unsafe extern "C" fn(*const c_char));
 }
 
-/// The functions, once the library is found.
+/// The functions of the library, which is searched on the first call.
 pub(super) fn api() -> Result<&'static Api, DevicesError> {
     static API: OnceLock<Result<Api, String>> = OnceLock::new();
     let names: &[&str] = if cfg!(target_os = "macos") {

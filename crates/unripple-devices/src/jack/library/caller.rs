@@ -8,20 +8,20 @@ pub(super) struct Caller(PathBuf);
 /// The activity of a thread so far: whether it waits to run, and its time on a processor.
 #[derive(PartialEq)]
 pub(super) struct Activity {
-    /// It would run if it were given a processor.
+    /// Whether it would run if it were given a processor.
     pub(super) waits_for_a_processor: bool,
     /// Times on a processor and in the queue for one, in nanoseconds, and how often it was given one.
     scheduled: String,
 }
 
 impl Caller {
-    /// The calling thread. Nothing where the kernel does not say.
+    /// The calling thread; `None` where the kernel does not tell its activity.
     pub(super) fn this_thread() -> Option<Self> {
         let folder = PathBuf::from("/proc").join(std::fs::read_link("/proc/thread-self").ok()?);
         folder.join("schedstat").exists().then_some(Self(folder))
     }
 
-    /// The activity of the thread so far; nothing of one that has ended.
+    /// The activity of the thread so far; `None` if it has ended.
     pub(super) fn activity(&self) -> Option<Activity> {
         let stat = std::fs::read_to_string(self.0.join("stat")).ok()?;
         // The state stands behind the name, which may hold brackets itself.

@@ -23,8 +23,8 @@ pub(super) struct Closing {
 unsafe impl Send for Closing {}
 
 impl Closing {
-    /// Closes, and waits for that for a while; a server that stands still is left to itself, and what its callbacks have is freed once it
-    /// goes on.
+    /// Closes the client, and waits for that for a while. A server that stands still is left to itself, and what its callbacks use is
+    /// freed once it goes on.
     pub(super) fn begin(self) {
         let (left, over) = mpsc::channel::<()>();
         let leave = move || {

@@ -1,7 +1,7 @@
 //! The clients of this program that are open, and whether the library would delete them.
 //!
-//! Once a server is gone, JACK 2 deletes all clients of the program when another joins (`JackLibGlobals::Init` in its sources); whoever
-//! leaves with one of them later crashes. So nobody joins then before all have left.
+//! Once a server is gone, JACK 2 deletes all clients of the program when another joins (`JackLibGlobals::Init` in its sources); closing one
+//! of them later crashes. So no client may join then before all others have left.
 
 use super::api::RawClient;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,7 +17,7 @@ fn roll() -> MutexGuard<'static, Vec<usize>> {
     ROLL.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Keeps in mind that a server is gone; from its callback.
+/// Notes that a server is gone; called from its callback.
 pub(super) fn server_gone() {
     DOWN.store(true, Ordering::Release);
 }
@@ -27,8 +27,8 @@ pub(super) fn in_danger() -> bool {
     DOWN.load(Ordering::Acquire) && !roll().is_empty()
 }
 
-/// Enters a client that has just joined. Should a server have gone just then, nobody knows whether the others were deleted: nobody leaves with
-/// them any more.
+/// Lists a client that has just joined. If a server was gone just then, it is not known whether the library deleted the other clients: they
+/// are no longer listed, and never closed.
 pub(super) fn enter(raw: *mut RawClient) {
     let mut roll = roll();
     if DOWN.swap(false, Ordering::AcqRel) {
@@ -37,7 +37,7 @@ pub(super) fn enter(raw: *mut RawClient) {
     roll.push(raw.addr());
 }
 
-/// Strikes out a client that leaves; whether it was still there.
+/// Removes a client that leaves from the list; returns whether it was still there.
 pub(super) fn leave(raw: *mut RawClient) -> bool {
     let mut roll = roll();
     let place = roll.iter().position(|open| *open == raw.addr());
