@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 /// A plan for linear convolutions whose results have at most `samples` samples.
 ///
-/// Signals are turned into spectra once; products of spectra are summed by the caller and turned back once. The plan is
+/// Each signal is transformed once; the caller multiplies and sums spectra and transforms the result back once. The plan is
 /// immutable and can be shared between threads.
 ///
 /// ```
@@ -32,8 +32,8 @@ impl std::fmt::Debug for Convolver {
 }
 
 impl Convolver {
-    /// A plan for results of `samples` samples; signals and responses with lengths a and b need a + b − 1 of them,
-    /// or wrap round.
+    /// A plan for results of `samples` samples. Signals of lengths a and b need a + b − 1; with fewer, the convolution
+    /// can become circular.
     pub fn new(samples: usize) -> Self {
         let size = smooth_size(samples.max(1));
         let mut planner = RealFftPlanner::new();
@@ -45,13 +45,13 @@ impl Convolver {
         }
     }
 
-    /// Number of samples of the transform, at least those asked for.
+    /// Number of samples N of the Fourier transform: at least the number asked for.
     pub fn size(&self) -> usize {
         self.size
     }
 
-    /// Spectrum of a signal, `size/2 + 1` lines, the signal zero beyond its end; samples beyond the plan's
-    /// size are ignored.
+    /// Spectrum of a signal: bins 0 to N/2, with N of [`Convolver::size`], not normalised. The signal is padded with zeros to N
+    /// samples; samples beyond N are ignored.
     pub fn spectrum(&self, signal: impl IntoIterator<Item = f64>) -> Vec<Complex<f64>> {
         let mut padded = self.forward.make_input_vec();
         padded.iter_mut().zip(signal).for_each(|(to, from)| *to = from);
@@ -61,7 +61,8 @@ impl Convolver {
         spectrum
     }
 
-    /// The first `samples` samples of the signal with this spectrum; silence if it is not one of this plan's.
+    /// The signal with a given spectrum, cut to the number of samples that the plan was made for. All zeros if the spectrum does
+    /// not have N/2 + 1 bins.
     pub fn signal(&self, mut spectrum: Vec<Complex<f64>>) -> Vec<f64> {
         let mut signal = self.inverse.make_output_vec();
         if let Some(first) = spectrum.first_mut() {
@@ -96,8 +97,8 @@ pub fn convolve(signal: &[f64], response: &[f64]) -> Vec<f64> {
     plan.signal(product)
 }
 
-/// The smallest even number of samples of at least `least` whose prime factors are 2, 3 and 5, where
-/// transforms are quick.
+/// The smallest even number of samples that is at least `least` and has no prime factors but 2, 3 and 5: a size for
+/// which Fourier transforms are fast.
 pub fn smooth_size(least: usize) -> usize {
     let ceiling = least.max(2).next_power_of_two();
     let mut best = ceiling;

@@ -1,14 +1,14 @@
-//! Why a signal or a plan could not be made.
+//! The errors of this crate.
 
 use unripple_core::OutOfRange;
 
-/// Why a signal or a plan could not be made.
+/// Why a signal or a plan was refused: a wrong size, or a number out of range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DspError {
     /// Two sizes that must agree do not.
     #[error("{what}: expected {expected}, found {found}")]
     Size {
-        /// What was counted.
+        /// Name of the quantity that was counted.
         what: &'static str,
         /// How many there should be.
         expected: usize,

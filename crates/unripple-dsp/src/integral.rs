@@ -1,7 +1,7 @@
 //! Integration of sampled signals, sixth order.
 
 /// Weights, times 1440, of six neighbouring samples in the integral over the first, second and third of the
-/// five intervals between them; those of the fourth and fifth are the mirror images. They integrate the
+/// five intervals between them; the weights of the fourth and fifth are their mirror images. They integrate the
 /// quintic through the six samples, so that quintics are exact and the error falls with the sixth power of
 /// the sample interval.
 const INTERVALS: [[f64; 6]; 3] = [
@@ -10,9 +10,10 @@ const INTERVALS: [[f64; 6]; 3] = [
     [11.0, -93.0, 802.0, 802.0, -93.0, 11.0],
 ];
 
-/// Integral of a signal (at `rate` samples per second) from its first sample, at every sample, in the
-/// signal's unit times seconds: sixth order in the sample interval, within 0.3 % of a wave at an eighth of
-/// the sample rate, 0.004 % at a sixteenth.
+/// Running integral of a signal (at `rate` samples per second) from its first sample to each sample, in the signal's unit
+/// times seconds. The error is of sixth order in the sample interval: for a sine at an eighth of the sample rate it is
+/// within 0.3 % of the integral's amplitude, at a sixteenth within 0.004 %. Fewer than six samples are integrated by the
+/// trapezoidal rule.
 ///
 /// ```
 /// let t: Vec<f32> = (0..8).map(|i| i as f32).collect();

@@ -3,8 +3,8 @@
 use pulp::NullaryFnOnce;
 use unripple_linalg::Number;
 
-/// Taps added at once, so that a sum is read and written once for four multiplications; what remains of a
-/// kernel is added one by one. Doubled, sums are read half as often, but up to seven taps remain.
+/// Number of taps added at once, so that a sum is read and written once for four multiplications; the remaining taps of a
+/// kernel are added one by one. Doubled, sums are read half as often, but up to seven taps remain.
 const TAPS: usize = 4;
 
 /// A number that multiplies and adds in one instruction where the processor can.
@@ -27,17 +27,17 @@ impl Sample for f64 {
     }
 }
 
-/// Rows to interpolate: out[n · step + p] = Σ_k weights[p][k] x[n + k] for each.
+/// Interpolation of rows: out[n · step + p] = Σ_k weights[p][k] x[n + k] for each row.
 pub(crate) struct Rows<'a, T> {
-    /// A sample for each block of `step` outputs, begun or whole, and taps - 1 more; row by row.
+    /// The input, row by row: ⌈samples/step⌉ + taps - 1 reduced samples for each.
     pub(crate) x: &'a [T],
-    /// Taps, phase by phase.
+    /// The taps of each phase, phase by phase.
     pub(crate) weights: &'a [T],
     /// Number of phases.
     pub(crate) step: usize,
-    /// `samples` outputs, row by row.
+    /// The output, row by row: `samples` for each.
     pub(crate) out: &'a mut [T],
-    /// Outputs of a row.
+    /// Number of output samples of a row.
     pub(crate) samples: usize,
 }
 

@@ -1,17 +1,17 @@
-//! Weights that interpolate between samples: a polyphase Kaiser-windowed sinc.
+//! Weights of polyphase interpolation between samples: a Kaiser-windowed sinc.
 
 use crate::special::{kaiser, sinc};
 use std::f64::consts::PI;
 use unripple_core::Pole;
 use unripple_linalg::Mat;
 
-/// Interpolation between samples taken at a `step`-th of the rate: `taps` weights for each of `step` phases.
+/// An interpolation kernel from a reduced sample rate to one `step` times as high: `taps` weights for each of `step` phases.
 ///
 /// A Kaiser-windowed sinc (Kaiser, in *System Analysis by Digital Computer*, 1966, chapter 7), for signals that stay below
 /// half the reduced rate by a margin.
 #[derive(Debug)]
 pub(crate) struct Kernel {
-    /// Full-rate samples from one reduced sample to the next.
+    /// Number of full-rate samples from one reduced sample to the next.
     pub(crate) step: usize,
     /// Weights, taps x phases.
     pub(crate) weights: Mat<f64>,
@@ -37,9 +37,9 @@ impl Kernel {
         (self.taps() / 2).saturating_sub(1)
     }
 
-    /// Number of taps, halved, that brings the error of a signal up to `fill` of half the reduced rate down
-    /// to the relative `accuracy`, and the window's β, by Kaiser's rules, shared among the images that fold
-    /// onto it.
+    /// Half the number of taps, and the window's β, for which signals up to `fill` times half the reduced rate are interpolated
+    /// with the relative error `accuracy`, by Kaiser's design formulas. The accuracy is divided by 2.5 since several images fold
+    /// onto the signal.
     pub(crate) fn size(fill: f64, accuracy: f64) -> (usize, f64) {
         let attenuation = (-20.0 * (accuracy / 2.5).log10()).max(21.0);
         let beta = if attenuation > 50.0 {
@@ -51,7 +51,7 @@ impl Kernel {
         ((taps / 2.0).ceil().max(1.0) as usize, beta)
     }
 
-    /// Largest error on e^{zt}, relative to its own size at that time, z the pole's complex frequency.
+    /// Largest error of interpolating e^{zt}, relative to |e^{zt}| at the same time, where z is the pole's complex frequency.
     pub(crate) fn error(&self, pole: Pole, rate: f64) -> f64 {
         let square = (pole.omega - pole.sigma) * (pole.omega + pole.sigma);
         if square < 0.0 {

@@ -1,4 +1,4 @@
-//! Signal processing: synthesis of modal responses, spectra, convolution, the threshold of touch.
+//! Signal processing: synthesis of modal responses, spectra, convolution, resampling, the vibrotactile detection threshold.
 
 mod convolve;
 mod error;

@@ -1,8 +1,8 @@
-//! A signal at other instants than those at which it was sampled: another rate, or another clock.
+//! Resampling of signals: to another sample rate, or to another clock.
 
 use crate::{kaiser, sinc};
 
-/// Zeros of the sinc to each side. With [`BETA`] the transition is 5 % of the rate wide, to each side of half
+/// Number of zeros of the sinc on each side. With [`BETA`] the transition band reaches 5 % of the rate to each side of half
 /// the rate; doubled, it is half as wide for twice the multiplications.
 const ZEROS: usize = 48;
 
@@ -10,15 +10,17 @@ const ZEROS: usize = 48;
 /// hold, for a transition about twice as wide.
 const BETA: f64 = 11.5;
 
-/// Steps of the table from one zero to the next; interpolated linearly, it is right within 1e-7, a quarter of
-/// that for twice the steps.
+/// Entries of the kernel's table from one zero to the next. Interpolated linearly, it is exact within 1e-7; doubled, within
+/// a quarter of that.
 const STEPS: usize = 2048;
 
-/// A signal sampled anew, `step` of its own samples apart: 44100/48000 makes 48 kHz of 44.1 kHz, 1 + 43e-6 puts a clock right that runs
-/// 43 ppm fast. Sample `i` of the answer is at the time of the signal's sample `i · step`; it ends where the signal does.
+/// Resamples a signal: output sample `i` is the signal at the (fractional) sample index `i · step`, up to the signal's end.
 ///
-/// Kaiser-windowed sinc (J. O. Smith, *Digital Audio Resampling*), exact within 1e-5 for signals up to 0.9 of half the lower of both
-/// rates; what would fold is taken out. Beyond its ends the signal is zero.
+/// `step` is the old sample rate over the new one: 44100/48000 converts 44.1 kHz to 48 kHz, 1 + 43e-6 corrects a recording whose clock
+/// ran 43 ppm fast. The result is empty if `step` is not positive and finite.
+///
+/// Kaiser-windowed sinc interpolation (J. O. Smith, *Digital Audio Resampling*), exact within 1e-5 for signals up to 0.9 of half the
+/// lower of both rates. Frequencies that would alias are removed. The signal counts as zero beyond its ends.
 ///
 /// ```
 /// let tone = |rate: f64, i: usize| (std::f64::consts::TAU * 1000.0 * i as f64 / rate).sin();
@@ -31,7 +33,7 @@ pub fn resample(signal: &[f64], step: f64) -> Vec<f64> {
     if !step.is_finite() || step <= 0.0 || signal.is_empty() {
         return Vec::new();
     }
-    // Slower sampling takes less of the band: the kernel is stretched, and its sum stays one.
+    // For a lower output rate the kernel is stretched, which lowers its cut-off; its sum stays one.
     let cut = step.recip().min(1.0);
     let table: Vec<f64> = (0..=ZEROS * STEPS + 1)
         .map(|i| {
@@ -48,7 +50,7 @@ pub fn resample(signal: &[f64], step: f64) -> Vec<f64> {
         }
     };
     let reach = ZEROS as f64 / cut;
-    // A hair less, so that rounding of the quotient adds no sample.
+    // Slightly less, so that rounding of the quotient adds no sample.
     let count = ((signal.len() as f64 / step) - 1e-9).ceil().max(0.0) as usize;
     let sample = |i: usize| {
         let at = i as f64 * step;

@@ -1,22 +1,23 @@
-//! Special functions and windows.
+//! Special functions and the Kaiser window.
 
 use std::f64::consts::PI;
 
-/// sin(πt)/(πt) of a dimensionless t, and 1 at 0 (Shannon, *Communication in the presence of noise*, 1949,
-/// theorem 1): what interpolates samples one apart.
+/// The normalised sinc function sin(πt)/(πt) of a dimensionless t, 1 at 0: the ideal interpolation kernel for samples at
+/// unit distance (Shannon, *Communication in the presence of noise*, 1949, theorem 1).
 pub fn sinc(t: f64) -> f64 {
-    // Below, it is 1 to the last digit.
+    // For smaller arguments it is 1 to the last digit.
     if t.abs() < 1e-9 { 1.0 } else { (PI * t).sin() / (PI * t) }
 }
 
-/// The Kaiser window of shape `beta` at `u` of its half-width, both dimensionless: 1 at the middle, 0 beyond
-/// the ends (Kaiser and Schafer, *On the use of the I0-sinh window for spectrum analysis*, 1980).
+/// The Kaiser window of shape parameter `beta`, where `u` is the distance from its middle over its half-width, both
+/// dimensionless: 1 at the middle, 0 for |u| > 1 (Kaiser and Schafer, *On the use of the I0-sinh window for spectrum
+/// analysis*, 1980).
 pub fn kaiser(u: f64, beta: f64) -> f64 {
     if u.abs() > 1.0 { 0.0 } else { bessel_i0(beta * (1.0 - u * u).sqrt()) / bessel_i0(beta) }
 }
 
-/// The modified Bessel function I_0 of a dimensionless `x`, by its power series (Abramowitz and Stegun,
-/// *Handbook of Mathematical Functions*, 9.6.12): the profile of the Kaiser window.
+/// The modified Bessel function I_0 of a dimensionless `x`, used in the Kaiser window, by its power series (Abramowitz and
+/// Stegun, *Handbook of Mathematical Functions*, 9.6.12).
 pub fn bessel_i0(x: f64) -> f64 {
     let quarter = x * x / 4.0;
     let (mut term, mut sum, mut k) = (1.0, 1.0, 1.0);
@@ -29,7 +30,8 @@ pub fn bessel_i0(x: f64) -> f64 {
     sum
 }
 
-/// The Bessel function of the first kind J_n of a dimensionless `x`, to the last digits (libm's).
+/// The Bessel function of the first kind J_n of order n = `order` and a dimensionless `x`, to nearly full double precision (from
+/// the `libm` crate).
 ///
 /// ```
 /// // Abramowitz and Stegun, table 9.1.

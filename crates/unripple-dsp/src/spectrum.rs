@@ -2,10 +2,10 @@
 
 use realfft::RealFftPlanner;
 
-/// Share of the energy of `channels` that lies above `hz` (Hz), from 0 to 1; 0 for silence.
+/// Share of the total energy of `channels` that lies above the frequency `hz` (Hz), from 0 to 1; 0 for silence.
 ///
-/// Each channel (any length, `rate` samples per second) is one whole Fourier transform without a window, so by
-/// Parseval's theorem the shares below and above add up to one. A line exactly at `hz` counts as below.
+/// Each channel (of any length, at `rate` samples per second) is transformed as a whole, without a window, so that by
+/// Parseval's theorem the shares below and above add up to one. A bin exactly at `hz` counts as below.
 ///
 /// ```
 /// let tone = |f: f64| (0..480).map(|i| (0.1 + f * f64::from(i) / 48e3 * 6.283185307179586).sin()).collect::<Vec<_>>();
@@ -35,10 +35,12 @@ pub fn share_above(channels: &[Vec<f64>], rate: f64, hz: f64) -> f64 {
     if total > 0.0 { above / total } else { 0.0 }
 }
 
-/// Energy of a signal in `bands` bands of equal width from 0 to `top` Hz: what lies above is left out.
+/// Energy of a signal in each of `bands` frequency bands of equal width from 0 to `top` Hz, in the signal's unit squared. Energy
+/// above `top` is left out.
 ///
-/// One whole Fourier transform without a window, scaled so that the energies of all lines add up to the sum of the squares (Parseval).
-/// A line belongs to the band that holds its frequency; bands narrower than a line are empty.
+/// The signal (at `rate` samples per second) is transformed as a whole, without a window; the energies of all bins add up to
+/// the sum of the squared samples (Parseval). A bin belongs to the band that contains its frequency, so that bands narrower than
+/// the spacing of bins may be empty.
 ///
 /// ```
 /// let tone: Vec<f64> = (0..480).map(|i| (f64::from(i) / 48e3 * 1050.0 * 6.283185307179586).sin()).collect();

@@ -1,16 +1,17 @@
 //! Means and medians.
 
-/// Mean of the squares of some values, in their unit squared; 0 of nothing.
+/// Mean square of some values, in their unit squared; 0 if there are none.
 pub fn mean_square(values: &[f64]) -> f64 {
     values.iter().map(|x| x * x).sum::<f64>() / values.len().max(1) as f64
 }
 
-/// Root of the mean of the squares of some values, in their unit; 0 of nothing.
+/// Root mean square of some values, in their unit; 0 if there are none.
 pub fn rms(values: &[f64]) -> f64 {
     mean_square(values).sqrt()
 }
 
-/// The median, one of the values: of an even number of them the greater of the two in the middle; `None` of nothing.
+/// The median of some values, in their unit; `None` if there are none. For an even number of values it is the greater of the two
+/// in the middle (not their mean).
 ///
 /// ```
 /// assert_eq!(unripple_dsp::median([3.0, 1.0, 2.0, 5.0]), Some(3.0));

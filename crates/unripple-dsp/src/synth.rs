@@ -9,29 +9,31 @@ use std::f64::consts::PI;
 use unripple_core::Pole;
 use unripple_linalg::{Accum, Mat, MatMut, MatRef, Par, multiply};
 
-/// Rows that one thread works on at once: so many share what is read of the velocities. Doubled, there are
-/// half as many tasks for the threads, and each holds twice the samples.
+/// Number of rows that one thread works on at once, so that they share what is read of the modal velocities. Doubled, there
+/// are half as many tasks for the threads, and each holds twice the samples.
 const ROWS: usize = 128;
 
-/// From this many rows on, interpolation runs across rows, as a matrix product, rather than along time: fewer
-/// rows do not fill the product. Doubled, 24 to 47 rows go the other way; the sums stay the same but for
+/// Least number of rows for which interpolation is done for all rows together, as a matrix product, rather than row by row:
+/// with fewer, the product is inefficient. Doubled, 24 to 47 rows are done row by row; the results stay the same but for
 /// rounding.
 const MANY: usize = 24;
 
-/// Reduced samples to a strip where it runs across rows: the product is taken with a band matrix of which
-/// `taps` of `taps + 5` rows are filled. Doubled, fewer products are made, of which more is multiplication by
-/// zero.
+/// Number of reduced samples in a strip of time for the interpolation of all rows together: the strip is multiplied by a
+/// band matrix that has `taps` nonzeros in a column of `taps + 5`. Doubled, there are fewer products with a greater share of
+/// multiplications by zero.
 const STRIP: usize = 6;
 
-/// The lowest reduced rate tried is this part of the full one. Doubled, plans take twice as long and gain
+/// Largest ratio of full to reduced sample rate that is tried. Doubled, plans take twice as long and gain
 /// only where all modes lie below a 64th of half the sample rate.
 const MOST: usize = 64;
 
-/// Turns modal weights into sampled velocity responses: h = W · g, with g the velocity of each mode after an impulse.
+/// A plan that turns modal weights W into sampled velocity responses h = W · g, where g is the velocity of each mode after a
+/// unit impulse ([`Pole::velocity`]).
 ///
-/// Modes ring far below the sample rate, so the product is taken at a fraction of it and interpolated band-limitedly.
-/// Damped modes go on analytically before t = 0 and past the last sample, which makes both ends exact. Modes that
-/// are too damped or too high for that are summed directly.
+/// Modal frequencies are usually far below the sample rate, so the product is evaluated at a reduced rate and then
+/// interpolated. The decaying oscillations are continued analytically before t = 0 and past the last sample, so that both
+/// ends are as accurate as the middle. Modes too strongly damped or too high in frequency for the reduced rate are summed at
+/// the full rate.
 ///
 /// ```
 /// use unripple_linalg::mat;
@@ -54,26 +56,26 @@ pub struct ModalSynth {
     single: Tables<f32>,
 }
 
-/// Everything the products need, at one precision.
+/// The tables of a plan, in double or single precision.
 #[derive(Debug)]
 struct Tables<T> {
-    /// Modes summed at the reduced rate, in order.
+    /// Indices of the modes summed at the reduced rate, ascending.
     slow: Vec<usize>,
-    /// Their velocities, reduced samples x modes.
+    /// Velocities of the `slow` modes, reduced samples x modes.
     reduced: Mat<T>,
     /// Interpolation weights, taps x phases.
     weights: Mat<T>,
-    /// The same for a strip of output: (strip + taps - 1) x (strip · phases).
+    /// The interpolation weights as a band matrix for a strip of output: (strip + taps - 1) x (strip · phases).
     strip: Mat<T>,
-    /// Modes summed at the full rate.
+    /// Indices of the modes summed at the full rate, ascending.
     fast: Vec<usize>,
-    /// Their velocities, samples x modes.
+    /// Velocities of the `fast` modes, samples x modes.
     full: Mat<T>,
 }
 
 impl ModalSynth {
-    /// A plan for `samples` samples at `rate` per second. A response differs from the direct sum by at most `accuracy`
-    /// (raised to 1e-14) times the sum of the magnitudes of its weights, growing with e^{-σt} only.
+    /// A plan for responses of `samples` samples at `rate` samples per second. The error of each mode's part of a response is at
+    /// most `accuracy` (dimensionless, at least 1e-14) times the magnitude of its weight times its envelope e^{-σt}.
     pub fn new(poles: &[Pole], rate: f64, samples: usize, accuracy: f64) -> Self {
         let accuracy = if accuracy >= 1e-14 { accuracy } else { 1e-14 };
         let (kernel, slow) = plan(poles, rate, samples, accuracy);
@@ -97,32 +99,35 @@ impl ModalSynth {
         self.samples
     }
 
-    /// Full-rate samples from one sample that is summed to the next; 1 where all modes are summed directly.
+    /// Ratio of the full to the reduced sample rate; 1 if all modes are summed at the full rate.
     pub fn step(&self) -> usize {
         self.double.weights.ncols()
     }
 
-    /// Multiplications and additions for each row.
+    /// Number of multiplications and additions for each row of weights.
     pub fn operations(&self) -> usize {
         let tables = &self.double;
         let interpolation = if tables.slow.is_empty() { 0 } else { self.samples * tables.weights.nrows() };
         2 * (tables.reduced.nrows() * tables.slow.len() + interpolation + self.samples * tables.fast.len())
     }
 
-    /// Responses for `weights` (rows x modes), into `out` (rows x samples, row by row). More than 128 rows run in parallel.
+    /// Computes responses for `weights` (rows x modes) into `out` (rows x samples, row by row). More than 128 rows are shared
+    /// among threads.
     ///
     /// # Errors
-    /// [`DspError::Size`] if columns or lengths do not match.
+    /// [`DspError::Size`] if `weights` does not have a column for each mode, or if `out` has another length.
     pub fn respond(&self, weights: MatRef<'_, f64>, out: &mut [f64]) -> Result<(), DspError> {
         self.check(weights.nrows(), weights.ncols(), out.len())?;
         self.double.respond(weights, out, self.samples);
         Ok(())
     }
 
-    /// The same in single precision throughout, for libraries; rounding adds about 1e-6 of the sum of magnitudes.
+    /// Computes responses as [`ModalSynth::respond`] does, `weights` (rows x modes) to `out` (rows x samples), in single precision
+    /// throughout, for large tables of sampled responses. Rounding adds an error of about 1e-6 times the sum of the magnitudes of
+    /// the weights.
     ///
     /// # Errors
-    /// [`DspError::Size`] if columns or lengths do not match.
+    /// [`DspError::Size`] if `weights` does not have a column for each mode, or if `out` has another length.
     pub fn respond_f32(&self, weights: MatRef<'_, f32>, out: &mut [f32]) -> Result<(), DspError> {
         self.check(weights.nrows(), weights.ncols(), out.len())?;
         self.single.respond(weights, out, self.samples);
@@ -165,7 +170,7 @@ impl Tables<f64> {
 }
 
 impl<T: Sample> Tables<T> {
-    /// Responses of all rows, those beyond [`ROWS`] shared among threads.
+    /// Responses of all rows; more than [`ROWS`] are shared among threads.
     fn respond(&self, weights: MatRef<'_, T>, out: &mut [T], samples: usize) {
         if samples == 0 || out.is_empty() {
             return;
@@ -181,7 +186,7 @@ impl<T: Sample> Tables<T> {
         }
     }
 
-    /// A few rows, on one thread.
+    /// Responses of at most [`ROWS`] rows, on one thread.
     fn respond_rows(&self, weights: MatRef<'_, T>, out: &mut [T], samples: usize) {
         let rows = weights.nrows();
         let mut accum = Accum::Replace;
@@ -210,7 +215,7 @@ impl<T: Sample> Tables<T> {
         Arch::new().dispatch(Rows { x, weights: &phases, step, out, samples });
     }
 
-    /// Interpolates all rows a strip of time at a time.
+    /// Interpolates all rows together, one strip of time after another.
     fn across_rows(&self, x: &[T], out: &mut [T], samples: usize) {
         let (taps, step) = self.weights.shape();
         let columns = self.reduced.nrows();
@@ -228,7 +233,8 @@ impl<T: Sample> Tables<T> {
     }
 }
 
-/// out (rows x n, row by row) from the weights of some modes (rows x all modes) and their velocities (n x modes).
+/// The product of the weights of some modes (columns `modes` of rows x all modes) and their velocities (n x those modes), into
+/// `out` (rows x n, row by row).
 fn product<T: Sample>(
     out: &mut [T],
     accum: Accum,
@@ -245,7 +251,7 @@ fn product<T: Sample>(
     }
 }
 
-/// The kernel of least work, and the modes it is accurate for, ascending.
+/// The interpolation kernel of least work, and the indices of the modes that it is accurate for, ascending.
 fn plan(poles: &[Pole], rate: f64, samples: usize, accuracy: f64) -> (Kernel, Vec<usize>) {
     let mut best = (Kernel::new(1, 1, 0.0), Vec::new());
     let mut least = samples * poles.len();
@@ -257,7 +263,7 @@ fn plan(poles: &[Pole], rate: f64, samples: usize, accuracy: f64) -> (Kernel, Ve
             let sums = (samples.div_ceil(step) + 2 * half - 1) * poles.len();
             // Interpolation runs at about half the speed of the large product.
             let cost = sums + 2 * 2 * half * samples;
-            // Nearer to half the reduced rate, the transition takes more taps than it saves sums.
+            // Modes nearer to half the reduced rate need more taps than the lower rate saves.
             if fill >= 0.98 || cost >= least {
                 break;
             }

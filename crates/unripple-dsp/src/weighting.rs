@@ -1,4 +1,4 @@
-//! Displacement weighed by the threshold of touch.
+//! Displacement weighted by the vibrotactile detection threshold.
 
 use crate::Threshold;
 use crate::convolve::smooth_size;
@@ -6,11 +6,11 @@ use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use std::sync::Arc;
 
-/// A plan that weighs displacements by 1/threshold(f): what comes out is in units of the threshold, 1 where a steady sine is
-/// just felt.
+/// A zero-phase filter that weights displacements by 1/threshold(f): its output is in units of the detection threshold, and has
+/// amplitude 1 for a steady sine that is just felt.
 ///
-/// One real gain for each line of a Fourier transform: without delay, each frequency keeps its phase. The transform is
-/// circular. The plan is immutable and can be shared between threads.
+/// Each bin of a Fourier transform is multiplied by a real gain, so that the filter has no delay and keeps all phases. The
+/// transform is circular. The plan is immutable and can be shared between threads.
 ///
 /// ```
 /// use unripple_dsp::{Threshold, Weighting};
@@ -23,7 +23,7 @@ use std::sync::Arc;
 #[derive(Clone)]
 pub struct Weighting {
     size: usize,
-    /// One per line, divided by the size.
+    /// Gain of each bin, divided by the size of the transform.
     gains: Vec<f64>,
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
@@ -36,19 +36,19 @@ impl std::fmt::Debug for Weighting {
 }
 
 impl Weighting {
-    /// A plan for signals of at most `samples` samples at `rate` per second that are at rest before and after, for `rest`
-    /// samples or somewhat more between the end and the beginning that follows it: the transform has the next size
-    /// whose prime factors are 2, 3 and 5.
+    /// A plan for signals of at most `samples` samples, at `rate` samples per second, that are zero before and after. The
+    /// transform pads them with at least `rest` zeros, up to the next size whose prime factors are 2, 3 and 5, to keep the two
+    /// ends of the circular transform apart.
     pub fn padded(threshold: &Threshold, rate: f64, samples: usize, rest: usize) -> Self {
         Self::of(threshold, rate, smooth_size(samples.saturating_add(rest).max(1)))
     }
 
-    /// A plan for signals that repeat after exactly `samples` samples, at `rate` per second.
+    /// A plan for periodic signals with a period of exactly `samples` samples, at `rate` samples per second.
     pub fn periodic(threshold: &Threshold, rate: f64, samples: usize) -> Self {
         Self::of(threshold, rate, samples.max(1))
     }
 
-    /// A plan of `size` samples: the gain of each line is 1/threshold at its frequency.
+    /// A plan for a transform of `size` samples: the gain of each bin is 1/threshold at its frequency.
     fn of(threshold: &Threshold, rate: f64, size: usize) -> Self {
         let mut planner = RealFftPlanner::new();
         let gain = |line: usize| 1.0 / (threshold.at(line as f64 * rate / size as f64) * size as f64);
@@ -60,12 +60,13 @@ impl Weighting {
         }
     }
 
-    /// Number of samples of the transform.
+    /// Number of samples of the Fourier transform.
     pub fn size(&self) -> usize {
         self.size
     }
 
-    /// A displacement (m) in units of the threshold, as many samples as it has; those beyond the plan's size are left out.
+    /// Filters a displacement (m): the result is in units of the threshold (dimensionless), with as many samples as the
+    /// displacement. Samples beyond the size of the transform are left out.
     pub fn weigh(&self, displacement: &[f64]) -> Vec<f64> {
         let length = displacement.len().min(self.size);
         let mut signal = self.forward.make_input_vec();
@@ -82,7 +83,7 @@ impl Weighting {
     }
 }
 
-/// Makes the lines at 0 and at half the rate real, as they have no phase; rounding may leave a trace of one.
+/// Makes the bins at 0 and at half the rate real, as those of a real signal are; rounding may leave a small imaginary part.
 fn real_ends(spectrum: &mut [Complex<f64>], size: usize) {
     if let Some(first) = spectrum.first_mut() {
         first.im = 0.0;
@@ -116,8 +117,8 @@ mod tests {
         }
     }
 
-    /// Half a second between rests is the same away from its ends. Not so where the threshold is high: there the click at the
-    /// ends is felt more than the sine, and dies away slowly.
+    /// Half a second of a sine, padded with zeros, has its level away from its ends. This does not hold at frequencies of high
+    /// threshold, where the click at the ends is felt more than the sine and decays slowly.
     #[test]
     fn rest_on_either_side_is_felt_at_the_ends_only() {
         let sine: Vec<f64> = (0..24_000).map(|i| 1e-6 * (TAU * 250.0 * f64::from(i) / 48e3).sin()).collect();
