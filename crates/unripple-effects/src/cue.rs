@@ -1,84 +1,84 @@
-//! What an effect wants played, and when.
+//! Cues: what a player is to play, and when.
 
 use crate::Level;
 use std::fmt;
 use std::sync::Arc;
 use unripple_core::Point;
 
-/// Something to play, and when.
+/// A timed command for a player: something that a voice is to do at a given time.
 ///
-/// A voice is one part of one effect under one contact of one finger, and never another before or after. Acts of a
-/// voice refer to what that voice last started.
+/// A voice belongs to one part of one effect, for one contact of one finger (from touch to lift). Its number is not used again.
+/// [`Act::Move`], [`Act::Gain`] and [`Act::Stop`] refer to what the voice last started.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cue {
-    /// Number of the voice, from contact, effect and part.
+    /// Number of the voice, made of the numbers of contact, effect and part.
     pub voice: u64,
-    /// When, in s of the touches' clock. What lies in the past is due at once.
+    /// When it is due, in s of the clock that times the touches. A time in the past means at once.
     pub at: f64,
-    /// What the voice does then.
+    /// What the voice is to do.
     pub act: Act,
 }
 
-/// What a voice does.
+/// What a voice is to do.
 ///
-/// `Pulse` and `Shape` are over by themselves. `Comb` and `Wave` sound until they end or are stopped, and replace what
-/// the voice was sounding.
+/// `Pulse` and `Shape` are single pulses that end by themselves. `Comb` and `Wave` last until they end or are stopped, and replace
+/// what the voice was playing.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Act {
-    /// One focused pulse at a place.
+    /// Plays one focused pulse at a place.
     Pulse {
         /// Where it is focused, in m.
         place: Point,
-        /// How strong, as a share or in dB.
+        /// Level of the pulse.
         gain: Level,
     },
-    /// A focus repeated until it is stopped.
+    /// Repeats a focused pulse periodically until the voice is stopped.
     Comb {
         /// Where it is focused, in m.
         place: Point,
         /// Pulses per second.
         rate: f64,
-        /// How strong each pulse is.
+        /// Level of each pulse.
         gain: Level,
     },
-    /// A waveform at a place.
+    /// Plays a waveform at a place.
     Wave {
-        /// Where it is felt, in m.
+        /// Where the waveform is felt, in m.
         place: Point,
-        /// The waveform; its full scale, 1, is the level.
+        /// The waveform, with a full scale of 1.
         wave: Wave,
-        /// How strong it is at full scale.
+        /// Level of a sample of 1.
         gain: Level,
-        /// Whether it starts over at its end, until it is stopped. Such a waveform meets itself without a step.
+        /// Whether it repeats until it is stopped. The samples of such a waveform continue from its end to its start without a step.
         looped: bool,
-        /// Time over which it rises, in s.
+        /// Duration of the fade-in, in s.
         fade: f64,
     },
-    /// One focused pulse on many points at once.
+    /// Plays one pulse that is focused on many points at the same instant.
     Shape {
-        /// Where, in m: all points at once.
+        /// The points, in m.
         points: Arc<[Point]>,
-        /// How strong, all points together.
+        /// Level of the pulse on all points together.
         gain: Level,
     },
-    /// The voice's place from now on.
+    /// Moves the voice, and what it is playing, to another place.
     Move {
         /// The new place, in m.
         place: Point,
     },
-    /// The voice's level from now on.
+    /// Changes the level of the voice.
     Gain {
-        /// The new level, of what sounds too.
+        /// The new level, which also applies to what is being played.
         gain: Level,
     },
-    /// The voice ends. Its acts that were cued for later times are not played.
+    /// Ends the voice. Its cues for later times are dropped.
     Stop {
-        /// Time over which it falls, in s.
+        /// Duration of the fade-out, in s.
         fade: f64,
     },
 }
 
-/// Samples of a waveform, shared rather than copied.
+/// A sampled waveform; its samples are shared, not copied, between clones.
 #[derive(Clone, PartialEq)]
 pub struct Wave {
     /// The samples, between -1 and 1.
@@ -88,7 +88,7 @@ pub struct Wave {
 }
 
 impl Wave {
-    /// How long it lasts, in s.
+    /// Duration of the waveform, in s.
     pub fn duration(&self) -> f64 {
         self.samples.len() as f64 / self.rate
     }

@@ -4,8 +4,8 @@ use crate::EffectsError;
 use crate::error::{counted, within};
 use crate::limits::MOST_POINTS;
 
-/// A piecewise-linear function: straight between its points, constant beyond its ends. Two points at one place are a
-/// step, which has the later one's value.
+/// A piecewise-linear function: linear between its points, constant beyond its ends. Two points of equal abscissa make a
+/// step, where the function has the value of the later point.
 ///
 /// ```
 /// use unripple_effects::Curve;
@@ -22,11 +22,12 @@ pub struct Curve {
 }
 
 impl Curve {
-    /// The curve through points of (abscissa, value), whose abscissae (called `what` in messages) do not run
-    /// back; `along` and `values` are the ranges they may have, in the curve's own units.
+    /// The curve through points (abscissa, value) in order of non-decreasing abscissa. `along` and `values` are the allowed ranges
+    /// of abscissae and values, in the curve's own units; `what` names the abscissa in error messages.
     ///
     /// # Errors
-    /// If there are none or too many, if they run back, or if a coordinate is out of its range.
+    /// [`EffectsError::Size`] if there are no points or more than [`MOST_POINTS`], [`EffectsError::Order`] if an abscissa is less than the
+    /// one before, [`EffectsError::Range`] if a coordinate is out of its range.
     pub fn new(
         what: &'static str,
         points: Vec<(f64, f64)>,
@@ -44,12 +45,12 @@ impl Curve {
         Ok(Self::through(points))
     }
 
-    /// The same value everywhere, in the curve's unit.
+    /// A constant function, its value in the curve's unit.
     pub fn constant(value: f64) -> Self {
         Self::through(vec![(0.0, value)])
     }
 
-    /// The curve through points that were checked, with its integral at each.
+    /// The curve through points that have been checked, with its integral at each.
     fn through(points: Vec<(f64, f64)>) -> Self {
         let mut area = vec![0.0; points.len()];
         for i in 1..points.len() {
@@ -64,17 +65,17 @@ impl Curve {
         &self.points
     }
 
-    /// Whether it has the same value everywhere.
+    /// Whether the function is constant.
     pub fn is_constant(&self) -> bool {
         self.points.iter().all(|(_, y)| *y == self.points[0].1)
     }
 
-    /// Abscissa of the last point, in its unit: where the curve ends.
+    /// Abscissa of the last point, in its unit.
     pub fn end(&self) -> f64 {
         self.points[self.points.len() - 1].0
     }
 
-    /// The value at an abscissa, in the curve's unit.
+    /// The value at the abscissa `x`, in the curve's unit.
     pub fn at(&self, x: f64) -> f64 {
         let after = self.points.partition_point(|p| p.0 <= x);
         match after {
@@ -87,8 +88,8 @@ impl Curve {
         }
     }
 
-    /// Integral from the first point to `x`, negative before it, in the value's unit times that of the
-    /// abscissa.
+    /// Integral of the function from its first point to the abscissa `x` (backwards for an `x` before that), in the unit of
+    /// the value times that of the abscissa.
     pub fn integral(&self, x: f64) -> f64 {
         let n = self.points.partition_point(|p| p.0 <= x).saturating_sub(1);
         let (x0, y0) = self.points[n];

@@ -1,4 +1,4 @@
-//! Effects in use: touches and time in, cues out.
+//! Running a set of effects: touches and time in, cues out.
 
 use crate::error::within;
 use crate::fingers::{Finger, Under, holds};
@@ -7,17 +7,17 @@ use crate::{Cue, EffectSet, EffectsError, Kind, Level, Region, Start, limits};
 use std::collections::BTreeMap;
 use unripple_core::{Outline, Phase, Point, Touch};
 
-/// Largest time taken for one, in s: there rounding is a tenth of a millisecond. Doubled, it is two tenths.
+/// Largest time accepted, in s: there the rounding of f64 is a tenth of a millisecond. Doubled, it is two tenths.
 const LARGEST_TIME: f64 = 1e12;
-/// Bits of a voice below the contact: eight for the effect, eight for its part. So a set may have 256
-/// effects, of which [`limits::MOST_EFFECTS`] leaves 64.
+/// Bits of a voice's number for the effect, and as many below them for its part; the contact is above. This allows
+/// 256 effects in a set, of which [`limits::MOST_EFFECTS`] permits 64.
 const EFFECT_BITS: u32 = 8;
 
-/// A set of effects in use: touches and time in, cues out.
+/// A running set of effects: takes touches and the time, gives cues.
 ///
-/// Work and memory are bounded whatever comes in: so many fingers, so many cues a call, the rest counted. Places and
-/// times that are none are refused, and counted; a lift is never refused. A finger that comes again without having
-/// left is taken to have left.
+/// Work and memory are bounded for any input: fingers beyond [`limits::MOST_FINGERS`] and cues of one call beyond
+/// [`limits::MOST_CUES`] are dropped and counted. Touches whose place or time is not finite or out of range are refused and
+/// counted, except that a finger is always lifted. A finger that is put down again without a lift counts as lifted before.
 pub struct Effects {
     effects: Vec<Ready>,
     outline: Outline,
@@ -31,7 +31,7 @@ pub struct Effects {
     refused: u64,
 }
 
-/// An effect ready to be played.
+/// An effect of a checked set, prepared for playing.
 struct Ready {
     name: String,
     region: Region,
@@ -48,10 +48,10 @@ struct Running {
 }
 
 impl Effects {
-    /// The effects of a set on a sheet, waveforms at `rate` samples per second.
+    /// Prepares the effects of a set for a sheet of the given outline, with waveforms at `rate` samples per second.
     ///
     /// # Errors
-    /// The first value of the set that is not legal.
+    /// As [`EffectSet::check`]; [`EffectsError::Range`] if the rate is not within [`limits::SAMPLE_RATE`].
     pub fn new(set: &EffectSet, outline: Outline, rate: f64) -> Result<Self, EffectsError> {
         set.check()?;
         within("sample rate", rate, limits::SAMPLE_RATE)?;
@@ -82,7 +82,7 @@ impl Effects {
         })
     }
 
-    /// Adds the cues that a touch sets off, those due up to its time first.
+    /// Processes a touch event and appends its cues to `cues`, after all timed cues that are due up to its time.
     pub fn touch(&mut self, touch: &Touch, cues: &mut Vec<Cue>) {
         let lifts = touch.phase == Phase::Up;
         let is_time = touch.time.is_finite() && touch.time.abs() <= LARGEST_TIME;
@@ -114,10 +114,10 @@ impl Effects {
         self.dropped += budget.dropped;
     }
 
-    /// Adds the cues of everything timed that is due up to and with `until` (s).
+    /// Appends all timed cues that are due up to and including the time `until` (s) to `cues`.
     ///
-    /// `until` may lie ahead of the clock, so that cues come before they are due; a finger that then lifts stops what
-    /// was cued ahead. What is overdue by more than [`limits::LATEST`] is skipped.
+    /// `until` may lie in the future, so that cues are given before they are due; if the finger is then lifted, a stop cancels
+    /// the cues given ahead. Cues that are overdue by more than [`limits::LATEST`] are skipped.
     pub fn tick(&mut self, until: f64, cues: &mut Vec<Cue>) {
         if !(until.is_finite() && until.abs() <= LARGEST_TIME) {
             self.refused += 1;
@@ -129,12 +129,12 @@ impl Effects {
         self.dropped += budget.dropped;
     }
 
-    /// Starts a score by the name of its effect, at a time (s) and a place (m); without a place, in the
+    /// Starts a score ([`Start::Name`]) by the name of its effect, at a time (s) and a place (m); without a place, in the
     /// middle of the sheet.
     ///
     /// # Errors
-    /// [`EffectsError::NoScore`] if no effect of that name is such a score, [`EffectsError::Range`] if the time or the
-    /// place is none, [`EffectsError::Size`] if too many run already.
+    /// [`EffectsError::NoScore`] if no effect of that name is a score that is started by name, [`EffectsError::Range`] if the time
+    /// or the place is not finite or out of range, [`EffectsError::Size`] if [`limits::MOST_SCORES`] run already.
     pub fn start(&mut self, name: &str, at: f64, place: Option<Point>) -> Result<(), EffectsError> {
         let effect = self.named(name)?;
         within("time of a start", at, [-LARGEST_TIME, LARGEST_TIME])?;
@@ -147,10 +147,11 @@ impl Effects {
         Ok(())
     }
 
-    /// Stops every run of a score that was started by name, at a time (s).
+    /// Stops all running instances of a score that is started by name, at a time (s); appends the stops to `cues`.
     ///
     /// # Errors
-    /// As [`Effects::start`].
+    /// [`EffectsError::NoScore`] if no effect of that name is a score that is started by name, [`EffectsError::Range`] if the time
+    /// is not finite or out of range.
     pub fn stop(&mut self, name: &str, at: f64, cues: &mut Vec<Cue>) -> Result<(), EffectsError> {
         let effect = self.named(name)?;
         within("time of a stop", at, [-LARGEST_TIME, LARGEST_TIME])?;
@@ -166,27 +167,29 @@ impl Effects {
         Ok(())
     }
 
-    /// Whether no cue comes before the next touch or start: no finger is there, and no score runs.
+    /// Whether no cues will come before the next touch or [`Effects::start`]: no finger is down and no score runs. False before
+    /// the first touch or tick, which may start scores.
     pub fn rests(&self) -> bool {
         self.has_begun && self.fingers.is_empty() && self.running.is_empty()
     }
 
-    /// Number of fingers on the surface now.
+    /// Number of fingers that are now on the surface.
     pub fn fingers(&self) -> usize {
         self.fingers.len()
     }
 
-    /// Number of cues left out so far because a call gave too many.
+    /// Number of cues dropped so far because one call would have given more than [`limits::MOST_CUES`].
     pub fn dropped(&self) -> u64 {
         self.dropped
     }
 
-    /// Number of touches and ticks refused so far: at no place or time, or one finger too many.
+    /// Number of touches and ticks refused so far: with a place or time out of range, of one finger too many, or of a finger that
+    /// moved without having been put down.
     pub fn refused(&self) -> u64 {
         self.refused
     }
 
-    /// Index of the score that is started by a name.
+    /// Index of the effect of this name that is a score started by name.
     fn named(&self, name: &str) -> Result<usize, EffectsError> {
         let scores = || self.effects.iter().enumerate().filter(|(_, ready)| ready.start == Start::Name);
         let found = scores().find(|(_, ready)| ready.name == name).map(|(effect, _)| effect);
@@ -196,7 +199,7 @@ impl Effects {
         })
     }
 
-    /// The first time anything is heard of is time zero.
+    /// At the first touch or tick, starts the scores of [`Start::Zero`].
     fn begin(&mut self, time: f64) {
         if std::mem::replace(&mut self.has_begun, true) {
             return;
@@ -226,7 +229,7 @@ impl Effects {
         self.contacts
     }
 
-    /// A finger comes down.
+    /// A finger is put down.
     fn land(
         &mut self,
         id: u64,
@@ -256,7 +259,7 @@ impl Effects {
         self.fingers.insert(id, finger);
     }
 
-    /// A finger moves, or presses otherwise.
+    /// A finger moves, or its force changes.
     fn slide(
         &mut self,
         id: u64,
@@ -287,7 +290,7 @@ impl Effects {
         finger.last = to;
     }
 
-    /// A finger leaves, and with it what it set off.
+    /// A finger is lifted, and the effects under it end.
     fn lift(&mut self, id: u64, time: f64, cues: &mut Vec<Cue>, budget: &mut Budget) {
         let Some(mut finger) = self.fingers.remove(&id) else { return };
         let now = Moment { time, ..finger.last };
@@ -299,7 +302,7 @@ impl Effects {
         }
     }
 
-    /// Adds what is timed, of all fingers and scores.
+    /// Adds the timed cues of all fingers and scores.
     fn due(&mut self, until: f64, cues: &mut Vec<Cue>, budget: &mut Budget) {
         for finger in self.fingers.values_mut() {
             for (effect, (under, ready)) in finger.plays.iter_mut().zip(&self.effects).enumerate() {
@@ -318,7 +321,7 @@ impl Effects {
 }
 
 impl Ready {
-    /// Where a play of this effect puts its cues.
+    /// The output for a running instance of this effect.
     fn out<'o>(
         &self,
         voice: u64,
@@ -330,7 +333,7 @@ impl Ready {
     }
 }
 
-/// Part 0 of an effect under a contact.
+/// The voice of part 0 of an effect under a contact.
 fn voice(contact: u64, effect: usize) -> u64 {
     ((contact << EFFECT_BITS) | effect as u64) << EFFECT_BITS
 }

@@ -4,14 +4,14 @@ use crate::error::within;
 use crate::{Curve, EffectsError, Wave, limits};
 use std::f64::consts::{PI, TAU};
 
-/// Time over which a waveform that would end abruptly falls, in s: so that its end does not click. Doubled,
-/// waveforms fade more audibly.
+/// Duration of the fade-out of a waveform that would end abruptly, in s, so that its end does not click. Doubled,
+/// the fade becomes more noticeable.
 const EDGE: f64 = 2e-3;
-/// Least time of a steady tone's loop, in s: its frequency is off by at most half a sample in that time.
-/// Doubled, half as much, for twice the memory.
+/// Least duration of the loop of a sine, in s: rounding the loop to whole samples changes its duration by at most half a
+/// sample, and its frequency in proportion. Doubled, the error is half as large, for twice the memory.
 const LOOP: f64 = 0.25;
 
-/// Amplitude and frequency over time, both piecewise linear: how a waveform is drawn.
+/// A waveform a(t) sin(2π∫f dt), given by its amplitude a and frequency f, both piecewise-linear functions of time.
 ///
 /// ```
 /// use unripple_effects::Envelope;
@@ -28,10 +28,11 @@ pub struct Envelope {
 }
 
 impl Envelope {
-    /// An envelope of points (s, amplitude 0 to 1) and (s, Hz); it lasts until the last point of the amplitude.
+    /// An envelope through points (time in s, amplitude 0 to 1) and (time in s, frequency in Hz). It lasts until the last point of
+    /// the amplitude.
     ///
     /// # Errors
-    /// If a curve is empty, runs back, or leaves its range; if it lasts no time.
+    /// As [`Curve::new`], for either curve; [`EffectsError::Range`] if it lasts less than 1 ms or more than [`limits::LONGEST`].
     pub fn new(amplitude: Vec<(f64, f64)>, frequency: Vec<(f64, f64)>) -> Result<Self, EffectsError> {
         let amplitude = Curve::new("time of an amplitude", amplitude, limits::TIME, limits::SHARE)?;
         let frequency = Curve::new("time of a frequency", frequency, limits::TIME, limits::FREQUENCY)?;
@@ -39,10 +40,10 @@ impl Envelope {
         Ok(Self { amplitude, frequency })
     }
 
-    /// A whole number of periods of a sine of a frequency in Hz, at least a quarter of a second.
+    /// A steady sine of a frequency in Hz: a whole number of periods that last at least a quarter of a second.
     ///
     /// # Errors
-    /// If the frequency is out of its range.
+    /// [`EffectsError::Range`] if the frequency is not within [`limits::FREQUENCY`].
     pub fn sine(frequency: f64) -> Result<Self, EffectsError> {
         within("frequency", frequency, limits::FREQUENCY)?;
         let duration = (LOOP * frequency).ceil() / frequency;
@@ -59,7 +60,7 @@ impl Envelope {
         &self.frequency
     }
 
-    /// How long it lasts, in s.
+    /// Duration of the envelope, in s.
     pub fn duration(&self) -> f64 {
         self.amplitude.end()
     }
@@ -69,12 +70,11 @@ impl Envelope {
         self.frequency.integral(time) - self.frequency.integral(0.0)
     }
 
-    /// The waveform played once, at `rate` samples per second, its first sample at its start and its last at
-    /// its end: a(t) sin 2π∫f dt. It begins at zero; if the amplitude does not end at zero, it falls over the
-    /// last 2 ms.
+    /// The samples of a(t) sin(2π∫f dt) to be played once, at `rate` samples per second, from the start to the end of the envelope.
+    /// The waveform begins at zero; if its amplitude does not end at zero, it is faded out over the last 2 ms.
     ///
     /// # Errors
-    /// If the rate is out of its range.
+    /// [`EffectsError::Range`] if the rate is not within [`limits::SAMPLE_RATE`].
     pub fn sampled(&self, rate: f64) -> Result<Wave, EffectsError> {
         within("sample rate", rate, limits::SAMPLE_RATE)?;
         let duration = self.duration();
@@ -90,11 +90,11 @@ impl Envelope {
         Ok(Wave { samples: (0..count).map(sample).collect(), rate })
     }
 
-    /// The waveform as a loop at `rate` samples per second: its frequency moves by less than half a period in
-    /// its duration, so that it meets itself at a zero.
+    /// The samples of a(t) sin(2π∫f dt) to be played in a loop, at `rate` samples per second. Its frequency is scaled so that the
+    /// envelope holds a whole number of periods (the nearest, at least one), so that the end continues into the start at a zero.
     ///
     /// # Errors
-    /// If the rate is out of its range.
+    /// [`EffectsError::Range`] if the rate is not within [`limits::SAMPLE_RATE`].
     pub fn looped(&self, rate: f64) -> Result<Wave, EffectsError> {
         within("sample rate", rate, limits::SAMPLE_RATE)?;
         let duration = self.duration();

@@ -1,8 +1,8 @@
-//! Why a set of effects cannot be used.
+//! The errors of this crate.
 
 use unripple_core::OutOfRange;
 
-/// Why a set of effects cannot be used.
+/// Why a set of effects, or a call on it, was refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum EffectsError {
     /// A value is out of its range.
@@ -11,46 +11,46 @@ pub enum EffectsError {
     /// There are too many or too few of something.
     #[error("{what}: expected {expected}, found {found}")]
     Size {
-        /// What is counted.
+        /// Name of what is counted.
         what: &'static str,
-        /// How many there may be.
+        /// The allowed numbers, in words.
         expected: String,
-        /// How many there are.
+        /// The number found.
         found: usize,
     },
-    /// The points of a curve run backwards.
+    /// The abscissae of a curve's points are not in ascending order.
     #[error("{what}: expected points in ascending order, found {found} after {before}")]
     Order {
-        /// What runs along the curve, for messages.
+        /// Name of the curve's abscissa.
         what: &'static str,
-        /// The larger one that comes first.
+        /// The abscissa of a point.
         before: f64,
-        /// The smaller one after it.
+        /// The smaller abscissa of the next point.
         found: f64,
     },
-    /// Two effects have one name.
+    /// Two effects of a set have the same name.
     #[error("effect names: expected each once, found `{name}` twice")]
     Twice {
-        /// The name that both have.
+        /// The name that both effects have.
         name: String,
     },
-    /// An edge is felt nowhere.
+    /// An edge effect has neither a line nor a region with a border, so that it could never be felt.
     #[error("edge `{name}`: expected a line, or a region with a border, found neither")]
     Nowhere {
         /// Name of the effect.
         name: String,
     },
-    /// No score of a set is started by that name.
+    /// The set has no score of this name that is started by name.
     #[error("expected a score that is started by name, one of {expected}, found `{found}`")]
     NoScore {
-        /// The names there are.
+        /// The names of the scores that can be started by name.
         expected: String,
-        /// The name asked for.
+        /// The name that was asked for.
         found: String,
     },
 }
 
-/// A typed error unless a value is within limits, in the same unit.
+/// Refuses a value outside its limits, all in the same unit.
 pub(crate) fn within(
     what: &'static str,
     found: f64,
@@ -62,7 +62,7 @@ pub(crate) fn within(
     Err(EffectsError::Range(OutOfRange::new(what, format!("a number from {least} to {greatest}"), found)))
 }
 
-/// A typed error unless a count is within limits.
+/// Refuses a count outside its limits.
 pub(crate) fn counted(
     what: &'static str,
     found: usize,
@@ -75,7 +75,7 @@ pub(crate) fn counted(
     Err(EffectsError::Size { what, expected: format!("{least} to {most}"), found })
 }
 
-/// A typed error unless a place (m) is on some surface.
+/// Refuses a place (m) outside [`crate::limits::PLACE`].
 pub(crate) fn place(what: &'static str, at: unripple_core::Point) -> Result<(), EffectsError> {
     within(what, at.x, crate::limits::PLACE)?;
     within(what, at.y, crate::limits::PLACE)

@@ -4,10 +4,10 @@ use crate::play::{Moment, Play};
 use crate::{Region, limits};
 use unripple_core::{Outline, Point};
 
-/// Time constant over which a finger's velocity is smoothed, in s: a first-order low-pass filter. Doubled,
-/// gains follow the speed later; halved, they follow the noise of places.
+/// Time constant of the first-order low-pass filter that smooths a finger's velocity, in s. Doubled, gains follow the speed
+/// more slowly; halved, they follow the noise of the measured positions.
 const SMOOTHING: f64 = 0.015;
-/// Touches closer in time than this say nothing of the velocity, in s: a division by so little would make it
+/// Least time between two touches for which a velocity is computed, in s: a division by less would make it
 /// huge.
 const SHORTEST: f64 = 1e-6;
 
@@ -15,10 +15,10 @@ const SHORTEST: f64 = 1e-6;
 pub(crate) struct Finger {
     /// Number of the contact, from which its voices are numbered.
     pub contact: u64,
-    /// When and where it was last heard of.
+    /// Time, position, force and velocity at its last touch event.
     pub last: Moment,
     has_moved: bool,
-    /// The play of each effect that fingers set off, and whether the finger is in its region.
+    /// The state of each effect under this finger; `None` for effects that a finger does not start.
     pub plays: Vec<Option<Under>>,
 }
 
@@ -31,19 +31,19 @@ pub(crate) struct Under {
 }
 
 impl Finger {
-    /// A finger that came at a time (s) and a place (m), with a force (N) if that is known.
+    /// A finger that was put down at a time (s) and a place (m), with a force (N) if that is known.
     pub fn new(contact: u64, time: f64, at: Point, force: Option<f64>, plays: Vec<Option<Under>>) -> Self {
         let last = Moment { time, at, force, velocity: Point::default() };
         Self { contact, last, has_moved: false, plays }
     }
 
-    /// What a touch at a time (s), place (m) and force (N) makes of the finger: its velocity is that since
-    /// the last touch, smoothed.
+    /// The state of the finger after a touch event at a time (s), place (m) and force (N). Its velocity is the mean since the last
+    /// event, smoothed.
     pub fn moved(&mut self, time: f64, at: Point, force: Option<f64>) -> Moment {
         let elapsed = time - self.last.time;
         let mut velocity = self.last.velocity;
         if elapsed >= SHORTEST {
-            // After a rest, what was before says nothing.
+            // After a rest, the earlier velocity is not used.
             let fresh = !self.has_moved || elapsed > limits::HOLD;
             let weight = if fresh { 1.0 } else { 1.0 - (-elapsed / SMOOTHING).exp() };
             velocity.x += weight * ((at.x - self.last.at.x) / elapsed - velocity.x);
@@ -54,7 +54,7 @@ impl Finger {
     }
 }
 
-/// Whether a place (m) is one where an effect holds: in its region, and on the sheet.
+/// Whether an effect acts at a place (m): it lies in the effect's region and on the sheet.
 pub(crate) fn holds(outline: &Outline, region: &Region, at: Point) -> bool {
     region.contains(at) && outline.contains(at)
 }

@@ -1,16 +1,16 @@
-//! How strong an effect is: a gain, or dB above threshold.
+//! The level of an effect: a share of full scale, or dB above the detection threshold.
 
-/// How strong something is: a share of full level, or a level above threshold.
+/// The level of a pulse or waveform: relative to full level, or to the detection threshold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Level {
-    /// Share of the full level, 0 to 1: of what whoever plays takes for full.
+    /// Amplitude as a share of the full level, 0 to 1; the player defines what the full level is.
     Share(f64),
-    /// Above the threshold of the fingertip, in dB.
+    /// Displacement above the vibrotactile detection threshold of the fingertip, in dB.
     Felt(f64),
 }
 
 impl Level {
-    /// The level whose amplitude is `gain` (a factor) times this one's; nothing at all for a gain of 0.
+    /// The level whose amplitude is `gain` (a factor) times that of this one; a share of 0 if the gain is not positive.
     ///
     /// ```
     /// use unripple_effects::Level;

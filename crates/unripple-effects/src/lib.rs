@@ -1,16 +1,16 @@
-//! What touches set off: effects on regions of the surface, cues for whoever plays them.
+//! Haptic effects on regions of the surface: touch events in, timed cues for a player out.
 //!
-//! An [`EffectSet`] says what is felt where. [`Effects`] is such a set in use: it takes touches and the time, and adds
-//! [`Cue`]s, which say when, where and how strongly something sounds. It plays nothing itself, so two effects at once
-//! are simply the cues of both; whoever plays them mixes and limits.
+//! An [`EffectSet`] defines what is felt in which region. [`Effects`] runs such a set: it takes touches and the time, and adds
+//! [`Cue`]s, which say when, where and how strongly a pulse or waveform is to be played. It plays nothing itself. When two
+//! effects act at once, it gives the cues of both, and the player mixes and limits them.
 //!
-//! Times are seconds of the touches' clock, places metres on the surface. Nothing here reads a clock: the same calls
-//! give the same cues, random grain included.
+//! Times are in seconds of the clock that times the touches; places are in metres on the surface. Nothing here reads a clock:
+//! the same calls give the same cues, random variation included.
 //!
 //! # In reading order
 //!
-//! [`Kind`] lists the effects, one file each. [`Curve`] and [`Envelope`] are what is drawn over time or speed.
-//! [`Region`] is where an effect holds. [`Act`] is all that a player must understand.
+//! [`Kind`] lists the effects, one file each. [`Curve`] and [`Envelope`] are functions of time or speed that effects use.
+//! [`Region`] is where an effect acts. [`Act`] is all that a player must implement.
 //!
 //! ```
 //! use unripple_core::{Outline, Phase, Point, Shape, Touch};

@@ -1,32 +1,32 @@
-//! What an effect does under one finger: where that is, how fast it moves, and the cues that follow.
+//! One effect under one finger: the finger's position and velocity, and the cues that the effect gives.
 
 use crate::{Act, Cue, Level, Wave, limits};
 use std::sync::Arc;
 use unripple_core::{Outline, Point};
 
-/// A finger at an instant.
+/// The state of a finger at an instant.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Moment {
-    /// When, in s of the touches' clock.
+    /// Time, in s of the clock that times the touches.
     pub time: f64,
-    /// Where it is, in m.
+    /// Position, in m.
     pub at: Point,
-    /// How hard it presses, in N, where that is known.
+    /// Pressing force, in N, where it is known.
     pub force: Option<f64>,
     /// Smoothed velocity, in m/s.
     pub velocity: Point,
 }
 
 impl Moment {
-    /// Speed in m/s at a time after this, when nothing was heard since.
+    /// The speed in m/s assumed at a later time (s), if no touch event has arrived since.
     pub fn speed_at(&self, time: f64) -> f64 {
         if time > self.time + limits::HOLD { 0.0 } else { self.velocity.x.hypot(self.velocity.y) }
     }
 }
 
-/// One effect under one contact of one finger, or by itself.
+/// A running effect: under one contact of one finger, or without a finger.
 pub(crate) trait Play: Send {
-    /// The finger is in the region from now on: put down there, or slid into it.
+    /// The finger has entered the region: put down in it (`touched`), or slid into it.
     fn enter(&mut self, _now: &Moment, _touched: bool, _out: &mut Out) {}
 
     /// The finger moved within the region.
@@ -38,19 +38,19 @@ pub(crate) trait Play: Send {
     /// The finger is no longer in the region.
     fn leave(&mut self, _now: &Moment, _out: &mut Out) {}
 
-    /// Everything timed that is due up to and with `until` (s).
+    /// Adds all timed cues that are due up to and including `until` (s).
     fn due(&mut self, _until: f64, _out: &mut Out) {}
 
-    /// Whether nothing comes of it after a time (s), without a finger.
+    /// Whether an effect that runs without a finger gives no more cues after a time (s).
     fn is_done(&self, _now: f64) -> bool {
         true
     }
 }
 
-/// Makes the play of a contact with a number of its own.
+/// Makes the running effect for a contact, given the contact's number.
 pub(crate) type Maker = Box<dyn Fn(u64) -> Box<dyn Play> + Send>;
 
-/// How many cues one call may still add.
+/// The number of cues that one call may still add.
 pub(crate) struct Budget {
     /// Cues that may still be added.
     pub left: usize,
@@ -58,22 +58,22 @@ pub(crate) struct Budget {
     pub dropped: u64,
 }
 
-/// Where a play puts its cues.
+/// The output of a running effect.
 pub(crate) struct Out<'o> {
-    /// Where cues go.
+    /// The list to which cues are added.
     pub cues: &'o mut Vec<Cue>,
-    /// How many cues there may still be.
+    /// How many cues may still be added.
     pub budget: &'o mut Budget,
-    /// The sheet, off which nothing is cued.
+    /// The sheet: pulses outside it are not cued.
     pub outline: &'o Outline,
-    /// Voice of part 0; the lowest eight bits are free.
+    /// Number of the voice of part 0; its lowest eight bits are zero and take the part.
     pub voice: u64,
-    /// How strong the effect is at a gain of 1.
+    /// Level of the effect at a gain of 1.
     pub level: Level,
 }
 
 impl Out<'_> {
-    /// Adds an act of a part of the voice at a time (s), if there is room.
+    /// Adds an act of one part of the voice at a time (s), if the budget allows.
     pub fn push(&mut self, part: u8, at: f64, act: Act) {
         if !matches!(act, Act::Stop { .. }) {
             if self.budget.left == 0 {
@@ -85,7 +85,7 @@ impl Out<'_> {
         self.cues.push(Cue { voice: self.voice | u64::from(part), at, act });
     }
 
-    /// Whether further cues would only be counted.
+    /// Whether the budget is used up, so that further cues are dropped and counted.
     pub fn is_full(&self) -> bool {
         self.budget.left == 0
     }
@@ -115,19 +115,19 @@ impl Out<'_> {
     }
 }
 
-/// A waveform about to sound.
+/// A waveform to be started.
 pub(crate) struct Sounding {
-    /// Its samples, full scale being the level.
+    /// The samples, with a full scale of 1.
     pub wave: Wave,
     /// Factor on the effect's level, 0 to 1.
     pub gain: f64,
-    /// Whether it starts over at its end.
+    /// Whether it repeats until it is stopped.
     pub looped: bool,
-    /// Time over which it rises, in s.
+    /// Duration of the fade-in, in s.
     pub fade: f64,
 }
 
-/// Instants a whole number of periods after a start, as they fall due.
+/// A sequence of periodic instants, given one by one as they fall due.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Beat {
     start: f64,
@@ -141,7 +141,8 @@ impl Beat {
         Self { start, period, index: 0 }
     }
 
-    /// The next instant (s) due up to `until` (s), with its number. Instants overdue by too much are skipped.
+    /// The number and time (s) of the next instant, if it is due up to `until` (s). Instants overdue by more than
+    /// [`limits::LATEST`] are skipped.
     pub fn next(&mut self, until: f64) -> Option<(u64, f64)> {
         let late = ((until - limits::LATEST - self.start) / self.period).ceil();
         // A negative or huge count saturates.

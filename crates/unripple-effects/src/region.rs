@@ -1,36 +1,36 @@
-//! Where on the surface an effect holds.
+//! Regions of the surface in which effects act.
 
 use crate::error::{counted, place, within};
 use crate::{EffectsError, limits};
 use unripple_core::Point;
 
-/// The region of the surface where an effect holds.
+/// The region of the surface in which an effect acts.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Region {
     /// The whole sheet, wherever it is touched.
     Everywhere,
-    /// A rectangle along the axes.
+    /// A rectangle with sides along the axes.
     Rectangle {
         /// Its lower-left corner, in m.
         corner: Point,
-        /// Along x, in m.
+        /// Its length along x, in m.
         width: f64,
-        /// Along y, in m.
+        /// Its length along y, in m.
         height: f64,
     },
-    /// A disc of some radius.
+    /// A disc, given by centre and radius.
     Circle {
         /// Its centre, in m.
         centre: Point,
         /// Its radius, in m.
         radius: f64,
     },
-    /// What the corners enclose, either way round; where sides cross, what is enclosed an odd number of times.
+    /// A polygon, by its corners in m, in either sense of rotation; where sides cross, the even-odd rule decides.
     Polygon(Vec<Point>),
 }
 
 impl Region {
-    /// Whether a place (m) lies in it.
+    /// Whether a place (m) lies in the region.
     ///
     /// ```
     /// use unripple_core::Point;
@@ -56,7 +56,8 @@ impl Region {
         }
     }
 
-    /// Where the way from one place to another (m) crosses the border, as shares of the way, ascending.
+    /// The crossings of the straight path between two places (m) with the region's border, as shares of the path's length (0 to 1),
+    /// ascending.
     pub fn crossings(&self, from: Point, to: Point) -> Vec<f64> {
         let mut found: Vec<f64> = match self {
             Self::Everywhere => Vec::new(),
@@ -72,7 +73,7 @@ impl Region {
         found
     }
 
-    /// Refuses a region that is nowhere, or has too few or too many corners.
+    /// Refuses a region whose values are out of range, or that has too few or too many corners.
     pub(crate) fn check(&self) -> Result<(), EffectsError> {
         match self {
             Self::Everywhere => Ok(()),
@@ -93,12 +94,12 @@ impl Region {
     }
 }
 
-/// Where the way from one place to another (m) crosses a straight line between two points (m), as a share of
-/// the way.
+/// The crossing of the straight path between two places (m) with the segment between two points (m), as a share of
+/// the path's length.
 pub(crate) fn crossing((a, b): (Point, Point), from: Point, to: Point) -> Option<f64> {
     let side = |p: Point| (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
     let (before, after) = (side(from), side(to));
-    // A place on the line counts as left of it, so that a way through it crosses once.
+    // A place on the line counts as left of it, so that a path that ends there and goes on crosses once.
     if (before >= 0.0) == (after >= 0.0) {
         return None;
     }
@@ -109,7 +110,7 @@ pub(crate) fn crossing((a, b): (Point, Point), from: Point, to: Point) -> Option
     (0.0..length).contains(&along).then_some(share)
 }
 
-/// The point at a share of the way, all in m: linear interpolation.
+/// Linear interpolation: the point at a share (0 to 1) of the path from one place to another, in m.
 pub(crate) fn lerp(from: Point, to: Point, share: f64) -> Point {
     Point::new(from.x + share * (to.x - from.x), from.y + share * (to.y - from.y))
 }
@@ -119,12 +120,12 @@ fn ring(corners: &[Point], from: Point, to: Point) -> Vec<f64> {
     corners.iter().zip(next).filter_map(|(a, b)| crossing((*a, *b), from, to)).collect()
 }
 
-/// Where a way crosses a circle, as shares of the way.
+/// The crossings of a straight path with a circle, as shares of the path's length.
 fn circle(centre: Point, radius: f64, from: Point, to: Point) -> Vec<f64> {
     let (d, f) = ((to.x - from.x, to.y - from.y), (from.x - centre.x, from.y - centre.y));
     let (a, b) = (d.0 * d.0 + d.1 * d.1, f.0 * d.0 + f.1 * d.1);
     let c = f.0 * f.0 + f.1 * f.1 - radius * radius;
     let root = (b * b - a * c).sqrt();
-    // Without two crossings the root is not a number, and no share is within the way.
+    // If the line misses the circle, the root is not a number and neither share passes the filter.
     [(-b - root) / a, (-b + root) / a].into_iter().filter(|s| *s > 0.0 && *s <= 1.0).collect()
 }

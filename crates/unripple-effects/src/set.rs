@@ -1,38 +1,38 @@
-//! A set of effects: what is felt on a surface.
+//! A set of effects on a surface.
 
 use crate::error::{counted, within};
 use crate::{EffectsError, Kind, Level, Region, limits};
 use std::collections::HashSet;
 
-/// A set of effects: what is felt on a surface, and where.
+/// A set of effects on a surface: what is felt, and where.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EffectSet {
-    /// What it is called, for people.
+    /// Name of the set, for people.
     pub name: String,
-    /// What it is like, in a line; may be empty.
+    /// Description in one line; may be empty.
     pub about: String,
-    /// The effects. Where several hold, all of them play.
+    /// The effects. Where regions overlap, all effects there are played.
     pub effects: Vec<Effect>,
 }
 
-/// One effect: what, where and how strong.
+/// One effect: its kind, region and level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Effect {
-    /// Its name, its own within the set.
+    /// Name of the effect, unique within the set.
     pub name: String,
-    /// The region where it holds.
+    /// The region in which it acts.
     pub region: Region,
-    /// How strong it is at a gain of 1.
+    /// Its level at a gain of 1.
     pub level: Level,
-    /// Kind of the effect, with its own values.
+    /// The kind of effect, with its parameters.
     pub kind: Kind,
 }
 
 impl EffectSet {
-    /// Checks every value of the set, and its size.
+    /// Checks all values of the set against [`limits`], and its names.
     ///
     /// # Errors
-    /// The first value that is not legal.
+    /// The error of the first value or name that is not allowed.
     pub fn check(&self) -> Result<(), EffectsError> {
         counted("effects", self.effects.len(), 1, limits::MOST_EFFECTS)?;
         let mut names = HashSet::new();

@@ -1,34 +1,34 @@
-//! A button: a click when pressed, another when let go.
+//! Button: a pulse when pressed, another when released.
 
 use crate::error::within;
 use crate::play::{Maker, Moment, Out, Play};
 use crate::{EffectsError, limits};
 
-/// Force at which a button lets go again, as a share of that at which it was pressed: hysteresis, so that a
-/// force that trembles clicks once. At 1 there would be none.
+/// Force at which a button is released, as a share of the force at which it is pressed: hysteresis, so that a
+/// fluctuating force gives one click. At 1 there would be none.
 const LET_GO: f64 = 0.7;
 
-/// Clicks at the finger: one when pressed, another when let go.
+/// A button: one pulse (click) at the finger when it is pressed, another when it is released.
 ///
-/// Pressed means put down in the region, or pressed harder than a force; let go means lifted or slid out of the region,
-/// or pressed with less than 0.7 of that force. A finger whose force is not known never presses such a
-/// button.
+/// Without a force, a finger presses the button when it is put down in the region. With a force, it presses the button when its
+/// force reaches that value, and releases it below 0.7 of the value; a finger whose force is not known never presses it. In both
+/// cases, lifting the finger or sliding it out of the region releases the button.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Button {
-    /// Force at which it is pressed, in N; the touch itself without.
+    /// Force at which the button is pressed, in N; `None` if the touch itself presses it.
     pub press_force: Option<f64>,
-    /// Gain of the second click, 0 for none.
+    /// Gain of the pulse at the release, 0 to 1; 0 for no pulse.
     pub release: f64,
 }
 
 impl Button {
-    /// Refuses a force or gain that is not legal.
+    /// Refuses a force or gain that is out of range.
     pub(super) fn check(&self) -> Result<(), EffectsError> {
         within("gain of the release", self.release, limits::SHARE)?;
         self.press_force.map_or(Ok(()), |force| within("force of a press", force, limits::FORCE))
     }
 
-    /// What plays it under a finger.
+    /// The function that starts it under a finger.
     pub(super) fn maker(&self) -> Maker {
         let button = *self;
         Box::new(move |_| Box::new(Pressing { button, pressed: false }))
@@ -41,7 +41,7 @@ struct Pressing {
 }
 
 impl Pressing {
-    /// Presses or lets go as the force says.
+    /// Presses or releases the button according to the finger's force.
     fn by_force(&mut self, now: &Moment, out: &mut Out) {
         let (Some(threshold), Some(force)) = (self.button.press_force, now.force) else { return };
         if !self.pressed && force >= threshold {

@@ -6,18 +6,18 @@ use crate::region::{crossing, lerp};
 use crate::{EffectsError, Region, limits};
 use unripple_core::Point;
 
-/// How far a finger goes from where it crossed before another crossing counts, in m: a finger that trembles
-/// on the line is felt once. Doubled, it has to go 2 mm away to feel the line again.
+/// Distance that a finger has to move away from a crossing before another crossing counts, in m, so that a finger that
+/// trembles on the line sets off one pulse only. Doubled, it has to move 2 mm away to feel the line again.
 const AWAY: f64 = 1e-3;
 
-/// A pulse where the finger crosses a line, or the border of its region.
+/// An edge: a pulse where the finger crosses a line, or the border of the effect's region.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Edge {
-    /// The line; without, the border of the region.
+    /// The line, felt where it lies in the region; `None` for the border of the region.
     pub line: Option<Line>,
 }
 
-/// A straight line from one point to another.
+/// A straight line between two points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
     /// One end, in m.
@@ -27,7 +27,7 @@ pub struct Line {
 }
 
 impl Edge {
-    /// Refuses a line that is not on any surface.
+    /// Refuses a line whose ends or length are out of range.
     pub(super) fn check(&self) -> Result<(), EffectsError> {
         let Some(line) = self.line else { return Ok(()) };
         place("end of a line", line.from)?;
@@ -35,7 +35,7 @@ impl Edge {
         within("length of a line", line.from.distance(line.to), [limits::LENGTH[0], 4.0 * limits::LENGTH[1]])
     }
 
-    /// What plays it under a finger, the effect's region being the border without a line.
+    /// The function that starts it under a finger, given the effect's region.
     pub(super) fn maker(&self, region: Region) -> Maker {
         let line = self.line;
         Box::new(move |_| Box::new(Crossing { line, region: region.clone(), last: None }))
@@ -45,14 +45,14 @@ impl Edge {
 struct Crossing {
     line: Option<Line>,
     region: Region,
-    /// Where the finger last crossed, until it is away from there.
+    /// Where the finger last crossed, until it has moved away by more than [`AWAY`].
     last: Option<Point>,
 }
 
 impl Play for Crossing {
     fn pass(&mut self, from: &Moment, to: &Moment, out: &mut Out) {
         let shares = match self.line {
-            // A line counts where the region holds.
+            // A crossing of a line counts only within the region.
             Some(line) => {
                 let met = crossing((line.from, line.to), from.at, to.at);
                 met.into_iter().filter(|s| self.region.contains(lerp(from.at, to.at, *s))).collect()

@@ -1,32 +1,32 @@
-//! A steady waveform under the finger.
+//! Hum: a steady waveform under the finger.
 
 use crate::error::within;
 use crate::play::{Maker, Moment, Out, Play, Sounding};
 use crate::{Act, Curve, EffectsError, Envelope, Wave, limits};
 
-/// Least change of the gain that is told, as a share of full gain: 0.17 dB at full. Halved, twice the cues
-/// for finer steps.
+/// Least change of the gain for which a cue is given, as a share of full gain: 0.17 dB at full gain. Halved, there are twice
+/// as many cues, for finer steps.
 const CHANGE: f64 = 0.02;
 
-/// A waveform at the finger while it is there.
+/// A hum: a waveform played at the finger, and moved with it, while the finger is in the region.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hum {
     /// The waveform that is played.
     pub tone: Tone,
-    /// Gain over speed in m/s.
+    /// Gain (0 to 1) as a function of the finger's speed in m/s.
     pub speed_gain: Curve,
-    /// Time over which it rises and falls, in s.
+    /// Duration of the fade-in and of the fade-out, in s.
     pub fade: f64,
 }
 
 /// The waveform of a hum: a sine, or an envelope.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Tone {
-    /// A sine of a frequency in Hz, without end.
+    /// A continuous sine of a frequency in Hz.
     Sine(f64),
-    /// An envelope, played once.
+    /// The waveform of an envelope, played once.
     Once(Envelope),
-    /// An envelope, over and over.
+    /// The waveform of an envelope, repeated.
     Looped(Envelope),
 }
 
@@ -49,18 +49,18 @@ impl Tone {
 }
 
 impl Hum {
-    /// Refuses a waveform, curve or fade that is not legal.
+    /// Refuses a waveform or fade that is out of range.
     pub(super) fn check(&self) -> Result<(), EffectsError> {
         within("fade of a hum", self.fade, limits::FADE)?;
         self.tone.envelope().map(|_| ())
     }
 
-    /// Seconds of waveform that it keeps.
+    /// Duration of the waveform that it keeps, in s.
     pub(super) fn sounding(&self) -> f64 {
         self.tone.envelope().map_or(0.0, |envelope| envelope.duration())
     }
 
-    /// What plays it under a finger, at `rate` samples per second.
+    /// The function that starts it under a finger, with its waveform at `rate` samples per second.
     pub(super) fn maker(&self, rate: f64) -> Result<Maker, EffectsError> {
         let (hum, wave) = (self.clone(), self.tone.wave(rate)?);
         Ok(Box::new(move |_| Box::new(Humming { hum: hum.clone(), wave: wave.clone(), on: None })))
@@ -70,12 +70,12 @@ impl Hum {
 struct Humming {
     hum: Hum,
     wave: Wave,
-    /// The finger when last heard of, and the gain told last.
+    /// The finger at its last touch event, and the last gain for which a cue was given.
     on: Option<(Moment, f64)>,
 }
 
 impl Humming {
-    /// Tells the gain of a speed (m/s), if it changed enough.
+    /// Adds a cue for the gain at a speed (m/s), if it changed by more than [`CHANGE`].
     fn follow(&mut self, at: f64, speed: f64, out: &mut Out) {
         let Some((_, told)) = &mut self.on else { return };
         let gain = self.hum.speed_gain.at(speed);
@@ -113,7 +113,7 @@ impl Play for Humming {
 
     fn due(&mut self, until: f64, out: &mut Out) {
         let Some((last, _)) = self.on else { return };
-        // A finger that rests sends no news.
+        // A finger that rests may send no touch events.
         let rest = last.time + limits::HOLD;
         if until > rest {
             self.follow(rest, 0.0, out);

@@ -1,4 +1,4 @@
-//! The effects, each a data sheet of its own: what it is given, what is legal, and what it does.
+//! The kinds of effects, one file each: their parameters, allowed values, and behaviour.
 
 mod button;
 mod edge;
@@ -21,29 +21,29 @@ pub use train::Train;
 use crate::play::Maker;
 use crate::{Effect, EffectsError};
 
-/// The kinds of effects, each with its values.
+/// The kinds of effects, each with its parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Kind {
-    /// Clicks at the finger, when pressed and let go.
+    /// A button: one pulse when it is pressed, one when it is released.
     Button(Button),
-    /// Grains along the finger's path.
+    /// A texture: pulses at distances along the finger's path.
     Texture(Texture),
-    /// A pulse where a line or a border is crossed.
+    /// An edge: a pulse where the finger crosses a line or the border of the region.
     Edge(Edge),
-    /// Detents along an axis, as of a ruler.
+    /// Notches: equally spaced detents along an axis.
     Notch(Notch),
-    /// Pulses in time while touched.
+    /// A pulse train in time while the finger is in the region.
     Train(Train),
     /// A shape drawn on a resting hand.
     Shape(Traced),
-    /// A steady waveform while touched.
+    /// A waveform at the finger while it is in the region.
     Hum(Hum),
-    /// A score: pulses and waveforms over time.
+    /// A score: pulses and waveforms at given times.
     Score(Score),
 }
 
 impl Kind {
-    /// The name of the kind that files use.
+    /// The name of this kind in effect files.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Button(_) => "button",
@@ -57,7 +57,7 @@ impl Kind {
         }
     }
 
-    /// Refuses values that are not legal.
+    /// Refuses parameters that are out of range.
     pub(crate) fn check(&self) -> Result<(), EffectsError> {
         match self {
             Self::Button(button) => button.check(),
@@ -71,7 +71,7 @@ impl Kind {
         }
     }
 
-    /// Seconds of waveforms that it keeps in memory.
+    /// Total duration of the waveforms that it keeps in memory, in s.
     pub(crate) fn sounding(&self) -> f64 {
         match self {
             Self::Hum(hum) => hum.sounding(),
@@ -80,7 +80,7 @@ impl Kind {
         }
     }
 
-    /// What plays it, waveforms at `rate` samples per second.
+    /// The function that starts this effect under a contact, with waveforms at `rate` samples per second.
     pub(crate) fn maker(&self, effect: &Effect, rate: f64) -> Result<Maker, EffectsError> {
         Ok(match self {
             Self::Button(button) => button.maker(),

@@ -1,4 +1,4 @@
-//! Detents along an axis.
+//! Notches: equally spaced detents along an axis.
 
 use crate::error::{place, within};
 use crate::play::{Maker, Moment, Out, Play};
@@ -6,24 +6,24 @@ use crate::region::lerp;
 use crate::{EffectsError, limits};
 use unripple_core::Point;
 
-/// Detents along an axis, as of a ruler or a rotary switch laid flat: a pulse whenever the finger comes to the next one.
+/// Equally spaced detents along an axis, like the marks of a ruler: a pulse whenever the finger enters the next detent.
 ///
-/// Detents lie whole pitches from the origin. The finger comes to the next one midway to it, and a little later: by the
-/// hysteresis, so that it does not rattle midway.
+/// The centres of detents lie at whole multiples of the pitch from the origin. The finger enters the next detent when it is past
+/// the midpoint between both by the hysteresis, so that a finger that trembles there does not set off repeated pulses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Notch {
     /// Distance between detents, in m.
     pub pitch: f64,
     /// Direction of the axis, in rad anticlockwise from x.
     pub axis: f64,
-    /// A place where a detent lies, in m.
+    /// The centre of one of the detents, in m.
     pub origin: Point,
-    /// How far beyond the middle the next one begins, as a share of the pitch.
+    /// Distance beyond the midpoint between two detents at which the next one is entered, as a share of the pitch.
     pub hysteresis: f64,
 }
 
 impl Notch {
-    /// Refuses a pitch, axis, origin or hysteresis that is not legal.
+    /// Refuses a pitch, axis, origin or hysteresis that is out of range.
     pub(super) fn check(&self) -> Result<(), EffectsError> {
         within("pitch of notches", self.pitch, limits::PITCH)?;
         within("axis of notches", self.axis, limits::ANGLE)?;
@@ -31,13 +31,13 @@ impl Notch {
         place("origin of notches", self.origin)
     }
 
-    /// What plays it under a finger.
+    /// The function that starts it under a finger.
     pub(super) fn maker(&self) -> Maker {
         let notch = *self;
         Box::new(move |_| Box::new(Sliding { notch, on: 0.0 }))
     }
 
-    /// Pitches from the origin, along the axis.
+    /// Distance of a place from the origin along the axis, in pitches.
     fn along(&self, p: Point) -> f64 {
         let (sin, cos) = self.axis.sin_cos();
         ((p.x - self.origin.x) * cos + (p.y - self.origin.y) * sin) / self.pitch
@@ -46,7 +46,7 @@ impl Notch {
 
 struct Sliding {
     notch: Notch,
-    /// The detent that the finger is in, a whole number.
+    /// Number of the detent that the finger is in, counted from the origin.
     on: f64,
 }
 

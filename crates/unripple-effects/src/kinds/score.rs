@@ -1,4 +1,4 @@
-//! Events over time, started by a touch.
+//! Score: pulses and waveforms at given times, started by a touch, at the beginning, or by name.
 
 use crate::error::{counted, place, within};
 use crate::play::{Maker, Moment, Out, Play, Sounding};
@@ -6,52 +6,52 @@ use crate::{Act, EffectsError, Envelope, Wave, limits};
 use std::sync::Arc;
 use unripple_core::Point;
 
-/// Time over which a waveform of a score falls when the score is stopped, in s: short, and without a click.
-/// Doubled, it is heard for as much longer.
+/// Duration of the fade-out of a score's waveforms when the score is stopped, in s: short, but without a click.
+/// Doubled, they last as much longer.
 const FADE: f64 = 0.01;
-/// How far ahead events may be cued and still be stopped, once all of them are, in s. Doubled, scores that
-/// are over are kept a second longer.
+/// How long a score is kept after its last event, in s, so that events cued that far ahead can still be stopped. Doubled,
+/// scores that are over are kept a second longer.
 const AHEAD: f64 = 1.0;
-/// Voices of a score that sound at once: parts 1 to 255 of its voice, 0 being the effect's own. The next
-/// event takes the first's place.
+/// Number of waveforms of a score that can sound at once: parts 1 to 255 of its voice, part 0 being for pulses. A further
+/// waveform replaces the first.
 const PARTS: usize = 255;
 
-/// A score: pulses and waveforms over time.
+/// A score: pulses and waveforms at given times.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Score {
-    /// What starts it: a touch, the first touch or tick at all, or its name.
+    /// What starts the score.
     pub start: Start,
-    /// Period after which it starts over, in s; without, it plays once.
+    /// Period after which it repeats, in s; `None` if it plays once.
     pub period: Option<f64>,
     /// The events, in any order.
     pub events: Vec<Event>,
 }
 
-/// What starts a score: a touch, the first touch or tick at all, or its name.
+/// What starts a score.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Start {
-    /// A finger that comes into the region. It ends when the finger leaves.
+    /// A finger that enters the region. The score ends when the finger leaves.
     Touch,
-    /// The first touch or tick at all.
+    /// The first call of [`Effects::touch`](crate::Effects::touch) or [`Effects::tick`](crate::Effects::tick).
     Zero,
-    /// [`crate::Effects::start`] with the name of the effect.
+    /// A call of [`Effects::start`](crate::Effects::start) with the name of the effect.
     Name,
 }
 
 /// One event of a score.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Event {
-    /// When, in s after the start.
+    /// Time, in s after the start of the score.
     pub at: f64,
-    /// Its own gain, 0 to 1.
+    /// Gain of the event, 0 to 1.
     pub gain: f64,
-    /// Where; without, at the finger, or where the score was started.
+    /// Place, in m; `None` for the place of the finger, or of the start of a score without a finger.
     pub place: Option<Point>,
-    /// What it sounds like.
+    /// What is played: a pulse or a waveform.
     pub sound: Sound,
 }
 
-/// What an event of a score sounds like.
+/// What an event of a score plays.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Sound {
     /// One focused pulse.
@@ -61,7 +61,7 @@ pub enum Sound {
 }
 
 impl Sound {
-    /// How long it lasts, in s; nothing for a pulse.
+    /// Duration, in s; 0 for a pulse.
     pub fn duration(&self) -> f64 {
         match self {
             Self::Pulse => 0.0,
@@ -71,7 +71,7 @@ impl Sound {
 }
 
 impl Score {
-    /// Refuses times, gains and places that are not legal.
+    /// Refuses times, gains and places that are out of range.
     pub(super) fn check(&self) -> Result<(), EffectsError> {
         counted("events of a score", self.events.len(), 1, limits::MOST_EVENTS)?;
         for event in &self.events {
@@ -84,12 +84,12 @@ impl Score {
         self.period.map_or(Ok(()), |period| within("period of a score", period, [least, limits::PERIOD[1]]))
     }
 
-    /// Seconds of waveforms that it keeps.
+    /// Total duration of the waveforms that it keeps, in s.
     pub(super) fn sounding(&self) -> f64 {
         self.events.iter().map(|event| event.sound.duration()).sum()
     }
 
-    /// What plays it, waveforms at `rate` samples per second.
+    /// The function that starts it, with waveforms at `rate` samples per second.
     pub(super) fn maker(&self, rate: f64) -> Result<Maker, EffectsError> {
         let note = |event: &Event| {
             let wave = match &event.sound {
@@ -107,7 +107,7 @@ impl Score {
     }
 }
 
-/// An event ready to be cued.
+/// An event with its waveform sampled, ready to be cued.
 struct Note {
     at: f64,
     gain: f64,
@@ -118,15 +118,15 @@ struct Note {
 struct Playing {
     notes: Arc<[Note]>,
     period: Option<f64>,
-    /// When it started, or last started over, and where it plays.
+    /// Time (s) at which it started or last repeated, and the place (m) of the finger or of the start.
     on: Option<(f64, Point)>,
     next: usize,
-    /// Waveforms that sound: their part, when they end, and whether they go with the finger.
+    /// Waveforms being played: the part, the time (s) at which it ends, and whether it moves with the finger.
     sounding: Vec<(u8, f64, bool)>,
 }
 
 impl Playing {
-    /// The next event due, and when.
+    /// Index and time (s) of the next event, if it is due up to `until` (s).
     fn next_due(&mut self, until: f64) -> Option<(usize, f64)> {
         if self.next == self.notes.len() {
             let period = self.period?;
@@ -200,7 +200,7 @@ impl Play for Playing {
         let Some((_, place)) = self.on else { return };
         while !out.is_full() {
             let Some((index, at)) = self.next_due(until) else { break };
-            // An event overdue by too much is as good as not written.
+            // Events that are overdue by too much are skipped.
             if at >= until - limits::LATEST {
                 self.play(index, at, place, out);
             }

@@ -1,4 +1,4 @@
-//! A shape drawn on a resting palm, over and over.
+//! Shape: a path drawn repeatedly on a resting finger or palm.
 
 use crate::error::{counted, place, within};
 use crate::play::{Beat, Maker, Moment, Out, Play};
@@ -7,44 +7,44 @@ use crate::{EffectsError, limits};
 use std::sync::Arc;
 use unripple_core::Point;
 
-/// A shape drawn on a resting finger or palm, over and over while it is there.
+/// A shape: a path of straight lines drawn by pulses on a resting finger or palm, repeatedly as long as it is in the region.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traced {
-    /// Its corners, in m.
+    /// The corners of the path, in m from the anchor.
     pub path: Vec<Point>,
     /// Whether the last corner is joined to the first.
     pub closed: bool,
-    /// What the corners count from.
+    /// The origin of the corners' coordinates.
     pub anchor: Anchor,
-    /// How it is drawn: by a moving point, or all at once.
+    /// How the path is drawn: by a moving point, or on all points at once.
     pub trace: Trace,
     /// Pulses per second.
     pub rate: f64,
 }
 
-/// What the corners of a shape count from.
+/// The origin of the coordinates of a shape's corners.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
-    /// The place where the finger came down. It stays there.
+    /// The place where the finger entered the region; the shape stays there when the finger moves.
     Finger,
-    /// The surface's origin, its lower-left corner.
+    /// The origin of the surface, the lower-left corner of its bounding box.
     Surface,
 }
 
 /// How a shape is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Trace {
-    /// By a point that runs along it at a speed in m/s, and starts over at its end.
+    /// Each pulse is focused on a point that moves along the path at this speed in m/s, and starts again at its end.
     Moving(f64),
-    /// All at once, on points so far apart, in m.
+    /// Each pulse is focused on all points of the path at once, which are at most this far apart, in m.
     AtOnce(f64),
 }
 
 impl Traced {
-    /// Checks every value, the length of its path included.
+    /// Checks all parameters, and the length of the path, against [`limits`].
     ///
     /// # Errors
-    /// The first value that is not legal.
+    /// The error of the first value that is out of range.
     pub fn check(&self) -> Result<(), EffectsError> {
         counted("corners of a shape", self.path.len(), 2, limits::MOST_CORNERS)?;
         self.path.iter().try_for_each(|corner| place("corner of a shape", *corner))?;
@@ -74,7 +74,7 @@ impl Traced {
         self.sides().map(|(a, b)| a.distance(b)).sum()
     }
 
-    /// The point so far along the path, from its start again beyond its end.
+    /// The point at a distance (m) along the path, which starts again at its end.
     fn along(&self, distance: f64, length: f64) -> Point {
         let mut left = distance.rem_euclid(length);
         for (a, b) in self.sides() {
@@ -87,7 +87,7 @@ impl Traced {
         self.corners().last().unwrap_or_default()
     }
 
-    /// Points on every side, evenly, no further apart than asked.
+    /// Points on all sides, evenly on each, at most `spacing` (m) apart.
     fn points(&self, spacing: f64) -> Vec<Point> {
         let cut = |(a, b): (Point, Point)| {
             let pieces = (a.distance(b) / spacing).ceil().max(1.0);
@@ -97,7 +97,7 @@ impl Traced {
         self.sides().flat_map(cut).chain(end).collect()
     }
 
-    /// What draws it under a finger.
+    /// The function that starts it under a finger.
     pub(super) fn maker(&self) -> Maker {
         let shape = Arc::new(self.clone());
         Box::new(move |_| Box::new(Drawing { shape: shape.clone(), on: None }))
@@ -109,7 +109,7 @@ struct Drawing {
     on: Option<On>,
 }
 
-/// A shape that lies somewhere and is being drawn.
+/// A shape being drawn, with its place on the surface.
 struct On {
     origin: Point,
     length: f64,

@@ -1,4 +1,4 @@
-//! Texture: grains along the finger's path, so that their rate follows its speed.
+//! Texture: pulses along the finger's path, at a rate in proportion to its speed.
 
 use crate::error::within;
 use crate::play::{Maker, Moment, Out, Play};
@@ -6,29 +6,30 @@ use crate::region::lerp;
 use crate::{Curve, EffectsError, limits};
 use unripple_core::{Point, Random};
 
-/// Grains along the finger's path: a pulse every so far, so that their rate follows the speed.
+/// A texture: pulses ("grains") at distances along the finger's path, so that their rate follows its speed.
 ///
-/// Between two touches the finger is taken to move on, for 50 ms at most, so that grains come evenly.
+/// Between two touch events the finger is assumed to keep its velocity, for at most 50 ms ([`limits::HOLD`]), so that pulses come
+/// evenly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
-    /// Mean distance between grains, in m.
+    /// Mean distance between pulses, in m.
     pub pitch: f64,
-    /// How irregular they are: distances vary by this share to either side, and gains fall by up to this share.
+    /// Random variation, 0 to 1: distances vary by this share either way, and gains are reduced by up to this share.
     pub grain: f64,
-    /// Seed of the irregularity: the same gives the same grains.
+    /// Seed of the random variation: the same seed and touches give the same pulses.
     pub seed: u64,
-    /// Gain over speed in m/s.
+    /// Gain (0 to 1) as a function of the finger's speed in m/s.
     pub speed_gain: Curve,
 }
 
 impl Texture {
-    /// Refuses a pitch, grain or curve that is not legal.
+    /// Refuses a pitch or grain that is out of range.
     pub(super) fn check(&self) -> Result<(), EffectsError> {
         within("pitch of a texture", self.pitch, limits::PITCH)?;
         within("grain of a texture", self.grain, limits::SHARE)
     }
 
-    /// What plays it under a finger.
+    /// The function that starts it under a finger.
     pub(super) fn maker(&self) -> Maker {
         let texture = self.clone();
         Box::new(move |contact| {
@@ -41,15 +42,15 @@ impl Texture {
 struct Rubbing {
     texture: Texture,
     random: Random,
-    /// Length of the path up to the last touch.
+    /// Length of the path up to the last touch event, in m.
     travelled: f64,
-    /// Length of the path at which the next grain lies.
+    /// Length of the path at which the next grain lies, in m.
     next: f64,
     last: Option<Moment>,
 }
 
 impl Rubbing {
-    /// Distance to the grain after the next, long enough for the rate to stay within its limit.
+    /// Distance from the next grain to the one after it (m), long enough at this speed (m/s) for the rate to stay within its limit.
     fn spacing(&mut self, speed: f64) -> f64 {
         let varied = 1.0 + self.texture.grain * self.random.between(-1.0, 1.0);
         (self.texture.pitch * varied).max(speed / limits::RATE[1]).max(limits::PITCH[0])
@@ -89,7 +90,7 @@ impl Play for Rubbing {
     }
 
     fn leave(&mut self, now: &Moment, out: &mut Out) {
-        // Also grains that were cued ahead.
+        // This also cancels grains that were cued ahead.
         if self.last.take().is_some() {
             out.stop(0, now.time, 0.0);
         }

@@ -1,4 +1,4 @@
-//! A train of pulses under a finger.
+//! Pulse train: pulses at a rate in time under a finger.
 
 use crate::error::within;
 use crate::play::{Beat, Maker, Moment, Out, Play};
@@ -6,25 +6,25 @@ use crate::{Act, Curve, EffectsError, limits};
 use std::f64::consts::TAU;
 use unripple_core::{Point, Random};
 
-/// Pulses in time under a resting or moving finger.
+/// A pulse train: pulses at a fixed rate in time under a resting or moving finger.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Train {
     /// Pulses per second.
     pub rate: f64,
-    /// How many; without, as long as the finger is there.
+    /// Number of pulses; `None` for pulses as long as the finger is in the region.
     pub count: Option<u32>,
-    /// Gain over the time since the touch, in s.
+    /// Gain as a function of the time in s since the finger entered the region; `None` for a constant gain of 1.
     pub envelope: Option<Curve>,
-    /// How irregular they are: each comes later by up to this share of the period, and gains fall by up to this share.
+    /// Random variation, 0 to 1: each pulse is delayed by up to this share of the period, and its gain reduced by up to this share.
     pub jitter: f64,
-    /// How far from the finger they fall, evenly over the disc, in m.
+    /// Radius of the disc around the finger, in m, over which the places of pulses are uniformly distributed.
     pub scatter: f64,
-    /// Seed of the irregularity: the same gives the same pulses.
+    /// Seed of the random variation: the same seed and touches give the same pulses.
     pub seed: u64,
 }
 
 impl Train {
-    /// Refuses a rate, count, curve or share that is not legal.
+    /// Refuses a rate, count or share that is out of range.
     pub(super) fn check(&self) -> Result<(), EffectsError> {
         within("rate of a pulse train", self.rate, limits::RATE)?;
         within("jitter of a pulse train", self.jitter, limits::SHARE)?;
@@ -33,12 +33,12 @@ impl Train {
         within("count of a pulse train", count, [1.0, f64::from(limits::MOST_COUNT)])
     }
 
-    /// Whether every pulse is like the one before, without end.
+    /// Whether the train is periodic without end or variation.
     fn is_steady(&self) -> bool {
         self.count.is_none() && self.envelope.is_none() && self.jitter == 0.0 && self.scatter == 0.0
     }
 
-    /// What plays it under a finger.
+    /// The function that starts it under a finger.
     pub(super) fn maker(&self) -> Maker {
         let train = self.clone();
         Box::new(move |contact| {
@@ -51,7 +51,7 @@ impl Train {
     }
 }
 
-/// A train without end is a comb, which the player repeats by itself.
+/// A train without end or variation: one comb, which the player repeats by itself.
 struct Steady {
     rate: f64,
 }
@@ -76,17 +76,17 @@ struct Beating {
     train: Train,
     contact: u64,
     start: f64,
-    /// Where the finger is, and the next pulse.
+    /// The place of the finger, and the times of the pulses.
     at: Option<(Point, Beat)>,
 }
 
 impl Beating {
-    /// Shift in time, gain and place of one pulse, the same whenever asked.
+    /// Random delay (s), gain and offset (m) of the pulse of this number, the same at every call.
     fn chance(&self, index: u64) -> (f64, f64, Point) {
         let mut random =
             Random::seeded(self.train.seed ^ self.contact.rotate_left(32) ^ index.rotate_left(48));
         let jitter = self.train.jitter;
-        // Only later, by up to a period: pulses stay in order.
+        // Delays of up to one period keep the pulses in order.
         let shift = jitter * random.uniform() / self.train.rate;
         let gain = 1.0 - jitter * random.uniform();
         let (radius, angle) = (self.train.scatter * random.uniform().sqrt(), TAU * random.uniform());
@@ -107,7 +107,7 @@ impl Play for Beating {
     }
 
     fn leave(&mut self, now: &Moment, out: &mut Out) {
-        // Also those that were cued ahead.
+        // This also cancels pulses that were cued ahead.
         if self.at.take().is_some() {
             out.stop(0, now.time, 0.0);
         }

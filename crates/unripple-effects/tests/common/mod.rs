@@ -1,4 +1,4 @@
-//! A sheet, touches on it, and what an effect makes of them.
+//! A sheet, touches on it, and the cues that an effect gives for them.
 #![allow(dead_code)]
 
 use unripple_core::{Outline, Phase, Point, Shape, Touch};
@@ -26,14 +26,14 @@ pub fn touch(phase: Phase, x: f64, y: f64, time: f64) -> Touch {
     Touch { finger: 1, phase, at: Point::from_mm(x, y), time, force: None }
 }
 
-/// What a list of touches of one effect gives.
+/// The cues of one effect for a list of touches.
 pub fn played(one: Effect, touches: &[Touch]) -> Vec<Cue> {
     let (mut effects, mut cues) = (effects(one), Vec::new());
     touches.iter().for_each(|touch| effects.touch(touch, &mut cues));
     cues
 }
 
-/// Times, places in mm and shares of the pulses.
+/// Times (s), places (mm) and levels (shares) of the pulses among cues.
 pub fn pulses(cues: &[Cue]) -> Vec<(f64, f64, f64, f64)> {
     let pulse = |cue: &Cue| match cue.act {
         Act::Pulse { place, gain: Level::Share(gain) } => Some((cue.at, place.x * 1e3, place.y * 1e3, gain)),
@@ -46,7 +46,7 @@ pub fn texture(pitch: f64, grain: f64) -> Texture {
     Texture { pitch, grain, seed: 7, speed_gain: Curve::constant(1.0) }
 }
 
-/// What a player plays of a list of cues: each voice's stop takes back what was cued before it for later.
+/// The cues that a player plays from a list: each stop of a voice cancels earlier cues of that voice for later times.
 pub fn heard(cues: &[Cue]) -> Vec<Cue> {
     let mut heard: Vec<Cue> = Vec::new();
     for cue in cues {
