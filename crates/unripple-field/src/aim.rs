@@ -1,16 +1,16 @@
-//! Where and when a focus is measured.
+//! Where and when a focus is evaluated, and options for it.
 
 use crate::{Field, FieldError};
 use std::ops::Range;
 use unripple_core::Point;
 use unripple_dsp::Threshold;
 
-/// What to measure at: a point or a set of points, and when it is in focus.
+/// A focus to be evaluated: a point or a set of points, and the instant at which it should be in focus.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Aim {
-    /// Where, in metres.
+    /// The points, in metres; a set is evaluated by its mean motion.
     pub points: Vec<Point>,
-    /// When, in seconds from the drive's first sample; rounded to a sample.
+    /// Focal instant T, in seconds from the drive's first sample; rounded to a sample.
     pub instant: f64,
 }
 
@@ -21,20 +21,20 @@ impl Aim {
     }
 }
 
-/// How to measure: period, grid and threshold.
+/// Options of [`measure()`](crate::measure()): period, grid and threshold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasureOptions {
-    /// Period of a repeated drive, in seconds: figures are then those of its last full period, the last samples of the
-    /// drive. `None` for a single pulse: figures are those from its start to twice the focal instant.
+    /// Period of a repeated drive, in seconds: the metrics are then those of its last full period, the last samples of
+    /// the drive. `None` for a single pulse: the metrics are those from its start to twice the focal instant.
     pub period: Option<f64>,
     /// Cells of the grid per shortest wavelength along each side of the surface.
     pub cells: f64,
-    /// The least vibration that is felt, for the figures as felt.
+    /// Threshold of vibrotactile detection, for the metrics of what is felt.
     pub threshold: Threshold,
 }
 
 impl Default for MeasureOptions {
-    /// A single pulse on eight cells per wavelength, felt above the published threshold.
+    /// A single pulse, eight cells per shortest wavelength, and the published threshold.
     fn default() -> Self {
         Self { period: None, cells: 8.0, threshold: Threshold::default() }
     }
@@ -43,13 +43,13 @@ impl Default for MeasureOptions {
 /// An aim in samples, at points that have responses.
 #[derive(Clone, Debug)]
 pub(crate) struct Resolved {
-    /// Points that stand for those asked for.
+    /// The points asked for, or the nearest ones whose responses are stored.
     pub points: Vec<Point>,
     /// Focal sample T.
     pub instant: usize,
-    /// Samples over which it is measured.
+    /// Samples over which it is evaluated.
     pub span: Range<usize>,
-    /// Whether the field is known over the whole of the span that was meant.
+    /// Whether the field is known over all of [0, 2T], or of the last full period.
     pub complete: bool,
 }
 

@@ -5,7 +5,7 @@ use unripple_core::{CoreError, OutOfRange, Point};
 /// Why a field could not be computed or measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FieldError {
-    /// The drive's channels are not the surface's actuators.
+    /// The channels of the drive are not the actuators of the responses, by name and order.
     #[error("channels: expected {expected}, found {found}")]
     Channels {
         /// How many actuators, and their names.
@@ -39,21 +39,21 @@ pub enum FieldError {
         at: Point,
         /// The nearest point with responses.
         nearest: Point,
-        /// How far that is, in metres.
+        /// Distance between the two, in metres.
         distance: f64,
-        /// How far it may be, in metres.
+        /// Largest distance allowed, in metres.
         reach: f64,
     },
-    /// An instant at which the field is not known.
+    /// An instant is asked for at which the field is not known.
     #[error(
         "instant: expected {:.4} ms to {:.4} ms, {why}, found {:.4} ms", first * 1e3, last * 1e3, found * 1e3
     )]
     Instant {
         /// The instant asked for, in seconds.
         found: f64,
-        /// The first legal one, in seconds.
+        /// The first instant allowed, in seconds.
         first: f64,
-        /// The last legal one, in seconds.
+        /// The last instant allowed, in seconds.
         last: f64,
         /// What sets these bounds.
         why: &'static str,

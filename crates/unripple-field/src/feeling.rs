@@ -1,4 +1,4 @@
-//! Felt levels of a modal field: modes weighed by the threshold of touch, then summed.
+//! Felt levels of a modal field: modes filtered by the threshold of touch, then summed.
 
 use crate::modal::{ModalField, POINTS, STATES, add_to};
 use crate::motion::Motion;
@@ -11,8 +11,8 @@ use unripple_linalg::{Mat, product};
 /// passes; results stay the same.
 const HELD: usize = 1 << 25;
 
-/// How a modal field is felt: every mode's displacement is weighed over the whole passage, then all that matter are read out
-/// at every point.
+/// What is felt of a modal field: the displacement of every mode is filtered over the whole passage, then those modes
+/// that matter are summed at every point.
 pub(crate) struct Feeling<'a> {
     field: &'a ModalField<'a>,
     passage: &'a Passage,
@@ -29,7 +29,7 @@ struct Block {
 }
 
 impl<'a> Feeling<'a> {
-    /// The field of a passage, as it is felt.
+    /// Prepares what is felt of a field during a passage.
     pub fn of(field: &'a ModalField<'a>, passage: &'a Passage) -> Self {
         let mut own = vec![Vec::new(); field.points().len().div_ceil(POINTS)];
         field.for_chunks(&mut own, |weights, own| {
@@ -119,8 +119,8 @@ impl<'a> Feeling<'a> {
     }
 }
 
-/// The modes that matter, in order, from the largest magnitude of each anywhere and at any time. Those of the modes left out
-/// add up to at most `slack`, so that nothing is off by more.
+/// Indices of the modes that matter, ascending, from the largest magnitude of each at any point and time. The
+/// magnitudes of the modes left out add up to at most `slack`, which bounds the error.
 fn kept(most: &[f64], slack: f64) -> Vec<usize> {
     let mut order: Vec<usize> = (0..most.len()).collect();
     order.sort_by(|a, b| most[*a].total_cmp(&most[*b]));

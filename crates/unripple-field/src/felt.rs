@@ -1,4 +1,4 @@
-//! Figures as felt: level, contrast and background in dB.
+//! Metrics of what is felt: level, contrast and background in dB.
 
 use crate::Field;
 use crate::aim::Resolved;
@@ -7,22 +7,22 @@ use std::ops::Range;
 use unripple_core::Point;
 use unripple_dsp::Weighting;
 
-/// By how much of the level at the target what is felt elsewhere may be off: 80 dB below it. Ten times more
-/// would leave out modes that worst spots 60 dB down consist of.
+/// Error allowed in what is felt elsewhere, as a share of the level at the target: 80 dB below it. Ten times more would
+/// leave out modes that worst spots 60 dB down consist of.
 const SLACK: f64 = 1e-4;
 
-/// One target's figures as felt, in dB; `None` where there is nothing to compare, and in silence.
+/// Metrics of what is felt at one target, in dB; `None` where there is nothing to compare with, or no motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Felt {
-    /// Largest magnitude at the target, above the threshold.
+    /// Largest magnitude at the target during the span, above the threshold.
     pub level_db: Option<f64>,
-    /// The sample at which that is.
+    /// The sample at which this magnitude is reached.
     pub extreme: usize,
-    /// The level over the rms of the outside points at that sample.
+    /// The level over the rms of what is felt at the outside points at the sample `extreme`.
     pub contrast_db: Option<f64>,
-    /// The level over the rms of the outside points and the span.
+    /// The level over the rms of what is felt at the outside points during the span.
     pub background_db: Option<f64>,
-    /// The level over the largest magnitude of the outside points and the span.
+    /// The level over the largest magnitude of what is felt at any outside point during the span.
     pub worst_spot_db: Option<f64>,
 }
 
@@ -35,10 +35,11 @@ pub(crate) struct AllFelt {
     pub peak: Vec<f32>,
 }
 
-/// Displacement weighed by 1/threshold(f), judged at every aim; without aims, over `spans` for the map alone.
+/// Displacement filtered by 1/threshold(f), evaluated at every aim; without aims, over `spans` for the map alone.
 ///
-/// A single pulse in focus at T is weighed from −T to 3T: at rest before the drive's first sample at 0, and again at rest where
-/// what is taken ends. A repeated one is weighed as if its last period had always been.
+/// A single pulse in focus at T is filtered over the time from −T to 3T, the surface being at rest before the drive's
+/// first sample at 0 and counted as at rest after 3T. A repeated drive is filtered as if its last period had always
+/// been repeated.
 pub(crate) fn felt(
     field: &Field<'_>,
     aims: &[Resolved],
@@ -61,7 +62,7 @@ pub(crate) fn felt(
     all
 }
 
-/// What is to be weighed, and the aims that each passage serves.
+/// The stretches of time to be filtered, each with the indices of the aims that it serves.
 fn passages(
     field: &Field<'_>,
     aims: &[Resolved],

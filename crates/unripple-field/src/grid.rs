@@ -1,4 +1,4 @@
-//! The grid of points that figures outside targets are taken on.
+//! The grid of points on which modal fields are evaluated.
 
 use crate::FieldError;
 use unripple_core::{Conditions, Point, require};
@@ -6,7 +6,8 @@ use unripple_core::{Conditions, Point, require};
 /// Most cells of a grid: each is read at every sample. Doubled, the largest fields take twice the time.
 const MOST_CELLS: f64 = 4e6;
 
-/// Cells over the bounding box of a surface; the points of a field are the centres of those inside the outline.
+/// A grid of rectangular cells over the bounding box of a surface; fields are evaluated at the centres of the cells
+/// inside the outline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     /// Cells along x.
@@ -65,7 +66,8 @@ impl Grid {
         self.inside.iter().map(|cell| self.centre(*cell)).collect()
     }
 
-    /// One value per cell, `[row · columns + column]` from the bottom, from one per point; NaN outside the outline.
+    /// Values on all cells, `[row · columns + column]` from the bottom, from one value per point of the grid; NaN
+    /// outside the outline.
     pub fn spread<T: Copy + Into<f64>>(&self, values: &[T]) -> Vec<f64> {
         let mut cells = vec![f64::NAN; self.columns * self.rows];
         self.inside.iter().zip(values).for_each(|(cell, value)| cells[*cell] = (*value).into());

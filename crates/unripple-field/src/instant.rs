@@ -1,9 +1,9 @@
-//! The field at the focal instant alone: the contrast of a focus where no other figure is asked for.
+//! The field at the focal instant alone: contrast, where no other metric is asked for.
 
 use crate::{Field, FieldError};
 use unripple_core::Point;
 
-/// What a field is at one instant, at a target and outside the focal discs.
+/// Velocity at a target and outside the focal discs, at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Instant {
     /// Velocity at the target, the mean over its points, in m/s.
@@ -21,8 +21,9 @@ impl Instant {
 }
 
 impl Field<'_> {
-    /// The field at an instant (s), rounded to a sample, at a target of some points. Outside is what lies farther than the focal radius from
-    /// each point of `focused`: the target's own, and those of all others that are focused on at once.
+    /// Velocity of the field at an instant (s), rounded to a sample: at the points of a target (m), as their mean, and
+    /// outside the focal discs. Outside is what lies farther than the focal radius from each point of `focused`: the
+    /// points of this target and of all others that are in focus at the same time.
     ///
     /// # Errors
     /// Those of [`Field::traces`] and [`Field::snapshots`].

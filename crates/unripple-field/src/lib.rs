@@ -1,13 +1,13 @@
-//! What a drive does to a surface, and how good it is.
+//! Simulates the motion that a drive causes on a surface, and evaluates how well it focuses.
 //!
-//! Only linear systems ([`Responses`](unripple_core::Responses)), a [`Drive`](unripple_core::Drive) and what was aimed
-//! at are known here: neither what the surface is made of nor how the drive was made.
+//! Only linear systems ([`Responses`](unripple_core::Responses)), a [`Drive`](unripple_core::Drive), and the points and
+//! instants of the targets are known here: neither what the surface is made of nor how the drive was computed.
 //!
 //! # In reading order
 //!
-//! [`Field`] is the motion a drive makes, as traces at points and snapshots on a [`Grid`]; [`Aim`] says where and when a
-//! focus should be; [`measure()`] judges it, in velocity, in displacement and as felt above a [`Threshold`]. Fields of many
-//! drives share a [`Readout`].
+//! [`Field`] is the motion that a drive causes, as traces at points and snapshots on a [`Grid`]; [`Aim`] says where and
+//! when a focus should be; [`measure()`] evaluates it, in velocity, in displacement and as felt above a [`Threshold`].
+//! Fields of many drives share a [`Readout`].
 //!
 //! ```
 //! use unripple_linalg::Mat;

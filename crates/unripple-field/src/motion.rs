@@ -4,15 +4,16 @@ use std::ops::Range;
 use unripple_core::{Drive, ModalResponses};
 use unripple_linalg::{Accum, Mat, Par, multiply};
 
-/// How every mode moves under a drive, stepped exactly from sample to sample.
+/// Displacement and velocity of every mode under a drive, stepped exactly from sample to sample.
 ///
 /// The state of mode m is its displacement u and velocity v. At sample i it receives the impulse
-/// `q[m] = Σ_a input[a, m] · d[a][i] / rate`, times what a unit impulse does to its pole, so that `v[i] = Σ_j h[i−j] d[j] / rate` with `h[0]` whole, and then it rings
-/// freely until the next sample. Displacement follows from the same state.
+/// `q[m] = Σ_a input[a, m] · d[a][i] / rate`, times what a unit impulse does to its pole, so that
+/// `v[i] = Σ_j h[i−j] d[j] / rate` with `h[0]` whole, and then it vibrates freely until the next sample. Displacement
+/// follows from the same state.
 #[derive(Debug)]
 pub(crate) struct Motion<'a> {
     drive: &'a Drive,
-    /// actuators x modes, divided by the rate.
+    /// Input weights divided by the rate, modes x actuators.
     input: Mat<f64>,
     /// Rows of the propagator over one sample, one column per mode.
     step: [Vec<f64>; 4],
@@ -29,7 +30,7 @@ impl<'a> Motion<'a> {
         Self::of(responses, drive, 0..responses.poles.len())
     }
 
-    /// The same for some of the modes, by their indices.
+    /// The motion of some of the modes only, by their indices, at rest before sample 0.
     pub fn of(responses: &ModalResponses, drive: &'a Drive, modes: Range<usize>) -> Self {
         let rate = drive.rate();
         let poles = &responses.poles[modes.clone()];
@@ -48,18 +49,18 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// Index of the next sample.
+    /// Index of the next sample to be computed.
     pub fn next(&self) -> usize {
         self.next
     }
 
-    /// Displacement (m·√kg) and velocity (√J) of every mode at the sample before the next.
+    /// Displacement (m·√kg) and velocity (√J) of every mode at the last sample computed.
     pub fn state(&self) -> (&[f64], &[f64]) {
         (&self.displacement, &self.velocity)
     }
 
-    /// Steps through the next `count` samples and shows displacement (m·√kg) and velocity (√J) of every mode
-    /// at each.
+    /// Steps through the next `count` samples, and passes displacement (m·√kg) and velocity (√J) of every mode to
+    /// `show` at each.
     pub fn advance(&mut self, count: usize, mut show: impl FnMut(&[f64], &[f64])) {
         let momenta = self.momenta(self.next..self.next + count);
         for offset in 0..count {
@@ -77,7 +78,7 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// Steps up to `sample`, which is then the next, at most `stride` samples at once.
+    /// Steps until `sample` is the next to be computed, at most `stride` samples at a time.
     pub fn skip_to(&mut self, sample: usize, stride: usize) {
         while self.next < sample {
             self.advance((sample - self.next).min(stride), |_, _| ());

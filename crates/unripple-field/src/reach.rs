@@ -1,26 +1,26 @@
-//! How far a field goes at most: what decides whether linear theory holds.
+//! Largest displacement, slope and curvature of a field, which decide whether linear theory holds.
 
 use crate::measure::{Peaks, spans, target_traces};
 use crate::{Aim, Field, FieldError, Maps, Measured, Steepness};
 use crate::{aim::Resolved, aim::segments, measure::whole_period};
 
-/// How far a field goes at most, over the whole surface and the time measured.
+/// Largest displacement, slope and curvature of a field, over the whole surface and the time evaluated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reach {
-    /// Largest displacement anywhere, in metres: on the grid or the library's points, and at the targets.
+    /// Largest displacement at any point of the grid or library and at the targets, in metres.
     pub displacement: f64,
-    /// Largest slopes and curvature; `None` on a library's own points.
+    /// Largest slope and curvature; `None` for sampled responses, which are on no grid.
     pub steepness: Option<Steepness>,
 }
 
 impl Reach {
-    /// Of a field that was measured.
+    /// The largest values of a field whose metrics are known.
     pub fn of(measured: &Measured) -> Self {
         Self::new(&measured.maps, measured.targets.iter().map(|target| target.peak_displacement_m))
     }
 
-    /// Slopes are known where targets are at their extreme; elsewhere the surface is calmer, and what is more there is allowed
-    /// for in proportion to the displacement.
+    /// Slope and curvature are known at the instants of the targets' largest displacements only. If the surface has a
+    /// larger displacement at another time, they are raised in proportion to it.
     fn new(maps: &Maps, levels: impl Iterator<Item = f64>) -> Self {
         let largest = |values: &[f32]| values.iter().fold(0.0, |m: f64, u| m.max(f64::from(u.abs())));
         let displacement = levels.fold(largest(&maps.peak_displacement), |m, u| m.max(u.abs()));
@@ -37,8 +37,9 @@ impl Reach {
 }
 
 impl Field<'_> {
-    /// How far this field goes, over the time that [`Field::measure`] takes its figures from; `period` (s) as there. A small part
-    /// of the work of all figures.
+    /// Largest displacement, slope and curvature of this field, over the time that [`Field::measure`] evaluates;
+    /// `period` (s) as in [`MeasureOptions`](crate::MeasureOptions). This takes a small part of the time that all
+    /// metrics take.
     ///
     /// # Errors
     /// Those of [`Field::measure`].

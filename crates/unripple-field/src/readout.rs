@@ -1,12 +1,12 @@
-//! The points that fields are read on, with what reading there takes.
+//! The points on which fields are evaluated, with the weights of the modes there.
 
 use crate::{FieldError, Grid};
 use std::sync::{Arc, OnceLock};
 use unripple_core::{Point, Responses};
 use unripple_linalg::Mat;
 
-/// The points that fields of some responses are read on: those of a [`Grid`], or a library's own. What reading there takes (the weights of
-/// every mode at every point) is made once, for the fields of any number of drives.
+/// The points on which fields of some responses are evaluated: those of a [`Grid`], or those of a library. The weights
+/// of every mode at every point are computed once, for the fields of any number of drives.
 ///
 /// ```
 /// use unripple_core::{Conditions, Drive, Outline, Point, Port, Responses, SampledResponses, Shape};
@@ -32,17 +32,18 @@ pub struct Readout<'a> {
     pub(crate) kept: Arc<Kept>,
 }
 
-/// Points of a grid, and the weights of every mode there by chunks of points, once a field asked for them.
+/// Points of a grid, and the weights of every mode there.
 #[derive(Debug, Default)]
 pub(crate) struct Kept {
-    /// The points that are read, in metres.
+    /// The points of the grid inside the outline, in metres.
     pub points: Vec<Point>,
-    /// Weights of every mode at them (points x modes), in chunks of points; made when they are first read.
+    /// Weights of every mode at these points (points x modes), in chunks of points; computed when first needed.
     pub weights: OnceLock<Vec<Mat<f32>>>,
 }
 
 impl<'a> Readout<'a> {
-    /// A grid of `cells` cells per shortest wavelength (8 for figures), or the library's own points.
+    /// A grid of `cells` cells per shortest wavelength (8 where metrics are computed), or for sampled responses their
+    /// own points.
     ///
     /// # Errors
     /// [`FieldError::Range`] if the grid would have no or too many cells.

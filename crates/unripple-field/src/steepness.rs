@@ -3,12 +3,13 @@
 use crate::{Maps, Snapshot};
 use serde::Serialize;
 
-/// How steep and how bent the surface is: what decides whether small deflections are small. From displacements alone.
+/// Largest slope and curvature of the deflected surface, from displacements alone: they decide whether linear theory
+/// holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Steepness {
     /// Largest slope |∇u|, dimensionless.
     pub slope: f64,
-    /// Mean square of the slope over the surface.
+    /// Mean square of the slope |∇u| over the surface, dimensionless.
     pub mean_square_slope: f64,
     /// Largest curvature in any direction, in 1/m.
     pub curvature: f64,
@@ -21,8 +22,9 @@ const FIRST: [f64; 5] = [1.0 / 12.0, -8.0 / 12.0, 0.0, 8.0 / 12.0, -1.0 / 12.0];
 const SECOND: [f64; 5] = [-1.0 / 12.0, 16.0 / 12.0, -30.0 / 12.0, 16.0 / 12.0, -1.0 / 12.0];
 
 impl Steepness {
-    /// The largest over the snapshots at the extremes of displacement, by differences on the grid: within about 1 % for
-    /// waves of eight cells. `None` on a library's own points. Cells within two of the rim are left out.
+    /// The largest values over the snapshots at the extremes of displacement, by finite differences on the grid: within
+    /// about 1 % for waves of eight cells. `None` for sampled responses, which are on no grid. Cells within two of the
+    /// edge are left out.
     pub fn of(maps: &Maps) -> Option<Self> {
         let each = maps.at_displacement_peak.iter().map(|snapshot| one(maps, snapshot));
         let worst = |a: Self, b: Self| Self {
@@ -34,7 +36,7 @@ impl Steepness {
     }
 }
 
-/// Slopes and curvature of one snapshot; `None` without a grid.
+/// Slope and curvature of one snapshot; `None` without a grid.
 fn one(maps: &Maps, snapshot: &Snapshot) -> Option<Steepness> {
     let grid = maps.grid.as_ref()?;
     let cells = grid.spread(&snapshot.displacement);

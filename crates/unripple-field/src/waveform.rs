@@ -5,49 +5,50 @@ use serde::Serialize;
 use unripple_core::Point;
 use unripple_dsp::Convolver;
 
-/// What a target was asked to do: a waveform on the drive's clock.
+/// A target, and the waveform prescribed for it, from the drive's first sample on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wanted {
     /// Where, in metres: a point, or a set of points that are to move alike.
     pub points: Vec<Point>,
-    /// How it was to move from the drive's first sample on, nothing after the last: metres, or m/s.
+    /// Prescribed motion, one value per sample from the drive's first, zero after the last; in metres or m/s.
     pub samples: Vec<f64>,
 }
 
-/// How well a target follows what it was asked.
+/// Metrics of how well a target follows its prescribed waveform.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WaveformFigures {
     /// The target's first point, in metres.
     pub at_m: [f64; 2],
-    /// How many points it has; figures are of their mean, but for `gain_range`.
+    /// Number of points of the target; all metrics but `gain_range` are of their mean motion.
     pub points: usize,
-    /// Share of what was asked that it does: ∫found·asked / ∫asked².
+    /// Gain of the motion found over the one prescribed, a ratio: ∫found·asked / ∫asked².
     pub gain: f64,
     /// Least and greatest gain over a set of points; `None` for one point.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gain_range: Option<[f64; 2]>,
-    /// Rms of what it does otherwise than asked, over the rms of what was asked, in dB: over the whole time measured.
+    /// Rms of the difference between the motion found and the one prescribed, over the rms of the latter, in dB, over
+    /// the whole time evaluated.
     pub error_db: f64,
-    /// The strongest of the other targets' waveforms found in that, at any delay, over the waveform itself, in dB; `None` for a
-    /// single target.
+    /// Crosstalk: the strongest of the other targets' waveforms, at any delay, in what remains of the target's motion after `gain`
+    /// times its own waveform is subtracted, in dB over that other waveform itself; `None` for a single target.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crosstalk_db: Option<f64>,
-    /// Largest magnitude of what it does, in metres or m/s.
+    /// Largest magnitude of the motion, in metres or m/s.
     pub peak: f64,
 }
 
-/// How still a point of silence is.
+/// Residual motion at a point of silence.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SilenceFigures {
-    /// Place of the point of silence, in metres.
+    /// Position of the point of silence, in metres.
     pub at_m: [f64; 2],
-    /// Its rms over that of the strongest waveform asked for, in dB.
+    /// Rms of the motion over that of the strongest waveform prescribed, in dB.
     pub level_db: f64,
 }
 
 impl Field<'_> {
-    /// How well targets follow their waveforms until `until` (s), in displacement or in velocity, and how still the points
-    /// of silence are meanwhile.
+    /// Evaluates how well targets follow their waveforms until `until` (s), and the residual motion at the points of
+    /// silence. `pick` takes displacement or velocity from a trace.
     ///
     /// # Errors
     /// As [`Field::traces`], and [`FieldError::Count`] for a target without points.
@@ -76,7 +77,7 @@ impl Field<'_> {
     }
 }
 
-/// How well the target of an index follows what it was asked.
+/// Metrics of the target with this index.
 fn figures(index: usize, wanted: &[Wanted], found: &[Vec<f64>]) -> WaveformFigures {
     let Wanted { points, samples } = &wanted[index];
     let own = energy(samples);
@@ -103,7 +104,7 @@ fn figures(index: usize, wanted: &[Wanted], found: &[Vec<f64>]) -> WaveformFigur
     }
 }
 
-/// The largest share of `other` in a signal, over all delays: of their correlation over the energy of `other`.
+/// The largest share of `other` in a signal over all delays: their correlation over the energy of `other`.
 fn likeness(signal: &[f64], other: &[f64]) -> f64 {
     let plan = Convolver::new(signal.len() + other.len());
     let mut product = plan.spectrum(signal.iter().copied());
@@ -115,7 +116,7 @@ fn energy(signal: &[f64]) -> f64 {
     signal.iter().map(|x| x * x).sum()
 }
 
-/// Of a ratio of powers; nothing at all counts as -400 dB.
+/// A ratio of powers in dB; zero counts as -400 dB.
 fn decibels(ratio: f64) -> f64 {
     10.0 * ratio.max(1e-40).log10()
 }
