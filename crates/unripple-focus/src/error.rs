@@ -33,14 +33,14 @@ pub enum FocusError {
         /// How far it may be, in metres.
         reach: f64,
     },
-    /// Nothing that the actuators do moves the target.
+    /// No actuator moves the target: it lies on a held edge or on nodal lines.
     #[error(
         "target {}: no actuator can move {at} (on a held edge or a nodal line?), expected a point that moves", target + 1
     )]
     Still {
         /// Index of the target.
         target: usize,
-        /// Its first point.
+        /// First point of the target.
         at: Point,
     },
     /// A number is out of its range.
@@ -64,7 +64,7 @@ pub enum FocusError {
         /// The names of all methods.
         expected: String,
     },
-    /// What was asked for needs modal responses: samples do not tell what single modes do.
+    /// The request needs modal responses and these are sampled; the string says what needs them.
     #[error("{0}: expected modal responses, found sampled ones")]
     NeedsModes(&'static str),
     /// Two targets are so close that their levels cannot differ.
@@ -75,18 +75,18 @@ pub enum FocusError {
     Inseparable {
         /// Index of the target.
         target: usize,
-        /// Index of an earlier one.
+        /// Index of the earlier target that it cannot be told from.
         other: usize,
     },
-    /// A matrix of the responses has no decomposition, as those of real surfaces have.
+    /// A matrix computed from the responses is not positive definite, or its eigenvalues were not found.
     #[error("responses: expected a positive definite system of equations, found one that is not")]
     Decomposition,
-    /// The best drive within the limits was not found.
+    /// The iteration for [`Method::Limited`](crate::Method::Limited) did not converge.
     #[error("duality gap of the limited drive: expected at most {expected:e}, found {found:e}")]
     Gap {
-        /// Where it should have stopped.
+        /// Largest duality gap accepted, as a share of the objective.
         expected: f64,
-        /// Where it did, as a share of the objective.
+        /// Duality gap reached, as a share of the objective.
         found: f64,
     },
     /// The drive could not be built.

@@ -1,4 +1,4 @@
-//! A plan that turns targets into drives by any method.
+//! Computes drives for targets by any method.
 
 use crate::planned::Planned;
 use crate::recording::{Recorder, Recording, energy, peak};
@@ -7,25 +7,26 @@ use crate::settle::settle;
 use crate::{FeltPlan, FocusError, LossCorrection, Method, Options, Target, Timing, target};
 use unripple_core::{Drive, Point, Responses, require, window_samples};
 
-/// Decay after which the past no longer matters to a repeated drive, in nepers: to 1/1000. Doubled, repeated
+/// Decay, in nepers, after which earlier periods no longer matter to a repeated drive: to 1/1000. Doubled, repeated
 /// drives last longer by as much, and are periodic to 1e-6.
 const SETTLED: f64 = 6.9;
 
-/// A drive and when it focuses.
+/// A computed drive, and when it focuses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Focused {
-    /// The drive that is to be sent.
+    /// The drive to be sent to the actuators.
     pub drive: Drive,
-    /// When each target is in focus.
+    /// Focal instant and period of each target.
     pub timing: Vec<Timing>,
-    /// The period of the whole, in samples; `None` without repetition. The last full period of a repeated drive is its
-    /// last `period` samples.
+    /// Common period of all repeated targets, in samples; `None` if none is repeated. The last full period of the drive
+    /// is its last `period` samples.
     pub period: Option<usize>,
     /// The points each target was focused on: those asked for, or the nearest ones whose responses are stored.
     pub points: Vec<Vec<Point>>,
-    /// The method that it was made by.
+    /// The method by which the drive was computed.
     pub method: Method,
-    /// Whether the limits gave the drive its shape, and not its size alone.
+    /// Whether limits changed the shape of the waveforms (one-bit, or samples held at a limit), beyond scaling the
+    /// whole drive.
     pub shaped: bool,
 }
 
@@ -41,7 +42,7 @@ impl Focused {
     }
 }
 
-/// A plan that turns targets into drives: what does not depend on the targets is computed once.
+/// Computes drives for many targets on one surface: what does not depend on the targets is computed once.
 #[derive(Debug)]
 pub struct Focuser<'r> {
     responses: &'r Responses,
@@ -51,32 +52,33 @@ pub struct Focuser<'r> {
     window: usize,
 }
 
-/// How drives are made: by reversal, by seeking a state, or by keeping down what is felt elsewhere.
+/// The computation of drives, by kind of method.
 #[derive(Debug)]
 enum Maker<'r> {
-    /// By playing responses backwards.
+    /// Plays responses backwards: time reversal and one-bit.
     Reversal(Recorder<'r>),
-    /// By seeking the state at the focal instant.
+    /// Optimises the state at the focal instant: inverse, concentrate, limited and robust.
     Planned(Box<Planned<'r>>),
-    /// By keeping down what is felt elsewhere.
+    /// Minimises what is felt outside the targets.
     Felt(Box<FeltPlan<'r>>),
 }
 
 impl<'r> Focuser<'r> {
-    /// Plans for one window and one method.
+    /// Prepares the method and the window of `options` for a surface with these responses.
     ///
     /// # Errors
-    /// [`FocusError::Range`] for options without meaning, [`FocusError::Count`] for a window of no sample, of too
-    /// many, or longer than the responses, [`FocusError::NeedsModes`].
+    /// [`FocusError::Range`] for options out of range, [`FocusError::Count`] for a window of no sample, of too many, or
+    /// longer than the responses, [`FocusError::NeedsModes`] where the method needs modal responses and these are
+    /// sampled, [`FocusError::Decomposition`] where a matrix of the responses is not positive definite.
     pub fn new(responses: &'r Responses, options: &Options) -> Result<Self, FocusError> {
         Self::beside(responses, &[], options)
     }
 
-    /// Plans for a surface and for others that it may turn into: with another tension, under a finger. [`Method::Robust`]
-    /// bears them as well as its spread; other methods do not look at them.
+    /// Prepares a surface and variants of it, such as with another tension or under a finger. [`Method::Robust`]
+    /// minimises the velocity outside on the variants as well; other methods ignore them.
     ///
     /// # Errors
-    /// As [`Focuser::new`], and if actuators or rates differ.
+    /// As [`Focuser::new`], and if a variant has another number of actuators or another sample rate.
     pub fn beside(
         responses: &'r Responses,
         others: &'r [Responses],
@@ -107,17 +109,17 @@ impl<'r> Focuser<'r> {
         Ok(Self { responses, others, maker, options: options.clone(), window })
     }
 
-    /// What drives are made from.
+    /// The responses from which drives are computed.
     pub fn responses(&self) -> &'r Responses {
         self.responses
     }
 
     /// The drive that focuses on these targets.
     ///
-    /// With h_ak the velocity response of target k to actuator a, the reversed responses are superposed,
-    /// `d_a[j] = Σ_k gain_k Σ_f h_ak[f − j]`, with f the instants at which target k is to be in focus (n, or n and every
-    /// period after it), and then scaled to the limits (Hudin et al. 2012, eq. 1). The sum over a target's points
-    /// is normalised as [`Target::gain`] says.
+    /// Time reversal works as follows; [`Method`] describes the others. With h_ak the velocity response of target k to
+    /// actuator a, the reversed responses are superposed, `d_a[j] = Σ_k gain_k Σ_f h_ak[f − j]`, with f the instants at
+    /// which target k is to be in focus (n, or n and every period after it), and then scaled to the limits (Hudin et
+    /// al. 2012, eq. 1). The sum over a target's points is normalised as [`Target::gain`] says.
     ///
     /// # Errors
     /// As [`focus`].
@@ -125,8 +127,8 @@ impl<'r> Focuser<'r> {
         self.focus_at(targets, 1.0)
     }
 
-    /// The drive whose level is this share of that at the limit. Under limits on its shape ([`Method::Limited`]) it is solved for
-    /// that level, which takes another shape; other drives are the same but for their size.
+    /// The drive that reaches `share` (a dimensionless factor) of the level that [`Focuser::focus`] reaches.
+    /// [`Method::Limited`] solves for that level, and the waveforms change; drives of other methods are scaled.
     ///
     /// # Errors
     /// As [`focus`]; [`FocusError::Range`] for a share that is no positive number.
@@ -185,8 +187,8 @@ impl<'r> Focuser<'r> {
         Ok(points)
     }
 
-    /// Superposes the drives of all targets that come once and of those of each period; the points they stand for, and whether
-    /// limits shaped one of them.
+    /// Superposes optimised drives: one for all targets that come once, and one for the targets of each period. Returns
+    /// the points of each target, and whether limits shaped any of the drives.
     fn seek(
         &self,
         once: &Planned<'_>,
@@ -284,7 +286,7 @@ impl<'r> Focuser<'r> {
     }
 }
 
-/// Adds a drive whose last sample is the focal instant: once, or all along with its period.
+/// Adds a drive whose last sample is the focal instant: once, or repeated with its period over the whole length.
 fn add(drive: &[f64], timing: Timing, window: usize, channels: &mut [Vec<f64>]) {
     let length = drive.len() / channels.len().max(1);
     for (channel, part) in channels.iter_mut().zip(drive.chunks_exact(length)) {
@@ -306,8 +308,9 @@ fn add(drive: &[f64], timing: Timing, window: usize, channels: &mut [Vec<f64>]) 
 ///
 /// # Errors
 /// [`FocusError::Outside`], [`FocusError::Unknown`] and [`FocusError::Still`] for targets that cannot be reached,
-/// [`FocusError::Range`] and [`FocusError::Count`] for numbers without meaning or of absurd size,
-/// [`FocusError::NeedsModes`] for a correction of losses that samples do not allow.
+/// [`FocusError::Range`] and [`FocusError::Count`] for numbers and counts out of range, [`FocusError::NeedsModes`]
+/// where sampled responses are not enough, [`FocusError::Inseparable`] for targets of [`Method::Felt`] too close to
+/// have levels of their own, [`FocusError::Decomposition`] and [`FocusError::Gap`] where an optimum is not found.
 pub fn focus(responses: &Responses, targets: &[Target], options: &Options) -> Result<Focused, FocusError> {
     Focuser::new(responses, options)?.focus(targets)
 }

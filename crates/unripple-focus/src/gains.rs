@@ -5,7 +5,8 @@ use crate::recording::Recording;
 use unripple_core::{OutOfRange, require};
 use unripple_linalg::{Cholesky, Mat};
 
-/// Gains of reversed responses that bring every focus to its own level, whatever they do to each other.
+/// Gains of reversed responses that bring every focus to its own level, with the motion that foci cause at each other
+/// accounted for.
 ///
 /// Response k is played backwards so that its sample 0 falls on `instants[k]`, over samples 0 and later of the drive. The velocity
 /// at focus k is then `Σ_l G_kl c_l / rate` with `G_kl = Σ_a Σ_j h_ak[f_k − j] h_al[f_l − j]`, the Gram matrix of the reversed

@@ -1,13 +1,14 @@
-//! From responses and targets to a drive.
+//! Computes drives whose waves focus on targets, from the impulse responses of a surface to its actuators.
 //!
-//! A surface is known here only as a linear system ([`Responses`](unripple_core::Responses)), and how good a drive is
-//! is for others to measure.
+//! A surface is known here only as a linear system ([`Responses`](unripple_core::Responses)). What a drive does to the
+//! surface is evaluated by the crate `unripple-field`.
 //!
 //! # In reading order
 //!
-//! [`Target`] says what is to be felt and where, [`Pattern`] turns shapes into the points of one, [`Options`] and its
-//! [`Method`] say how, [`focus`] makes the drive, and [`Focuser`] makes many for one surface. [`play`] makes places follow
-//! whole waveforms, [`strike`] gives many pulses their levels, and a [`Stroke`] is the pulses of a focus that moves.
+//! [`Target`] says where to focus, [`Pattern`] turns shapes into the points of a target, [`Options`] and its [`Method`]
+//! say how the drive is computed, [`focus`] computes one drive, and [`Focuser`] computes many for one surface. [`play`]
+//! computes drives for prescribed waveforms at several points, [`strike`] for many focal pulses with prescribed levels,
+//! and a [`Stroke`] is the sequence of pulses of a focus that moves along a path.
 //!
 //! ```
 //! use unripple_linalg::Mat;

@@ -12,8 +12,8 @@ const STEPS: usize = 80;
 /// Smaller, it takes a step or two more.
 pub(crate) const GAP: f64 = 1e-6;
 
-/// Times that several targets are brought half way back to what is surely within reach. Doubled, targets that
-/// do not reach their levels together may be brought down to a 4000th of the way instead of a 64th.
+/// Most halvings of the rise in level above that of the unlimited drive, where several targets cannot reach their
+/// levels together. Doubled, levels may come down to a 4000th of that rise instead of a 64th.
 const RETREATS: usize = 6;
 
 /// Halvings of a step at most: a billionth of Newton's. Doubled, what does not descend takes longer to fail.
@@ -22,23 +22,23 @@ const HALVINGS: usize = 30;
 /// Bisections for the multiplier of an rms limit: to the last bits. More change nothing.
 const BISECTIONS: usize = 60;
 
-/// What each actuator may do at most, and how far towards it the target is pushed.
+/// Limits of the drive, and the level to be reached within them.
 ///
 /// The drive that minimises `½ yᵀ(A - ε)y + ½ ε|d|²` under `|d| ≤ peak`, the rms of each channel under its limit, and levels
 /// `Pᵀ y = p γ`, where `y = W d`. Its dual has one unknown per coordinate and level, its gradient is that of a sum of
 /// clipped lines, and Newton's method solves it (semismooth: the clipped samples drop out of the slope).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limits {
-    /// Largest magnitude of each sample, in the drive's unit.
+    /// Largest magnitude that a sample may have, in the drive's unit.
     pub peak: f64,
-    /// Largest rms of each channel, in the drive's unit.
+    /// Largest rms that a channel may have, in the drive's unit; `None` for no such limit.
     pub rms: Option<f64>,
-    /// Of all channels together: √(Σ mean d²).
+    /// Largest rms that all channels may have together: √(Σ mean d²).
     pub total_rms: Option<f64>,
     /// From the level that the unlimited drive reaches when scaled to the limit (0) to that of one-bit (1). Several targets
     /// may not reach the latter together: then the way there is halved until they do.
     pub push: f64,
-    /// The level wanted, as a share of that one.
+    /// The level to be reached, as a share of the one that `push` gives.
     pub share: f64,
     /// Number of samples of each channel.
     pub samples: usize,

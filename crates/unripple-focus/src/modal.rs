@@ -29,7 +29,7 @@ pub(crate) struct ModalRecorder<'r> {
     length: usize,
     /// The planned synthesis; `None` for what is summed directly.
     synth: Option<ModalSynth>,
-    /// Whether each mode is raised by its own losses.
+    /// Whether the decay of each mode is compensated by its own rate.
     lossless: bool,
     accuracy: f64,
     /// Size of the shape weights where the surface does move.

@@ -24,26 +24,28 @@ pub(crate) struct Levels {
     pub points: Vec<Point>,
 }
 
-/// What states cost, velocity regularised by energy (Tikhonov): `yᵀ A y = κ · velocity² + (1 - κ) · e · energy`.
+/// Quadratic cost of a state y, velocity regularised by energy (Tikhonov):
+/// `yᵀ A y = κ · velocity² + (1 - κ) · e · energy`.
 ///
-/// κ is 0 for time reversal and 1 for nothing but velocity, the mean square over cells and plants. With `K = Σ x xᵀ` over the
-/// whole nominal surface, x the readouts of its cells, `e = tr K² / tr K` is what velocity costs on average for the drive
-/// of a target: so that κ means the same on every surface, whatever its state is written in.
+/// velocity² is the mean square over the cells of all plants; κ is 0 for time reversal and 1 for velocity alone. With K
+/// the mean of `x xᵀ` over the cells of the nominal surface, x their readouts, `e = tr K² / tr K` is the mean square
+/// velocity per energy of time reversal, averaged over targets. So κ means the same on every surface, whatever
+/// coordinates its state is written in.
 #[derive(Debug)]
 pub(crate) struct Objective {
-    /// A with nothing left out, rank x rank, and its factor.
+    /// A over all cells, with no focal disc left out, rank x rank; its Cholesky factor is `factor`.
     whole: Mat<f64>,
     factor: Cholesky,
     /// `(1 - κ) e`.
     pub(crate) energy: f64,
-    /// Readouts of the cells, scaled so that A loses `q qᵀ` for each one that is left out: rank x cells, for every plant.
+    /// Scaled readouts q of the cells, rank x cells, one matrix per plant: leaving a cell out subtracts `q qᵀ` from A.
     cells: Vec<Mat<f64>>,
     points: Vec<Point>,
     radius: f64,
 }
 
 impl Objective {
-    /// Everything about it that does not depend on targets. Around these nothing is left out if `all` counts.
+    /// Computes what does not depend on the targets. With `all`, cells within the focal discs of targets count, too.
     ///
     /// # Errors
     /// [`FocusError::Decomposition`] if A is not positive definite.

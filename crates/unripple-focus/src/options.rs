@@ -3,7 +3,7 @@
 use crate::{FeltOptions, FocusError};
 use unripple_core::require;
 
-/// How the drive is made from the reversed responses.
+/// Method by which a drive is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Method {
     /// The responses reversed in time, without a taper (Hudin et al. 2012, eq. 1): the matched filter, the highest
@@ -13,16 +13,19 @@ pub enum Method {
     /// The sign of time reversal at the limit: the highest peak for a given drive limit. Where time reversal is
     /// exactly zero, so is this.
     OneBit,
-    /// The least-energy drive of a band-limited delta at the focal instant: the spatio-temporal inverse
-    /// filter.
+    /// Spatio-temporal inverse filter: the velocity of the whole surface at the focal instant is minimised with the
+    /// level at the targets held, regularised by the energy of the drive. The field is as near to a delta function as
+    /// the band allows (Tanter, Thomas and Fink 2000).
     Inverse,
-    /// The least velocity outside the targets' discs at the focal instant, for the energy it takes.
+    /// Concentration: the velocity outside the targets' focal discs at the focal instant is minimised with the level at
+    /// the targets held, regularised by the energy of the drive.
     Concentrate,
-    /// As [`Method::Concentrate`], under the limits of each actuator, pushed towards the highest peak.
+    /// As [`Method::Concentrate`], with the limits of the actuators as constraints, so that a higher peak is reached.
     Limited,
-    /// As [`Method::Concentrate`], over a spread of frequencies at a fixed window.
+    /// As [`Method::Concentrate`], on several surfaces at once: all natural frequencies lower by [`Options::spread`],
+    /// nominal and higher by it. This tolerates changes of tension.
     Robust,
-    /// The least that is felt elsewhere over all time, as [`FeltPlan`](crate::FeltPlan) says.
+    /// What is felt outside the targets, over all time, is minimised: see [`FeltPlan`](crate::FeltPlan).
     Felt,
 }
 
@@ -38,7 +41,7 @@ impl Method {
         Self::Felt,
     ];
 
-    /// The name the command line uses.
+    /// Name of the method on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::TimeReversal => "time-reversal",
@@ -51,8 +54,7 @@ impl Method {
         }
     }
 
-    /// The strength that is used unless another is asked for, a number from 0 to 1; 0 where strength means
-    /// nothing.
+    /// Default of [`Options::strength`], a number from 0 to 1; 0 for methods that do not use it.
     pub fn strength(self) -> f64 {
         match self {
             Self::TimeReversal | Self::OneBit | Self::Felt => 0.0,
@@ -62,7 +64,7 @@ impl Method {
         }
     }
 
-    /// Whether responses are played back as they are, rather than a state sought.
+    /// Whether the method plays responses backwards (time reversal, one-bit) rather than solving an optimisation.
     pub fn reverses(self) -> bool {
         matches!(self, Self::TimeReversal | Self::OneBit)
     }
@@ -85,10 +87,10 @@ impl std::fmt::Display for Method {
     }
 }
 
-/// What is done about the losses that break the symmetry of time (Hudin et al. 2012, section 2.1).
+/// Compensation of the losses that break the symmetry of time (Hudin et al. 2012, section 2.1).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum LossCorrection {
-    /// Nothing: the matched filter.
+    /// No compensation: the matched filter.
     #[default]
     None,
     /// The response at age t is raised by e^{+t/τ}, with this amplitude decay time τ in seconds.
@@ -98,48 +100,53 @@ pub enum LossCorrection {
     PerMode,
 }
 
-/// How to focus: method, window, limits and their details.
+/// Options of [`focus`](crate::focus): method, window, limits and parameters of the methods.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// The method by which the drive is made.
+    /// The method by which the drive is computed.
     pub method: Method,
     /// Window T, in seconds: samples 0 … n of each response are used, n = round(T · rate).
     pub window: f64,
-    /// Largest drive per actuator, in the drive's unit. The drive's peak is exactly this, unless `rms_limit` is lower.
+    /// Largest magnitude of a sample, in the drive's unit. The drive's peak is scaled to this, unless an rms limit
+    /// keeps it lower.
     pub limit: f64,
-    /// Largest rms per actuator over the whole drive, in the drive's unit. A drive above it is scaled down as a whole.
+    /// Largest rms per actuator over the whole drive, in the drive's unit. A drive above it is scaled down as a whole;
+    /// [`Method::Limited`] takes it as a constraint.
     pub rms_limit: Option<f64>,
-    /// Largest rms of all actuators together, √(Σ mean d²) in the drive's unit: the square root of the power that they may take.
-    /// A drive above it is scaled down as a whole.
+    /// Largest rms of all actuators together, √(Σ mean d²) in the drive's unit: the square root of the power that they
+    /// may take. A drive above it is scaled down as a whole; [`Method::Limited`] takes it as a constraint.
     pub total_rms: Option<f64>,
-    /// How far from time reversal (0) to the method's own limit (1); `None` for [`Method::strength`]. Nothing to time
-    /// reversal and one-bit.
+    /// Weight of velocity against energy in the cost, dimensionless: from 0, which is time reversal, to 1, velocity
+    /// alone; `None` for [`Method::strength`]. Not used by time reversal, one-bit and [`Method::Felt`].
     pub strength: Option<f64>,
-    /// Of [`Method::Limited`]: from the level that the unlimited drive has at the limit (0) to that of one-bit (1).
+    /// For [`Method::Limited`]: the level to be reached, from that of the unlimited drive scaled to the limit (0) to
+    /// that of one-bit (1).
     pub push: f64,
-    /// Of [`Method::Robust`]: the largest stretch of frequencies that is borne, up and down, as a share.
+    /// For [`Method::Robust`]: shift s of all natural frequencies, as a share of them, below 0.5. The surfaces are
+    /// those at 1 − s, 1 and 1 + s times the nominal frequencies.
     pub spread: f64,
-    /// Of [`Method::Inverse`]: whether the displacement of every mode is brought to zero as well.
+    /// For [`Method::Inverse`]: whether the displacements of the modes at the focal instant are minimised along with
+    /// their velocities. Needs modal responses; not used for repeated targets.
     pub rest: bool,
-    /// Of [`Method::Felt`]: the balance between the mean of what is felt elsewhere (0) and its worst spot
-    /// (1).
+    /// For [`Method::Felt`]: balance between the mean square of what is felt outside the targets (0) and the square of
+    /// its largest value (1).
     pub worst: f64,
-    /// Of [`Method::Felt`]: weight of the drive's energy, above 0.
+    /// For [`Method::Felt`]: weight of the drive's energy, dimensionless and above 0; see [`FeltOptions::economy`].
     pub economy: f64,
-    /// Of [`Method::Felt`]: how long before the end of the drive the focus is, in seconds.
+    /// For [`Method::Felt`]: time from the focal instant to the end of the drive, in seconds.
     pub lead: f64,
-    /// What is done about losses; of time reversal and one-bit.
+    /// Compensation of losses, for time reversal and one-bit.
     pub loss: LossCorrection,
     /// Length of the drive, in seconds; `None` for as long as is needed: the window, or with repetition until the last
     /// full period is steady. A single pulse is followed by silence up to this length.
     pub duration: Option<f64>,
-    /// Accuracy of modal responses, as a share of the sum of the magnitudes of their modes. Single precision is enough
-    /// down to 1e-6, which is 120 dB below that sum; the quickest.
+    /// Truncation error allowed in modal responses, as a share of the sum of the magnitudes of their modes. From 1e-6
+    /// upwards (120 dB below that sum) single precision is enough and is used, which is quickest.
     pub accuracy: f64,
 }
 
 impl Default for Options {
-    /// Time reversal over 30 ms at a limit of 1, without correction of losses.
+    /// Time reversal over 30 ms at a limit of 1, without compensation of losses.
     fn default() -> Self {
         Self {
             method: Method::TimeReversal,

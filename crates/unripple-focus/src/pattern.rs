@@ -11,7 +11,7 @@ const MOST_POINTS: usize = 100_000;
 /// Chords of a circle, of a degree each: within 4e-5 of its radius. Doubled, within 1e-5.
 const CHORDS: usize = 360;
 
-/// A line in the plane, in metres.
+/// A line in the plane, open or closed, as straight segments between vertices.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
     /// Its vertices, in metres.
@@ -34,9 +34,9 @@ pub struct Line {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pattern {
-    /// The lines that it is made of.
+    /// The lines of the pattern, open or closed.
     pub lines: Vec<Line>,
-    /// Whether what they enclose (by the even-odd rule) is meant, rather than the lines themselves.
+    /// Whether the pattern is the area that the lines enclose (by the even-odd rule), rather than the lines themselves.
     pub filled: bool,
 }
 
@@ -46,7 +46,7 @@ impl Pattern {
         Self { lines: vec![Line { points, closed: true }], filled: false }
     }
 
-    /// The outline of a circle of centre and radius in metres.
+    /// The outline of a circle of `centre` (m) and `radius` (m), as a polygon of 360 sides.
     pub fn circle(centre: Point, radius: f64) -> Self {
         let on_rim = |i: usize| {
             let (sin, cos) = (2.0 * PI * i as f64 / CHORDS as f64).sin_cos();
@@ -66,12 +66,12 @@ impl Pattern {
         Self::polygon((0..3).map(corner).collect())
     }
 
-    /// The same lines, and what they enclose.
+    /// The pattern with the area that its lines enclose filled.
     pub fn filled(self) -> Self {
         Self { filled: true, ..self }
     }
 
-    /// Distance between sample points that suits a shortest wavelength (m): λ_min/4.
+    /// Recommended distance between sample points, in metres, for a shortest wavelength (m): λ_min/4.
     ///
     /// Fields hold no wave shorter than λ_min, so rows of foci closer than λ_min merge without ripple where they are
     /// straight and endless; a quarter of it keeps corners, ends and curves smooth too, and more points would add nothing
@@ -87,8 +87,8 @@ impl Pattern {
     /// lines are taken instead.
     ///
     /// # Errors
-    /// [`FocusError::Range`] for a pitch or vertices that are not finite and positive, [`FocusError::Count`] for no
-    /// line at all or too many points.
+    /// [`FocusError::Range`] for a pitch that is not positive, for vertices that are not finite and for too many
+    /// points, [`FocusError::Count`] for a pattern without vertices.
     pub fn sample(&self, pitch: f64) -> Result<Vec<Point>, FocusError> {
         require("pitch (m)", pitch.is_finite() && pitch > 0.0, "a positive number", pitch)?;
         let vertices = || self.lines.iter().flat_map(|line| &line.points);

@@ -1,4 +1,4 @@
-//! Drives made from the state at the focal instant: inverse, concentrated, robust.
+//! Drives optimised through the state at the focal instant: inverse, concentrated, limited, robust.
 
 use crate::limited::Limits;
 use crate::objective::{Levels, Objective};
@@ -7,11 +7,11 @@ use crate::{FocusError, Method, Options, Target};
 use unripple_core::{Onset, Point, Responses, require};
 use unripple_linalg::{Mat, norm};
 
-/// Accuracy of drives that modes are summed to, relative to the sum of their magnitudes: the drive is made of
-/// small differences. Larger, what concentrates would be summed less well than it was sought.
+/// Accuracy to which drives are summed from modes, relative to the sum of the magnitudes: the drive is a small
+/// difference of large terms. Larger, the sum would lose contrast that the optimisation has gained.
 const ACCURACY: f64 = 1e-9;
 
-/// Drives made from the state at the focal instant, for one window or one period.
+/// Drives optimised through the state at the focal instant, for one window or one period.
 #[derive(Debug)]
 pub(crate) struct Planned<'r> {
     state: State<'r>,
@@ -19,18 +19,18 @@ pub(crate) struct Planned<'r> {
     options: Options,
 }
 
-/// A drive that was sought.
+/// An optimised drive.
 pub(crate) struct Sought {
-    /// Channels one behind the other.
+    /// Samples of the drive, `[actuator][sample]`.
     pub drive: Vec<f64>,
-    /// The points that each target stands for.
+    /// The points of each target: those asked for, or the nearest ones whose responses are stored.
     pub points: Vec<Vec<Point>>,
-    /// Whether limits gave it its shape.
+    /// Whether limits changed its shape.
     pub shaped: bool,
 }
 
 impl<'r> Planned<'r> {
-    /// For drives of `length` samples: once, or again and again for ever.
+    /// Prepares drives of `length` samples that come once or, with `again`, are repeated without end.
     ///
     /// # Errors
     /// [`FocusError::Count`], [`FocusError::NeedsModes`] and [`FocusError::Decomposition`].
@@ -53,8 +53,8 @@ impl<'r> Planned<'r> {
         Ok(Self { state, objective, options: options.clone() })
     }
 
-    /// The drive that gives targets their gains as velocity at the focal instant, in m/s, or under limits `share` of the level that
-    /// they allow.
+    /// The drive that gives targets their gains as velocity at the focal instant, in m/s. For [`Method::Limited`], the
+    /// drive that reaches `share` of the level that the limits allow.
     ///
     /// # Errors
     /// [`FocusError::Still`] and [`FocusError::Unknown`] for targets that cannot be reached.
@@ -106,7 +106,7 @@ impl<'r> Planned<'r> {
     }
 }
 
-/// The nominal plant, and those beside it that the method is to bear.
+/// The nominal plant, and those over which the method optimises as well.
 fn plants<'r>(
     responses: &'r Responses,
     options: &Options,
@@ -150,7 +150,7 @@ fn plant(responses: &Responses, length: usize, stretch: f64, again: bool) -> Res
     }
 }
 
-/// Refuses plants that are not under the same drive.
+/// Refuses a plant with another number of actuators or another sample rate.
 fn alike(one: &Responses, other: &Responses) -> Result<(), FocusError> {
     let [expected, found] = [one, other].map(|responses| responses.ports().len());
     if expected != found {

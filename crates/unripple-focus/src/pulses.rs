@@ -1,4 +1,4 @@
-//! Focal pulses at places and instants, with levels.
+//! Focal pulses with prescribed points, instants and velocities.
 
 use crate::gains::gains;
 use crate::recording::{Recorder, Recording};
@@ -6,38 +6,39 @@ use crate::settle::settle;
 use crate::{FocusError, Options, Target, level, target};
 use unripple_core::{Drive, Point, Responses, require, window_samples};
 
-/// Decay, in nepers, after which the past no longer matters to a level: to 1/10 000. Doubled, recordings are
-/// twice as long for levels that are right to 1e-8.
+/// Decay, in nepers, after which responses are cut off: to 1/10 000. Doubled, recordings are twice as long for levels
+/// that are right to 1e-8.
 const FORGOTTEN: f64 = 9.2;
 
 /// Most samples of all recordings together, half a GiB of them. Doubled, a GiB.
 const MOST_VALUES: usize = 1 << 26;
 
-/// A focus at an instant, with the level it is to have.
+/// A focal pulse: where, when, and with which velocity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pulse {
     /// Where, in metres: a point, or a set of points that are all to have this level.
     pub points: Vec<Point>,
-    /// Seconds after the first focus can be, which is one window after the drive begins; rounded to a sample.
+    /// Focal instant, in seconds after the earliest possible one, which is one window after the drive's first sample;
+    /// rounded to a sample.
     pub instant: f64,
     /// Velocity at each of the points at that instant, in m/s.
     pub level: f64,
 }
 
 impl Pulse {
-    /// One point (m) at a level (m/s), as early as can be.
+    /// A pulse at one point (m) with a velocity of `level` (m/s), at the earliest possible instant.
     pub fn at(point: Point, level: f64) -> Self {
         Self { points: vec![point], instant: 0.0, level }
     }
 }
 
-/// How pulses are struck: window, regularisation and limits.
+/// Options of [`strike`]: window, regularisation and limits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PulseOptions {
-    /// Seconds that the drive begins before the earliest focus can be.
+    /// Time from the drive's first sample to the earliest possible focal instant, in seconds.
     pub window: f64,
-    /// Tikhonov regularisation: what keeps foci finite that lie too close to differ, as a share of the mean
-    /// energy of a response.
+    /// Tikhonov regularisation of the equations for the gains, 0 to 1, as a share of the mean energy of a response. It
+    /// bounds the drive where pulses lie too close in place and time for different levels.
     pub ridge: f64,
     /// Largest drive per actuator, in the drive's unit. A drive above it is scaled down as a whole.
     pub limit: f64,
@@ -48,34 +49,36 @@ pub struct PulseOptions {
 }
 
 impl Default for PulseOptions {
-    /// 30 ms at a limit of 1.
+    /// A window of 30 ms, a regularisation of 1e-6 and a limit of 1.
     fn default() -> Self {
         Self { window: 30e-3, ridge: 1e-6, limit: 1.0, rms_limit: None, accuracy: 1e-8 }
     }
 }
 
-/// A drive that strikes pulses.
+/// A drive that makes prescribed focal pulses, as computed by [`strike`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Struck {
-    /// The drive that is to be sent. It ends with the last focus.
+    /// The drive to be sent to the actuators. It ends with the last focal instant.
     pub drive: Drive,
     /// Sample of the drive at which each pulse is in focus.
     pub instants: Vec<usize>,
-    /// What the limits left of the levels asked for; 1 where they were not reached.
+    /// Factor by which the limits reduced all levels; 1 where no limit was reached.
     pub scale: f64,
     /// The points of each pulse: those asked for, or the nearest ones whose responses are stored.
     pub points: Vec<Vec<Point>>,
 }
 
-/// The drive of least energy that gives every point of every pulse its level, exactly, at its instant.
+/// The drive of least energy that gives every point of every pulse its velocity at its instant, exactly but for the
+/// regularisation and the limits.
 ///
-/// It is a sum of reversed responses, `d_a[j] = Σ_k c_k h_ak[f_k − j]`, one k for each point of each pulse and each as long as
-/// the drive so far: all that pulses do to each other is in the levels (Gram system, K x K).
+/// It is a sum of reversed responses, `d_a[j] = Σ_k c_k h_ak[f_k − j]`, one k for each point of each pulse. The gains
+/// c_k solve the K x K Gram system of these responses, so that the motion which a pulse causes at the instants of
+/// others is accounted for. Responses reach back to the drive's first sample, or until they have decayed to 1/10 000.
 ///
 /// # Errors
 /// [`FocusError::Outside`], [`FocusError::Unknown`] and [`FocusError::Still`] for points that cannot be reached,
-/// [`FocusError::Range`] and [`FocusError::Count`] for numbers without meaning or of absurd size, and for modes that never
-/// die out.
+/// [`FocusError::Range`] for numbers out of range and for pulses too close to have levels of their own,
+/// [`FocusError::Count`] for too many samples in all.
 pub fn strike(responses: &Responses, pulses: &[Pulse], options: &PulseOptions) -> Result<Struck, FocusError> {
     check(responses, pulses, options)?;
     let rate = responses.conditions().rate;

@@ -13,7 +13,7 @@ pub(crate) struct Recording {
     pub points: Vec<Point>,
 }
 
-/// Records responses over one window, whatever they are kept in.
+/// Reads responses over one window, from modes or from samples.
 #[derive(Debug)]
 pub(crate) enum Recorder<'r> {
     /// From modes, by synthesis.
@@ -38,8 +38,8 @@ impl<'r> Recorder<'r> {
         }
     }
 
-    /// The responses at all points (m) together, actuators x samples, scaled to the mean level of the points
-    /// one by one.
+    /// The sum of the responses at all points (m), actuators x samples. It is scaled so that, played backwards, it moves the points by
+    /// as much on average as single foci would, each made for one of them.
     pub fn record(&self, target: usize, points: &[Point]) -> Result<Recording, FocusError> {
         let (mut samples, energies, points) = match self {
             Self::Modal(modal) => {

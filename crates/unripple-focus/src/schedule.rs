@@ -10,12 +10,12 @@ pub(crate) const MOST_SAMPLES: usize = 50_000_000;
 /// of odd rates are up to twice as long, and exact where they would have been cut.
 const MOST_PERIODS: usize = 8;
 
-/// When a target's focus falls.
+/// Focal instant and period of one target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Timing {
-    /// Sample of the drive's clock at which the target is in focus: with repetition, within the last full period.
+    /// Sample of the drive at which the target is in focus; for a repeated target, one within the last full period.
     pub instant: usize,
-    /// Its period in samples; `None` if it comes once.
+    /// Repetition period in samples; `None` if the target comes once.
     pub period: Option<usize>,
 }
 
@@ -43,7 +43,7 @@ pub(crate) struct Conditions {
     pub channels: usize,
     /// Length asked for, in samples.
     pub duration: Option<usize>,
-    /// Samples after which the past no longer matters; `None` if it always does.
+    /// Samples after which earlier excitation has decayed; `None` if it never does.
     pub settle: Option<usize>,
 }
 
@@ -51,9 +51,10 @@ impl Schedule {
     /// Plans the drive for targets that repeat at these rates (Hz), or come once.
     ///
     /// Repeated targets are first in focus together, at sample n, and then at every multiple of their own period. The
-    /// common period is their least common multiple, or the longest of them if that is over eight times as long. Left
-    /// to itself the drive lasts until the past has died out by the start of the last full period, and half a period
-    /// beyond a common focus. A target that comes once among repeated ones does so in the middle of the last full period.
+    /// common period is their least common multiple, or the longest of them if that is over eight times as long.
+    /// Without a duration asked for, the drive lasts until earlier excitation has decayed by the start of the last full
+    /// period, and half a period beyond a common focus. A target that comes once among repeated ones does so in the
+    /// middle of the last full period.
     pub fn plan(rates: &[Option<f64>], conditions: Conditions) -> Result<Self, FocusError> {
         let window = conditions.window;
         let periods = rates.iter().map(|hz| hz.map(|hz| period(hz, conditions.rate)).transpose());

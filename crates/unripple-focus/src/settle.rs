@@ -1,10 +1,10 @@
-//! How long a surface rings.
+//! Time until the free vibration of a surface has decayed.
 
 use crate::schedule::MOST_SAMPLES;
 use unripple_core::{Pole, Responses};
 
-/// Number of samples until the slowest mode has decayed by so many nepers, or responses end; `None` for modes
-/// that never do.
+/// Number of samples until the slowest mode has decayed by so many nepers, or until sampled responses end; `None` for
+/// modes that never decay so far.
 pub(crate) fn settle(responses: &Responses, nepers: f64) -> Option<usize> {
     match responses {
         Responses::Modal(modal) => {

@@ -17,30 +17,31 @@ use unripple_core::{Point, Responses, require};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stroke {
-    /// The lines it follows, one after the other; from the end of one to the start of the next it jumps.
+    /// The lines that the focus follows, one after the other; it jumps from the end of one to the start of the next.
     pub path: Pattern,
-    /// How fast, in m/s.
+    /// Speed along the path, in m/s.
     pub speed: f64,
-    /// Velocity of each pulse, in m/s.
+    /// Velocity of the surface at the focus in each pulse, in m/s.
     pub level: f64,
-    /// Pulses per second, or more where the path would otherwise be left between two of them.
+    /// Pulses per second. More are used where successive pulses would be farther apart than an eighth of the shortest
+    /// wavelength.
     pub rate_hz: f64,
-    /// Whether every second pulse is turned over: what is felt is then half as many periods per second, without an offset.
+    /// Whether every second pulse has the opposite sign: the motion then has half the repetition rate and no mean.
     pub alternating: bool,
 }
 
 impl Stroke {
-    /// 200 pulses of 1 m/s per second along a path, `speed` in m/s.
+    /// A stroke along a path at `speed` (m/s), with 200 pulses a second of 1 m/s each.
     pub fn along(path: Pattern, speed: f64) -> Self {
         Self { path, speed, level: 1.0, rate_hz: 200.0, alternating: false }
     }
 
-    /// How long it takes, in seconds.
+    /// Duration of the stroke, in seconds: the length of its lines over its speed.
     pub fn duration(&self) -> f64 {
         self.sides().map(|(a, b)| a.distance(b)).sum::<f64>() / self.speed
     }
 
-    /// Where it is, in m, at a time (s) after its start.
+    /// Position of the focus, in metres, at a time (s) after the start.
     pub fn place(&self, time: f64) -> Point {
         let mut left = (time * self.speed).max(0.0);
         let mut end = Point::default();
@@ -56,11 +57,13 @@ impl Stroke {
         end
     }
 
-    /// The pulses that make it, from its start to its end in equal steps of no more than an eighth of the shortest wavelength.
+    /// The pulses of the stroke, equally spaced in time from its start to its end, at most an eighth of the shortest
+    /// wavelength apart.
     ///
     /// # Errors
-    /// [`FocusError::Range`] for a speed, rate or level that is not positive, a path that is filled or has no length, and a
-    /// speed at which pulses would follow one another within half a period of the highest frequency.
+    /// [`FocusError::Range`] for a speed, rate or level that is not positive, a path without length, and a speed at
+    /// which pulses would follow one another within half a period of the highest frequency. Whether the path is filled
+    /// makes no difference.
     pub fn pulses(&self, responses: &Responses) -> Result<Vec<Pulse>, FocusError> {
         let conditions = responses.conditions();
         for (what, x) in [

@@ -7,16 +7,18 @@ use unripple_core::{Outline, Point, require};
 /// time.
 const MOST_POINTS: usize = 100_000;
 
-/// What is to be felt: a point, or a set of points that moves as one.
+/// A target to focus on: a point, or a set of points focused on together, with gain and repetition rate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
-    /// Where, in metres. The reversed responses of all points are superposed.
+    /// The points, in metres. The reversed responses of all points are superposed.
     pub points: Vec<Point>,
-    /// Weight of the reversed response before summing over targets; negative turns it over.
+    /// Level of the focus relative to those of other targets, dimensionless; negative inverts its sign.
     ///
-    /// A point's reversed response is taken as it is, so that its velocity at the focal instant is gain · Σ∫h², up
-    /// to the scale that all targets share. The sum over a set of points is first scaled so that the mean velocity of the
-    /// set is what its points would have one by one, however densely they lie: gain times the mean of Σ∫h².
+    /// Time reversal weights the reversed response of a point by the gain, so that its velocity at the focal instant is
+    /// gain · Σ∫h², up to the scale that all targets share. The sum over a set of points is first scaled so that the
+    /// mean velocity of the set is what its points would have one by one, however densely they lie: gain times the mean
+    /// of Σ∫h². Other methods make the velocity (for [`Method::Felt`](crate::Method::Felt), what is felt) proportional
+    /// to the gain.
     pub gain: f64,
     /// How often it is repeated, in Hz; `None` for once. Periods are whole samples, `round(rate / rate_hz)`.
     pub rate_hz: Option<f64>,
@@ -44,7 +46,7 @@ impl Target {
     }
 }
 
-/// Refuses targets that are nowhere, nothing or too many.
+/// Refuses targets without points, outside the outline, without a finite gain, or with too many points in all.
 pub(crate) fn check(targets: &[Target], outline: &Outline) -> Result<(), FocusError> {
     let count = |what, found| FocusError::Count { what, expected: format!("1 to {MOST_POINTS}"), found };
     let points: usize = targets.iter().map(|t| t.points.len()).sum();

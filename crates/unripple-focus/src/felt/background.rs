@@ -8,7 +8,7 @@ use unripple_linalg::{Accum, Mat, MatRef, Par, multiply};
 /// the blocks, whose sums differ by rounding.
 const VALUES_AT_ONCE: usize = 1 << 22;
 
-/// What the actuators' splines do to the modes.
+/// Motion of the modes under spline signals of the actuators, as spectra.
 #[derive(Clone, Debug)]
 pub(crate) struct Actuation<'a> {
     /// The lines they are known at.

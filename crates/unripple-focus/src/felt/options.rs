@@ -4,31 +4,32 @@ use crate::FocusError;
 use unripple_core::require;
 use unripple_dsp::Threshold;
 
-/// What a drive that is felt at the targets only should weigh against what.
+/// Options of [`FeltPlan`](crate::FeltPlan): window, limits, and weights of what is felt outside the targets.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FeltOptions {
     /// Window T, in seconds: the drive has samples 0 … n, n = round(T · rate).
     pub window: f64,
-    /// How long before the end of the drive the focus is, in seconds: afterwards the drive goes on to cancel what it left
-    /// behind. At least 0, less than the window.
+    /// Time from the focal instant to the end of the drive, in seconds: after the focus the drive goes on and cancels
+    /// the waves that remain. At least 0, less than the window.
     pub lead: f64,
-    /// Largest drive per actuator, in the drive's unit. The drive's peak is exactly this, unless `rms_limit` is lower.
+    /// Largest magnitude of a sample, in the drive's unit. The drive's peak is scaled to this, unless `rms_limit` is
+    /// lower.
     pub limit: f64,
     /// Largest rms per actuator over the whole drive, in the drive's unit. A drive above it is scaled down as a whole.
     pub rms_limit: Option<f64>,
-    /// Balance between the mean of what is felt elsewhere (0) and its worst spot (1). The square of the worst
-    /// spot is much larger than the mean square, so that little is enough.
+    /// Balance between the mean square of what is felt outside the targets (0) and the square of its largest value (1).
+    /// The latter is much the larger, so that a small weight is enough.
     pub worst: f64,
-    /// Weight of the drive's energy, above 0. At 1 a drive of white noise costs as much by its energy as by what is felt
-    /// of it; what is felt of a good drive is much less than that.
+    /// Weight of the drive's energy, dimensionless, 1e-6 to 1e6. At 1, for a drive of random samples, the term of
+    /// energy is about as large as that of the mean square felt; for an optimised drive the latter is much smaller.
     pub economy: f64,
-    /// The least vibration that is felt.
+    /// Threshold of vibrotactile detection: the least displacement that is felt, at each frequency.
     pub threshold: Threshold,
 }
 
 impl Default for FeltOptions {
-    /// Over 30 ms, in focus 4 ms before the end, at a limit of 1, for the published threshold: well below time reversal in
-    /// background, worst spot and drive.
+    /// A window of 30 ms with the focus 4 ms before its end, a limit of 1 and the published threshold. With these
+    /// weights, background, worst spot and drive are well below those of time reversal.
     fn default() -> Self {
         Self {
             window: 30e-3,

@@ -22,32 +22,32 @@ const MOST_COEFFICIENTS: usize = 8000;
 /// Most values of a plan, up to a GiB of them. Doubled, a plan may take twice that.
 const MOST_VALUES: usize = 1 << 27;
 
-/// Modes below this multiple of the highest frequency felt matter for what is felt one by one, all others as
-/// springs. Doubled, more modes are read for motion that the springs give already.
+/// Modes below this multiple of the highest frequency felt are computed one by one, all others as static flexibility.
+/// Doubled, more modes are computed for motion that the flexibility gives already.
 const HEARD: f64 = 2.0;
 
-/// The same where the worst spot is looked for: less, for speed; what is left out is within the slack there.
-/// Doubled, more is looked at, for memory in proportion.
+/// Likewise for the search for the worst spot, where fewer modes are taken for speed: the error is within the tolerance
+/// of that search. Doubled, more modes are taken, for memory in proportion.
 const WATCHED: f64 = 0.8;
 
 /// A shape weight below this share of the largest is rounding error, not motion. Larger, targets close to a
 /// held edge would be refused.
 const REST: f64 = 1e-9;
 
-/// A plan that turns targets into drives that are felt there and hardly elsewhere: what does not depend on the targets is
-/// computed once.
+/// Computes drives that are felt at the targets and as little as possible elsewhere
+/// ([`Method::Felt`]); what does not depend on the targets is computed once.
 ///
-/// Felt is displacement filtered by 1/threshold(f) without delay, in units of the threshold. With B² its mean square over the
-/// whole surface and over all time (as if in twice the window), W its largest magnitude over points outside every
-/// target's disc of (4/3) λ_min, at control points and times around the focal instant, and E the energy of the
-/// drive, the drive is the one of least
+/// What is felt is the displacement filtered by 1/threshold(f) with zero phase, in units of the threshold. Let B² be
+/// its square, averaged over the surface, integrated over all time and divided by twice the window; W its largest
+/// magnitude at control points outside every target's disc of (4/3) λ_min, at instants around the focal one; and E the
+/// energy of the drive. The drive is the one of least
 ///
 /// `(1 − worst) B² + worst · W² + economy · E · tr B² / tr E`
 ///
-/// among smooth ones with what is felt at each target at the focal instant held in proportion to its gain; the traces are over
-/// drives of one spline each. Smooth drives are cubic splines with two knots per period of the highest frequency that counts
-/// as felt. That is a convex quadratic programme: with `worst` at 0 one linear system, factored by the plan, else its
-/// dual over the few spots and instants that reach W.
+/// among cubic splines with two knots per period of the highest frequency that counts as felt, where what is felt at
+/// each target at the focal instant is held in proportion to its gain. The traces are sums over drives of one spline
+/// each. This is a convex quadratic programme: with `worst` at 0 one linear system, factored in advance, otherwise its
+/// dual over the few points and instants that reach W.
 #[derive(Debug)]
 pub struct FeltPlan<'r> {
     responses: &'r ModalResponses,
@@ -81,12 +81,12 @@ struct Sizes {
 }
 
 impl<'r> FeltPlan<'r> {
-    /// Plans for one window and one balance.
+    /// Prepares the window and the weights of `options` for a surface with these responses.
     ///
     /// # Errors
-    /// [`FocusError::Range`] for options without meaning, [`FocusError::NeedsModes`] for sampled responses,
-    /// [`FocusError::Count`] without actuators, for a window of no sample, and for more coefficients or values than a plan
-    /// may have.
+    /// [`FocusError::Range`] for options out of range, [`FocusError::NeedsModes`] for sampled responses,
+    /// [`FocusError::Count`] without actuators or modes, for a window of no sample, and for more coefficients or values
+    /// than a plan may have.
     pub fn new(responses: &'r Responses, options: &FeltOptions) -> Result<Self, FocusError> {
         options.check()?;
         let Responses::Modal(responses) = responses else {
@@ -121,15 +121,16 @@ impl<'r> FeltPlan<'r> {
         Ok(Self { responses, heard, options, focal, splines, factor, level, control, watch, usual })
     }
 
-    /// The drive that is felt at these targets and least elsewhere.
+    /// The drive that is felt at these targets and least elsewhere, scaled to the limits.
     ///
-    /// What is felt at target k at the focal instant, averaged over its points, is its gain times a common level, which the
-    /// limits set; a gain of 0 imposes silence there and then. Targets come once.
+    /// What is felt at target k at the focal instant, averaged over its points, is its gain times a level common to all
+    /// targets, which the limits set. A gain of 0 imposes silence there at that instant. Repeated targets are refused.
     ///
     /// # Errors
-    /// [`FocusError::Outside`] and [`FocusError::Still`] for targets that cannot be reached, [`FocusError::Inseparable`] for
-    /// targets too close to have levels of their own, [`FocusError::Range`] and [`FocusError::Count`] for numbers
-    /// without meaning.
+    /// [`FocusError::Outside`] and [`FocusError::Still`] for targets that cannot be reached,
+    /// [`FocusError::Inseparable`] for targets too close to have levels of their own, [`FocusError::Range`] for
+    /// repeated targets and for numbers out of range, [`FocusError::Count`] for no target, a target without points, or
+    /// too many points.
     pub fn focus(&self, targets: &[Target]) -> Result<Focused, FocusError> {
         let channels = self.limited(self.channels(&self.coefficients(targets)?))?;
         let names = self.responses.ports.iter().map(|port| port.name.clone()).collect();

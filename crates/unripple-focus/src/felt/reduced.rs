@@ -5,17 +5,17 @@ use realfft::num_complex::Complex;
 use unripple_core::{ModalResponses, Onset, Point, Pole, Port};
 use unripple_linalg::{Accum, Mat, Par, multiply};
 
-/// The first modes of a surface one by one, and all others as springs: what each actuator bends at once, without delay.
+/// Reduced model of a surface: the first modes one by one, and all others as springs, that is, as static flexibility.
 ///
-/// Far below their frequencies the others follow the drive: u = Σ_a spring_a(x) · d_a with spring_a(x) =
-/// Σ_m input[a, m] shape_m(x) / ω_m². That is little, except close to an actuator. Springs come after the modes, as columns
-/// of their own.
+/// Far below their natural frequencies the other modes follow the drive without delay: u = Σ_a spring_a(x) · d_a with
+/// spring_a(x) = Σ_m input[a, m] shape_m(x) / ω_m² (residual flexibility). This is little, except close to an actuator.
+/// Springs come after the modes, as columns of their own.
 #[derive(Clone, Debug)]
 pub(crate) struct Reduced<'r> {
     responses: &'r ModalResponses,
     /// Number of modes kept one by one.
     pub kept: usize,
-    /// What the others yield per drive, modes x actuators.
+    /// Static displacement of each of the other modes per drive, modes x actuators.
     yields: Mat<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! What a drive makes of the surface at the focal instant.
+//! The state of the surface at the focal instant, as a linear function of the drive.
 
 mod modal;
 mod reduced;
@@ -41,7 +41,7 @@ impl Plant<'_> {
         }
     }
 
-    /// `G Hᵀ` of this plant's map and another's, both from the same drives.
+    /// `G Hᵀ`, with G the map from drives to the state of this plant and H that of the other.
     fn gram(&self, other: &Self) -> Mat<f64> {
         match (self, other) {
             (Self::Modal(one), Self::Modal(other)) => one.gram(other),
@@ -112,7 +112,7 @@ pub(crate) struct State<'r> {
 }
 
 impl<'r> State<'r> {
-    /// Of plants under drives of so many channels and samples.
+    /// The state of plants under drives of `channels` channels of `length` samples.
     ///
     /// # Errors
     /// [`FocusError::Count`] for too many coordinates, [`FocusError::Decomposition`].
@@ -199,7 +199,7 @@ impl<'r> State<'r> {
         Ok(channels)
     }
 
-    /// W whole, rank x samples of all channels.
+    /// The matrix W, rank x samples of all channels.
     ///
     /// # Errors
     /// As [`State::emit`].

@@ -134,7 +134,8 @@ pub(super) fn ringing(responses: &ModalResponses, length: usize, stretch: f64) -
     Mat::from_fn(length, poles.len(), |j, m| poles[m].velocity((length - 1 - j) as f64 / rate) / rate)
 }
 
-/// The same at the end of a period of drives that come again for ever.
+/// Velocity of each mode at the end of a period, after an impulse at each sample that is repeated with the period
+/// without end, over the rate: samples x modes.
 ///
 /// The state after the kicks of all periods is that after `(1 - A)⁻¹` times one kick, A the free motion over a period.
 ///

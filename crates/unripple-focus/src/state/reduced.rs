@@ -5,8 +5,8 @@ use crate::FocusError;
 use unripple_core::{ModalResponses, Point};
 use unripple_linalg::{Accum, Mat, MatRef, Par, multiply, product, symmetric, times};
 
-/// Shapes that add less than this share of the strongest to the surface, in energy, are the others'
-/// combinations. Larger, shapes of their own would be lost; smaller, rounding would count as a shape.
+/// Combinations of shapes with less than this share of the energy of the strongest, over the surface, count as none.
+/// Larger, independent shapes would be lost; smaller, rounding would count as a shape.
 const ALIKE: f64 = 1e-12;
 
 /// Oscillations that share shapes under a drive of one window: the velocities of as many independent shapes as there are.
@@ -23,8 +23,8 @@ pub(crate) struct ReducedPlant<'r> {
 }
 
 impl<'r> ReducedPlant<'r> {
-    /// Independent shapes under drives of one window of `length` samples, the last of which is the focal
-    /// instant, or of such a period.
+    /// Independent shapes under drives of one window of `length` samples, the last of which is the focal instant, or
+    /// with `again` of one period of `length` samples, repeated without end.
     ///
     /// # Errors
     /// [`FocusError::Decomposition`]; [`FocusError::Count`] if an oscillation never becomes steady.

@@ -1,5 +1,4 @@
-//! Drives that make places move as asked (crosstalk cancellation): any waveform at each of several targets,
-//! silence at others.
+//! Drives that impose a waveform at each of several targets and silence at others (crosstalk cancellation).
 
 mod asked;
 mod plan;
@@ -15,19 +14,19 @@ use plan::Plan;
 use transfer::Transfer;
 use unripple_core::{Drive, Point, Responses, require};
 
-/// A waveform that a target is to follow.
+/// A target, and the waveform that its motion is to follow.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Waveform {
     /// Where, in metres: a point, or a set of points that are all to move alike.
     pub points: Vec<Point>,
-    /// How it moves, at the rate of the responses: metres, or m/s where velocity is asked for.
+    /// Samples of the motion, at the sample rate of the responses: metres, or m/s where velocity is asked for.
     pub samples: Vec<f64>,
     /// Seconds from the start of the first waveform to the start of this one; rounded to a sample.
     pub delay: f64,
 }
 
 impl Waveform {
-    /// One point (m), without delay, and its samples in m or m/s.
+    /// A waveform at one point (m), without delay, with samples in m or m/s.
     pub fn at(point: Point, samples: Vec<f64>) -> Self {
         Self { points: vec![point], samples, delay: 0.0 }
     }
@@ -38,7 +37,7 @@ impl Waveform {
     }
 }
 
-/// What the samples of a waveform are.
+/// Physical quantity of the samples of a waveform.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Quantity {
     /// Displacement, in metres.
@@ -48,25 +47,26 @@ pub enum Quantity {
     Velocity,
 }
 
-/// How waveforms are played: quantity, band, regularisation and limits.
+/// Options of [`play`]: quantity, band, regularisation and limits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlayOptions {
-    /// What the samples are: displacement or velocity.
+    /// Quantity of the samples: displacement or velocity.
     pub quantity: Quantity,
     /// Lowest and highest frequency that is played, in Hz; the responses' band where `None`. The highest tenth fades out.
     pub band: Option<[f64; 2]>,
-    /// What drive energy costs against error: 1 spends on an error no more drive than a surface of usual response would need
-    /// to make it, 1e-5 as good as follows whatever can be followed. See [`play`].
+    /// Weight λ of the drive's energy against the error, dimensionless; see [`play`]. A single target whose response
+    /// has the mean strength g is followed at 1/(1 + λ) of its amplitude: half at 1, practically all at 1e-5.
     pub energy_weight: f64,
-    /// Seconds that the drive may begin before the first waveform and end after the last.
+    /// Time that the drive may begin before the first waveform and end after the last, in seconds.
     pub lead: [f64; 2],
     /// Largest drive per actuator, in the drive's unit. A drive above it is scaled down as a whole.
     pub limit: f64,
     /// Largest rms per actuator over the whole drive, in the drive's unit. A drive above it is scaled down as a whole.
     pub rms_limit: Option<f64>,
-    /// Largest residual of the optimum, as a share of what is asked, both as spectra over the usual response.
+    /// The iteration ends when the residual of the dual equations is at most this share of their right-hand side
+    /// (Euclidean norms); see [`play`].
     pub tolerance: f64,
-    /// Most iterations of the conjugate gradients.
+    /// Largest number of iterations of the conjugate gradients.
     pub passes: usize,
 }
 
@@ -101,43 +101,44 @@ impl PlayOptions {
     }
 }
 
-/// A drive that plays waveforms, and what it was asked to do.
+/// A drive that plays waveforms, and the motion that it was computed for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Played {
-    /// The drive that is to be sent.
+    /// The drive to be sent to the actuators.
     pub drive: Drive,
     /// Sample of the drive at which each waveform starts.
     pub starts: Vec<usize>,
-    /// What each target was asked to do from the drive's first sample to its last: its waveform within the band, times
-    /// `scale`; in the unit of the waveforms.
+    /// Motion prescribed at each target, from the drive's first sample to its last (targets x samples, in the unit of
+    /// the waveforms): the waveform within the band, times `scale`.
     pub asked: Vec<Vec<f64>>,
-    /// Share of each waveform's energy that lies outside the band and was not asked for.
+    /// Share of each waveform's energy, 0 to 1, that lies outside the band and is left out.
     pub lost: Vec<f64>,
-    /// What the limits left of the levels asked for; 1 where they were not reached.
+    /// Factor by which the limits reduced all waveforms; 1 where no limit was reached.
     pub scale: f64,
     /// The points of each target: those asked for, or the nearest ones whose responses are stored.
     pub points: Vec<Vec<Point>>,
-    /// The points of silence, likewise.
+    /// The points of silence: those asked for, or the nearest ones whose responses are stored.
     pub silent: Vec<Point>,
 }
 
-/// The drive of least energy whose waves follow waveforms at targets and cancel at points of silence.
+/// The drive that makes targets follow waveforms and keeps points of silence still, by regularised least squares.
 ///
-/// With H(f) the responses of all K points to the N actuators as spectra, w(f) what is asked of them (nothing before, after, and
-/// at points of silence), and g(f) the mean of |H|² over points, summed over actuators and smoothed over a thirtieth of the
-/// band, the drive minimises
+/// With H(f) the K x N matrix of transfer functions from N actuators to K points, w(f) the prescribed motion (zero at
+/// points of silence, and before and after the waveforms), and g(f) the mean of |H|² over points, summed over actuators
+/// and smoothed over a thirtieth of the band, the drive d minimises
 ///
 /// `Σ_f |H d − w|² / g + energy_weight · Σ_t |d|² / p`
 ///
-/// with p(t) = 1 for as long as the drive may last, falling smoothly to nothing at its ends. It is found from the K rows of its
-/// dual, `(H p Hᴴ / g + energy_weight) y = w / √g`, `d = p Hᴴ y / √g`, by conjugate gradients preconditioned with the solution
-/// for a drive without end, a K x K system per frequency (Tikhonov-regularised multichannel inversion:
-/// Kirkeby, Nelson, Hamada and Orduña-Bustamante, IEEE Trans. Speech Audio Process. 6, 1998). More than N
-/// points are met in the least-squares sense.
+/// with p(t) = 1 while the drive may last, falling smoothly to zero at its ends. It is found from the dual problem,
+/// which has K unknowns per frequency, `(H p Hᴴ / g + energy_weight) y = w / √g`, `d = p Hᴴ y / √g`, by conjugate
+/// gradients preconditioned with the solution for p = 1 at all times, a K x K system per frequency
+/// (Tikhonov-regularised multichannel inversion: Kirkeby, Nelson, Hamada and Orduña-Bustamante, IEEE Trans. Speech
+/// Audio Process. 6, 1998). More than N points are met in the least-squares sense.
 ///
 /// # Errors
 /// [`FocusError::Outside`], [`FocusError::Unknown`] and [`FocusError::Still`] for points that cannot be reached,
-/// [`FocusError::Range`] and [`FocusError::Count`] for numbers without meaning, of absurd size, and modes that never die out.
+/// [`FocusError::Range`] for numbers out of range, [`FocusError::Count`] for counts out of range and for modes that
+/// never decay.
 pub fn play(
     responses: &Responses,
     waveforms: &[Waveform],

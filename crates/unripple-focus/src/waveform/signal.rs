@@ -1,4 +1,4 @@
-//! Waveforms made here: tone bursts, and resampled recordings.
+//! Sines, tone bursts and clicks as waveforms, and resampled recordings.
 
 use crate::FocusError;
 use std::f64::consts::{PI, TAU};
@@ -11,8 +11,8 @@ const MOST_SAMPLES: f64 = 1e7;
 /// as wide, for twice the multiplications.
 const REACH: f64 = 32.0;
 
-/// A sine of `hz` (Hz) and amplitude `level` that lasts `seconds`, at `rate` samples per second, with
-/// raised-cosine edges of two periods, at most a quarter of it each.
+/// A sine of `hz` (Hz) and amplitude `level` that lasts `seconds`, at `rate` samples per second, with raised-cosine
+/// edges of two periods each, at most a quarter of the whole.
 ///
 /// # Errors
 /// [`FocusError::Range`] for numbers that are not positive, or too long.
@@ -29,8 +29,8 @@ pub fn sine(hz: f64, seconds: f64, level: f64, rate: f64) -> Result<Vec<f64>, Fo
     Ok((0..count).map(|i| level * share(i) * (TAU * hz * i as f64 / rate).sin()).collect())
 }
 
-/// A burst of whole or broken cycles of `hz` (Hz) and amplitude `level` under one arch of a raised cosine, at
-/// `rate` samples per second.
+/// A tone burst: `cycles` periods (a number that need not be whole) of `hz` (Hz) and amplitude `level` under a
+/// raised-cosine window, at `rate` samples per second.
 ///
 /// # Errors
 /// As [`sine`].
@@ -47,8 +47,7 @@ pub fn burst(hz: f64, cycles: f64, level: f64, rate: f64) -> Result<Vec<f64>, Fo
     Ok(arch.iter().enumerate().map(|(i, a)| a * (TAU * hz * (i as f64 - middle) / rate).sin()).collect())
 }
 
-/// A click of height `level`: one arch of a raised cosine, `seconds` from foot to foot, at `rate` samples per
-/// second.
+/// A click: a pulse of height `level` in the shape of a raised cosine, `seconds` long, at `rate` samples per second.
 ///
 /// # Errors
 /// As [`sine`].
@@ -57,8 +56,8 @@ pub fn click(seconds: f64, level: f64, rate: f64) -> Result<Vec<f64>, FocusError
     Ok((0..count).map(|i| level * (PI * (i as f64 + 0.5) / count as f64).sin().powi(2)).collect())
 }
 
-/// A recording at another sample rate (both in Hz): interpolated band-limitedly, by a sinc under a raised
-/// cosine of 32 crossings a side.
+/// A signal resampled from `from` to `to` samples per second, by band-limited interpolation: a sinc under a
+/// raised-cosine window, with 32 zero crossings on each side.
 ///
 /// # Errors
 /// [`FocusError::Range`] for rates that are not positive, or too long a result.

@@ -14,8 +14,8 @@ use unripple_linalg::{Mat, product};
 /// rounding.
 const AT_ONCE: usize = 1 << 20;
 
-/// The band is this many times as wide as what the usual response is averaged over. Doubled, the error's
-/// weight follows single resonances more closely.
+/// Width of the band over that of the moving average which gives the mean response g(f). Doubled, the error's weight
+/// follows single resonances more closely.
 const SMOOTH: usize = 30;
 
 /// Responses of all points to all actuators over the lines of the band, over the root of the usual response g(f).
@@ -29,7 +29,7 @@ pub(crate) struct Transfer {
     pub values: Vec<Complex<f64>>,
     /// 1/√g of each line.
     pub weights: Vec<f64>,
-    /// The points that stand for those asked for, set by set.
+    /// The points of each set: those asked for, or the nearest ones whose responses are stored.
     pub places: Vec<Vec<Point>>,
 }
 

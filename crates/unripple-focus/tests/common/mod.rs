@@ -45,7 +45,7 @@ pub struct Membrane {
 }
 
 impl Membrane {
-    /// Small and quick.
+    /// A small membrane of few modes, quick to compute.
     pub fn small() -> Self {
         Self {
             width: 0.10,
