@@ -1,4 +1,4 @@
-//! Positive definite systems by Cholesky factors, and triangular ones.
+//! Linear systems with positive definite matrices, by Cholesky factors, and with triangular matrices.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt;
@@ -6,7 +6,7 @@ use faer::linalg::solvers::{DenseSolveCore, Llt};
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
 use faer::{Mat, MatMut, MatRef, Par, Side};
 
-/// How many threads share right-hand sides: a single one would have its sums cut in as many parts.
+/// Whether threads share the right-hand sides of a solve: not a single one, whose sums would be split among threads.
 pub(crate) fn shared<T>(right: &MatMut<'_, T>) -> Par {
     if right.ncols() > 1 { Par::rayon(0) } else { Par::Seq }
 }
@@ -16,28 +16,28 @@ pub(crate) fn shared<T>(right: &MatMut<'_, T>) -> Par {
 pub struct Cholesky(Llt<f64>);
 
 impl Cholesky {
-    /// From the lower triangle of a matrix; `None` if it is not positive definite.
+    /// Factors a symmetric n x n matrix, of which only the lower triangle is read; `None` if it is not positive definite.
     ///
     /// # Panics
-    /// If it is not square.
+    /// If the matrix is not square.
     pub fn new(matrix: MatRef<'_, f64>) -> Option<Self> {
         Llt::new(matrix, Side::Lower).ok().map(Self)
     }
 
-    /// L, n x n, with zeros above the diagonal.
+    /// The factor L, n x n, with zeros above the diagonal.
     pub fn lower(&self) -> MatRef<'_, f64> {
         self.0.L()
     }
 
-    /// A⁻¹, n x n, both triangles of it.
+    /// The inverse A⁻¹, n x n, as a full symmetric matrix.
     pub fn inverse(&self) -> Mat<f64> {
         DenseSolveCore::inverse(&self.0)
     }
 
-    /// Replaces right-hand sides, n x k, by the solutions of A x = b.
+    /// Solves A X = B: replaces the right-hand sides B, n x k, by the solutions X.
     ///
     /// # Panics
-    /// If there are not n rows.
+    /// If `right` does not have n rows.
     pub fn solve(&self, right: MatMut<'_, f64>) {
         let par = shared(&right);
         solve_factored(self.lower(), right, par);
@@ -50,15 +50,15 @@ fn solve_factored(lower: MatRef<'_, f64>, right: MatMut<'_, f64>, par: Par) {
     llt::solve::solve_in_place(lower, right, par, MemStack::new(&mut buffer));
 }
 
-/// A Cholesky factor made in place and used on one thread: for many small systems that threads share whole.
+/// A Cholesky factor A = L Lᵀ that is computed in place and used on one thread: for many small systems that are solved in parallel.
 #[derive(Clone, Debug)]
 pub struct CholeskyInPlace(Mat<f64>);
 
 impl CholeskyInPlace {
-    /// From a positive definite n x n matrix, of which the lower triangle is read; `None` if it is not.
+    /// Factors a symmetric n x n matrix, of which only the lower triangle is read; `None` if it is not positive definite.
     ///
     /// # Panics
-    /// If it is not square.
+    /// If the matrix is not square.
     pub fn new(mut matrix: Mat<f64>) -> Option<Self> {
         let needed =
             llt::factor::cholesky_in_place_scratch::<f64>(matrix.nrows(), Par::Seq, Default::default());
@@ -68,36 +68,36 @@ impl CholeskyInPlace {
         Some(Self(matrix))
     }
 
-    /// Replaces right-hand sides, n x k, by the solutions of A x = b.
+    /// Solves A X = B: replaces the right-hand sides B, n x k, by the solutions X.
     ///
     /// # Panics
-    /// If there are not n rows.
+    /// If `right` does not have n rows.
     pub fn solve(&self, right: MatMut<'_, f64>) {
         solve_factored(self.0.as_ref(), right, Par::Seq);
     }
 }
 
-/// Replaces right-hand sides, n x k, by the solutions of L x = b, L lower triangular.
+/// Solves L X = B with a lower triangular n x n matrix: replaces the right-hand sides B, n x k, by the solutions X.
 ///
 /// # Panics
-/// If there are not n rows.
+/// If `right` does not have n rows.
 pub fn solve_lower(lower: MatRef<'_, f64>, right: MatMut<'_, f64>) {
     let par = shared(&right);
     solve_lower_triangular_in_place(lower, right, par);
 }
 
-/// The same on one thread.
+/// Solves L X = B as [`solve_lower`] does, with right-hand sides n x k, on one thread.
 ///
 /// # Panics
-/// If there are not n rows.
+/// If `right` does not have n rows.
 pub fn solve_lower_alone(lower: MatRef<'_, f64>, right: MatMut<'_, f64>) {
     solve_lower_triangular_in_place(lower, right, Par::Seq);
 }
 
-/// Replaces right-hand sides, n x k, by the solutions of U x = b, U upper triangular, on one thread.
+/// Solves U X = B with an upper triangular n x n matrix, on one thread: replaces the right-hand sides B, n x k, by the solutions X.
 ///
 /// # Panics
-/// If there are not n rows.
+/// If `right` does not have n rows.
 pub fn solve_upper_alone(upper: MatRef<'_, f64>, right: MatMut<'_, f64>) {
     solve_upper_triangular_in_place(upper, right, Par::Seq);
 }

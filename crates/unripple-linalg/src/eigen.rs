@@ -1,4 +1,4 @@
-//! Eigenvalues and eigenvectors.
+//! Eigenvalues and eigenvectors of dense matrices.
 
 use crate::Entry;
 use faer::diag::Diag;
@@ -10,23 +10,23 @@ use faer::linalg::evd::{
 use faer::traits::ComplexField;
 use faer::{Auto, Mat, MatRef, Par, c64};
 
-/// Eigenvalues, ascending, and orthonormal eigenvectors, column by column, of a symmetric or Hermitian n x n matrix given by its lower
-/// triangle, by divide and conquer; `None` if the iteration does not converge, as where entries are not finite.
+/// Eigenvalues, ascending, and orthonormal eigenvectors, in the columns of an n x n matrix, of a symmetric or Hermitian n x n matrix, by
+/// divide and conquer. Only the lower triangle is read. `None` if the iteration does not converge, as when entries are not finite.
 ///
-/// Vectors may be off by 1e-5 where eigenvalues differ by orders of magnitude; see [`exact_symmetric`].
+/// Eigenvectors may have errors of 1e-5 where eigenvalues differ by orders of magnitude; see [`exact_symmetric`].
 pub fn symmetric<T: Entry>(matrix: MatRef<'_, T>) -> Option<(Vec<f64>, Mat<T>)> {
     T::symmetric(matrix)
 }
 
-/// Eigenvalues and eigenvectors as [`symmetric`] has them, of a symmetric n x n matrix, by QR iteration: to machine
-/// precision of the largest eigenvalue.
+/// Eigenvalues and eigenvectors of a symmetric n x n matrix, in the form of [`symmetric`], by QR iteration. Errors are within
+/// machine precision times the largest eigenvalue.
 pub fn exact_symmetric(matrix: MatRef<'_, f64>) -> Option<(Vec<f64>, Mat<f64>)> {
     let mut params: SelfAdjointEvdParams = Auto::<f64>::auto();
     params.recursion_threshold = usize::MAX;
     decomposed(matrix, params)
 }
 
-/// Eigenvalues and eigenvectors by divide and conquer, as [`symmetric`] has them.
+/// Eigenvalues and eigenvectors by divide and conquer, in the form of [`symmetric`].
 pub(crate) fn divided<T: ComplexField<Real = f64>>(matrix: MatRef<'_, T>) -> Option<(Vec<f64>, Mat<T>)> {
     decomposed(matrix, Auto::<T>::auto())
 }
@@ -44,16 +44,17 @@ fn decomposed<T: ComplexField<Real = f64>>(
     Some((values.column_vector().iter().map(T::real_part_impl).collect(), vectors))
 }
 
-/// The eigenvalues of a matrix of any kind, in no order, and an eigenvector in each column.
+/// Eigenvalues and right eigenvectors of a general (not necessarily symmetric) n x n matrix.
 #[derive(Clone, Debug)]
 pub struct General {
-    /// The n eigenvalues.
+    /// The n eigenvalues, in no particular order.
     pub values: Vec<c64>,
-    /// Their right eigenvectors, n x n, one in each column.
+    /// The right eigenvectors in the columns of an n x n matrix, in the order of the eigenvalues.
     pub vectors: Mat<c64>,
 }
 
-/// The eigenvalues and right eigenvectors of an n x n matrix; `None` if the iteration does not converge, as where entries are not finite.
+/// The eigenvalues and right eigenvectors of a general n x n matrix; `None` if the iteration does not converge, as when entries are not
+/// finite.
 pub fn general<T: Entry>(matrix: MatRef<'_, T>) -> Option<General> {
     T::general(matrix)
 }
@@ -87,8 +88,8 @@ pub(crate) fn general_real(matrix: MatRef<'_, f64>) -> Option<General> {
     Some(General { vectors: joined(&values, real.as_ref()), values })
 }
 
-/// Complex eigenvectors from real ones: of a complex pair, whose first has the positive imaginary part, the first column holds the real
-/// part and the second the imaginary one.
+/// Complex eigenvectors from the real columns that faer returns. Of a pair of conjugate eigenvalues, the first has the positive imaginary
+/// part; the first column of the pair holds the real part of its eigenvector, the second the imaginary part.
 fn joined(values: &[c64], real: MatRef<'_, f64>) -> Mat<c64> {
     let n = values.len();
     let mut vectors = Mat::zeros(n, n);

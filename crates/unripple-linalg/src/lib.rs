@@ -1,14 +1,15 @@
-//! Linear algebra, compiled once for all crates, whose results do not depend on the number of threads, to the last bit.
+//! Dense and sparse linear algebra on faer's matrices, compiled once for all crates. Unless said otherwise, results do not depend on the
+//! number of threads, to the last bit.
 //!
-//! This crate alone knows faer; all others take its matrices ([`Mat`], [`MatRef`], [`MatMut`] …) from here and leave to the functions here
-//! what is more than reading, writing, adding and scaling entries. faer's algorithms have type parameters, so that each crate that calls
-//! one, be it as `a * b`, compiles it again, and so does each of its test programs: hundreds of kilobytes for an eigenvalue problem. The
+//! Only this crate uses faer directly. All others take its matrices ([`Mat`], [`MatRef`], [`MatMut`] …) from here, and call the functions
+//! here for everything beyond reading, writing, adding and scaling entries. faer's algorithms are generic, so that each crate that calls
+//! one, even as `a * b`, compiles it again, and so does each of its test programs: hundreds of kilobytes for an eigenvalue problem. The
 //! functions here are compiled with this crate, for f64 and, where it is used, f32 and [`c64`].
 //!
-//! faer's products of matrices are shared among threads row by row and column by column, so that each number is summed in one order
-//! whatever their number. Its products with a single column, eigenvalues and singular values are not: with threads, sums are cut in parts.
-//! These run on one thread here; whoever has many of them shares them among threads whole. Only [`times`] has large products with a single
-//! column as faer has them.
+//! In a matrix product, faer shares the entries of the result among threads, so that each is summed in one order whatever the number of
+//! threads. In products with a single row or column, and for eigenvalues and singular values, it splits sums among threads. Here these
+//! run on one thread; a caller that has many of them can run several at a time. The exceptions are [`times`], [`times_column`] and
+//! [`multiply`] with several threads, where faer splits large products with a single row or column.
 //!
 //! ```
 //! use unripple_linalg::{Mat, mat, norm, product, symmetric};

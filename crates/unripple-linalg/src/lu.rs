@@ -1,4 +1,4 @@
-//! Systems of any kind by LU factors.
+//! Linear systems with general square matrices, by LU factors.
 
 use crate::Entry;
 use crate::cholesky::shared;
@@ -8,31 +8,31 @@ use faer::linalg::solvers::PartialPivLu;
 use faer::traits::ComplexField;
 use faer::{Mat, MatMut, MatRef};
 
-/// The LU factors of an n x n matrix, rows exchanged for the largest pivots.
+/// The LU factors of an n x n matrix A, with partial pivoting (rows are exchanged).
 #[derive(Clone, Debug)]
 pub struct Lu<T>(PartialPivLu<T>);
 
 impl<T: Entry> Lu<T> {
-    /// Of a matrix, which solves nothing finite if it is singular.
+    /// Factors an n x n matrix. If it is singular, solutions and inverse are not finite.
     pub fn new(matrix: MatRef<'_, T>) -> Self {
         Self(T::lu(matrix))
     }
 
-    /// The inverse, n x n.
+    /// The inverse A⁻¹, n x n.
     pub fn inverse(&self) -> Mat<T> {
         T::inverse(&self.0)
     }
 
-    /// Replaces right-hand sides, n x k, by the solutions of A x = b.
+    /// Solves A X = B: replaces the right-hand sides B, n x k, by the solutions X.
     ///
     /// # Panics
-    /// If there are not n rows.
+    /// If `right` does not have n rows.
     pub fn solve(&self, right: MatMut<'_, T>) {
         T::solve_lu(&self.0, right);
     }
 }
 
-/// What [`Lu::solve`] does.
+/// The implementation of [`Lu::solve`].
 pub(crate) fn solve<T: ComplexField>(factors: &PartialPivLu<T>, right: MatMut<'_, T>) {
     let par = shared(&right);
     let (rows, columns) = right.shape();

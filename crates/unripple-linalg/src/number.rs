@@ -1,22 +1,22 @@
-//! The numbers that matrices are made of, and what is compiled once for each kind of them.
+//! The number types of matrices, and the functions that are compiled once for each.
 
 use crate::General;
 use faer::linalg::solvers::PartialPivLu;
 use faer::traits::ComplexField;
 use faer::{Accum, Mat, MatMut, MatRef, Par, c64};
 
-/// Numbers whose matrices are multiplied: f32, f64 and c64.
+/// Number types whose matrices can be multiplied: f32, f64 and c64.
 pub trait Number: sealed::Products {}
 
-/// Numbers whose matrices are decomposed, too: f64 and c64.
+/// Number types whose matrices can also be decomposed (eigenvalues, LU): f64 and c64.
 pub trait Entry: Number + sealed::Decompositions {}
 
-/// Functions without type parameters of their own. Those of faer have some, and whoever calls one compiles it again, with all that it
-/// calls; who calls these does not.
+/// Functions without type parameters of their own. faer's are generic, so that each crate that calls one compiles it again with all that
+/// it calls; calls of these functions compile nothing again.
 pub(crate) mod sealed {
     use super::*;
 
-    /// What [`Number`] does.
+    /// The functions of a [`Number`].
     pub trait Products: ComplexField + Copy {
         fn multiply(
             out: MatMut<'_, Self>,
@@ -28,7 +28,7 @@ pub(crate) mod sealed {
         );
     }
 
-    /// What [`Entry`] does.
+    /// The functions of an [`Entry`].
     pub trait Decompositions: Products {
         fn symmetric(matrix: MatRef<'_, Self>) -> Option<(Vec<f64>, Mat<Self>)>;
         fn general(matrix: MatRef<'_, Self>) -> Option<General>;

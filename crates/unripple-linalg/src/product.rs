@@ -1,4 +1,4 @@
-//! Products of matrices.
+//! Products and norms of matrices.
 
 use crate::Number;
 use faer::linalg::matmul::matmul_with_conj;
@@ -6,9 +6,10 @@ use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::sparse::SparseColMatRef;
 use faer::{Accum, Col, ColRef, Conj, Mat, MatMut, MatRef, Par, c64};
 
-/// `out = factor · left · right`, or that added to it: m x n from m x k and k x n, on as many threads as `par` says.
+/// Computes `factor · left · right`, m x n from m x k and k x n, on as many threads as `par` says. The result replaces `out` or is
+/// added to it, as `accum` says.
 ///
-/// With threads, sums of a single column or row depend on how many there are; see [`product`].
+/// With several threads, the last bits of a result with a single row or column depend on their number; see [`product`].
 ///
 /// # Panics
 /// If sizes do not match.
@@ -23,8 +24,8 @@ pub fn multiply<T: Number>(
     T::multiply(out, accum, left, right, factor, par);
 }
 
-/// The product of two matrices, m x k and k x n, as m x n. Shared among threads but for a single column, whose sums faer would cut in as
-/// many parts as there are threads.
+/// The product of two matrices, m x k and k x n, as m x n, to the last bit the same for any number of threads. Threads share it unless it
+/// has a single row or column, whose sums faer would split among threads.
 ///
 /// # Panics
 /// If the number of columns of `left` is not that of rows of `right`.
@@ -35,8 +36,9 @@ pub fn product<T: Number>(left: MatRef<'_, T>, right: MatRef<'_, T>) -> Mat<T> {
     out
 }
 
-/// The product of two matrices, m x k and k x n, shared among threads whatever their sizes, as faer's operator `*` has it. It is that of
-/// [`product`] but for a single column or row out of a matrix of 65 536 entries or more, whose last bits depend on the number of threads.
+/// The product of two matrices, m x k and k x n, as m x n, shared among threads whatever the sizes, as with faer's operator `*`. It equals
+/// that of [`product`], except for a result with a single row or column from a matrix of 65 536 entries or more: its last bits
+/// depend on the number of threads.
 ///
 /// # Panics
 /// If the number of columns of `left` is not that of rows of `right`.
@@ -46,7 +48,7 @@ pub fn times<T: Number>(left: MatRef<'_, T>, right: MatRef<'_, T>) -> Mat<T> {
     out
 }
 
-/// The same with a column as such, m x k by k.
+/// The product of a matrix, m x k, and a column vector of length k, as a vector of length m, shared among threads as in [`times`].
 ///
 /// # Panics
 /// If the number of columns of `left` is not that of rows of `right`.
@@ -57,7 +59,7 @@ pub fn times_column<T: Number>(left: MatRef<'_, T>, right: ColRef<'_, T>) -> Col
     out
 }
 
-/// Aᴴ B of complex matrices, k x m and k x n, as m x n.
+/// The product Aᴴ B of complex matrices A = `left`, k x m, and B = `right`, k x n, as m x n.
 ///
 /// # Panics
 /// If the numbers of rows differ.
@@ -65,7 +67,7 @@ pub fn adjoint_times(left: MatRef<'_, c64>, right: MatRef<'_, c64>) -> Mat<c64> 
     conjugated(left.transpose(), Conj::Yes, right, Conj::No)
 }
 
-/// A Bᴴ of complex matrices, m x k and n x k, as m x n.
+/// The product A Bᴴ of complex matrices A = `left`, m x k, and B = `right`, n x k, as m x n.
 ///
 /// # Panics
 /// If the numbers of columns differ.
@@ -80,7 +82,7 @@ fn conjugated(left: MatRef<'_, c64>, one: Conj, right: MatRef<'_, c64>, other: C
     out
 }
 
-/// Adds `factor · A Aᵀ` to the lower triangle of a symmetric matrix, A being n x k, on one thread.
+/// Adds `factor · A Aᵀ`, with A n x k, to the lower triangle of the n x n matrix `out`, on one thread.
 ///
 /// # Panics
 /// If `out` is not n x n.

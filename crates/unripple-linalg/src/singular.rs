@@ -1,20 +1,20 @@
-//! Singular values.
+//! Singular value decomposition.
 
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::svd::{ComputeSvdVectors, svd, svd_scratch};
 use faer::{Mat, MatRef, Par};
 
-/// A matrix, m x n, as U diag(values) Vᵀ.
+/// The singular values and left singular vectors of an m x n matrix U diag(values) Vᵀ; V is not computed.
 #[derive(Clone, Debug)]
 pub struct Singular {
-    /// U, m x min(m, n).
+    /// The left singular vectors, the columns of U, m x min(m, n).
     pub left: Mat<f64>,
-    /// The singular values, descending.
+    /// The min(m, n) singular values, descending.
     pub values: Vec<f64>,
 }
 
-/// The singular values of a matrix and its left singular vectors; `None` if the iteration does not converge, as where entries are not
+/// The singular values and left singular vectors of an m x n matrix; `None` if the iteration does not converge, as when entries are not
 /// finite.
 pub fn singular(matrix: MatRef<'_, f64>) -> Option<Singular> {
     let (m, n) = matrix.shape();

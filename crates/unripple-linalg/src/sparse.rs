@@ -1,4 +1,4 @@
-//! Sparse symmetric matrices: supernodal LDLᵀ factors, and how they are ordered.
+//! Sparse symmetric matrices: fill-reducing ordering and supernodal LDLᵀ factors.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
@@ -17,17 +17,17 @@ pub use faer::sparse::{
     SparseColMat, SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef, Triplet,
 };
 
-/// Why a sparse matrix has no factors.
+/// Why a sparse matrix could not be factored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unfactored {
-    /// Memory does not hold them.
+    /// There is not enough memory.
     Memory,
     /// A pivot is zero.
     Pivot,
 }
 
-/// The structure of the factors of symmetric matrices, n x n, with a pattern in the lower triangle, rows and columns ordered by approximate
-/// minimum degree and always gathered in supernodes; `None` if memory does not hold it.
+/// Symbolic analysis of symmetric n x n matrices with a given pattern of nonzeros in the lower triangle: an ordering by approximate minimum
+/// degree, and the structure of supernodal factors. `None` if there is not enough memory.
 pub fn analyse(pattern: SymbolicSparseColMatRef<'_, usize>) -> Option<SymbolicCholesky<usize>> {
     let params = CholeskySymbolicParams {
         supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
@@ -36,11 +36,12 @@ pub fn analyse(pattern: SymbolicSparseColMatRef<'_, usize>) -> Option<SymbolicCh
     factorize_symbolic_cholesky(pattern, Side::Lower, SymmetricOrdering::Amd, params).ok()
 }
 
-/// The values of L and D in L D Lᵀ = A, given its lower triangle in the order of `structure`, without exchange of rows or columns: by
-/// Sylvester's law of inertia D has as many negative entries as A has negative eigenvalues.
+/// Numeric factorisation A = L D Lᵀ of a symmetric n x n matrix: the values of L and D, laid out as `structure` says. `lower` is the lower
+/// triangle of A, permuted to the order of `structure`. There is no pivoting, so that by Sylvester's law of inertia D has as many negative
+/// entries as A has negative eigenvalues.
 ///
 /// # Errors
-/// [`Unfactored`].
+/// [`Unfactored`] if a pivot is zero or memory does not suffice.
 pub fn factor_ldlt(
     structure: &SymbolicSupernodalCholesky<usize>,
     lower: SparseColMatRef<'_, usize, f64>,
