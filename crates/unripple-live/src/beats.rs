@@ -1,4 +1,4 @@
-//! The player at work: as many samples as are asked for, of blocks of its own length.
+//! Runs the player in blocks of its own length, and gives a device as many samples as it asks for.
 
 use crate::{Percentiles, Timeline};
 use assert_no_alloc::assert_no_alloc;
@@ -9,7 +9,7 @@ use std::thread::Thread;
 use unripple_core::{Cycle, Work};
 use unripple_player::{Meters, Player};
 
-/// The share of a cycle's time from which on the load is too high to be safe.
+/// Fraction of a cycle's duration above which the processor time of the player is too high to be safe.
 const HEAVY: f32 = 0.7;
 
 /// A player whose blocks are cut to what a device asks for. What is left of a block waits for the next cycle, so a command waits
@@ -19,15 +19,15 @@ pub(crate) struct Beats {
     meters: Arc<Meters>,
     timeline: Arc<Timeline>,
     rate: f64,
-    /// One sample of the device is so much drive.
+    /// Drive, in the actuators' unit, of a sample of 1 of the device.
     scale: f32,
     block: usize,
-    /// The last block, and how many samples at its end are not given yet.
+    /// The last block of the player, and how many samples at its end have not been given to the device yet.
     ready: Vec<f32>,
     left: usize,
     work: Percentiles,
     heavy: u64,
-    /// Who is woken when it is time.
+    /// Thread that is woken when the sample of [`Timeline::wake_at`] has been computed.
     bell: Option<Thread>,
     overheard: Option<Overheard>,
 }
@@ -35,7 +35,7 @@ pub(crate) struct Beats {
 /// Blocks of drive and inputs, for the follower of tension.
 pub(crate) struct Overheard {
     blocks: Producer<f32>,
-    /// One block of planes: of drive in the actuators' unit, then of inputs.
+    /// One block, channel after channel: drive in the actuators' unit, then inputs.
     planes: Vec<f32>,
     channels: [usize; 2],
     block: usize,
@@ -43,13 +43,14 @@ pub(crate) struct Overheard {
 }
 
 impl Overheard {
-    /// Blocks of so many samples of so many outputs and inputs; what finds no room is lost to the follower alone.
+    /// A queue for blocks of `block` samples of `channels` outputs and inputs. A block that finds no room is lost to
+    /// the follower only.
     pub fn new(blocks: Producer<f32>, channels: [usize; 2], block: usize) -> Self {
         let planes = vec![0.0; channels.iter().sum::<usize>() * block];
         Self { blocks, planes, channels, block, at: 0 }
     }
 
-    /// A block of planes, drive and inputs.
+    /// Queues a block of drive and inputs, channel after channel.
     pub fn put(&mut self, drive: &[f32], heard: &[f32]) {
         if self.blocks.slots() >= drive.len() + heard.len() {
             drive.iter().chain(heard).for_each(|x| self.blocks.push(*x).unwrap_or(()));
@@ -81,7 +82,8 @@ impl Overheard {
 }
 
 impl Beats {
-    /// A player of blocks of so many samples, before a device of which one sample is so much drive.
+    /// A player with blocks of `block` samples, for a device of `rate` samples per second in which a sample of 1 is a
+    /// drive of `scale`.
     pub fn new(
         player: Player,
         (block, outputs): (usize, usize),
@@ -105,22 +107,23 @@ impl Beats {
         }
     }
 
-    /// Sets whom to wake when it is time, and who follows the inputs.
+    /// Sets the thread to be woken and the queue to the follower of tension.
     pub fn tell(&mut self, bell: Option<Thread>, overheard: Option<Overheard>) {
         (self.bell, self.overheard) = (bell, overheard);
     }
 
-    /// Takes back who follows the inputs.
+    /// Takes back the queue to the follower of tension.
     pub fn take_overheard(&mut self) -> Option<Overheard> {
         self.overheard.take()
     }
 
-    /// The first sample that is not given yet.
+    /// The first sample that has not been given to the device yet.
     pub fn position(&self) -> u64 {
         self.player.clock() - self.left as u64
     }
 
-    /// The next samples of every output, in the actuators' unit: `put` gets the output, the place of its samples, and them.
+    /// Computes the next `frames` samples of every output, in the actuators' unit. `put` gets the index of an output,
+    /// the index of the first sample, and the samples.
     pub fn fill(&mut self, frames: usize, mut put: impl FnMut(usize, usize, &[f32])) {
         let before = thread_time();
         let mut at = 0;
@@ -142,7 +145,8 @@ impl Beats {
         self.heavy += u64::from(load > HEAVY);
     }
 
-    /// Says when the samples given last leave, the first of them and how many they are, and wakes who waits for that.
+    /// Records that the `frames` samples from `first` on begin to leave the device at `leaves`, and wakes the thread
+    /// that waits for it.
     pub fn mark(&mut self, first: u64, leaves: std::time::Instant, frames: usize) {
         let next = self.player.clock();
         self.timeline.mark(first, leaves, frames, next);
@@ -158,7 +162,7 @@ impl Beats {
         &self.work
     }
 
-    /// Cycles that took more than 70 % of their time.
+    /// Number of cycles in which the player's processor time exceeded 70 % of the cycle's duration.
     pub fn heavy(&self) -> u64 {
         self.heavy
     }

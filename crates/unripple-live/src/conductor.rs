@@ -20,33 +20,36 @@ const MOST_ASKED: usize = 1 << 12;
 /// Time after which a step that makes drives looks at what came meanwhile, so that a finger that lifts is not kept waiting.
 const LONG: Duration = Duration::from_millis(5);
 
-/// The player's name of pings: the last of all numbers, which no start is given.
+/// The player's name (voice number) for pings: the largest number, which no other start is given.
 const PING: u64 = u64::MAX;
 
-/// Turns what touches set off into commands for a player: cues wait here for their time, drives are made or remembered, and what
-/// sounds follows the finger.
+/// Turns touches into commands for a player. Effects turn touches into cues, which wait here for their time; drives
+/// are computed or taken from a cache; sustained sounds follow the finger.
 ///
-/// A focus comes a window after its drive begins. So what is known ahead, as in a score, begins a window early; what a touch sets off
-/// begins at once.
+/// A focus comes one window after its drive begins. So the drive of an event known ahead, as in a score, begins one
+/// window early; that of a touch begins at once.
 ///
 /// Deterministic: the same touches at the same samples give the same commands, as long as the player's clock moves.
 ///
-/// # Nothing sounds that nobody wants
+/// # Every sound ends
 ///
-/// What is over by itself, a pulse or a waveform played once, may be lost; a stop takes back what was given ahead and has not begun. What goes on is held: the player ends it once the
-/// [`Hold`](unripple_player::Hold) is stopped or dropped, and here a hold lives in the entry of its voice and nowhere else. So what
-/// is forgotten here ends there, and a stop needs no room, neither on the way nor in the player.
+/// Pulses, and waveforms played once, end by themselves. Their commands may be lost; a stop withdraws those that were
+/// sent ahead and have not begun. Sustained sounds (repeated foci and looped waveforms) are held: the player ends one
+/// once its [`Hold`](unripple_player::Hold) is stopped or dropped, and the hold is stored only in the entry of its
+/// voice here. So a sound whose entry is removed ends, and a stop needs no room in the queue or in the player.
 ///
-/// - The way is full: the command comes back. Pulses are lost and counted; of what goes on the entry stays and is sent again with the
-///   next block, by when it may have moved or be gone.
-/// - The player refuses, or something is over: the hold says so, the entry goes, and the input of a waveform is free. What goes on and
-///   found no room stays and is begun again after a while. A change that was refused is sent again. Reports only measure; if some were lost, all that goes on is sent again.
-/// - Drives take long to make: a stop ends what sounds at once, whatever is still to be made, and takes back what its voice waits for.
-///   Where threads play, a step makes drives for a few milliseconds only and leaves the rest to the next, so that it hears of the stop.
-///   A pulse whose turn comes too late is not begun.
-/// - The player stands still: after a tenth of a second what was sent to it and would be over by itself is taken back, and nothing more is
-///   sent before it goes on. Fingers are followed meanwhile, and what they then still hold is sent.
-/// - This side is gone: the player fades out by itself. [`Conductor::end`] asks it to.
+/// - The queue to the player is full: the command comes back. Pulses are lost and counted. A sustained sound keeps
+///   its entry, and its command is sent again with the next block, unless it has been moved or stopped meanwhile.
+/// - The player refuses a command, or a sound is over: the hold says so, the entry is removed, and the input of a
+///   waveform is free again. A sustained sound that found no room keeps its entry and is begun again after 20 ms. A
+///   refused change is sent again. Reports only serve statistics; if some were lost, all sustained sounds are sent
+///   again.
+/// - Drives take long to compute: a stop ends the sound at once, whatever is still to be computed, and removes the
+///   waiting cues of its voice. When threads play, a step computes drives for 5 ms only and leaves the rest to the
+///   next step, so that it notices a stop. A pulse that would begin more than 0.1 s late is not begun.
+/// - The player stands still: after 0.1 s, commands of sounds that end by themselves are withdrawn, and nothing is
+///   sent before it continues. Fingers are followed meanwhile; what they hold then is sent.
+/// - This side ends: the player fades out by itself. [`Conductor::end`] requests it.
 pub struct Conductor {
     effects: Effects,
     pub(crate) drives: DriveCache,
@@ -56,32 +59,32 @@ pub struct Conductor {
     pub(crate) lead: u64,
     pub(crate) waiting: BTreeMap<(u64, u64), Waiting>,
     pub(crate) order: u64,
-    /// The last of those that waited when the present step began.
+    /// Number of the last cue that was waiting when this step began.
     pub(crate) old: u64,
-    /// Whether there had been no time for some of them.
+    /// Whether some of these cues were due already: there had been no time for them.
     pub(crate) late: bool,
     pub(crate) sounding: BTreeMap<u64, Kept>,
     pub(crate) inputs: Inputs,
     pub(crate) ahead: Ahead,
-    /// Names given to the player so far.
+    /// Number of names (voice numbers) given to the player so far.
     names: u64,
     /// Factor on all levels.
     pub(crate) trim: f64,
-    /// When the touch came that a start answers, in samples, by its name.
+    /// Time of the touch that a start answers, in samples, by the name of the start.
     asked: BTreeMap<u64, u64>,
     cues: Vec<Cue>,
     pub(crate) tally: PlayStats,
     pace: Pace,
     /// Whether the player stands still.
     pub(crate) stands: bool,
-    /// The block in which the player was last sent what it may not know.
+    /// First sample of the block in which the sounds that the player may not know were last sent to it.
     told: Option<u64>,
     /// Reports lost so far.
     missed: u64,
-    /// What each voice plays, and what of it has begun, while somebody wants to know.
+    /// Log of the drives that begin, if it is kept.
     log: Option<Log>,
     ended: bool,
-    /// When samples leave, while a device plays by a clock of its own.
+    /// Times at which samples leave the device, when threads play.
     timeline: Option<Arc<Timeline>>,
 }
 
@@ -92,8 +95,8 @@ impl std::fmt::Debug for Conductor {
 }
 
 impl Conductor {
-    /// Effects played through a desk, whose player has `inputs` inputs for waveforms; `time` has its rate, block and
-    /// window.
+    /// A conductor that plays effects through a desk, whose player has `inputs` inputs for waveforms; `time` has the
+    /// rate, block and window.
     pub fn new(effects: Effects, drives: DriveCache, desk: Desk, time: Timing, inputs: usize) -> Self {
         let Timing { rate, window, .. } = time;
         Self {
@@ -124,48 +127,49 @@ impl Conductor {
         }
     }
 
-    /// Lets drives be made with real-time priority, 1 to 99, where the system grants it.
+    /// Requests real-time priority, 1 to 99, for the thread that computes drives; `None` requests nothing.
     pub fn request_realtime(&mut self, priority: Option<u8>) {
         self.drives.request_realtime(priority);
     }
 
-    /// Counts latency by when samples leave, from now on.
+    /// From now on measures latency by the times at which samples leave the device.
     pub(crate) fn count_by(&mut self, timeline: Arc<Timeline>) {
         self.timeline = Some(timeline);
     }
 
-    /// Whether nothing sounds and nothing waits: nothing is to be done then before somebody touches.
+    /// Whether nothing sounds and nothing waits, so that nothing is to be done before the next touch.
     pub(crate) fn rests(&self) -> bool {
         let silent = self.sounding.is_empty() && self.inputs.rest();
         silent && self.waiting.is_empty() && self.effects.rests()
     }
 
-    /// Plays a drive that asks the sheet for its tension, at once.
+    /// Plays a test signal that measures the tension of the sheet, at once.
     pub(crate) fn ping(&mut self, drive: Arc<Prepared>) {
         if !self.ended && !self.stands {
             self.send(Command::Start { voice: Voice(PING), drive, at: At::Now, gain: 1.0, period: None });
         }
     }
 
-    /// Ends it all: what sounds fades out over so many seconds, what waits is dropped, and later touches set nothing off.
+    /// Ends playing: sounds fade out over `fade` s, waiting cues are dropped, and later touches have no effect.
     pub fn end(&mut self, fade: f64) {
         self.ended = true;
         self.waiting.clear();
         self.desk.end((fade * self.rate).round() as u32);
     }
 
-    /// Whether all has faded out after [`Conductor::end`]; never said by a player that is not asked for blocks any more.
+    /// Whether everything has faded out after [`Conductor::end`]. Stays false if the player is not asked for further
+    /// blocks.
     pub fn is_over(&self) -> bool {
         self.desk.is_over()
     }
 
-    /// Keeps, from now on, which drives begin, for [`Conductor::began`].
+    /// Starts a log of the drives that begin, for [`Conductor::began`].
     pub fn keep_log(&mut self) {
         self.log = Some(Log::default());
     }
 
-    /// Drives that began since this was last asked, as far as the player has reported: what began in a block is
-    /// reported after it.
+    /// Drives that began since the last call, as far as the player has reported: it reports after each block. Empty
+    /// without [`Conductor::keep_log`].
     pub fn began(&mut self) -> Vec<Began> {
         self.listen();
         self.log.as_mut().map_or_else(Vec::new, Log::take)
@@ -176,21 +180,22 @@ impl Conductor {
         &self.tally
     }
 
-    /// The player's other end.
+    /// The desk, through which commands are sent to the player.
     pub fn desk(&self) -> &Desk {
         &self.desk
     }
 
-    /// Drives made so far, and those remembered.
+    /// The cache of drives, with the times that it took to compute them.
     pub fn drives(&self) -> &DriveCache {
         &self.drives
     }
 
-    /// Takes in touches and wishes, and gives the player all that begins before `until`, both in samples of the
-    /// player's clock; `now` is the first sample of the next block. Touches carry the same clock in s.
+    /// Processes touches and requests, and sends the player the commands for all that begins before `until`. `now`,
+    /// the first sample of the next block, and `until` are in samples of the player's clock; touches carry the same
+    /// clock in s.
     ///
     /// # Errors
-    /// [`LiveError::Gone`] if no drive can be made any more; what fails for one cue is counted.
+    /// [`LiveError::Gone`] if the thread that computes drives is gone. The failure of a single cue is only counted.
     pub fn step(&mut self, heard: &Heard, now: u64, until: u64) -> Result<(), LiveError> {
         self.listen();
         if self.ended {
@@ -228,26 +233,27 @@ impl Conductor {
         Ok(())
     }
 
-    /// Whether a step has taken so long that what came meanwhile is looked at first; never where nothing comes meanwhile.
+    /// Whether a step has taken so long that it must end, so that new touches are looked at; never when no threads
+    /// play.
     pub(crate) fn is_long(&self, began: Instant) -> bool {
         self.timeline.is_some() && began.elapsed() > LONG
     }
 
-    /// Whether something waits that would have begun before a sample had there been time.
+    /// Whether a cue waits that should have begun before a sample.
     pub(crate) fn is_behind(&self, until: u64) -> bool {
         self.waiting.first_key_value().is_some_and(|((at, _), _)| *at < until)
     }
 
-    /// A fade of so many seconds in samples; without any, drives that have begun ring out.
+    /// A fade in samples, from one in s; none for 0, so that drives that have begun ring out.
     pub(crate) fn fade(&self, seconds: f64) -> Option<u32> {
         Some((seconds * self.rate).round() as u32).filter(|samples| *samples > 0)
     }
 
-    /// Goes on with another maker: what sounds goes over to drives for the surface as it is now. `now` is a sample of
-    /// the player's clock.
+    /// Changes to another maker of drives after the surface has changed. Sustained sounds change to its drives from
+    /// `now` on, a sample of the player's clock.
     ///
     /// # Errors
-    /// [`LiveError::Gone`] if no drive can be made any more.
+    /// [`LiveError::Gone`] if the thread that computes drives is gone.
     pub fn renew(&mut self, maker: FocusWorker, now: u64) -> Result<(), LiveError> {
         self.drives.replace(maker);
         self.sounding.values_mut().for_each(|kept| kept.told = false);
@@ -298,7 +304,7 @@ impl Conductor {
         }
     }
 
-    /// A name that the player does not know yet, for what answers a touch that came at a sample.
+    /// A new name (voice number) for the player. `asked` is the time of the touch that is answered, in samples.
     pub(crate) fn name(&mut self, asked: Option<u64>) -> u64 {
         self.names += 1;
         if let Some(asked) = asked {
@@ -324,7 +330,7 @@ impl Conductor {
         }
     }
 
-    /// The first sample that leaves of what begins at one: waveforms pass filters first.
+    /// First sample of the drive that is due to a voice that begins at `sample`: filters delay waveforms.
     fn leaves(&self, voice: Voice, sample: u64) -> u64 {
         let waves = self.sounding.values().any(|kept| kept.name == voice.0 && kept.input.is_some());
         sample + if waves { self.desk.wave_delay() as u64 } else { 0 }
@@ -336,7 +342,7 @@ impl Conductor {
         self.timeline.as_ref().map_or_else(plain, |timeline| timeline.between(asked, sample))
     }
 
-    /// Hears what the player says.
+    /// Reads the reports of the player.
     fn listen(&mut self) {
         while let Some(report) = self.desk.report() {
             if let Some(log) = &mut self.log {

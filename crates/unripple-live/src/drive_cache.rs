@@ -17,16 +17,18 @@ const REMEMBERED: usize = 256;
 /// longer, and pauses within a waveform lower its level.
 const LOUDEST: f64 = 0.25;
 
-/// Drives by the places they focus on, made once and remembered.
+/// Cache of drives by the points they focus on, for one state of the surface. It keeps 256 drives; the one used
+/// longest ago is removed first.
 #[derive(Debug)]
 pub struct DriveCache {
     maker: FocusWorker,
-    /// The priority that makers were asked to have.
+    /// The real-time priority that was requested for makers.
     hurried: Option<u8>,
     /// The limit that drives are made for, in the drive's unit.
     limit: f64,
     full: Option<Full>,
-    /// Factors of a share of 1, where that is a level as felt: of pulses, and of waveforms by where their samples lie.
+    /// Factors on the drive for a level share of 1, where `full` is given: for pulses, and for waveforms by the
+    /// address of their samples.
     pulse: Option<f64>,
     waves: Vec<(Wave, f64)>,
     plan: Option<Convolver>,
@@ -35,12 +37,13 @@ pub struct DriveCache {
     making: Percentiles,
 }
 
-/// What a share of 1 stands for.
+/// A full level, that of a share of 1 ([`Level::Share`]), given as a sensation level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Full {
-    /// Place where the full level is measured, in m; elsewhere the same drive is used.
+    /// Place where the full level is defined, in m. At other places the same share of the limit is used.
     pub place: Point,
-    /// How strongly it is felt there without the load of a finger, in dB above the threshold of touch.
+    /// Sensation level at this place without the load of a finger, in dB above the threshold of vibrotactile
+    /// detection.
     pub felt_db: f64,
 }
 
@@ -61,19 +64,20 @@ struct Known {
     asked: u64,
 }
 
-/// The drive that focuses at a place, in both precisions.
+/// The drive that focuses at a place, in float64 and in float32.
 #[derive(Clone, Debug)]
 pub struct At {
-    /// The drive at the limit, in float64 and as it is played.
+    /// The drive at the limit, in float64, and its focal instant.
     pub made: FocusDrive,
     /// The drive in float32, prepared for the player.
     pub prepared: Arc<Prepared>,
-    /// Displacement there, once it was asked for.
+    /// Displacement at the focus, in m, once it has been computed.
     trace: Option<Arc<Vec<f64>>>,
 }
 
 impl DriveCache {
-    /// None yet, by a maker whose drives reach a limit. A share of 1 is what `full` says, or else as much as the limit allows.
+    /// An empty cache of drives computed by `maker`. `limit` is their peak, in the actuators' unit. A level share of
+    /// 1 is `full`, or the largest level within the limit if that is `None`.
     pub fn new(maker: FocusWorker, limit: f64, full: Option<Full>) -> Self {
         Self {
             maker,
@@ -89,15 +93,17 @@ impl DriveCache {
         }
     }
 
-    /// Lets drives be made with real-time priority, 1 to 99, by this worker and those to come.
+    /// Requests real-time priority, 1 to 99, for the thread of this maker and of later ones; `None` requests nothing.
+    /// Also computes the drive of the full level.
     pub fn request_realtime(&mut self, priority: Option<u8>) {
         self.maker.request_realtime(priority);
         self.hurried = priority;
-        // What the first touch would wait for: a drive that fails here fails there, and is reported then.
+        // Otherwise the first touch would wait for it. An error occurs again when the level is used, and is reported
+        // then.
         let _ = self.full_pulse();
     }
 
-    /// Forgets all that was made and goes on with another maker: the surface has changed.
+    /// Forgets all drives and continues with another maker, after the surface has changed.
     pub fn replace(&mut self, maker: FocusWorker) {
         maker.request_realtime(self.hurried);
         self.maker = maker;
@@ -106,12 +112,12 @@ impl DriveCache {
         self.waves.clear();
     }
 
-    /// Times that it took to make drives so far, in s.
+    /// Times that it took to compute drives so far, in s.
     pub fn making(&self) -> &Percentiles {
         &self.making
     }
 
-    /// The drive that focuses at these points.
+    /// The drive that focuses at these points, in m, all at the same instant; computed if it is not in the cache.
     ///
     /// # Errors
     /// Those of [`FocusWorker::focus`].
@@ -136,8 +142,8 @@ impl DriveCache {
         Ok(at)
     }
 
-    /// The factor on the drive of these points that gives a pulse a level, at most 1, and whether the level asked for is beyond
-    /// the limit.
+    /// Factor, at most 1, on the drive of these points that gives a pulse a level, and whether the level would need
+    /// more than the limit.
     ///
     /// # Errors
     /// Those of [`DriveCache::at`] and [`FocusWorker::trace`].
@@ -151,9 +157,10 @@ impl DriveCache {
         }
     }
 
-    /// The same for a waveform. Without a full level as felt, a share of 1 is a waveform whose full scale, as a steady sine of
-    /// whatever frequency, would just reach the drive's limit at some actuator. A level as felt is that of the waveform's loudest
-    /// quarter of a second.
+    /// Factor on the drive of a place, used as filters, that gives a waveform a level, and whether the level would
+    /// need more than the limit. Without a [`Full`], a share of 1 is a waveform whose full scale, as a steady sine of
+    /// any frequency, would just reach the drive's limit at some actuator. A sensation level is that of the
+    /// waveform's loudest quarter of a second.
     ///
     /// # Errors
     /// As [`DriveCache::pulse_gain`].
@@ -169,8 +176,8 @@ impl DriveCache {
         }
     }
 
-    /// The largest factor with which all copies of a comb, so many samples apart, are within the limit together, so that none
-    /// has to be weaker than the others.
+    /// Largest factor with which overlapping copies of a drive, `period` samples apart, stay within the limit, so
+    /// that none has to be weaker than the others.
     pub fn even(&self, drive: &Prepared, period: f64) -> f32 {
         let most = (0..drive.outputs()).map(|output| drive.comb_peak(output, period)).fold(0.0, f32::max);
         if most > 0.0 { self.limit as f32 / most } else { 1.0 }
@@ -187,7 +194,7 @@ impl DriveCache {
         Ok(gain)
     }
 
-    /// The factor on the drive of a waveform whose share is 1, if that is a level as felt.
+    /// The factor on the drive of a waveform whose share is 1, if the full level is a sensation level.
     fn full_wave(&mut self, wave: &Wave) -> Result<Option<f64>, LiveError> {
         let Some(full) = self.full else { return Ok(None) };
         let same = |known: &&(Wave, f64)| Arc::ptr_eq(&known.0.samples, &wave.samples);
@@ -230,20 +237,21 @@ impl DriveCache {
     }
 }
 
-/// How strongly a pulse is felt where it focuses, as a multiple of the threshold of touch: its largest weighed displacement
-/// (a [`FocusWorker::trace`]) from its beginning until as long after the focal instant.
+/// Sensation of a pulse at its focus, as a multiple of the threshold of touch: its largest weighted displacement (of
+/// a [`FocusWorker::trace`]) from its beginning until as long after the focal instant.
 pub(crate) fn pulse_felt(made: &FocusDrive, trace: &[f64]) -> f64 {
     felt(trace, made.drive.rate(), 2 * made.instant + 1)
 }
 
-/// Largest displacement within the first `span` samples, weighed by the threshold of touch.
+/// Largest displacement within the first `span` samples, weighted by the threshold of touch.
 fn felt(displacement: &[f64], rate: f64, span: usize) -> f64 {
     let weighting =
         Weighting::padded(&Threshold::default(), rate, displacement.len(), displacement.len() / 3);
     weighting.weigh(displacement).iter().take(span).fold(0.0, |m: f64, x| m.max(x.abs()))
 }
 
-/// The factor, at most 1, that brings what is felt to a level, and whether more would be needed.
+/// The factor, at most 1, that brings a sensation, a multiple of the threshold, to a level in dB, and whether more
+/// would be needed.
 fn reaching(db: f64, felt: f64) -> (f64, bool) {
     if felt <= 0.0 {
         return (1.0, true);
@@ -252,8 +260,8 @@ fn reaching(db: f64, felt: f64) -> (f64, bool) {
     (gain.min(1.0), gain > 1.0 + 1e-9)
 }
 
-/// Largest amplitude that a steady sine of amplitude 1 has in any channel of a drive taken as a response, whatever its
-/// frequency.
+/// Largest magnitude of the frequency response of any channel of a drive, used as a filter: the amplitude of a steady
+/// sine of amplitude 1 after it.
 fn steadiest(made: &FocusDrive, plan: &mut Option<Convolver>) -> f64 {
     let size = 2 * made.drive.samples();
     if plan.as_ref().is_none_or(|plan| plan.size() < size) {

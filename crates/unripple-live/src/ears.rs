@@ -1,31 +1,32 @@
-//! All sources of touches, polled when one of them has something, and where fingers will be when waves reach them.
+//! Polls all sources of touches when one of them has something, and predicts where fingers will be at the focal
+//! instant.
 
 use std::time::Duration;
 use unripple_core::{Phase, Point, Touch};
 use unripple_touch::{Counts, Heard, Sources};
 
-/// Longest wait, so that a wish to stop is noticed, and shortest, should a clock stand still.
+/// Longest wait, so that a request to stop is noticed, and shortest, should a clock stand still.
 const LONGEST: Duration = Duration::from_millis(100);
 const SHORTEST: Duration = Duration::from_millis(1);
 
 /// Sources of touches, and how what they report is used.
 pub(crate) struct Ears {
     sources: Sources,
-    /// Whether what a moving finger sets off is aimed where it will be, and how far ahead that is, in s.
+    /// Whether a focus set off by a moving finger is aimed at its predicted place, and how far ahead that is, in s.
     predict: bool,
     window: f64,
 }
 
-/// Touches and wishes of one moment.
+/// Touches and requests of one moment.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct News {
-    /// When, in s of the device's clock.
+    /// Time of the moment, in s of the device's clock.
     pub now: f64,
-    /// Touches as they were, and wishes.
+    /// Touches at their true places, and requests.
     pub heard: Heard,
-    /// The same touches, moved to where the finger will be when the waves meet.
+    /// The same touches, each moved to the place of the finger predicted for the focal instant.
     pub aimed: Vec<Touch>,
-    /// Fingers that are there, and where.
+    /// Numbers of the fingers that are down, and their places.
     pub fingers: Vec<(u64, Point)>,
     /// Counts of all sources so far.
     pub counts: Counts,
@@ -44,7 +45,7 @@ impl Ears {
         Self { sources, predict, window }
     }
 
-    /// Touches and wishes of all sources up to a time in s of the device's clock.
+    /// Touches and requests of all sources up to a time in s of the device's clock.
     pub fn hear(&mut self, now: f64) -> News {
         let mut heard = Heard::default();
         self.sources.poll(now, &mut heard);
@@ -58,7 +59,7 @@ impl Ears {
         News { now, heard, aimed, fingers, counts: self.sources.counts() }
     }
 
-    /// Numbers of what was taken in and refused so far.
+    /// Counts of what was accepted and refused so far.
     pub fn counts(&self) -> Counts {
         self.sources.counts()
     }
@@ -82,8 +83,8 @@ impl Ears {
         }
     }
 
-    /// Waits where nothing wakes, by the pace at which sources are polled; `now` is the time in s of the device's
-    /// clock.
+    /// Waits for the time at which sources want to be polled, where files cannot be waited for; `now` is the time in
+    /// s of the device's clock.
     #[cfg(not(unix))]
     pub fn wait(&self, now: f64) {
         std::thread::sleep(self.patience(now).min(2 * SHORTEST));

@@ -1,4 +1,4 @@
-//! A surface being played: sources of touches, effects, player and device joined.
+//! Live play of a surface: sources of touches, effects, player and device joined.
 
 use crate::ears::Ears;
 use crate::pinging::Pinging;
@@ -14,31 +14,32 @@ use unripple_effects::{EffectSet, Effects};
 use unripple_player::{Prepared, player};
 use unripple_touch::{Counts, Heard, Sources};
 
-/// Longest block of a player before a server, in samples: a command waits for one at most, and a server's period may become
-/// whatever it likes.
+/// Longest block of the player when it plays through a sound server, in samples. A command waits for one block at
+/// most, whatever the server's period becomes.
 const LONGEST_BLOCK: usize = 64;
 
 /// Shortest block, in samples: below it the player's fixed work of each block outweighs the rest.
 const SHORTEST_BLOCK: usize = 16;
 
-/// A surface being played: touches in, waves out.
+/// Live play of a surface: touches in, drives out.
 ///
-/// [`Engine::step`] does one block on the calling thread: whatever the device's clock, the same touches give the same drive.
-/// [`Engine::run`](crate::Engine::run) puts the player and the device on a thread of their own.
+/// [`Engine::step`] plays one block on the calling thread, so that the same touches give the same drive whatever the
+/// device's clock. [`Engine::run`](crate::Engine::run) puts the player and the device on a thread of their own.
 pub struct Engine {
     pub(crate) stage: Stage,
     pub(crate) heart: Heartbeat,
     pub(crate) ears: Ears,
-    /// Samples that the player may compute in one step: the device's block, in whole blocks of its own.
+    /// Samples that the player may compute in one step: the device's block, rounded up to whole blocks of the player.
     ahead: u64,
 }
 
 impl Engine {
-    /// A surface, played by drives of a maker through a device, as touches from some sources ask for.
+    /// Joins a surface, the maker of its drives, a set of effects, the sources of touches and a device.
     ///
     /// # Errors
     /// [`LiveError::Unlike`] for a device of another rate or with other outputs than the surface has actuators;
-    /// [`LiveError::Player`] for options that cannot be; [`LiveError::Effects`].
+    /// [`LiveError::Range`] or [`LiveError::Player`] for options out of range; [`LiveError::Effects`] for effects
+    /// that do not suit the surface.
     pub fn new(
         surface: &Surface,
         maker: FocusWorker,
@@ -80,14 +81,14 @@ impl Engine {
         Ok(Self { stage, heart: Heartbeat::new(player, block, device), ears, ahead })
     }
 
-    /// The same engine with fingers put on a virtual surface, so that what they feel is known.
+    /// This engine with fingers put on a virtual surface, so that what they feel is computed.
     pub fn with_feeler(mut self, feeler: Feeler) -> Self {
         self.stage.feeler = Some(feeler);
         self
     }
 
-    /// The same engine with tension followed while playing; the ping is sent once in each of its periods while no
-    /// finger is there.
+    /// This engine with a follower of the sheet's tension. The ping, its test signal, is sent once per period of
+    /// observation, while no finger is on the surface.
     ///
     /// # Errors
     /// [`LiveError::Player`] for a ping that cannot be played.
@@ -99,16 +100,16 @@ impl Engine {
         Ok(self)
     }
 
-    /// The same engine with a listener that is given all touches and wishes as they arrive.
+    /// This engine with a listener that is given all touches and requests as they arrive.
     pub fn with_listener(mut self, listener: Listener) -> Self {
         self.stage.listener = Some(listener);
         self
     }
 
-    /// One block: touches, cues, drives, the player, the device, in this order on this thread.
+    /// Plays one block on this thread: touches, cues, drives, the player, the device, in this order.
     ///
     /// # Errors
-    /// Those of the device; [`LiveError::Gone`] if no drive can be made any more.
+    /// Those of the device; [`LiveError::Gone`] if the thread that computes drives is gone.
     pub fn step(&mut self) -> Result<(), LiveError> {
         let stage = &mut self.stage;
         let news = self.ears.hear(stage.time());
@@ -119,12 +120,12 @@ impl Engine {
         stage.follow(self.heart.drive(), self.heart.heard())
     }
 
-    /// Everything but the audio thread.
+    /// The part of the engine outside the audio thread.
     pub fn stage(&mut self) -> &mut Stage {
         &mut self.stage
     }
 
-    /// The audio thread's part: player and device.
+    /// The part of the engine on the audio thread: player and device.
     pub fn heart(&self) -> &Heartbeat {
         &self.heart
     }

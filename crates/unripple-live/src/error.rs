@@ -8,14 +8,14 @@ use unripple_focus::FocusError;
 /// Errors that keep a surface from being played.
 #[derive(Debug, thiserror::Error)]
 pub enum LiveError {
-    /// A value that cannot be.
+    /// A value is out of its range.
     #[error("{what}: expected {expected}, found {found}")]
     Range {
-        /// What it is.
+        /// Name of the value, and its unit.
         what: &'static str,
-        /// What would do.
+        /// The range that is allowed.
         expected: String,
-        /// What there is.
+        /// The value that was given.
         found: String,
     },
     /// The device has other channels or another rate than the surface.
@@ -28,31 +28,31 @@ pub enum LiveError {
         /// What the device has.
         found: String,
     },
-    /// A thread is gone: the one that makes drives, or another that play needs.
+    /// A thread that live play needs has ended: the one that computes drives, or another.
     #[error("a thread that play needs is gone: {why}")]
     Gone {
         /// Why, as far as is known.
         why: String,
     },
-    /// No drive can be made.
+    /// A drive cannot be computed.
     #[error(transparent)]
     Focus(#[from] FocusError),
-    /// What a drive does to the surface cannot be computed.
+    /// The field that a drive causes on the surface cannot be computed.
     #[error(transparent)]
     Field(#[from] FieldError),
-    /// A device cannot be had.
+    /// A device, or a simulated finger on a virtual surface, cannot be set up or used.
     #[error(transparent)]
     Devices(#[from] DevicesError),
-    /// A device failed.
+    /// A device did not exchange a block.
     #[error(transparent)]
     Device(#[from] DeviceError),
-    /// What was measured does not fit.
+    /// Measured responses cannot be interpolated, or tension cannot be followed.
     #[error(transparent)]
     Calibrate(#[from] unripple_calibrate::CalibrateError),
-    /// Effects that cannot be.
+    /// The effects are invalid, or do not suit the surface.
     #[error(transparent)]
     Effects(#[from] unripple_effects::EffectsError),
-    /// The player refuses its options.
+    /// The player refuses its options or a drive.
     #[error(transparent)]
     Player(#[from] unripple_player::PlayerError),
 }

@@ -1,4 +1,4 @@
-//! Drives made on demand, from modes or from a library's responses.
+//! Drives computed on demand, from modes or from a library's responses.
 
 use crate::LiveError;
 use std::sync::Arc;
@@ -9,18 +9,19 @@ use unripple_field::{Aim, Field, Reach};
 use unripple_focus::{Focuser, Options, Target};
 use unripple_physics::Medium;
 
-/// A drive at the limit that focuses at some points once, its last sample the focal instant.
+/// A drive at its limit that focuses once, at one or more points at the same instant, that of its last sample.
 #[derive(Clone, Debug)]
 pub struct FocusDrive {
-    /// The drive; gains below 1 make it less.
+    /// The drive, in the actuators' unit, at the limit of the focusing options; gains below 1 make it weaker.
     pub drive: Arc<Drive>,
-    /// The sample of the focal instant.
+    /// Index of the sample of the focal instant.
     pub instant: usize,
-    /// Where it really focuses: the points asked for, or the nearest ones that are stored.
+    /// Points of the focus, in m: those requested, or the nearest ones for which responses are stored.
     pub points: Vec<Point>,
 }
 
-/// Makes drives for one state of the surface, on a thread of its own that knows the responses and what was planned for them.
+/// Computes drives for one state of the surface, on a thread of its own that owns the responses and what was prepared
+/// for them.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -64,15 +65,15 @@ enum Answer {
 }
 
 impl FocusWorker {
-    /// Plans for responses and a method, and waits until that is done.
+    /// Starts the thread, and waits until it has prepared a method of focusing for these responses.
     ///
     /// # Errors
-    /// [`LiveError::Focus`] for responses or options that do not allow a plan.
+    /// [`LiveError::Focus`] for responses or options that the method does not allow.
     pub fn new(responses: Arc<Responses>, options: &Options) -> Result<Self, LiveError> {
         Self::planned(responses, options, || ())
     }
 
-    /// The same with something to be done before each drive is made.
+    /// As [`FocusWorker::new`], with a function that is called before each drive is computed.
     pub(crate) fn planned(
         responses: Arc<Responses>,
         options: &Options,
@@ -96,9 +97,10 @@ impl FocusWorker {
         })
     }
 
-    /// The same for a library's points on a sheet of some medium, at places anywhere between them: responses there are the most
-    /// likely field of waves. Methods that look at the whole surface see the places focused on alone, so only those that play
-    /// responses backwards are worth having.
+    /// A worker for responses measured at points, which focuses at any place between them. [`Between`] interpolates
+    /// the responses there, with the wavenumbers of `medium`. For each focus the method has responses at the points
+    /// of the focus only. So only time reversal and its variants are useful; methods that minimise motion on the rest
+    /// of the surface are not.
     ///
     /// # Errors
     /// [`LiveError::Calibrate`] for a library without points, and those of [`FocusWorker::new`].
@@ -127,7 +129,7 @@ impl FocusWorker {
         })
     }
 
-    /// A thread that plans first, and then serves.
+    /// Starts a thread that prepares first, and then answers requests.
     fn spawn(work: impl FnOnce(Ready) + Send + 'static) -> Result<Self, LiveError> {
         let (asks, asked) = channel();
         let (planned, ready) = channel();
@@ -144,13 +146,14 @@ impl FocusWorker {
         answer.recv().map_err(|_| gone())?
     }
 
-    /// Asks for a real-time priority for the thread, for play on a busy machine; without one nothing is asked for.
+    /// Requests a real-time priority, 1 to 99, for the thread, for play on a busy machine; `None` requests nothing. A
+    /// refusal is ignored.
     pub fn request_realtime(&self, priority: Option<u8>) {
         // Without it drives are made all the same.
         let _ = self.ask(Work::Hurry(priority));
     }
 
-    /// The drive that focuses at these points, all at once.
+    /// The drive that focuses at these points, all at the same instant.
     ///
     /// # Errors
     /// Those of [`Focuser::focus`].
@@ -161,8 +164,8 @@ impl FocusWorker {
         }
     }
 
-    /// Displacement (m) that a drive makes where it focuses, its own samples first, for three times as long as it lasts, or
-    /// as long as the responses are known.
+    /// Displacement that a drive causes at the first point of its focus, in m, one value per sample from the drive's
+    /// beginning. It lasts three times as long as the drive, or as long as the responses are known.
     ///
     /// # Errors
     /// Those of [`Field::traces`].
@@ -173,7 +176,8 @@ impl FocusWorker {
         }
     }
 
-    /// How far a drive moves the surface at most; of a library, where it focuses.
+    /// Largest motion that a drive causes on the surface. For a worker made by [`FocusWorker::between`], only the
+    /// focus is taken into account.
     ///
     /// # Errors
     /// Those of [`Field::reach`].
@@ -185,7 +189,7 @@ impl FocusWorker {
     }
 }
 
-/// A maker's thread, before it has said whether it is ready.
+/// A worker's thread, before it has reported that it is ready.
 struct Ready {
     planned: Sender<Result<(), LiveError>>,
     asked: Receiver<Ask>,
@@ -210,7 +214,7 @@ impl Ready {
 }
 
 fn hurried(priority: Option<u8>) -> Answer {
-    // What the system refuses, the summary of the audio thread says.
+    // A refusal is reported with the state of the audio thread.
     let _ = crate::priority::at(priority);
     Answer::Hurried
 }

@@ -10,26 +10,26 @@ use unripple_player::Player;
 
 pub(crate) use crate::beats::Overheard;
 
-/// The audio thread's work: samples out of the player and through the device.
+/// The audio thread's loop: takes blocks from the player and exchanges them with the device.
 ///
 /// In a program whose allocator is `assert_no_alloc::AllocDisabler`, an allocation by the player ends the program.
 pub struct Heartbeat {
-    /// Away while a device calls it.
+    /// The player; none while a device that calls has it.
     beats: Option<Box<Beats>>,
     device: Box<dyn Device>,
     timeline: Arc<Timeline>,
-    /// One sample of the device is so much drive.
+    /// Drive, in the actuators' unit, of a sample of 1 of the device.
     scale: f32,
     drive: Vec<f32>,
     sent: Vec<f32>,
     heard: Vec<f32>,
-    /// How long the cycles took, as far as they are known.
+    /// Processor times of the cycles, as far as they are known.
     work: Percentiles,
     heavy: u64,
 }
 
 impl Heartbeat {
-    /// A player of blocks of so many samples before a device.
+    /// A player with blocks of `block` samples, and the device that it plays through.
     pub fn new(player: Player, block: usize, device: Box<dyn Device>) -> Self {
         let layout = device.layout();
         let (outputs, inputs) = (layout.outputs.len() * layout.block, layout.inputs.len() * layout.block);
@@ -49,10 +49,10 @@ impl Heartbeat {
         }
     }
 
-    /// One block: the player's, then the device's.
+    /// Plays one block: the player computes it, the device exchanges it.
     ///
     /// # Errors
-    /// Those of [`Device::exchange`]; [`DeviceError::Lost`] while the device has the player.
+    /// Those of [`Device::exchange`]; [`DeviceError::Lost`] while the device itself calls the player.
     pub fn beat(&mut self) -> Result<(), DeviceError> {
         let (block, rate) = (self.device.layout().block, self.device.layout().rate);
         let Some(beats) = &mut self.beats else { return Err(away(self.device.as_ref())) };
@@ -62,15 +62,15 @@ impl Heartbeat {
         });
         self.sent.iter_mut().zip(&self.drive).for_each(|(to, x)| *to = x / self.scale);
         self.device.exchange(&self.sent, &mut self.heard)?;
-        // What is computed next leaves when what waits before it has.
+        // The next block leaves after the blocks that wait before it.
         let waiting = self.device.status().waiting;
         let leaves = Instant::now() + Duration::from_secs_f64(waiting as f64 / rate);
         beats.mark(beats.position(), leaves, block);
         Ok(())
     }
 
-    /// Hands the player to a device that calls, with whom to wake when it is time and who follows the inputs: whether it does. If it
-    /// does not, who follows comes back.
+    /// Hands the player to the device, if it calls by itself ([`Device::employ`]), with the thread to wake and the
+    /// queue to the follower. Returns whether the device took it, and if not, the queue.
     pub(crate) fn lend(&mut self, bell: Thread, overheard: Option<Overheard>) -> (bool, Option<Overheard>) {
         let Some(mut beats) = self.beats.take() else { return (false, overheard) };
         beats.tell(Some(bell), overheard);
@@ -83,7 +83,8 @@ impl Heartbeat {
         }
     }
 
-    /// Has the player back, if a device gave it back. One that stands still does not: what was measured of the work is not known then.
+    /// Takes the player back from a device that calls. A device that stands still does not return it; the processor
+    /// times are unknown then.
     pub(crate) fn regain(&mut self) {
         if self.beats.is_none() {
             self.beats = self.device.dismiss().and_then(home);
@@ -98,7 +99,7 @@ impl Heartbeat {
         self.device.as_mut()
     }
 
-    /// When what leaves.
+    /// The times at which samples leave the device.
     pub(crate) fn timeline(&self) -> &Arc<Timeline> {
         &self.timeline
     }
@@ -123,7 +124,7 @@ impl Heartbeat {
         self.beats.as_ref().map_or(&self.work, |beats| beats.work())
     }
 
-    /// Cycles that took more than 70 % of their time.
+    /// Number of cycles in which the player's processor time exceeded 70 % of the cycle's duration.
     pub fn heavy(&self) -> u64 {
         self.beats.as_ref().map_or(self.heavy, |beats| beats.heavy())
     }

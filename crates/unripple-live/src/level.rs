@@ -1,4 +1,4 @@
-//! The level that a gain of 1 stands for: the largest drive that stays within linear theory.
+//! The full level, that of a gain of 1: by default the largest that stays within linear theory.
 
 use crate::drive_cache::pulse_felt;
 use crate::{FocusDrive, FocusWorker, Full, LiveError};
@@ -6,13 +6,15 @@ use std::fmt;
 use unripple_core::{Point, Surface};
 use unripple_physics::design::{LinearLevel, linearity};
 
-/// How strongly a surface is played: what a gain of 1 stands for.
+/// The full level of a surface: what a gain of 1 in an effect stands for.
 ///
-/// A drive at the limit may move a sheet by many times its thickness, which no sheet follows linearly. So a full pulse is one that moves it
-/// as far as linear theory allows ([`LinearLevel`]: nowhere by more than half its thickness), unless the limit is asked for or gives less.
+/// A drive at the limit may move a sheet by many times its thickness, where it is no longer linear. So a full pulse
+/// moves the sheet as far as linear theory allows ([`LinearLevel`]: nowhere by more than half its thickness), unless
+/// the surface's own limit is lower or is asked for.
 #[derive(Clone, Copy, Debug)]
 pub struct Level {
-    /// Sensation level of a full pulse or waveform, and where that was found; the surface's own limit where `None`.
+    /// Sensation level of a full pulse or waveform, and the place where it is defined; `None` if the full level is
+    /// the surface's own limit.
     pub full: Option<Full>,
     /// Displacement at a focus, in m, of a full pulse and at the surface's own limit.
     moved: [f64; 2],
@@ -22,8 +24,8 @@ pub struct Level {
 }
 
 impl Level {
-    /// What is felt of a pulse that moves the sheet as far as linear theory allows; as much as the surface's own limit allows where that
-    /// is less, or if `limited` asks for it.
+    /// The full level of a surface: that of a pulse that moves the sheet as far as linear theory allows. It is the
+    /// surface's own limit if that is lower, or if `limited` is true.
     ///
     /// # Errors
     /// Those of [`FocusWorker::focus`] and [`FocusWorker::reach`].
@@ -42,7 +44,7 @@ impl Level {
         Ok(Self { full: Some(Full { place, felt_db }), moved: [share * most, most], limit, scaled: true })
     }
 
-    /// The level by responses of unknown scale: how far anything moves is not known, so that nothing but the limit sets one.
+    /// The full level for responses of unknown scale: since displacements are unknown, it is the surface's own limit.
     ///
     /// # Errors
     /// Those of [`Level::of`].
@@ -50,7 +52,7 @@ impl Level {
         Ok(Self { scaled: false, ..Self::of(surface, maker, true)? })
     }
 
-    /// The share of a drive at the limit that linear theory allows; `None` where that is not known.
+    /// The factor on a drive at the limit that linear theory allows; `None` where that is not known.
     fn linear(surface: &Surface, maker: &FocusWorker, made: &FocusDrive) -> Result<Option<f64>, LiveError> {
         let reach = maker.reach(made)?;
         let steep = reach.steepness.unwrap_or_default();

@@ -1,11 +1,12 @@
-//! Touch, effects and drift joined to player, focus and devices: a surface that is played live.
+//! Live play of a surface: touch, effects and drift of the tension joined to player, focusing and devices.
 //!
 //! # In reading order
 //!
-//! A [`Window`] is the delay that a focus costs. A [`FocusWorker`] makes drives on a thread of its own, [`DriveCache`] remembers them by
-//! place, a [`Conductor`] turns touches into commands for the player, and a [`Heartbeat`] plays through a device, or is played by it. An
-//! [`Engine`] is all of these at work; a [`Feeler`](unripple_devices::Feeler) computes what fingers feel of a virtual
-//! surface, a [`Follower`] follows its tension, and a [`Recovering`] device comes back by itself.
+//! A [`Window`] is the time from the beginning of a drive to its focus. A [`FocusWorker`] computes drives on a thread
+//! of its own, a [`DriveCache`] keeps them by place, a [`Conductor`] turns touches into commands for the player, and
+//! a [`Heartbeat`] runs the player and the device. An [`Engine`] joins all of these; a
+//! [`Feeler`](unripple_devices::Feeler) computes what fingers feel of a virtual surface, a [`Follower`] follows its
+//! tension, and a [`Recovering`] device is reopened when it is lost.
 
 mod beats;
 mod conductor;

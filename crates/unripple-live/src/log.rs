@@ -1,4 +1,4 @@
-//! Drives that began to sound, for whoever asks what was played.
+//! A log of the drives that began, for callers that want to know what was played.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
@@ -7,25 +7,25 @@ use unripple_player::{At, Command, Prepared, Report};
 /// Drives that are kept until somebody asks, and names that are remembered; the oldest go first.
 const MOST: usize = 1 << 14;
 
-/// A drive that began to sound.
+/// A drive that the player has begun to play.
 #[derive(Clone, Debug)]
 pub struct Began {
     /// The drive that began.
     pub drive: Arc<Prepared>,
-    /// The factor on it, after limiting.
+    /// Factor on the drive, after limiting.
     pub gain: f32,
-    /// First sample of the drive, of the player's clock.
+    /// Sample of the player's clock at which the drive began.
     pub sample: u64,
 }
 
-/// Drives under each of the player's names, and those that have begun.
+/// Drives by the player's names (voice numbers), and those that have begun.
 #[derive(Debug, Default)]
 pub(crate) struct Log {
     playing: BTreeMap<u64, Playing>,
     began: VecDeque<Began>,
 }
 
-/// Drives of a name, and from when on each is begun.
+/// Drives of a name, each with the sample from which on it is begun.
 #[derive(Debug)]
 struct Playing {
     drives: VecDeque<(u64, Arc<Prepared>)>,
@@ -33,7 +33,7 @@ struct Playing {
 }
 
 impl Log {
-    /// A command that was sent when the player's next block began at `now`.
+    /// Records a command that was sent when the player's next block began at `now`.
     pub fn send(&mut self, command: &Command, now: u64) {
         let from = match command.at() {
             At::Now => now,
@@ -56,12 +56,12 @@ impl Log {
         }
     }
 
-    /// A report that came.
+    /// Records a report of the player.
     pub fn hear(&mut self, report: &Report) {
         match report {
             Report::Started { voice, sample, gain } => self.start(voice.0, *sample, *gain),
             Report::Ended { voice, .. } => self.forget(voice.0),
-            // Of what repeats a change may have been refused.
+            // For a repeated drive it may be a change that was refused.
             Report::Refused { voice: Some(voice), .. }
                 if self.playing.get(&voice.0).is_some_and(|playing| !playing.repeats) =>
             {
@@ -86,12 +86,12 @@ impl Log {
         }
     }
 
-    /// Forgets the player's name of a drive: nothing more is reported of it.
+    /// Forgets a name, when no more reports on it are expected.
     pub fn forget(&mut self, name: u64) {
         self.playing.remove(&name);
     }
 
-    /// Reports were lost: of what is played once nobody knows any more whether it began.
+    /// Forgets drives that are played once, after reports were lost: whether they began is unknown.
     pub fn miss(&mut self) {
         self.playing.retain(|_, playing| playing.repeats);
     }

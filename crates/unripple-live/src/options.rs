@@ -1,4 +1,4 @@
-//! How a surface is played live.
+//! Options of live play.
 
 use crate::{Full, LiveError};
 use unripple_core::{Emission, Surface};
@@ -11,30 +11,32 @@ const LONGEST_PING: f64 = 0.15;
 /// Options of live play: method, level, waveforms, limits, prediction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveOptions {
-    /// How drives are made; their window is the delay of every focus.
+    /// Options of focusing. Their window is the delay of every focus.
     pub focus: FocusOptions,
-    /// What a share of 1 stands for; as much as the drive's limit allows where `None`.
+    /// The full level, that of a level share of 1; the drive's limit if `None`.
     pub full: Option<Full>,
-    /// Waveforms at once.
+    /// Largest number of waveforms at once; 0 for none.
     pub waves: usize,
-    /// Time over which the rms limit of an actuator holds, in s.
+    /// Time constant of the average power that the rms limit of an actuator applies to, in s.
     pub rms_seconds: f64,
-    /// Whether what a moving finger sets off is aimed where the finger will be at the focal instant.
+    /// Whether a focus set off by a moving finger is aimed at the place of the finger predicted for the focal
+    /// instant.
     pub predict: bool,
 }
 
 impl LiveOptions {
-    /// Time reversal in a window (s), within a surface's limits, for ten waveforms at once.
+    /// Defaults: time reversal with a window in s, the limits of a surface, ten waveforms at once, prediction of
+    /// moving fingers.
     pub fn new(surface: &Surface, window: f64) -> Self {
         let Emission { limit, .. } = surface.emission;
         let focus = FocusOptions { method: Method::TimeReversal, window, limit, ..FocusOptions::default() };
         Self { focus, full: None, waves: 10, rms_seconds: 1.0, predict: true }
     }
 
-    /// The player's part, for blocks of a device.
+    /// Options of the player, for blocks of `block` samples.
     ///
     /// # Errors
-    /// [`LiveError::Range`] for a window that is none.
+    /// [`LiveError::Range`] for a window that is not above 0 and at most 10 s.
     pub(crate) fn player(&self, surface: &Surface, block: usize) -> Result<PlayerOptions, LiveError> {
         let emission = &surface.emission;
         let window = self.focus.window;
@@ -63,13 +65,13 @@ impl LiveOptions {
     }
 }
 
-/// Rate, window and block that live play goes by.
+/// Sample rate, window and block length of live play.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timing {
     /// Samples per second.
     pub rate: f64,
     /// Time from the beginning of a drive to its focus, in s.
     pub window: f64,
-    /// Samples of a block.
+    /// Samples of a block of the player.
     pub block: usize,
 }

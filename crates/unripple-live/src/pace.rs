@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 /// A clock that has not moved for so long stands still, unless it moves by more at a time.
 const STILL: Duration = Duration::from_millis(100);
 
-/// Longest time between two blocks that is believed. A longer one would let a clock that stands still go unnoticed
-/// for longer.
+/// Longest time between two blocks that is accepted as regular, in s. With a longer one, a clock that stands still
+/// would go unnoticed for longer.
 const LONGEST: f64 = 0.5;
 
 /// The player's clock beside that of the machine.
@@ -25,8 +25,8 @@ impl Pace {
         Self { rate, moved: None, by: 0.0 }
     }
 
-    /// Whether the clock, in samples, stands still at an instant. Blocks that take long are not mistaken for that: it
-    /// may stand for twice as long as it last moved by.
+    /// Whether the clock, in samples, stands still at an instant: it has not moved for 0.1 s, or for twice the time
+    /// by which it last moved if that is longer, so that long blocks are not mistaken for a standstill.
     pub fn stands(&mut self, clock: u64, at: Instant) -> bool {
         match self.moved {
             Some((before, since)) if before == clock => {

@@ -7,7 +7,8 @@ const STEP: f64 = 1.01;
 /// Bins up to 10 s: as many steps of 1 % as lie between 100 ns and that.
 const BINS: usize = 1852;
 
-/// How long things took: percentiles of any number of times, within 1 %, in memory that does not grow.
+/// Histogram of durations, for percentiles within 1 % of any number of times in constant memory. Times from 100 ns to
+/// 10 s are resolved.
 ///
 /// ```
 /// let mut times = unripple_live::Percentiles::default();
@@ -31,7 +32,7 @@ impl Default for Percentiles {
 }
 
 impl Percentiles {
-    /// Adds a time in s; what is no number is left out, and counted as [`Percentiles::unknown`]. Never allocates.
+    /// Adds a time, in s. NaN is only counted as [`Percentiles::unknown`]. Never allocates.
     pub fn add(&mut self, seconds: f64) {
         if seconds.is_nan() {
             self.unknown += 1;
@@ -43,7 +44,7 @@ impl Percentiles {
         self.worst = self.worst.max(seconds);
     }
 
-    /// Number of times that were not known.
+    /// Number of times that were NaN, and so are not in the histogram.
     pub fn unknown(&self) -> u64 {
         self.unknown
     }
@@ -53,7 +54,8 @@ impl Percentiles {
         self.count
     }
 
-    /// A time that a share of all does not exceed, at most 1 % above the least such; `None` without times.
+    /// Percentile, in s: the time that a fraction `share`, 0 to 1, of all times does not exceed, at most 1 % too
+    /// large; `None` without times.
     pub fn at(&self, share: f64) -> Option<f64> {
         let rank = (share.clamp(0.0, 1.0) * self.count as f64).ceil().max(1.0) as u64;
         let mut below = 0;

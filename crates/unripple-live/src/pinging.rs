@@ -14,17 +14,17 @@ pub(crate) struct Pinging {
 }
 
 impl Pinging {
-    /// A ping for periods of so many samples.
+    /// A ping to be sent once in each period of `period` samples.
     pub fn new(ping: Arc<Prepared>, period: u64) -> Self {
         Self { ping, period: period.max(1), begun: None }
     }
 
-    /// The sample at which the next is due.
+    /// Sample at which the next ping is due.
     pub fn due(&self, now: u64) -> u64 {
         (now / self.period + 1) * self.period
     }
 
-    /// Sends one if it is time and nobody touches.
+    /// Sends a ping if one is due and no finger is down.
     pub fn step(&mut self, now: u64, touched: bool, conductor: &mut Conductor) {
         let period = now / self.period;
         if self.begun.replace(period) != Some(period) && !touched {

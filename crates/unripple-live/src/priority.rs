@@ -6,22 +6,22 @@ use thread_priority::{
 };
 use unripple_core::Device;
 
-/// Priority that is asked for, of 1 to 99, where no server says what its own threads have. Above everything without
-/// real-time priority, and below the highest, which kernels keep for themselves.
+/// Real-time priority that is requested, of 1 to 99, where no server states that of its own threads. Above everything
+/// without real-time priority, and below the highest, which kernels keep for themselves.
 const WANTED: u8 = 60;
 
-/// Priority of the threads that work for the one that plays, likewise. Far enough below the audio thread never to
-/// delay it.
+/// Real-time priority of the other threads in the same case. Far enough below the audio thread never to delay it.
 const BESIDE: u8 = 40;
 
-/// Real-time priorities of the threads of a play: never as high as that of the server's thread that calls.
+/// Real-time priorities, of 1 to 99, of the threads of live play. They are lower than that of a sound server's own
+/// thread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Priorities {
     /// Of the thread that exchanges blocks, if the device does not call by itself.
     pub(crate) audio: Option<u8>,
     /// Of the thread that receives touches: they are timed when it wakes.
     pub(crate) touch: Option<u8>,
-    /// Of the threads that turn them into drives.
+    /// Of the threads that turn touches into drives.
     pub(crate) beside: Option<u8>,
     /// Of the server's own thread.
     server: Option<u8>,
@@ -38,7 +38,7 @@ impl Priorities {
         Self { audio: below(1), touch: below(1), beside: below(2).or(below(1)), server: server.priority }
     }
 
-    /// What the thread has that calls, in words.
+    /// Priority of the server's thread that calls the player, in words.
     pub(crate) fn called(&self) -> String {
         match self.server {
             Some(priority) => format!("the server's own, real time, {priority} of 99"),
@@ -47,18 +47,19 @@ impl Priorities {
     }
 }
 
-/// Whether a thread of this program may have real-time priority: what is granted, or why nothing is and how to have it. A thread of its
-/// own asks, so that nobody keeps it.
+/// Tests whether a thread of this program can get real-time priority; returns the priority that was granted, in
+/// words. A temporary thread requests it, so that no other thread's priority changes.
 ///
 /// # Errors
-/// Why nothing is granted, as the system answered.
+/// The answer of the system if it refuses, and how to allow real-time priority.
 pub fn real_time() -> Result<String, String> {
     std::thread::spawn(|| at(Some(WANTED)))
         .join()
         .unwrap_or_else(|_| Err("the thread that asked is gone".into()))
 }
 
-/// The same for a given priority; without one nothing is asked for.
+/// Requests a real-time priority for this thread; without one nothing is requested. Returns what was granted, in
+/// words.
 pub(crate) fn at(priority: Option<u8>) -> Result<String, String> {
     let Some(priority) = priority else {
         return Ok("ordinary, as the server's own threads are".into());

@@ -6,13 +6,14 @@ use unripple_core::Point;
 use unripple_effects::Level;
 use unripple_player::{At, Command, Hold, Report, Voice, Why};
 
-/// A pulse that is begun so late, in s, is not begun at all. It would be felt where the finger no longer is.
+/// Delay beyond which a late pulse is not begun, in s. It would be felt where the finger no longer is.
 pub(crate) const STALE: f64 = 0.1;
 
-/// Names of pulses taken back that are remembered until the player says so; it says nothing of those that had begun.
+/// Withdrawn pulses whose names are remembered until the player reports them; it does not report those that had
+/// begun.
 const MOST_TAKEN: usize = 1 << 12;
 
-/// Pulses that were given ahead, so that a stop can take back those that have not begun.
+/// Pulses that were sent ahead of their time, so that a stop can withdraw those that have not begun.
 #[derive(Debug, Default)]
 pub(crate) struct Ahead {
     /// Voice, the player's name, and the hold of each.
@@ -21,7 +22,7 @@ pub(crate) struct Ahead {
 }
 
 impl Ahead {
-    /// Takes back a voice's pulses: what has begun rings out.
+    /// Withdraws a voice's pulses; those that have begun ring out.
     pub fn take_back(&mut self, voice: u64) {
         for (_, name, _) in self.given.extract_if(.., |(of, ..)| *of == voice) {
             self.taken.insert(name);
@@ -31,12 +32,12 @@ impl Ahead {
         }
     }
 
-    /// Forgets those that are over.
+    /// Forgets the pulses that are over.
     pub fn forget_over(&mut self) {
         self.given.retain(|(_, _, hold)| hold.over().is_none());
     }
 
-    /// Whether the player says no more than that one was taken back.
+    /// Whether a report only says that a pulse was withdrawn.
     pub fn meant(&mut self, report: &Report) -> bool {
         matches!(report, Report::Refused { voice: Some(name), why: Why::Stale } if self.taken.remove(&name.0))
     }
@@ -79,7 +80,7 @@ impl Conductor {
         Ok(gain as f32)
     }
 
-    /// Whether what is over by itself may begin now; what may not is counted.
+    /// Whether a sound that ends by itself may begin now; if not, it is counted.
     pub(crate) fn can_begin(&mut self) -> bool {
         let full = self.desk.room() == 0;
         self.tally.stale += u64::from(self.stands);

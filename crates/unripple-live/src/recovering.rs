@@ -3,19 +3,21 @@
 use std::time::{Duration, Instant};
 use unripple_core::{Cycle, Device, DeviceError, Layout, Server, State, Status, Work};
 
-/// Opens a device, as often as it is asked to.
+/// Function that opens the device, at first and after each loss; the error says in words why it cannot.
 pub type Opener = Box<dyn FnMut() -> Result<Box<dyn Device>, String> + Send>;
 
 /// Waits between two tries: from the first, doubled until the longest.
 const FIRST_WAIT: Duration = Duration::from_millis(250);
 const LONGEST_WAIT: Duration = Duration::from_secs(4);
 
-/// A device that is opened again when it is lost: what is played meanwhile is silence, and time goes on.
+/// A device that is reopened when it is lost. Meanwhile its drive is discarded, its inputs are silent, and time goes
+/// on.
 ///
-/// Once lost, it is tried again after a quarter of a second, then after twice that, up to four seconds, for as many tries as was
-/// said; then it stays lost. While it is away each block takes as long as it lasts, so that whoever plays needs to know nothing.
-/// A device that comes back with other channels or another rate is not the same and is refused; so is one with another block, unless
-/// it [calls](Device::employ): whoever is called plays on alone meanwhile.
+/// After a loss, reopening is tried after 0.25 s, then after twice as long each time, up to 4 s, as many times as
+/// given; then the device stays lost. Meanwhile each block takes its normal duration, so that the caller needs no
+/// special case. A device that returns with other channels or another rate is refused. So is one with another block
+/// length, unless it [calls](Device::employ) its work by itself; meanwhile that work is called here, at the normal
+/// pace.
 ///
 /// ```
 /// use unripple_core::*;
@@ -48,14 +50,14 @@ pub struct Recovering {
     due: Instant,
     away: Away,
     status: Status,
-    /// Of devices that are gone.
+    /// Counts of the devices that were lost.
     before: Status,
     /// Times that a device came back.
     returns: u64,
-    /// What was being called by a device that is away, and whether one has it.
+    /// Work that a lost device was calling, and whether a device has it now.
     work: Option<Box<dyn Work>>,
     lent: bool,
-    /// What the last server said of itself, and what those that are gone counted: cycles late, our own late, samples left out.
+    /// Last state of the last server, and counts of the lost ones: cycles late, our own late, samples left out.
     server: Option<Server>,
     counted: [u64; 3],
 }
@@ -68,7 +70,7 @@ struct Away {
 }
 
 impl Recovering {
-    /// Opens the device for the first time.
+    /// Opens the device for the first time. `tries` is the number of attempts to reopen it after each loss.
     ///
     /// # Errors
     /// Why it cannot be opened, in the opener's words.
@@ -173,7 +175,7 @@ impl Recovering {
         Duration::from_secs_f64(over).saturating_sub(self.away.since.elapsed())
     }
 
-    /// A block into nowhere, if the last one is over.
+    /// Calls the work for one block that is discarded, if the last one is over.
     fn play_alone(&mut self) {
         let over = self.left().is_zero();
         let Some(work) = self.work.as_mut().filter(|_| over) else { return };
@@ -221,7 +223,7 @@ impl Device for Recovering {
     /// As [`Device::exchange`]; but while the device is away its inputs are silent, and the block is counted as lost.
     ///
     /// # Errors
-    /// [`DeviceError::Size`]; [`DeviceError::Lost`] once all tries were in vain.
+    /// [`DeviceError::Size`]; [`DeviceError::Lost`] once all tries have failed.
     fn exchange(&mut self, drive: &[f32], heard: &mut [f32]) -> Result<(), DeviceError> {
         self.layout.fits(drive.len(), heard.len())?;
         if let Some(device) = &mut self.device {
@@ -257,10 +259,10 @@ impl Device for Recovering {
         }
     }
 
-    /// As [`Device::tend`]; while the device is away, its work is called at the pace it would have, and played to nobody.
+    /// As [`Device::tend`]; while the device is lost, its work is called at the normal pace, and its drive discarded.
     ///
     /// # Errors
-    /// [`DeviceError::Lost`] once all tries were in vain.
+    /// [`DeviceError::Lost`] once all tries have failed.
     fn tend(&mut self) -> Result<Duration, DeviceError> {
         match &mut self.device {
             Some(device) => match device.tend() {

@@ -14,14 +14,14 @@ pub(crate) enum Sounding {
 }
 
 impl Sounding {
-    /// The same at another place, in m.
+    /// This sound at another place, in m.
     pub fn moved(mut self, to: Point) -> Self {
         let (Self::Comb { place, .. } | Self::Wave { place, .. }) = &mut self;
         *place = to;
         self
     }
 
-    /// The same at this level.
+    /// This sound at another level.
     pub fn at_level(mut self, to: Level) -> Self {
         let (Self::Comb { level, .. } | Self::Wave { level, .. }) = &mut self;
         *level = to;
@@ -34,14 +34,14 @@ impl Sounding {
     }
 }
 
-/// The sound wanted of a voice, and as much of it as the player knows.
+/// The sound wanted of a voice, and what the player knows of it.
 #[derive(Debug)]
 pub(crate) struct Kept {
-    /// What it sounds, where and how strongly.
+    /// The sound, its place and level.
     pub sounding: Sounding,
-    /// The player's name of it, given once.
+    /// The player's name (voice number) for it, used once.
     pub name: u64,
-    /// What keeps it going in the player; nothing if the player does not know of it yet.
+    /// Handle that keeps it sounding in the player; none if the player does not know of it yet.
     pub hold: Option<Hold>,
     /// The player's input that a waveform has.
     pub input: Option<usize>,
@@ -60,8 +60,8 @@ impl Kept {
     }
 }
 
-/// The player's inputs for waveforms. One is free again once the player says that what came through it is over: then nothing
-/// enters it, and it leads nowhere.
+/// The player's inputs for waveforms. An input is free again once the player reports that the waveform through it is
+/// over: then nothing enters it, and its filters lead nowhere.
 #[derive(Debug)]
 pub(crate) struct Inputs {
     free: Vec<bool>,
@@ -82,29 +82,29 @@ impl Inputs {
         Some(input)
     }
 
-    /// Whether one is free.
+    /// Whether an input is free.
     pub fn any(&self) -> bool {
         self.free.contains(&true)
     }
 
-    /// Whether all are free.
+    /// Whether all inputs are free.
     pub fn rest(&self) -> bool {
         self.leaving.is_empty() && self.free.iter().all(|free| *free)
     }
 
-    /// Gives an input back that nothing comes through any more.
+    /// Returns an input that no waveform uses any more.
     pub fn give(&mut self, input: usize) {
         if let Some(free) = self.free.get_mut(input) {
             *free = true;
         }
     }
 
-    /// Gives an input, by its number, back once what was stopped is over.
+    /// Returns an input, by its number, once the stopped waveform through it is over.
     pub fn leave(&mut self, input: usize, hold: Hold) {
         self.leaving.push((input, hold));
     }
 
-    /// Frees what is over.
+    /// Frees the inputs of stopped waveforms that are over.
     pub fn settle(&mut self) {
         let free = &mut self.free;
         self.leaving.retain(|(input, hold)| {

@@ -1,4 +1,4 @@
-//! All of a live surface but the audio thread: touches, effects, what fingers feel.
+//! The part of live play outside the audio thread: touches, effects, what fingers feel.
 
 use crate::ears::News;
 use crate::pinging::Pinging;
@@ -9,15 +9,15 @@ use unripple_core::{Phase, Point, Touch};
 use unripple_devices::{Feeler, Feeling};
 use unripple_touch::{Counts, Heard};
 
-/// A listener that is given all touches and wishes, and when they came (s of the device's clock).
+/// Function that is given all touches and requests, and the time at which they came, in s of the device's clock.
 pub type Listener = Box<dyn FnMut(f64, &Heard) + Send>;
 
-/// All of a surface being played that is not the audio thread's: who touches it, what that sets off, what it does to the fingers.
+/// The part of live play outside the audio thread: touches, effects, what fingers feel, drift of the tension.
 pub struct Stage {
     pub(crate) conductor: Conductor,
     pub(crate) feeler: Option<Feeler>,
     pub(crate) follower: Option<Follower>,
-    /// The latest state of the drift filter.
+    /// The latest estimate of the tension.
     pub(crate) drift: Option<Drift>,
     pub(crate) pinging: Option<Pinging>,
     pub(crate) listener: Option<Listener>,
@@ -32,7 +32,7 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// Takes in touches and wishes.
+    /// Processes new touches and requests.
     pub(crate) fn take(&mut self, news: News) -> Result<(), LiveError> {
         if let Some(listener) = &mut self.listener {
             listener(news.now, &news.heard);
@@ -47,8 +47,8 @@ impl Stage {
         Ok(())
     }
 
-    /// One touch more to be played. Of the moves of a finger that nobody had time for, the `old` touches, only the last is worth
-    /// playing.
+    /// Adds a touch to be played. Of the moves of a finger that there was no time for, the `old` touches, only the
+    /// last is worth playing.
     fn put(&mut self, touch: Touch, old: usize) {
         let before =
             self.heard.touches.iter_mut().enumerate().rev().find(|(_, was)| was.finger == touch.finger);
@@ -60,7 +60,7 @@ impl Stage {
         }
     }
 
-    /// Plays the answers to touches and wishes.
+    /// Plays the effects of touches and requests.
     pub(crate) fn conduct(&mut self, now: u64, until: u64) -> Result<(), LiveError> {
         if let Some(feeler) = &mut self.feeler {
             feeler.follow()?;
@@ -77,7 +77,7 @@ impl Stage {
         Ok(())
     }
 
-    /// Sensation of every finger since the last look; nothing on a real surface, where that is not known.
+    /// What every finger felt since the last call. Empty on a real surface, where it is unknown.
     pub fn feelings(&mut self) -> Vec<Feeling> {
         self.feeler.as_mut().map_or_else(Vec::new, Feeler::look)
     }
@@ -97,7 +97,7 @@ impl Stage {
         &self.conductor
     }
 
-    /// The conductor, to change what it keeps.
+    /// Mutable access to the conductor.
     pub fn conductor_mut(&mut self) -> &mut Conductor {
         &mut self.conductor
     }
@@ -107,12 +107,12 @@ impl Stage {
         self.counts
     }
 
-    /// The latest state of the drift filter, on the tension.
+    /// The latest estimate of the tension; `None` before the first observation.
     pub fn drift(&self) -> Option<&Drift> {
         self.drift.as_ref()
     }
 
-    /// Time from touches to commands sent, of each step in which there were touches, in s.
+    /// Times from touches to commands sent, in s, one for each step in which there were touches.
     pub fn computing(&self) -> &Percentiles {
         &self.computing
     }
@@ -122,7 +122,7 @@ impl Stage {
         self.clock as f64 / self.rate
     }
 
-    /// Follows tension by a block, and goes over to drives for the surface as it is.
+    /// Gives a block to the follower of tension, and changes to new drives if the tension has changed.
     pub(crate) fn follow(&mut self, drive: &[f32], heard: &[f32]) -> Result<(), LiveError> {
         let Some(follower) = &mut self.follower else { return Ok(()) };
         follower.take(drive, heard, self.block, !self.fingers.is_empty());

@@ -1,4 +1,4 @@
-//! A live surface on threads: who waits for what, and who wakes whom.
+//! Live play on several threads: what each waits for, and which wakes which.
 
 use crate::ears::{Ears, News};
 use crate::heartbeat::Overheard;
@@ -12,27 +12,27 @@ use std::time::{Duration, Instant};
 use unripple_calibrate::Drift;
 use unripple_core::{DeviceError, State};
 
-/// How often what goes on by itself is looked after while anything sounds or waits, in s of the device's clock. Twice
-/// as long delays commands by as much, half as long wakes the thread twice as often.
+/// Interval at which the conductor runs while anything sounds or waits, in s of the device's clock. Twice as long
+/// delays commands by as much, half as long wakes the thread twice as often.
 const PACE: f64 = 0.0025;
 
-/// How often whoever watches gets a report: five times a second, as fast as figures can be read.
+/// Interval at which the caller gets a report: five times a second, as fast as figures can be read.
 const TELL: Duration = Duration::from_millis(200);
 
 /// Cycles ahead that commands are given, and the least time ahead in s: what is due later may still be taken back.
 const AHEAD: u64 = 2;
 const LEAST_AHEAD: f64 = 0.005;
 
-/// Blocks that may wait between the audio thread and the follower of its inputs, and how often they are fetched.
-/// Blocks beyond are lost to whoever follows, and to nobody else.
+/// Blocks that may wait between the audio thread and the follower of tension, and how often they are fetched. Further
+/// ones are lost to the follower only.
 const KEPT: usize = 64;
 const FETCH: Duration = Duration::from_millis(20);
 
-/// Time over which all fades out at the end, in s, and how long that is waited for, should the device stand still.
+/// Duration of the fade at the end, in s, and how long it is waited for, should the device stand still.
 const FADE: f64 = 0.02;
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// State of the audio thread, for whoever watches.
+/// State of the device and its audio thread, as [`Engine::run`] hands it to its caller while it plays.
 #[derive(Clone, Debug, Default)]
 pub struct Pulse {
     /// State of the device.
@@ -56,7 +56,7 @@ struct Shared<'a> {
 }
 
 impl<'a> Shared<'a> {
-    /// Of a play that begins, with this thread to be woken.
+    /// State at the beginning of play, with this thread to be woken.
     fn new(timeline: &'a Timeline, priorities: Priorities) -> Self {
         Self {
             stop: AtomicBool::new(false),
@@ -81,19 +81,19 @@ struct Mail {
 }
 
 impl Engine {
-    /// Plays for so many seconds of the device's clock, or until told to stop; then all fades out, and nothing more is played. `tell` is
-    /// called five times a second; it returns whether to go on.
+    /// Plays for `seconds` of the device's clock, or without end if `None`, until `tell` returns false. `tell` is
+    /// called five times a second. Finally everything fades out, and the engine plays nothing more.
     ///
-    /// The player runs on the device's own thread where that [calls](unripple_core::Device::employ), or else on one that exchanges
-    /// blocks with it. Touches are received on another, timed when they come, and turned into commands on this one.
-    /// All sleep until there is something for them.
+    /// The player runs on the device's own thread if the device [calls](unripple_core::Device::employ), or else on a
+    /// thread that exchanges blocks with it. Another thread receives touches and records when they come. The calling
+    /// thread turns them into commands. All threads sleep until there is something for them to do.
     ///
     /// # Errors
-    /// Those of the device once it is lost for good; [`LiveError::Gone`] if a thread ended early. Unless the device is lost, all fades out
-    /// before.
+    /// Those of the device once it is lost for good; [`LiveError::Gone`] if a thread ended early. Unless the device
+    /// is lost, everything fades out before.
     ///
     /// # Panics
-    /// If `tell` or a source of touches does; all fades out before.
+    /// If `tell` or a source of touches panics; everything fades out before.
     pub fn run(
         &mut self,
         seconds: Option<f64>,
@@ -154,19 +154,20 @@ impl Engine {
     }
 }
 
-/// Blocks on their way from the audio thread to whoever follows tension.
+/// Blocks on their way from the audio thread to the follower of tension.
 struct Fetched {
     blocks: rtrb::Consumer<f32>,
-    /// Samples of drive, and of drive and inputs, of a block of so many.
+    /// Samples in a block: of drive, of drive and inputs, and per channel.
     drive: usize,
     samples: usize,
     block: usize,
 }
 
-/// The result of following: the drift of tension, and a maker for the surface as it is, if that has changed.
+/// The result of an observation: the drift of tension, and a maker of drives for the sheet as it is, if it has
+/// changed.
 type Found = Result<(Drift, Option<FocusWorker>), LiveError>;
 
-/// The thread that follows tension: what it computes is too long for the one that receives touches.
+/// The thread that follows tension: its computations are too long for the thread that receives touches.
 fn follow(follower: &mut Follower, mut heard: Fetched, shared: &Shared, found: &mpsc::Sender<Found>) {
     let mut block = Vec::with_capacity(heard.samples);
     while shared.goes_on() {
@@ -194,9 +195,9 @@ fn follow(follower: &mut Follower, mut heard: Fetched, shared: &Shared, found: &
     }
 }
 
-/// The thread that receives touches: they are timed when they come, whatever is computed meanwhile.
+/// The thread that receives touches: their times are recorded when they come, whatever is computed meanwhile.
 fn listen(ears: &mut Ears, shared: &Shared, told: &mpsc::Sender<News>) {
-    // Touches are worth more than all but the sound itself.
+    // Touches have priority over everything but the audio thread.
     let _ = priority::at(shared.priorities.touch);
     let mut now = 0.0f64;
     while shared.goes_on() {
@@ -216,7 +217,7 @@ fn listen(ears: &mut Ears, shared: &Shared, told: &mpsc::Sender<News>) {
 }
 
 impl Stage {
-    /// This thread's part: cues, drives, drift, as touches ask for them.
+    /// The calling thread's loop: cues, drives and drift, as touches require.
     fn attend(
         &mut self,
         seconds: Option<f64>,
@@ -267,7 +268,8 @@ impl Stage {
         }
     }
 
-    /// Attends until that ends, well or badly, and lets all fade out: nothing goes on that nobody looks after.
+    /// Runs `attend` until it ends, well or badly, and fades everything out, so that no sound goes on without
+    /// control.
     fn attend_and_fade(
         &mut self,
         shared: &Shared,
@@ -286,7 +288,7 @@ impl Stage {
         }
     }
 
-    /// Ends it all, and waits until what was played last has left.
+    /// Ends playing, and waits until the last samples have left the device.
     fn fade_out(&mut self, shared: &Shared) {
         self.conductor.end(FADE);
         let start = Instant::now();
@@ -321,7 +323,7 @@ fn early(thread: &str) -> LiveError {
     LiveError::Gone { why: format!("the thread `{thread}` ended early") }
 }
 
-/// The audio thread before a device that calls: it looks after that.
+/// The audio thread for a device that calls the player by itself: it looks after the device.
 fn mind(heart: &mut Heartbeat, shared: &Shared, failed: &mpsc::Sender<DeviceError>) {
     if let Ok(mut pulse) = shared.pulse.lock() {
         pulse.priority = shared.priorities.called();
@@ -337,7 +339,7 @@ fn mind(heart: &mut Heartbeat, shared: &Shared, failed: &mpsc::Sender<DeviceErro
     }
 }
 
-/// The audio thread before one that does not.
+/// The audio thread for a device that does not call the player: it exchanges blocks.
 fn beat(
     heart: &mut Heartbeat,
     shared: &Shared,

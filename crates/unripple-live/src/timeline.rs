@@ -1,4 +1,4 @@
-//! Which sample leaves the device when: what touches are timed by, and what latency is counted on.
+//! When each sample leaves the device: the time base for touches and for latency.
 
 use std::collections::VecDeque;
 use std::sync::Mutex;
@@ -14,31 +14,31 @@ const CYCLES: usize = 512;
 /// Touches that are remembered until they are answered. The oldest go first; their latency is not known then.
 const TOUCHES: usize = 4096;
 
-/// Set by whoever plays in each cycle, who never waits for anybody; read by the threads that receive touches and
-/// answer them.
+/// Times at which samples leave the device. The audio thread sets it in each cycle without ever waiting; the threads
+/// that receive touches and answer them read it.
 #[derive(Debug)]
 pub(crate) struct Timeline {
     base: Instant,
     rate: f64,
-    /// When sample 0 would have left, by where the last cycle stood, in ns after the base.
+    /// When sample 0 would have left, extrapolated from the last cycle, in ns after the base.
     origin: AtomicI64,
     /// The first sample that is not computed yet.
     next: AtomicU64,
     /// Samples of the last cycle.
     period: AtomicUsize,
-    /// The sample from which on somebody wants to be woken.
+    /// The sample from which on a thread wants to be woken.
     wake: AtomicU64,
-    /// First samples of the last cycles and their origins, over and over, and how many there were.
+    /// Ring buffer of the last cycles, with the first sample and origin of each, and the number of cycles so far.
     cycles: Vec<(AtomicU64, AtomicI64)>,
     passed: AtomicUsize,
     /// The first sample that no touch is timed by yet.
     fresh: AtomicU64,
-    /// When touches came: the sample that they were timed by, and the instant.
+    /// Touches: the sample that each was timed by, and the instant at which it came.
     came: Mutex<VecDeque<(u64, Instant)>>,
 }
 
 impl Timeline {
-    /// Nothing has left yet, at so many samples per second.
+    /// A timeline of which no sample has left yet, at `rate` samples per second.
     pub fn new(rate: f64) -> Self {
         Self {
             base: Instant::now(),
@@ -59,7 +59,8 @@ impl Timeline {
         after - self.base.saturating_duration_since(at).as_nanos() as i64
     }
 
-    /// A cycle of so many samples, the first of which leaves at an instant; `next` is the first sample that is not computed yet.
+    /// Records a cycle of `frames` samples, whose first is `sample` and leaves at an instant; `next` is the first
+    /// sample that is not computed yet.
     pub fn mark(&self, sample: u64, leaves: Instant, frames: usize, next: u64) {
         let since_zero = (sample as f64 * 1e9 / self.rate) as i64;
         let origin = self.ns(leaves) - since_zero;
@@ -71,9 +72,9 @@ impl Timeline {
         self.next.store(next, Ordering::Release);
     }
 
-    /// The sample that leaves at an instant, in s of the player's clock: within a cycle of the first one that is not computed yet, however
-    /// long the device stands still. Touches that come meanwhile stay distinct: each is timed a sample after the one before, for
-    /// another cycle at most.
+    /// The sample that leaves at an instant, in s of the player's clock. It is at most one cycle after the first
+    /// sample that is not computed yet, however long the device stands still. Touches that come meanwhile stay
+    /// distinct: each is timed a sample after the one before, for another cycle at most.
     pub fn at(&self, instant: Instant) -> f64 {
         let next = self.next.load(Ordering::Acquire) as f64 / self.rate;
         let ahead = self.period() as f64 / self.rate;
@@ -87,12 +88,13 @@ impl Timeline {
         }
     }
 
-    /// When a sample left, or will if the device goes on as it did; before all that is remembered if nobody knows any more.
+    /// Instant at which a sample left, or will leave if the device goes on as before; the base if its cycle is no
+    /// longer remembered.
     pub fn leaves(&self, sample: u64) -> Instant {
         self.known(sample).unwrap_or(self.base)
     }
 
-    /// The same, if the cycle that it was in is remembered.
+    /// As [`Timeline::leaves`], or none if the cycle of the sample is no longer remembered.
     fn known(&self, sample: u64) -> Option<Instant> {
         let cycle = |(first, origin): &(AtomicU64, AtomicI64)| {
             (first.load(Ordering::Acquire), origin.load(Ordering::Acquire))
@@ -103,7 +105,7 @@ impl Timeline {
         Some(self.base + Duration::from_nanos(u64::try_from(after).unwrap_or(0)))
     }
 
-    /// Touches came at an instant, and are timed as at `now`, in s of the player's clock.
+    /// Records touches that came at an instant, and are timed as at `now`, in s of the player's clock.
     pub fn note(&self, now: f64, at: Instant) {
         let sample = (now * self.rate).round() as u64;
         self.fresh.fetch_max(sample + 1, Ordering::AcqRel);
@@ -115,8 +117,8 @@ impl Timeline {
         }
     }
 
-    /// Seconds from when a touch came that was timed by a sample until another sample leaves: whatever the device left out between them
-    /// is in it. Not a number once either is too long ago to be remembered.
+    /// Time in s from the arrival of a touch that was timed by a sample until another sample leaves, including any
+    /// gap of the device between them. NaN once either is no longer remembered.
     pub fn between(&self, touch: u64, sample: u64) -> f64 {
         let noted =
             self.came.lock().ok().and_then(|came| came.iter().find(|(timed, _)| *timed == touch).copied());
@@ -130,7 +132,7 @@ impl Timeline {
         self.period.load(Ordering::Acquire)
     }
 
-    /// Whether somebody wants to be woken now that samples before `next` are computed; only once.
+    /// Whether a thread wants to be woken now that samples before `next` are computed; true only once.
     pub fn rings(&self, next: u64) -> bool {
         let rings = next >= self.wake.load(Ordering::Acquire);
         if rings {
@@ -139,7 +141,7 @@ impl Timeline {
         rings
     }
 
-    /// Asks to be woken once all samples before one are computed.
+    /// Asks to be woken once all samples before `sample` are computed.
     pub fn wake_at(&self, sample: u64) {
         self.wake.store(sample, Ordering::Release);
     }

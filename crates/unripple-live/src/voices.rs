@@ -1,4 +1,4 @@
-//! Sustained sounds of the effects' voices: what is wanted, and how the player is brought to it.
+//! Sustained sounds of the effects' voices: what is wanted, and how the player is brought to play it.
 
 use crate::sounding::{Kept, Sounding};
 use crate::{Conductor, LiveError};
@@ -11,7 +11,8 @@ use unripple_player::{At, Command, Hold, Prepared, PreparedFilters, Voice};
 /// Time over which a moved waveform goes from one place to the next, in s.
 const GLIDE: f64 = 0.01;
 
-/// Time after which what found no room in the player is begun again, in s: soon for a finger, and seldom enough to take no room itself.
+/// Time after which a sound that found no room in the player is begun again, in s: soon for a finger, and seldom
+/// enough to take no room itself.
 const AGAIN: f64 = 0.02;
 
 /// Commands that change of place or level may take. So much room is left before anything is sent, so that a change is
@@ -19,7 +20,7 @@ const AGAIN: f64 = 0.02;
 const CHANGE: usize = 2;
 
 impl Conductor {
-    /// Lets a voice sound something from now on, instead of what it sounded.
+    /// Starts a sustained sound of a voice, which replaces its previous one.
     pub(crate) fn keep(
         &mut self,
         voice: u64,
@@ -29,7 +30,7 @@ impl Conductor {
     ) -> Result<(), LiveError> {
         let crowded = matches!(sounding, Sounding::Wave { .. }) && !self.inputs.any();
         self.tally.crowded += u64::from(crowded);
-        // What goes on waits for room, as long as it is wanted.
+        // A sound that does not end by itself waits for room, as long as it is wanted.
         let lost = !sounding.goes_on() && (crowded || !self.can_begin());
         let name = self.name(asked);
         let mut kept = Kept::new(sounding, name);
@@ -43,7 +44,7 @@ impl Conductor {
         Ok(())
     }
 
-    /// Ends what a voice sounds: the player ends what nobody holds.
+    /// Ends the sound of a voice, by stopping its hold.
     pub(crate) fn let_go(&mut self, voice: u64, fade: Option<u32>, at: At) {
         let Some(Kept { hold: Some(hold), input, .. }) = self.sounding.remove(&voice) else { return };
         hold.stop(at, fade);
@@ -52,7 +53,7 @@ impl Conductor {
         }
     }
 
-    /// Gives what a voice sounds another place or level.
+    /// Changes the place or level of a voice's sound.
     pub(crate) fn change(
         &mut self,
         voice: u64,
@@ -64,14 +65,15 @@ impl Conductor {
         kept.sounding = other(before.clone());
         let told = self.tell(&mut kept, at);
         if told.is_err() {
-            // There it cannot be; so it stays.
+            // The new place or level is impossible, so the sound stays as it is.
             kept.sounding = before;
         }
         self.sounding.insert(voice, kept);
         told
     }
 
-    /// Sends the player again what it may not know; whether there was time for all of it in a step that began at some instant.
+    /// Sends the player again the sounds that it may not know. Returns whether there was time for all of them in a
+    /// step that began at some instant.
     pub(crate) fn tell_again(&mut self, at: At, began: Instant) -> Result<bool, LiveError> {
         let untold = self.sounding.iter().filter(|(_, kept)| !kept.told).map(|(voice, _)| *voice);
         for voice in untold.collect::<Vec<u64>>() {
@@ -89,8 +91,8 @@ impl Conductor {
         Ok(true)
     }
 
-    /// Forgets what the player says is over: played to its end, or refused. What goes on and was refused for want of room is begun again
-    /// after a while.
+    /// Forgets the sounds that the player reports as over, because they were played to their end or refused. A
+    /// sustained sound that was refused for want of room is begun again later.
     pub(crate) fn forget_over(&mut self) {
         let (inputs, later) = (&mut self.inputs, self.desk.clock() + (AGAIN * self.rate) as u64);
         self.sounding.retain(|_, kept| {
@@ -109,7 +111,7 @@ impl Conductor {
         self.ahead.forget_over();
     }
 
-    /// Begins something in the player, or changes it there; what finds no room is sent again later.
+    /// Begins a sound in the player, or changes it there; if there is no room, it is sent again later.
     fn tell(&mut self, kept: &mut Kept, at: At) -> Result<(), LiveError> {
         kept.told = false;
         let early = kept.hold.is_none() && self.desk.clock() < kept.again;
@@ -130,7 +132,7 @@ impl Conductor {
                 let (drive, gain) = self.comb(*place, *level, *period)?;
                 Command::Start { voice, drive, at, gain, period: Some(*period) }
             }
-            // All may be taken by now if this is not the first time.
+            // All inputs may be taken by now if this is not the first attempt.
             Sounding::Wave { .. } if !self.inputs.any() => return Ok(false),
             Sounding::Wave { wave, looped, fade, .. } => {
                 let (samples, looped) = (wave.samples.clone(), *looped);
@@ -173,7 +175,7 @@ impl Conductor {
         Ok((drive, gain))
     }
 
-    /// What a waveform goes through to meet at its place; a comb goes through none.
+    /// Filters through which a waveform passes to focus at its place; none for a repeated focus.
     fn filters(&mut self, sounding: &Sounding) -> Result<Option<Arc<PreparedFilters>>, LiveError> {
         let Sounding::Wave { place, level, wave, .. } = sounding else { return Ok(None) };
         let (gain, beyond) = self.drives.wave_gain(*place, wave, level.scaled(self.trim))?;
@@ -184,7 +186,7 @@ impl Conductor {
         Ok(Some(self.desk.filters(&responses)?))
     }
 
-    /// Sends what sounds as long as it is held.
+    /// Sends a command for a sound that lasts as long as its hold is kept.
     pub(crate) fn hold(&mut self, command: Command) -> Option<Hold> {
         self.note(&command);
         let held = self.desk.hold(command);

@@ -9,16 +9,16 @@ use unripple_player::At;
 /// Cues that may wait for their time; more are counted and dropped.
 const MOST_WAITING: usize = 1 << 16;
 
-/// A cue that waits for its time, and when the touch came that it answers first, in samples.
+/// A cue that waits for its time, and the time of the touch that it is the first answer to, in samples.
 pub(crate) struct Waiting {
     /// The cue that is to be played.
     pub cue: Cue,
-    /// When the touch came that it answers, in samples.
+    /// Time of the touch that it answers, in samples.
     pub asked: Option<u64>,
 }
 
 impl Conductor {
-    /// Puts cues where they wait for the beginning of their drives.
+    /// Queues cues for the time at which their drives begin.
     pub(crate) fn queue(&mut self, cues: &mut Vec<Cue>, now: u64, touch: Option<&Touch>) {
         let mut voice = None;
         for cue in cues.drain(..) {
@@ -26,11 +26,11 @@ impl Conductor {
             let sample = focus.saturating_sub(self.lead).max(now);
             let late = now.saturating_sub(focus) as f64 / self.rate;
             if late > STALE && passes(&cue.act) {
-                // Nobody feels now what was asked for then; making it would only make the next later.
+                // It is too late for it to be felt; computing its drive would only delay the next.
                 self.tally.stale += 1;
                 continue;
             }
-            // Of what a touch sets off under a voice the first answers it.
+            // Of the cues of one voice that a touch sets off, the first counts as its answer.
             let first = voice.replace(cue.voice) != Some(cue.voice);
             let asked = touch.filter(|_| first).map(|touch| self.sample(touch.time));
             if let Act::Stop { fade } = cue.act
@@ -50,8 +50,8 @@ impl Conductor {
         }
     }
 
-    /// Ends a voice from a sample on, at once rather than in its turn: drives that were asked for before may take long to make. Whether
-    /// that was all; a stop that is known ahead has its turn besides.
+    /// Ends a voice from a sample on, at once rather than in turn, since drives that were requested before may take
+    /// long to compute. Returns whether that was all; a stop known ahead is also queued.
     fn stop(&mut self, cue: &Cue, fade: f64, sample: u64, now: u64) -> bool {
         let fade = self.fade(fade);
         if sample > now {
@@ -63,7 +63,7 @@ impl Conductor {
         }
         let (old, late) = (self.old, self.late);
         self.waiting.retain(|(_, order), Waiting { cue: other, .. }| {
-            // What came in the same moment and is over by itself is played, unless there is no time for all of it.
+            // Pulses that came in the same moment are played, unless there is no time for all of them.
             let along = passes(&other.act) && *order > old && !late && other.at <= cue.at;
             other.voice != cue.voice || along
         });
@@ -73,7 +73,8 @@ impl Conductor {
         true
     }
 
-    /// Puts a new place or level where an older one waits that nobody had time for: only the last is worth a drive. Whether there was one.
+    /// Replaces the place or level of a waiting cue that there was no time for: only the last is worth a drive.
+    /// Returns whether there was one.
     fn overtake(&mut self, cue: &Cue, now: u64) -> bool {
         if !matches!(cue.act, Act::Move { .. } | Act::Gain { .. }) {
             return false;
@@ -94,7 +95,7 @@ impl Conductor {
     }
 }
 
-/// Whether an act is over by itself.
+/// Whether an act ends by itself.
 fn passes(act: &Act) -> bool {
     matches!(act, Act::Pulse { .. } | Act::Shape { .. })
 }

@@ -1,16 +1,17 @@
-//! The focusing window of live play: short, for latency, against contrast.
+//! The focusing window of live play: a compromise between latency and contrast.
 
 use unripple_core::Surface;
 use unripple_physics::design::{Recommended, Windows, milliseconds};
 
-/// Share of the largest contrast below which a shorter window is not worth the time it saves.
+/// Fraction of the largest contrast that is enough: a longer window is not worth the time it takes.
 const WORTH: f64 = 0.75;
 
-/// The window that live play uses, and what it costs.
+/// The focusing window of live play, and the contrast expected with it.
 ///
-/// A focus comes a whole window after the touch that asked for it, so the window is latency. Contrast grows like its square
-/// root at first and then stops, as the surface forgets: past three quarters of the largest, each millisecond buys little. More
-/// actuators reach the same contrast in a shorter one (Hudin et al. 2012, section 3).
+/// A focus comes one whole window after the touch that asked for it, so the window is latency. Contrast at first
+/// grows like the square root of the window, then saturates when responses have decayed: beyond three quarters of the
+/// largest contrast, each millisecond gains little. More actuators reach the same contrast in a shorter window (Hudin
+/// et al. 2012, section 3).
 ///
 /// ```
 /// use unripple_live::Window;
@@ -21,38 +22,39 @@ const WORTH: f64 = 0.75;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
-    /// The window, in s: from the first sample to the focus.
+    /// Length of the window, in s: from the first sample to the focus.
     pub seconds: f64,
-    /// Contrast to be expected with it.
+    /// Contrast expected with this window.
     pub contrast: f64,
-    /// The window that `design` recommends where nobody waits, in s.
+    /// The window that `design` recommends where latency does not matter, in s.
     pub unhurried: f64,
-    /// The largest contrast to be expected of any.
+    /// The largest contrast expected of any window.
     pub largest: f64,
-    /// The shortest window within half a per cent of it, in s.
+    /// The shortest window whose contrast is within half a per cent of the largest, in s.
     pub largest_at: f64,
 }
 
 impl Window {
-    /// The shortest that reaches three quarters of the largest contrast ([`Windows`]).
+    /// The shortest window that reaches three quarters of the largest contrast ([`Windows`]).
     pub fn prompt(surface: &Surface) -> Self {
         Self::prompt_within(surface, f64::INFINITY)
     }
 
-    /// The shortest window that reaches three quarters of the largest contrast, or the longest that responses last,
-    /// in s.
+    /// The shortest window that reaches three quarters of the largest contrast, but at most `longest`, the duration
+    /// of the responses in s.
     pub fn prompt_within(surface: &Surface, longest: f64) -> Self {
         Self::prompt_and(surface, longest, None).0
     }
 
-    /// The same, and the one that was asked for, in s, if one was: the modes are solved for once.
+    /// The window of [`Window::prompt_within`], and the window of `asked` s, or the first again if `None`. The modes
+    /// are computed only once for both.
     pub fn prompt_and(surface: &Surface, longest: f64, asked: Option<f64>) -> (Self, Self) {
         let windows = Windows::of(surface);
         let prompt = Self::among(&windows, windows.shortest(WORTH).seconds.min(longest), longest);
         (prompt, asked.map_or(prompt, |seconds| Self::among(&windows, seconds, longest)))
     }
 
-    /// One that was asked for, in s.
+    /// A window of a given length in s, with its expected contrast.
     pub fn of(surface: &Surface, seconds: f64) -> Self {
         Self::among(&Windows::of(surface), seconds, f64::INFINITY)
     }
