@@ -1,4 +1,4 @@
-//! Nothing sounds that nobody wants: two windows after the last finger has left there is exact silence, whatever was lost, refused or stood
+//! Every sound ends: two windows after the last finger has left there is exact silence, whatever was lost, refused or stood
 //! still on the way.
 
 mod common;
