@@ -1,7 +1,7 @@
-//! The paper that all of this follows, done again: Hudin, Lozada, Wiertlewski and Hayward, EuroHaptics 2012.
+//! Reproduces the paper that this project is based on: Hudin, Lozada, Wiertlewski and Hayward, EuroHaptics 2012.
 //!
-//! [`reproduce`] makes the paper's table and figures beside ours, as one page; [`study`] simulates contrast over many placements and
-//! targets, and compares it with the closed forms.
+//! [`reproduce`] computes the paper's table and figures and puts them beside the printed ones, on one page; [`study`]
+//! simulates contrast over many placements of actuators and targets, and compares it with the closed forms.
 
 pub mod reproduce;
 pub mod study;

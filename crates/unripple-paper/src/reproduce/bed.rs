@@ -1,10 +1,10 @@
-//! The paper's film with eight actuators, for its experiments to be done again.
+//! The paper's film with eight actuators, on which its experiments are simulated.
 
 use unripple::core::{Point, Responses, Surface};
 use unripple_tasks::TaskError;
 use unripple_tasks::judge;
 
-/// The paper's surface, ready for its experiments to be done again.
+/// The paper's surface with its responses, on which its experiments are simulated.
 #[derive(Debug)]
 pub struct Bed {
     /// The film of the paper's section 4, with eight ideal force actuators.
@@ -15,7 +15,7 @@ pub struct Bed {
     pub rate: f64,
     /// The paper's window T, in seconds.
     pub window: f64,
-    /// Place of the single focus, in m.
+    /// Position of the single focus, in m.
     pub target: Point,
 }
 

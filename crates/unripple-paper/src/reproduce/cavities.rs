@@ -38,7 +38,7 @@ impl Cavity {
     }
 }
 
-/// Section 2: what the outline does, on one area of the same film.
+/// Section 2: contrast on outlines of equal area, on the same film.
 pub fn section(bed: &Bed, placements: usize) -> Result<Section, TaskError> {
     let all = cavities(bed.surface.outline.area())
         .into_iter()
@@ -90,7 +90,7 @@ fn figure(all: &[Cavity]) -> Figure {
     }
 }
 
-/// What the outlines have to do with the paper's chaotic cavity.
+/// Text on the outlines and the paper's chaotic cavity.
 fn text(all: &[Cavity], window: f64) -> String {
     let long = WINDOWS[WINDOWS.len() - 1];
     let of =

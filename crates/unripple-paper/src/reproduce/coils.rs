@@ -1,4 +1,4 @@
-//! What moving-magnet coils do to the focus: added mass and damping.
+//! Effect of moving-magnet coils on the focus: added mass and damping.
 
 use super::section::{row, three};
 use super::{Bed, Compared, Section};
@@ -20,7 +20,7 @@ const MAGNET_MASS: f64 = 7e-6;
 /// Frequency at which the film is compared with the coil, in Hz.
 const HZ: f64 = 1000.0;
 
-/// Section 4: coils as they are, held at a current or at a voltage.
+/// Section 4: real coils, driven by a current or by a voltage.
 pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let kinds = kinds();
     let parts: Vec<Coils> = kinds.iter().map(|(_, coils)| *coils).collect();
@@ -88,7 +88,7 @@ fn text(rows: &[Coiled]) -> String {
     )
 }
 
-/// Why 6 N/A is not credible.
+/// Text on why a force constant of 6 N/A is not credible.
 fn doubt(c: &Credibility) -> String {
     format!(
         "The printed force constant of 6 N/A is hard to reconcile with actuators that drive a film. With voltage drive it \

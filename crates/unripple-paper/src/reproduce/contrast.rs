@@ -31,7 +31,7 @@ pub struct Statistic {
     pub actuators: usize,
     /// Value of the parameter that was varied, in SI units.
     pub varied: f64,
-    /// Mean over placements and targets.
+    /// Mean of the simulated contrast over placements and targets.
     pub simulated: f64,
     /// Standard error of that mean.
     pub error: f64,
@@ -47,7 +47,8 @@ impl From<StudyError> for TaskError {
     }
 }
 
-/// Repeats a study over groups of placements, each with a seed of its own, and joins the groups' means.
+/// Repeats a study over groups of placements, each group with a seed of its own; returns means over all placements with
+/// standard errors from the groups.
 pub fn statistics<F>(placements: usize, study: F) -> Result<Vec<Statistic>, TaskError>
 where
     F: Fn(&Sampling) -> Result<Vec<study::Compared>, StudyError>,
@@ -136,7 +137,7 @@ pub fn curve(rows: &[Statistic], form: impl Fn(f64) -> f64) -> Line {
     Line { y: x.iter().map(|x| form(*x)).collect(), x, ..Line::default() }
 }
 
-/// Marks with error bars on the line of the closed form, one colour.
+/// Marks with error bars for the simulated values, with the line of the closed form, in one colour.
 pub fn series(rows: &[Statistic], line: Line, label: &str, ink: Ink, mark: Mark) -> [Layer; 2] {
     let line = Line { label: label.into(), ink, dash: Dash::Solid, ..line };
     let points = Points {
@@ -205,7 +206,7 @@ fn others_figure(bands: &[Statistic], noises: &[Statistic], noisy: impl Fn(f64) 
     }
 }
 
-/// The rows of a number of actuators.
+/// The rows with this number of actuators.
 pub fn of(rows: &[Statistic], actuators: usize) -> Vec<Statistic> {
     rows.iter().filter(|r| r.actuators == actuators).copied().collect()
 }

@@ -35,7 +35,7 @@ const RECORDED: f64 = 2.5;
 /// Instants of the spreading wave, in seconds after the impulse.
 const SPREADING: [f64; 6] = [0.3e-3, 0.7e-3, 1.2e-3, 2.0e-3, 6.0e-3, 30.0e-3];
 
-/// Records, crops, reverses and refocuses with one actuator, and puts the contrast beside that of all.
+/// Records, crops, reverses and refocuses with one actuator, and compares the contrast with that of all actuators.
 pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let modal = modal(&bed.responses)?;
     let b = actuator(modal, ACTUATOR)?;

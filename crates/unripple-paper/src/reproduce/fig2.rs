@@ -100,7 +100,7 @@ fn focused(bed: &Bed, responses: &Responses, target: Target) -> Result<Focused, 
     focus(responses, &[target], &options).map_err(TaskError::work)
 }
 
-/// Fig. 2a: a good focus in short time, a long tail of noise.
+/// Fig. 2a: one actuator gives a good focus with a short window, followed by a long tail of noise.
 pub fn one_actuator(bed: &Bed) -> Result<Section, TaskError> {
     let modal = modal(&bed.responses)?;
     let papers = Alone::make(bed, modal, 1.0)?;

@@ -15,7 +15,7 @@ const STEPS: usize = 400;
 /// Displacement of the finger in table 1, in metres.
 const DISPLACEMENT: f64 = 10e-6;
 
-/// Fig. 3: what becomes of a wave that meets a finger.
+/// Fig. 3: reflection and absorption of a wave that meets a finger.
 pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let finger = Finger::default();
     let strips = [("glass 1 mm", glass_strip()), ("BoPET 0.125 mm, 2 N", film_strip())];

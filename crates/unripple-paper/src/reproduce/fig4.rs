@@ -229,7 +229,7 @@ fn levelled(bed: &Bed, focuser: &Focuser) -> Result<(Focused, usize), TaskError>
     }
 }
 
-/// Fig. 4: pulses at E five times and at D twice a second, and what is left elsewhere.
+/// Fig. 4: pulses at E five times and at D twice a second, and the motion elsewhere.
 pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let repeated = Repeated::make(bed)?;
     let point = |p: &Tracked| {

@@ -1,4 +1,4 @@
-//! Section 4.3: what a finger does to the focus and the background.
+//! Section 4.3: effect of a finger on the focus and the background.
 
 use super::section::row;
 use super::{Bed, Compared, Picture, Section};
@@ -13,7 +13,7 @@ const RADII: [f64; 6] = [3e-3, 4e-3, 5e-3, 6e-3, 7e-3, 8e-3];
 /// What the paper measured (section 4.3): focus and noise alike.
 const PAPERS: f64 = 5.0;
 
-/// Section 4: what a finger does to the focus under it and to the noise, against the size of the contact.
+/// Section 4: effect of a finger on the focus under it and on the noise, against the size of the contact.
 pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let rows = finger(&bed.surface, bed.target, &RADII, bed.window)?;
     let (unaware, aware): (Vec<&Touched>, Vec<&Touched>) = rows.iter().partition(|r| !r.known);

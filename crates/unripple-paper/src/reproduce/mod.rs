@@ -1,4 +1,4 @@
-//! `reproduce`: the paper's table and figures beside ours, as one page.
+//! `reproduce`: the paper's table and figures computed again, beside the printed ones, as one page.
 
 mod ask;
 mod bed;

@@ -1,4 +1,4 @@
-//! Numbers of the paper's text beside ours: first mode, wavelength, phase velocity.
+//! Numbers in the paper's text, computed again: first mode, wavelength, phase velocity.
 
 use super::section::row;
 use super::{Bed, Compared, Section};
@@ -15,7 +15,7 @@ const ACCURACY: f64 = 1e-6;
 /// The tension that the paper prints, in N/m.
 const PRINTED_TENSION: f64 = 30.0;
 
-/// Section 4: the numbers printed for the paper's membrane, and the paper's slips.
+/// Section 4: the numbers printed for the paper's membrane, and errors in them.
 pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let surface = &bed.surface;
     let design = design(surface).map_err(TaskError::input)?;
@@ -123,7 +123,7 @@ fn modes(surface: &Surface, design: &Design, [vacuum, one, both]: [f64; 3]) -> V
     ]
 }
 
-/// Every slip of the paper in a line.
+/// Every error of the paper in a line.
 fn slips(design: &Design) -> Vec<Vec<String>> {
     let headings = row(["slip of the paper", "printed", "what holds"]);
     let notes =

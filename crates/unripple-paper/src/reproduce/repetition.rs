@@ -21,7 +21,7 @@ struct Case {
     modes: f64,
 }
 
-/// Section 3.2: what repetition costs, with the surface's decay time and with the one that the paper aims for.
+/// Section 3.2: contrast of a repeated focus, with the surface's decay time and with the one that the paper aims for.
 pub fn section(bed: &Bed, placements: usize) -> Result<Section, TaskError> {
     let own = &bed.surface;
     let actuators = own.actuators.len();

@@ -1,4 +1,4 @@
-//! What `reproduce` found.
+//! Report of the task `reproduce`.
 
 use super::{Compared, Picture, Section};
 use serde::Serialize;
@@ -7,10 +7,10 @@ use std::fmt::Write;
 
 pub use super::section::Compared as ComparedReport;
 
-/// The paper beside ours.
+/// Report of `reproduce`: the paper's results beside the computed ones.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// Placements averaged in the statistics of contrast.
+    /// Number of placements averaged in the statistics of contrast.
     pub placements: usize,
     /// One for each figure, table or section of the paper, in its order.
     pub sections: Vec<SectionReport>,
@@ -23,9 +23,9 @@ pub struct SectionReport {
     pub title: String,
     /// Paragraphs, in plain words.
     pub text: Vec<String>,
-    /// Numbers of the paper beside ours.
+    /// Numbers of the paper beside the computed ones.
     pub compared: Vec<Compared>,
-    /// A table of ours: headings first.
+    /// A table of computed results, as rows of cells; headings first.
     pub table: Vec<Vec<String>>,
     /// Figures of this part.
     pub figures: Vec<FigureReport>,
@@ -36,7 +36,7 @@ pub struct SectionReport {
 /// A figure of the page.
 #[derive(Clone, Debug, Serialize)]
 pub struct FigureReport {
-    /// File names of the figure, the one to show first.
+    /// File names of the figure: SVG, then PNG.
     pub files: Vec<String>,
     /// Caption of the figure.
     pub caption: String,
@@ -55,7 +55,7 @@ impl FigureReport {
 }
 
 impl Report {
-    /// Of all sections.
+    /// The report of all sections.
     pub(super) fn of(sections: &[Section], placements: usize) -> Self {
         let section = |section: &Section| SectionReport {
             title: section.title.clone(),

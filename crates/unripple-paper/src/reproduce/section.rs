@@ -1,21 +1,21 @@
-//! One section of the page: the paper's figures or table beside ours.
+//! One section of the page: a figure, table or section of the paper beside the computed one.
 
 use unripple_plot::Figure;
 
-/// One part of the page: a figure or table of the paper beside ours.
+/// One part of the page: a figure, table or section of the paper beside the computed one.
 #[derive(Debug, Default)]
 pub struct Section {
     /// Part of the paper that the section is about, as in `Fig. 2b`.
     pub title: String,
-    /// Figures, each written as NAME.svg and NAME.png, and what to say under each.
+    /// Figures, each written as NAME.svg and NAME.png, with captions.
     pub figures: Vec<Picture>,
-    /// Numbers beside each other.
+    /// Numbers of the paper beside the computed ones.
     pub compared: Vec<Compared>,
-    /// A table of ours: headings first.
+    /// A table of computed results, as rows of cells; headings first.
     pub table: Vec<Vec<String>>,
     /// Paragraphs, in plain words.
     pub text: Vec<String>,
-    /// The section's numbers for programs, SI units; `null` for none.
+    /// Numbers of the section as JSON, in SI units; `null` for none.
     pub data: serde_json::Value,
 }
 
@@ -31,7 +31,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// A figure with its name and caption.
+    /// A figure with its file name (without ending) and caption.
     pub fn still(name: &'static str, figure: Figure, caption: impl Into<String>) -> Self {
         Self { name, figure, caption: caption.into() }
     }
@@ -42,13 +42,13 @@ impl Picture {
         if described { &self.figure.description } else { &self.caption }
     }
 
-    /// File names of the figure, the one to show first.
+    /// File names of the figure: SVG, then PNG.
     pub fn files(&self) -> Vec<String> {
         ["svg", "png"].map(|ending| format!("{}.{ending}", self.name)).to_vec()
     }
 }
 
-/// A quantity in the paper and here.
+/// A quantity in the paper and as computed here.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Compared {
     /// Name of the quantity.
@@ -62,7 +62,7 @@ pub struct Compared {
 }
 
 impl Compared {
-    /// One row: the quantity, the paper's value, ours, and why they differ.
+    /// One row: the quantity, the paper's value, the computed one, and why they differ.
     pub fn new(
         what: impl Into<String>,
         paper: impl Into<String>,
@@ -78,7 +78,7 @@ pub fn row<const N: usize>(cells: [&str; N]) -> Vec<String> {
     cells.map(str::to_owned).to_vec()
 }
 
-/// A number to three figures, as text.
+/// A number with three significant digits, as text.
 pub fn three(value: f64) -> String {
     let places = (2.0 - value.abs().log10().floor()).clamp(0.0, 9.0) as usize;
     format!("{value:.places$}")

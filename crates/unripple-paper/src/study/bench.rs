@@ -1,4 +1,4 @@
-//! Modes and responses for studies of contrast.
+//! Modes and time-reversed states for studies of contrast.
 
 use super::Replay;
 use super::replay::{product, rings};
@@ -11,33 +11,35 @@ use unripple_field::{FieldError, Grid};
 use unripple_linalg::{Mat, MatRef};
 use unripple_physics::{Medium, Modes, PhysicsError};
 
-/// Relative accuracy of the frequencies of the modes. A mode is then off by far less than a line's width; ten times
-/// less would change no figure.
+/// Relative accuracy of the natural frequencies. Errors are then far below a linewidth; ten times less would change no
+/// result.
 const ACCURACY: f64 = 1e-4;
 
-/// Cells of the grid per shortest wavelength along each side. On 4 contrasts differ by 2 % rms; 16 take four times as
+/// Cells of the grid per shortest wavelength along each side. On 4, contrasts differ by 2 % rms; 16 take four times as
 /// long.
 pub const CELLS: f64 = 8.0;
 
-/// Why a study could not be made.
+/// Why a study could not be computed.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
-    /// The surface's physics.
+    /// The modes or responses of the surface could not be computed.
     #[error(transparent)]
     Physics(#[from] PhysicsError),
-    /// Focusing on it.
+    /// No drive could be computed.
     #[error(transparent)]
     Focus(#[from] unripple_focus::FocusError),
-    /// The field and its grid.
+    /// The field or its grid could not be computed.
     #[error(transparent)]
     Field(#[from] FieldError),
 }
 
-/// A surface laid out for statistics: its modes and their sums over the grid, no field expanded.
+/// A surface prepared for statistics over many foci: its modes and the sums of their products over a grid, so that
+/// contrast is computed without evaluating fields.
 ///
-/// Time reversal replays g_n(t) φ_n(a) φ_n(A), so the state at the focal instant is linear in it:
-/// v_m = Σ_a φ_m(a) Σ_n I_mn φ_n(a) φ_n(A), with all that depends on time in I ([`Replay`]). The sum of squares of a field
-/// over the grid is vᵀKv with K = Σ_x φ(x)φ(x)ᵀ.
+/// Time reversal plays back g_n(t) φ_n(a) φ_n(A), with g_n the velocity of mode n after an impulse, φ_n its shape, a an
+/// actuator and A the target. So the velocities of the modes at the focal instant (the *state*) are v_m = Σ_a φ_m(a)
+/// Σ_n I_mn φ_n(a) φ_n(A), where I has all that depends on time ([`Replay`]). The sum of squares of a field over the
+/// grid is vᵀKv with K = Σ_x φ(x)φ(x)ᵀ.
 #[derive(Clone, Debug)]
 pub struct Bench {
     shapes: Arc<Modes>,
@@ -46,18 +48,18 @@ pub struct Bench {
     points: Vec<Point>,
     /// Shapes at the grid's points, points x modes.
     weights: Mat<f64>,
-    /// K, modes x modes; `None` where there are more modes than points and the field itself is cheaper.
+    /// K, modes x modes; `None` where there are more modes than points, so that the field itself is cheaper.
     gram: Option<Mat<f64>>,
 }
 
-/// A target, and which points count as outside its focal disc.
+/// A target, with the points of the grid inside and outside its focal disc.
 #[derive(Clone, Debug)]
 pub struct Outside {
     /// Shapes at the target, 1 x modes.
     target: Mat<f64>,
     /// Shapes at the grid's points within the disc, points x modes.
     within: Mat<f64>,
-    /// Points beyond it.
+    /// Number of points outside the disc.
     beyond: f64,
 }
 
@@ -69,7 +71,8 @@ impl Outside {
 }
 
 impl Bench {
-    /// The surface in its band, on a grid of `cells` per shortest wavelength ([`CELLS`] for the definition of contrast).
+    /// Prepares a surface in its band, on a grid of `cells` cells per shortest wavelength ([`CELLS`] for the definition
+    /// of contrast).
     ///
     /// # Errors
     /// [`StudyError::Physics`] if the modes cannot be computed, [`StudyError::Field`] if the grid cannot.
@@ -78,10 +81,10 @@ impl Bench {
         Self::with(surface, Arc::new(modes), cells)
     }
 
-    /// The same surface with its band ending at `top_hz`, below the present end. `top_hz` is in Hz.
+    /// The same surface with a band that ends at `top_hz` (Hz), at most at its present top.
     ///
     /// # Errors
-    /// [`StudyError::Field`] if the grid cannot be made.
+    /// [`StudyError::Field`] if the grid cannot be computed.
     pub fn up_to(&self, surface: &Surface, top_hz: f64) -> Result<Self, StudyError> {
         let mut narrow = surface.clone();
         narrow.emission.band[1] = top_hz.min(surface.emission.band[1]);
@@ -109,7 +112,7 @@ impl Bench {
         self.poles.len()
     }
 
-    /// Band, rate, λ_min and outline.
+    /// Band, sample rate, shortest wavelength and outline.
     pub fn conditions(&self) -> &Conditions {
         &self.conditions
     }
@@ -124,7 +127,8 @@ impl Bench {
         self.shapes.at_all(points).get(.., ..self.modes()).to_owned()
     }
 
-    /// Responses of ideal force actuators, for focusing and measuring the ordinary way.
+    /// Modal responses of ideal force actuators at these points (m), for focusing and evaluation by the crates
+    /// `unripple-focus` and `unripple-field`.
     pub fn responses(&self, actuators: &[Point]) -> Responses {
         let ports = (1..).zip(actuators).map(|(i, at)| Port { name: format!("a{i}"), at: *at }).collect();
         Responses::Modal(ModalResponses {
@@ -136,17 +140,18 @@ impl Bench {
         })
     }
 
-    /// One pulse over a window (s).
+    /// Time reversal of a single pulse with a window (s).
     pub fn once(&self, window: f64) -> Replay {
         Replay::once(&self.poles, self.conditions.rate, window)
     }
 
-    /// One pulse over a window (s), in the same time however long that is.
+    /// Time reversal of a single pulse with a window (s), in closed form: the work does not depend on the window. For
+    /// modes that oscillate.
     pub fn once_of_any_length(&self, window: f64) -> Replay {
         Replay::of_any_length(&self.poles, self.conditions.rate, window)
     }
 
-    /// A pulse over a window (s) every `period` seconds.
+    /// Time reversal of a pulse repeated every `period` seconds, with a window (s), in the steady state.
     pub fn repeated(&self, window: f64, period: f64) -> Replay {
         Replay::repeated(&self.poles, self.conditions.rate, window, period)
     }
@@ -156,7 +161,7 @@ impl Bench {
         rings(&self.poles, self.conditions.rate, window_samples(window, self.conditions.rate))
     }
 
-    /// A target (m) and its focal disc of 4/3 λ_min.
+    /// The points outside and inside the focal disc, of radius 4/3 λ_min, of a target (m).
     pub fn outside(&self, target: Point) -> Outside {
         let reach = self.conditions.focal_radius();
         let within: Vec<usize> =
@@ -200,7 +205,7 @@ impl Bench {
     }
 }
 
-/// The first modes of more.
+/// Shapes of the first `modes` modes only.
 #[derive(Debug)]
 struct Leading {
     shapes: Arc<Modes>,

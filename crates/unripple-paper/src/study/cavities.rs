@@ -1,4 +1,4 @@
-//! Outlines of one area, from the most to the least symmetric.
+//! Outlines of equal area, from the most to the least symmetric.
 
 use std::f64::consts::PI;
 use unripple_core::{Outline, Point, Shape};
@@ -10,9 +10,9 @@ const ASPECT: f64 = 1.5;
 const IRREGULAR: [(f64, f64); 6] =
     [(0.0, 0.31), (0.42, 0.0), (1.17, 0.09), (1.33, 0.74), (0.71, 1.12), (0.13, 0.93)];
 
-/// Clamped outlines of one area (m²), from the most to the least symmetric: square, rectangle, circle, stadium and an
-/// irregular polygon. The first three are integrable cavities, whose rays keep to regular paths; in the stadium (Bunimovich
-/// 1979) nearly every ray visits every place in every direction, and the polygon has no symmetry left.
+/// Clamped outlines of equal area (m²), from the most to the least symmetric: square, rectangle, circle, stadium and an
+/// irregular polygon. The first three are integrable cavities, whose rays keep to regular paths; in the stadium
+/// (Bunimovich 1979) nearly every ray passes through every place in every direction, and the polygon has no symmetry.
 ///
 /// ```
 /// let outlines = unripple_paper::study::cavities(0.0225);

@@ -1,4 +1,4 @@
-//! What real coils do to a surface: their mass, and the damping by an amplifier that holds their voltage.
+//! Effect of real coils on a surface: their mass, and the damping by an amplifier that holds their voltage.
 
 use super::StudyError;
 use std::f64::consts::{PI, TAU};
@@ -16,7 +16,7 @@ const REMANENCE: f64 = 1.2;
 /// Cells of the grid per shortest wavelength that contrast is taken on, as everywhere.
 const CELLS: f64 = 8.0;
 
-/// A kind of actuator put at all of a surface's places.
+/// A kind of moving-magnet actuator, used at all actuators of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coils {
     /// Force constant bl, in N/A.
@@ -27,12 +27,13 @@ pub struct Coils {
     pub inductance: f64,
     /// Mass on the sheet, in kg.
     pub moving_mass: f64,
-    /// What the amplifier holds; `None` for an ideal force with the mass.
+    /// Quantity that the amplifier imposes, current or voltage; `None` for an ideal force with the same mass.
     pub driven_by: Option<CoilDrive>,
 }
 
 impl Coils {
-    /// The paper's coil as printed (section 4: 6.2 Ω, 1.9 mH, 6 N/A), with a mass of 100 mg, which it does not print.
+    /// The paper's coil with the printed data (section 4: 6.2 Ω, 1.9 mH, 6 N/A) and a mass of 100 mg, which the paper
+    /// does not give.
     pub fn papers(driven_by: CoilDrive) -> Self {
         Self {
             force_constant: 6.0,
@@ -49,7 +50,7 @@ impl Coils {
         ActuatorKind::MovingMagnet { force_constant, resistance, inductance, moving_mass, driven_by }
     }
 
-    /// The drive that presses with 1 N on what does not move: in A or V, at low frequency.
+    /// The drive, in A or V, that exerts 1 N on an immovable body at low frequency.
     pub fn drive_for_one_newton(&self) -> f64 {
         match self.driven_by {
             Some(CoilDrive::Voltage) => self.resistance / self.force_constant,
@@ -58,23 +59,24 @@ impl Coils {
     }
 }
 
-/// A surface with such coils.
+/// Decay and focus of a surface with coils of one kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coiled {
     /// The kind of coil.
     pub coils: Coils,
-    /// Median amplitude decay time of the oscillations in the band, in s.
+    /// Median amplitude decay time of the oscillating modes, in s.
     pub decay_time_s: f64,
     /// Contrast of a time-reversed focus.
     pub contrast: f64,
-    /// Its peak velocity where the drive's peak would press with 1 N on what does not move, in m/s.
+    /// Peak velocity of this focus, in m/s, with a drive whose peak would exert 1 N on an immovable body.
     pub peak_velocity_m_s: f64,
 }
 
-/// A focus at a place for a window (s), made with each kind of coil at the surface's places, contacts of some radius (m).
+/// Computes a time-reversed focus at a point with a window (s) for each kind of coil, at the surface's actuator
+/// positions, with magnets in contact over discs of radius `contact_radius` (m).
 ///
 /// # Errors
-/// [`StudyError`] where responses, focus or field cannot be made.
+/// [`StudyError`] where responses, focus or field cannot be computed.
 pub fn coils(
     surface: &Surface,
     kinds: &[Coils],
@@ -100,7 +102,7 @@ pub fn coils(
     kinds.iter().map(row).collect()
 }
 
-/// Median of 1/σ over the distinct oscillations that swing.
+/// Median of 1/σ over the distinct modes that oscillate.
 fn median_decay(responses: &Responses) -> f64 {
     let Responses::Modal(modal) = responses else { return f64::NAN };
     let mut poles: Vec<(f64, f64)> =
@@ -109,10 +111,10 @@ fn median_decay(responses: &Responses) -> f64 {
     median(poles.iter().map(|(_, sigma)| 1.0 / sigma)).unwrap_or(f64::NAN)
 }
 
-/// Whether a force constant can belong to a coil and a magnet, in numbers.
+/// Data for judging whether a force constant is possible for a coil and its magnet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Credibility {
-    /// Damping (bl)²/R by a source of voltage, in N·s/m.
+    /// Damping (bl)²/R of a coil driven by a voltage source, in N·s/m.
     pub coil_damping: f64,
     /// Point resistance of an infinite sheet at the frequency, 1/Re Y = 4(R + 2Dk²)/ω, in N·s/m.
     pub sheet_resistance: f64,
@@ -123,12 +125,12 @@ pub struct Credibility {
     /// Turns that give the coil its inductance at a radius of the magnet's diameter: L ≈ μ_0 N² r (a coil about as long as
     /// wide, within a factor of two).
     pub turns: f64,
-    /// Force constant that those turns can have: the magnet's moment times the largest gradient on a loop's axis,
-    /// N B_r V/μ_0 · 0.43 μ_0/r², in N/A.
+    /// Largest force constant with that number of turns: the magnet's moment times the largest gradient on the axis of
+    /// a loop, N B_r V/μ_0 · 0.43 μ_0/r², in N/A.
     pub reachable: f64,
 }
 
-/// The numbers for a coil, a round magnet of some diameter and thickness (m), and a sheet at a frequency (Hz).
+/// Computes these data for a coil, a round magnet of given diameter and thickness (m), and a sheet at a frequency (Hz).
 pub fn credibility(coils: &Coils, [diameter, thickness]: [f64; 2], medium: &Medium, hz: f64) -> Credibility {
     let k = medium.wavenumber(TAU * hz);
     let slope = medium.tension + 2.0 * medium.bending_stiffness * k * k;

@@ -1,4 +1,4 @@
-//! Simulated contrast beside the closed forms, one parameter varied at a time.
+//! Simulated contrast compared with the closed forms, one parameter varied at a time.
 
 use super::{Bench, Draw, Random, Replay, Sampling, StudyError};
 use rayon::prelude::*;
@@ -6,14 +6,15 @@ use unripple_core::{Point, Surface};
 use unripple_linalg::{Mat, MatRef, times};
 use unripple_physics::design::{Cavity, closed};
 
-/// A simulated contrast beside what is predicted for it.
+/// A simulated contrast, with the predictions of the closed forms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Compared {
     /// Number of actuators N.
     pub actuators: usize,
-    /// What was varied: a window (s), a period (s), the top of a band (Hz) or a ratio of noise.
+    /// Value of the parameter that was varied: a window (s), a period (s), the top of a band (Hz), or a
+    /// noise-to-response ratio of rms.
     pub varied: f64,
-    /// Mean over placements and targets.
+    /// Mean of the simulated contrast over placements and targets.
     pub simulated: f64,
     /// Contrast by [`Cavity`], the refined closed form.
     pub predicted: f64,
@@ -21,7 +22,7 @@ pub struct Compared {
     pub plain: f64,
 }
 
-/// Contrast of one focus against window (s, ascending) and number of actuators.
+/// Contrast of a single focus, one row for each window (s, ascending) and number of actuators.
 ///
 /// ```
 /// # use unripple_paper::study::{Bench, CELLS, Sampling, against_window};
@@ -51,7 +52,7 @@ pub fn against_window(
     spread(windows, actuators, &means).map(row).collect()
 }
 
-/// Contrast of a focus repeated at periods (s) with a window (s), against number of actuators.
+/// Contrast of a focus repeated with a period, with a window (s): one row for each period (s) and number of actuators.
 pub fn against_period(
     bench: &Bench,
     surface: &Surface,
@@ -73,7 +74,8 @@ pub fn against_period(
     spread(periods, actuators, &means).map(row).collect()
 }
 
-/// Contrast against the top of the band (Hz), window (s) and number of actuators kept. The disc grows with λ_min.
+/// Contrast of a single focus, one row for each top of the band (Hz), at one number of actuators and one window (s).
+/// The focal disc grows with the shortest wavelength.
 ///
 /// # Errors
 /// [`StudyError::Field`] if a band is so narrow that its grid has no cells.
@@ -95,8 +97,9 @@ pub fn against_band(
     Ok(tops.iter().map(row).collect::<Result<Vec<_>, StudyError>>()?.concat())
 }
 
-/// Contrast when responses are recorded, or the drive emitted, with white noise: against the rms of the noise within
-/// the band over that of the responses over the window (s), ratios without unit.
+/// Contrast of a single focus where white noise is added to the recorded responses or to the drive, one row for each
+/// noise ratio, at one number of actuators and one window (s). The ratio is the rms of the noise within the band over
+/// the rms of the responses over the window, without unit.
 pub fn against_noise(
     bench: &Bench,
     surface: &Surface,
@@ -134,7 +137,7 @@ pub fn against_noise(
         .collect()
 }
 
-/// What white noise of unit variance on every channel leaves of each mode at the focal instant.
+/// Velocity of each mode at the focal instant due to white noise of unit variance on every channel.
 fn noise_state(
     bench: &Bench,
     inputs: MatRef<'_, f64>,
@@ -151,7 +154,7 @@ fn noise_state(
 
 /// Standard deviation of the white samples whose rms within the band is that of the responses over the window.
 ///
-/// The velocity of a focus is the energy Σ∫h² of the responses it was made of.
+/// The velocity at a focus is the energy Σ∫h² of the responses from which it was computed.
 fn noise_level(bench: &Bench, velocity: f64, actuators: usize, window: f64) -> f64 {
     let conditions = bench.conditions();
     let share = 2.0 * (conditions.band[1] - conditions.band[0]) / conditions.rate;

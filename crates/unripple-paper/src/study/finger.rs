@@ -1,4 +1,4 @@
-//! What a finger does to a focus: the motion under it and beside it, touched and untouched.
+//! Effect of a finger on a focus: the motion under the finger and elsewhere, with and without the finger.
 
 use super::StudyError;
 use unripple_core::{Contact, Drive, Finger, Point, Responses, Surface};
@@ -10,24 +10,27 @@ use unripple_physics::{Footprint, ResponseOptions, responses};
 /// Points along each side of the lattice on which noise elsewhere is taken.
 const LATTICE: usize = 14;
 
-/// How long around the focal instant what moves under the finger is the focus and not noise, in periods of the band's top.
+/// Time around the focal instant, on either side, that does not count as noise, in periods of the top of the band.
 const PULSE: f64 = 4.0;
 
-/// A touched focus beside the same focus untouched. Attenuations are untouched over touched.
+/// A focus with a finger on the surface, compared with the same focus without it. Attenuations are ratios: without the
+/// finger over with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touched {
     /// Radius of the contact disc, in metres.
     pub contact_radius_m: f64,
-    /// Whether the drive was made from responses with the finger on, rather than without.
+    /// Whether the drive was computed from responses with the finger on the surface.
     pub known: bool,
-    /// Attenuation of the largest velocity of the place of contact, averaged over the disc.
+    /// Attenuation of the largest velocity at the contact, averaged over the contact disc.
     pub focus_velocity: f64,
-    /// Attenuation of the largest displacement there.
+    /// Attenuation of the largest displacement, averaged over the contact disc.
     pub focus_displacement: f64,
-    /// Attenuation of the largest velocity of the sheet at the centre of the contact, which presses evenly and does not stiffen it:
-    /// what a vibrometer sees from below.
+    /// Attenuation of the largest velocity of the sheet at the centre of the contact, as a vibrometer would measure it
+    /// from below. The finger loads the disc with an even pressure and does not stiffen the sheet, so this differs from
+    /// the mean over the disc.
     pub centre_velocity: f64,
-    /// Attenuation of the noise of the disc: rms velocity of its mean, before and after the focus.
+    /// Attenuation of the noise at the contact: rms of the disc's mean velocity over [0, 2T], without four periods of
+    /// the top of the band on either side of the focal instant.
     pub noise_under_finger: f64,
     /// Attenuation of the noise elsewhere: rms velocity outside the focal disc over [0, 2T].
     pub noise_elsewhere: f64,
@@ -35,9 +38,9 @@ pub struct Touched {
     pub velocity_m_s: f64,
     /// Largest displacement of the finger, in metres.
     pub displacement_m: f64,
-    /// Energy that the finger has taken by 2T, in J.
+    /// Energy dissipated in the finger by the time 2T, in J.
     pub finger_energy_j: f64,
-    /// Energy that the drive has put into the sheet by 2T, in J.
+    /// Work of the actuators on the sheet by the time 2T, in J.
     pub drive_energy_j: f64,
 }
 
@@ -52,11 +55,11 @@ struct Motion {
     squared: f64,
 }
 
-/// The focus at a place under a finger of several contact radii (m), for a window (s): for each radius first with the drive of the
-/// untouched surface, then with that of the touched one.
+/// Compares a focus at a point with and without a finger on it, for several contact radii (m) and a window (s). There
+/// are two rows for each radius: first with the drive computed without the finger, then with the one computed with it.
 ///
 /// # Errors
-/// [`StudyError`] where responses, focus or field cannot be made: a place outside the outline, for example.
+/// [`StudyError`] where responses, focus or field cannot be computed: for a point outside the outline, for example.
 pub fn finger(surface: &Surface, at: Point, radii: &[f64], window: f64) -> Result<Vec<Touched>, StudyError> {
     let bare = responses(surface, &ResponseOptions::default())?;
     let options = Options {
@@ -137,8 +140,8 @@ fn motion(
     })
 }
 
-/// Work of force actuators on the sheet until some time (s), in J: every sample is an impulse, which does the work of its strength
-/// times the mean of the velocities before and after. Zero for drives that are not forces.
+/// Work of force actuators on the sheet until a time (s), in J: every sample is an impulse, whose work is its strength
+/// times the mean of the velocities just before and just after it. Zero for sampled responses.
 fn work(responses: &Responses, drive: &Drive, surface: &Surface, end: f64) -> Result<f64, StudyError> {
     let places: Vec<Point> = surface.actuators.iter().map(|actuator| actuator.at).collect();
     let rate = drive.rate();

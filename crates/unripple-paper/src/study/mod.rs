@@ -1,8 +1,9 @@
-//! Statistics of time-reversed focusing over many placements and targets, beside the closed forms.
+//! Statistics of time-reversed focusing over many placements of actuators and targets, compared with the closed forms.
 //!
-//! [`Sampling`] draws actuators along the rim and targets inside, [`Bench`] holds a surface's modes ready for many
-//! foci. [`against_window`] and its sisters give tables of simulated and predicted contrast, [`size()`] the width of foci in
-//! space and time. Actuators are ideal point forces, whatever the surface's own are.
+//! [`Sampling`] draws random places for actuators along the edge and for targets inside, [`Bench`] holds what a
+//! surface's modes need for many foci. [`against_window`], [`against_period`], [`against_band`] and [`against_noise`]
+//! give tables of simulated and predicted contrast, [`size()`] the width of foci in space and time. Actuators are ideal
+//! point forces, whatever those of the surface are.
 //!
 //! ```
 //! use unripple_paper::study::*;

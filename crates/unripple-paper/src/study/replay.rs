@@ -1,12 +1,14 @@
-//! Time reversal mode by mode: the matrix of residual amplitudes at the focal instant.
+//! Time reversal in modal coordinates: the matrix from recorded to focused amplitudes.
 
 use unripple_core::{Pole, window_samples};
 use unripple_linalg::{Accum, Mat, MatRef, Par, Scale, c64, multiply};
 
-/// What a replayed response leaves of every mode at the focal instant: `I_mn = Σ_i heard_m[i] g_n[i] / rate`.
+/// Velocity of every mode at the focal instant after a time-reversed response is played:
+/// `I_mn = Σ_i heard_m[i] g_n[i] / rate`.
 ///
-/// The response holds g_n; mode m hears it through g_m of the same age for one pulse, and through all pulses of a comb.
-/// It is kept as a product of two factors where that is cheaper to apply than the modes x modes matrix.
+/// The response is a sum of g_n, the velocities of the modes after an impulse; `heard_m[i]` is the velocity of mode m
+/// that is left at the focal instant by an impulse i samples earlier: g_m for one pulse, the sum over all earlier
+/// pulses for a repeated one. The matrix is kept as a product of two factors where that is cheaper to apply.
 #[derive(Clone, Debug)]
 pub struct Replay(Form);
 
@@ -17,14 +19,14 @@ enum Form {
 }
 
 impl Replay {
-    /// One pulse over a window (s) at `rate` samples per second.
+    /// A single pulse with a window (s), at `rate` samples per second.
     pub fn once(poles: &[Pole], rate: f64, window: f64) -> Self {
         let rings = rings(poles, rate, window_samples(window, rate));
         Self::of(rings.clone(), rings, rate)
     }
 
-    /// The same at any length for the same work: the sums over samples in closed form. For modes that swing, σ < ω, or stand
-    /// still.
+    /// A single pulse with a window (s), for any window with the same work: the sums over samples are computed in
+    /// closed form. For modes that oscillate (σ < ω) or have ω = 0.
     ///
     /// g_m = Re a_m z_m^i, so that I_mn = ½ Re Σ_i (a_m a_n (z_m z_n)^i + a_m a_n* (z_m z_n*)^i), two geometric series.
     pub fn of_any_length(poles: &[Pole], rate: f64, window: f64) -> Self {
@@ -39,10 +41,10 @@ impl Replay {
         Self(Form::Whole(whole))
     }
 
-    /// A pulse repeated every `period` seconds, long after the first and long before the last.
+    /// A pulse repeated every `period` seconds in the steady state, with a window (s), at `rate` samples per second.
     ///
-    /// The pulses before have left the state Σ_k P^k = (1 - P)⁻¹ of an impulse, P the propagator over a period, and one
-    /// more begins every period.
+    /// The earlier pulses have left the state Σ_k P^k = (1 - P)⁻¹ of an impulse, P the propagator over a period, and
+    /// one more begins every period.
     pub fn repeated(poles: &[Pole], rate: f64, window: f64, period: f64) -> Self {
         let (last, step) = (window_samples(window, rate), window_samples(period, rate).max(1));
         let mut heard = Mat::zeros(last + 1, poles.len());
@@ -62,7 +64,7 @@ impl Replay {
         Self::of(heard, rings(poles, rate, last), rate)
     }
 
-    /// I times a matrix of modes x any columns.
+    /// The product of I (modes x modes) and a matrix with one row per mode.
     pub fn apply(&self, columns: MatRef<'_, f64>) -> Mat<f64> {
         match &self.0 {
             Form::Whole(map) => product(map.as_ref(), columns),

@@ -3,45 +3,47 @@
 use super::Random;
 use unripple_core::{Outline, Point};
 
-/// Pieces that a round rim is cut into to place actuators along it. Half a degree of a circle each.
+/// Pieces into which a round edge is cut to place actuators along it, half a degree of a circle each.
 const RIM_STEPS: usize = 720;
 
-/// Draws after which a place that cannot be found is taken as it is.
+/// Most draws of a place; after these one that does not meet all conditions is used.
 const TRIES: usize = 1000;
 
-/// What a statistic is taken over: seeded placements of actuators along the rim, and targets inside.
+/// A random sample of placements: actuators near the edge and targets inside, from a seed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sampling {
     /// Number of placements of the actuators.
     pub placements: usize,
     /// Number of targets for each placement.
     pub targets: usize,
-    /// Nearest and farthest an actuator may be from the rim, in metres.
+    /// Least and greatest distance of actuators from the edge, in metres.
     pub depth: [f64; 2],
-    /// Nearest a target may be to the rim, in metres.
+    /// Least distance of targets from the edge, in metres.
     pub margin: f64,
     /// Seed of the placements and targets.
     pub seed: u64,
 }
 
 impl Default for Sampling {
-    /// Actuators 6 to 12 mm from the rim, as on the paper's surface, and targets at least 20 mm from it.
+    /// 24 placements with 4 targets each: actuators 6 to 12 mm from the edge, as on the paper's surface, and targets at
+    /// least 20 mm from it.
     fn default() -> Self {
         Self { placements: 24, targets: 4, depth: [6e-3, 12e-3], margin: 20e-3, seed: 1 }
     }
 }
 
-/// One draw: where actuators and targets are.
+/// One placement: positions of actuators and targets.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Draw {
-    /// Places of the actuators, in m.
+    /// Positions of the actuators, in m.
     pub actuators: Vec<Point>,
-    /// Places of the targets, in m.
+    /// Positions of the targets, in m.
     pub targets: Vec<Point>,
 }
 
 impl Sampling {
-    /// Every draw of `actuators` actuators on an outline. The first k actuators of a draw do not depend on how many follow.
+    /// All placements of `actuators` actuators (a number) on an outline. The first k actuators of a placement do not
+    /// depend on how many follow.
     pub fn draws(&self, outline: &Outline, actuators: usize) -> Vec<Draw> {
         let rim = outline.rim(RIM_STEPS);
         let draw = |placement: usize| {

@@ -1,4 +1,4 @@
-//! Size of the focal spot beside the closed forms.
+//! Size of the focus in space and time, compared with the closed forms.
 
 use super::contrast::{mean, over};
 use super::{Bench, Sampling};
@@ -14,7 +14,7 @@ const DIRECTIONS: usize = 16;
 const RADII: usize = 40;
 const REACH: f64 = 1.0;
 
-/// Simulated size of a focus beside the closed forms.
+/// Simulated size of a focus in space and time, with the predictions of the closed forms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Size {
     /// Mean full width at half maximum in space, in metres.
@@ -28,7 +28,8 @@ pub struct Size {
 }
 
 /// Size of foci in space (m) and time (s) for a number of actuators and a window (s), averaged over placements and
-/// targets. Foci that do not fall to half within a wavelength are left out.
+/// targets. Foci that do not fall to half within a shortest wavelength, or within a period of the top of the band, are
+/// left out.
 pub fn size(
     bench: &Bench,
     surface: &Surface,

@@ -1,4 +1,4 @@
-//! The reversed recording, played.
+//! The reversed recording of Fig. 1, played by the actuator.
 
 use super::{C, FORCE, IMPULSE, Recording, cells, curve, driven_at, first, largest, place, strip};
 use crate::reproduce::Bed;
