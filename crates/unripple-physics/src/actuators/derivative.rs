@@ -1,35 +1,35 @@
-//! The derivative of a signal that is limited to a band and cut at its ends.
+//! The derivative of a band-limited signal that is cut off at its ends.
 
 use unripple_dsp::kaiser;
 use unripple_linalg::{Cholesky, Lu, Mat};
 
-/// Samples on either side that a derivative is made from; with [`BETA`] it is right to 1e-4 up to 0.42 of the
-/// rate. Doubled, that is so up to about 0.46, and twice as many samples at each end are made by other taps.
+/// Number of samples on each side that a derivative is computed from; with [`BETA`] its error is 1e-4 up to 0.42 of the
+/// rate. Doubled, this holds up to about 0.46, and twice as many samples at each end need taps of their own.
 const HALF: usize = 32;
-/// Shape of the Kaiser window over them: side lobes below -110 dB. Doubled, the band in which it is right
+/// Shape of the Kaiser window over these samples: side lobes below -110 dB. Doubled, the band of that accuracy
 /// shrinks.
 const BETA: f64 = 12.0;
 
-/// Power outside the band that taps near an end may take in, over the error inside: keeps them small, costs
-/// 3e-4 at the very end of a signal that reaches a tenth of the rate. Doubled, taps are a little smaller and
-/// errors larger.
+/// Weight of the power of the taps (their response outside the band) against the error inside: it keeps taps near an end
+/// small, and costs an error of 3e-4 at the very end of a signal that reaches a tenth of the rate. Doubled, taps are a
+/// little smaller and errors larger.
 const OUTSIDE: f64 = 1e-9;
 
-/// Takes derivatives of signals up to a frequency.
+/// A differentiator for signals up to a given frequency.
 ///
-/// A signal that was cut is not silent beyond the cut: taken as silent, it would step there, and a step's derivative is an impulse. Within
-/// `HALF` samples of an end, the derivative is made from the samples that are there alone, by taps that are best over the band.
+/// A signal that was cut off is not zero beyond its ends: padded with zeros, it would have a step there, whose derivative is an impulse.
+/// Within `HALF` samples of an end, the derivative is therefore computed only from samples that exist, by least-squares taps for the band.
 #[derive(Clone, Debug)]
 pub(super) struct Derivative {
     rate: f64,
-    /// Taps with samples enough on either side, from the next one on; those before are the same with the other sign.
+    /// Taps away from the ends, for the samples after the present one; those before have the opposite sign.
     inner: Vec<f64>,
-    /// Taps where so many samples precede, from the first of these on.
+    /// Taps near an end, for each number of samples before the present one, from the first sample on.
     edge: Vec<Vec<f64>>,
 }
 
 impl Derivative {
-    /// For signals at `rate` samples per second that reach `top` (Hz).
+    /// A differentiator for signals at `rate` samples per second with frequencies up to `top` (Hz).
     pub fn new(rate: f64, top: f64) -> Self {
         let tap = |k: usize| {
             let share = k as f64 / (HALF + 1) as f64;
@@ -45,8 +45,8 @@ impl Derivative {
         }
     }
 
-    /// The derivative of a signal, sample by sample, in its unit per second; of signals shorter than the taps
-    /// at both ends, silence goes on beyond what is there.
+    /// The derivative of a signal at each sample, in its unit per second; a signal shorter than the taps counts as zero
+    /// beyond its ends.
     pub fn of(&self, signal: &[f64]) -> Vec<f64> {
         let last = signal.len().saturating_sub(1);
         let at = |i: Option<usize>| i.and_then(|i| signal.get(i)).copied().unwrap_or(0.0);
@@ -67,9 +67,9 @@ impl Derivative {
     }
 }
 
-/// Taps on samples from `before` ahead of one to `after` behind it, whose sum is the derivative there, time in samples.
+/// Taps on `before` samples before and `after` samples after the present one, for the derivative there per sample interval.
 ///
-/// Least ∫ |Σ t_j e^{jωi} - iω|² dω from 0 to `top`, so that Σ_k ∫ cos((j - k)ω) dω t_k = ∫ ω sin(jω) dω.
+/// They minimise ∫ |Σ t_j e^{iωj} - iω|² dω from 0 to `top`, so that Σ_k ∫ cos((j - k)ω) dω t_k = ∫ ω sin(jω) dω.
 fn taps(before: usize, after: usize, top: f64) -> Vec<f64> {
     let count = before + after + 1;
     let place = |j: usize| j as f64 - before as f64;

@@ -4,7 +4,7 @@ use super::{Entry, Transducer};
 use crate::Footprint;
 use unripple_core::{Actuator, Outline};
 
-/// An ideal force, at a point or even over a disc: 1 N per unit of drive, and nothing hangs on the sheet.
+/// An ideal force at a point, or evenly over a disc: 1 N per unit of drive, without a load on the sheet.
 pub(super) fn transducer(actuator: &Actuator, outline: &Outline) -> Transducer {
     Transducer {
         footprint: Footprint::disc(actuator.at, actuator.contact_radius, outline),

@@ -1,9 +1,9 @@
-//! Actuators: the contact, force and load that each kind is to the sheet.
+//! Actuators: the contact, force and load of each kind on the sheet.
 //!
-//! Every kind of actuator is one file that turns its data into a [`Transducer`]: where it touches, what force it makes of its
-//! drive, and what it hangs on the sheet. To add a kind, add its variant to
+//! Each kind of actuator has a file that turns its data into a [`Transducer`]: its contact area, its force per drive, and its
+//! load on the sheet. To add a kind, add its variant to
 //! [`ActuatorKind`](unripple_core::ActuatorKind), a file here with a function `transducer` like those of the others, and an
-//! arm in [`Transducer::of`]. Nothing else needs to know.
+//! arm in [`Transducer::of`]. No other code depends on the kinds.
 
 mod derivative;
 mod force;
@@ -16,38 +16,38 @@ pub use sensor::{Sensor, sensed, sensors};
 use crate::{Footprint, Load, PhysicsError};
 use unripple_core::{Actuator, ActuatorKind, Outline, Surface, require};
 
-/// How a drive enters the sheet: as a force, or through a coil's voltage.
+/// How the drive of an actuator acts: directly as a force, or as the voltage of a coil.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Entry {
-    /// As a force in step with the drive.
+    /// The force is proportional to the drive at each instant.
     Force,
-    /// As the voltage on the coil of the actuator's own load, whose current is the force.
+    /// The drive is the voltage of the coil in the actuator's load; the force is proportional to its current.
     Voltage,
 }
 
-/// An actuator as the sheet knows it. What drives also senses: by reciprocity the same footprint and gain turn the sheet's
-/// motion into a signal, that of its [`Sensor`].
+/// An actuator as a force on the sheet. By reciprocity, the same contact and gain also turn the sheet's motion into its sensor
+/// signal ([`Sensor`]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transducer {
     /// Contact through which it acts, as points and weights.
     pub footprint: Footprint,
-    /// Force (N) or moment functional (N·m) per unit of drive, through the footprint; for [`Entry::Voltage`], force per
-    /// ampere in the coil.
+    /// Force through the footprint per unit of drive (N per unit), or for a patch the moment per length of its rim (N per V); for
+    /// [`Entry::Voltage`], the force per coil current (N/A).
     pub gain: f64,
-    /// How the drive enters: as a force or as a coil's voltage.
+    /// How the drive acts: as a force or as a coil's voltage.
     pub entry: Entry,
-    /// What hangs on the sheet because of it.
+    /// The load of the actuator on the sheet (mass, coil); `None` for none.
     pub load: Option<Load>,
     /// Unit of the drive: N, A or V.
     pub unit: &'static str,
 }
 
 impl Transducer {
-    /// The transducer that an actuator is.
+    /// The transducer of an actuator on a sheet of some outline.
     ///
     /// # Errors
     /// [`PhysicsError::Unsupported`] for a place outside the outline or a patch partly beyond the rim,
-    /// [`PhysicsError::Range`] for values that cannot be.
+    /// [`PhysicsError::Range`] for a value out of its range.
     pub fn of(actuator: &Actuator, outline: &Outline) -> Result<Self, PhysicsError> {
         if !outline.contains(actuator.at) {
             return Err(PhysicsError::Unsupported {
@@ -70,7 +70,7 @@ impl Transducer {
 }
 
 impl Transducer {
-    /// Force per unit of drive where nothing hangs on the sheet: a coil of no force constant has none.
+    /// Force per unit of drive if no load acts on the sheet: 0 for a coil driven by a voltage, which then has no force constant.
     pub(crate) fn unloaded_gain(&self) -> f64 {
         match self.entry {
             Entry::Force => self.gain,
@@ -79,7 +79,7 @@ impl Transducer {
     }
 }
 
-/// The transducers that a surface's actuators are, in channel order.
+/// The transducers of a surface's actuators, in channel order.
 ///
 /// # Errors
 /// Those of [`Transducer::of`], with the actuator's index.

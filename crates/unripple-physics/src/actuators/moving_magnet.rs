@@ -1,16 +1,15 @@
-//! A voice coil whose magnet rides on the sheet, driven by current or voltage.
+//! A fixed voice coil whose magnet is attached to the sheet, driven by current or voltage.
 
 use super::{Entry, Transducer};
 use crate::{Circuit, Footprint, Load};
 use unripple_core::{Actuator, ActuatorKind, CoilDrive, Outline};
 
-/// A magnet that rides on the sheet in a fixed coil: force bl·i, electromotive force bl·v, coil R + Ls
-/// (Beranek, *Acoustics*, 1954, chapter 3, for a coil that moves in a fixed magnet's field, which is the same).
+/// A magnet that is attached to the sheet and moves in a fixed coil: force bl·i, electromotive force bl·v, coil impedance R + Ls
+/// (Beranek, *Acoustics*, 1954, chapter 3, for a coil that moves in a fixed magnet's field, which has the same equations).
 ///
-/// With a current source the coil's voltage is free: force bl per ampere, and the sheet carries the magnet's
-/// mass alone. With a voltage source the sheet's motion drives a current, L di/dt + R i = V - bl·v: the coil is
-/// part of the load, and damps the sheet by (bl)²/(R + Ls). What is sensed either way, [`Sensor`](super::Sensor)
-/// says.
+/// With a current source the force is bl per ampere, and the only load on the sheet is the magnet's mass. With a voltage source
+/// the sheet's motion drives a current, L di/dt + R i = V - bl·v: the coil is part of the load, and damps the sheet by
+/// (bl)²/(R + Ls). For the signals sensed in both cases see [`Sensor`](super::Sensor).
 pub(super) fn transducer(actuator: &Actuator, outline: &Outline) -> Transducer {
     let ActuatorKind::MovingMagnet { force_constant, resistance, inductance, moving_mass, driven_by } =
         actuator.kind

@@ -4,12 +4,12 @@ use super::{Entry, Transducer, place};
 use crate::{Footprint, Load, PhysicsError};
 use unripple_core::{Actuator, ActuatorKind, Outline, require};
 
-/// A round piezo patch, thin beside the sheet: a line moment of some N/V along its rim, which does the work
-/// moment·∮ ∂u/∂n ds = moment·∫ ∇²u dA (Dimitriadis, Fuller and Rogers, *J. Vib. Acoust.* 113, 100, 1991). Its mass lies evenly
-/// on the disc; its stiffness is left out.
+/// A round piezo patch, thin compared with the sheet: a bending moment along its rim, in N per volt, which does the work
+/// moment·∮ ∂u/∂n ds = moment·∫ ∇²u dA (Dimitriadis, Fuller and Rogers, *J. Vib. Acoust.* 113, 100, 1991). Its mass is spread
+/// evenly over the disc; its stiffness is neglected.
 ///
-/// A patch in its sensing role turns the same integral of the sheet's motion into charge, and that of its velocity into the current
-/// that it hears ([`Sensor`](super::Sensor)).
+/// As a sensor, a patch turns the same integral of the sheet's displacement into charge, and that of its velocity into the
+/// current of its signal ([`Sensor`](super::Sensor)).
 pub(super) fn transducer(actuator: &Actuator, outline: &Outline) -> Result<Transducer, PhysicsError> {
     let ActuatorKind::Piezo { radius, moment, mass } = actuator.kind else {
         return Ok(super::force::transducer(actuator, outline));

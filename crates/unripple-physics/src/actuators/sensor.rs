@@ -1,4 +1,4 @@
-//! Actuators as sensors: the signal that the sheet's motion makes at their terminals.
+//! Actuators as sensors: the signals that the sheet's motion generates at their terminals.
 
 use super::derivative::Derivative;
 use super::{Entry, Transducer};
@@ -6,37 +6,37 @@ use crate::{Circuit, Footprint};
 use unripple_core::{ActuatorKind, ModalResponses, Surface};
 use unripple_linalg::{Mat, c64};
 
-/// An actuator in its sensing role: what the motion of the sheet, and it alone, makes at the terminals.
+/// An actuator as a sensor: its signal is the part of the quantity at its terminals that the sheet's motion causes.
 ///
-/// What is heard is the quantity whose product with the drive is power, so that with V = bl·v, v the velocity under the contact,
+/// The signal is the quantity whose product with the drive is a power. With v the velocity under the contact:
 ///
-/// | driven by | hears | of a motion v | in |
+/// | driven by | sensor signal | for a velocity v | unit |
 /// |---|---|---|---|
 /// | a force (N) | the velocity | v | m/s |
 /// | a coil's current (A) | the voltage of its open terminals | bl·v | V |
 /// | a coil's voltage (V) | the current j in its closed circuit, L dj/dt + R j = bl·v | bl·v/(R + Ls) | A |
 /// | a patch's voltage (V) | the current of its short circuit | moment·∮ ∂v/∂n ds | A |
 ///
-/// What the drive itself makes at the terminals of a coil or patch held still, R i + L di/dt or V/(R + Ls) or C dV/dt, is no part of
-/// it: on a bench a bridge or a dummy load takes it away. With that, every pair of actuators is reciprocal, whatever their kinds: the
-/// response of b to a drive at a is that of a to one at b, and an actuator hears itself with a positive sign.
-/// (L. L. Foldy and H. Primakoff, *J. Acoust. Soc. Am.* 17, 109, 1945.)
+/// What the drive itself causes at the terminals of a coil or patch that does not move, R i + L di/dt or V/(R + Ls) or C dV/dt, is
+/// not part of the signal; in a measurement, a bridge or a dummy load removes it. With this definition all pairs of actuators are
+/// reciprocal, whatever their kinds: the signal of b for a drive at a is that of a for the same drive at b, and an actuator senses
+/// its own drive with a positive sign (L. L. Foldy and H. Primakoff, *J. Acoust. Soc. Am.* 17, 109, 1945).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensor {
     /// Contact at which it senses, as points and weights.
     pub footprint: Footprint,
-    /// What is heard per m/s, through the footprint; with a closed circuit, the volts that drive the current.
+    /// Signal per velocity (m/s) through the footprint; with a closed circuit, the electromotive force per velocity, in V·s/m.
     pub gain: f64,
-    /// The circuit that the motion drives a current through, if its terminals are held at a voltage.
+    /// The closed circuit in which the motion drives a current, for a coil driven by a voltage.
     pub circuit: Option<Circuit>,
     /// Unit of the signal: m/s, V or A.
     pub unit: &'static str,
-    /// Whether it hears the velocity of a place, as a patch does not.
+    /// Whether it senses a velocity; a patch does not.
     placed: bool,
 }
 
 impl Sensor {
-    /// The sensing role of a transducer of some kind.
+    /// A transducer of some kind of actuator as a sensor.
     pub(super) fn of(transducer: &Transducer, kind: &ActuatorKind) -> Self {
         let circuit = match transducer.entry {
             Entry::Voltage => transducer.load.as_ref().and_then(|load| load.circuit),
@@ -51,19 +51,20 @@ impl Sensor {
         Self { footprint: transducer.footprint.clone(), gain: transducer.gain, circuit, unit, placed }
     }
 
-    /// Whether what it hears tells the velocity under its contact; a patch hears how the sheet bends instead.
+    /// Whether the velocity under the contact can be computed from the signal. It cannot for a patch, which senses the sheet's
+    /// bending.
     pub fn tells_velocity(&self) -> bool {
         self.placed && self.gain != 0.0
     }
 
-    /// Sensitivity: signal per m/s under the contact, in the sensor's unit, at the complex frequency `s`
+    /// Sensitivity: signal, in the sensor's unit, per velocity (m/s) under the contact, at the complex frequency `s`
     /// (1/s).
     pub fn per_velocity(&self, s: c64) -> c64 {
         self.circuit.map_or(c64::new(1.0, 0.0), |circuit| circuit.admittance(s)) * self.gain
     }
 
-    /// The signal, in the sensor's unit, of a velocity (m/s) under its contact at `rate` samples per second,
-    /// sample by sample: a line between samples.
+    /// The sensor signal, in the sensor's unit, for a velocity (m/s) under its contact, both at `rate` samples per second. The
+    /// velocity counts as linear between samples.
     pub fn hear(&self, velocity: &[f64], rate: f64) -> Vec<f64> {
         let Some(Circuit { resistance, inductance, .. }) = self.circuit else {
             return velocity.iter().map(|v| self.gain * v).collect();
@@ -82,9 +83,9 @@ impl Sensor {
         velocity.iter().map(step).collect()
     }
 
-    /// The velocities (m/s) under its contact that make it hear these signals, which reach `top` (Hz), at most 0.42 of the rate. They may
-    /// be cut, as responses are before time 0: what was cut away is not taken for silence. `None` for a patch, which hears how the sheet
-    /// bends.
+    /// The velocities (m/s) under the contact, computed back from sensor signals at `rate` samples per second whose frequencies reach
+    /// `top` (Hz), at most 0.42 of the rate. Signals may be cut off at their ends; they are not taken as zero beyond. `None` for a patch,
+    /// which senses the sheet's bending.
     pub fn velocities(&self, heard: &[Vec<f64>], rate: f64, top: f64) -> Option<Vec<Vec<f64>>> {
         if !self.tells_velocity() {
             return None;
@@ -102,9 +103,8 @@ impl Sensor {
     }
 }
 
-/// Weights of one step of the current in an R-L circuit, exact for a voltage that is a straight line between
-/// samples, for θ = R dt/L: what is left of the current, and what the voltage over resistance before and
-/// after the step drives.
+/// Weights of one step of the current in an R-L circuit, exact for a voltage that is linear between samples, for
+/// θ = R dt/L: of the current before the step, and of voltage over resistance before and after it.
 fn held(theta: f64) -> [f64; 3] {
     let left = (-theta).exp();
     let mean = -(-theta).exp_m1() / theta;
@@ -115,7 +115,7 @@ fn held(theta: f64) -> [f64; 3] {
     [left, before, now]
 }
 
-/// The sensors that a surface's actuators are, in channel order.
+/// The actuators of a surface as sensors, in channel order.
 ///
 /// # Errors
 /// Those of [`transducers`](super::transducers).
@@ -124,8 +124,8 @@ pub fn sensors(surface: &Surface) -> Result<Vec<Sensor>, crate::PhysicsError> {
     Ok(all.iter().zip(&surface.actuators).map(|(t, actuator)| Sensor::of(t, &actuator.kind)).collect())
 }
 
-/// What sensors feel of each oscillation of some responses, sensors x oscillations: what they hear is, by each one's
-/// [`Sensor::hear`], the velocity that these weights make.
+/// Readout weights of sensors for the modes of some responses, in 1/√kg, sensors x modes: the mode shapes averaged over each sensor's
+/// footprint. The velocity that they give, passed through [`Sensor::hear`], is the sensor's signal.
 pub fn sensed(sensors: &[Sensor], responses: &ModalResponses) -> Mat<f64> {
     let footprints: Vec<Footprint> = sensors.iter().map(|sensor| sensor.footprint.clone()).collect();
     Footprint::all_weights(&footprints, responses.shapes.as_ref())

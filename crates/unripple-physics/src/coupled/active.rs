@@ -1,19 +1,19 @@
-//! Reduced coordinates (component-mode synthesis): low modes kept, high ones condensed to what the loads
-//! move.
+//! Reduced coordinates (component-mode synthesis): low modes are kept, high ones condensed to the combinations that the loads
+//! excite.
 
 use super::basis::Shape;
 use super::span::Span;
 use unripple_linalg::{Mat, MatRef, times};
 
-/// How often the loads' combinations of high modes are divided by their squared frequencies: each adds a
+/// Number of times that the loads' combinations of high modes are divided by their squared frequencies: each adds a
 /// fourth power of (ω/ω_m) to the order. Doubled, twice as many coordinates are kept.
 const DEPTH: usize = 4;
 
-/// A combination that is new to less than this share adds nothing but rounding. Larger, combinations that
-/// count would be lost.
+/// A combination is left out if less than this share of it is linearly independent of the others: the rest would be
+/// rounding. Larger, combinations that matter would be lost.
 const OLD: f64 = 1e-9;
 
-/// The coordinates that feel the loads: modes one by one below some frequency, combinations above.
+/// The coordinates that couple to the loads: single modes up to some frequency, combinations of modes above.
 #[derive(Debug)]
 pub(super) struct Active {
     /// Modes x coordinates, the columns orthonormal.
@@ -27,8 +27,8 @@ pub(super) struct Active {
 }
 
 impl Active {
-    /// The coordinates for shapes, those above the angular frequency `dynamic` (rad/s) only as the loads move them. `felt` is
-    /// loads x modes.
+    /// The coordinates for shapes; those above the angular frequency `dynamic` (rad/s) only in the combinations that the loads
+    /// excite. `felt` holds the weights of the loads' footprints, loads x modes.
     pub fn of(shapes: &[Shape], felt: MatRef<'_, f64>, dynamic: f64) -> Self {
         let (low, high): (Vec<&Shape>, Vec<&Shape>) = shapes.iter().partition(|s| s.pole.omega <= dynamic);
         let vectors = moved(&high, felt);
@@ -57,7 +57,7 @@ impl Active {
     }
 }
 
-/// Orthonormal combinations of high shapes that span Ω^{-2k} Wᵀ for k = 1 … DEPTH; all of the shapes if they are no more.
+/// Orthonormal combinations of high shapes that span Ω^{-2k} Wᵀ for k = 1 … DEPTH; all shapes if there are no more of them.
 fn moved(high: &[&Shape], felt: MatRef<'_, f64>) -> Vec<Vec<f64>> {
     if high.len() <= DEPTH * felt.nrows() {
         let unit = |i: usize| (0..high.len()).map(|j| f64::from(u8::from(i == j))).collect();

@@ -1,14 +1,14 @@
-//! Mobility: velocity per force at a complex frequency, with loads.
+//! Transfer functions of a loaded sheet: velocity per drive at a complex frequency.
 
 use super::Loaded;
 use crate::Footprint;
 use unripple_linalg::{Lu, Mat, c64};
 
 impl Loaded {
-    /// Velocity felt by a footprint per unit of a transducer's drive at the complex frequency `s` (1/s), all loads on; jω for
-    /// a steady tone.
+    /// Transfer function of the loaded sheet: velocity (m/s) over a footprint per unit of the drive of the transducer with this
+    /// index, at the complex frequency `s` (1/s); s = jω for a steady tone.
     ///
-    /// By Woodbury's identity from the admittances Y of the sheet alone: Y_ba - Y_bL (1 + Z Y_LL)⁻¹ Z Y_La.
+    /// By Woodbury's identity from the admittances Y of the sheet without loads: Y_ba - Y_bL (1 + Z Y_LL)⁻¹ Z Y_La.
     pub fn admittance(&self, transducer: usize, at: &Footprint, s: c64) -> c64 {
         let read = at.weights(self.shapes.as_ref());
         let source: Vec<c64> = match self.driven_coil(transducer) {
@@ -43,7 +43,7 @@ impl Loaded {
         direct - (0..count).map(|k| back(k) * forces[(k, 0)]).sum::<c64>()
     }
 
-    /// Velocity of each mode alone per unit of modal force: s/(s² + 2σs + ω²).
+    /// Velocity of each mode without loads per unit of modal force: s/(s² + 2σs + ω²).
     fn mobilities(&self, s: c64) -> Vec<c64> {
         self.poles.iter().map(|pole| s / (s * s + s * (2.0 * pole.sigma) + pole.omega * pole.omega)).collect()
     }

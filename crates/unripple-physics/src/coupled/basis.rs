@@ -1,37 +1,37 @@
-//! Modes grouped by frequency into those that couple to loads and those that do not.
+//! Modes of equal frequency combined into those that couple to loads and those that do not.
 
 use super::span::Span;
 use unripple_core::Pole;
 use unripple_linalg::MatRef;
 
-/// Modes whose frequencies and decay rates differ by less than this share are one oscillation in several
-/// shapes: some hundred roundings. Larger, modes that are split would be taken for one.
+/// Modes whose frequencies and decay rates differ by less than this share count as degenerate: some hundred rounding
+/// errors. Larger, modes of slightly different frequencies would count as degenerate.
 const SAME: f64 = 1e-13;
 
-/// A mode that loads feel less than this share of the one they feel most, they do not feel: rounding of its
-/// shape. Larger, modes near a node of theirs would lose their damping by the load.
+/// A mode whose weight at the loads is less than this share of the largest does not couple to them: it is rounding of its
+/// shape. Larger, modes that have a node near the load would lose their damping by it.
 const UNFELT: f64 = 1e-12;
 
-/// A combination of modes of one frequency: one oscillation.
+/// A normalised combination of modes of one frequency.
 #[derive(Clone, Debug)]
 pub(super) struct Shape {
-    /// Its oscillation, as long as it does not feel the loads.
+    /// Its pole without the loads.
     pub pole: Pole,
-    /// Modes and their parts; the squares of these sum to 1.
+    /// Indices of modes and their coefficients, whose squares sum to 1.
     pub parts: Vec<(usize, f64)>,
 }
 
 impl Shape {
-    /// Its weight, from those of the modes.
+    /// Its weight, from the weights of the modes.
     pub fn weight(&self, row: unripple_linalg::RowRef<'_, f64>) -> f64 {
         self.parts.iter().map(|(mode, part)| part * row[*mode]).sum()
     }
 }
 
-/// Splits modes into those that feel the loads, and those that do not and stay as they are.
+/// Splits modes into those that couple to the loads, and those that do not and keep their poles.
 ///
-/// Of several modes of one frequency (a square has many) only as many feel the loads as there are loads: the others are
-/// turned within their space until nothing of them is left at the loads' footprints. `felt` is loads x modes.
+/// Of several modes of one frequency (a square has many), at most as many couple to the loads as there are loads: the others are
+/// combinations that vanish at the loads' footprints. `felt` holds the weights of the loads' footprints, loads x modes.
 pub(super) fn split(poles: &[Pole], felt: MatRef<'_, f64>) -> (Vec<Shape>, Vec<Shape>) {
     let most = (0..poles.len()).map(|m| largest(felt, m)).fold(0.0, f64::max);
     let (mut active, mut passive) = (Vec::new(), Vec::new());

@@ -4,12 +4,12 @@ use super::active::Active;
 use crate::{Load, PhysicsError};
 use unripple_linalg::{Mat, singular, times};
 
-/// Rigid motion is given a restoring force at this share of the highest frequency, so that displacement is
-/// known from the state: far below anything that is heard or felt. Doubled, it swings at twice that
-/// frequency.
+/// Frequency given to rigid-body motion, as a share of the highest frequency, so that displacement follows from the state: far
+/// below anything that is heard or felt. Doubled, rigid bodies oscillate at twice that frequency.
 const RIGID: f64 = 1e-8;
 
-/// Modes of the sheet with the masses and springs of its loads, no damping yet: q = Ψz, z̈ + C ż + Λz = Ψᵀ(force).
+/// Undamped modes of the sheet with the masses and springs of its loads: q = Ψz, z̈ + C ż + Λz = Ψᵀ(force), where the damping C may
+/// couple them.
 #[derive(Debug)]
 pub(super) struct Conservative {
     /// Angular frequencies √Λ, in rad/s, ascending.
@@ -23,8 +23,8 @@ pub(super) struct Conservative {
 }
 
 impl Conservative {
-    /// Takes the loads' masses, springs, dampers and coils without inductance into account; `max_hz` (Hz) is
-    /// for messages alone.
+    /// The modes with the loads' masses and springs, and the damping by the loads' dampers and coils of negligible inductance;
+    /// `max_hz` (Hz) is only used in error messages.
     ///
     /// # Errors
     /// [`PhysicsError::NotConverged`] if a decomposition fails.
@@ -51,7 +51,7 @@ impl Conservative {
     }
 }
 
-/// M^{-1/2} for the mass matrix M = I + Σ μ w wᵀ: the identity but for the few directions that loads weigh down.
+/// M^{-1/2} for the mass matrix M = I + Σ μ w wᵀ: the identity except for the few directions that have added mass.
 fn lightened(active: &Active, loads: &[Load]) -> Option<Mat<f64>> {
     let count = active.felt.ncols();
     let mut root = Mat::<f64>::identity(count, count);

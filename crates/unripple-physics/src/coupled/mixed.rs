@@ -1,17 +1,17 @@
-//! Mode shapes as linear combinations of others.
+//! Mode shapes as linear combinations of other mode shapes.
 
 use std::sync::Arc;
 use unripple_core::{Point, Shapes};
 use unripple_linalg::{Mat, times};
 
-/// Shapes that are combinations of others.
+/// Mode shapes that are linear combinations of other shapes.
 #[derive(Debug)]
 pub(super) struct Mixed {
-    /// The shapes combined.
+    /// The shapes that are combined.
     pub base: Arc<dyn Shapes>,
-    /// Combinations, base shapes x columns.
+    /// Coefficients of the combinations, base shapes x columns.
     pub mixing: Mat<f64>,
-    /// Which column each shape is; several may share one.
+    /// The column of each shape; several shapes may share one.
     pub columns: Vec<usize>,
 }
 

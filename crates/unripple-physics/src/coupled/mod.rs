@@ -1,15 +1,15 @@
-//! A sheet's modes coupled by what hangs on the sheet: dynamic substructuring.
+//! Modes of a sheet coupled by loads on it: dynamic substructuring.
 //!
-//! The displacement is u = Σ_m φ_m q_m with q̈ + 2Σq̇ + Ω²q = Φ_Aᵀ f - Wᵀ F: loads feel the velocities W q̇ at their footprints and
-//! answer with the forces F = Z(s) W q̇. Masses and springs only change the frequencies and shapes; dampers and coils make
-//! them complex. Two ways lead from here to a response: [`Loaded::admittance`], at one frequency, by Woodbury's identity,
-//! and [`Loaded::oscillations`], at all times, by the eigenvalues of the whole. They share nothing but the modes.
+//! The displacement is u = Σ_m φ_m q_m with q̈ + 2Σq̇ + Ω²q = Φ_Aᵀ f - Wᵀ F. Loads move with the velocities W q̇ at their footprints
+//! and react with the forces F = Z(s) W q̇. Masses and springs only change the frequencies and shapes; dampers and coils make
+//! them complex. Responses follow in two ways, which share only the modes: [`Loaded::admittance`], at one frequency, by Woodbury's
+//! identity, and [`Loaded::oscillations`], for all times, from the eigenvalues of the coupled system.
 //!
-//! Loads feel modes far above the band, whose resonances are out of reach but whose compliance is not: a finger's disc is
-//! smaller than the shortest wavelength. Modes up to `dynamic_hz` are kept one by one; those above only through the
-//! combinations Ω^{-2k} Wᵀ that the loads set in motion (residual attachment modes: Rubin, *AIAA J.* 13, 995, 1975), which
-//! makes what the loads feel of them exact to the order (ω/ω_m)^{4·DEPTH}. Above the highest mode known, the sheet answers as an
-//! endless one does ([`Loaded::with_rest`]).
+//! Modes far above the band contribute their compliance at the loads, though they do not resonate there, since the disc of a
+//! finger is smaller than the shortest wavelength. Modes up to `dynamic_hz` are kept one by one; those above only through the
+//! combinations Ω^{-2k} Wᵀ that the loads excite (residual attachment modes: Rubin, *AIAA J.* 13, 995, 1975), which makes their
+//! compliance at the loads exact to the order (ω/ω_m)^{4·DEPTH}. Above the highest mode computed, the response at the loads is
+//! that of an infinite sheet ([`Loaded::with_rest`]).
 
 mod active;
 mod admittance;
@@ -31,7 +31,7 @@ use std::sync::Arc;
 use unripple_core::{Onset, Pole, Shapes};
 use unripple_linalg::Mat;
 
-/// A sheet's modes with its actuators and with what hangs on it.
+/// The modes of a sheet with its actuators and the loads on it.
 #[derive(Clone, Debug)]
 pub struct Loaded {
     shapes: Arc<dyn Shapes>,
@@ -39,20 +39,20 @@ pub struct Loaded {
     transducers: Vec<Transducer>,
     /// Weights of the transducers' footprints times their gains, transducers x modes.
     driven: Mat<f64>,
-    /// Index into the loads of each transducer's own, if it acts.
+    /// Index into `loads` of each transducer's own load, if it has one.
     own: Vec<Option<usize>>,
-    /// All that has an impedance: the transducers' own loads, then the fingers.
+    /// All loads: the transducers' own, then the fingers.
     loads: Vec<Load>,
     /// Weights of the loads' footprints, loads x modes.
     felt: Mat<f64>,
 }
 
 impl Loaded {
-    /// Modes with transducers and with loads that belong to no transducer, fingers for example.
+    /// Combines modes of the sheet without loads (shapes and poles) with transducers and with further loads, such as fingers.
     ///
     /// # Errors
-    /// [`PhysicsError::Range`] for a load that is not passive; [`PhysicsError::Unsupported`] if poles and shapes differ in
-    /// number or if a pole is not that of a mode (its onset not [`Onset::Velocity`]).
+    /// [`PhysicsError::Range`] for a load that is not passive; [`PhysicsError::Unsupported`] if the numbers of poles and shapes
+    /// differ or if a pole is not that of a normal mode (its onset is not [`Onset::Velocity`]).
     pub fn new(
         shapes: Arc<dyn Shapes>,
         poles: &[Pole],
@@ -93,11 +93,11 @@ impl Loaded {
         })
     }
 
-    /// The same, the loads feeling besides the modes given what modes of wavenumbers from `above` (rad/m) on would answer.
+    /// Adds the residual compliance at the loads of all modes of wavenumbers above `above` (rad/m), which were not computed.
     ///
-    /// That is the static deflection of an endless sheet of that `medium` less its part below `above`, with its inertia to first
-    /// order; `decay` gives the decay rate (1/s) of a motion of some frequency (rad/s) and wavenumber (rad/m). Contacts count as
-    /// discs that are no smaller than `finest` (m), the thickness of the sheet.
+    /// It is the static deflection of an infinite sheet of this `medium`, without its part of wavenumbers below `above`, with
+    /// its inertia to first order. `decay` gives the decay rate (1/s) for a frequency (rad/s) and wavenumber (rad/m). Contacts
+    /// count as discs of a radius of at least `finest` (m), the thickness of the sheet. Without loads nothing is added.
     ///
     /// # Errors
     /// Those of [`Loaded::new`].
@@ -118,22 +118,22 @@ impl Loaded {
         Self::new(shapes, &poles, &self.transducers, &self.loads[owned..])
     }
 
-    /// The oscillations of the sheet without its loads, and their shapes.
+    /// The poles and shapes of the sheet without its loads, with the modes that [`Loaded::with_rest`] added.
     pub(crate) fn sheet(&self) -> (&[Pole], &Arc<dyn Shapes>) {
         (&self.poles, &self.shapes)
     }
 
-    /// Whether anything hangs on the sheet.
+    /// Whether there is a load on the sheet.
     pub fn is_loaded(&self) -> bool {
         !self.loads.is_empty()
     }
 
-    /// Input weights of the transducers without any load, transducers x modes.
+    /// Input weights of the transducers for the modes without loads (modal force per unit of drive), transducers x modes.
     pub fn input(&self) -> &Mat<f64> {
         &self.driven
     }
 
-    /// The load whose voltage a transducer is driven by.
+    /// Index of the load whose coil a transducer drives by its voltage.
     fn driven_coil(&self, transducer: usize) -> Option<usize> {
         self.own[transducer].filter(|_| self.transducers[transducer].entry == Entry::Voltage)
     }

@@ -12,14 +12,14 @@ use std::sync::Arc;
 use unripple_core::{Pole, Shapes};
 use unripple_linalg::{Mat, c64, times};
 
-/// A part of an oscillation that is less than this share of it has vanished: rounding. Larger, weak parts
-/// that are heard at a node of the others would be lost.
+/// A part of an oscillation below this share of its largest part is rounding and is left out. Larger, weak parts that matter
+/// at nodes of the others would be lost.
 const VANISHED: f64 = 1e-12;
 
-/// Decaying oscillations with real weights: what modal responses are made of.
+/// The decaying oscillations of a loaded sheet, with real input and readout weights, as modal responses need them.
 #[derive(Clone, Debug)]
 pub struct Oscillations {
-    /// The oscillations, frequencies ascending; up to four belong to one complex pair.
+    /// The poles, in order of ascending frequency; up to four oscillations belong to one complex mode.
     pub poles: Vec<Pole>,
     /// Input weights, transducers x oscillations.
     pub input: Mat<f64>,
@@ -43,14 +43,16 @@ struct Parts {
 }
 
 impl Loaded {
-    /// The oscillations of the sheet with all loads on, exact in the modes up to `dynamic_hz`; those above count as the loads
-    /// move them.
+    /// The decaying oscillations of the sheet with all loads. Modes up to `dynamic_hz` (Hz) are treated one by one, those above
+    /// only in the combinations that the loads excite.
     ///
-    /// Oscillations of a frequency |s|/2π outside `band` (Hz) are left out. A pair of poles s = -σ ± jω_d, of displacement
-    /// 2Re(D e^{st}) with D = shape · input, is ω 2Re(D) of a moved oscillation and 2Re(D s) of a struck one, both of
-    /// ω = |s| and σ; each is a sum of two products of real weights. Where the damping does not couple modes, one is left. A real
-    /// pole p is an overdamped oscillation whose other pole, 2p, cancels; real poles above the band stay, since they do not
-    /// oscillate.
+    /// Oscillations of a frequency |s|/2π outside `band` (Hz) are left out. A complex mode with poles s = -σ ± jω_d has the
+    /// displacement 2Re(D e^{st}), D = shape · input. It is written as ω 2Re(D) times an oscillation of
+    /// [`Onset::Displacement`](unripple_core::Onset::Displacement) plus 2Re(D s) times one of
+    /// [`Onset::Velocity`](unripple_core::Onset::Velocity), both of frequency ω = |s| and decay rate σ; each coefficient is a sum of
+    /// two products of real weights. So there are up to four oscillations, and one where damping does not couple modes. A real
+    /// pole p is written as an overdamped oscillation of poles p and 2p, of which the part of 2p cancels. Real poles above the
+    /// band are kept, since they do not oscillate.
     ///
     /// # Errors
     /// [`PhysicsError::NotConverged`] if an eigenvalue problem fails.
@@ -58,7 +60,7 @@ impl Loaded {
         let (active, passive) = split(&self.poles, self.felt.as_ref());
         let mut parts = Parts::default();
         let [low, high] = band.map(|hz| TAU * hz);
-        // A mode at the very top stays in, whatever was rounded.
+        // A mode exactly at the top stays in, whatever the rounding.
         let within = move |omega: f64| omega >= low && omega <= high * (1.0 + 1e-9);
         for shape in passive.iter().filter(|shape| within(shape.pole.omega)) {
             parts.alone(shape, self);
@@ -83,14 +85,14 @@ impl Loaded {
         Ok(parts.whole(self, kept, &basis))
     }
 
-    /// Where each transducer's drive enters: as a force on the modes, or as the voltage on its coil.
+    /// How each transducer's drive acts: as forces on the modes, or as the voltage on its coil.
     fn drives(&self, active: &Active, modes: &Conservative) -> Drives {
         let basis = times(active.map.as_ref(), modes.shapes.as_ref());
         let mut forces = times(self.driven.as_ref(), basis.as_ref());
         let coils: Vec<Option<usize>> = (0..self.transducers.len()).map(|t| self.driven_coil(t)).collect();
         for (drive, load) in coils.iter().enumerate() {
             let Some(load) = *load else { continue };
-            // A coil without inductance is a force at once; with, its current has to grow first.
+            // A coil of negligible inductance gives a force at once; otherwise its current has to build up first.
             let direct = self.loads[load].direct_coil_force();
             for m in 0..forces.ncols() {
                 forces[(drive, m)] = direct * modes.felt[(load, m)];
@@ -101,7 +103,7 @@ impl Loaded {
 }
 
 impl Parts {
-    /// An oscillation that feels no load.
+    /// Adds an oscillation that does not couple to the loads.
     fn alone(&mut self, shape: &Shape, loaded: &Loaded) {
         let mut column = vec![0.0; loaded.poles.len()];
         shape.parts.iter().for_each(|(mode, part)| column[*mode] = *part);
@@ -115,7 +117,7 @@ impl Parts {
         self.columns.push(column);
     }
 
-    /// A conservative mode that decays by itself.
+    /// Adds a conservative mode that damping does not couple to others.
     fn real(&mut self, mode: usize, modes: &Conservative, drives: &Drives) {
         let mut column = vec![0.0; modes.omegas.len()];
         column[mode] = 1.0;
@@ -125,17 +127,17 @@ impl Parts {
         self.columns.push(column);
     }
 
-    /// A complex pair or a real pole.
+    /// Adds the oscillations of a complex pair or of a real pole.
     fn complex(&mut self, root: Root) {
         let real = root.s.im == 0.0;
-        // A real pole decays at least a little, lest rounding let it grow.
+        // A real pole decays at least a little, so that rounding cannot let it grow.
         let s = if real { c64::new(root.s.re.min(-1e-9), 0.0) } else { root.s };
         let (omega, sigma, both) = if real {
             (2f64.sqrt() * s.norm(), 1.5 * s.norm(), 1.0)
         } else {
             (s.norm(), (-s.re).max(0.0), 2.0)
         };
-        // The phase that makes the shape as real as it can be.
+        // The phase for which the shape is as nearly real as possible.
         let turn = root.shape.iter().map(|d| d * d).sum::<c64>().sqrt();
         let turn = if turn.norm() > 0.0 { turn.conj() / turn.norm() } else { c64::new(1.0, 0.0) };
         let input: Vec<c64> = root.input.iter().map(|b| b * turn.conj() * both).collect();
@@ -168,8 +170,8 @@ impl Parts {
         }
     }
 
-    /// All of them by frequency. Columns up to `kept` are by the sheet's modes, the others by those of `basis` (modes x
-    /// coordinates).
+    /// All oscillations in order of frequency. Columns below `kept` are coefficients of the sheet's modes, the others of the columns
+    /// of `basis` (modes x coordinates).
     fn whole(mut self, loaded: &Loaded, kept: usize, basis: &Mat<f64>) -> Oscillations {
         let made = Mat::from_fn(basis.ncols(), self.columns.len() - kept, |i, c| self.columns[kept + c][i]);
         let made = basis * made;

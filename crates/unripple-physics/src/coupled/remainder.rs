@@ -1,31 +1,31 @@
-//! The part of a sheet's response to a load that lies above the modes computed, from an endless sheet.
+//! The part of a sheet's static response to a load that has wavenumbers above those of the modes computed, from an infinite sheet.
 
 use crate::Medium;
 use std::f64::consts::TAU;
 use unripple_dsp::bessel_j;
 use unripple_plates::gauss;
 
-/// How far from a load its remainder is known, in 1/K; farther away it is nothing. Doubled, tables are twice
-/// as long for values that are smaller still.
+/// Largest distance from a load at which its deflection is tabulated, in 1/K; farther away it counts as zero. Doubled, tables
+/// are twice as long for values that are smaller still.
 const REACH: f64 = 25.0;
-/// Steps at which it is known, in 1/K: 126 a wavelength, between which a cubic is right. Doubled, cubics err
-/// 16 times as much.
+/// Step of the table, in 1/K: 126 steps for each wavelength, with cubic interpolation between them. Doubled, the
+/// interpolation errs 16 times as much.
 const STEP: f64 = 0.05;
 
-/// The part of an endless sheet's answer to loads that has wavenumbers above K.
+/// The part of an infinite sheet's static response to loads that has wavenumbers above K.
 #[derive(Debug)]
 pub(super) struct Remainder {
-    /// Mass, tension and stiffness of the endless sheet.
+    /// Mass, tension and stiffness of the infinite sheet.
     pub medium: Medium,
-    /// K, in rad/m.
+    /// The wavenumber K, in rad/m.
     pub above: f64,
-    /// No contact is smaller than this (m): the sheet's thickness, below which it is no sheet.
+    /// Least radius of a contact (m): the sheet's thickness, below which plate theory does not hold.
     pub finest: f64,
     /// Wavenumbers (rad/m) and weights of an integral from K on.
     nodes: Vec<(f64, f64)>,
 }
 
-/// Deflection per newton against the distance from an even contact, in m/N.
+/// Deflection per force against the distance from a contact of uniform pressure, in m/N.
 #[derive(Debug)]
 pub(super) struct Profile {
     step: f64,
@@ -41,7 +41,7 @@ impl Remainder {
         } else {
             f64::INFINITY
         };
-        // Beyond, what is left is a thousandth: bending has made the sheet stiff, or contacts have averaged waves away.
+        // Beyond this wavenumber a thousandth is left: the sheet is stiff by bending, or contacts average the waves away.
         let last = (30.0 * above.max(bent.min(1.0 / finest))).min(1e4 * above);
         let rule = gauss(4);
         let mut nodes = Vec::new();
@@ -54,7 +54,7 @@ impl Remainder {
         Self { medium, above, finest, nodes }
     }
 
-    /// Σ φ φ'/ω^{2·power} over the modes above K for two even contacts of some radii (m) that are a distance (m) apart:
+    /// Σ φ φ'/ω^{2·power} over the modes above K for two uniform contacts of some radii (m) that are a distance (m) apart:
     /// (1/2π) ∫_K^∞ J_0(k·distance) B(k·radius) B(k·radius') / (ρ_s ω^{2·power}) k dk, with B(x) = 2J_1(x)/x and ρ_s ω² = Rk² + Dk⁴.
     pub fn sum(&self, distance: f64, radii: [f64; 2], power: i32) -> f64 {
         let density = self.medium.areal_density;
@@ -66,7 +66,7 @@ impl Remainder {
         self.nodes.iter().map(term).sum::<f64>() / TAU
     }
 
-    /// Deflection under an even contact of some radius (m), read at points.
+    /// Table of the deflection by a uniform contact of some radius (m), read at points.
     pub fn profile(&self, radius: f64) -> Profile {
         let weights: Vec<(f64, f64)> = self
             .nodes
@@ -97,9 +97,9 @@ impl Profile {
     }
 }
 
-/// Average of a wave over an even disc: 2J_1(x)/x, x = k·radius.
+/// Average of a wave over a uniform disc: 2J_1(x)/x, x = k·radius.
 fn even(x: f64) -> f64 {
-    // There it is 1 within 1e-9.
+    // For small x it is 1 within 1e-9.
     if x < 1e-4 { 1.0 } else { 2.0 * bessel_j(1, x) / x }
 }
 

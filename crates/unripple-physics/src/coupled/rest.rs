@@ -1,4 +1,4 @@
-//! Residual flexibility: the response to loads of the modes above those kept.
+//! Residual flexibility: the response at the loads of the modes above those computed.
 
 use super::remainder::{Profile, Remainder};
 use crate::{Footprint, Load, Medium};
@@ -6,17 +6,17 @@ use std::sync::Arc;
 use unripple_core::{Point, Pole, Shapes};
 use unripple_linalg::{Mat, symmetric, times};
 
-/// A combination whose inertia is less than this share of the largest is one that others make too. Larger,
-/// contacts that lie close to each other would be taken for one.
+/// A combination of deflections whose inertia is less than this share of the largest is linearly dependent on the others.
+/// Larger, contacts that lie close to each other would count as one.
 const ALIKE: f64 = 1e-9;
 
-/// Modes, and after them what loads feel of all the modes above, as if these were a few more modes.
+/// Modes, followed by a few added modes that stand for the residual flexibility of all higher modes at the loads.
 ///
-/// Modes above some wavenumber K answer a load as those of an endless sheet do: their sum Σ φ_m φ_m(load)/ω_m² is the part of the
-/// endless sheet's static deflection under the load that has wavenumbers above K ([`Remainder`]). These deflections, one per
-/// load, carry the stiffness and the mass that the endless sheet gives them; the modes of that small system stand for the rest.
-/// That is exact at low frequency, and wrong by about (ω/ω_K)⁴ of a small part at others; within half a wavelength 2π/K of a
-/// rim the endless sheet is not the sheet.
+/// Modes above some wavenumber K respond to a load as those of an infinite sheet do: their sum Σ φ_m φ_m(load)/ω_m² is the part of
+/// the infinite sheet's static deflection under the load that has wavenumbers above K ([`Remainder`]). These deflections, one per
+/// load, have the stiffness and the mass of the infinite sheet; the modes of this small system are the added modes.
+/// They are exact at low frequency, with an error of about (ω/ω_K)⁴ of a small part at others. Within half a wavelength 2π/K of a
+/// rim, the infinite sheet is a poor approximation.
 #[derive(Debug)]
 pub(super) struct WithRest {
     base: Arc<dyn Shapes>,
@@ -26,8 +26,8 @@ pub(super) struct WithRest {
 }
 
 impl WithRest {
-    /// `poles` (those of `base`) gets those of the added modes; `decay` gives their decay rate from their frequency (rad/s) and
-    /// wavenumber. `above` is K, in rad/m; `finest` the size (m) below which the sheet is no sheet any more.
+    /// Appends the poles of the added modes to `poles` (those of `base`), and returns the shapes of all. `decay` gives the decay
+    /// rate (1/s) of an added mode from its frequency (rad/s) and wavenumber (rad/m).
     pub fn add(
         base: Arc<dyn Shapes>,
         poles: &mut Vec<Pole>,
@@ -97,7 +97,7 @@ impl Shapes for WithRest {
     }
 }
 
-/// Centre of a contact and the radius of the even disc that is spread as far.
+/// Centre of a contact, and the radius of the uniform disc of the same mean square distance from it, at least `finest`.
 fn contact(footprint: &Footprint, finest: f64) -> (Point, f64) {
     let sum = |f: &dyn Fn(Point) -> f64| footprint.points.iter().map(|(p, w)| w * f(*p)).sum::<f64>();
     let centre = Point::new(sum(&|p| p.x), sum(&|p| p.y));

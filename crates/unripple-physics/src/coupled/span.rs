@@ -1,6 +1,6 @@
 //! Gram-Schmidt orthonormalisation, vector by vector.
 
-/// Orthonormal vectors, gathered one by one.
+/// A set of orthonormal vectors that grows vector by vector.
 #[derive(Debug, Default)]
 pub(super) struct Span {
     /// The orthonormal vectors so far.
@@ -8,8 +8,8 @@ pub(super) struct Span {
 }
 
 impl Span {
-    /// Adds what of a vector is new, unless that is less than the share `least` of it; says whether it was
-    /// added.
+    /// Adds the part of a vector that is orthogonal to the others, normalised, unless it is less than the share `least` of the
+    /// vector; returns whether it was added.
     ///
     /// Gram-Schmidt orthogonalisation, twice, which is enough (Giraud et al., *Numer. Math.* 101, 87, 2005).
     pub fn add(&mut self, mut vector: Vec<f64>, least: f64) -> bool {
@@ -28,7 +28,7 @@ impl Span {
         if left <= least {
             return false;
         }
-        // Once more, lest what is left be rounding along the others.
+        // Once more, since the remainder may contain rounding along the others.
         vector.iter_mut().for_each(|v| *v /= left);
         for known in &self.vectors {
             let part: f64 = known.iter().zip(&vector).map(|(a, b)| a * b).sum();

@@ -5,32 +5,32 @@ use crate::loads::Circuit;
 use crate::{Load, PhysicsError};
 use unripple_linalg::{General, Lu, Mat, MatRef, c64, general};
 
-/// Damping off the diagonal that is less than this share of the largest on it does not couple: some hundred
-/// roundings. Larger, weakly coupled modes would be taken for normal modes.
+/// Off-diagonal damping below this share of the largest on the diagonal counts as none: some hundred
+/// rounding errors. Larger, weakly coupled modes would count as normal modes.
 const PROPORTIONAL: f64 = 1e-13;
 
 /// An exponential e^{st} of the coupled system: displacement Σ_m shape_m ψ_m · input_a · e^{st} per unit impulse of drive.
-/// Of a complex pair only the one with positive frequency, the other being its conjugate.
+/// Of a complex pair only the one of positive frequency is kept, since the other is its conjugate.
 #[derive(Clone, Debug)]
 pub(super) struct Root {
     /// Complex frequency s, in 1/s.
     pub s: c64,
-    /// Displacement of each conservative mode, a complex number.
+    /// Complex displacement of each conservative mode.
     pub shape: Vec<c64>,
-    /// What a unit impulse of each drive puts in.
+    /// Complex amplitude that a unit impulse of each drive excites.
     pub input: Vec<c64>,
 }
 
-/// Where drives enter the state: as forces on the conservative modes, and as voltages on coils.
+/// How drives act on the state: as forces on the conservative modes, and as voltages on coils.
 #[derive(Debug)]
 pub(super) struct Drives {
     /// Forces per unit of drive, drives x conservative modes.
     pub forces: Mat<f64>,
-    /// Load whose inductive coil a drive's voltage is on.
+    /// Index of the load whose coil each drive is the voltage of.
     pub coils: Vec<Option<usize>>,
 }
 
-/// Whether each conservative mode decays by itself.
+/// Whether damping does not couple the conservative modes, so that each decays by itself.
 pub(super) fn proportional(modes: &Conservative, loads: &[Load]) -> bool {
     let damping = modes.damping.as_ref();
     let count = damping.nrows();
@@ -40,11 +40,11 @@ pub(super) fn proportional(modes: &Conservative, loads: &[Load]) -> bool {
     alone && loads.iter().all(|load| load.inductive_coil().is_none())
 }
 
-/// All exponentials of the coupled system, from the eigenvalues of its state matrix; `max_hz` (Hz) is for
-/// messages alone.
+/// All exponentials of the coupled system, from the eigenvalues of its state matrix; `max_hz` (Hz) is only used in
+/// error messages.
 ///
 /// The state is √Λ z, ż and √L i of every inductive coil, so that the sum of its squares is twice the energy and the matrix is
-/// skew but for what dissipates: its own scale is the best balance there is.
+/// skew-symmetric except for dissipation. In this scaling the matrix is well balanced for the eigensolver.
 ///
 /// # Errors
 /// [`PhysicsError::NotConverged`] if the decomposition fails.
@@ -68,7 +68,7 @@ pub(super) fn roots(
     Ok((0..matrix.nrows()).filter(|k| values[*k].im >= 0.0).map(root).collect())
 }
 
-/// The state matrix: rates of √Λ z, ż and √L i, in 1/s.
+/// The state matrix, in 1/s, which gives the time derivatives of √Λ z, ż and √L i.
 fn matrix(modes: &Conservative, coils: &[(usize, Circuit)]) -> Mat<f64> {
     let count = modes.omegas.len();
     let mut matrix = Mat::zeros(2 * count + coils.len(), 2 * count + coils.len());
@@ -100,7 +100,8 @@ fn displacement(modes: &Conservative, right: MatRef<'_, c64>, column: usize, s: 
     modes.omegas.iter().enumerate().map(of).collect()
 }
 
-/// What a unit impulse of each drive puts into one eigenvector: the row of the inverse times where the drive enters.
+/// Complex amplitude of one eigenvector after a unit impulse of each drive: the row of the inverse of the eigenvectors times the
+/// state just after the impulse.
 fn inputs(
     count: usize,
     coils: &[(usize, Circuit)],
