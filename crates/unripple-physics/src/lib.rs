@@ -1,4 +1,5 @@
-//! From a surface with all that hangs on it to its responses and design figures; its modes are those of `unripple-plates`.
+//! Impulse responses of a surface with its actuators and fingers, its simulation in the time domain, and its design figures. The modes of
+//! the sheet come from `unripple-plates`.
 
 mod actuators;
 mod coupled;

@@ -12,30 +12,30 @@ use unripple_dsp::ModalSynth;
 use unripple_linalg::{Mat, MatRef};
 use unripple_plates::decay_rate;
 
-/// Points of a library worked on at once, by one thread. Doubled, there are half as many tasks to share among
-/// threads.
+/// Number of points whose sampled responses one thread computes at once. Doubled, there are half as many tasks to share
+/// among threads.
 const POINTS: usize = 64;
 
-/// Error of a library's samples before rounding to single precision, relative to the sum of the magnitudes of
-/// modal weights. Ten times more would show beside that rounding.
+/// Error of sampled responses before rounding to single precision, relative to the sum of the magnitudes of
+/// modal weights. Ten times more would be larger than that rounding.
 const LIBRARY_ACCURACY: f64 = 1e-6;
 
-/// Loaded modes are kept one by one up to this multiple of the top frequency: what lies above is off
+/// With loads, modes are kept one by one up to this multiple of the top frequency; those above are far from
 /// resonance within the band. Doubled, eigenvalue problems have up to four times the coordinates, and take 64
 /// times as long.
 const DYNAMIC: f64 = 1.1;
 
-/// How responses are made from a surface.
+/// Options of the computation of responses from a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ResponseOptions {
-    /// Top frequency of the modes, in Hz; the band's where `None`. Only the top moves: the band and λ_min stay the
-    /// surface's.
+    /// Highest frequency of the modes included, in Hz; `None` for the top of the surface's band. The band and λ_min stored with the
+    /// responses stay those of the surface.
     pub max_hz: Option<f64>,
-    /// Relative accuracy of the frequencies.
+    /// Relative accuracy of the frequencies of the modes.
     pub accuracy: f64,
     /// Fingers that rest on the surface, as loads.
     pub contacts: Vec<Contact>,
-    /// Loads feel the compliance of modes up to this multiple of the top frequency, at least 1.1; unused without loads.
+    /// With loads, modes up to this multiple of `max_hz` (at least 1.1) are computed for their compliance at the loads.
     pub reach: f64,
 }
 
@@ -45,15 +45,15 @@ impl Default for ResponseOptions {
     }
 }
 
-/// The responses of a surface to its actuators, factored into modes: h = Σ_m φ_m(x_A) φ_m(x) e^{-σt}(…), per unit of each
-/// actuator's own drive (N, A or V).
+/// The impulse responses of a surface to its actuators in modal form: h(t) = Σ_m φ_m(x_A) φ_m(x) g_m(t), with mode shapes φ_m and
+/// the velocity g_m of a damped oscillator, per unit of each actuator's own drive (N, A or V).
 ///
-/// Modes outside the band are left out. Where something hangs on the surface, a coil or a finger, the modes are those of all
-/// together ([`Loaded`]).
+/// Modes below the band or above [`ResponseOptions::max_hz`] are left out. With loads on the sheet (coils, magnets, patches or
+/// fingers), the modes are those of the coupled system ([`Loaded`]).
 ///
 /// # Errors
 /// Those of [`Modes::solve`] and [`transducers`]; [`PhysicsError::Unsupported`] for a finger outside the outline;
-/// [`PhysicsError::Range`] for a band or a sample rate that cannot be, a load that is not passive, a reach below 1.1.
+/// [`PhysicsError::Range`] for a band, sample rate or `max_hz` out of range, a load that is not passive, or a reach below 1.1.
 ///
 /// ```
 /// # use unripple_core::*;
@@ -77,7 +77,8 @@ pub fn responses(surface: &Surface, options: &ResponseOptions) -> Result<Respons
     asked.responses(surface, Arc::new(modes))
 }
 
-/// The modes that [`responses`] stands on: those of the bare surface up to the top, or past it where loads feel them.
+/// The modes of the sheet without loads that [`responses`] uses: up to [`ResponseOptions::max_hz`], or with loads up to
+/// [`ResponseOptions::reach`] times that.
 ///
 /// # Errors
 /// Those of [`responses`].
@@ -85,7 +86,7 @@ pub fn response_modes(surface: &Surface, options: &ResponseOptions) -> Result<Mo
     Asked::of(surface, options)?.modes(surface)
 }
 
-/// As [`responses`], from modes that [`response_modes`] found for the same surface and options.
+/// The impulse responses that [`responses`] gives, from modes that [`response_modes`] has computed for the same surface and options.
 ///
 /// # Errors
 /// Those of [`responses`].
@@ -97,9 +98,9 @@ pub fn responses_on(
     Asked::of(surface, options)?.responses(surface, modes)
 }
 
-/// Top frequency of the modes (Hz) that a surface with its actuators is to be stepped with so that it answers as its [`responses`] do
-/// up to `max_hz`: half as much again where something hangs on it, since that feels the compliance of modes above; less than
-/// half the rate.
+/// Highest frequency of the modes (in Hz) that a time-domain simulation ([`stepper`](crate::stepper)) needs to agree with
+/// [`responses`] up to `max_hz`. With loads on the sheet it is 1.5 times `max_hz`, since loads feel the compliance of modes above,
+/// but at most 0.45 of the sample rate (and at least `max_hz`).
 ///
 /// # Errors
 /// Those of [`transducers`].
@@ -109,7 +110,7 @@ pub fn stepped_hz(surface: &Surface, max_hz: f64) -> Result<f64, PhysicsError> {
     Ok((reach * max_hz).min(0.45 * surface.emission.rate).max(max_hz))
 }
 
-/// What responses were asked for, checked.
+/// A checked request for responses.
 struct Asked {
     transducers: Vec<Transducer>,
     fingers: Vec<Load>,
@@ -119,7 +120,7 @@ struct Asked {
 }
 
 impl Asked {
-    /// Checks what is asked for, and makes transducers and fingers of it.
+    /// Checks surface and options, and makes the transducers and the loads of fingers.
     fn of(surface: &Surface, options: &ResponseOptions) -> Result<Self, PhysicsError> {
         let emission = &surface.emission;
         let [low, high] = emission.band;
@@ -140,7 +141,7 @@ impl Asked {
         Ok(Self { transducers, fingers, max_hz, reach, accuracy: options.accuracy })
     }
 
-    /// Whether nothing hangs on the surface.
+    /// Whether there are no loads on the sheet.
     fn bare(&self) -> bool {
         !self.transducers.iter().filter_map(|t| t.load.as_ref()).chain(&self.fingers).any(Load::acts)
     }
@@ -150,7 +151,7 @@ impl Asked {
         Modes::solve(surface, top, self.accuracy)
     }
 
-    /// The responses from modes, with all loads on.
+    /// The responses from modes, with all loads.
     fn responses(&self, surface: &Surface, modes: Arc<Modes>) -> Result<Responses, PhysicsError> {
         let emission = &surface.emission;
         let [low, high] = emission.band;
@@ -179,7 +180,7 @@ impl Asked {
     }
 }
 
-/// The modes from `low` Hz on, as they are.
+/// Poles, input weights and shapes of the modes from `low` Hz on, without loads.
 fn unloaded(
     modes: Arc<Modes>,
     transducers: &[Transducer],
@@ -197,7 +198,7 @@ fn unloaded(
     (poles, input, shapes)
 }
 
-/// The loads that fingers are.
+/// Fingers as loads on the sheet.
 fn fingers(surface: &Surface, contacts: &[Contact]) -> Result<Vec<Load>, PhysicsError> {
     let load = |contact: &Contact| {
         if !surface.outline.contains(contact.at) {
@@ -216,10 +217,10 @@ fn fingers(surface: &Surface, contacts: &[Contact]) -> Result<Vec<Load>, Physics
     contacts.iter().map(load).collect()
 }
 
-/// Sampled responses at many points, single precision: the product of weights and sampled modes, on all threads.
+/// Sampled responses at many points (m), in single precision, computed on all threads from responses in modal form.
 ///
-/// `samples` from the impulse on, at the rate of the responses. Errors stay below about 2e-6 of the sum of the magnitudes
-/// of a response's modal weights.
+/// Each response has `samples` samples from the impulse on, at the rate of the responses. Errors stay below about 2e-6 times the
+/// sum of the magnitudes of its modal weights.
 pub fn sample(responses: &ModalResponses, points: &[Point], samples: usize) -> SampledResponses {
     let ModalResponses { ports, poles, input, shapes, conditions } = responses;
     let synth = ModalSynth::new(poles, conditions.rate, samples, LIBRARY_ACCURACY);
@@ -248,7 +249,7 @@ fn weights(input: MatRef<f64>, readout: MatRef<f64>) -> Mat<f32> {
     weights
 }
 
-/// The modes from `below` on.
+/// The shapes of the modes from index `below` on.
 #[derive(Debug)]
 struct Above {
     modes: Arc<Modes>,

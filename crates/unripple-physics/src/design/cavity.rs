@@ -6,26 +6,27 @@ use std::f64::consts::{PI, TAU};
 use unripple_core::{FOCAL_RADIUS, Outline, Shape, Surface};
 use unripple_plates::decay_rate;
 
-/// Slices that a band is divided into, evenly in wavenumber: their sum stands for an integral over the band.
+/// Number of intervals that a band is divided into, evenly in wavenumber, for integrals over the band.
 /// Doubled, the midpoint rule errs a quarter as much.
 const BINS: usize = 400;
 
-/// A surface as the statistics of focusing see it: how many modes ring at each frequency, how long, and how strongly.
+/// Statistical contrast of a surface as a reverberant cavity, from its modal density and decay time at each frequency.
 ///
 /// It refines [`super::closed::contrast`] in five ways, none of them fitted:
-/// - modes crowd towards the top of the band, so sums over neighbours carry ∫n²df and not B n̄²;
-/// - modes vanish (or swell) at the rim, so that inside, where targets are, they count S k²/4π and not M;
-/// - the shapes of a rectangle are products of two sines, whose squares scatter by 5/4 and not by the 2 of Gaussian
-///   waves;
-/// - before the first waves return, modes are as good as evenly spaced: a mode and its neighbours together leak as n
-///   says, and the mode itself must not be counted twice;
-/// - every frequency has its own decay time.
+/// - the modal density n(f) grows towards the top of the band, so that sums over neighbouring modes give ∫n²df and not B n̄²;
+/// - modes vanish (or are larger) at the rim, so that away from it, where targets are, they count S k²/4π and not M;
+/// - mode shapes of a rectangle are products of two sines, whose squares have the relative variance 5/4 and not 2 as for
+///   Gaussian random waves;
+/// - before the first reflections return, modes act as if they were evenly spaced: a mode and its neighbours together leak
+///   according to n, and the mode itself must not be counted twice;
+/// - each frequency has its own decay time.
 ///
-/// With I(T) = ∫_0^T e^{-2t/τ}/2 and V = ∫_0^T e^{-4t/τ}/8, dM modes in a bin of which dℓ at the target, n per hertz:
+/// The band is divided into bins with dM modes each, dℓ of them as counted at the target, and n modes per hertz. With
+/// I(T) = ∫_0^T e^{-2t/τ}/2 dt and V = ∫_0^T e^{-4t/τ}/8 dt,
 /// 1/C² = Σ dℓ [n V / N + (s - ρ) I² / N + e (ℓ/M) I²] / (Σ dℓ I)², where s is 5/4 or 2, ℓ = Σ dℓ, M = Σ dM, and
-/// ρ = 1 - e^{-2t_0/τ} I(T - t_0)²/I(T)² the share of the beats of a mode with its neighbours that is over by the time
-/// t_0 = 2πS/P c_g of a return trip along the mean chord πS/P. For one decay time and an even density, with ρ = 0 and
-/// s = 2, it is the plain form again.
+/// ρ = 1 - e^{-2t_0/τ} I(T - t_0)²/I(T)² is the share of the beats of a mode with its neighbours before the time
+/// t_0 = 2πS/(P c_g) of a return trip along the mean chord πS/P. For a single decay time and a constant density, with ρ = 0 and
+/// s = 2, it reduces to [`super::closed::contrast`].
 ///
 /// ```
 /// # use unripple_core::*;
@@ -37,21 +38,21 @@ const BINS: usize = 400;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cavity {
     bins: Vec<Bin>,
-    /// Scatter s of the squared mode shapes, ⟨φ⁴⟩/⟨φ²⟩² - 1.
+    /// Relative variance s of the squared mode shapes, ⟨φ⁴⟩/⟨φ²⟩² - 1.
     scatter: f64,
-    /// Share e of a focus beyond its disc.
+    /// Share e of the energy of a focus outside the focal disc.
     exposure: f64,
     /// Width of the band, in Hz.
     bandwidth: f64,
 }
 
-/// A slice of the band.
+/// An interval of the band.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Bin {
     hz: f64,
     /// Number of modes in it.
     modes: f64,
-    /// Number of modes in it as a point away from the rim counts them.
+    /// Number of modes in it as counted at a point away from the rim.
     local: f64,
     /// Modes per hertz.
     density: f64,
@@ -62,17 +63,17 @@ struct Bin {
 }
 
 impl Bin {
-    /// ∫_0^T e^{-2t/τ}/2 dt: what the window gathers of a mode.
+    /// ∫_0^T e^{-2t/τ}/2 dt: the contribution of a mode to the focus.
     fn gathered(&self, window: f64) -> f64 {
         ring(2.0 * self.sigma, window) / 2.0
     }
 
-    /// ∫_0^T e^{-4t/τ}/8 dt: what leaks into a mode, squared, from one neighbour per hertz.
+    /// ∫_0^T e^{-4t/τ}/8 dt: the mean square leakage into a mode for a density of one neighbour per hertz.
     fn leaked(&self, window: f64) -> f64 {
         ring(4.0 * self.sigma, window) / 8.0
     }
 
-    /// Share ρ of a mode's beats with its neighbours that is over by the first return.
+    /// Share ρ of a mode's beats with its neighbours before the first reflections return.
     fn regular(&self, window: f64) -> f64 {
         let left = self.gathered((window - self.trip).max(0.0)) / self.gathered(window);
         1.0 - (-2.0 * self.sigma * self.trip).exp() * left * left
@@ -109,7 +110,7 @@ impl Cavity {
         Self { bins, scatter, exposure: exposure(TAU * FOCAL_RADIUS), bandwidth: top_hz - low_hz }
     }
 
-    /// The same with the modes scaled so that there are `modes` of them, an exact count.
+    /// The same surface with its modal density scaled so that the band holds `modes` modes, an exact count.
     pub fn counted(mut self, modes: f64) -> Self {
         let ratio = modes / self.modes();
         if ratio.is_finite() && ratio > 0.0 {
@@ -121,7 +122,7 @@ impl Cavity {
         self
     }
 
-    /// The same with one decay time, in seconds, at all frequencies.
+    /// The same surface with a single decay time, in seconds, at all frequencies.
     pub fn with_decay_time(mut self, decay_time: f64) -> Self {
         self.bins.iter_mut().for_each(|bin| bin.sigma = 1.0 / decay_time);
         self
@@ -132,7 +133,8 @@ impl Cavity {
         self.bins.iter().map(|bin| bin.modes).sum()
     }
 
-    /// Number of modes as a point away from the rim counts them, S k²/4π.
+    /// Number of modes in the band as counted at a point away from the rim: Weyl's law without the term of the perimeter,
+    /// S k²/4π.
     pub fn local_modes(&self) -> f64 {
         self.bins.iter().map(|bin| bin.local).sum()
     }
@@ -142,18 +144,18 @@ impl Cavity {
         self.bandwidth
     }
 
-    /// Width of the band of even density with the same leakage, M²/∫n²df, in Hz.
+    /// Width of a band of constant modal density with as many modes and the same leakage, M²/∫n²df, in Hz.
     pub fn effective_bandwidth(&self) -> f64 {
         self.modes().powi(2) / self.sum(|bin| bin.modes * bin.density)
     }
 
-    /// Decay time of the amplitude, averaged over the modes' rates, in s.
+    /// Decay time of the amplitude, in s: the reciprocal of the mean decay rate of the modes.
     pub fn decay_time(&self) -> f64 {
         self.modes() / self.sum(|bin| bin.modes * bin.sigma)
     }
 
-    /// Exponent p of a mode density that grows as f^p from the bottom of the band, with the same mean
-    /// frequency; dimensionless.
+    /// Exponent p, dimensionless, of a modal density that grows from the bottom of the band as a power p of frequency and has
+    /// the same mean frequency.
     pub fn growth(&self) -> f64 {
         let top = self.bins.last().map_or(1.0, |bin| bin.hz);
         let low = top - self.bandwidth;
@@ -161,19 +163,19 @@ impl Cavity {
         ((2.0 * mean - 1.0) / (1.0 - mean)).clamp(0.0, 4.0)
     }
 
-    /// Contrast, a ratio of amplitudes, of one focus of `actuators` actuators and a window in seconds.
+    /// Contrast, a ratio of amplitudes, of a single focus for `actuators` actuators and a window in seconds.
     pub fn contrast(&self, actuators: f64, window: f64) -> f64 {
         self.noise(actuators, window, |_| 0.0, |_| 0.0).powf(-0.5)
     }
 
-    /// Contrast of a focus repeated every `period` seconds, with as many pulses before and after it as
-    /// matter.
+    /// Contrast of a focus repeated every `period` seconds (T_r), in the steady state, for `actuators` actuators and a window in
+    /// seconds.
     ///
-    /// With x = e^{-2T_r/τ}, the field at a focal instant holds, beside that pulse,
-    /// - from the pulse k periods before: its leakage times x^k, for each pair of modes in a new phase;
-    /// - from the pulse k periods after, begun if kT_r < T: x^k times the leakage of a window T - kT_r;
-    /// - from both, each mode's focus again, no longer in phase with the others. The earlier is down by x^{k/2}, the
-    ///   later by x^{k/2} r with r = I(T - kT_r)/I(T), and both swing as cos ω_m kT_r: together ½ x^k (1 + r)².
+    /// With x = e^{-2T_r/τ}, the field at a focal instant contains, besides the pulse itself,
+    /// - from the pulse k periods before: its leakage times x^k, with a new phase for each pair of modes;
+    /// - from the pulse k periods after, which has begun if kT_r < T: x^k times the leakage of a window T - kT_r;
+    /// - from both, the focus of each mode, no longer in phase with the other modes. The earlier has decayed by x^{k/2}, the
+    ///   later has the amplitude x^{k/2} r with r = I(T - kT_r)/I(T), and both vary as cos ω_m kT_r: together ½ x^k (1 + r)².
     pub fn repeated(&self, actuators: f64, window: f64, period: f64) -> f64 {
         let begun = (window / period).ceil().clamp(1.0, 1e6) as u32;
         let later = move |bin: &Bin, f: &dyn Fn(f64, f64) -> f64| -> f64 {
@@ -196,20 +198,20 @@ impl Cavity {
         self.noise(actuators, window, leakage, echo).powf(-0.5)
     }
 
-    /// Contrast, for a window in s, when the responses were recorded, or the drive emitted, with noise of
-    /// `ratio` times their rms over the window, both within the band.
+    /// Contrast, for `actuators` actuators and a window in s, if responses are recorded or the drive is emitted with noise, whose
+    /// rms is `ratio` times that of the responses over the window, both within the band.
     pub fn noisy(&self, actuators: f64, window: f64, ratio: f64) -> f64 {
         let noise = super::closed::noise_share(actuators, self.bandwidth, window, ratio);
         let heard = self.modes() / self.local_modes();
         (self.contrast(actuators, window).powi(-2) + noise * heard).powf(-0.5)
     }
 
-    /// Time that waves take along the mean chord πS/P, averaged over the modes, in s.
+    /// Time that waves take to cross the surface along the mean chord πS/P, averaged over the modes, in s.
     pub fn crossing(&self) -> f64 {
         self.sum(|bin| bin.modes * bin.trip) / self.modes() / 2.0
     }
 
-    /// 1/C², with what repetition adds to the leakage and to the modes' own focus as multiples of the first.
+    /// 1/C²; `leakage` and `echo` are the parts that repetition adds, as multiples of the leakage and of the modes' own focus.
     fn noise(
         &self,
         actuators: f64,
@@ -234,30 +236,29 @@ impl Cavity {
     }
 }
 
-/// Length of the rim that counts in Weyl's law: fixed (clamped or supported) minus free, in metres.
+/// Length P of the rim in Weyl's law: fixed edges (clamped or supported) minus edges that move (free or elastic), in metres.
 pub(super) fn signed_perimeter(outline: &Outline) -> f64 {
     outline.perimeter() - 2.0 * outline.free_length()
 }
 
-/// Modes per unit wavenumber, dM/dk = (2Sk - P)/4π in metres at the wavenumber `k` (rad/m), P the fixed rim
-/// minus the free.
+/// Modes per unit wavenumber dM/dk = (2Sk - P)/4π by Weyl's law, in metres, at the wavenumber `k` (rad/m), with P of
+/// [`signed_perimeter`].
 pub(super) fn modes_per_wavenumber(outline: &Outline, k: f64) -> f64 {
     weyl(outline.area(), signed_perimeter(outline), k)
 }
 
-/// The same of an area S (m²) and a rim P (m).
+/// Modes per unit wavenumber, in metres, for an area S (m²) and a rim P (m) at the wavenumber `k` (rad/m).
 fn weyl(area: f64, rim: f64, k: f64) -> f64 {
     (2.0 * area * k - rim) / (4.0 * PI)
 }
 
-/// Number of modes below wavenumber `k` (rad/m) by Weyl's law, M = Sk²/4π - Pk/4π, P the fixed rim minus the
-/// free.
+/// Number of modes below the wavenumber `k` (rad/m) by Weyl's law, M = Sk²/4π - Pk/4π, with P of [`signed_perimeter`].
 pub(super) fn modes_below(outline: &Outline, k: f64) -> f64 {
     (outline.area() * k - signed_perimeter(outline)) * k / (4.0 * PI)
 }
 
 /// ∫_0^T e^{-rate·t} dt, also for no decay.
 fn ring(rate: f64, window: f64) -> f64 {
-    // Below, the quotient loses digits, and the integral is the window.
+    // For smaller values the quotient loses digits, and the integral is the window.
     if rate * window > 1e-9 { -(-rate * window).exp_m1() / rate } else { window }
 }

@@ -1,14 +1,14 @@
-//! Closed forms of the tradeoffs of time-reversed focusing, as pure functions.
+//! Closed forms for the contrast, spot and pulse of time-reversed focusing.
 //!
 //! Symbols: N actuators, bandwidth B, M modes in it, n̄ = M/B modes per hertz (the Heisenberg time), decay time τ of the
 //! amplitude, window T. Contrast is the focal velocity over the rms velocity outside the focal disc at the focal instant.
 //!
-//! Where they come from. A mode m rings as g_m(t) ≈ e^{-t/τ} cos ω_m t and is seen through φ_m. Time reversal of the
-//! responses at A leaves at T the state Σ_n W_mn I_mn φ_n(A) with W_mn = Σ_a φ_m(a) φ_n(a) and
-//! I_mn = ∫_0^T g_m g_n dt. Its diagonal is the focus. Pairs of neighbouring modes that T cannot tell apart leak into
+//! Derivation: mode m decays as g_m(t) ≈ e^{-t/τ} cos ω_m t, and its shape is φ_m. Time reversal of the
+//! responses at A leaves at time T the amplitude Σ_n W_mn I_mn φ_n(A) of mode m, with W_mn = Σ_a φ_m(a) φ_n(a) and
+//! I_mn = ∫_0^T g_m g_n dt. Its diagonal is the focus. Pairs of neighbouring modes that T does not resolve leak into
 //! each other: by Parseval Σ_n I_mn² = (n̄/8) ∫_0^T e^{-4t/τ} dt, of random sign for each actuator, hence a variance
-//! coth(T/τ)/2NBτ of the peak's square. The actuators' own gains W_mm scatter by 2/N for Gaussian mode shapes, hence
-//! 2/NM. The rest, e/M, is the ringed tail 2J_1(kr)/kr of a perfect focus outside the disc.
+//! coth(T/τ)/2NBτ relative to the square of the peak. The gains W_mm vary by 2/N for Gaussian mode shapes, hence
+//! 2/NM. The last part, e/M, comes from the side lobes of a perfect focus 2J_1(kr)/kr outside the disc.
 //!
 //! ```
 //! use unripple_physics::design::closed;
@@ -22,37 +22,40 @@ use std::f64::consts::{PI, TAU};
 use unripple_core::FOCAL_RADIUS;
 use unripple_dsp::bessel_j;
 
-/// τ tanh(T/τ), in s: the window that counts when ringing dies out; T when T ≪ τ, τ when T ≫ τ.
+/// Effective window τ tanh(T/τ) of a window T and a decay time τ, all in s: about T if T ≪ τ, about τ if T ≫ τ.
 pub fn effective_window(window: f64, decay_time: f64) -> f64 {
     if decay_time.is_finite() { decay_time * (window / decay_time).tanh() } else { window }
 }
 
-/// Contrast C_TR of time reversal, a ratio, the tail of the focus apart: C_TR² = 2NBτ / (coth(T/τ) + 4τ/n̄),
+/// Contrast C_TR of time reversal, a ratio, without the side lobes of the focus: C_TR² = 2NBτ / (coth(T/τ) + 4τ/n̄),
 /// B in Hz, τ and T in s.
 ///
-/// Its limits are 2NBT (the √(NT) law of section 3.1 with its constant), 2NBτ for long windows and NM/2 for long decay.
+/// The limits of C_TR² are 2NBT for short windows (the √(NT) law of section 3.1 of the paper, with its constant), 2NBτ for long
+/// windows and NM/2 for long decay.
 pub fn contrast_tr(actuators: f64, bandwidth: f64, decay_time: f64, window: f64, modes: f64) -> f64 {
     let reach = effective_window(window, decay_time);
     let heisenberg = modes / bandwidth;
     (2.0 * actuators * bandwidth * reach / (1.0 + 4.0 * reach / heisenberg)).sqrt()
 }
 
-/// Contrast C of time reversal outside the focal disc, a ratio: 1/C² = 1/C_TR² + e/M, B in Hz, τ and T in s.
+/// Contrast C of time reversal, a ratio, with the side lobes of the focus outside the focal disc: 1/C² = 1/C_TR² + e/M, B in Hz,
+/// τ and T in s.
 pub fn contrast(actuators: f64, bandwidth: f64, decay_time: f64, window: f64, modes: f64) -> f64 {
     let noise = contrast_tr(actuators, bandwidth, decay_time, window, modes).powi(-2);
     (noise + exposure(TAU * FOCAL_RADIUS) / modes).powf(-0.5)
 }
 
-/// Contrast, a ratio, of each of `foci` equal foci made at once: their backgrounds add in power, so it falls
-/// as √foci.
+/// Contrast, a ratio, of each of `foci` equal simultaneous foci, from that of a single one: their backgrounds add in power, so
+/// that it falls as 1/√foci.
 pub fn foci(contrast: f64, foci: f64) -> f64 {
     contrast / foci.sqrt()
 }
 
-/// Contrast of a focus repeated every `period` (s), in the simplest form, with q = coth(T_r/τ): 1/C² =
-/// q/C_TR² + e/M + (q - 1)/2M, B in Hz, τ and T in s.
+/// Contrast of a focus repeated every `period` T_r (s), in the simplest form: 1/C² = q/C_TR² + e/M + (q - 1)/2M with
+/// q = coth(T_r/τ), B in Hz, τ and T in s.
 ///
-/// It counts every later pulse in full and adds the echoes of both as if they swung apart; [`super::Cavity::repeated`] is the better form.
+/// It counts all later pulses as complete, and adds the echoes of earlier and later pulses in power. [`super::Cavity::repeated`]
+/// is more accurate.
 pub fn repeated(
     actuators: f64,
     bandwidth: f64,
@@ -66,36 +69,38 @@ pub fn repeated(
     (q * noise + exposure(TAU * FOCAL_RADIUS) / modes + (q - 1.0) / (2.0 * modes)).powf(-0.5)
 }
 
-/// What noise adds to 1/C², dimensionless: r²/2NBT, r the rms of the noise over that of a response, both in
-/// the band (Hz) and over T (s).
+/// The part of 1/C² that noise adds, dimensionless: r²/2NBT, with r the rms of the noise over that of a response, both in
+/// the band (B in Hz) and over the window (T in s).
 ///
 /// The drive is a matched filter: white noise of density r² h²_rms/2B on each of N responses of energy T h²_rms reaches
-/// the surface through those responses with variance N (r² h²_rms/2B) T h²_rms, against a peak of N T h²_rms. It is the same whether the noise came in
-/// when recording or when emitting.
+/// the surface through these responses with the variance N (r² h²_rms/2B) T h²_rms, while the peak is N T h²_rms. It is the same
+/// for noise in the recording and in the emission.
 pub fn noise_share(actuators: f64, bandwidth: f64, window: f64, ratio: f64) -> f64 {
     ratio * ratio / (2.0 * actuators * bandwidth * window)
 }
 
-/// Share e = J_0²(x) + J_1²(x) of the energy of a focus 2J_1(kr)/kr beyond r = x/k; about 2/πx.
+/// Share e = J_0²(x) + J_1²(x) of the energy of a focus 2J_1(kr)/kr that lies beyond the radius r = x/k; about 2/πx.
 pub fn exposure(x: f64) -> f64 {
     bessel_j(0, x).powi(2) + bessel_j(1, x).powi(2)
 }
 
-/// Full width at half maximum of a focus of one wavelength, J_0(kr): 0.484 λ, in metres.
+/// Full width at half maximum of a focus of a single frequency, J_0(kr): 0.484 times its wavelength, in metres.
 pub fn spot_of_one_frequency(wavelength: f64) -> f64 {
     // J_0(x) is a half at x = 1.521.
     wavelength * 1.521_0 / PI
 }
 
-/// Full width at half maximum of a focus whose band fills the k-plane evenly, 2J_1(kr)/kr: 0.705 λ_min, in metres.
+/// Full width at half maximum of a focus whose spectrum fills the wavenumber plane evenly up to 2π/λ_min, 2J_1(kr)/kr: 0.705 λ_min,
+/// in metres.
 pub fn spot_diameter(lambda_min: f64) -> f64 {
     // 2J_1(x)/x is a half at x = 2.2151.
     lambda_min * 2.215_1 / PI
 }
 
-/// Full width at half maximum in time of a focus from 0 to B hertz whose mode density grows as f^p, in seconds.
+/// Full width at half maximum in time of a focus with a band from 0 to B (Hz), for a mode density that grows as f^p
+/// (`growth`), in seconds.
 ///
-/// The velocity at the focus is ∫_0^1 s^p cos(ys) ds with y = 2πBt. It is half its peak at y = 1.5069 for p = 1
+/// The velocity at the focus is ∫_0^1 s^p cos(ys) ds with y = 2πBt. It falls to half its peak at y = 1.5069 for p = 1
 /// (membranes), a width of 0.480/B, and at y = 1.8955 for p = 0 (plates), a width of 0.603/B.
 pub fn pulse_duration(bandwidth: f64, growth: f64) -> f64 {
     let (mut low, mut high) = (0.0, PI);

@@ -1,57 +1,58 @@
-//! What a displacement does to the sheet: slope, strain, added tension.
+//! Deformation of the sheet by a displacement: slope, strain, added tension.
 
 use crate::Medium;
 use std::f64::consts::{PI, TAU};
 use unripple_core::{Sheet, Surface};
 
-/// Amplitudes of a focus that are tabulated, in metres; the last two are the paper's. Others would be other
+/// Amplitudes of a focus in the table, in metres; the last two are those of the paper. Other values would give other
 /// rows of the table.
 const AMPLITUDES: [f64; 3] = [10e-6, 40e-6, 200e-6];
 
-/// Change of tension, as a share of the tension, at which linear theory is said to end: modes then shift by 5
-/// %. Doubled, the limit of displacement grows by √2.
+/// Relative change of tension that counts as the limit of linear theory: frequencies then shift by 5 %. Doubled, the limit
+/// of displacement grows by √2.
 pub(super) const TENSION_CHANGE: f64 = 0.1;
 
-/// What a displacement does to the sheet.
+/// Strains of the sheet at several amplitudes of displacement, and the limits of linear theory.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Deformation {
     /// Strain at yield or fracture, strength/E; `None` where the strength is unknown.
     pub yield_strain: Option<f64>,
-    /// Strain by the tension at rest, (1 - ν) R/Eh.
+    /// Strain of the sheet at rest by its tension, (1 - ν) R/Eh.
     pub tension_strain: f64,
-    /// Strains and slopes, a row per amplitude.
+    /// Strains and slopes for waves of several amplitudes.
     pub rows: Vec<Bend>,
-    /// Amplitude at which the strain reaches yield, in metres.
+    /// Amplitude at which the strain reaches yield, in metres; `None` where the strength is unknown or tension alone reaches it.
     pub yield_amplitude_m: Option<f64>,
-    /// Displacement equal to the sheet's thickness, beyond which a plate stretches as much as it bends, in metres.
+    /// Limit of linear theory by thickness, in metres: beyond a displacement of one thickness, a plate stretches as much as it bends.
     pub linear_limit_thickness_m: f64,
-    /// Displacement of a focus that changes the tension by a tenth, in metres; `None` without tension.
+    /// Limit of linear theory by tension, in metres: the displacement of a focus that changes the tension by a tenth; `None` without
+    /// tension.
     ///
-    /// A focus 2J_1(kr)/kr of height A has ∫(∇u)²dS = 2πA², which lengthens the sheet on the whole by πA²/2S in each
-    /// direction, as in-plane waves even it out within a period: ΔR = Eh/(1 - ν) · πA²/2S.
+    /// A focus 2J_1(kr)/kr of height A has ∫(∇u)²dS = 2πA². In-plane waves spread the stretching over the sheet within a period,
+    /// to a strain of πA²/2S in each direction, so that ΔR = Eh/(1 - ν) · πA²/2S.
     pub linear_limit_tension_m: Option<f64>,
 }
 
-/// A wave of the shortest wavelength at one amplitude: a bound for a focus, whose crest is four times flatter.
+/// Strains by a plane wave of the shortest wavelength at one amplitude: an upper bound for a focus, whose curvature is a quarter.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Bend {
     /// Amplitude A, in metres.
     pub amplitude_m: f64,
-    /// Radius of bending 1/Ak² at the crest of a plane wave, in metres.
+    /// Radius of curvature 1/Ak² at the crest of a plane wave, in metres.
     pub bending_radius_m: f64,
-    /// Radius of bending 4/Ak² at the top of a focus 2J_1(kr)/kr, in metres.
+    /// Radius of curvature 4/Ak² at the top of a focus 2J_1(kr)/kr, in metres.
     pub focus_bending_radius_m: f64,
-    /// Steepest slope Ak, dimensionless.
+    /// Largest slope Ak, dimensionless.
     pub slope: f64,
-    /// Strain on the faces by bending, Ak² h/2.
+    /// Strain on the faces of the sheet by bending, Ak² h/2.
     pub bending_strain: f64,
-    /// Strain of the middle plane where the slope is steepest, (Ak)²/2.
+    /// Strain of the sheet's middle plane where the slope is largest, (Ak)²/2.
     pub stretching_strain: f64,
-    /// Strain of tension, bending and stretching together.
+    /// Sum of the strains by tension, bending and stretching.
     pub strain: f64,
-    /// That strain over the strain at yield, as a share.
+    /// Total strain over the strain at yield; `None` where the strength is unknown.
     pub share_of_yield: Option<f64>,
-    /// Whether linear theory still holds: below both limits.
+    /// Whether linear theory holds: the amplitude is below both limits of [`Deformation`].
     pub linear: bool,
 }
 
@@ -92,7 +93,7 @@ fn strains(sheet: &Sheet, k: f64, amplitude: f64) -> (f64, f64) {
     (amplitude * k * k * sheet.thickness / 2.0, (amplitude * k).powi(2) / 2.0)
 }
 
-/// The amplitude whose bending and stretching add to a strain: the root of (Ak)² + (Ak) hk = 2ε.
+/// The amplitude A at which the strains by bending and stretching sum to `strain` ε: the root of (Ak)² + (Ak) hk = 2ε.
 fn yield_amplitude(sheet: &Sheet, k: f64, strain: f64) -> Option<f64> {
     let half = sheet.thickness * k / 2.0;
     (strain > 0.0).then(|| ((half * half + 2.0 * strain).sqrt() - half) / k)

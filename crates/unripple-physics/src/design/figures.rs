@@ -1,4 +1,4 @@
-//! All figures of `design`, in SI units.
+//! All figures of a design, in SI units.
 
 use super::ground::Ground;
 use super::paper::WAVELENGTH;
@@ -10,91 +10,91 @@ use std::f64::consts::TAU;
 /// Rows of the dispersion table, evenly spaced in frequency. Doubled, it has twice the rows.
 const WAVES: usize = 12;
 
-/// The tradeoffs of a surface: what `unripple design` prints. SI units.
+/// The design figures of a surface, which `unripple design` prints, in SI units. "The paper" is Hudin et al. (2012).
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Design {
     /// Name of the surface, for people.
     pub surface: String,
     /// Number of actuators N.
     pub actuators: usize,
-    /// Lowest and highest frequency, in Hz.
+    /// Lowest and highest frequency of the band, in Hz.
     pub band_hz: [f64; 2],
-    /// Phase celerity at the bottom of the band, in m/s; at the first mode where waves stand still at 0 Hz (plates, air).
+    /// Phase velocity at the bottom of the band, in m/s; that of the first mode if it is zero at the bottom (plates, air).
     pub celerity_min_m_s: f64,
-    /// Phase celerity at the top of the band, in m/s.
+    /// Phase velocity at the top of the band, in m/s.
     pub celerity_max_m_s: f64,
-    /// Phase celerity of a wave of 15 mm, in m/s.
+    /// Phase velocity at a wavelength of 15 mm, in m/s.
     pub celerity_at_15mm_m_s: f64,
-    /// Shortest wavelength, in metres.
+    /// Shortest wavelength of the band, in metres.
     pub lambda_min_m: f64,
-    /// Frequency above which waves outrun sound in air and radiate, in Hz.
+    /// Coincidence frequency, above which waves are faster than sound in air and radiate, in Hz; `None` if there is none.
     pub coincidence_hz: Option<f64>,
-    /// The dispersion relation: waves over the band.
+    /// The dispersion relation, as waves of frequencies over the band.
     pub dispersion: Vec<Wave>,
-    /// Modes in the band, counted; `None` where modes cannot be computed.
+    /// Number of modes in the band, counted; `None` where modes cannot be computed.
     pub mode_count_exact: Option<usize>,
-    /// Why there is no exact count.
+    /// Why there is no exact count, in words; `None` if there is one.
     pub mode_count_exact_reason: Option<String>,
-    /// Modes in the band by Weyl's law Sk²/4π - Pk/4π, P the fixed rim minus the free.
+    /// Number of modes in the band by Weyl's law, Sk²/4π - Pk/4π, with P the length of fixed edges minus that of free edges.
     pub mode_count_weyl: f64,
-    /// First mode, in Hz; by Weyl's law where modes cannot be computed.
+    /// Frequency of the first mode, in Hz; by Weyl's law where modes cannot be computed.
     pub first_mode_hz: f64,
-    /// Modes per hertz over the band n̄ = M/B: the time that tells neighbouring modes apart, in seconds.
+    /// Heisenberg time, the mean number of modes per hertz n̄ = M/B, in seconds: the time needed to resolve neighbouring modes.
     pub heisenberg_time_s: f64,
-    /// The same at the top of the band, (2Sk - P)/2c_g, in seconds.
+    /// Heisenberg time at the top of the band, (2Sk - P)/2c_g, in seconds.
     pub heisenberg_time_top_s: f64,
     /// Decay time of the amplitude, averaged over modes, in seconds.
     pub decay_time_s: f64,
-    /// The paper's window (2S k_max + P)/(2 N c_min) with k_max = 2π/15 mm, in seconds.
+    /// Window by the paper's formula (2S k_max + P)/(2 N c_min) with k_max = 2π/15 mm, in seconds.
     pub window_paper_s: f64,
-    /// The shortest window in which the actuators reach nine tenths of the largest contrast ([`Windows`](super::Windows)), in seconds.
+    /// Recommended window: the shortest that reaches nine tenths of the largest contrast ([`Windows`](super::Windows)), in seconds.
     pub window_recommended_s: f64,
-    /// Why it is that, in words.
+    /// Why this window is recommended, in words.
     pub window_recommended_why: String,
-    /// Exponent of T in the contrast around that window; a half for the √T law.
+    /// Exponent of the window T in the contrast around the recommended window, dimensionless; a half for the √T law.
     pub window_exponent: f64,
-    /// Contrast at the recommended window ([`Cavity::contrast`](super::Cavity::contrast)).
+    /// Predicted contrast at the recommended window ([`Cavity::contrast`](super::Cavity::contrast)).
     pub contrast_predicted: f64,
-    /// Contrast at the recommended window, plain form ([`closed::contrast`]).
+    /// Contrast at the recommended window by the simplest closed form ([`closed::contrast`]).
     pub contrast_plain: f64,
-    /// The same at the window where contrast is largest.
+    /// Predicted contrast as in `contrast_predicted`, but at the window of the largest contrast.
     pub contrast_endless: f64,
-    /// Contrast against window and number of actuators.
+    /// Predicted contrast against window and number of actuators.
     pub contrast_by_window: Vec<ByWindow>,
-    /// Contrast against bandwidth, number of actuators and window kept.
+    /// Predicted contrast against bandwidth, for the surface's number of actuators and the recommended window.
     pub contrast_by_band: Vec<ByBand>,
-    /// Contrast against noise, number of actuators and window kept.
+    /// Predicted contrast against noise, for the surface's number of actuators and the recommended window.
     pub contrast_by_noise: Vec<ByNoise>,
-    /// The decay time that section 3.2 aims for, T/N, in seconds.
+    /// The decay time T/N that section 3.2 of the paper recommends, in seconds.
     pub decay_time_paper_s: f64,
-    /// Contrast of a single focus with that decay time.
+    /// Predicted contrast of a single focus with the decay time `decay_time_paper_s`.
     pub contrast_at_papers_decay: f64,
-    /// Contrast against rate of repetition, number of actuators and window kept.
+    /// Predicted contrast against rate of repetition, for the surface's number of actuators and the recommended window.
     pub contrast_by_rate: Vec<ByRate>,
-    /// Full width at half maximum of a focus, in metres.
+    /// Full width at half maximum of a focus in space, in metres.
     pub spot_diameter_m: f64,
-    /// The same for the top of the band alone, in metres.
+    /// Full width at half maximum of a focus of the highest frequency alone, in metres.
     pub spot_diameter_one_frequency_m: f64,
     /// Full width at half maximum of a focus in time, in seconds.
     pub pulse_duration_s: f64,
-    /// Bending, strain and the end of linear theory.
+    /// Bending, strain and the limits of linear theory.
     pub deformation: Deformation,
-    /// The paper's table 1.
+    /// Power to move a finger by 10 µm, for the strips of the paper's table 1.
     pub table1: Vec<Touch>,
-    /// The same for this sheet, at 15 mm and at its shortest wavelength.
+    /// Power to move a finger by 10 µm, for a strip of this sheet at a wavelength of 15 mm and at its shortest.
     pub touch: Vec<Touch>,
-    /// Where the paper's numbers contradict each other or ours.
+    /// Where numbers of the paper contradict each other or these figures.
     pub notes: Vec<Note>,
 }
 
 impl Design {
-    /// The recommended window in a clause: so many milliseconds, and why.
+    /// The recommended window in words: its length in milliseconds, and why it is recommended.
     pub fn window_text(&self) -> String {
         let ms = super::window::milliseconds(self.window_recommended_s);
         format!("{ms} ms, {}", self.window_recommended_why)
     }
 
-    /// Every figure but the notes, which comment on the others.
+    /// All figures except the notes, which comment on the others.
     pub(super) fn on(ground: &Ground) -> Self {
         let Ground { surface, medium, cavity, actuators: n, window, .. } = ground;
         let (n, chosen, window) = (*n, window, window.seconds);

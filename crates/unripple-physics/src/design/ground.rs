@@ -1,4 +1,4 @@
-//! Modes counted and wave properties that the figures of a design stand on.
+//! Mode counts and wave properties from which the figures of a design are computed.
 
 use super::cavity::{modes_below, modes_per_wavenumber, signed_perimeter};
 use super::paper::WAVELENGTH;
@@ -11,15 +11,15 @@ use unripple_core::{OutOfRange, Surface};
 /// most where modes are hertz apart. Smaller, counts take longer and hardly change.
 const ACCURACY: f64 = 1e-4;
 
-/// What every figure of a design stands on.
+/// The quantities from which all figures of a design are computed.
 pub(super) struct Ground<'a> {
-    /// The surface that is designed.
+    /// Surface that is designed.
     pub surface: &'a Surface,
-    /// Its waves: mass, tension, stiffness and air.
+    /// Wave properties of its sheet: mass, tension, stiffness and air.
     pub medium: Medium,
     /// Statistics of the band, its modes scaled to the exact count where there is one.
     pub cavity: Cavity,
-    /// Exact mode count over Weyl's.
+    /// Exact mode count over that of Weyl's law.
     pub scale: f64,
     /// Number of modes in the band, counted, or why they are not.
     pub counted: Result<usize, String>,
@@ -29,12 +29,13 @@ pub(super) struct Ground<'a> {
     pub k_top: f64,
     /// Number of actuators.
     pub actuators: f64,
-    /// The window that is recommended.
+    /// The recommended window.
     pub window: Recommended,
 }
 
 impl<'a> Ground<'a> {
-    /// With the modes that [`count`] or [`counted`] gives, or why there are none, and a window chosen from some contrasts.
+    /// The quantities for a surface, given its mode count from [`count`] or [`counted`] (or why there is none), and the contrasts
+    /// from which a window is chosen.
     pub fn of(
         surface: &'a Surface,
         counted: Counted,
@@ -82,7 +83,7 @@ impl<'a> Ground<'a> {
         density.max(0.0) / self.medium.group_celerity(self.k_top)
     }
 
-    /// Phase celerity at the bottom of the band, in m/s, or at the first mode where it is 0 at the bottom.
+    /// Phase velocity at the bottom of the band, in m/s, or that of the first mode if it is 0 at the bottom.
     pub fn celerity_min(&self) -> f64 {
         let at = |hz: f64| self.medium.phase_celerity(self.medium.wavenumber(TAU * hz));
         let bottom = at(self.surface.emission.band[0]);
@@ -95,7 +96,7 @@ impl<'a> Ground<'a> {
         (2.0 * area * TAU / WAVELENGTH + rim) / (2.0 * self.actuators * self.celerity_min())
     }
 
-    /// Exponent of T in the contrast around the window, dimensionless; ½ is the √T law.
+    /// Exponent of T in the contrast around the recommended window, dimensionless; ½ is the √T law.
     pub fn exponent(&self) -> f64 {
         // A central difference over 1 % to either side.
         let (step, window) = (1.01, self.window.seconds);
@@ -120,7 +121,7 @@ fn check(surface: &Surface) -> Result<(), PhysicsError> {
     Ok(())
 }
 
-/// Number of modes in the band and the first of all, in Hz, or why they are not known.
+/// Number of modes in the band and the first frequency above 0, in Hz, or why they are not known.
 pub(super) type Counted = Result<(usize, Option<f64>), String>;
 
 /// Solves for the modes and counts them.
@@ -130,7 +131,7 @@ pub(super) fn count(surface: &Surface) -> Counted {
     Ok(counted(surface, &modes))
 }
 
-/// Number of modes in the band and the first of all, in Hz.
+/// Number of modes in the band and the first frequency above 0, in Hz.
 pub(super) fn counted(surface: &Surface, modes: &Modes) -> (usize, Option<f64>) {
     let [low, top] = surface.emission.band;
     let frequencies = modes.frequencies_hz();

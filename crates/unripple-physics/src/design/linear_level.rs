@@ -1,37 +1,38 @@
-//! How far linear theory allows a field to go.
+//! The largest level of a field that linear theory allows, with a margin.
 
 use super::Linearity;
 use super::deformation::TENSION_CHANGE;
 use unripple_core::Surface;
 
-/// Share of what each bound of linear theory bears that is used: half the thickness is well within it.
-/// Doubled, fields may go to the bounds themselves.
+/// Share of each bound of linear theory that is used, as a margin: half the thickness is well within it.
+/// Doubled, fields may reach the bounds themselves.
 const SHARE: f64 = 0.5;
 
-/// What ends linear theory first.
+/// The bound of linear theory that a field reaches first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LinearBound {
-    /// Displacement, which is to stay below the sheet's thickness.
+    /// The displacement reaches the sheet's thickness.
     Thickness,
-    /// Tension added by slopes, which is to stay below a tenth of the tension.
+    /// The tension added by slopes reaches a tenth of the tension.
     Tension,
-    /// Strain, which is to stay below that at yield.
+    /// The strain reaches that at yield.
     Yield,
 }
 
-/// The level that linear theory allows, by the bound that is reached first.
+/// The largest level of a field that linear theory allows, with the bound that limits it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinearLevel {
-    /// Factor on the field that brings it there.
+    /// Factor by which the field is to be multiplied to reach this level.
     pub factor: f64,
     /// The bound that is reached first.
     pub bound: LinearBound,
 }
 
 impl LinearLevel {
-    /// The factor on a field that takes half of what linear theory bears: displacements up to half the thickness, tension
-    /// changed by a twentieth, strain up to half way from rest to yield. `None` where no bound is known or nothing moves.
+    /// The level at which a field reaches half of the first bound: a displacement of half the thickness, a change of tension of a
+    /// twentieth, or a strain half way from rest to yield. `found` describes the field at its present level. `None` if no bound is
+    /// known or if nothing moves.
     ///
     /// ```
     /// use unripple_physics::design::{LinearBound, LinearLevel, linearity, papers_surface};
@@ -55,8 +56,8 @@ impl LinearLevel {
     }
 }
 
-/// The factor on bending (in proportion) and stretching (in its square) that takes its share of the strain that tension leaves
-/// until yield; `None` where the strength is unknown or tension alone reaches it.
+/// The factor on the field at which bending (in proportion to it) and stretching (to its square) use their share of the strain
+/// between tension and yield; `None` where the strength is unknown or tension alone reaches yield.
 fn to_yield(surface: &Surface, found: &Linearity) -> Option<f64> {
     let sheet = &surface.sheet;
     let at_yield = sheet.strength? / sheet.young;

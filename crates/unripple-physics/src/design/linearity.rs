@@ -1,34 +1,34 @@
-//! How far a field is from small deflections.
+//! Check of linear theory: whether the deflections of a field are small enough.
 
 use super::deformation::TENSION_CHANGE;
 use unripple_core::Surface;
 
-/// How far a field is from small deflections: what linear theory leaves out, estimated from the field itself.
+/// How large the deflections of a field are for linear theory: displacement, strains and added tension, estimated from the field.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Linearity {
     /// Largest displacement over the sheet's thickness; from about 1 on the sheet stretches as much as it bends.
     pub displacement_over_thickness: f64,
     /// Largest slope |∇u|, dimensionless.
     pub slope: f64,
-    /// Strain on the faces by bending, curvature · h/2.
+    /// Strain on the faces of the sheet by bending, curvature · h/2.
     pub bending_strain: f64,
-    /// Strain of the middle plane where the slope is largest, slope²/2.
+    /// Strain of the sheet's middle plane where the slope is largest, slope²/2.
     pub stretching_strain: f64,
-    /// Tension that the deflection adds as in-plane waves even it out, Eh/(1 - ν) · ⟨|∇u|²⟩/4, in N/m.
+    /// Tension that the deflection adds, spread evenly over the sheet by in-plane waves: Eh/(1 - ν) · ⟨|∇u|²⟩/4, in N/m.
     pub tension_added_n_per_m: f64,
-    /// The same over the sheet's tension; `None` without tension.
+    /// The added tension over the sheet's tension; `None` without tension.
     pub tension_change: Option<f64>,
-    /// Strain by tension, bending and stretching over the strain at yield; `None` where the strength is unknown.
+    /// Total strain by tension, bending and stretching over the strain at yield; `None` where the strength is unknown.
     pub share_of_yield: Option<f64>,
-    /// Whether linear theory holds: displacement below the thickness, tension changed by less than a tenth, no yield.
+    /// Whether linear theory holds: displacement up to the thickness, tension changed by up to a tenth, no yield.
     pub holds: bool,
 }
 
-/// What a field does to a surface beyond linear theory, from its largest displacement (m) and slope, the mean square
-/// of its slope, and its largest curvature (1/m).
+/// Checks linear theory for a field on a surface, given its largest displacement (m) and slope, the mean square of its slope over
+/// the sheet, and its largest curvature (1/m).
 ///
-/// A deflection u lengthens a line along x by ½u_x²; the mean over the sheet, ⟨|∇u|²⟩/4 in each direction, is what
-/// adds to the tension once in-plane waves, fifty times faster than bending waves on a film, have spread it.
+/// A deflection u lengthens a line along x by the strain ½u_x². Its mean over the sheet, ⟨|∇u|²⟩/4 in each direction, adds to
+/// the tension once in-plane waves, which are fifty times faster than bending waves on a film, have spread it.
 ///
 /// ```
 /// use unripple_physics::design::{linearity, papers_surface};

@@ -1,4 +1,8 @@
-//! What a surface can do before anything is built: waves, modes, window, contrast, spot, deformation and touch.
+//! Design figures of a surface, predicted before it is built: waves, modes, window, contrast, focal spot, deformation, power to move a
+//! finger.
+//!
+//! "The paper" is C. Hudin, J. Lozada, M. Wiertlewski and V. Hayward, *Tradeoffs in the Application of Time-Reversed Acoustics to Tactile
+//! Stimulation*, EuroHaptics 2012, whose figures are compared with these.
 
 mod cavity;
 pub mod closed;
@@ -32,11 +36,11 @@ pub use window::{Recommended, Windows, milliseconds};
 use crate::{Modes, PhysicsError};
 use unripple_core::Surface;
 
-/// The tradeoffs of a surface.
+/// The design figures of a surface, with its modes solved for and counted.
 ///
 /// # Errors
-/// [`PhysicsError::Range`] without actuators or with an empty band or one without a mode. A surface whose modes cannot be computed is no
-/// error: its counts are Weyl's, and [`Design::mode_count_exact_reason`] says why.
+/// [`PhysicsError::Range`] for a surface without actuators, or with a band that is empty or holds no mode. A surface whose modes cannot be
+/// computed is no error: modes are then counted by Weyl's law, and [`Design::mode_count_exact_reason`] says why.
 ///
 /// ```
 /// let design = unripple_physics::design(&unripple_physics::design::papers_surface())?;
@@ -49,7 +53,7 @@ pub fn design(surface: &Surface) -> Result<Design, PhysicsError> {
     on(&ground::Ground::of(surface, ground::count(surface), || Windows::of(surface))?)
 }
 
-/// The same from modes that are known already: all of the band, at least.
+/// The design figures that [`design()`] gives, from modes already computed, which must include all modes of the band.
 ///
 /// # Errors
 /// Those of [`design()`].
@@ -57,7 +61,8 @@ pub fn design_on(surface: &Surface, modes: &Modes) -> Result<Design, PhysicsErro
     on(&ground::Ground::of(surface, Ok(ground::counted(surface, modes)), || Windows::of(surface))?)
 }
 
-/// The same at once, modes uncounted: by Weyl's law, and in [`Design::mode_count_exact_reason`] the reason given.
+/// The design figures of a surface without solving for its modes, which is much faster: modes are counted by Weyl's law, and the
+/// contrast follows from statistics. `reason` is stored in [`Design::mode_count_exact_reason`].
 ///
 /// # Errors
 /// Those of [`design()`].

@@ -1,14 +1,14 @@
-//! Slips in the paper, and the right values: what readers who compare should know.
+//! Errors in the paper (Hudin et al. 2012) and the right values, for readers who compare.
 
 use super::Design;
 use unripple_core::Surface;
 
-/// A slip in the paper, and the right value.
+/// An error in the paper (Hudin et al. 2012), and the right value.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Note {
-    /// What the slip is about.
+    /// What the error concerns.
     pub topic: String,
-    /// What the paper says.
+    /// The statement of the paper.
     pub paper: String,
     /// The right value, for this surface.
     pub here: String,
@@ -18,7 +18,7 @@ fn note(topic: &str, paper: &str, here: String) -> Note {
     Note { topic: topic.into(), paper: paper.into(), here }
 }
 
-/// Where the paper slips, with the values of this surface.
+/// Errors in the paper, with the right values for this surface.
 pub(super) fn notes(surface: &Surface, design: &Design) -> Vec<Note> {
     let mut notes = Vec::new();
     if is_papers_film(surface) {
@@ -37,7 +37,7 @@ pub(super) fn notes(surface: &Surface, design: &Design) -> Vec<Note> {
     notes
 }
 
-/// Slips about counts of modes, windows and contrast.
+/// Errors about counts of modes, windows and contrast.
 fn modal_notes(design: &Design) -> [Note; 5] {
     [
         note(
@@ -83,7 +83,7 @@ fn modal_notes(design: &Design) -> [Note; 5] {
     ]
 }
 
-/// Slips about reflection, impedances and power.
+/// Errors about reflection, impedances and power.
 fn wave_notes(design: &Design) -> [Note; 3] {
     let film = design.touch.last();
     let (strip, finger) = film.map_or((0.0, 0.0), |t| (t.impedance_n_s_per_m, t.finger_impedance_n_s_per_m));
@@ -108,7 +108,7 @@ fn wave_notes(design: &Design) -> [Note; 3] {
     ]
 }
 
-/// The paper's film, pulled with whatever tension.
+/// Whether the sheet is the paper's film, under any tension.
 fn is_papers_film(surface: &Surface) -> bool {
     let sheet = &surface.sheet;
     sheet.tension > 0.0

@@ -1,12 +1,12 @@
-//! The paper's surface and the conditions of its table.
+//! The surface of the paper (Hudin et al. 2012) and the conditions of its table 1.
 
 use super::Strip;
 use unripple_core::{
     Actuator, ActuatorKind, Air, Decay, Emission, Finger, Outline, Point, Shape, Sheet, Surface, Uneven,
 };
 
-/// Where the paper's table and window are taken: a wavelength of 15 mm, in metres. Doubled, celerities of the
-/// table would be others than those printed.
+/// Wavelength for which the paper's table 1 and window are computed, in metres. Doubled, celerities of the
+/// table would differ from those printed.
 pub(super) const WAVELENGTH: f64 = 15e-3;
 
 /// Width of the contact in the paper's table, in metres. Doubled, strips and powers would be twice those
@@ -17,9 +17,9 @@ pub(super) const CONTACT: f64 = 10e-3;
 /// printed.
 pub(super) const DISPLACEMENT: f64 = 10e-6;
 
-/// The paper's membrane, with eight ideal force actuators placed without symmetry: the built-in `hudin-2012`.
+/// The membrane of Hudin et al. (2012) with eight ideal force actuators at places without symmetry: the built-in surface `hudin-2012`.
 ///
-/// The tension is 200 N/m: the 30 N/m printed contradicts the celerities, the first mode and the table printed beside it.
+/// The tension is 200 N/m: the 30 N/m printed in the paper contradicts its celerities, first mode and table 1.
 pub fn papers_surface() -> Surface {
     let places = [
         (12.0, 31.0),
@@ -61,12 +61,12 @@ pub fn papers_surface() -> Surface {
     }
 }
 
-/// The glass strip of the paper's table 1: 69 GPa, 2300 kg/m³, 1 mm, slack.
+/// The glass strip of the paper's table 1: 69 GPa, 2300 kg/m³, 1 mm thick, 10 mm wide, without tension.
 pub fn glass_strip() -> Strip {
     Strip::of_sheet(69e9, 2300.0, 1e-3, 0.0, CONTACT)
 }
 
-/// The film strip of the paper's table 1: 4 GPa, 1400 kg/m³, 0.125 mm, pulled with 2 N.
+/// The film strip of the paper's table 1: 4 GPa, 1400 kg/m³, 0.125 mm thick, 10 mm wide, under a tension of 2 N.
 pub fn film_strip() -> Strip {
     Strip::of_sheet(4e9, 1400.0, 0.125e-3, 2.0 / CONTACT, CONTACT)
 }

@@ -1,12 +1,13 @@
-//! The paper's model of touch: a strip of sheet as wide as the finger (section 3.5).
+//! A finger on a strip of sheet as wide as its contact, by the model of Hudin et al. (2012), section 3.5.
 
 use std::f64::consts::TAU;
 use unripple_core::Finger;
 
-/// A strip of sheet as wide as a finger's contact, along which waves come: the paper's section 3.5.
+/// A strip of sheet as wide as a finger's contact, along which waves travel to the finger (Hudin et al. 2012, section 3.5).
+/// Equation numbers are those of the paper.
 ///
-/// An incident wave A_I e^{j(ωt - kx)} meets the finger at x = 0; a reflected one travels back as e^{j(ωt + kx)} and a
-/// transmitted one goes on.
+/// An incident wave A_I e^{j(ωt - kx)} meets the finger at x = 0; a reflected wave A_R e^{j(ωt + kx)} travels back, and a
+/// transmitted wave A_T e^{j(ωt - kx)} goes on.
 ///
 /// ```
 /// use unripple_core::Finger;
@@ -18,15 +19,15 @@ use unripple_core::Finger;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strip {
-    /// Mass per length ρ_l = ρhl, in kg/m.
+    /// Mass per length ρ_l = ρhl of a strip of thickness h and width l, in kg/m.
     pub linear_density: f64,
     /// Tension R_l, in N.
     pub tension: f64,
-    /// Bending stiffness D_l = Eh³l/12, in N·m². A strip bends freely across, hence no 1 - ν².
+    /// Bending stiffness D_l = Eh³l/12, in N·m². Without the factor 1/(1 - ν²) of a plate, since a narrow strip can curve across.
     pub bending_stiffness: f64,
 }
 
-/// What a wave of unit power becomes at the finger. The three shares sum to one.
+/// Reflection, transmission and absorption of a wave at the finger. The three shares of its power sum to one.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Scattering {
     /// Frequency, in Hz.
@@ -35,16 +36,16 @@ pub struct Scattering {
     pub reflection: f64,
     /// Transmission coefficient abs(A_T/A_I), dimensionless.
     pub transmission: f64,
-    /// Share of the power that goes back.
+    /// Share of the power that is reflected.
     pub reflected_power: f64,
-    /// Share of the power that goes on.
+    /// Share of the power that is transmitted.
     pub transmitted_power: f64,
-    /// Share of the power that the finger takes.
+    /// Share of the power that the finger absorbs.
     pub absorbed_power: f64,
 }
 
 impl Strip {
-    /// A strip `width` metres wide of a sheet of Young's modulus (Pa), density (kg/m³), thickness (m), tension (N/m).
+    /// A strip of width `width` (m) of a sheet with a given Young's modulus (Pa), density (kg/m³), thickness (m) and tension (N/m).
     pub fn of_sheet(young: f64, density: f64, thickness: f64, tension: f64, width: f64) -> Self {
         Self {
             linear_density: density * thickness * width,
@@ -53,12 +54,12 @@ impl Strip {
         }
     }
 
-    /// Celerity c = √((R_l + D_l k²)/ρ_l), in m/s (equation 5), at the wavenumber `k` (rad/m).
+    /// Phase velocity c = √((R_l + D_l k²)/ρ_l), in m/s (equation 5), at the wavenumber `k` (rad/m).
     pub fn celerity(&self, k: f64) -> f64 {
         (self.stretch(k) / self.linear_density).sqrt()
     }
 
-    /// Impedance Z_S = √(ρ_l (R_l + D_l k²)), in N·s/m (equation 5), at the wavenumber `k` (rad/m).
+    /// Wave impedance Z_S = √(ρ_l (R_l + D_l k²)), in N·s/m (equation 5), at the wavenumber `k` (rad/m).
     pub fn impedance(&self, k: f64) -> f64 {
         (self.linear_density * self.stretch(k)).sqrt()
     }
@@ -70,10 +71,10 @@ impl Strip {
         (2.0 * inertia / (self.tension + root)).sqrt()
     }
 
-    /// Power of the incident wave that moves the finger with amplitude A_F (m), in W (equation 4):
-    /// P = (ω²/4) abs(Z_F + 2Z_S)²/abs(Z_S) A_F².
+    /// Power, in W, of an incident wave of wavenumber `k` (rad/m) that moves the finger with the `amplitude` A_F (m), by
+    /// equation 4: P = (ω²/4) abs(Z_F + 2Z_S)²/abs(Z_S) A_F².
     ///
-    /// As the paper defines it: the crest of the power, twice its mean over a period.
+    /// As in the paper, this is the greatest instantaneous power, twice the mean over a period.
     pub fn power(&self, finger: &Finger, k: f64, amplitude: f64) -> f64 {
         let omega = k * self.celerity(k);
         let strip = self.impedance(k);
@@ -82,7 +83,7 @@ impl Strip {
         omega * omega / 4.0 * both / strip * amplitude * amplitude
     }
 
-    /// What becomes of a wave of a frequency in Hz (equation 3): A_T/A_I = 2Z_S/(Z_F + 2Z_S), A_R/A_I = -Z_F/(Z_F + 2Z_S).
+    /// Scattering at the finger of a wave of a frequency in Hz (equation 3): A_T/A_I = 2Z_S/(Z_F + 2Z_S), A_R/A_I = -Z_F/(Z_F + 2Z_S).
     pub fn scattering(&self, finger: &Finger, hz: f64) -> Scattering {
         let strip = self.impedance(self.wavenumber(hz));
         let (resistance, reactance) = finger_impedance(finger, TAU * hz);
@@ -104,7 +105,7 @@ impl Strip {
     }
 }
 
-/// Impedance of a finger Z_F = β + j(μω - κ/ω) at angular frequency ω (rad/s), as real and imaginary part, in N·s/m.
+/// Mechanical impedance of a finger Z_F = β + j(μω - κ/ω) at the angular frequency ω (rad/s): its real and imaginary parts, in N·s/m.
 pub fn finger_impedance(finger: &Finger, omega: f64) -> (f64, f64) {
     (finger.damping, finger.mass * omega - finger.stiffness / omega)
 }

@@ -1,10 +1,10 @@
-//! The design as text for people.
+//! The design figures as text for people.
 
 use super::{ACTUATORS, Design};
 use std::fmt::{Display, Formatter, Result};
 
 impl Display for Design {
-    /// The design as people read it: a section per tradeoff, in millimetres, milliseconds and hertz.
+    /// Formats the design figures as text, one section per topic, in millimetres, milliseconds and hertz.
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         writeln!(
             f,

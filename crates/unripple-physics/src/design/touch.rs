@@ -6,14 +6,15 @@ use super::strip::finger_impedance;
 use std::f64::consts::TAU;
 use unripple_core::{Finger, Surface};
 
-/// What it takes to move a finger by 10 µm through a strip of sheet as wide as the contact.
+/// Power of a wave on a strip of sheet as wide as the contact that moves a finger by 10 µm, and the impedances involved
+/// (Hudin et al. 2012, section 3.5 and table 1).
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Touch {
     /// Name of the strip, for people.
     pub strip: String,
     /// Wavelength, in metres.
     pub wavelength_m: f64,
-    /// Celerity, in m/s.
+    /// Phase velocity, in m/s.
     pub celerity_m_s: f64,
     /// Frequency, in Hz.
     pub frequency_hz: f64,
@@ -23,13 +24,13 @@ pub struct Touch {
     pub finger_impedance_n_s_per_m: f64,
     /// Power of the incident wave, in W (equation 4).
     pub power_w: f64,
-    /// Share of that power that the finger takes.
+    /// Share of that power that the finger absorbs.
     pub absorbed_power: f64,
-    /// The power that the paper prints, in W.
+    /// The power printed in the paper, in W; `None` for strips that are not in its table 1.
     pub printed_power_w: Option<f64>,
 }
 
-/// The paper's table 1: glass and film at 15 mm, a contact of 10 mm and the paper's finger.
+/// The rows of table 1 of Hudin et al. (2012): glass and film at a wavelength of 15 mm, with a contact of 10 mm and the paper's finger.
 pub fn table1() -> Vec<Touch> {
     let finger = Finger::default();
     let k = TAU / WAVELENGTH;
@@ -39,7 +40,8 @@ pub fn table1() -> Vec<Touch> {
     ]
 }
 
-/// The surface's own sheet under its own finger at 15 mm and at the wavelength given (m), the contact as wide as the finger's.
+/// The same figures for the surface's own sheet and finger, at wavelengths of 15 mm and of `lambda_min` (m), with the contact of
+/// that finger.
 pub(super) fn own_touches(surface: &Surface, lambda_min: f64) -> Vec<Touch> {
     let sheet = &surface.sheet;
     let width =
@@ -51,7 +53,7 @@ pub(super) fn own_touches(surface: &Surface, lambda_min: f64) -> Vec<Touch> {
         .to_vec()
 }
 
-/// What it takes at the wavenumber `k` (rad/m).
+/// The figures of one strip at the wavenumber `k` (rad/m).
 fn touch(name: &str, strip: &Strip, finger: &Finger, k: f64) -> Touch {
     let hz = k * strip.celerity(k) / TAU;
     let (resistance, reactance) = finger_impedance(finger, TAU * hz);

@@ -1,69 +1,69 @@
-//! Contrast against number of actuators, window, bandwidth and noise.
+//! Tables of predicted contrast against window, number of actuators, bandwidth, rate of repetition and noise.
 
 use super::Cavity;
 use super::closed;
 use crate::Medium;
 use unripple_core::Surface;
 
-/// Numbers of actuators that are tabulated, doubling, as contrast grows with their square root.
+/// Numbers of actuators in the table of contrast, in powers of two, since contrast grows with their square root.
 pub const ACTUATORS: [usize; 6] = [1, 2, 4, 8, 16, 32];
 
-/// Windows that are tabulated, in seconds, from too short for most surfaces to longer than most decay.
+/// Windows in the table of contrast, in seconds: from too short for most surfaces to longer than the decay of most.
 pub const WINDOWS: [f64; 8] = [0.005, 0.010, 0.020, 0.030, 0.050, 0.075, 0.100, 0.150];
 
-/// Shares of the band that are tabulated; 1 is the surface's own, more shows what a wider one would give.
+/// Bandwidths in the table, as shares of the surface's band; 1 is the band itself, more shows what a wider one would give.
 const BANDS: [f64; 6] = [0.125, 0.25, 0.5, 0.75, 1.0, 1.5];
 
-/// Rates of repetition that are tabulated, in Hz, from single foci to pulses that overlap on most surfaces.
+/// Rates of repetition in the table, in Hz: from single foci to pulses that overlap on most surfaces.
 const RATES: [f64; 7] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0];
 
-/// Noise over responses, as a ratio of rms, that is tabulated: from clean recordings to noise three times the
+/// Levels of noise in the table, rms of noise over rms of responses: from clean recordings to noise three times the
 /// signal.
 const NOISES: [f64; 5] = [0.01, 0.1, 0.3, 1.0, 3.0];
 
-/// Predicted contrast against window and number of actuators.
+/// A row of the table of predicted contrast against window and number of actuators.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct ByWindow {
     /// Window T, in seconds.
     pub window_s: f64,
-    /// Contrast for 1, 2, 4, 8, 16 and 32 actuators.
+    /// Contrast for each number of actuators in [`ACTUATORS`].
     pub contrast: Vec<f64>,
 }
 
-/// Predicted contrast against bandwidth.
+/// A row of the table of predicted contrast against bandwidth.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct ByBand {
     /// Top of the band, in Hz.
     pub top_hz: f64,
     /// Shortest wavelength, in metres.
     pub lambda_min_m: f64,
-    /// Modes, by Weyl's law scaled to the exact count of the surface's own band.
+    /// Number of modes in the band, by Weyl's law scaled to the exact count of the surface's own band.
     pub modes: f64,
-    /// Contrast outside a disc of 4/3 of that wavelength.
+    /// Predicted contrast, outside a focal disc of a radius of 4/3 of the shortest wavelength.
     pub contrast: f64,
-    /// Spot, in metres.
+    /// Full width at half maximum of a focus in space, in metres.
     pub spot_diameter_m: f64,
-    /// Pulse, in seconds.
+    /// Full width at half maximum of a focus in time, in seconds.
     pub pulse_duration_s: f64,
 }
 
-/// Predicted contrast of a repeated focus against rate.
+/// A row of the table of predicted contrast against the rate at which a focus is repeated.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct ByRate {
     /// Repetitions per second.
     pub rate_hz: f64,
-    /// Contrast with the surface's own decay.
+    /// Contrast with the decay times of the surface.
     pub contrast: f64,
-    /// Contrast with the decay time the paper aims for, T/N.
+    /// Contrast with the decay time T/N that the paper recommends.
     pub contrast_at_papers_decay: f64,
 }
 
-/// Predicted contrast against noise in recording or emission.
+/// A row of the table of predicted contrast against noise in recording or emission.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct ByNoise {
     /// Rms of the noise over rms of a response, in the band and over the window.
     pub noise_ratio: f64,
-    /// Contrast that is predicted, a ratio.
+    /// Predicted contrast, a ratio of amplitudes.
     pub contrast: f64,
 }
 

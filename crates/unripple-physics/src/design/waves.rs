@@ -1,4 +1,4 @@
-//! Rows of the dispersion table: wavelength and celerities against frequency.
+//! Rows of the dispersion table: wavelength, phase velocity and group velocity against frequency.
 
 use super::cavity::modes_per_wavenumber;
 use crate::Medium;
@@ -6,26 +6,26 @@ use std::f64::consts::TAU;
 use unripple_core::Surface;
 use unripple_plates::decay_rate;
 
-/// A wave of the band: one row of the dispersion relation.
+/// A wave of one frequency in the band: one row of the dispersion table.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Wave {
     /// Frequency, in Hz.
     pub frequency_hz: f64,
     /// Wavelength λ = 2π/k, in metres.
     pub wavelength_m: f64,
-    /// Phase celerity ω/k, in m/s.
+    /// Phase velocity ω/k, in m/s.
     pub phase_celerity_m_s: f64,
-    /// Group celerity dω/dk, in m/s.
+    /// Group velocity dω/dk, in m/s.
     pub group_celerity_m_s: f64,
-    /// Modes per hertz by Weyl's law, dM/df = (2Sk - P)/2c_g, P the fixed rim minus the free.
+    /// Modes per hertz by Weyl's law, dM/df = (2Sk - P)/2c_g, with P the length of fixed edges minus that of free edges.
     pub modes_per_hz: f64,
-    /// Spacing of modes 1/(dM/df), in Hz; `None` below the first.
+    /// Mean spacing of modes 1/(dM/df), in Hz; `None` where Weyl's law gives no modes.
     pub mode_spacing_hz: Option<f64>,
     /// Decay time of the amplitude, in seconds.
     pub decay_time_s: f64,
 }
 
-/// The waves at `steps` even frequencies (a number) up to the top of the band.
+/// Waves at evenly spaced frequencies of the band, in `steps` (a number of) steps from its bottom to its top, 0 Hz left out.
 pub(super) fn waves(surface: &Surface, steps: usize) -> Vec<Wave> {
     let [low, top] = surface.emission.band;
     (0..=steps)

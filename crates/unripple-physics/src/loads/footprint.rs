@@ -3,23 +3,24 @@
 use std::f64::consts::{PI, TAU};
 use unripple_core::{Outline, Point, Shapes};
 
-/// Radii of a disc's quadrature, as Gauss points of the area. Doubled, it would be exact to degree 19, for
+/// Number of radii in the quadrature over a disc: Gauss points in r². Doubled, it would be exact to degree 19, for
 /// twice the points.
 const RADII: usize = 5;
-/// Directions on each radius, staggered from one to the next. Doubled, twice the points for waves that are
-/// shorter.
+/// Number of points on each radius, staggered from one radius to the next. Doubled, there are twice the points, exact for
+/// shorter waves.
 const DIRECTIONS: usize = 16;
 
-/// Rings of a rim's slope inside it, its own included. More bear shorter waves, for points in proportion.
+/// Number of rings, up to the rim, from which the slope at a rim is computed. More are exact for shorter waves, with points
+/// in proportion.
 const RINGS: usize = 9;
-/// Directions on each ring; so many make the mean around it exact for waves up to k·radius = 8 or so.
+/// Number of points on each ring: enough for an exact mean around it for waves up to about k·radius = 8.
 const RAYS: usize = 24;
 
-/// How something touches the sheet: points and weights, so that the force per mode is `Σ_i weight_i φ_m(x_i)` times
-/// the force, and what it feels is the same sum of the sheet's motion.
+/// A contact area on the sheet as quadrature points with weights. A force F over it excites mode m with the modal force
+/// `F Σ_i weight_i φ_m(x_i)`; the motion sensed there is the same weighted sum of the sheet's motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Footprint {
-    /// Points on the sheet and their weights; of an even contact these sum to 1.
+    /// Points on the sheet (m) and their weights; the weights of a contact of uniform pressure sum to 1.
     pub points: Vec<(Point, f64)>,
 }
 
@@ -29,9 +30,9 @@ impl Footprint {
         Self { points: vec![(at, 1.0)] }
     }
 
-    /// An even contact over a disc of some radius (m). What of the disc lies beyond the rim carries nothing.
+    /// A contact of uniform pressure over a disc of some radius (m). A part of the disc beyond the rim carries nothing.
     ///
-    /// Exact for shapes that are polynomials of degree 9 in place; for waves with k·radius up to 5 the error is below 1e-6.
+    /// Exact for mode shapes that are polynomials of degree 9 in x and y; for waves with k·radius up to 5 the error is below 1e-6.
     pub fn disc(at: Point, radius: f64, outline: &Outline) -> Self {
         if radius <= 0.0 {
             return Self::point(at);
@@ -56,9 +57,9 @@ impl Footprint {
         Self { points }
     }
 
-    /// An even contact along a straight line, as narrow as a line is.
+    /// A contact of uniform pressure along a straight line between two points (m), of no width.
     ///
-    /// By Gauss-Legendre quadrature of `count` points: exact for polynomials of degree 2·`count` - 1 along it.
+    /// By Gauss-Legendre quadrature with `count` points: exact for polynomials of degree 2·`count` - 1 along the line.
     pub fn line(from: Point, to: Point, count: usize) -> Self {
         let along = |(x, w): (f64, f64)| {
             let t = 0.5 * (1.0 + x);
@@ -67,13 +68,13 @@ impl Footprint {
         Self { points: unripple_plates::gauss(count.max(1)).into_iter().map(along).collect() }
     }
 
-    /// The slope outwards across the rim of a disc, integrated along the rim, ∮ ∂u/∂n ds = ∫ ∇²u dA: weights in metres times
-    /// 1/m, which sum to 0.
+    /// The outward slope integrated along the rim of a disc of some radius (m), ∮ ∂u/∂n ds = ∫ ∇²u dA, which a round piezo patch
+    /// acts on and senses. The weights are dimensionless and sum to 0.
     ///
-    /// The mean of u around a circle of radius r is an even function of r. It is read on rings inside the disc, so that nothing
-    /// beyond the rim is needed, and the slope at the rim is that of the polynomial in r² through them. For waves of wavenumber
-    /// k, where it is exactly -2πk·radius J_1(k·radius), the error is below 1e-9 of 2πk·radius up to k·radius = 3, and below
-    /// 1e-5 up to 8.
+    /// The mean of u around a circle of radius r is an even function of r. It is taken on rings inside the disc, so that no points
+    /// beyond the rim are needed; the slope at the rim is that of the polynomial in r² through these means. For plane waves of
+    /// wavenumber k, for which the integral is -2πk·radius J_1(k·radius), the error is below 1e-9 of 2πk·radius up to
+    /// k·radius = 3, and below 1e-5 up to 8.
     pub fn rim_slope(at: Point, radius: f64) -> Self {
         // Chebyshev's nodes of (r/radius)², both ends among them.
         let squares: Vec<f64> =
@@ -96,7 +97,7 @@ impl Footprint {
         Self::all_weights(std::slice::from_ref(self), shapes).row(0).iter().copied().collect()
     }
 
-    /// What several footprints feel of every mode, footprints x modes, the shapes read once.
+    /// The weights of several footprints as in [`Footprint::weights`], footprints x modes, with a single evaluation of the shapes.
     pub fn all_weights(footprints: &[Self], shapes: &dyn Shapes) -> unripple_linalg::Mat<f64> {
         let places: Vec<Point> = footprints.iter().flat_map(|f| f.points.iter().map(|(p, _)| *p)).collect();
         let values = shapes.at_all(&places);
@@ -120,7 +121,7 @@ impl Footprint {
     }
 }
 
-/// Weights of values at nodes between 0 and 1 in the slope at 1, the last node, of the polynomial through them.
+/// Weights of the values at nodes from 0 to 1 in the slope, at the last node 1, of the polynomial through them.
 fn slopes_at_end(nodes: &[f64]) -> Vec<f64> {
     let last = nodes.len() - 1;
     let others = |i: usize| (0..nodes.len()).filter(move |j| *j != i);

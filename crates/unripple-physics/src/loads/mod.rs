@@ -1,4 +1,4 @@
-//! What hangs on the sheet and moves with it: fingers, coils, masses.
+//! Mechanical loads on the sheet that move with it: fingers, coils, masses.
 
 mod footprint;
 
@@ -8,12 +8,12 @@ use crate::PhysicsError;
 use unripple_core::{Contact, Outline, require};
 use unripple_linalg::c64;
 
-/// From this R/L on, in 1/s, a coil's current follows its voltage at once; at 3 kHz that is an error of 2e-5
-/// of its share. Doubled, the error is half as large.
+/// For R/L from this on, in 1/s, a coil's inductance is neglected, so that its current follows its voltage at once; at 3 kHz
+/// this is a relative error of 2e-5 of the coil's force. Doubled, the error is half as large.
 const AT_ONCE: f64 = 1e9;
 
-/// A mass, a damper and a spring to the ground, and perhaps a coil, all moving with the sheet at a footprint. Its
-/// impedance is Z(s) = μs + β + κ/s + (bl)²/(R + Ls): passive, whatever the values.
+/// A lumped load on the sheet: a mass, a damper and a spring to the ground, and optionally a coil, all moving with the sheet at
+/// one contact. Its mechanical impedance is Z(s) = μs + β + κ/s + (bl)²/(R + Ls), which is passive for non-negative values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Load {
     /// Contact with the sheet, as points and weights.
@@ -24,11 +24,11 @@ pub struct Load {
     pub damping: f64,
     /// Stiffness κ to the ground, in N/m.
     pub stiffness: f64,
-    /// A coil closed by a source of voltage.
+    /// A coil closed by a voltage source, in which the motion drives a current; `None` for no coil.
     pub circuit: Option<Circuit>,
 }
 
-/// A coil moving in a magnet's field, its terminals held at a voltage.
+/// The electrical circuit of a coil in a magnet's field whose terminals are held at a voltage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Circuit {
     /// Force constant bl, in N/A, which is also the electromotive force per velocity, in V·s/m.
@@ -40,7 +40,7 @@ pub struct Circuit {
 }
 
 impl Load {
-    /// A finger on a sheet (Hudin et al. 2012, section 3.5: mass, damper and spring to the ground).
+    /// A finger on a sheet as a load (mass, damper and spring to the ground: Hudin et al. 2012, section 3.5).
     pub fn finger(contact: &Contact, outline: &Outline) -> Self {
         let finger = &contact.finger;
         Self {
@@ -52,7 +52,7 @@ impl Load {
         }
     }
 
-    /// Impedance Z(s) at the complex frequency `s` (1/s), force over velocity, in N·s/m.
+    /// Mechanical impedance Z(s), force over velocity, at the complex frequency `s` (1/s), in N·s/m.
     pub fn impedance(&self, s: c64) -> c64 {
         let coil = self.circuit.map_or(c64::new(0.0, 0.0), |circuit| {
             circuit.admittance(s) * (circuit.force_constant * circuit.force_constant)
@@ -60,23 +60,23 @@ impl Load {
         s * self.mass + self.damping + s.inv() * self.stiffness + coil
     }
 
-    /// Whether it does anything to the sheet.
+    /// Whether the load has any effect on the sheet.
     pub(crate) fn acts(&self) -> bool {
         let coil = self.circuit.is_some_and(|circuit| circuit.force_constant != 0.0);
         self.mass != 0.0 || self.damping != 0.0 || self.stiffness != 0.0 || coil
     }
 
-    /// The coil, if its current takes time to grow.
+    /// The coil, if its inductance is not negligible.
     pub(crate) fn inductive_coil(&self) -> Option<Circuit> {
         self.circuit.filter(|circuit| circuit.resistance < AT_ONCE * circuit.inductance)
     }
 
-    /// Damping (bl)²/R by a coil whose current does not, in N·s/m.
+    /// Damping (bl)²/R by a coil of negligible inductance, in N·s/m; 0 for any other.
     pub(crate) fn direct_coil_damping(&self) -> f64 {
         self.direct_coil_force() * self.circuit.map_or(0.0, |circuit| circuit.force_constant)
     }
 
-    /// Force bl/R of such a coil, in N/V.
+    /// Force per volt bl/R of a coil of negligible inductance, in N/V; 0 for any other.
     pub(crate) fn direct_coil_force(&self) -> f64 {
         match self.circuit {
             Some(circuit) if self.inductive_coil().is_none() => circuit.force_constant / circuit.resistance,
@@ -85,7 +85,7 @@ impl Load {
     }
 
     /// # Errors
-    /// [`PhysicsError::Range`] unless its values are those of a passive thing.
+    /// [`PhysicsError::Range`] unless its values are those of a passive load.
     pub(crate) fn check(&self) -> Result<(), PhysicsError> {
         let none = "0 or more";
         require("mass of a load in kg", self.mass >= 0.0, none, self.mass)?;
@@ -99,7 +99,7 @@ impl Load {
 }
 
 impl Circuit {
-    /// Current per volt 1/(R + Ls) at the complex frequency `s` (1/s), the coil at rest, in A/V.
+    /// Electrical admittance 1/(R + Ls) of the coil at rest, at the complex frequency `s` (1/s), in A/V.
     pub fn admittance(&self, s: c64) -> c64 {
         (s * self.inductance + self.resistance).inv()
     }

@@ -1,4 +1,4 @@
-//! How long to record before reversing: contrast against the window, and the shortest window that is worth its wait.
+//! The time-reversal window (the length of the responses that are reversed): contrast against the window, and the recommended one.
 
 mod modal;
 mod places;
@@ -12,48 +12,48 @@ use rayon::prelude::*;
 use std::f64::consts::TAU;
 use unripple_core::{Responses, Surface};
 
-/// Share of the largest contrast at which more window is no longer worth its wait. At 1, the window of the
-/// largest contrast would be recommended, however long it is.
+/// Share of the largest contrast that the recommended window reaches: a longer one would gain little for its delay. At 1, the
+/// window of the largest contrast would be recommended, however long it is.
 pub(super) const WORTHWHILE: f64 = 0.9;
 
-/// How often waves cross the surface in a window at least, along the mean chord. In a shorter one waves have
-/// not been everywhere: parts of the surface are silent, and contrast says how many rather than how good the
-/// focus is. Doubled, small surfaces would get windows twice as long.
+/// Least number of times that waves cross the surface in a window, along the mean chord. In a shorter window waves do not
+/// reach all of the surface, and the contrast depends on how much of it is silent rather than on the quality of the focus.
+/// Doubled, small surfaces would get windows twice as long.
 const CROSSINGS: f64 = 3.0;
 
-/// How a window of three crossings is described.
+/// Description of a window of three crossings, for people.
 const CROSSED: &str =
     "in which waves cross the surface three times, the shortest in which they reach every part of it";
 
-/// The longest window that is considered, in seconds. A focus comes a window after it was asked for; past
-/// this nobody waits. Where losses grow with frequency contrast may creep on for minutes, as the lowest modes
-/// outlive the others. Doubled, such surfaces get longer windows.
+/// The longest window that is considered, in seconds. The delay of a focus is the window, and a longer one is of no use. Where
+/// losses grow with frequency, contrast can keep growing for minutes, as the lowest modes outlast the others. Doubled,
+/// such surfaces get longer windows.
 const LONGEST: f64 = 0.5;
 
-/// Share of the largest contrast that is as good as it: the window named for it is the shortest that has that
-/// much. At 1, that window would move with the last digits of a curve that is nearly flat.
+/// Share of the largest contrast that counts as equal to it: the window of the largest contrast is taken as the shortest with
+/// this share. At 1, it would depend on the last digits of a curve that is nearly flat.
 const AS_GOOD: f64 = 0.995;
 
-/// Windows considered to each doubling: contrast changes by 6 % at most from one to the next, and is
+/// Number of windows computed for each doubling: contrast changes by at most 6 % from one to the next, and is
 /// interpolated. Doubled, the curve takes twice as long.
 const PER_DOUBLING: f64 = 6.0;
 
-/// Relative accuracy of the frequencies. The contrast of a mean over targets does not ask where each mode is,
-/// only for as many modes as alike as the surface's own. Smaller, modes take longer and contrast stays the
-/// same.
+/// Relative accuracy of the frequencies. The mean contrast over many targets depends on the number and statistics of the
+/// modes, not on the exact frequency of each. Smaller, modes take longer and contrast stays the same.
 const ACCURACY: f64 = 1e-3;
 
-/// Modes below the top of the band up to which they are solved for. The work grows as their square; the
-/// statistics of so many modes are good. Doubled, the largest surfaces take four times as long.
+/// Largest number of modes below the top of the band for which they are solved for. The work grows as its square, and
+/// statistics are accurate for more modes. Doubled, the largest surfaces take four times as long.
 const MOST_MODES: f64 = 2000.0;
 
-/// Contrast of a time-reversed focus against its window, T, for the actuators of a surface.
+/// Contrast of a time-reversed focus as a function of its window T, for the actuators of a surface.
 ///
-/// From the modes of the surface with all that hangs on it, for targets spread over it away from the rim: the C of
-/// 1/C² = ⟨(rms velocity outside the focal disc)²/(velocity at the target)²⟩ over the targets, at the focal instant. A surface of very many modes,
-/// or one whose modes cannot be computed, has that of [`Cavity`], from its first mode on.
+/// It is computed from the modes of the surface with the loads of its actuators, for targets spread over the surface away from the
+/// rim: 1/C² is the mean over targets of (rms velocity outside the focal disc)²/(velocity at the target)² at the focal instant. For
+/// a surface of more than 2000 modes, or whose modes cannot be computed, it is the statistical contrast of [`Cavity`], for a band
+/// that begins at the first mode.
 ///
-/// Everything that recommends a window asks here, with nothing but the surface, so that it is the same everywhere.
+/// All parts of the software that recommend a window use this, so that they agree.
 ///
 /// ```
 /// use unripple_physics::design::{Windows, papers_surface};
@@ -66,29 +66,29 @@ const MOST_MODES: f64 = 2000.0;
 pub struct Windows {
     /// Contrast against window in s, ascending.
     curve: Vec<(f64, f64)>,
-    /// Why it is by statistics, where it is.
+    /// Why the curve is computed from statistics, if it is.
     statistics: Option<String>,
 }
 
-/// A window, and why it is that.
+/// A recommended window, its contrast, and the reason for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recommended {
-    /// The window, in s, to three digits.
+    /// The window, in s, rounded up to three digits.
     pub seconds: f64,
-    /// Contrast to be expected with it.
+    /// Expected contrast with this window.
     pub contrast: f64,
-    /// The largest contrast of all windows considered.
+    /// The largest contrast among all windows considered.
     pub largest: f64,
-    /// The shortest window within half a per cent of it, in s.
+    /// The shortest window whose contrast is within half a per cent of the largest, in s.
     pub largest_at: f64,
-    /// Whether it is the shortest considered: waves cross the surface three times in it.
+    /// Whether this is the shortest window considered, in which waves cross the surface three times.
     pub at_floor: bool,
-    /// What it is in words, for people: a clause without the window itself.
+    /// Why this window is recommended, in words, without its length.
     pub why: String,
 }
 
 impl Recommended {
-    /// The same, or the longest that responses last, in s, and that in words.
+    /// This window, or `longest` (s), the length of the responses, if that is shorter; `windows` gives the contrast there.
     pub fn within(self, longest: f64, windows: &Windows) -> Self {
         if self.seconds <= longest {
             return self;
@@ -101,14 +101,14 @@ impl Recommended {
         Self { seconds: longest, contrast: windows.contrast(longest), why, ..self }
     }
 
-    /// It in a clause: so many milliseconds, and why.
+    /// The window in words: its length in milliseconds, and why it is recommended.
     pub fn text(&self) -> String {
         format!("{} ms, {}", milliseconds(self.seconds), self.why)
     }
 }
 
 impl Windows {
-    /// Of a surface. Takes as long as a coarse solution for its modes.
+    /// The contrast against window of a surface. Takes as long as a coarse solution for its modes.
     pub fn of(surface: &Surface) -> Self {
         let top = surface.emission.band[1];
         let below = modes_below(&surface.outline, Medium::of(&surface.sheet).wavenumber(TAU * top));
@@ -129,19 +129,20 @@ impl Windows {
         }
     }
 
-    /// The same at once, by statistics, for the reason given.
+    /// The contrast against window of a surface from statistics, without solving for its modes, which is much faster. `reason` says why,
+    /// for people.
     pub fn by_law(surface: &Surface, reason: impl Into<String>) -> Self {
         let mut ringing = surface.clone();
         let first = Medium::of(&surface.sheet).omega(first_wavenumber(surface)) / TAU;
         let [low, top] = surface.emission.band;
-        // Below the first mode nothing rings, whatever Weyl's law says.
+        // Below the first mode there is no resonance, whatever Weyl's law gives.
         ringing.emission.band[0] = low.max(first).min(top);
         let cavity = Cavity::of(&ringing, top);
         let actuators = surface.actuators.len() as f64;
         Self::along(surface, Some(reason.into()), |window| cavity.contrast(actuators, window))
     }
 
-    /// The curve of a function of contrast by window, in s, over the windows that are considered.
+    /// The curve of a function that gives the contrast for a window (s), at all windows that are considered.
     fn along(surface: &Surface, statistics: Option<String>, contrast: impl Fn(f64) -> f64 + Sync) -> Self {
         let shortest = CROSSINGS * Cavity::of(surface, surface.emission.band[1]).crossing();
         let longest = LONGEST.max(4.0 * shortest);
@@ -151,12 +152,12 @@ impl Windows {
         Self { curve, statistics }
     }
 
-    /// The window that `unripple design` recommends: the shortest with nine tenths of the largest contrast.
+    /// The window that `unripple design` recommends: the shortest that reaches nine tenths of the largest contrast.
     pub fn recommended(&self) -> Recommended {
         self.shortest(WORTHWHILE)
     }
 
-    /// The shortest window whose contrast is the share `share`, 0 to 1, of the largest.
+    /// The shortest window whose contrast reaches the share `share` (0 to 1) of the largest.
     pub fn shortest(&self, share: f64) -> Recommended {
         let known = self.curve.iter().map(|(_, c)| *c).filter(|c| c.is_finite());
         let Some(largest) = known.max_by(f64::total_cmp) else {
@@ -182,8 +183,8 @@ impl Windows {
         Recommended { seconds, contrast: self.contrast(seconds), largest, largest_at, at_floor, why }
     }
 
-    /// Contrast (a ratio) to be expected with a window, in s; between the shortest and the longest
-    /// considered.
+    /// Expected contrast (a ratio of amplitudes) for a window, in s. Interpolated between the windows considered; beyond the
+    /// shortest and the longest it is that of the nearest.
     pub fn contrast(&self, window: f64) -> f64 {
         let after = self.curve.partition_point(|(t, _)| *t < window);
         match (after.checked_sub(1).and_then(|i| self.curve.get(i)), self.curve.get(after)) {
@@ -219,20 +220,20 @@ impl Windows {
     }
 }
 
-/// A window, given in s, in milliseconds as it is told: three digits.
+/// A window, given in s, as text in milliseconds with three digits, without the unit.
 pub fn milliseconds(seconds: f64) -> String {
     let ms = 1e3 * seconds;
     let decimals = (2.0 - ms.log10().floor()).clamp(0.0, 6.0) as usize;
     format!("{ms:.decimals$}")
 }
 
-/// Three digits, upwards, of a window in s: it reads as it is, and reaches what it was chosen for.
+/// A window in s, rounded up to three digits, so that it is printed exactly and still reaches the contrast it was chosen for.
 fn rounded_up(seconds: f64) -> f64 {
     if !(seconds > 0.0 && seconds.is_finite()) {
         return seconds;
     }
     // In units of a power of ten below one, so that the digits are those of a decimal number.
     let unit = 10f64.powi(2 - seconds.log10().floor() as i32);
-    // A hair less, so that a number of three digits stays what it is.
+    // Slightly less, so that a number of three digits does not change.
     (seconds * unit * (1.0 - 1e-9)).ceil() / unit
 }

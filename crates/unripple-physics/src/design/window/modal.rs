@@ -4,9 +4,9 @@ use super::places::{grid, targets};
 use unripple_core::{ModalResponses, Onset, Point, Pole};
 use unripple_linalg::{Accum, Mat, MatRef, Par, c64, multiply};
 
-/// A surface laid out for the contrast of time reversal at many windows.
+/// The terms of a surface's modal responses, arranged to compute the contrast of time reversal for many windows.
 ///
-/// Responses h_a(x) = Σ_m b_am φ_m(x) g_m(t), recorded at A for T and played backwards, leave at the focal instant the velocity
+/// Responses h_a(x) = Σ_m b_am φ_m(x) g_m(t), recorded at A for T and played backwards, give at the focal instant the velocity
 /// Σ_m φ_m(x) Σ_n (Σ_a b_am b_an) I_mn φ_n(A), with I_mn = ∫_0^T g_m g_n dt a sum of exponentials of T.
 pub(super) struct Modal {
     terms: Vec<Term>,
@@ -29,10 +29,10 @@ struct Term {
 }
 
 impl Modal {
-    /// Lays out the exponentials, gains, targets and points of modal responses.
+    /// Prepares the exponentials, gains, targets and points of modal responses.
     ///
     /// # Errors
-    /// In words, why no contrast can be told from these responses.
+    /// In words, why no contrast can be computed from these responses.
     pub fn of(responses: &ModalResponses) -> Result<Self, &'static str> {
         let ModalResponses { ports, poles, input, shapes, conditions } = responses;
         let actuators: Vec<Point> = ports.iter().map(|port| port.at).collect();
@@ -78,7 +78,7 @@ impl Modal {
         ((0..targets).map(square).sum::<f64>() / targets as f64).powf(-0.5)
     }
 
-    /// What a unit of mode n at the target leaves in mode m, modes x modes.
+    /// Amplitude that a unit of mode n at the target gives to mode m at the focal instant, modes x modes.
     fn left(&self, window: f64) -> Mat<f64> {
         let modes = self.gains.nrows();
         let mut left = Mat::zeros(modes, modes);
@@ -120,7 +120,7 @@ fn gathered(rate: c64, end: c64, window: f64) -> c64 {
     (end - 1.0) / rate
 }
 
-/// The velocity of a mode as exponentials, those of [`Pole::velocity`].
+/// The velocity of a mode, [`Pole::velocity`], as a sum of exponentials.
 fn terms(mode: usize, pole: Pole) -> Vec<Term> {
     let Pole { omega, sigma, onset } = pole;
     let term = |amplitude: c64, rate: c64| Term { mode, amplitude, rate };
@@ -133,7 +133,7 @@ fn terms(mode: usize, pole: Pole) -> Vec<Term> {
         };
         return vec![term(amplitude, c64::new(-sigma, swing))];
     }
-    // Overdamped: two real exponentials. At the limit they are one; a hair beside it, the same to five digits.
+    // Overdamped: two real exponentials. At critical damping they coincide; slightly beside it, the sum is the same to five digits.
     let split = (-square).sqrt().max(1e-5 * sigma);
     if split == 0.0 {
         return vec![term(c64::new(f64::from(u8::from(onset == Onset::Velocity)), 0.0), c64::new(0.0, 0.0))];
@@ -148,7 +148,7 @@ fn terms(mode: usize, pole: Pole) -> Vec<Term> {
     ]
 }
 
-/// The matrix product on one core, which sums in one order: the same surface has the same window to the last bit.
+/// The matrix product on one thread, which sums in one order, so that the same surface has the same window to the last bit.
 fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     let mut sum = Mat::zeros(a.nrows(), b.ncols());
     multiply(sum.as_mut(), Accum::Replace, a, b, 1.0, Par::Seq);

@@ -1,30 +1,30 @@
-//! Where contrast is taken: targets spread over a surface, and the grid that they are compared with.
+//! Targets spread over a surface, and the grid of points on which the field around them is evaluated.
 
 use std::f64::consts::TAU;
 use unripple_core::{Outline, Point};
 
-/// Targets that contrast is averaged over. Doubled, their mean scatters by √2 less from one surface to
-/// another much like it, and takes longer.
+/// Number of targets that contrast is averaged over. Doubled, the mean varies by √2 less between similar surfaces, and takes
+/// longer.
 const TARGETS: usize = 96;
 
-/// Places tried for them; of a surface with little room away from the rim fewer targets come. Doubled, such a
+/// Number of places tried as targets; a surface with little room away from the rim gets fewer targets. Doubled, such a
 /// surface has up to twice as many.
 const TRIES: u32 = 4000;
 
-/// Directions in which a target must be clear of the rim: every 22.5°. Doubled, every 11°, for twice the
-/// tests.
+/// Number of directions in which a target is tested for its distance from the rim: every 22.5°. Doubled, every 11°, for
+/// twice the tests.
 const DIRECTIONS: u32 = 16;
 
-/// Cells of the grid along a shortest wavelength. The square of a field has half its wavelength, so that two
-/// would do. Doubled, there are four times the points, and the mean stays the same.
+/// Number of cells of the grid along a shortest wavelength. The square of a field has half its wavelength, so that two
+/// would suffice. Doubled, there are four times the points, and the mean stays the same.
 const CELLS: f64 = 3.0;
 
 /// Steps of a sequence that fills the plane evenly, without the symmetries of a grid: powers of 1/ρ with ρ³ =
 /// ρ + 1 (Roberts 2018), by its equation.
 const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
 
-/// Targets on a surface, in metres: at least a shortest wavelength (m) from the rim, or a quarter of the mean
-/// chord on a small one, and half of one from the `actuators`, beside which everything is loud.
+/// Targets on a surface, in metres: at least a shortest wavelength (`wavelength`, m) from the rim, or a quarter of the mean
+/// chord on a small surface, and half a wavelength from the `actuators`, near which the field is strong anyway.
 pub(super) fn targets(outline: &Outline, actuators: &[Point], wavelength: f64) -> Vec<Point> {
     let (width, height) = outline.extent();
     // A quarter of the mean chord πS/P is about 0.8 S/P.
@@ -42,7 +42,7 @@ pub(super) fn targets(outline: &Outline, actuators: &[Point], wavelength: f64) -
     (1..=TRIES).map(|i| Point::new(width * along(i), height * up(i))).filter(clear).take(TARGETS).collect()
 }
 
-/// Centres of the cells inside the outline, in metres; `wavelength` is the shortest, in m.
+/// Centres of the grid's cells that lie inside the outline, in metres; `wavelength` is the shortest wavelength, in m.
 pub(super) fn grid(outline: &Outline, wavelength: f64) -> Vec<Point> {
     let (width, height) = outline.extent();
     let cells = |length: f64| (CELLS * length / wavelength).ceil().max(1.0) as usize;
