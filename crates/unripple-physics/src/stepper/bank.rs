@@ -1,18 +1,18 @@
-//! Loads in the time-stepper: masses, springs, dampers and coils at ports, eight at a time.
+//! Loads in the time-domain simulation: masses, springs, dampers and coils at ports, eight at a time.
 
 use super::small::{Inverse, OCT, Oct, Small, Solution, add, get, octs, registers, set};
 use crate::Circuit;
 use pulp::Simd;
 
-/// How fast the two-step form of a mass forgets, per step: a root at -0.8. Nearer to 1, an alternation from
-/// sample to sample dies out more slowly.
+/// Decay per step of the spurious root, at -0.8, of the two-step form of a mass. Nearer to 1, an alternation from
+/// sample to sample decays more slowly.
 const MEMORY: f64 = 0.8;
 
-/// A current that is less than this (A) has died away: so none becomes denormal, which is slow to
-/// compute with. Nothing hears the difference.
+/// A current below this (A) is set to zero, so that none becomes denormal, which is slow to
+/// compute with. It has no effect on results.
 const DEAD: f64 = 1e-200;
 
-/// What of a load matters to the sheet: a mass, a damper and a spring to the ground, and perhaps a coil.
+/// The constants of a load: a mass, a damper and a spring to the ground, and optionally a coil.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Burden {
     /// Mass μ, in kg.
@@ -21,61 +21,61 @@ pub(super) struct Burden {
     pub(super) damping: f64,
     /// Stiffness κ to the ground, in N/m.
     pub(super) stiffness: f64,
-    /// A coil on a voltage, where there is one.
+    /// A coil driven by a voltage, if there is one.
     pub(super) circuit: Option<Circuit>,
 }
 
-/// The loads at eight ports: what they are over one step, and how they move.
+/// The loads at eight ports: their coefficients for one step, and their states.
 ///
-/// Over a step the force on the sheet is `F = b - D² Δu`, with Δu what the port moves by and b from the state before.
+/// Over a step the force on the sheet is `F = b - D² Δu`, with Δu the displacement of the port and b from the state before.
 #[derive(Clone, Copy, Debug, Default)]
 struct Loads {
-    /// What of b/D is due to the spring's extension, to the mass's two states and to the current.
+    /// Coefficients of b/D: of the spring's extension, of the mass's two states and of the current.
     spring: Oct,
     recall: [Oct; 2],
     carry: Oct,
-    /// How the states go on.
+    /// Coefficients by which the states advance.
     memory: Oct,
     fade: Oct,
     induce: Oct,
-    /// 1/√μ where impulses are shared; 0 elsewhere.
+    /// 1/√μ if impulses are shared with masses; else 0.
     lightness: Oct,
-    /// Of the energy: stiffness, inductance, and the form of the mass.
+    /// Coefficients of the energy: stiffness, inductance, and the quadratic form of the mass.
     stiffness: Oct,
     inductance: Oct,
     masses: [Oct; 3],
     /// Extension of the spring, in m.
     extension: Oct,
-    /// The mass's velocity, filtered, after the last step and before, in m/s.
+    /// Filtered velocity of the mass after the last step and after the one before, in m/s.
     pace: [Oct; 2],
-    /// The current, in A: what the drive makes flow in a coil at rest, and what motion adds.
+    /// The current, in A: the part that the drive causes in a coil at rest, and the part that the motion drives.
     still: Oct,
     driven: Oct,
     /// Work done on the loads since it was last set to zero, in J.
     work: Oct,
 }
 
-/// The loads at all ports, ports without one included.
+/// The loads at all ports, with zeros for ports without load.
 #[derive(Clone, Debug)]
 pub(super) struct Bank {
     loads: Vec<Loads>,
-    /// D, and √μ where impulses are shared.
+    /// The factor D, and √μ if impulses are shared with masses.
     depth: Vec<Oct>,
     heft: Vec<Oct>,
     dt: f64,
     right: Vec<Oct>,
-    /// Forces over the step to come, and what they move the ports by.
+    /// Forces over the next step, and the displacement of the ports by them.
     forces: Solution,
-    /// What the ports move by over the step to come.
+    /// Displacement of the ports over the next step.
     moved: Vec<Oct>,
-    /// Impulses shared with masses, and the velocity they give.
+    /// Impulses shared with masses, and the velocities that they give.
     shares: Solution,
-    /// Whether impulses are shared with masses at once.
+    /// Whether masses take part in impulses at once.
     shared: bool,
 }
 
 impl Bank {
-    /// Room for loads at `size` ports, with steps of `dt` seconds; `shared` if masses share impulses at once.
+    /// Storage for loads at `size` ports, with steps of `dt` seconds; `shared` if masses take part in impulses at once.
     pub(super) fn new(size: usize, dt: f64, shared: bool) -> Self {
         let zeros = vec![[0.0; OCT]; octs(size)];
         Self {
@@ -117,7 +117,7 @@ impl Bank {
         self.heft[port / OCT][lane] = heft;
     }
 
-    /// Takes a port away; those behind it move up. `count` of them there were.
+    /// Removes one of `count` ports; those behind it move up.
     pub(super) fn remove(&mut self, port: usize, count: usize) {
         for vector in [&mut self.depth, &mut self.heft] {
             let flat = vector.as_flattened_mut();
@@ -140,7 +140,7 @@ impl Bank {
         self.depth.as_flattened()
     }
 
-    /// The factor √μ of each port, in √kg, where impulses are shared.
+    /// The factor √μ of each port, in √kg, if impulses are shared with masses; else 0.
     #[inline(always)]
     pub(super) fn heft(&self) -> &[f64] {
         self.heft.as_flattened()
@@ -152,13 +152,13 @@ impl Bank {
         self.loads[port / OCT].still[port % OCT] += current;
     }
 
-    /// The current that motion drives through a port's coil, against the drive's, in A.
+    /// The current that the motion drives through a port's coil, in A, positive in the direction of the drive's current.
     #[inline(always)]
     pub(super) fn driven(&self, port: usize) -> f64 {
         self.loads[port / OCT].driven[port % OCT]
     }
 
-    /// Ends currents that have died away, before they become slow to compute with.
+    /// Sets currents below [`DEAD`] to zero, before they become denormal.
     pub(super) fn silence(&mut self) {
         for current in self.loads.iter_mut().flat_map(|loads| loads.still.iter_mut().chain(&mut loads.driven))
         {
@@ -184,13 +184,13 @@ impl Bank {
         self.forces.scaled.as_flattened()
     }
 
-    /// Whether any mass shares impulses.
+    /// Whether any mass takes part in impulses.
     pub(super) fn shares(&self) -> bool {
         self.heft().iter().any(|heft| *heft > 0.0)
     }
 
-    /// Gives masses and ports one velocity: the impulses on the sheet that do so, in N·s, and what they change of the
-    /// ports' velocity, which was `velocity`.
+    /// Brings masses and their ports to the same velocity: returns the impulses on the sheet that do so, in N·s, and the changes
+    /// of the ports' velocities, given the velocities before.
     #[inline(always)]
     pub(super) fn share<S: Simd>(
         &mut self,
@@ -226,7 +226,7 @@ impl Bank {
         (impulse, change)
     }
 
-    /// Finds the forces over the next step, `free` being what the ports would move by without them, in m.
+    /// Computes the forces over the next step; `free` is the displacement of the ports without them, in m.
     #[inline(always)]
     pub(super) fn solve<S: Simd>(
         &mut self,
@@ -254,7 +254,7 @@ impl Bank {
         add(simd, &mut self.moved, &self.forces.image);
     }
 
-    /// Moves all loads over the step.
+    /// Advances all loads by the step.
     #[inline(always)]
     pub(super) fn advance<S: Simd>(&mut self, simd: S) {
         let rate = simd.splat_f64s(1.0 / self.dt);
@@ -280,7 +280,7 @@ impl Bank {
         }
     }
 
-    /// Starts to count work from zero.
+    /// Sets the work done on all loads to zero.
     #[inline(always)]
     pub(super) fn reset_work(&mut self) {
         self.loads.iter_mut().for_each(|loads| loads.work = [0.0; OCT]);
@@ -300,7 +300,7 @@ impl Bank {
 }
 
 impl Loads {
-    /// All numbers that each port has, for what is done to all of them.
+    /// All fields, for operations on each.
     fn fields(&mut self) -> [&mut Oct; 19] {
         let [r0, r1] = &mut self.recall;
         let [m0, m1, m2] = &mut self.masses;
@@ -318,19 +318,19 @@ impl Loads {
     }
 }
 
-/// A coil over one step at a constant velocity of its port ν: exact.
+/// The exact coefficients of a coil for one step at a constant velocity ν of its port.
 ///
 /// With θ = R dt/L, the current goes to `i e^{-θ} - (bl ν/R)(1 - e^{-θ})`, and its mean is `p i - bl ν (1 - p)/R`,
 /// `p = (1 - e^{-θ})/θ`.
 #[derive(Clone, Copy, Debug, Default)]
 struct Coil {
-    /// Its part of D².
+    /// Its contribution to D².
     square: f64,
-    /// Mean force per current at first.
+    /// Mean force per initial current.
     carry: f64,
-    /// Share of the current that is left.
+    /// Share of the initial current that is left after the step.
     fade: f64,
-    /// Current lost per displacement.
+    /// Decrease of the current per displacement.
     induce: f64,
     inductance: f64,
 }

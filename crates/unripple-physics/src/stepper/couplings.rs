@@ -5,9 +5,9 @@ use super::lanes::{Rows, grams};
 use super::small::{Inverse, Small};
 use pulp::Simd;
 
-/// What a port is made of: two rows of weights, the columns of the tiles that hold them, and their shares.
+/// The composition of a port: two rows of weights, the columns of the tiles that hold them, and their shares.
 ///
-/// A port that does not move has one row and column; both stand there twice, with one share.
+/// A port that does not move has a single row and column, which are given twice, with shares 0 and 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Part {
     /// Indices of the two rows of weights.
@@ -18,26 +18,26 @@ pub(super) struct Part {
     pub(super) shares: [f64; 2],
 }
 
-/// What ports do to each other over a step, and the inverses that the loads need.
+/// The effect of ports on each other over a step, and the inverses that the loads need.
 #[derive(Clone, Debug)]
 pub(super) struct Couplings {
     /// Between rows of weights, row by row: velocity after an impulse, displacement after an impulse, displacement after a
     /// held force.
     grams: [Vec<f64>; 3],
     rows: usize,
-    /// The same between ports.
+    /// These couplings between ports.
     between: [Small; 3],
-    /// What each port is made of.
+    /// The composition of each port.
     pub(super) parts: Vec<Part>,
-    /// Ports that never change, the first ones.
+    /// Number of ports that never change, which come first.
     fixed: usize,
-    /// Of the loads' forces, and of impulses shared with masses.
+    /// Inverses for the loads' forces, and for impulses shared with masses.
     forces: Inverse,
     impulses: Inverse,
 }
 
 impl Couplings {
-    /// No coupling yet between so many rows; up to `ports` ports, the first of which are as given and never change.
+    /// Couplings of zero between `rows` rows, for up to `ports` ports, the first of which are given and never change.
     pub(super) fn new(rows: usize, ports: usize, fixed: &[Part]) -> Self {
         let mut parts = Vec::with_capacity(ports);
         parts.extend_from_slice(fixed);
@@ -52,14 +52,14 @@ impl Couplings {
         }
     }
 
-    /// Number of ports by now.
+    /// Number of ports in use.
     #[inline(always)]
     pub(super) fn ports(&self) -> usize {
         self.parts.len()
     }
 
-    /// Matrices, ports x ports: velocity after impulses, displacement after impulses, displacement after held
-    /// forces.
+    /// Couplings between ports, ports x ports: velocity after impulses, displacement after impulses, displacement after
+    /// constant forces.
     #[inline(always)]
     pub(super) fn between(&self) -> &[Small; 3] {
         &self.between
@@ -77,7 +77,7 @@ impl Couplings {
         &self.impulses
     }
 
-    /// Computes anew what a row does to the first `others` rows.
+    /// Computes the couplings of a row with the first `others` rows.
     #[inline(always)]
     pub(super) fn measure<S: Simd>(
         &mut self,
@@ -97,7 +97,7 @@ impl Couplings {
         }
     }
 
-    /// Computes everything anew from the couplings of rows.
+    /// Computes the couplings of all ports and both inverses from the couplings of rows.
     pub(super) fn renew<S: Simd>(&mut self, simd: S, bank: &Bank) {
         self.between.iter_mut().for_each(|matrix| matrix.clear());
         for port in 0..self.ports() {
@@ -108,7 +108,7 @@ impl Couplings {
         self.follow(simd, bank);
     }
 
-    /// Computes anew what a port, given by its index, does to all ports.
+    /// Computes the couplings of a port, given by its index, with all ports.
     #[inline(always)]
     pub(super) fn couple(&mut self, port: usize) {
         let part = self.parts[port];
@@ -126,7 +126,7 @@ impl Couplings {
         }
     }
 
-    /// Brings the inverses up to date after ports at the end were coupled anew.
+    /// Updates the inverses after a change of the couplings of ports that are not fixed.
     #[inline(always)]
     pub(super) fn follow<S: Simd>(&mut self, simd: S, bank: &Bank) {
         let ports = self.fixed..self.ports();

@@ -13,37 +13,38 @@ use pulp::{Arch, Simd, WithSimd};
 use std::ops::Range;
 use unripple_core::{Finger, Pole};
 
-/// Modes, loads and fingers, and everything that stepping them takes.
+/// The state of modes, loads and fingers, with the tables for stepping them.
 ///
-/// There is a row of weights for every port that never changes, and two for the ends of every finger's movement.
+/// A port is a footprint on the sheet with a row of modal weights. Ports of channels never change and have one row each; fingers
+/// have two rows each, for the place they move from and the place they move to.
 #[derive(Clone, Debug)]
 pub(super) struct Engine {
     /// Displacement and velocity of all modes.
     pub(super) field: Field,
     /// The loads at all ports.
     pub(super) bank: Bank,
-    /// Where each channel leads, in channel order.
+    /// The port and factors of each channel, in channel order.
     pub(super) leads: Vec<Lead>,
-    /// The fingers that are down, coming or going.
+    /// The fingers on the surface, those being put down or lifted included.
     pub(super) touches: Vec<Touch>,
-    /// What ports do to each other over a step.
+    /// The effect of ports on each other over a step.
     pub(super) couplings: Couplings,
     /// Rows of weights, rows x modes.
     pub(super) weights: Rows,
-    /// The rows in use once more, as the sweep over modes wants them: those of the ports that never change, then one or
-    /// two for each finger.
+    /// A copy of the rows in use, in the layout for the sweep over modes: those of the fixed ports, then one or two for each
+    /// finger.
     pub(super) tiles: Tiles,
     /// Forces on the tiles' columns, in N.
     pub(super) forces: Vec<f64>,
     /// Impulses on the tiles' columns, in N·s.
     pub(super) impulses: Vec<f64>,
-    /// Whether the impulses are still to be laid on.
+    /// Whether the impulses have still to be applied to the modes.
     pub(super) pending: bool,
-    /// Sums of the sweep. Whether any drive strikes the sheet itself, and how many ports carry no load are said there.
+    /// Sums of the sweep, with the number of ports without load, and whether any drive acts on the sheet as an impulse.
     pub(super) felt: PortSums,
-    /// Ports that never change; those without load come first.
+    /// Number of ports that never change; those without load come first.
     pub(super) fixed: usize,
-    /// Whether masses share impulses.
+    /// Whether masses take part in impulses at once.
     pub(super) sharing: bool,
     free_slots: Vec<usize>,
     fingers: usize,
@@ -51,27 +52,27 @@ pub(super) struct Engine {
     pub(super) dt: f64,
     /// Number of steps per sample.
     pub(super) substeps: usize,
-    /// Share of a finger's coming or going that passes in one step.
+    /// Progress of putting down or lifting a finger in one step, as a share of the whole.
     pub(super) fade: f64,
-    /// Share of a finger's movement that passes in one step.
+    /// Progress of a finger's movement in one step, as a share of the whole.
     pub(super) glide: f64,
-    /// Velocity of the ports before impulses, in m/s.
+    /// Velocity of the ports, in m/s.
     pub(super) velocity: Vec<Oct>,
-    /// What the ports would move by without forces, in m.
+    /// Displacement of the ports over the next step without forces and impulses, in m.
     pub(super) motion: Vec<Oct>,
     /// Impulses on the ports, in N·s.
     pub(super) impulse: Vec<Oct>,
-    /// What impulses change of the ports' velocity (m/s) or displacement (m): room to work in.
+    /// Scratch: the change of the ports' velocity (m/s) or displacement (m) by impulses.
     pub(super) change: Vec<Oct>,
-    /// What the ports would move by without forces, impulses included, in m.
+    /// Displacement of the ports over the next step with impulses but without forces, in m.
     pub(super) free: Vec<Oct>,
-    /// Places that are listened to.
+    /// The probes.
     pub(super) probes: Probes,
     /// Number of samples so far.
     pub(super) samples: u64,
-    /// Whether weights or poles have changed since forces were found.
+    /// Whether weights or poles have changed since the forces were computed.
     pub(super) stale: bool,
-    /// What the processor can do at once.
+    /// The SIMD instruction set of the processor.
     pub(super) arch: Arch,
 }
 
@@ -140,7 +141,7 @@ impl Engine {
         Ok(engine)
     }
 
-    /// Brings up to date what follows from ports and couplings of rows, within code for the processor at hand.
+    /// Updates the tiles, couplings and inverses after a change of ports or of couplings of rows, with SIMD instructions.
     #[inline(always)]
     pub(super) fn renew_now<S: Simd>(&mut self, simd: S) {
         let used = |touch: &Touch| if touch.moving < 1.0 { 2 } else { 1 };
@@ -158,21 +159,21 @@ impl Engine {
         self.sharing = self.bank.shares();
     }
 
-    /// Measures what these rows do to all rows, and brings up to date what follows.
+    /// Computes the couplings of these rows with all rows, and updates everything that depends on them.
     fn measure(&mut self, rows: Range<usize>) {
         let arch = self.arch;
         arch.dispatch(Measure { engine: self, rows });
     }
 
-    /// Sets other poles; the state stays.
+    /// Replaces the poles; displacement and velocity of the modes stay.
     pub(super) fn tune(&mut self, poles: impl Iterator<Item = Pole>) {
         self.field.tune(poles, self.dt);
         self.measure(0..self.fixed + 2 * self.fingers);
         self.stale = true;
     }
 
-    /// Puts a finger down, `weights` being those of its contact, one per mode; `false` if there are as many
-    /// as there may be.
+    /// Puts a finger down, with the weights of its contact, one per mode; `false` if the largest number of fingers is
+    /// reached.
     pub(super) fn put(&mut self, id: u64, finger: Finger, weights: &[f64]) -> bool {
         let Some(slot) = self.free_slots.pop() else { return false };
         let touch = Touch::new(id, finger, slot);
@@ -188,7 +189,7 @@ impl Engine {
         true
     }
 
-    /// Starts the way of a finger, by its index, from where it is felt now to a contact of other weights, one
+    /// Starts the movement of a finger, given by its index, from its present contact to one of other weights, one
     /// per mode.
     pub(super) fn shift(&mut self, finger: usize, weights: &[f64]) {
         let touch = self.touches[finger];
@@ -205,14 +206,14 @@ impl Engine {
         self.stale = true;
     }
 
-    /// Gives a port without load, by its index, other weights, one per mode.
+    /// Replaces the weights, one per mode, of a port without load, given by its index.
     pub(super) fn reseat(&mut self, port: usize, weights: &[f64]) {
         self.weights.fill(port, weights);
         self.measure(port..port + 1);
         self.stale = true;
     }
 
-    /// Forgets a finger, given by its index; [`Engine::renew_now`] must follow.
+    /// Removes a finger, given by its index; [`Engine::renew_now`] must follow.
     #[cold]
     pub(super) fn drop_finger(&mut self, finger: usize) {
         let port = self.fixed + finger;
@@ -222,13 +223,13 @@ impl Engine {
         self.free_slots.push(touch.slot);
     }
 
-    /// Indices of the rows of the place a finger comes from and of the place it goes to.
+    /// Indices of the two rows of a finger: of the place it moves from and of the place it moves to.
     pub(super) fn ends(&self, slot: usize) -> [usize; 2] {
         [self.fixed + 2 * slot, self.fixed + 2 * slot + 1]
     }
 }
 
-/// What [`Engine::measure`] does, as one piece of code for the processor at hand.
+/// The work of [`Engine::measure`], compiled for the processor's SIMD instructions.
 struct Measure<'a> {
     engine: &'a mut Engine,
     rows: Range<usize>,
@@ -250,7 +251,7 @@ impl WithSimd for Measure<'_> {
     }
 }
 
-/// Which port each channel leads to, and what hangs there.
+/// The ports of all channels, with their loads.
 struct Wiring {
     /// Weights of the ports, those without load first.
     rows: Vec<Vec<f64>>,
@@ -260,7 +261,7 @@ struct Wiring {
 }
 
 impl Wiring {
-    /// Sorts channels: ports without load first, then one for each load.
+    /// Assigns ports to channels: those without load first, then one for each load.
     fn of(plant: &Plant, channels: &[Channel], rate: f64, dt: f64) -> Result<Self, PhysicsError> {
         channels.iter().try_for_each(Channel::check)?;
         let channels: Vec<Channel> = channels.iter().map(|channel| channel.settled(rate)).collect();

@@ -1,32 +1,32 @@
-//! Faults of a real device on request: drift, noise, lost samples, delay.
+//! Simulated faults of a real device: drift, noise, clipping, lost blocks, delay.
 
 use super::surface::VirtualSurface;
 use crate::PhysicsError;
 use unripple_core::{Random, require};
 
-/// What goes wrong on request, as it does between a computer and a real surface. The default is nothing.
+/// Faults to simulate, as they occur between a computer and a real surface. The default is none.
 ///
-/// On the drive's side, in this order: a dropped block is lost whole, both ways; wires are swapped; dead channels are
-/// silenced; what is left is clipped. On the sensors' side: dead channels are silent, wires swapped, signals late, and noise
-/// is added to all, dead ones too. Probes see what the surface really does.
+/// The drive passes, in this order: swapped wires, dead channels (set to zero), clipping. Sensor signals pass: dead channels (set to
+/// zero), swapped wires, delay, and added noise (on dead channels too). A dropped block loses both its drive and its sensor signals.
+/// Probes read the true motion of the surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InjectedFaults {
-    /// Tension as a share of the nominal one against time (s), times ascending: linear between, constant beyond both ends.
-    /// Taken at the start of each block.
+    /// Tension as a multiple of the nominal one against time: (s, multiple), times ascending; linear between, constant beyond both
+    /// ends. Evaluated at the start of each block.
     pub tension: Vec<(f64, f64)>,
-    /// Root mean square of white noise on every sensor, in the sensor's unit.
+    /// Rms of white noise added to each sensor signal, in its unit.
     pub noise: f64,
-    /// Largest magnitude of drive that gets through, in the drive's unit.
+    /// Magnitude at which the drive is clipped, in its unit; `None` for no clipping.
     pub clip: Option<f64>,
-    /// Channels that neither drive nor sense.
+    /// Indices of channels that neither drive nor sense.
     pub dead: Vec<usize>,
-    /// Pairs of channels whose wires are swapped, drive and sensor alike.
+    /// Pairs of channels, by their indices, whose wires are swapped, for drive and sensor alike.
     pub swapped: Vec<(usize, usize)>,
-    /// Samples by which sensors come late.
+    /// Delay of the sensor signals, in samples.
     pub latency: usize,
-    /// Probability that a block is lost.
+    /// Probability that a block is lost, 0 to 1.
     pub dropped: f64,
-    /// Seed of noise and losses.
+    /// Seed of the random numbers for noise and lost blocks.
     pub seed: u64,
 }
 
@@ -45,16 +45,16 @@ impl Default for InjectedFaults {
     }
 }
 
-/// A virtual surface with injected faults, as a test bench for whatever drives and measures it.
+/// A simulated surface with simulated faults, for tests of software that drives and measures a surface.
 #[derive(Clone, Debug)]
 pub struct Misbehaving {
     surface: VirtualSurface,
     faults: InjectedFaults,
     most: usize,
-    /// Channels at the end that no wire leads to.
+    /// Number of channels at the end that faults do not affect.
     spare: usize,
     drive: Vec<f64>,
-    /// For each channel, the last samples of its sensor, the next to be given first.
+    /// Delay lines: the last samples of the sensor of each channel, as a ring buffer.
     late: Vec<f64>,
     oldest: usize,
     random: Random,
@@ -62,11 +62,11 @@ pub struct Misbehaving {
 }
 
 impl Misbehaving {
-    /// A surface with faults, for blocks of at most `most` samples.
+    /// A simulated surface with faults, for blocks of at most `most` samples.
     ///
     /// # Errors
-    /// [`PhysicsError::Range`] for channels that there are not, negative noise, clipping or tension, times that do not
-    /// ascend, or a probability that is none.
+    /// [`PhysicsError::Range`] for an index of a channel out of range, negative noise, clipping or tension, times that do not
+    /// ascend, or a probability outside 0 to 1.
     pub fn new(surface: VirtualSurface, faults: InjectedFaults, most: usize) -> Result<Self, PhysicsError> {
         let channels = surface.channels();
         let known = faults.swapped.iter().flat_map(|(a, b)| [*a, *b]).chain(faults.dead.iter().copied());
@@ -100,11 +100,11 @@ impl Misbehaving {
         })
     }
 
-    /// The same, the last `spare` (a number) channels being forces that no wire leads to, taps for example:
-    /// nothing happens to their drive, and their sensors are as told.
+    /// Exempts the last channels, `spare` in number, from all faults: forces that reach the surface without wires, such as
+    /// taps.
     ///
     /// # Errors
-    /// [`PhysicsError::Range`] for more of them than channels, or if a fault is asked for one of them.
+    /// [`PhysicsError::Range`] if `spare` exceeds the number of channels, or if a fault names one of these channels.
     pub fn with_spare(self, spare: usize) -> Result<Self, PhysicsError> {
         let channels = self.surface.channels();
         require("spare channels", spare <= channels, format!("at most {channels}"), spare as f64)?;
@@ -116,12 +116,12 @@ impl Misbehaving {
         Ok(Self { spare, ..self })
     }
 
-    /// The surface as it really is.
+    /// The simulated surface behind the faults.
     pub fn surface(&self) -> &VirtualSurface {
         &self.surface
     }
 
-    /// The surface, for fingers and probes.
+    /// The simulated surface behind the faults, mutable, to set fingers and probes.
     pub fn surface_mut(&mut self) -> &mut VirtualSurface {
         &mut self.surface
     }
@@ -131,11 +131,11 @@ impl Misbehaving {
         self.lost
     }
 
-    /// As [`VirtualSurface::process`], planes of `frames` samples each, with all that goes wrong. Never
+    /// Processes a block of `frames` samples as [`VirtualSurface::process`] does, with all faults. Never
     /// allocates.
     ///
     /// # Errors
-    /// Those of [`VirtualSurface::process`]; [`PhysicsError::Range`] for a block longer than was said.
+    /// Those of [`VirtualSurface::process`]; [`PhysicsError::Range`] for a block longer than [`Misbehaving::new`] was told.
     pub fn process(
         &mut self,
         frames: usize,
@@ -165,7 +165,7 @@ impl Misbehaving {
         Ok(())
     }
 
-    /// What of the drive gets through, into the scratch.
+    /// Writes the drive after its faults into the scratch buffer.
     fn distort(&mut self, drive: &[f64], frames: usize, lost: bool) {
         self.drive[..drive.len()].copy_from_slice(drive);
         let scratch = &mut self.drive[..drive.len() - self.spare * frames];
@@ -183,7 +183,7 @@ impl Misbehaving {
         }
     }
 
-    /// What of the sensors arrives.
+    /// Applies the faults of the sensor signals.
     fn mislead(&mut self, sensors: &mut [f64], frames: usize, lost: bool) {
         for dead in &self.faults.dead {
             sensors[dead * frames..(dead + 1) * frames].fill(0.0);
@@ -218,7 +218,7 @@ fn swap(planes: &mut [f64], frames: usize, a: usize, b: usize) {
     }
 }
 
-/// The tension at a time; `None` without a table.
+/// The tension at a time (s), as a multiple of the nominal one; `None` for an empty table.
 fn tension(table: &[(f64, f64)], now: f64) -> Option<f64> {
     let after = table.partition_point(|(time, _)| *time <= now);
     match (after.checked_sub(1).and_then(|i| table.get(i)), table.get(after)) {

@@ -6,16 +6,16 @@ use super::lanes::{
 use pulp::{Simd, as_arrays, as_arrays_mut};
 use unripple_core::Pole;
 
-/// Terms of the series for slow modes: the last is below 1e-20 of the first. Doubled, sums stay the same.
+/// Number of terms of the series for slow modes: the last is below 1e-20 of the first. Doubled, sums stay the same.
 const TERMS: usize = 30;
 
-/// Groups of modes that are swept over together, as many as the nearest cache holds with their tiles.
+/// Number of groups of modes processed together: as many as the first-level cache holds with their tiles.
 const TOGETHER: usize = 8;
 
-/// Below this, motion is put to rest: numbers far smaller would slow the processor down.
+/// Motion below this is set to zero, since denormal numbers would slow the processor down.
 const SILENCE: f64 = 1e-200;
 
-/// What modes do over one step: [`step::ROWS`] values of sixteen modes, then of the next.
+/// Coefficients of the modes for one step: [`step::ROWS`] values of sixteen modes, then those of the next sixteen.
 ///
 /// With the force `f` held and `p = f - ω² u`: `u⁺ = u + strike·v + push·p` and `v⁺ = hold·v + strike·p`.
 pub(super) mod step {
@@ -31,26 +31,26 @@ pub(super) mod step {
     pub(in super::super) const ROWS: usize = 4;
 }
 
-/// Forces on some groups of modes, or what they move by; where cache lines begin.
+/// Forces on some groups of modes, or their displacement over a step; aligned to cache lines.
 #[derive(Default)]
 #[repr(align(64))]
 struct ModeBlock([Lanes; TOGETHER]);
 
-/// What ports feel: displacement over the step to come without forces, and velocity, sixteen parts of each sum.
+/// Motion of the ports: displacement over the next step without forces, and velocity, each as sixteen partial sums over modes.
 #[derive(Clone, Debug)]
 pub(super) struct PortSums {
     /// Sums of displacement, one per column.
     pub(super) motion: Vec<Lanes>,
     /// Sums of velocity, one per column.
     pub(super) velocity: Vec<Lanes>,
-    /// The first ports, which carry no load and do not care for motion.
+    /// Number of ports without load, which come first and need no displacement.
     pub(super) plain: usize,
-    /// Whether velocity matters.
+    /// Whether velocities are needed: some drive acts on the sheet as an impulse.
     pub(super) striking: bool,
 }
 
 impl PortSums {
-    /// Starts again from nothing.
+    /// Sets the sums to zero.
     #[inline(always)]
     fn begin(&mut self, columns: usize) {
         self.motion[self.plain..columns].fill([0.0; LANES]);
@@ -59,7 +59,7 @@ impl PortSums {
         }
     }
 
-    /// Adds what is felt of some groups of modes.
+    /// Adds the contributions of some groups of modes.
     #[inline(always)]
     fn add<S: Simd>(
         &mut self,
@@ -81,23 +81,23 @@ impl PortSums {
     }
 }
 
-/// What is laid on the columns.
+/// Impulses and forces on the columns of the tiles.
 #[derive(Clone, Copy)]
 pub(super) struct PortForces<'a> {
-    /// Impulses on all of them, or none at all.
+    /// Impulses on all columns, in N·s; empty for none.
     pub(super) impulses: &'a [f64],
-    /// Forces on those that carry loads.
+    /// Forces on the columns with loads, in N.
     pub(super) forces: &'a [f64],
 }
 
-/// Places that are listened to.
+/// Probes: points at which velocity or displacement is read.
 #[derive(Clone, Debug)]
 pub(super) struct Probes {
     weights: Rows,
-    /// Those that read displacement rather than velocity.
+    /// Whether each reads displacement rather than velocity.
     displaced: Vec<bool>,
     sums: Vec<Lanes>,
-    /// What each of them heard last.
+    /// The last reading of each probe, in m/s or m.
     pub(super) heard: Vec<f64>,
 }
 
@@ -109,12 +109,12 @@ impl Probes {
         Self { weights, displaced, sums: vec![[0.0; LANES]; rows.len()], heard: vec![0.0; rows.len()] }
     }
 
-    /// Gives a probe, by its index, other weights, one per mode.
+    /// Replaces the weights, one per mode, of a probe, given by its index.
     pub(super) fn place(&mut self, probe: usize, weights: &[f64]) {
         self.weights.fill(probe, weights);
     }
 
-    /// Adds what is heard of the groups of modes from the `first` on, afresh from group 0.
+    /// Adds the contributions of the groups of modes from the `first` on; starts from zero if that is group 0.
     #[inline(always)]
     fn read_out<S: Simd>(&mut self, simd: S, first: usize, u: &[Lanes], v: &[Lanes]) {
         for (probe, sum) in self.sums.iter_mut().enumerate() {
@@ -126,7 +126,7 @@ impl Probes {
         }
     }
 
-    /// Adds up what was heard: one number per probe, in m/s or m.
+    /// Adds up the partial sums: one reading per probe, in m/s or m.
     #[inline(always)]
     pub(super) fn reduce<S: Simd>(&mut self, simd: S) -> &[f64] {
         total(simd, &self.sums, &mut self.heard);
@@ -134,18 +134,18 @@ impl Probes {
     }
 }
 
-/// All modes: displacement, velocity, and how they move.
+/// The state of all modes (displacement and velocity), and their coefficients for a step.
 #[derive(Clone, Debug)]
 pub(super) struct Field {
     displacement: Rows,
     velocity: Rows,
     steps: Rows,
-    /// The steps' rows for impulses and forces again, for sums over modes.
+    /// The coefficients `STRIKE` and `PUSH` again as rows, for sums over modes.
     pub(super) factors: Rows,
 }
 
 impl Field {
-    /// Everything at rest; `dt` is the length of a step, in s.
+    /// All modes at rest; `dt` is the length of a step, in s.
     pub(super) fn new(poles: &[Pole], dt: f64) -> Self {
         let modes = poles.len();
         let [displacement, velocity] = [(); 2].map(|()| Rows::zeros(1, modes));
@@ -155,7 +155,7 @@ impl Field {
         field
     }
 
-    /// Sets the poles for steps of `dt` (s), displacement and velocity kept.
+    /// Sets the poles for steps of `dt` (s); displacement and velocity stay.
     pub(super) fn tune(&mut self, poles: impl Iterator<Item = Pole>, dt: f64) {
         for (m, pole) in poles.enumerate() {
             let [[_, strike], [_, hold]] = pole.step(dt);
@@ -185,7 +185,7 @@ impl Field {
         self.velocity.row(0)
     }
 
-    /// Strikes the modes with `impulses`, one per column in N·s, and listens to them.
+    /// Applies `impulses`, one per column in N·s, to the modes, and reads the probes.
     #[inline(always)]
     pub(super) fn settle<S: Simd>(
         &mut self,
@@ -204,8 +204,8 @@ impl Field {
         }
     }
 
-    /// One sweep over the modes: strikes them, listens, lays the forces on, moves everything over one step, and adds up
-    /// what the columns then feel.
+    /// One sweep over the modes: applies impulses, reads probes, advances all modes by one step under the forces, and sums up
+    /// the motion of the columns afterwards.
     #[inline(always)]
     pub(super) fn sweep<S: Simd>(
         &mut self,
@@ -223,7 +223,7 @@ impl Field {
         let modes = displacement.chunks_mut(TOGETHER).zip(velocity.chunks_mut(TOGETHER));
         for (chunk, ((u, v), steps)) in modes.zip(steps.chunks(TOGETHER)).enumerate() {
             let tiles = &tiles.all()[chunk * TOGETHER * columns..][..v.len() * columns];
-            // Forces first, then what modes move by next.
+            // Holds the forces first, then the displacement over the next step.
             let mut work = ModeBlock::default();
             let work = &mut work.0[..v.len()];
             let loaded = [columns, felt.plain];
@@ -241,7 +241,7 @@ impl Field {
         }
     }
 
-    /// What the columns feel as everything is, nothing moved.
+    /// Sums up the motion of the columns without advancing the modes.
     #[inline(always)]
     pub(super) fn look<S: Simd>(&mut self, simd: S, tiles: &Tiles, felt: &mut PortSums) {
         let displacement = as_arrays_mut::<LANES, _>(self.displacement.row_mut(0)).0;
@@ -258,7 +258,7 @@ impl Field {
         }
     }
 
-    /// Sets motion that is too small to matter to zero; energy can only fall by it.
+    /// Sets motion below [`SILENCE`] to zero, which can only lower the energy.
     #[inline(always)]
     pub(super) fn silence(&mut self) {
         for x in self.displacement.row_mut(0).iter_mut().chain(self.velocity.row_mut(0)) {
@@ -277,8 +277,8 @@ impl Field {
     }
 }
 
-/// Moves some groups of modes over a step; `work` holds the forces on them, and afterwards what they move by next without
-/// forces. Without `MOVE`, only the latter.
+/// Advances some groups of modes by a step; `work` holds the forces on them, and afterwards their displacement over the next
+/// step without forces. Without `MOVE`, only the latter is computed.
 #[inline(always)]
 fn advance<S: Simd, const MOVE: bool>(
     simd: S,
@@ -308,11 +308,11 @@ fn advance<S: Simd, const MOVE: bool>(
     }
 }
 
-/// Displacement after `dt` (s) of a unit force held from rest, for unit modal mass: `∫_0^dt g = (1 - a)/ω²`
-/// in s², g the displacement after an impulse.
+/// Displacement after `dt` (s) under a constant unit force from rest, for unit modal mass: `∫_0^dt g = (1 - a)/ω²`
+/// in s², with g the displacement after a unit impulse.
 ///
-/// Without cancellation in any regime: by its series where ω dt and σ dt are small, from the two real exponents where it
-/// is slow and strongly damped.
+/// Computed without cancellation: by a power series if ω dt and σ dt are small, from the two real exponents if the mode is
+/// slow and strongly damped.
 pub(super) fn push(pole: Pole, dt: f64) -> f64 {
     let (w, s) = (pole.omega * dt, pole.sigma * dt);
     if w > 0.5 {

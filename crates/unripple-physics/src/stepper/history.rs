@@ -1,29 +1,29 @@
-//! A ring of past modal states.
+//! A ring buffer of past modal states.
 
 use crate::PhysicsError;
 use unripple_core::require;
 
-/// The states of the modes that a surface has gone through lately, one after every so many samples.
+/// The most recent modal states of a running surface, recorded at intervals of a fixed number of samples.
 ///
-/// A state is kept in f32: displacement and velocity of each mode, in m·√kg and √J. Displacement anywhere is its product with what a
-/// point reads of the modes ([`Plant::footing`](super::Plant::footing)).
+/// A state is stored in f32: displacement and velocity of each mode, in m·√kg and √J. The displacement at a point is the sum of modal
+/// displacements times the mode shapes there ([`Plant::readout`](super::Plant::readout)).
 #[derive(Clone, Debug)]
 pub struct History {
     modes: usize,
     stride: usize,
     most: usize,
-    /// Samples until the next state is kept.
+    /// Number of samples until the next state is recorded.
     wait: usize,
-    /// Sample after which the newest state was taken.
+    /// Number of samples that the surface had processed at the newest state.
     newest: u64,
-    /// States ever kept.
+    /// Number of states recorded so far.
     count: u64,
     displacement: Vec<f32>,
     velocity: Vec<f32>,
 }
 
 impl History {
-    /// A ring of `most` states of so many modes, one after every `stride` samples, begun at sample `now`.
+    /// A ring buffer for `most` states of `modes` modes, one after every `stride` samples, begun at sample `now`.
     pub(super) fn new(modes: usize, stride: usize, most: usize, now: u64) -> Result<Self, PhysicsError> {
         require("samples from one state to the next", stride > 0, "at least 1", stride as f64)?;
         let room = (1..=1 << 20).contains(&most);
@@ -33,28 +33,28 @@ impl History {
         Ok(Self { modes, stride, most, wait: stride, newest: now, count: 0, displacement: zeros, velocity })
     }
 
-    /// Number of samples from each state to the next.
+    /// Number of samples between one state and the next.
     pub fn stride(&self) -> usize {
         self.stride
     }
 
-    /// Number of states that can be read.
+    /// Number of states stored.
     pub fn len(&self) -> usize {
         self.count.min(self.most as u64) as usize
     }
 
-    /// Whether there is none yet.
+    /// Whether no state is stored yet.
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
 
-    /// Number of samples that the surface had taken in at the newest state.
+    /// Number of samples that the surface had processed at the newest state.
     pub fn newest(&self) -> u64 {
         self.newest
     }
 
-    /// Displacement (m·√kg) and velocity (√J) of every mode, `back` states before the newest; `None` beyond
-    /// what is remembered.
+    /// Displacement (m·√kg) and velocity (√J) of every mode in the state `back` places before the newest; `None` if it is not
+    /// stored.
     pub fn state(&self, back: usize) -> Option<(&[f32], &[f32])> {
         if back >= self.len() {
             return None;
@@ -63,12 +63,12 @@ impl History {
         Some((&self.displacement[slot..slot + self.modes], &self.velocity[slot..slot + self.modes]))
     }
 
-    /// Number of samples that may pass until a state is due.
+    /// Number of samples until the next state is due.
     pub(super) fn wait(&self) -> usize {
         self.wait
     }
 
-    /// Takes in a state `frames` samples after the last, and keeps it if it is due.
+    /// Advances by `frames` samples to the given state, and records it if it is due.
     pub(super) fn take(&mut self, frames: usize, displacement: &[f64], velocity: &[f64]) {
         self.wait -= frames.min(self.wait);
         if self.wait > 0 {

@@ -1,18 +1,18 @@
-//! Sums over modes, as many at a time as the processor can.
+//! Sums over modes with SIMD instructions.
 //!
-//! Everything here is inlined into the block loop, which is compiled once for each kind of processor. Additions are
-//! ordered by the width of its registers: on different processors, results may differ in their last bits.
+//! Everything here is inlined into the block loop, which is compiled once for each kind of processor. The order of additions
+//! depends on the width of its registers, so that results may differ in their last bits between processors.
 
 use pulp::{Simd, as_arrays};
 
-/// Modes that are worked on together: two lines of cache. Rows are padded with zeros to a multiple of this;
-/// doubled, more zeros are worked on.
+/// Number of modes processed together: two cache lines. Rows are padded with zeros to a multiple of this;
+/// doubled, more zeros are processed.
 pub(super) const LANES: usize = 16;
 
-/// A value for each of so many modes.
+/// A value for each of sixteen modes.
 pub(super) type Lanes = [f64; LANES];
 
-/// Rows begin where a cache line does, of 64 bytes: reads across two lines cost twice.
+/// Alignment of rows in bytes, that of a cache line: reads across two lines cost twice.
 const LINE: usize = 64;
 
 /// Rows of values for each mode, padded with zeros.
@@ -38,13 +38,13 @@ impl Rows {
         &self.data[self.first + row * self.length..][..self.length]
     }
 
-    /// One row, by its index, to be changed.
+    /// One row, by its index, mutable.
     #[inline(always)]
     pub(super) fn row_mut(&mut self, row: usize) -> &mut [f64] {
         &mut self.data[self.first + row * self.length..][..self.length]
     }
 
-    /// Copies values into a row, zeros behind them.
+    /// Copies values into a row and pads it with zeros.
     pub(super) fn fill(&mut self, row: usize, values: &[f64]) {
         let row = self.row_mut(row);
         let (head, tail) = row.split_at_mut(values.len().min(row.len()));
@@ -63,7 +63,7 @@ pub(super) struct Tiles {
 }
 
 impl Tiles {
-    /// Room for so many modes of up to so many columns; none is there at first.
+    /// Storage for up to `columns` columns of `modes` weights; no column is in use at first.
     pub(super) fn zeros(columns: usize, modes: usize) -> Self {
         let groups = modes.div_ceil(LANES);
         let data = vec![0.0; groups * columns * LANES + LINE / size_of::<f64>()];
@@ -71,7 +71,7 @@ impl Tiles {
         Self { data, first, groups, columns: 0 }
     }
 
-    /// Makes room for another number of columns, which must all be set then.
+    /// Changes the number of columns in use, which must all be set afterwards.
     pub(super) fn resize(&mut self, columns: usize) {
         self.columns = columns;
     }
@@ -92,14 +92,14 @@ impl Tiles {
         }
     }
 
-    /// The weights, the columns of a group of modes after those of another.
+    /// All weights, group of modes by group, column by column in each.
     #[inline(always)]
     pub(super) fn all(&self) -> &[Lanes] {
         as_arrays::<LANES, _>(&self.data[self.first..][..self.groups * self.columns * LANES]).0
     }
 }
 
-/// Adds to what modes get: `to[m] += Σ_k w_k[m] amounts[k]`, the columns from the `first` on.
+/// Adds the amounts on columns to the modes: `to[m] += Σ_k w_k[m] amounts[k]`, over the columns from the `first` on.
 #[inline(always)]
 pub(super) fn gather<S: Simd>(
     simd: S,
@@ -108,7 +108,7 @@ pub(super) fn gather<S: Simd>(
     amounts: &[f64],
     to: &mut [Lanes],
 ) {
-    // Two groups at a time, so that enough sums are under way at once.
+    // Two groups at a time, so that the processor can work on enough sums in parallel.
     let (pairs, last) = to.split_at_mut(to.len() / 2 * 2);
     let whole = pairs.len() * columns;
     for (tiles, to) in tiles.chunks_exact(2 * columns).zip(pairs.chunks_exact_mut(2)) {
@@ -131,7 +131,7 @@ pub(super) fn gather<S: Simd>(
     }
 }
 
-/// As [`gather`] does, for two kinds of amounts at once: the first on all columns, the second on those from `first` on.
+/// Does [`gather`] for two kinds of amounts at once: the first on all columns, the second on those from `first` on.
 #[inline(always)]
 pub(super) fn gather_both<S: Simd>(
     simd: S,
@@ -161,7 +161,7 @@ pub(super) fn gather_both<S: Simd>(
     }
 }
 
-/// Sixteen sums, begun.
+/// Loads sixteen sums into registers.
 #[inline(always)]
 fn begun<S: Simd>(simd: S, from: &Lanes) -> [S::f64s; LANES] {
     let mut sums = [simd.splat_f64s(0.0); LANES];
@@ -169,7 +169,7 @@ fn begun<S: Simd>(simd: S, from: &Lanes) -> [S::f64s; LANES] {
     sums
 }
 
-/// Sixteen sums, done.
+/// Stores sixteen sums from registers.
 #[inline(always)]
 fn keep<S: Simd>(sums: &[S::f64s; LANES], to: &mut Lanes) {
     S::as_mut_simd_f64s(to).0.copy_from_slice(&sums[..vectors::<S>()]);
@@ -183,7 +183,7 @@ fn weigh<S: Simd>(simd: S, weights: &Lanes, amount: S::f64s, sums: &mut [S::f64s
     }
 }
 
-/// Adds to what columns feel of some groups of modes: `sums[k] += Σ_m w_k[m] x[m]`, sixteen parts of it; `sums`
+/// Adds the motion of some groups of modes to the columns: `sums[k] += Σ_m w_k[m] x[m]`, as sixteen partial sums each; `sums`
 /// are those of the columns from the `first` on.
 #[inline(always)]
 pub(super) fn accumulate<S: Simd>(
@@ -223,7 +223,7 @@ pub(super) fn accumulate<S: Simd>(
     }
 }
 
-/// As [`accumulate`] does, for two kinds of motion (m and m/s per column) and their sums at once.
+/// Does [`accumulate`] for two kinds of motion (m and m/s) and their sums at once.
 #[inline(always)]
 pub(super) fn accumulate_both<S: Simd>(
     simd: S,
@@ -259,7 +259,7 @@ pub(super) fn accumulate_both<S: Simd>(
     accumulate(simd, tiles, [columns, column], x[1], others.into_remainder());
 }
 
-/// Adds to what a row feels of some groups of modes, as [`accumulate`] does.
+/// Adds the motion of some groups of modes to the partial sums of a single row, like [`accumulate`].
 #[inline(always)]
 pub(super) fn read_out<S: Simd>(simd: S, row: &[Lanes], x: &[Lanes], to: &mut Lanes) {
     let mut sum = begun::<S>(simd, to);
@@ -272,7 +272,7 @@ pub(super) fn read_out<S: Simd>(simd: S, row: &[Lanes], x: &[Lanes], to: &mut La
     keep::<S>(&sum, to);
 }
 
-/// What was added up by [`accumulate`]: one number per column.
+/// Adds up the partial sums of [`accumulate`]: one number per column.
 #[inline(always)]
 pub(super) fn total<S: Simd>(simd: S, sums: &[Lanes], out: &mut [f64]) {
     for (out, sum) in out.iter_mut().zip(sums) {
@@ -291,7 +291,7 @@ pub(super) fn vectors<S: Simd>() -> usize {
     LANES / S::F64_LANES
 }
 
-/// `Σ_m first[m] second[m]` alone and with each of two factors.
+/// `Σ_m first[m] second[m]`, and the same sum with each of two factors: `Σ_m first[m] second[m] factor[m]`.
 #[inline(always)]
 pub(super) fn grams<S: Simd>(simd: S, first: &[f64], second: &[f64], factors: [&[f64]; 2]) -> [f64; 3] {
     let [first, second] = [first, second].map(|row| S::as_simd_f64s(row).0);

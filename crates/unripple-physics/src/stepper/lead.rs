@@ -1,32 +1,32 @@
-//! Channels as the stepper knows them: what a drive does at a port, and what its sensor reads.
+//! Factors of a channel in the time-domain simulation: the effect of its drive at a port, and its sensor signal.
 
 use super::Channel;
 use crate::Circuit;
 
-/// Where a channel leads: its port, and the factors of drive and sensor there.
+/// The port of a channel, and the factors of drive and sensor there.
 ///
-/// A coil of inductance L on a voltage V makes the force bl·i with L di/dt + R i = V - bl·v. What is heard of the motion is
-/// what the motion alone drives through the coil, j with L dj/dt + R j = bl·v: a state of its own beside the current that the drive
-/// would make flow in the coil at rest. Over a step forces are held and motion is a mean, so that both pass
-/// the coil (dt/2)·coth(θ/2) late, θ = R dt/L, where dt/θ = L/R is right. The share κ = 1 - (2/θ)·tanh(θ/2) of the drive therefore strikes
-/// at once, and of the velocity is heard at once, as all of it is without inductance: κ goes to 1 there and to θ²/12 where the
-/// current is slow. Drive and sensor share it alike, which keeps responses reciprocal.
+/// A coil of inductance L driven by a voltage V gives the force bl·i with L di/dt + R i = V - bl·v. The sensor signal is the
+/// current j that only the motion drives through the coil, L dj/dt + R j = bl·v, which is a state of its own beside the current
+/// that the drive would cause in the coil at rest. Over a step, forces are constant and motion is averaged, so that the coil
+/// delays both by (dt/2)·coth(θ/2), θ = R dt/L, instead of by L/R = dt/θ. Therefore the share κ = 1 - (2/θ)·tanh(θ/2) of the drive
+/// acts at once as an impulse, and the same share of the velocity contributes to the signal at once. κ is 1 without inductance, and about
+/// θ²/12 if the current is slow. It is equal for drive and sensor, which keeps responses reciprocal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lead {
-    /// Index of the port that it leads to.
+    /// Index of the port.
     pub(super) port: usize,
     /// Impulse (N·s) per unit of drive in one sample.
     pub(super) strike: f64,
-    /// What is heard per velocity (m/s) of the port.
+    /// Sensor signal per velocity (m/s) of the port.
     pub(super) felt: f64,
-    /// Jump of the coil's current (A) per unit of drive in one sample.
+    /// Step of the coil's current (A) per unit of drive in one sample.
     pub(super) jump: f64,
-    /// What is heard per ampere driven by the motion.
+    /// Sensor signal per ampere of the current that the motion drives.
     pub(super) driven: f64,
 }
 
 impl Lead {
-    /// `dt` is the length of a step, in s.
+    /// The factors of a channel at a port; `dt` is the length of a step, in s.
     pub(super) fn of(channel: &Channel, port: usize, rate: f64, dt: f64) -> Self {
         let gain = channel.gain;
         let struck = |share: f64| Self {
@@ -48,23 +48,23 @@ impl Lead {
         Self { jump: slow / (inductance * rate), driven: slow, ..struck(share * at_once) }
     }
 
-    /// Whether any of it goes to the sheet without passing a coil's current.
+    /// Whether any part of the drive acts on the sheet at once, as an impulse.
     pub(super) fn strikes(&self) -> bool {
         self.strike != 0.0
     }
 
-    /// What is heard, in the sensor's unit, from the port's velocity (m/s) and the current that motion drives
-    /// through its coil, against the drive's (A).
+    /// The sensor signal, in its unit, from the port's velocity (m/s) and the current (A, positive in the direction of the drive's)
+    /// that the motion drives through its coil.
     #[inline(always)]
     pub(super) fn hears(&self, velocity: f64, driven: f64) -> f64 {
         self.felt * velocity - self.driven * driven
     }
 }
 
-/// Share κ of a coil's drive that takes effect at once, from θ = R dt/L.
+/// Share κ of a coil's drive that acts at once, from θ = R dt/L.
 fn sudden(theta: f64) -> f64 {
     let x = 0.5 * theta;
-    // By its series where the difference would cancel.
+    // By its power series where the difference would cancel.
     if x < 1e-2 { x * x / 3.0 * (1.0 - 0.4 * x * x) } else { 1.0 - x.tanh() / x }
 }
 

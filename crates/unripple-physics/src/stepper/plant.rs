@@ -1,4 +1,4 @@
-//! The sheet as the time-stepper knows it: oscillations, shapes, rim.
+//! The sheet for the time-domain simulation (poles, mode shapes, outline), and its channels.
 
 use crate::{Entry, Footprint, Load, Loaded, Medium, Modes, PhysicsError, Transducer, transducers};
 use std::f64::consts::PI;
@@ -7,42 +7,42 @@ use unripple_core::{ModalResponses, Onset, Outline, Point, Pole, Shapes, Surface
 use unripple_linalg::Mat;
 use unripple_plates::decay_rate;
 
-/// What is added to modes may oscillate at this share of half the rate: faster, samples would show it as
-/// something slower. At 1, it would alternate from sample to sample.
+/// Highest frequency of the modes added by [`Plant::bearing`], as a share of half the sample rate: faster ones would
+/// alias. At 1, they would alternate from sample to sample.
 const FASTEST: f64 = 0.9;
 
-/// A sheet as the stepper knows it: oscillations, their shapes and the rim. Cheap to clone, so that another thread can
-/// prepare footings.
+/// The sheet for the time-domain simulation: poles and shapes of its modes, and its outline. Cheap to clone, so that another
+/// thread can prepare footings.
 #[derive(Clone, Debug)]
 pub struct Plant {
-    /// The decaying oscillations, one per mode.
+    /// The pole of each mode.
     pub(super) poles: Arc<[Pole]>,
-    /// Bending's share of each mode's elastic energy, 0 to 1.
+    /// Share of bending in each mode's elastic energy, 0 to 1.
     pub(super) bending_shares: Arc<[f64]>,
     /// Mode shapes at any point, in 1/√kg.
     pub(super) shapes: Arc<dyn Shapes>,
-    /// The rim within which discs are cut off.
+    /// The outline, at which discs are cut off.
     pub(super) outline: Arc<Outline>,
 }
 
-/// A channel: what a drive does to the sheet at some place, what is read there, and what hangs there.
+/// A channel of the simulation: one drive and one sensor signal at a contact on the sheet, with its load.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
-    /// Where and how it acts and senses.
+    /// Contact at which it acts and senses.
     pub footprint: Footprint,
-    /// Force per unit of drive (N per unit), or with [`Channel::voltage`] volts per unit of drive; the sensor is multiplied
+    /// Force per unit of drive (N per unit), or with [`Channel::voltage`] volts per unit of drive; the sensor signal is multiplied
     /// by it as well.
     pub gain: f64,
-    /// What hangs there and moves along.
+    /// Load on the sheet that belongs to the channel; `None` for none.
     pub load: Option<Load>,
-    /// Whether the drive is a voltage at the load's coil. The sensor then is the current j that the motion alone drives through the
-    /// coil, L dj/dt + R j = bl·v (in A, without what the drive itself makes flow in the coil at rest); otherwise it is the sheet's
-    /// velocity times the gain.
+    /// Whether the drive is the voltage of the load's coil. The sensor signal is then the current j that only the motion drives
+    /// through the coil, L dj/dt + R j = bl·v, in A, without the current that the drive causes in a coil at rest. Otherwise it is
+    /// the sheet's velocity times the gain.
     pub voltage: bool,
 }
 
-/// The weights of every mode under a disc on the sheet: made by [`Plant::footing`], on any thread that has
-/// time for it.
+/// The weights of all modes for a contact disc on the sheet, computed by [`Plant::footing`], if need be on a thread that is not
+/// real-time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Footing {
     /// One weight per mode, in 1/√kg.
@@ -50,11 +50,11 @@ pub struct Footing {
 }
 
 impl Plant {
-    /// A sheet of these oscillations (unit modal mass) and shapes within an outline.
+    /// A sheet with these poles (for unit modal mass) and mode shapes, within an outline.
     ///
     /// # Errors
-    /// [`PhysicsError::Range`] if a frequency or decay is negative or not finite, or if there are as many poles as shapes;
-    /// [`PhysicsError::Unsupported`] for oscillations that an impulse moves rather than strikes.
+    /// [`PhysicsError::Range`] if a frequency or decay rate is negative or not finite, or if the numbers of poles and shapes differ;
+    /// [`PhysicsError::Unsupported`] for poles whose onset is not [`Onset::Velocity`].
     pub fn new(poles: &[Pole], shapes: Arc<dyn Shapes>, outline: Outline) -> Result<Self, PhysicsError> {
         let (count, found) = (poles.len() as f64, shapes.modes() as f64);
         require("shapes of the modes", found == count, format!("{count}, one for each pole"), found)?;
@@ -77,7 +77,7 @@ impl Plant {
         })
     }
 
-    /// All modes of a surface.
+    /// A sheet with the given modes of a surface, without loads.
     ///
     /// # Errors
     /// Those of [`Plant::new`].
@@ -86,9 +86,9 @@ impl Plant {
         Self::new(&poles, modes, surface.outline.clone())?.with_bending_shares(&shares)
     }
 
-    /// All modes of a surface and, where its actuators hang something on it, what that feels of the modes above them
-    /// ([`Loaded::with_rest`]): a mass rests on what is under its contact, however few modes are known. What would oscillate too
-    /// fast for so many samples per second is left out.
+    /// A sheet with the given modes of a surface and, if its actuators have loads, the residual compliance of higher modes at these
+    /// loads ([`Loaded::with_rest`]). With it, the sheet under a mass is as compliant as it should be, even if few modes are known. If an
+    /// added mode would be too fast for `rate` samples per second, none is added.
     ///
     /// # Errors
     /// Those of [`Plant::new`] and [`transducers`].
@@ -116,7 +116,7 @@ impl Plant {
         Self::new(poles, shapes.clone(), surface.outline.clone())?.with_bending_shares(&shares)
     }
 
-    /// The modes of responses.
+    /// A sheet with the poles and shapes of modal responses.
     ///
     /// # Errors
     /// Those of [`Plant::new`].
@@ -124,10 +124,10 @@ impl Plant {
         Self::new(&responses.poles, responses.shapes.clone(), responses.conditions.outline.clone())
     }
 
-    /// The same with bending's share of each mode's elastic energy (0 to 1), which tension does not change; without it, 0.
+    /// Sets the share of bending in each mode's elastic energy (0 to 1), on which changes of tension have no effect; 0 by default.
     ///
     /// # Errors
-    /// [`PhysicsError::Range`] for shares that cannot be, or another number of them than modes.
+    /// [`PhysicsError::Range`] for a share outside 0 to 1, or if there is not one for each mode.
     pub fn with_bending_shares(self, shares: &[f64]) -> Result<Self, PhysicsError> {
         let (found, count) = (shares.len() as f64, self.poles.len() as f64);
         require("bending shares of the modes", found == count, format!("{count}, one for each pole"), found)?;
@@ -137,8 +137,8 @@ impl Plant {
         Ok(Self { bending_shares: shares.into(), ..self })
     }
 
-    /// What a disc of some radius (m) feels of every mode. Takes the time of about eighty evaluations of the shapes, and
-    /// allocates: not for the thread that steps.
+    /// The weights of all modes for a contact disc of some radius (m) at a place (m), or at the nearest point of the sheet. Takes the
+    /// time of about eighty evaluations of the shapes and allocates, so it is not for the real-time thread.
     ///
     /// # Errors
     /// [`PhysicsError::Range`] if the place or the radius is not finite, or the radius negative.
@@ -160,7 +160,7 @@ impl Plant {
         self.poles.len()
     }
 
-    /// Weights of a footprint, one per mode in 1/√kg; an error unless they are finite.
+    /// Weights of a footprint, one per mode, in 1/√kg; an error if one is not finite.
     pub(super) fn weights(&self, footprint: &Footprint) -> Result<Vec<f64>, PhysicsError> {
         let weights = footprint.weights(&*self.shapes);
         for weight in &weights {
@@ -182,12 +182,12 @@ impl From<Transducer> for Channel {
 }
 
 impl Channel {
-    /// A force (in N) over a footprint, which senses the velocity there (m/s).
+    /// A channel whose drive is a force (in N) over a footprint and whose sensor signal is the velocity there (m/s).
     pub fn force(footprint: Footprint) -> Self {
         Self { footprint, gain: 1.0, load: None, voltage: false }
     }
 
-    /// The actuators of a surface, whatever they are.
+    /// The channels of all actuators of a surface, in order.
     ///
     /// # Errors
     /// Those of [`transducers`].
@@ -195,7 +195,7 @@ impl Channel {
         Ok(transducers(surface)?.into_iter().map(Self::from).collect())
     }
 
-    /// The same, a coil's inductance left out where its current follows the voltage within far less than a sample.
+    /// This channel without the inductance of its coil if the current follows the voltage within far less than a sample.
     pub(super) fn settled(&self, rate: f64) -> Self {
         let mut channel = self.clone();
         if let Some(coil) = channel.load.as_mut().and_then(|load| load.circuit.as_mut())
@@ -206,7 +206,7 @@ impl Channel {
         channel
     }
 
-    /// A typed error unless gain and load are those of a passive thing.
+    /// Refuses a gain that is not finite, a load that is not passive, and a voltage without a coil.
     pub(super) fn check(&self) -> Result<(), PhysicsError> {
         require("gain of a channel", true, "a finite number", self.gain)?;
         if let Some(load) = &self.load {

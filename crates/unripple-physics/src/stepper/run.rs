@@ -1,4 +1,4 @@
-//! A block of samples through the time-stepper.
+//! Processing of a block of samples in the time-domain simulation.
 
 use super::couplings::Part;
 use super::engine::Engine;
@@ -7,11 +7,11 @@ use super::lanes::total;
 use super::small::{OCT, add};
 use pulp::{Simd, WithSimd};
 
-/// Samples between looks at what has become too small to matter: 21 ms at 48 kHz, for a look that costs
-/// little beside so many samples. Doubled, numbers that slow the processor stay up to twice as long.
+/// Number of samples between checks for values that have become too small: 21 ms at 48 kHz, so that the check costs
+/// little. Doubled, denormal numbers that slow the processor stay up to twice as long.
 const SILENCE: u64 = 1024;
 
-/// What goes in and comes out of some samples: planes of channels or probes, `stride` apart, from a first sample on.
+/// The inputs and outputs of a number of samples: planes of channels or probes, `stride` apart, from a first sample on.
 pub(super) struct Planes<'a> {
     /// Number of samples.
     pub(super) frames: usize,
@@ -19,9 +19,9 @@ pub(super) struct Planes<'a> {
     pub(super) drive: Drive<'a>,
     /// Where sensors and probes are written.
     pub(super) out: Out,
-    /// Samples of all sensors, one after the other; empty where they are not wanted.
+    /// Samples of all sensors, one sensor after another; empty if not wanted.
     pub(super) sensors: &'a mut [f64],
-    /// Samples of all probes, likewise.
+    /// Samples of all probes, one probe after another; empty if not wanted.
     pub(super) probes: &'a mut [f64],
 }
 
@@ -36,7 +36,7 @@ pub(super) struct Drive<'a> {
     pub(super) first: usize,
 }
 
-/// How planes of sensors and probes lie.
+/// The layout of the planes of sensors and probes.
 #[derive(Clone, Copy)]
 pub(super) struct Out {
     /// Samples from one channel or probe to the next.
@@ -45,11 +45,11 @@ pub(super) struct Out {
     pub(super) first: usize,
 }
 
-/// A block, as one piece of code for the processor at hand.
+/// The processing of a block, compiled for the processor's SIMD instructions.
 pub(super) struct Block<'a, 'b> {
-    /// The engine that is run.
+    /// The state that is advanced.
     pub(super) engine: &'a mut Engine,
-    /// What goes in and comes out.
+    /// Inputs and outputs.
     pub(super) planes: Planes<'b>,
 }
 
@@ -67,7 +67,7 @@ impl WithSimd for Block<'_, '_> {
         }
         for frame in 0..planes.frames {
             for substep in 0..if engine.samples > 0 { engine.substeps } else { 0 } {
-                // Probes hear of a sample when the modes are swept over next.
+                // Probes read a sample during the next sweep over the modes.
                 let heard = (frame > 0 && substep == 0).then(|| frame - 1);
                 engine.advance(simd, &mut planes, heard);
                 if substep + 1 < engine.substeps {
@@ -89,7 +89,7 @@ impl WithSimd for Block<'_, '_> {
 }
 
 impl Engine {
-    /// One step of modes and loads, fingers going on. Probes hear of the sample before, if they have not.
+    /// One step of modes, loads and fingers. Reads the probes for the sample `heard`, if given.
     #[inline(always)]
     fn advance<S: Simd>(&mut self, simd: S, planes: &mut Planes, heard: Option<usize>) {
         let columns = self.tiles.columns();
@@ -110,7 +110,7 @@ impl Engine {
         self.sense(simd);
     }
 
-    /// Lays what is pending on the modes, after the last sample of a block, and lets probes hear it.
+    /// Applies pending impulses to the modes after the last sample of a block, and reads the probes for it.
     #[inline(always)]
     fn settle<S: Simd>(&mut self, simd: S, planes: &mut Planes) {
         let listened = !planes.probes.is_empty();
@@ -122,7 +122,7 @@ impl Engine {
         }
     }
 
-    /// Writes what probes have heard.
+    /// Writes the readings of the probes for one sample.
     #[inline(always)]
     fn write<S: Simd>(&mut self, simd: S, planes: &mut Planes, frame: usize) {
         let Out { stride, first } = planes.out;
@@ -132,7 +132,7 @@ impl Engine {
         }
     }
 
-    /// What the last sweep felt: velocity of the ports, and what they would move by without forces.
+    /// Takes the motion of the ports from the last sweep: velocity, and displacement over the next step without forces.
     #[inline(always)]
     fn sense<S: Simd>(&mut self, simd: S) {
         let columns = self.tiles.columns();
@@ -145,7 +145,7 @@ impl Engine {
         }
     }
 
-    /// Takes in one sample of all channels: impulses on ports and jumps of currents.
+    /// Takes one drive sample of all channels: impulses on ports and steps of coil currents.
     #[inline(always)]
     fn drive(&mut self, drive: &Drive, frame: usize) {
         self.impulse.fill([0.0; OCT]);
@@ -162,7 +162,7 @@ impl Engine {
         }
     }
 
-    /// Everything that happens at an instant: impulses, shared with the masses, then the forces of the step to come.
+    /// Processes an instant: impulses, shared with the masses, then the forces of the next step.
     #[inline(always)]
     fn instant<S: Simd>(&mut self, simd: S, struck: bool) {
         let ports = self.couplings.ports();
@@ -182,7 +182,7 @@ impl Engine {
         self.solve(simd, struck);
     }
 
-    /// Finds the forces of the step to come.
+    /// Computes the forces of the loads over the next step.
     #[inline(always)]
     fn solve<S: Simd>(&mut self, simd: S, struck: bool) {
         let ports = self.couplings.ports();
@@ -195,7 +195,7 @@ impl Engine {
         self.bank.solve(simd, &self.free, (self.couplings.forces(), push), ports);
     }
 
-    /// Writes one sample of sensors.
+    /// Writes one sample of all sensors.
     #[inline(always)]
     fn reduce(&mut self, planes: &mut Planes, frame: usize) {
         let Out { stride, first } = planes.out;
@@ -205,7 +205,7 @@ impl Engine {
         }
     }
 
-    /// Lets fingers come, move and go.
+    /// Advances fingers that are being put down, moved or lifted.
     #[inline(always)]
     fn change<S: Simd>(&mut self, simd: S) {
         let (mut finger, mut other) = (0, false);
@@ -233,19 +233,19 @@ impl Engine {
     }
 }
 
-/// Lays what acts on ports on the columns of the tiles; the first `fixed` of both are the same.
+/// Distributes amounts on ports to the columns of the tiles; the first `fixed` of both are the same.
 #[inline(always)]
 fn lay(parts: &[Part], fixed: usize, ports: &[f64], columns: &mut [f64]) {
     columns[..fixed].copy_from_slice(&ports[..fixed]);
     for (part, amount) in parts.iter().zip(ports).skip(fixed) {
-        // Of equal columns the second one counts.
+        // If both columns are the same, the second share counts.
         for (column, share) in part.columns.iter().zip(part.shares) {
             columns[*column] = share * amount;
         }
     }
 }
 
-/// Makes what ports feel of what columns feel.
+/// Combines the motion of columns into that of ports.
 #[inline(always)]
 fn fold(parts: &[Part], fixed: usize, columns: &[f64], ports: &mut [f64]) {
     ports[..fixed].copy_from_slice(&columns[..fixed]);

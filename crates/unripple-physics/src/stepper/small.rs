@@ -3,11 +3,11 @@
 use pulp::Simd;
 use std::ops::Range;
 
-/// Ports that are worked on together: the numbers of a 512-bit register. Doubled, more empty ports are worked
-/// on.
+/// Number of ports processed together: a 512-bit register holds as many f64. Doubled, more empty ports are
+/// processed.
 pub(super) const OCT: usize = 8;
 
-/// A value for each of so many ports.
+/// A value for each of eight ports.
 pub(super) type Oct = [f64; OCT];
 
 /// Number of groups of eight that vectors over `ports` ports take.
@@ -102,25 +102,25 @@ impl Small {
     }
 }
 
-/// Above this trace of `D A D`, systems are solved by factors rather than by their inverse, whose rounding
-/// would show: at 1e5, eleven digits are left. Doubled, stiffer loads are solved the quick way with half a
+/// Above this trace of `D A D`, systems are solved by Cholesky factors rather than by their inverse, whose rounding errors
+/// would be too large: at 1e5, eleven digits are left. Doubled, stiffer loads are solved by the inverse, with a third of a
 /// digit less.
 const STIFF: f64 = 1e5;
 
-/// Solves `(1 + D A D) x = r`, A symmetric without negative eigenvalues and D diagonal, by an inverse that is kept up to date
-/// as ports come, go and change at its end.
+/// Solves `(1 + D A D) x = r`, with A symmetric and positive semidefinite and D diagonal, by an inverse that is updated when
+/// the last ports are added, removed or changed.
 ///
 /// The inverse N grows by one port at a time (bordering): with `k` the new column and κ its diagonal entry, `w = N k` and
-/// `s = κ - kᵀw ≥ 1`, it becomes `N + w wᵀ/s` bordered by `-w/s` and `1/s`. So what changes at the end costs two products,
-/// and N stays symmetric and without negative eigenvalues whatever is rounded. Loads so stiff that the rounding of N would
-/// show are solved by Cholesky factorisation, slower but backward stable.
+/// `s = κ - kᵀw ≥ 1`, it becomes `N + w wᵀ/s` bordered by `-w/s` and `1/s`. So a change of the last port costs two products,
+/// and N stays symmetric and positive semidefinite whatever the rounding. For loads so stiff that the rounding of N would
+/// matter, the system is solved by Cholesky factorisation, which is slower but backward stable.
 #[derive(Clone, Debug)]
 pub(super) struct Inverse {
     now: Small,
     fixed: Small,
     column: Vec<Oct>,
     image: Vec<Oct>,
-    /// The lower factor, up to date if stiff.
+    /// The lower Cholesky factor, valid if `stiff`.
     factor: Small,
     stiff: bool,
 }
@@ -169,14 +169,14 @@ impl Inverse {
         }
     }
 
-    /// Starts again from nothing with the first `count` ports, which stay.
+    /// Computes the inverse anew for the first `count` ports, which do not change afterwards.
     pub(super) fn fix<S: Simd>(&mut self, simd: S, count: usize, matrix: &Small, scale: &[f64]) {
         self.fixed.clear();
         self.extend(simd, 0..count, matrix, scale);
         self.fixed.cells.copy_from_slice(&self.now.cells);
     }
 
-    /// Takes the ports that stay and then these, by their indices.
+    /// Computes the inverse for the fixed ports followed by these, given by their indices.
     #[inline(always)]
     pub(super) fn extend<S: Simd>(&mut self, simd: S, ports: Range<usize>, matrix: &Small, scale: &[f64]) {
         self.now.cells.copy_from_slice(&self.fixed.cells);
@@ -209,7 +209,7 @@ impl Inverse {
         solution.follow(simd, matrix, scale, ports);
     }
 
-    /// A row of the factor.
+    /// Computes a row of the Cholesky factor.
     fn eliminate(&mut self, n: usize, matrix: &Small, scale: &[f64]) {
         for j in 0..=n {
             let inner: f64 = (0..j).map(|k| self.factor.get(n, k) * self.factor.get(j, k)).sum();
@@ -220,7 +220,7 @@ impl Inverse {
         }
     }
 
-    /// Solves by the factor and its transpose.
+    /// Solves with the Cholesky factor and its transpose.
     fn substitute(&self, right: &[f64], x: &mut [f64]) {
         for n in 0..right.len() {
             let inner: f64 = (0..n).map(|k| self.factor.get(n, k) * x[k]).sum();
@@ -232,7 +232,7 @@ impl Inverse {
         }
     }
 
-    /// Takes one port into the inverse, by bordering.
+    /// Adds one port to the inverse, by bordering.
     #[inline(always)]
     fn border<S: Simd>(&mut self, simd: S, n: usize, matrix: &Small, scale: &[f64]) {
         let column = &mut self.column.as_flattened_mut()[..n];

@@ -1,4 +1,4 @@
-//! A virtual surface in the time domain: channels, fingers, options.
+//! A surface simulated in the time domain: channels, fingers, probes, options.
 
 use super::engine::Engine;
 use super::field::Probes;
@@ -9,16 +9,16 @@ use crate::{Modes, PhysicsError};
 use std::sync::Arc;
 use unripple_core::{Contact, Finger, Point, Pole, Surface, require};
 
-/// How a virtual surface is stepped.
+/// Options of the simulation of a surface in the time domain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepperOptions {
-    /// Fingers at once, those that are being lifted included.
+    /// Largest number of fingers at once, those that are being lifted included.
     pub max_fingers: usize,
-    /// Time that a finger takes to come and to go, in s.
+    /// Time over which the load of a finger is faded in when it is put down, and out when it is lifted, in s.
     pub fade: f64,
-    /// Time that a finger takes to its next place, in s.
+    /// Time over which a finger that is moved changes from one contact to the next, in s.
     pub glide: f64,
-    /// Steps per sample. Their number matters to loads only: without, one is exact.
+    /// Steps per sample. More steps reduce the error of loads; without loads one step is exact.
     pub substeps: usize,
 }
 
@@ -37,7 +37,7 @@ pub enum Reading {
     Displacement,
 }
 
-/// The field at an instant.
+/// The field of a running surface at an instant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
     /// Displacement at each point, in m.
@@ -46,25 +46,26 @@ pub struct Snapshot {
     pub velocity: Vec<f64>,
 }
 
-/// How a finger moves and what it gets.
+/// Motion of a finger on a running surface, with the force on it and the power into it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FingerMotion {
-    /// How much of it is felt: 0 when just put down, 1 when there.
+    /// Factor of the fade, 0 to 1: 0 when the finger is just put down, 1 when it is fully in contact.
     pub grip: f64,
     /// Force on the finger over the next step, in N.
     pub force: f64,
-    /// Velocity of the sheet under it, in m/s, times its grip.
+    /// Velocity of the sheet under the finger, in m/s, times `grip`.
     pub velocity: f64,
-    /// What it has moved by since it came, in m.
+    /// Displacement of the finger since it was put down (the extension of its spring), in m.
     pub displacement: f64,
-    /// Power that went into it over the last block, in W: the exact work of its force, dissipated and stored.
+    /// Mean power into the finger over the last block, dissipated and stored, in W: the exact work of its force per time.
     pub power: f64,
 }
 
-/// A surface that runs: drive in, sensors and probes out, with fingers on it. See [the module](crate::stepper) for the scheme.
+/// A surface simulated in the time domain: takes drive, gives sensor and probe signals, and can be touched by fingers. The
+/// [module](crate::stepper) describes the scheme.
 #[derive(Clone, Debug)]
 pub struct VirtualSurface {
-    /// Modes, loads and fingers in time.
+    /// State of modes, loads and fingers.
     pub(super) engine: Engine,
     plant: Plant,
     rate: f64,
@@ -74,10 +75,10 @@ pub struct VirtualSurface {
 }
 
 impl VirtualSurface {
-    /// A surface at rest, at `rate` samples per second.
+    /// A simulated surface at rest, with the modes of `plant` and the given channels, at `rate` samples per second.
     ///
     /// # Errors
-    /// [`PhysicsError::Range`] for values that cannot be; [`PhysicsError::Unsupported`] for a channel driven by a voltage
+    /// [`PhysicsError::Range`] for a value out of its range; [`PhysicsError::Unsupported`] for a channel driven by a voltage
     /// without a coil.
     pub fn new(
         plant: &Plant,
@@ -95,7 +96,7 @@ impl VirtualSurface {
         Ok(Self { engine, plant: plant.clone(), rate, tension: 1.0, last: 0, history: None })
     }
 
-    /// A surface with its own actuators, at its own rate, with all of these modes.
+    /// A simulated surface with the actuators and the sample rate of a [`Surface`], and with the given modes.
     ///
     /// # Errors
     /// Those of [`VirtualSurface::new`] and [`Channel::all`].
@@ -104,7 +105,7 @@ impl VirtualSurface {
         Self::new(&plant, &Channel::all(surface)?, surface.emission.rate, options)
     }
 
-    /// The sheet, for another thread to prepare footings with.
+    /// The sheet (poles, shapes and outline), with which another thread can prepare footings.
     pub fn plant(&self) -> &Plant {
         &self.plant
     }
@@ -124,12 +125,12 @@ impl VirtualSurface {
         self.engine.probes.heard.len()
     }
 
-    /// Number of samples taken in so far.
+    /// Number of samples processed so far.
     pub fn samples(&self) -> u64 {
         self.engine.samples
     }
 
-    /// Listens at these points (m) from now on, instead of any before. Allocates.
+    /// Replaces all probes by probes at these points (m). Allocates.
     ///
     /// # Errors
     /// [`PhysicsError::Range`] for a point that is not finite.
@@ -141,10 +142,10 @@ impl VirtualSurface {
         Ok(())
     }
 
-    /// Listens elsewhere with some probes, by their number, from now on; the others stay where they are, and cost nothing. Allocates.
+    /// Moves some probes, given by their indices, to other points (m); the others are not affected. Allocates.
     ///
     /// # Errors
-    /// [`PhysicsError::Range`] for a probe that there is not or a point that is not finite; nothing has moved then.
+    /// [`PhysicsError::Range`] for an index out of range or a point that is not finite; then no probe is moved.
     pub fn move_probes(&mut self, moved: &[(usize, Point)]) -> Result<(), PhysicsError> {
         let count = self.probes();
         let row = |(probe, at): &(usize, Point)| {
@@ -157,12 +158,11 @@ impl VirtualSurface {
         Ok(())
     }
 
-    /// Moves a channel on which nothing hangs to another footing, from the next sample on: a tap comes anywhere as drive of
-    /// such a channel. Allocates nothing unless it fails.
+    /// Moves a channel without load to another contact, from the next sample on, for example to tap the surface anywhere by the
+    /// drive of this channel. Allocates only if it fails.
     ///
     /// # Errors
-    /// [`PhysicsError::Range`] for a channel that there is not or a footing of another sheet; [`PhysicsError::Unsupported`]
-    /// for a channel with a load.
+    /// [`PhysicsError::Range`] for an index out of range or a footing of another sheet, [`PhysicsError::Unsupported`] for a loaded channel.
     pub fn seat(&mut self, channel: usize, footing: &Footing) -> Result<(), PhysicsError> {
         self.check_footing(footing)?;
         let lead = self.engine.leads.get(channel).copied();
@@ -181,14 +181,14 @@ impl VirtualSurface {
         Ok(())
     }
 
-    /// Takes in so many samples of all channels and gives as many of all sensors and probes. Never allocates.
+    /// Processes a block of `frames` samples: takes the drive of all channels, gives all sensor and probe signals. Never allocates.
     ///
-    /// All three are planar: the samples of channel 0, then those of channel 1, and so on. A sensor or probe at sample i
-    /// already feels the impulse of drive i. `sensors` and `probes` may be empty. How a stretch of time is cut into blocks
-    /// changes no result. Drive that is not finite counts as 0.
+    /// All three are planar: the samples of channel 0, then those of channel 1, and so on. Sample i of a sensor or probe
+    /// contains the effect of drive sample i. `sensors` and `probes` may be empty. Results do not depend on the lengths of
+    /// blocks. Drive that is not finite counts as 0.
     ///
     /// # Errors
-    /// [`PhysicsError::Range`] if a slice has another length; nothing has happened then.
+    /// [`PhysicsError::Range`] if a slice has another length; then no sample is processed.
     pub fn process(
         &mut self,
         frames: usize,
@@ -218,7 +218,7 @@ impl VirtualSurface {
         Ok(())
     }
 
-    /// Remembers from now on the state after every `stride`-th sample, the newest so many of them. Allocates.
+    /// Records from now on the modal state after every `stride`-th sample, and keeps the newest `states` of them. Allocates.
     ///
     /// # Errors
     /// [`PhysicsError::Range`] for a stride or number of states of 0, or more states than 2^20.
@@ -227,29 +227,29 @@ impl VirtualSurface {
         Ok(())
     }
 
-    /// The states that are remembered, if any are.
+    /// The recorded states; `None` unless [`VirtualSurface::remember`] was called.
     pub fn history(&self) -> Option<&History> {
         self.history.as_ref()
     }
 
-    /// Runs the samples of some planes, checked before.
+    /// Processes samples whose slices have been checked.
     pub(super) fn run(&mut self, planes: Planes) {
         let arch = self.engine.arch;
         arch.dispatch(Block { engine: &mut self.engine, planes });
     }
 
-    /// Puts a finger down. It comes within [`StepperOptions::fade`], its spring relaxed at first. Evaluates shapes over its
-    /// disc and allocates; [`VirtualSurface::touch_on`] does not.
+    /// Puts a finger down, under the number `id`. Its load is faded in over [`StepperOptions::fade`], with its spring relaxed at
+    /// first. Evaluates mode shapes over its disc and allocates; [`VirtualSurface::touch_on`] does not.
     ///
     /// # Errors
-    /// [`PhysicsError::Range`] for values that cannot be, or if there are too many fingers; [`PhysicsError::Unsupported`] if
-    /// a finger of that name is down.
+    /// [`PhysicsError::Range`] for a value out of its range, or if there are too many fingers; [`PhysicsError::Unsupported`] if
+    /// a finger of this number is down.
     pub fn touch(&mut self, id: u64, contact: &Contact) -> Result<(), PhysicsError> {
         let footing = self.plant.footing(contact.at, contact.finger.contact_radius)?;
         self.touch_on(id, &contact.finger, &footing)
     }
 
-    /// Puts a finger down on a footing made before (one weight per mode). Allocates nothing unless it fails.
+    /// Puts a finger down on a footing prepared before (one weight per mode). Allocates only if it fails.
     ///
     /// # Errors
     /// Those of [`VirtualSurface::touch`].
@@ -273,18 +273,18 @@ impl VirtualSurface {
         Ok(require("fingers at once", false, expected, found as f64 + 1.0)?)
     }
 
-    /// Moves a finger within [`StepperOptions::glide`]: its contact fades from where it is felt to the new place. Allocates;
-    /// [`VirtualSurface::move_onto`] does not.
+    /// Moves a finger to a place (m). Its contact is cross-faded from the present to the new place over
+    /// [`StepperOptions::glide`]. Allocates; [`VirtualSurface::move_onto`] does not.
     ///
     /// # Errors
-    /// [`PhysicsError::Range`] for a place that is not finite, [`PhysicsError::Unsupported`] if no such finger is down.
+    /// [`PhysicsError::Range`] for a place that is not finite, [`PhysicsError::Unsupported`] if no finger of this number is down.
     pub fn move_to(&mut self, id: u64, at: Point) -> Result<(), PhysicsError> {
         let finger = self.down(id)?;
         let footing = self.plant.footing(at, self.engine.touches[finger].finger.contact_radius)?;
         self.move_onto(id, &footing)
     }
 
-    /// Moves a finger onto a footing made before (one weight per mode). Allocates nothing unless it fails.
+    /// Moves a finger onto a footing prepared before (one weight per mode). Allocates only if it fails.
     ///
     /// # Errors
     /// Those of [`VirtualSurface::move_to`].
@@ -295,17 +295,17 @@ impl VirtualSurface {
         Ok(())
     }
 
-    /// Lifts a finger, which goes within [`StepperOptions::fade`]; its name is free at once. Errors alone allocate.
+    /// Lifts a finger: its load is faded out over [`StepperOptions::fade`], its number is free at once. Allocates only if it fails.
     ///
     /// # Errors
-    /// [`PhysicsError::Unsupported`] if no such finger is down.
+    /// [`PhysicsError::Unsupported`] if no finger of this number is down.
     pub fn lift(&mut self, id: u64) -> Result<(), PhysicsError> {
         let finger = self.down(id)?;
         self.engine.touches[finger].lifted = true;
         Ok(())
     }
 
-    /// How a finger that is down moves, and what it gets: force in N, motion in m and m/s, power in W.
+    /// Motion of a finger (m, m/s), force on it (N) and power into it (W); `None` if no finger of this number is down.
     pub fn finger_motion(&self, id: u64) -> Option<FingerMotion> {
         let finger = self.find(id)?;
         let (engine, port) = (&self.engine, self.engine.fixed + finger);
@@ -324,11 +324,11 @@ impl VirtualSurface {
         })
     }
 
-    /// The tension as a share of the one that the modes were computed for, from the next sample on.
+    /// Sets the tension from the next sample on, as a multiple `factor` of the tension that the modes were computed for.
     ///
-    /// To first order: `ω² = ω0² (1 + (factor - 1)(1 - share))`, the shapes and decay kept, exact where tension does not
-    /// change shapes. Displacement and velocity go on without a jump; small changes from block to block make a smooth
-    /// drift. Allocates nothing unless it fails.
+    /// To first order: `ω² = ω0² (1 + (factor - 1)(1 - share))`, with `share` the share of bending in the mode's elastic energy.
+    /// Shapes and decay do not change; it is exact where tension does not change shapes. Displacement and velocity are
+    /// continuous, so that small changes from block to block give a smooth drift. Allocates only if it fails.
     ///
     /// # Errors
     /// [`PhysicsError::Range`] unless the factor is 0 or more.
@@ -345,14 +345,14 @@ impl VirtualSurface {
         Ok(())
     }
 
-    /// Displacement and velocity of every mode just after the impulses of the last sample, in m·√kg and √J.
+    /// Modal displacements (m·√kg) and velocities (√J) of all modes just after the impulses of the last sample.
     pub fn state(&self) -> (&[f64], &[f64]) {
         let modes = self.plant.modes();
         let field = &self.engine.field;
         (&field.displacement()[..modes], &field.velocity()[..modes])
     }
 
-    /// The field at any points just after the impulses of the last sample. Allocates.
+    /// Displacement and velocity at any points (m) just after the impulses of the last sample. Allocates.
     pub fn snapshot(&self, points: &[Point]) -> Snapshot {
         let weights = self.plant.shapes.at_all(points);
         let (displacement, velocity) = self.state();
@@ -363,7 +363,7 @@ impl VirtualSurface {
         Snapshot { displacement: read(displacement), velocity: read(velocity) }
     }
 
-    /// Energy of the sheet and its loads, in J: kinetic, elastic, magnetic. Without drive only tension lets it grow.
+    /// Energy of the sheet and its loads, in J: kinetic, elastic, magnetic. Without drive it grows only by changes of tension.
     pub fn energy(&self) -> f64 {
         self.engine.field.energy() + self.engine.bank.energy()
     }
@@ -389,7 +389,7 @@ impl VirtualSurface {
     }
 }
 
-/// A typed error unless a slice has the length expected, or is empty where that will do.
+/// Refuses a slice that does not have the expected length, nor is empty if `or_none`.
 pub(super) fn size(what: &str, found: usize, expected: usize, or_none: bool) -> Result<(), PhysicsError> {
     if found == expected || (or_none && found == 0) {
         return Ok(());

@@ -1,18 +1,18 @@
-//! A finger on the running surface: coming, moving, going.
+//! A finger on the simulated surface: being put down, moved and lifted.
 
 use super::bank::Burden;
 use unripple_core::Finger;
 
-/// A finger that is coming, there, or going.
+/// A finger that is being put down, in contact, or being lifted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Touch {
-    /// Name that whoever put it down gave it.
+    /// Number given to it by the caller.
     pub(super) id: u64,
     /// Its mass, damping, stiffness and contact radius.
     pub(super) finger: Finger,
-    /// Which of the rows kept for fingers are its own.
+    /// Index of its pair of rows of weights.
     pub(super) slot: usize,
-    /// Progress of coming, 0 to 1.
+    /// Progress of the fade-in, 0 to 1; it decreases when the finger is lifted.
     pub(super) coming: f64,
     /// Progress of moving to its newest place, 0 to 1.
     pub(super) moving: f64,
@@ -21,18 +21,18 @@ pub(super) struct Touch {
 }
 
 impl Touch {
-    /// A finger that is not felt yet; `slot` is the index of its two rows of weights.
+    /// A finger at the start of its fade-in; `slot` is the index of its pair of rows of weights.
     pub(super) fn new(id: u64, finger: Finger, slot: usize) -> Self {
         Self { id, finger, slot, coming: 0.0, moving: 1.0, lifted: false }
     }
 
-    /// Whether it will not be as it is.
+    /// Whether it is being put down, moved or lifted.
     #[inline(always)]
     pub(super) fn changes(&self) -> bool {
         self.lifted || self.coming < 1.0 || self.moving < 1.0
     }
 
-    /// Goes on by these shares of its fade and its glide, 0 to 1 each.
+    /// Advances its fade and its movement by these shares, 0 to 1 each.
     #[inline(always)]
     pub(super) fn go_on(&mut self, fade: f64, glide: f64) {
         let fade = if self.lifted { -fade } else { fade };
@@ -40,13 +40,13 @@ impl Touch {
         self.moving = (self.moving + glide).min(1.0);
     }
 
-    /// Whether nothing is left of it.
+    /// Whether it has been lifted and its fade-out is over.
     #[inline(always)]
     pub(super) fn gone(&self) -> bool {
         self.lifted && self.coming <= 0.0
     }
 
-    /// How much of it is felt, 0 to 1: its progress with two smooth derivatives.
+    /// Factor of the fade, 0 to 1: a function of the progress with two continuous derivatives.
     #[inline(always)]
     pub(super) fn grip(&self) -> f64 {
         let x = self.coming;
@@ -54,7 +54,7 @@ impl Touch {
         x * x * x * (10.0 + x * (6.0 * x - 15.0))
     }
 
-    /// Shares, 0 to 1, of the place it leaves and the place it goes to.
+    /// Shares, 0 to 1, of the place it moves from and the place it moves to.
     #[inline(always)]
     pub(super) fn shares(&self) -> [f64; 2] {
         let grip = self.grip();

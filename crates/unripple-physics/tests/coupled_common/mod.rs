@@ -6,7 +6,7 @@ use unripple_core::*;
 use unripple_linalg::c64;
 use unripple_physics::*;
 
-/// Transfer of an oscillation at the complex frequency s: velocity per impulse of drive, as the derivative of displacement.
+/// Transfer function of an oscillation at the complex frequency s: velocity per impulse of drive, as the derivative of displacement.
 pub fn transfer(pole: &Pole, s: c64) -> c64 {
     let below = s * s + s * (2.0 * pole.sigma) + pole.omega * pole.omega;
     match pole.onset {
@@ -15,7 +15,7 @@ pub fn transfer(pole: &Pole, s: c64) -> c64 {
     }
 }
 
-/// Transfer of modal responses from an actuator to what a footprint feels.
+/// Transfer function of modal responses from an actuator to a footprint with the weights `read`.
 pub fn modal_transfer(
     poles: &[Pole],
     input: unripple_linalg::MatRef<f64>,
