@@ -2,10 +2,10 @@
 
 use unripple_core::Decay;
 
-/// Decay rate σ = 1/τ of the amplitude of a mode, in 1/s.
+/// Decay rate σ = 1/τ of the amplitude of a mode, in 1/s, by the damping of a sheet.
 ///
-/// `omega` is its angular frequency (rad/s), `bending_share` the part of its elastic energy that is bending. With a loss
-/// factor η only bending dissipates: σ = η · share · ω/2. Tables are linear in frequency between their entries.
+/// `omega` is the mode's angular frequency (rad/s), `bending_share` the share of bending in its elastic energy. With a loss
+/// factor η only bending dissipates: σ = η · share · ω/2. Tables of decay times are interpolated linearly in frequency.
 pub fn decay_rate(decay: &Decay, omega: f64, bending_share: f64) -> f64 {
     match decay {
         Decay::Time(time) => 1.0 / time,
@@ -14,7 +14,7 @@ pub fn decay_rate(decay: &Decay, omega: f64, bending_share: f64) -> f64 {
     }
 }
 
-/// Linear between entries, constant beyond both ends; infinite for an empty table.
+/// The decay time (s) of a table at a frequency (Hz): linear between entries, constant beyond both ends; infinite for an empty table.
 fn interpolate(table: &[(f64, f64)], hz: f64) -> f64 {
     let above = table.partition_point(|(f, _)| *f <= hz);
     match (above.checked_sub(1).and_then(|i| table.get(i)), table.get(above)) {

@@ -8,25 +8,26 @@ use unripple_linalg::c64;
 /// double.
 pub const AIR_DENSITY: f64 = 1.204;
 
-/// Celerity of sound in dry air c_0 at 20 °C, in m/s. Doubled, a plate would radiate from four times the
-/// frequency on.
+/// Speed of sound c_0 in dry air at 20 °C, in m/s. Doubled, the coincidence frequency of a plate would be four times as
+/// high.
 pub const AIR_CELERITY: f64 = 343.2;
 
-/// What bending waves on a sheet see: mass, tension, stiffness and the air beside it.
+/// The wave properties of a sheet: mass, tension, bending stiffness, and the air beside it.
 ///
-/// A tensioned, isotropic Kirchhoff plate carries waves e^{j(ωt - kx)}. Beside air on n sides a wave of real wavenumber k
-/// that nothing drives satisfies (Fahy and Gardonio, *Sound and Structural Vibration*, 2007, section 4)
+/// A tensioned, isotropic Kirchhoff plate carries waves e^{j(ωt - kx)}. With air on n sides, a free wave of real wavenumber k
+/// satisfies (Fahy and Gardonio, *Sound and Structural Vibration*, 2007, section 4)
 ///
 /// ```text
 /// ρ_s ω² + n ρ_0 ω²/γ = k² (R + D k²),   γ = √(k² - (ω/c_0)²)
 /// ```
 ///
-/// with ρ_s = ρh. As long as waves are slower than sound, γ is real and the air an added mass n ρ_0/γ. Faster ones radiate: γ
-/// is near j√((ω/c_0)² - k²), the air a resistance n ρ_0 c_0/√(1 - (k c_0/ω)²), and ω has the imaginary part σ at which the
-/// wave decays, [`Medium::radiation`]. The equation is a cubic in γ with one positive root, the slow wave, and where air is
-/// light a pair of complex ones, the radiating wave. Which of them the sheet's own wave is changes where the wave in vacuum is
-/// as fast as sound; both roots are finite there, so that ω jumps by about (n ρ_0/ρ_s k)^{2/3}, a per cent or so, and σ
-/// starts at about as much of ω. A finite sheet also radiates a little below coincidence, by its edges: that is left out.
+/// with ρ_s = ρh. For waves slower than sound, γ is real and the air is an added mass n ρ_0/γ. Faster waves radiate: γ
+/// is near j√((ω/c_0)² - k²), the air is a resistance n ρ_0 c_0/√(1 - (k c_0/ω)²), and the imaginary part of ω is the decay
+/// rate σ of the wave, [`Medium::radiation`]. The equation is a cubic in γ. It has one positive root, the slow wave, and if air is
+/// light a pair of complex roots, the radiating wave. The wave that belongs to the sheet changes from one to the other at
+/// coincidence, where the wave in vacuum is as fast as sound. Both roots are finite there, so that ω jumps by the share
+/// (n ρ_0/ρ_s k)^{2/3}, about a per cent, and σ starts at about the same share of ω. The radiation of a finite sheet below
+/// coincidence, from its edges, is neglected.
 ///
 /// ```
 /// use unripple_plates::Medium;
@@ -50,8 +51,8 @@ pub struct Medium {
 }
 
 impl Medium {
-    /// The medium of a sheet where its profiles are 1: mass per area, tension, bending stiffness and sides in
-    /// air.
+    /// The wave properties of a sheet with its nominal thickness and tension, without profiles or orthotropy: mass per area,
+    /// tension, bending stiffness and sides in air.
     pub fn of(sheet: &Sheet) -> Self {
         Self {
             areal_density: sheet.density * sheet.thickness,
@@ -61,18 +62,18 @@ impl Medium {
         }
     }
 
-    /// The same medium with air on the sides given instead.
+    /// The same sheet with air on other sides.
     pub fn with_air(mut self, air: Air) -> Self {
         self.air_sides = air.sides();
         self
     }
 
-    /// Restoring force per displacement R k² + D k⁴ of a wave of wavenumber `k` (rad/m), in N/m³.
+    /// Restoring force per area and displacement, R k² + D k⁴, of a wave of wavenumber `k` (rad/m), in N/m³.
     pub fn stiffness(&self, k: f64) -> f64 {
         k * k * (self.tension + self.bending_stiffness * k * k)
     }
 
-    /// Angular frequency of a wave of wavenumber `k` (rad/m), in rad/s; of one that radiates, the magnitude of its complex ω.
+    /// Angular frequency ω of a free wave of wavenumber `k` (rad/m), in rad/s; for a radiating wave, the magnitude of its complex ω.
     pub fn omega(&self, k: f64) -> f64 {
         if let Some(gamma) = self.leaky(k) {
             return self.leaky_square(k, gamma).norm().sqrt();
@@ -87,15 +88,16 @@ impl Medium {
         })
     }
 
-    /// Decay rate σ of a wave of wavenumber `k` (rad/m) by radiation into the air, in 1/s: 0 for waves slower than sound, and
-    /// far above coincidence n ρ_0 c_0/(2ρ_s √(1 - (k c_0/ω)²)).
+    /// Decay rate σ of a wave of wavenumber `k` (rad/m) by radiation of sound into the air, in 1/s: 0 for waves slower than
+    /// sound, about n ρ_0 c_0/(2ρ_s √(1 - (k c_0/ω)²)) far above coincidence.
     pub fn radiation(&self, k: f64) -> f64 {
         self.leaky(k).map_or(0.0, |gamma| self.leaky_square(k, gamma).sqrt().im.abs())
     }
 
-    /// Wavenumber k of a wave at angular frequency `omega` (rad/s), in rad/m: the inverse of [`Medium::omega`].
+    /// Wavenumber k of a wave at the angular frequency `omega` (rad/s), in rad/m: the inverse of [`Medium::omega`].
     ///
-    /// With air, `omega` jumps by a per cent or so at coincidence; frequencies inside the jump return its wavenumber.
+    /// With air, [`Medium::omega`] jumps by about a per cent at coincidence; for frequencies within the jump, this is the wavenumber of
+    /// coincidence.
     pub fn wavenumber(&self, omega: f64) -> f64 {
         let vacuum = self.wavenumber_in_vacuum(omega);
         if !(self.air_sides > 0.0 && omega > 0.0) {
@@ -111,7 +113,7 @@ impl Medium {
         if self.leaky(slow).is_none() { slow } else { root(0.0, slow, |k| self.omega(k) - omega) }
     }
 
-    /// Phase celerity c = ω/k, in m/s, at the wavenumber `k` (rad/m). At k = 0 it is the limit: √(R/ρ_s) in
+    /// Phase velocity c = ω/k, in m/s, at the wavenumber `k` (rad/m). At k = 0 it is the limit: √(R/ρ_s) in
     /// vacuum, 0 in air.
     pub fn phase_celerity(&self, k: f64) -> f64 {
         if k > 0.0 {
@@ -123,7 +125,7 @@ impl Medium {
         }
     }
 
-    /// Group celerity dω/dk, in m/s, at the wavenumber `k` (rad/m); in vacuum (R + 2Dk²)k/(ρ_s ω).
+    /// Group velocity dω/dk, in m/s, at the wavenumber `k` (rad/m); in vacuum (R + 2Dk²)k/(ρ_s ω).
     pub fn group_celerity(&self, k: f64) -> f64 {
         if k <= 0.0 {
             return self.phase_celerity(k);
@@ -142,8 +144,8 @@ impl Medium {
         (slope + layer * k) / (2.0 * omega * density + layer * omega / AIR_CELERITY.powi(2))
     }
 
-    /// Frequency from which waves outrun sound in air and radiate, in Hz, for the sheet in vacuum:
-    /// k_c² = (ρ_s c_0² - R)/D, f_c = c_0 k_c / 2π. `None` if they always or never do.
+    /// Coincidence frequency f_c, above which waves are faster than sound in air and radiate, in Hz, for the sheet in vacuum:
+    /// k_c² = (ρ_s c_0² - R)/D, f_c = c_0 k_c / 2π. `None` if waves of all frequencies are faster, or none.
     pub fn coincidence_hz(&self) -> Option<f64> {
         self.coincidence_wavenumber().map(|k| AIR_CELERITY * k / TAU)
     }
@@ -153,15 +155,15 @@ impl Medium {
         2.0 * PI / self.wavenumber(TAU * top_hz)
     }
 
-    /// Share of the elastic energy that is bending, D k²/(R + D k²), from 0 to 1, at the wavenumber `k`
-    /// (rad/m): the share of the material's losses that a wave feels.
+    /// Share of bending in the elastic energy of a wave of wavenumber `k` (rad/m), D k²/(R + D k²), from 0 to 1: the share of
+    /// the material's loss factor that acts on the wave.
     pub fn bending_share(&self, k: f64) -> f64 {
         let bending = self.bending_stiffness * k * k;
         if bending > 0.0 { bending / (self.tension + bending) } else { 0.0 }
     }
 
-    /// Mass per area that moves, air included, in kg/m², at the wavenumber `k` (rad/m) and angular frequency
-    /// `omega` (rad/s); infinite where waves catch up with sound.
+    /// Moving mass per area, with the added mass of the air, in kg/m², at the wavenumber `k` (rad/m) and angular frequency
+    /// `omega` (rad/s); infinite if the wave is as fast as sound or faster.
     pub fn effective_density(&self, k: f64, omega: f64) -> f64 {
         if self.air_sides == 0.0 {
             return self.areal_density;
@@ -184,8 +186,8 @@ impl Medium {
         (2.0 * inertia / (self.tension + discriminant.sqrt())).sqrt()
     }
 
-    /// γ of the radiating wave of wavenumber `k`, in 1/m; `None` where waves are slower than sound or air is too heavy to
-    /// let them radiate.
+    /// γ of the radiating wave of wavenumber `k`, in 1/m; `None` if waves are slower than sound, or if the air is too heavy for a
+    /// radiating wave.
     ///
     /// With a = ρ_s c_0², b = n ρ_0 c_0² and the stiffness S, the cubic is a γ³ + b γ² + (S - a k²) γ - b k² = 0; in
     /// y = γ/k, y³ + δy² + ey - δ = 0. Its positive root is found first and divided out.
@@ -205,12 +207,12 @@ impl Medium {
         (square > 0.0).then(|| c64::new(-half * k, square.sqrt() * k))
     }
 
-    /// The complex ω² of that wave: c_0² (k² - γ²).
+    /// The complex ω² of the radiating wave: c_0² (k² - γ²).
     fn leaky_square(&self, k: f64, gamma: c64) -> c64 {
         (k * k - gamma * gamma) * AIR_CELERITY.powi(2)
     }
 
-    /// Slope of its |ω| by k: through the cubic's own, `slope` being the stiffness's.
+    /// Derivative of |ω| of the radiating wave by k, by implicit differentiation of the cubic; `slope` is that of the stiffness.
     fn leaky_celerity(&self, k: f64, gamma: c64, slope: f64) -> f64 {
         let a = self.areal_density * AIR_CELERITY.powi(2);
         let b = self.air_sides * AIR_DENSITY * AIR_CELERITY.powi(2);

@@ -1,62 +1,62 @@
-//! Why the modes of a sheet could not be computed.
+//! The errors of computing modes and responses.
 
 use unripple_core::{OutOfRange, OutlineFault};
 
-/// Why the physics of a surface could not be computed.
+/// Why modes, responses or design figures of a surface could not be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PhysicsError {
-    /// Something the models here do not cover.
+    /// The models do not cover what was asked for.
     #[error("{what}: expected {expected}, found {found}")]
     Unsupported {
-        /// What was asked about.
+        /// Name of the item that is not supported.
         what: &'static str,
         /// What is supported.
         expected: &'static str,
-        /// What was found.
+        /// What was found instead.
         found: String,
     },
     /// A value is out of its range.
     #[error(transparent)]
     Range(#[from] OutOfRange),
-    /// The problem is too large for the memory it is allowed.
+    /// The problem needs more memory than is allowed.
     #[error(
         "modes up to {max_hz} Hz: expected at most {limit_gib:.1} GiB, found {needed_gib:.1} GiB for {unknowns} unknowns; about {nearest_hz:.0} Hz fits"
     )]
     TooLarge {
-        /// The frequency asked for, in Hz.
+        /// The top frequency asked for, in Hz.
         max_hz: f64,
-        /// The unknowns it takes.
+        /// Number of unknowns of the problem.
         unknowns: usize,
-        /// The memory that they take, in GiB.
+        /// The memory that it needs, in GiB.
         needed_gib: f64,
         /// The memory allowed, in GiB.
         limit_gib: f64,
-        /// A top frequency that fits, in Hz.
+        /// About the highest top frequency that fits, in Hz.
         nearest_hz: f64,
     },
     /// The accuracy asked for was not reached.
     #[error("modes up to {max_hz} Hz: expected an error of at most {expected:e}, found {found:e}")]
     NotConverged {
-        /// The frequency asked for, in Hz.
+        /// The top frequency asked for, in Hz.
         max_hz: f64,
         /// The relative accuracy asked for.
         expected: f64,
-        /// The relative error estimated.
+        /// The estimated relative error.
         found: f64,
     },
-    /// The outline encloses no sheet that can be covered with triangles.
+    /// The outline encloses no valid sheet, or cannot be meshed.
     #[error("outline: expected {expected}, found {found}")]
     Outline {
-        /// What an outline has to be.
+        /// What a valid outline has.
         expected: &'static str,
-        /// What was found, and where.
+        /// The fault that was found, and where.
         found: String,
     },
-    /// The eigenproblem of a mesh was not solved.
+    /// The eigenvalue problem of a mesh could not be solved.
     #[error("modes up to {max_hz} Hz: expected every one of them, found {found}")]
     Solver {
-        /// The frequency asked for, in Hz.
+        /// The top frequency asked for, in Hz.
         max_hz: f64,
         /// What went wrong.
         found: String,
@@ -64,7 +64,7 @@ pub enum PhysicsError {
 }
 
 impl From<Vec<OutlineFault>> for PhysicsError {
-    /// The first of the faults, in words for people.
+    /// The error for the first of the faults.
     fn from(faults: Vec<OutlineFault>) -> Self {
         let (expected, found) =
             faults.first().map_or(("a sheet", String::new()), |fault| (fault.expected(), fault.found()));

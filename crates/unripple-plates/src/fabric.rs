@@ -1,9 +1,9 @@
-//! What a sheet is made of, place by place: mass per area, tension and bending stiffness.
+//! The local properties of a sheet: mass per area, tension and bending stiffness at each point.
 
 use crate::PhysicsError;
 use unripple_core::{Grain, Point, Profile, Scatterer, ScattererKind, Surface, require};
 
-/// What a sheet is at one point.
+/// The properties of a sheet at one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Local {
     /// Mass per area, in kg/m².
@@ -14,17 +14,17 @@ pub(crate) struct Local {
     pub(crate) bending: [f64; 6],
 }
 
-/// A sheet with its grain, its profiles and what is fixed to it.
+/// A sheet with its orthotropy, its profiles, and the masses and discs fixed to it.
 ///
-/// The bending energy is ½∫κᵀDκ, κ = (u_xx, u_yy, 2u_xy); D grows as the thickness cubed, the mass as the thickness. A glued
-/// disc makes a laminate of two layers (Jones, *Mechanics of Composite Materials*, 1999, section 4.2): with stiffness A
-/// against stretching, B between stretching and bending and D against bending, the forces in the plane vanish and
-/// D - B A⁻¹ B is left. Where discs overlap, what each adds to the bare sheet is summed.
+/// The bending energy is ½∫κᵀDκ, κ = (u_xx, u_yy, 2u_xy); D grows as the thickness cubed, the mass as the thickness. With a glued
+/// disc the sheet is a laminate of two layers (Jones, *Mechanics of Composite Materials*, 1999, section 4.2) with extensional
+/// stiffness A, coupling stiffness B and bending stiffness D. Without in-plane forces its bending stiffness is D - B A⁻¹ B. Where
+/// discs overlap, the additions of each to the bare sheet are summed.
 #[derive(Clone, Debug)]
 pub(crate) struct Fabric {
-    /// Width and height of the bounding box that profiles lie over, in metres.
+    /// Width and height of the bounding box that profiles span, in metres.
     extent: (f64, f64),
-    /// The sheet where all factors are 1.
+    /// The sheet with all factors of its profiles 1.
     nominal: Local,
     /// Its elastic moduli, and its thickness in metres.
     layer: Layer,
@@ -55,20 +55,20 @@ pub(crate) struct Disc {
     layer: Layer,
 }
 
-/// What a thickness, a mass or a radius has to be.
+/// Allowed values of a thickness, a mass or a radius, in words.
 const POSITIVE: &str = "a positive finite number";
-/// What a tension or a point mass has to be.
+/// Allowed values of a tension or a point mass, in words.
 const NOT_NEGATIVE: &str = "0 or more";
-/// What Poisson's ratio of an isotropic solid has to be.
+/// Allowed values of Poisson's ratio of an isotropic solid, in words.
 const POISSON: &str = "more than -1, at most 0.5";
 
 impl Fabric {
-    /// The fabric of a surface's sheet.
+    /// The local properties of a surface's sheet.
     ///
     /// # Errors
-    /// [`PhysicsError::Range`] for values that cannot be: thickness or its factor, mass, a grain's moduli or a disc's
-    /// radius not positive; negative tension, point mass or stiffness; ν12 ν21 of 1 or more. The mass per area is taken as the
-    /// least of the sheet's plus the least of what is added.
+    /// [`PhysicsError::Range`] for a thickness or its factor, a mass per area, a grain's moduli or a disc's radius that is not
+    /// positive; for a negative tension, point mass or Young's modulus; for ν12 ν21 of 1 or more. The mass per area checked is the least
+    /// of the sheet's plus the least of the added mass.
     pub(crate) fn of(surface: &Surface) -> Result<Self, PhysicsError> {
         let (sheet, uneven) = (&surface.sheet, &surface.sheet.uneven);
         let range = |profile: &Option<Profile>, plain: f64| profile.as_ref().map_or(plain, |p| p.range().0);
@@ -115,7 +115,7 @@ impl Fabric {
         Ok(())
     }
 
-    /// What the bare sheet is everywhere; `None` if profiles make it vary.
+    /// The properties of the bare sheet if it is uniform; `None` if it has profiles.
     pub(crate) fn uniform(&self) -> Option<Local> {
         let even = self.thickness.is_none() && self.tension.is_none() && self.added_mass.is_none();
         even.then_some(self.nominal)
@@ -126,7 +126,7 @@ impl Fabric {
         self.nominal.bending.iter().any(|d| *d != 0.0)
     }
 
-    /// The sheet at a point (m), with what is glued on: mass in kg/m², tension in N/m, bending stiffness in
+    /// The sheet at a point (m), with its discs: mass in kg/m², tension in N/m, bending stiffness in
     /// N·m.
     #[cfg(test)]
     pub(crate) fn at(&self, point: Point) -> Local {
@@ -134,7 +134,7 @@ impl Fabric {
         on.fold(self.bare(point), |sum, disc| sum.plus(&self.added_by(disc, point)))
     }
 
-    /// The bare sheet at a point (m), in the same units.
+    /// The bare sheet at a point (m): mass in kg/m², tension in N/m, bending stiffness in N·m.
     pub(crate) fn bare(&self, point: Point) -> Local {
         let factor = |p: &Option<Profile>| p.as_ref().map_or(1.0, |p| p.at(point, self.extent));
         let thickness = factor(&self.thickness);
@@ -146,7 +146,7 @@ impl Fabric {
         }
     }
 
-    /// What a disc adds to the bare sheet at a point (m) under it, in the same units.
+    /// The additions of a disc to the bare sheet at a point (m) under it: mass in kg/m², bending stiffness in N·m.
     pub(crate) fn added_by(&self, disc: &Disc, point: Point) -> Local {
         let factor = self.thickness.as_ref().map_or(1.0, |p| p.at(point, self.extent));
         let sheet = Layer { thickness: self.layer.thickness * factor, ..self.layer };
@@ -177,7 +177,7 @@ impl Local {
 }
 
 impl Layer {
-    /// Bending stiffness about its own middle, Q h³/12.
+    /// Bending stiffness of the layer about its own middle plane, Q h³/12.
     fn bending(&self) -> [f64; 6] {
         self.moduli.map(|q| q * self.thickness.powi(3) / 12.0)
     }
@@ -207,7 +207,7 @@ fn moduli(young: f64, poisson: f64, grain: Option<Grain>) -> Result<[f64; 6], Ph
     Ok(turned([q11, poisson * q22, 0.0, q22, 0.0, grain.shear], grain.direction))
 }
 
-/// Moduli in axes that their own are turned from by an angle: Tᵀ Q T, T giving the strains in their own axes.
+/// Moduli of a material whose axes are rotated by an angle (rad): Tᵀ Q T, where T transforms strains to the material's axes.
 fn turned(moduli: [f64; 6], angle: f64) -> [f64; 6] {
     let (s, c) = angle.sin_cos();
     let t = [[c * c, s * s, c * s], [s * s, c * c, -c * s], [-2.0 * c * s, 2.0 * c * s, c * c - s * s]];
@@ -218,7 +218,7 @@ fn turned(moduli: [f64; 6], angle: f64) -> [f64; 6] {
     [entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 1), entry(1, 2), entry(2, 2)]
 }
 
-/// Bending stiffness of two layers glued together, free to stretch: D - B A⁻¹ B about the sheet's middle.
+/// Bending stiffness of two layers glued together, without in-plane forces: D - B A⁻¹ B about the sheet's middle plane.
 fn laminate(sheet: &Layer, disc: &Layer) -> [f64; 6] {
     let (h, d) = (sheet.thickness, disc.thickness);
     let middle = 0.5 * (h + d);

@@ -1,10 +1,10 @@
-//! Plates, membranes and all between: how waves run in them, and their modes, whatever the outline.
+//! Plates, membranes and plates under tension: the dispersion relation of their waves, and their modes for any outline.
 //!
 //! # In reading order
 //!
-//! `dispersion` is an endless sheet, `damping` what it loses. `modes` is the eigenvalue problem and decides how it is solved: rectangles by
-//! sums of polynomials and sines, anything else by `mesh` (triangles that cover it), `fabric` (what it is made of, place by place),
-//! `elements` (quintic finite elements) and `spectrum` (all eigenpairs below a bound).
+//! `dispersion` describes waves on an infinite sheet, `damping` their decay. `modes` states the eigenvalue problem and chooses how it is
+//! solved: uniform rectangles by products of sines or polynomials (Ritz), all other sheets by `mesh` (a mesh of triangles), `fabric` (mass,
+//! tension and stiffness at each point), `elements` (quintic finite elements) and `spectrum` (all eigenpairs below a bound).
 //!
 //! ```
 //! use unripple_core::{Air, Decay, Sheet, Uneven};

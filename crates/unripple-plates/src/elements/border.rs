@@ -2,20 +2,20 @@
 
 use unripple_core::{Edge, Point, Side};
 
-/// A turn of a curve, in radians, beyond which it is cut before it is integrated along. Doubled, a rule meets
-/// curves that turn by up to 1.6 rad, and converges the more slowly.
+/// Largest turn of a curve, in radians, that is integrated along without being cut. Doubled, quadrature rules apply to
+/// curves that turn by up to 1.6 rad, and converge more slowly.
 const TURN: f64 = 0.8;
 
 /// One edge of a triangle, run through as a parameter goes from 0 to 1; the triangle lies to its left.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Border {
-    /// The side of a rim, or the line, that it is a piece of.
+    /// The side of a rim, or the line, of which it is a piece.
     pub(crate) side: Side,
     /// The side's parameter where the border starts.
     pub(crate) from: f64,
     /// The side's parameter where it ends.
     pub(crate) to: f64,
-    /// How it is held if it is on a rim.
+    /// The edge condition if it is on a rim; `None` inside.
     pub(crate) held: Option<Edge>,
 }
 
@@ -30,7 +30,7 @@ impl Border {
         self.side.at(self.from + s * (self.to - self.from))
     }
 
-    /// The first derivative by the parameter, in metres.
+    /// The first derivative with respect to the parameter, at `s` (0 to 1), in metres.
     pub(crate) fn derivative(&self, s: f64) -> Point {
         let (width, d) = (self.to - self.from, self.side.derivative(self.from + s * (self.to - self.from)));
         Point::new(width * d.x, width * d.y)
@@ -43,25 +43,25 @@ impl Border {
         ([d.x / size, d.y / size], [-d.y / size, d.x / size])
     }
 
-    /// Whether it is straight, so that rules along it are exact.
+    /// Whether it is straight, so that quadrature along it is exact.
     pub(crate) fn is_straight(&self) -> bool {
         self.side.is_straight()
     }
 
-    /// The piece of it between two of its parameters, 0 to 1.
+    /// The piece between two of its parameters, 0 to 1.
     pub(crate) fn piece(&self, from: f64, to: f64) -> Self {
         let along = |s: f64| self.from + s * (self.to - self.from);
         Self { from: along(from), to: along(to), ..*self }
     }
 
-    /// The same in pieces that turn little, for Gauss-Legendre quadrature.
+    /// The border cut into pieces that turn by at most [`TURN`], for Gauss-Legendre quadrature.
     pub(crate) fn pieces(&self) -> impl Iterator<Item = Self> {
         let count = ((self.turn() / TURN).ceil() as usize).max(1);
         let whole = *self;
         (0..count).map(move |i| whole.piece(i as f64 / count as f64, (i + 1) as f64 / count as f64))
     }
 
-    /// How far it turns, in radians.
+    /// Angle by which it turns, in radians.
     fn turn(&self) -> f64 {
         match self.side {
             Side::Line { .. } => 0.0,
@@ -76,8 +76,8 @@ impl Border {
         }
     }
 
-    /// How far a point is to the left of it, in metres: of a curve, over the point with the same foot on the chord. Beyond
-    /// its ends, the distance from the chord's line.
+    /// Distance of a point to the left of the border, in metres: for a curve, from its point with the same foot on the chord.
+    /// Beyond its ends, the distance from the line through the chord.
     pub(crate) fn left_of(&self, p: Point) -> f64 {
         let (a, b) = (self.at(0.0), self.at(1.0));
         let (cx, cy) = (b.x - a.x, b.y - a.y);

@@ -1,38 +1,38 @@
-//! What a vertex is free to do: the rim's essential conditions, solved vertex by vertex.
+//! The unknowns of a vertex: its values and derivatives, reduced by the essential boundary conditions of the rim.
 //!
-//! Where a side is held, u, its slope along and its second derivative along the side are zero at the vertex, and where
-//! it is clamped the same holds of the normal slope. Along a curve of curvature κ the second derivative by arc length is
-//! t·Ht + κ ∂u/∂n: this term is what keeps a supported curve from stiffening like the polygons that approach it (Babuška
-//! and Pitkäranta, *SIAM J. Math. Anal.* 21, 551, 1990).
+//! At a vertex of a clamped or supported side, u and its first and second derivatives along the side are zero; on a clamped side
+//! the normal slope and its derivative along the side are zero as well. With H the matrix of second derivatives, the second
+//! derivative by arc length along a curve of tangent t and curvature κ is t·Ht + κ ∂u/∂n. The term with κ prevents a supported
+//! curve from being as stiff as the polygons that approach it (Babuška and Pitkäranta, *SIAM J. Math. Anal.* 21, 551, 1990).
 //!
-//! Where two sides meet, H need not be continuous: u and ∇u go on across an edge from the vertex if H jumps by c n nᵀ, n
-//! the edge's normal (Morgan and Scott, *Math. Comp.* 29, 736, 1975). One c for every edge inside lets each side have its own
-//! condition; without it a curvature that jumps would hold the slope as well.
+//! Where two sides meet, H need not be continuous: u and ∇u are continuous across an edge from the vertex if H jumps there by
+//! c n nᵀ, with n the edge's normal (Morgan and Scott, *Math. Comp.* 29, 736, 1975). One c for each inner edge allows each side its
+//! own condition; without it, a jump of curvature would also fix the slope.
 
 use super::topology::Topology;
 use crate::mesh::Mesh;
 use unripple_core::Edge;
 
-/// Part of a condition's size, dimensionless, below which it adds nothing to those before it: between
-/// rounding and the angles at which sides meet. Doubled, conditions that differ by 2e-6 would count as one.
+/// A condition counts as linearly dependent on the others if a smaller share of it than this is independent: between
+/// rounding errors and the angles at which sides meet. Doubled, conditions that differ by 2e-6 would count as one.
 const RANK: f64 = 1e-6;
 
-/// Sides that meet at an angle this near to a straight one, in radians, go on smoothly: a kink of rounded coordinates would
-/// else hold the slope, at a cost of (h/L)², where passing over it costs but its angle times (h/L)².
+/// Sides that meet at an angle this near to a straight one, in radians, count as one smooth curve. Otherwise a kink by rounded
+/// coordinates would fix the slope, with an error of (h/L)²; ignoring it has an error of its angle times (h/L)².
 const SMOOTH: f64 = 1e-3;
 
-/// The unknowns of a vertex, and what they make of u, u_x, u_y, u_xx, u_xy, u_yy there, each times a power of the length.
+/// The unknowns of a vertex, and their relation to u, u_x, u_y, u_xx, u_xy, u_yy there, each scaled by a power of a length.
 #[derive(Clone, Debug)]
 pub(crate) struct Corner {
     /// Number of unknowns.
     pub(crate) count: usize,
-    /// The length that makes derivatives dimensionless, in metres.
+    /// The length in metres by which derivatives are scaled.
     pub(crate) length: f64,
-    /// Six rows of `count`, one after the other: for every triangle, or of each triangle of a fan.
+    /// Six rows of `count` coefficients: for all triangles alike, or for each triangle of a fan.
     values: Vec<(Option<usize>, Vec<f64>)>,
 }
 
-/// A side as it meets a vertex.
+/// The end of a side at a vertex.
 #[derive(Clone, Copy, Debug)]
 struct Meeting {
     tangent: [f64; 2],
@@ -42,7 +42,7 @@ struct Meeting {
 }
 
 impl Corner {
-    /// The unknowns of a vertex, by its index in the mesh; `bending` if the sheet resists it.
+    /// The unknowns of a vertex, given by its index in the mesh; `bending` if the sheet has bending stiffness.
     pub(crate) fn of(mesh: &Mesh, topology: &Topology, vertex: usize, bending: bool) -> Self {
         let length = topology.lengths[vertex];
         let Some([leaves, arrives]) = topology.rim(vertex) else {
@@ -83,7 +83,7 @@ impl Corner {
         Self { count: 6, length, values: vec![(None, identity(6).concat())] }
     }
 
-    /// The unknowns left by conditions; of each triangle the normals of the edges over which H has jumped.
+    /// The unknowns that satisfy the conditions; `jumps` holds for each triangle the normals of the edges across which H jumps.
     fn held(length: f64, rows: Vec<Vec<f64>>, jumps: Vec<(Option<usize>, Vec<[f64; 2]>)>) -> Self {
         let size = rows.first().map_or(6, Vec::len);
         let free = null_space(rows, size);
@@ -103,7 +103,7 @@ impl Corner {
         Self { count: free.len(), length, values }
     }
 
-    /// What the unknowns make of the six values in a triangle: six rows of [`Corner::count`].
+    /// Coefficients of the unknowns for the six values in a triangle: six rows of [`Corner::count`].
     pub(crate) fn values(&self, triangle: usize) -> &[f64] {
         let found = self.values.iter().find(|(of, _)| of.is_none_or(|t| t == triangle));
         found.map_or(&[], |(_, values)| values)
@@ -111,7 +111,7 @@ impl Corner {
 }
 
 impl Meeting {
-    /// The side of a rim's edge at its start or its end; `None` of an edge inside.
+    /// The side of a rim edge, at the edge's start or end; `None` for an edge inside.
     fn of(mesh: &Mesh, edge: usize, start: bool, length: f64) -> Option<Self> {
         let span = mesh.edges[edge].span?;
         let (side, edge) = *mesh.sides.get(span.side)?;
@@ -121,7 +121,7 @@ impl Meeting {
         Some(Self { tangent: [d.x / size, d.y / size], curvature: side.curvature(t) * length, edge })
     }
 
-    /// Takes the mean tangent for both sides where they nearly go on smoothly.
+    /// Gives both sides their mean tangent if they nearly continue each other.
     fn smooth(&mut self, other: &mut Self) {
         let ([ax, ay], [bx, by]) = (self.tangent, other.tangent);
         let (across, along) = (ax * by - ay * bx, ax * bx + ay * by);
@@ -132,9 +132,9 @@ impl Meeting {
         }
     }
 
-    /// Whether the rim goes on smoothly, held the same way.
+    /// Whether both sides have the same tangent, curvature and edge condition.
     fn is_like(&self, other: &Self) -> bool {
-        // Equal but for the rounding of what two sides say of one vertex.
+        // Equal except for rounding.
         let near = |a: f64, b: f64| (a - b).abs() < 1e-9;
         near(self.tangent[0], other.tangent[0])
             && near(self.tangent[1], other.tangent[1])
@@ -142,7 +142,8 @@ impl Meeting {
             && self.edge == other.edge
     }
 
-    /// Rows that are zero times the six values and the jumps of H (by their edges' normals) up to this side.
+    /// The conditions of this side, as rows whose product with the six values and the jumps of H (given by the normals of their
+    /// edges) is zero.
     fn conditions(&self, bending: bool, jumps: &[[f64; 2]]) -> Vec<Vec<f64>> {
         let ([tx, ty], [nx, ny]) = (self.tangent, [-self.tangent[1], self.tangent[0]]);
         let row = |u: f64, g: [f64; 2], a: [f64; 2]| {
@@ -174,7 +175,7 @@ fn identity(size: usize) -> Vec<Vec<f64>> {
     (0..size).map(|i| (0..size).map(|j| f64::from(u8::from(i == j))).collect()).collect()
 }
 
-/// An orthonormal basis of what is orthogonal to all rows, by Gram-Schmidt orthogonalisation with pivoting.
+/// An orthonormal basis of the vectors orthogonal to all rows, by Gram-Schmidt orthogonalisation with pivoting.
 fn null_space(rows: Vec<Vec<f64>>, size: usize) -> Vec<Vec<f64>> {
     let unit = |mut row: Vec<f64>| {
         let norm = dot(&row, &row).sqrt();

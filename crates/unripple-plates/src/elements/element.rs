@@ -1,4 +1,4 @@
-//! One triangle: its unknowns and the quintic each of them stands for.
+//! One triangular element: its unknowns and its polynomial basis.
 
 use super::border::Border;
 use super::corner::Corner;
@@ -6,50 +6,50 @@ use super::monomials::{COUNT, Frame, QUINTIC};
 use super::trim::trim;
 use unripple_core::Point;
 
-/// A triangle and its quintics.
+/// A triangular element with its quintic basis polynomials.
 ///
-/// Of the 21 values that fix a quintic (Argyris, Fried and Scharpf, *Aeronaut. J.* 72, 701, 1968) six lie at each vertex,
-/// u, ∇u and the second derivatives, and one at each edge's middle, ∂u/∂n. Along an edge inside, u and ∂u/∂n are
-/// polynomials of degrees 5 and 4, fixed by what lies on it: u and ∇u are continuous. Along held curves polynomials of higher degree
-/// are added that depend on the 21 values.
+/// A quintic is determined by 21 values (Argyris, Fried and Scharpf, *Aeronaut. J.* 72, 701, 1968): u, ∇u and the second derivatives
+/// at each vertex, and ∂u/∂n at the middle of each edge. Along an edge inside, u and ∂u/∂n are polynomials of degrees 5 and 4 that
+/// are determined by the values on the edge, so that u and ∇u are continuous. Along clamped or supported curves, polynomials of higher
+/// degree are added whose coefficients depend on the 21 values.
 #[derive(Clone, Debug)]
 pub(crate) struct Element {
-    /// Where its monomials are centred.
+    /// Centre and scale of its monomials.
     pub(crate) frame: Frame,
     /// Edges of the triangle, anticlockwise.
     pub(crate) borders: [Border; 3],
     /// Indices of the unknowns that its polynomials depend on.
     pub(crate) unknowns: Vec<usize>,
-    /// Coefficients of the monomials, a row for each with a column for each unknown.
+    /// Coefficients of the basis polynomials, monomials x unknowns, row by row.
     pub(crate) basis: Vec<f64>,
 }
 
-/// The middle of an edge: where the normal derivative is taken, and along what.
+/// The middle of an edge, with the normal derivative there as an unknown.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Middle {
     /// Place of the edge's middle, in metres.
     pub(crate) at: Point,
     /// The unit normal, the same for the triangles on both sides.
     pub(crate) normal: [f64; 2],
-    /// The edge's length, that makes the derivative dimensionless, in metres.
+    /// The edge's length in metres, by which the derivative is scaled.
     pub(crate) length: f64,
     /// Index of the unknown; `None` where the derivative is zero.
     pub(crate) unknown: Option<usize>,
 }
 
-/// A vertex as a triangle sees it.
+/// A vertex of a triangle, with its unknowns.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seen<'a> {
-    /// Where it is.
+    /// Place of the vertex, in metres.
     pub(crate) at: Point,
-    /// Its first unknown.
+    /// Index of its first unknown.
     pub(crate) first: usize,
-    /// What its unknowns make of the values there.
+    /// The relation of its unknowns to the values at the vertex.
     pub(crate) corner: &'a Corner,
 }
 
 impl Element {
-    /// The triangle of an index with its vertices, edges and edges' middles.
+    /// The element of the triangle `index`, from its vertices, edges and edges' middles.
     pub(crate) fn new(index: usize, vertices: [Seen; 3], borders: [Border; 3], middles: [Middle; 3]) -> Self {
         let frame = Frame::of(vertices.map(|v| v.at));
         let inverse = inverse(functionals(&frame, &vertices, &middles));
@@ -72,12 +72,12 @@ impl Element {
         Self { frame, borders, unknowns, basis }
     }
 
-    /// Number of monomials that its polynomials are made of: 21 of a quintic, more along held curves.
+    /// Number of monomials of its polynomials: 21 for quintics, more at a clamped or supported curve.
     pub(crate) fn monomials(&self) -> usize {
         if self.unknowns.is_empty() { QUINTIC } else { self.basis.len() / self.unknowns.len() }
     }
 
-    /// Weights of the unknowns, one number each, from the monomials' values or derivatives at a point.
+    /// Weights of the unknowns, one each, for a value or derivative at a point, from those of the monomials.
     pub(crate) fn combine(&self, monomials: &[f64; COUNT]) -> Vec<f64> {
         let mut sums = vec![0.0; self.unknowns.len()];
         if sums.is_empty() {
@@ -89,13 +89,13 @@ impl Element {
         sums
     }
 
-    /// How far inside a point is, in units of the triangle's size; negative outside.
+    /// Distance of a point from the nearest edge, inside the triangle, in units of its size; negative outside.
     pub(crate) fn depth(&self, p: Point) -> f64 {
         self.borders.iter().map(|b| b.left_of(p)).fold(f64::INFINITY, f64::min) / self.frame.scale
     }
 }
 
-/// The 21 values of each monomial: a row for each value.
+/// The 21 nodal values of each monomial: a row for each value.
 fn functionals(frame: &Frame, vertices: &[Seen; 3], middles: &[Middle; 3]) -> [[f64; QUINTIC]; QUINTIC] {
     let mut rows = [[0.0; QUINTIC]; QUINTIC];
     for (v, vertex) in vertices.iter().enumerate() {
@@ -134,7 +134,7 @@ fn inverse(mut a: [[f64; QUINTIC]; QUINTIC]) -> [[f64; QUINTIC]; QUINTIC] {
             }
         }
     }
-    // Rows that were exchanged are columns of the inverse to be exchanged back, the last first.
+    // Rows that were exchanged correspond to columns of the inverse, which are exchanged back, the last first.
     for k in (0..QUINTIC).rev() {
         if order[k] != k {
             a.iter_mut().for_each(|row| row.swap(k, order[k]));

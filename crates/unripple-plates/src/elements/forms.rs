@@ -13,29 +13,29 @@ use rayon::prelude::*;
 use unripple_core::Edge;
 use unripple_linalg::sparse::SparseColMat;
 
-/// Triangles whose matrices are made, by all threads, before one thread adds them up in order: so sums do not
+/// Number of triangles whose matrices all threads compute before one thread adds them up in order, so that sums do not
 /// depend on the number of threads. Doubled, twice as many matrices are held at once.
 const BATCH: usize = 512;
 
-/// Unknowns taken at once: the numbers of a 512-bit register. Doubled, sums stay the same.
+/// Number of unknowns processed at once: a 512-bit register holds as many f64. Doubled, sums stay the same.
 const LANES: usize = 8;
 
-/// The symmetric forms of a sheet on a space's unknowns, all with the same pattern, both triangles of it.
+/// The symmetric matrices of a sheet on a space's unknowns, all with the same pattern, both triangles of it.
 #[derive(Clone, Debug)]
 pub(crate) struct Forms {
     /// ∫κᵀDκ + ∫T|∇u|² + ∮(lift u² + tilt (∂u/∂n)²), in J.
     pub(crate) stiffness: SparseColMat<usize, f64>,
-    /// The first term of it alone.
+    /// ∫κᵀDκ, the bending part of the stiffness, in J.
     pub(crate) bending: SparseColMat<usize, f64>,
-    /// ∫ρ_s u² and the point masses' mu².
+    /// ∫ρ_s u² and the point masses' m u².
     pub(crate) mass: SparseColMat<usize, f64>,
 }
 
-/// Stiffness, bending and mass of one triangle, in rows of its unknowns.
+/// Stiffness, bending and mass matrices of one triangle, row by row of its unknowns.
 type Shares = [Vec<f64>; 3];
 
 impl Space {
-    /// The forms of a sheet of some fabric; triangles are shared among threads.
+    /// Assembles the matrices of a sheet with the given local properties; triangles are shared among threads.
     pub(crate) fn assemble(&self, fabric: &Fabric) -> Forms {
         let symbolic = pattern(self);
         let rules = Rules::new(fabric.uniform().is_none());
@@ -55,7 +55,7 @@ impl Space {
                     let within = &rows[start..starts[*column + 1]];
                     let mut place = 0;
                     for (r, row) in element.unknowns.iter().enumerate() {
-                        // Most follow the one before.
+                        // Most rows follow the one before.
                         if within.get(place) != Some(row) {
                             place = within.partition_point(|other| other < row);
                         }

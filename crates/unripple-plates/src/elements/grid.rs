@@ -4,25 +4,25 @@ use super::element::Element;
 use crate::mesh::Mesh;
 use unripple_core::{Point, Side};
 
-/// A point this far outside, in units of a triangle's size, is on its edge: some million times the rounding.
-/// Doubled, points twice as far outside keep their own place instead of the nearest of the rim.
+/// A point up to this far outside, in units of a triangle's size, counts as on its edge: some million times the rounding error.
+/// Doubled, points twice as far outside keep their own place instead of the nearest point of the rim.
 const ON: f64 = 1e-9;
 
-/// Points of a curve that a bounding box is made of, and the part of its size that lies beyond them at most.
+/// Number of points of a curve from which a bounding box is computed; the box is widened by its chord over twice this number.
 /// Doubled, boxes of curved triangles are tighter.
 const STEPS: usize = 8;
 
-/// Cells of a regular grid, each with the triangles whose bounding boxes meet it; and the rim by its sides.
+/// A regular grid of cells, each with the triangles whose bounding boxes meet it, and the rims with their triangles.
 #[derive(Clone, Debug)]
 pub(crate) struct Grid {
     corner: Point,
     cell: f64,
     columns: usize,
     rows: usize,
-    /// Where each cell's triangles start in `members`, and where the last ones end.
+    /// Start of each cell's triangles in `members`, and the end of the last.
     starts: Vec<usize>,
     members: Vec<usize>,
-    /// Of each side, the triangles along it, with the parameter at which each starts.
+    /// The sides of rims, each with the triangles along it and the parameter at which each starts.
     rims: Vec<(Side, Vec<(f64, usize)>)>,
 }
 
@@ -60,7 +60,7 @@ impl Grid {
         [place(p.x - self.corner.x, self.columns), place(p.y - self.corner.y, self.rows)]
     }
 
-    /// Index of the triangle that a point (m) lies in, and the point; of a point outside, the nearest of the
+    /// Index of the triangle that contains a point (m), and the point; for a point outside, the nearest point of the
     /// rim.
     pub(crate) fn locate(&self, elements: &[Element], p: Point) -> (usize, Point) {
         let [i, j] = self.cell_of(p);
@@ -91,7 +91,7 @@ impl Grid {
     }
 }
 
-/// Of each side that triangles lie along, these in order.
+/// The sides that triangles lie along, each with these triangles in order.
 fn rims(mesh: &Mesh) -> Vec<(Side, Vec<(f64, usize)>)> {
     let mut rims: Vec<_> = mesh.sides.iter().map(|(side, _)| (*side, Vec::new())).collect();
     for (t, triangle) in mesh.triangles.iter().enumerate() {
@@ -115,7 +115,7 @@ pub(crate) fn bounds(element: &Element) -> Bounds {
         let points = (0..steps).map(|i| border.at(i as f64 / steps as f64));
         all = points.fold(all, |b, p| join(b, &[p; 2]));
         if steps > 1 {
-            // Between points of a curve it is at most this far from its chords.
+            // Between these points, the curve is at most this far from its chords.
             let reach = border.at(0.0).distance(border.at(1.0)) / (2 * steps) as f64;
             let [low, high] = all;
             all = [Point::new(low.x - reach, low.y - reach), Point::new(high.x + reach, high.y + reach)];

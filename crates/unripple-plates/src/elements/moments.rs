@@ -1,4 +1,4 @@
-//! Integrals of monomials times the sheet's mass, tension and stiffness, and the forms made of them.
+//! Integrals of monomials times the sheet's mass, tension and stiffness, and the bilinear forms computed from them.
 
 use super::monomials::{COUNT, EXPONENTS, Frame, HIGHEST};
 use crate::fabric::Local;
@@ -10,15 +10,15 @@ type Table = [[f64; POWERS]; POWERS];
 /// Number of powers that products of two polynomials of the highest degree have, from 0 to 14.
 const POWERS: usize = 2 * HIGHEST + 1;
 
-/// A symmetric form of monomials, with an entry for each pair.
+/// A symmetric bilinear form on monomials, with an entry for each pair.
 pub(crate) type Form = [[f64; COUNT]; COUNT];
 
-/// The integrals that mass, tension and bending of one triangle are made of: mass per area, tension and D11, D12, D16, D22,
-/// D26, D66 times monomials.
+/// The integrals over one triangle from which its mass, tension and bending forms follow: of mass per area, tension and D11,
+/// D12, D16, D22, D26, D66 times monomials.
 #[derive(Clone, Debug)]
 pub(crate) struct Moments {
     scale: f64,
-    /// Number of monomials that forms are made of.
+    /// Number of monomials of the forms.
     count: usize,
     /// Degrees of products of two of them, of their gradients and of their second derivatives.
     degrees: [usize; 3],
@@ -28,7 +28,7 @@ pub(crate) struct Moments {
 }
 
 impl Moments {
-    /// Nothing yet, for polynomials of `count` monomials.
+    /// Integrals of zero, for polynomials of `count` monomials.
     pub(crate) fn new(frame: &Frame, count: usize) -> Self {
         let none = [[0.0; POWERS]; POWERS];
         let [i, j] = EXPONENTS[count.clamp(1, COUNT) - 1];
@@ -36,7 +36,7 @@ impl Moments {
         Self { scale: frame.scale, count, degrees, mass: none, tension: none, bending: [none; 6] }
     }
 
-    /// Adds the integral over points (m) and weights (m²) of a sheet that is the same everywhere.
+    /// Adds the integrals over points (m) with weights (m²), for a uniform sheet.
     pub(crate) fn add_even(&mut self, frame: &Frame, points: &[(Point, f64)], sheet: &Local) {
         let mut plain = [[0.0; POWERS]; POWERS];
         for (p, w) in points {
@@ -47,7 +47,7 @@ impl Moments {
         self.bending.iter_mut().zip(sheet.bending).for_each(|(table, d)| add(table, &plain, d));
     }
 
-    /// Adds the integral over points (m) and weights (m²) of a sheet that varies.
+    /// Adds the integrals over points (m) with weights (m²), for a sheet that varies.
     pub(crate) fn add_varying(
         &mut self,
         frame: &Frame,
@@ -116,7 +116,7 @@ impl Moments {
 /// matrix.
 const ENTRY: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
 
-/// Of a monomial, the factor and the exponents of u_xx, u_yy and 2u_xy.
+/// The factors and exponents of u_xx, u_yy and 2u_xy of a monomial.
 fn curvatures([a, b]: [usize; 2]) -> [(f64, [usize; 2]); 3] {
     let less = |x: usize, by: usize| x.saturating_sub(by);
     [

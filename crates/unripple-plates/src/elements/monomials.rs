@@ -2,8 +2,8 @@
 
 use unripple_core::Point;
 
-/// The degree of a triangle's polynomials along held curves, by the bubbles that are added there; of all
-/// others it is 5.
+/// Degree of the polynomials of a triangle at a clamped or supported curve, where bubble functions are added; of all
+/// other triangles it is 5.
 pub(crate) const HIGHEST: usize = 7;
 
 /// Number of monomials x^i y^j with i + j ≤ 5: 21, as many as Argyris's values.
@@ -12,7 +12,7 @@ pub(crate) const QUINTIC: usize = count(5);
 /// Number of monomials of the highest degree and less.
 pub(crate) const COUNT: usize = count(HIGHEST);
 
-/// Their exponents, the lowest degree first.
+/// Exponents of all monomials, the lowest degree first.
 pub(crate) const EXPONENTS: [[usize; 2]; COUNT] = exponents();
 
 /// Number of monomials of a degree and less.
@@ -40,7 +40,7 @@ const fn exponents() -> [[usize; 2]; COUNT] {
     all
 }
 
-/// Where a triangle's monomials are centred and the length they are scaled by.
+/// The centre and scale of a triangle's monomials.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
     /// Where the monomials are centred, in metres.
@@ -49,7 +49,7 @@ pub(crate) struct Frame {
     pub(crate) scale: f64,
 }
 
-/// All monomials' values and derivatives at a point: u, u_x, u_y, u_xx, u_xy, u_yy.
+/// Values and derivatives of all monomials at a point: rows u, u_x, u_y, u_xx, u_xy, u_yy.
 pub(crate) type Jets = [[f64; COUNT]; 6];
 
 impl Frame {
@@ -72,7 +72,7 @@ impl Frame {
         EXPONENTS.map(|[i, j]| px[i] * py[j])
     }
 
-    /// The monomials and their derivatives by metres at a point (m): six rows of all monomials.
+    /// Values and derivatives (with respect to metres) of all monomials at a point (m): six rows.
     pub(crate) fn jets(&self, p: Point) -> Jets {
         let [px, py] = self.local(p).map(derived);
         let product = |a: usize, b: usize| {

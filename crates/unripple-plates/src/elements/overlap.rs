@@ -7,7 +7,7 @@ use crate::fabric::Disc;
 use std::f64::consts::TAU;
 use unripple_core::{Point, Side};
 
-/// Pieces of a curved edge among which crossings with a disc's rim are looked for. Two crossings within one
+/// Number of pieces of a curved edge that are searched for crossings with a disc's rim. Two crossings within one
 /// piece are missed; doubled, pieces are half as long.
 const PIECES: usize = 24;
 
@@ -48,7 +48,7 @@ pub(crate) fn overlap(element: &Element, disc: &Disc) -> Vec<Border> {
 /// Parameters at which a border crosses a disc's rim, ascending.
 fn crossings(border: &Border, disc: &Disc) -> Vec<f64> {
     let outside = |s: f64| border.at(s).distance(disc.at) - disc.radius;
-    // Of a straight edge the distance is least at the foot of the centre: at most one crossing on either side of it.
+    // On a straight edge the distance is least at the foot of the centre, with at most one crossing on each side of it.
     let mut places: Vec<f64> = if border.is_straight() {
         let (p, d) = (border.at(0.0), border.derivative(0.0));
         let foot = ((disc.at.x - p.x) * d.x + (disc.at.y - p.y) * d.y) / (d.x * d.x + d.y * d.y);
@@ -61,7 +61,7 @@ fn crossings(border: &Border, disc: &Disc) -> Vec<f64> {
     crossed.map(|w| root(w[0], w[1], outside)).collect()
 }
 
-/// Where a function changes its sign, by bisection to the last bits.
+/// The argument at which a function changes its sign, by bisection to the last bits.
 fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     let sign = f(low) < 0.0;
     for _ in 0..60 {

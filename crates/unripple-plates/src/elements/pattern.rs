@@ -1,9 +1,9 @@
-//! Sparsity pattern of the forms: which unknowns meet in a triangle.
+//! Sparsity pattern of the stiffness and mass matrices: pairs of unknowns that share a triangle.
 
 use super::space::Space;
 use unripple_linalg::sparse::SymbolicSparseColMat;
 
-/// The symmetric pattern of all forms on a space, both triangles of it, rows ascending.
+/// The symmetric sparsity pattern of all matrices on a space, both triangles of it, rows ascending.
 pub(crate) fn pattern(space: &Space) -> SymbolicSparseColMat<usize> {
     let size = space.unknowns();
     let mut sharers = vec![Vec::new(); size];

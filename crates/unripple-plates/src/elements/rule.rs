@@ -1,15 +1,15 @@
 //! Quadrature over triangles with curved edges.
 //!
-//! A region is the sum of the cones from an apex to the pieces of its border, with signs: x = a + r (γ(s) - a), r and s from
-//! 0 to 1, dA = r (γ - a) x γ' dr ds. Of a polynomial the sum is the same for every apex; with Gauss-Legendre quadrature in r and s it is
-//! exact along straight borders and converges spectrally along curves.
+//! A region is the signed sum of the cones from an apex a to the pieces γ(s) of its border: x = a + r (γ(s) - a), r and s from
+//! 0 to 1, dA = r (γ - a) x γ' dr ds. The integral of a polynomial does not depend on the apex. With Gauss-Legendre quadrature in r
+//! and s it is exact for straight borders and converges spectrally for curves.
 
 use super::border::Border;
 use super::monomials::{HIGHEST, QUINTIC};
 use crate::modes::gauss;
 use unripple_core::Point;
 
-/// Rules for triangles by the number of their monomials.
+/// Quadrature rules for triangles, by the number of monomials of their polynomials.
 #[derive(Clone, Debug)]
 pub(crate) struct Rules {
     quintic: Rule,
@@ -43,8 +43,8 @@ impl Rule {
         Self { radial: rule(plain), straight: rule(plain), curved: rule(curved) }
     }
 
-    /// Points and weights (m²) over a triangle. Weights are positive if it is star-shaped seen from the vertex opposite its
-    /// only curved edge, or with several such edges from its middle.
+    /// Points and weights (m²) over a triangle. Weights are positive if it is star-shaped with respect to the vertex opposite its
+    /// only curved edge, or, with several curved edges, to the mean of its vertices.
     pub(crate) fn triangle(&self, borders: &[Border; 3]) -> Vec<(Point, f64)> {
         let curved: Vec<usize> = (0..3).filter(|i| !borders[*i].is_straight()).collect();
         let mut points = Vec::new();
@@ -56,7 +56,7 @@ impl Rule {
         points
     }
 
-    /// Points (m) and weights (m²) over the region within closed borders, the region to their left.
+    /// Adds points (m) and weights (m²) over the region enclosed by borders, which have it to their left.
     pub(crate) fn region(&self, borders: &[Border], points: &mut Vec<(Point, f64)>) {
         let share = 1.0 / borders.len().max(1) as f64;
         let mean = |f: fn(Point) -> f64| borders.iter().map(|b| share * f(b.at(0.0))).sum();

@@ -6,11 +6,11 @@ use rayon::prelude::*;
 use unripple_core::{Point, Shapes};
 use unripple_linalg::{Mat, MatRef};
 
-/// Modes summed at once: two cache lines of a row of coefficients. Doubled, more zeros are added to fill the
+/// Number of modes summed at once: two cache lines of a row of coefficients. Doubled, more zeros are added to fill the
 /// last lanes.
 const LANES: usize = 16;
 
-/// Points whose shapes are taken by one thread at a time. Doubled, there are half as many tasks to share
+/// Number of points whose shapes one thread computes at a time. Doubled, there are half as many tasks to share
 /// among threads.
 const POINTS: usize = 64;
 
@@ -19,11 +19,11 @@ const POINTS: usize = 64;
 pub(crate) struct MeshShapes {
     space: Space,
     modes: usize,
-    /// Lanes of modes that an unknown takes.
+    /// Number of groups of [`LANES`] modes.
     groups: usize,
-    /// Coefficients, unknown by unknown, modes in lanes.
+    /// Coefficients, unknown by unknown, in groups of modes.
     lanes: Vec<[f64; LANES]>,
-    /// What the processor can do at once.
+    /// The SIMD instruction set of the processor.
     arch: Arch,
 }
 
@@ -37,7 +37,7 @@ impl std::fmt::Debug for MeshShapes {
 }
 
 impl MeshShapes {
-    /// Shapes of coefficients, unknowns x modes, mass-normalised and with their signs.
+    /// Mode shapes from their coefficients, unknowns x modes, which are mass-normalised and have the right signs.
     pub(crate) fn new(space: Space, coefficients: MatRef<f64>) -> Self {
         let (unknowns, modes) = (space.unknowns().min(coefficients.nrows()), coefficients.ncols());
         let groups = modes.div_ceil(LANES);

@@ -9,10 +9,10 @@ use crate::mesh::Mesh;
 use rayon::prelude::*;
 use unripple_core::{Edge, Point};
 
-/// Continuously differentiable quintics on a mesh that satisfy the essential conditions of its rims.
+/// Continuously differentiable quintics on a mesh that satisfy the essential boundary conditions.
 ///
-/// Along straight sides conditions hold exactly. Along held curves u, and ∂u/∂n where it is held too, vanish with their
-/// derivatives at the vertices and at points between. Eigenvalues converge as h⁸, of membranes as h¹⁰, on curved rims too.
+/// Along straight sides the conditions hold exactly. Along clamped and supported curves, u (and ∂u/∂n where clamped) vanishes with its
+/// derivatives at the vertices, and at points between them. Eigenvalues converge as h⁸, those of membranes as h¹⁰, on curved rims too.
 #[derive(Clone, Debug)]
 pub(crate) struct Space {
     /// The triangles with their quintics, in the mesh's order.
@@ -23,7 +23,7 @@ pub(crate) struct Space {
 }
 
 impl Space {
-    /// The space on a mesh; `bending` if the sheet resists bending, for otherwise clamping holds no slope.
+    /// The space on a mesh; `bending` if the sheet has bending stiffness: otherwise clamped edges do not fix the slope.
     pub(crate) fn new(mesh: &Mesh, bending: bool) -> Self {
         let topology = Topology::of(mesh);
         let corners: Vec<Corner> = (0..mesh.vertices.len())
@@ -69,14 +69,14 @@ impl Space {
         self.unknowns
     }
 
-    /// Index of the triangle that a point (m) lies in, and the point; of a point outside, the nearest of the
+    /// Index of the triangle that contains a point (m), and the point; for a point outside, the nearest point of the
     /// rim.
     pub(crate) fn locate(&self, point: Point) -> (usize, Point) {
         self.grid.locate(&self.elements, point)
     }
 
-    /// Indices of the unknowns that make u at a point (m), and the weight of each. Of a point outside, the
-    /// nearest of the rim.
+    /// Indices and weights of the unknowns whose sum is u at a point (m), or for a point outside at the nearest point of the
+    /// rim.
     pub(crate) fn weights(&self, point: Point) -> (&[usize], Vec<f64>) {
         let (element, point) = self.locate(point);
         let Some(element) = self.elements.get(element) else { return (&[], Vec::new()) };
@@ -92,7 +92,7 @@ impl Space {
     }
 }
 
-/// How an edge of a rim is held.
+/// The edge condition of an edge on a rim; `None` inside.
 fn held(mesh: &Mesh, edge: usize) -> Option<Edge> {
     let span = mesh.edges[edge].span?;
     mesh.sides.get(span.side).map(|(_, edge)| *edge)
@@ -110,7 +110,7 @@ fn border(mesh: &Mesh, edge: usize, ends: [Point; 2]) -> Border {
     }
 }
 
-/// The middle of an edge, by the parameter of the curve it stands for.
+/// The middle of an edge, on a curved side by the parameter of the curve.
 fn middle(mesh: &Mesh, edge: usize) -> Middle {
     let ends = mesh.edges[edge].ends.map(|v| mesh.vertices[v].at);
     let border = border(mesh, edge, ends);

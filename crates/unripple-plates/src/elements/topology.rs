@@ -5,11 +5,11 @@ use crate::mesh::Mesh;
 /// Neighbours within a mesh: triangles beside edges, edges around vertices.
 #[derive(Debug)]
 pub(crate) struct Topology {
-    /// Of each edge, the triangles on its sides.
+    /// The triangles on both sides of each edge.
     beside: Vec<[Option<usize>; 2]>,
-    /// Of each vertex, the rim's edge that leaves it, and the one that arrives.
+    /// The rim edges that start and end at each vertex.
     rims: Vec<[Option<usize>; 2]>,
-    /// Of each vertex, the mean length of its edges, in metres.
+    /// Mean length of the edges at each vertex, in metres.
     pub(crate) lengths: Vec<f64>,
 }
 
@@ -18,7 +18,7 @@ pub(crate) struct Topology {
 pub(crate) struct FanStep {
     /// Index of the triangle.
     pub(crate) triangle: usize,
-    /// The other end of the edge that leads on.
+    /// Index of the vertex at the other end of that edge.
     pub(crate) towards: usize,
 }
 
@@ -48,14 +48,14 @@ impl Topology {
         Self { beside, rims, lengths }
     }
 
-    /// Indices of the rim's edges that leave a vertex and arrive at it; `None` inside.
+    /// Indices of the rim edges that start and end at a vertex; `None` for a vertex inside.
     pub(crate) fn rim(&self, vertex: usize) -> Option<[usize; 2]> {
         let [leaves, arrives] = self.rims[vertex];
         Some([leaves?, arrives?])
     }
 
-    /// The triangles at a vertex of a rim, given by its index, anticlockwise from the rim's edge that leaves
-    /// it.
+    /// The triangles at a vertex of a rim, given by its index, anticlockwise from the rim edge that starts
+    /// there.
     pub(crate) fn fan(&self, mesh: &Mesh, vertex: usize) -> Vec<FanStep> {
         let mut steps = Vec::new();
         let mut next = self.rims[vertex][0].and_then(|e| self.beside[e][0]);

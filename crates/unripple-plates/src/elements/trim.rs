@@ -1,11 +1,12 @@
 //! Bubble polynomials that impose the edge conditions along curved edges.
 //!
-//! A quintic that is held at two vertices of a curve only nearly vanishes between them, by the curve's distance from its chord times
-//! a slope, and a solution takes advantage of it: frequencies come out low, by h³ for a membrane. Polynomials
-//! (λ_a λ_b)³(λ_a - λ_b)^i, for the slope (λ_a λ_b)² λ_c (λ_a - λ_b)^i, λ_a and λ_b belonging to the curve's ends, are added,
-//! such that u and ∂u/∂n vanish at points of the curve. They are zero with their gradients along the other two edges and with their
-//! second derivatives at the vertices: nothing changes elsewhere. The points are the zeros of Jacobi polynomials to the
-//! weight that the ends leave, so that what is left between them is orthogonal to the smooth forces that hold the rim.
+//! A quintic that satisfies the conditions at the two ends of a curved edge vanishes along the curve only approximately: the error is
+//! the curve's distance from its chord times a slope, and frequencies would be too low, by a term of order h³ for a membrane.
+//! Therefore polynomials (λ_a λ_b)³(λ_a - λ_b)^i are added, and for the slope (λ_a λ_b)² λ_c (λ_a - λ_b)^i, with the barycentric
+//! coordinates λ_a and λ_b of the curve's ends, such that u and ∂u/∂n vanish at points of the curve. These polynomials and their
+//! gradients are zero along the other two edges, and their second derivatives at the vertices, so that nothing changes elsewhere.
+//! The points are the zeros of Jacobi polynomials for the weight given by the ends, so that the remaining error along the curve
+//! is orthogonal to the smooth reaction forces of the rim.
 
 use super::border::Border;
 use super::monomials::{COUNT, EXPONENTS, Frame, HIGHEST, place};
@@ -13,18 +14,18 @@ use unripple_core::{Edge, Point};
 use unripple_linalg::{Lu, Mat};
 
 /// Points of a curve at which u vanishes, by their parameter from -1 to 1: zeros of the Jacobi polynomial of
-/// degree 2 to the weight (1 - x²)³.
+/// degree 2 for the weight (1 - x²)³.
 const VALUES: [f64; 2] = [-1.0 / 3.0, 1.0 / 3.0];
 
-/// Points at which ∂u/∂n vanishes where it is held: zeros of the Jacobi polynomial of degree 3 to the weight
-/// (1 - x²)², 0 and √(1/3) by its equation.
+/// Points of a clamped curve at which ∂u/∂n vanishes, by their parameter from -1 to 1: zeros 0 and ±√(1/3) of the Jacobi
+/// polynomial of degree 3 for the weight (1 - x²)².
 const SLOPES: [f64; 3] = [-0.577_350_269_189_625_8, 0.0, 0.577_350_269_189_625_8];
 
 /// A polynomial's coefficients.
 type Polynomial = [f64; COUNT];
 
-/// Adds to a basis of quintics (rows of monomials, `unknowns` columns) what holds it along the curves among a triangle's borders; of
-/// each border whether its slope is held.
+/// Adds bubble polynomials to a basis of quintics (rows of monomials, `unknowns` columns) so that it satisfies the conditions along the
+/// clamped and supported curves among a triangle's borders; `slopes` says for which borders the slope is zero.
 pub(crate) fn trim(
     frame: &Frame,
     vertices: [Point; 3],
@@ -79,7 +80,7 @@ pub(crate) fn trim(
     }
 }
 
-/// Each vertex's barycentric coordinate as 1, x and y times numbers.
+/// The barycentric coordinate of each vertex, as coefficients of 1, x and y.
 fn barycentric(frame: &Frame, vertices: [Point; 3]) -> [[f64; 3]; 3] {
     let local = vertices.map(|p| frame.local(p));
     [0, 1, 2].map(|i| {

@@ -13,22 +13,22 @@ use crate::PhysicsError;
 use unripple_core::plane::{Rims, circumcircle, cross, doubled, middle, minus, norm};
 use unripple_core::{Outline, Point};
 
-/// A circle through a triangle's vertices wider than this share of the edge length has room for another
-/// vertex: that of an equilateral triangle is 0.58 of it. Larger, more wide triangles stay; at 0.58 even good
+/// Circumradius of a triangle, as a share of the desired edge length, above which there is room for another
+/// vertex: that of an equilateral triangle is 0.58. Larger, more wide triangles stay; at 0.58 even good
 /// ones would be filled.
 const WIDE: f64 = 0.8;
-/// Least distance from others, as a share of the way across, of a vertex put halfway between rims: 0.5 is the
-/// middle between two. Above 0.5 none would ever be put there, and triangles would reach from rim to rim.
+/// Least distance from other vertices of one put halfway between two rims, as a share of the width: 0.5 is the distance of the
+/// two ends. Above 0.5 none would ever be put there, and triangles would reach from rim to rim.
 const BETWEEN: f64 = 0.4;
-/// Rounds of filling at most, each on triangles anew; it ends before if a round finds no room.
+/// Largest number of rounds of filling, each after a new triangulation; it ends when a round finds no room.
 const FILLS: usize = 3;
-/// Rounds of smoothing, each on triangles anew. Doubled, meshes take longer and triangles change little.
+/// Rounds of smoothing, each followed by a new triangulation. Doubled, meshes take longer and triangles change little.
 const ROUNDS: usize = 4;
-/// How often rims are cut, twice as fine each time where curves or narrow places ask for it, before triangles
-/// are given up.
+/// Number of times that rims are cut, each time twice as fine on curves and in narrow places, before meshing is
+/// given up.
 const TRIES: i32 = 4;
 
-/// Triangles and where their vertices are.
+/// Triangles and the places of their vertices.
 pub(super) struct Sketch {
     /// Places of the vertices, in metres: those of the rims first.
     pub(super) points: Vec<Point>,
@@ -37,11 +37,11 @@ pub(super) struct Sketch {
 }
 
 impl Mesh {
-    /// A mesh of a sheet.
+    /// A mesh of a sheet with the given edge lengths.
     ///
     /// # Errors
-    /// [`PhysicsError::Outline`] if the outline bounds no sheet; [`PhysicsError::Range`] for lengths that are not
-    /// positive, or that take more than 1e7 vertices.
+    /// [`PhysicsError::Outline`] if the outline is invalid or cannot be meshed; [`PhysicsError::Range`] for lengths that are not
+    /// positive, or that need more than 1e7 vertices.
     pub(crate) fn new(outline: &Outline, sizing: &Sizing) -> Result<Self, PhysicsError> {
         sizing.check()?;
         let rims = Rims::new(outline)?;
@@ -88,7 +88,7 @@ fn sketch(rims: &Rims, cut: &Cut, sizing: &Sizing) -> Option<Sketch> {
     Some(Sketch { points: cloud.points, triangles })
 }
 
-/// Puts vertices amid triangles that are too large, and on edges from rim to rim.
+/// Puts vertices into triangles that are too large, and onto edges from rim to rim.
 fn fill(front: &mut Front, triangles: &[[usize; 3]], cut: &Cut) {
     let rims = cut.vertices.len();
     let known: Quick<(usize, usize), ()> = cut.edges.iter().map(|(ends, _)| (key(*ends), ())).collect();
@@ -112,11 +112,12 @@ fn key([a, b]: [usize; 2]) -> (usize, usize) {
     (a.min(b), a.max(b))
 }
 
-/// Least share of a triangle's height that is left where its curved edge bulges into it: above 0 the weights
-/// of the cone from the opposite vertex are positive, half is a margin. At 1 only straight edges would pass.
+/// Least share of a triangle's height between the opposite vertex and the tangents of its curved edge: above 0 the quadrature
+/// weights of the cone from that vertex are positive, half is a margin. At 1 only straight edges would pass.
 const CLEAR: f64 = 0.5;
 
-/// Whether a triangle over a curved edge can be swept from the vertex opposite: that lies well to the left of all tangents.
+/// Whether a triangle is star-shaped with respect to the vertex opposite its curved edge, with a margin: that vertex lies well to
+/// the left of all tangents.
 fn is_clear(rims: &Rims, span: &Span, [a, b, top]: [Point; 3]) -> bool {
     let side = &rims.sides[span.side].0;
     let height = doubled(a, b, top) / a.distance(b);
@@ -127,7 +128,7 @@ fn is_clear(rims: &Rims, span: &Span, [a, b, top]: [Point; 3]) -> bool {
     })
 }
 
-/// The mesh of a sketch; `None` if a triangle is turned over or a curved edge leaves too little of it.
+/// The mesh of a sketch; `None` if a triangle is inverted or too strongly cut by its curved edge.
 fn assemble(rims: &Rims, cut: &Cut, sketch: Sketch) -> Option<Mesh> {
     let inner = |p: &Point| Vertex { at: *p, on: Vec::new() };
     let mut vertices = cut.vertices.clone();

@@ -1,10 +1,10 @@
-//! A spatial hash of vertices and rim edges: what is near a place, in constant time.
+//! A spatial hash of vertices and rim edges, to find those near a place in constant time.
 
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 use unripple_core::Point;
 
-/// A hash of small numbers by multiplication.
+/// A hash function for small numbers, by multiplication.
 #[derive(Default)]
 pub(super) struct Mix(u64);
 
@@ -47,25 +47,25 @@ struct Site {
     clear: f64,
 }
 
-/// What is too near a place.
+/// The result of a search for vertices or rims too near a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Near {
-    /// Nothing is that near.
+    /// Nothing is too near.
     Nothing,
-    /// The index of the nearest vertex.
+    /// The nearest vertex, by its index, is too near.
     Vertex(usize),
-    /// An edge of a rim.
+    /// An edge of a rim is too near.
     Rim,
 }
 
-/// Sites in square cells, of as many widths as there are edge lengths.
+/// Sites in square cells whose width is a power of two that fits the edge length there.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cells {
     cells: Quick<(i32, i64, i64), Vec<Site>>,
     levels: Vec<i32>,
 }
 
-/// The power of two of a cell for edges of some length (m).
+/// The exponent of two of a cell's width for edges of some length (m).
 fn level(size: f64) -> i32 {
     size.log2().ceil() as i32
 }
@@ -75,17 +75,17 @@ fn width(level: i32) -> f64 {
 }
 
 impl Cells {
-    /// Adds a vertex, edges around it of length `size`.
+    /// Adds a vertex at a place (m) where edges have the length `size` (m).
     pub(super) fn add(&mut self, vertex: usize, at: Point, size: f64) {
         self.push(Site { at, vertex: Some(vertex), clear: 0.0 }, size);
     }
 
-    /// Adds a rim's edge between two points (m): nothing may come into the circle around it.
+    /// Adds a rim edge between two points (m): no vertex may lie in the circle around it.
     pub(super) fn guard(&mut self, a: Point, b: Point) {
         let length = a.distance(b);
         let at = Point::new(0.5 * (a.x + b.x), 0.5 * (a.y + b.y));
-        // A little more than the circle over the edge: a vertex in it would see the edge under an obtuse
-        // angle.
+        // A little more than the circle whose diameter is the edge: a vertex in it would form an obtuse
+        // angle with the edge.
         self.push(Site { at, vertex: None, clear: 0.55 * length }, length);
     }
 
@@ -100,7 +100,7 @@ impl Cells {
         }
     }
 
-    /// What is nearer to a place than `radius`, edges there of length `size`.
+    /// The vertex or rim edge that is nearer to a place (m) than `radius` (m), where edges have the length `size` (m).
     pub(super) fn near(&self, p: Point, size: f64, radius: f64) -> Near {
         let own = level(size);
         let (mut best, mut found) = (radius * radius, Near::Nothing);

@@ -6,31 +6,31 @@ use std::f64::consts::PI;
 use unripple_core::plane::Rims;
 use unripple_core::{Edge, Outline};
 
-/// Edges are never made shorter than this share of the local size: there coordinates have about seven digits
-/// left. Halved, the weakest corners get one more ring or two of triangles.
+/// Shortest edge at a corner, as a share of the local size: there coordinates have about seven digits
+/// left. Halved, the strongest singularities get one or two more rings of triangles.
 const FLOOR: f64 = 1e-9;
-/// Up to this power an element at a corner errs by the share [`LOOSE`] of the singular energy it holds. See
+/// Power up to which an element at a corner misses the share [`LOOSE`] of the singular energy it holds. See
 /// [`missed`].
 const ROUGH: f64 = 0.6;
-/// The share of the singular energy that an element at a corner misses at low powers, measured; see
+/// Share of the singular energy that an element at a corner misses at low powers, measured; see
 /// [`missed`].
 const LOOSE: f64 = 0.2;
-/// By how much that share shrinks per power beyond [`ROUGH`], as e to the minus, measured; see [`missed`].
+/// Exponential decay of that share with the power beyond [`ROUGH`], measured; see [`missed`].
 const DECAY: f64 = 5.0;
 
 /// A corner where two sides meet.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Corner {
-    /// The angle of the sheet there, 0 to 2π.
+    /// The interior angle of the sheet, in radians from 0 to 2π.
     pub(crate) angle: f64,
-    /// How the side that ends there is held, and the one that starts.
+    /// The edge conditions of the side that ends there and of the one that starts there.
     pub(crate) edges: [Edge; 2],
 }
 
-/// The corners of an outline: where each side starts, counted as in [`Mesh::sides`](super::Mesh::sides).
+/// The corners of an outline, at the start of each side, in the order of [`Mesh::sides`](super::Mesh::sides).
 ///
 /// # Errors
-/// [`PhysicsError::Outline`] if the outline bounds no sheet.
+/// [`PhysicsError::Outline`] for an invalid outline.
 pub(crate) fn corners(outline: &Outline) -> Result<Vec<Corner>, PhysicsError> {
     let rims = Rims::new(outline)?;
     let corner = |i: usize| {
@@ -40,14 +40,15 @@ pub(crate) fn corners(outline: &Outline) -> Result<Vec<Corner>, PhysicsError> {
     Ok((0..rims.sides.len()).map(corner).collect())
 }
 
-/// The smallest edge at a corner, as a share of the edge length elsewhere, so that what the elements there miss of the
-/// singular part changes no eigenvalue by more than `accuracy`, relatively; 1 where no smaller edge is needed, at least
+/// The smallest edge at a corner, as a share of the edge length elsewhere, for which the error of the elements in the singular
+/// part of the solution changes no eigenvalue by more than the relative `accuracy`; 1 if no smaller edge is needed, at least
 /// 1e-9.
 ///
-/// A solution that goes as r^ν loses energy as (r/size)^(2p), p = ν - 1 with bending and ν without, to elements of size r.
+/// If the solution is singular as r^ν, the energy that elements of size r miss is as (r/size)^(2p), p = ν - 1 with bending and ν
+/// without.
 pub(crate) fn smallest_edge(angle: f64, edges: [Edge; 2], bending: bool, accuracy: f64) -> f64 {
-    // Between edges held alike the singular part fades with the angle's distance from a straight one; not so between
-    // supported ones that bend, where a polygon differs from the curve that it approaches.
+    // Between equal edge conditions the singular part vanishes as the angle approaches a straight one; not so between
+    // supported edges with bending, where a polygon differs from the curve that it approaches.
     let alike =
         edges[0].moves() == edges[1].moves() && (edges[0] == edges[1] || !bending || edges[0].moves());
     let fades = alike && !(bending && edges[0] == Edge::Supported);
@@ -64,15 +65,15 @@ pub(crate) fn smallest_edge(angle: f64, edges: [Edge; 2], bending: bool, accurac
     }
 }
 
-/// The relative error of an eigenvalue if elements at a corner are as large as elsewhere, by the power p: measured with
-/// Argyris's elements, 1/10 of a wavelength long, on an L-shaped membrane (p = 2/3: 0.10), clamped (0.54: 0.14) and
-/// supported (1/3: 0.17) L-shaped plates, a cantilever (1.07: 7e-4) and a free square (1.76: 6e-6); rounded up, the more
-/// the higher the power, as waves may be shorter.
+/// The relative error of an eigenvalue if elements at a corner are as large as elsewhere, as a function of the power p. Measured
+/// with Argyris's elements, 1/10 of a wavelength long, on an L-shaped membrane (p = 2/3: 0.10), clamped (0.54: 0.14) and
+/// supported (1/3: 0.17) L-shaped plates, a cantilever (1.07: 7e-4) and a free square (1.76: 6e-6); rounded up, more for higher
+/// powers, since waves may be shorter.
 fn missed(power: f64) -> f64 {
     LOOSE * (-DECAY * (power - ROUGH).max(0.0)).exp()
 }
 
-/// The least power ν of r^ν at the corner of a membrane that is no whole number: kπ/α between like edges, (k - ½)π/α
+/// The least power ν of r^ν at the corner of a membrane that is not a whole number: kπ/α between equal edges, (k - ½)π/α
 /// between a fixed and a free one. Infinite if there is none below `most`.
 fn membrane(angle: f64, edges: [Edge; 2], most: f64) -> f64 {
     let step = PI / angle;

@@ -1,4 +1,4 @@
-//! Number of vertices that a sizing will take, before there is a mesh.
+//! Estimate of the number of vertices of a mesh before it is made.
 
 use super::region::Region;
 use super::rim::cut;
@@ -9,22 +9,22 @@ use std::f64::consts::PI;
 use unripple_core::plane::{Bounds, Rims};
 use unripple_core::{Edge, OutOfRange, Outline, Point};
 
-/// Halvings of a cell after which its middle speaks for it: 30 along each direction, a billionth of the
-/// outline. One more doubles the cells only where edges are wanted shorter than that.
+/// Number of halvings of a cell after which its centre stands for all of it: 30 along each direction, a billionth of the
+/// outline. One more doubles the cells only where shorter edges are desired.
 const DEEPEST: u32 = 60;
 
-/// Vertices that are counted one by one; of more, what rims and places ask for is only added up, so that an
+/// Number of vertices up to which an estimate integrates the density of vertices; for more, a rough sum is used, so that an
 /// estimate takes little time.
 const COUNTED: f64 = 1e6;
-/// Most vertices of a mesh: more would not fit into the memory that modes are allowed. Doubled, such a mesh
-/// is refused after it was estimated rather than at once.
+/// Largest number of vertices of a mesh: more would not fit into the memory allowed for modes. Doubled, such a mesh
+/// is refused after the estimate rather than at once.
 const MOST: f64 = 1e7;
 
 impl Mesh {
-    /// About how many vertices a mesh will have, from its rims and the lengths wanted within.
+    /// Estimated number of vertices of a mesh, from its rims and the desired edge lengths within.
     ///
     /// # Errors
-    /// As [`Mesh::new`], but for the number of vertices.
+    /// As [`Mesh::new`], except for too many vertices.
     pub(crate) fn estimate(outline: &Outline, sizing: &Sizing) -> Result<usize, PhysicsError> {
         sizing.check()?;
         let rims = Rims::new(outline)?;
@@ -37,12 +37,12 @@ impl Mesh {
         let region = Region::new(cut.edges.iter().map(|(ends, _)| ends.map(at)).collect());
         let all: Vec<Point> = cut.vertices.iter().map(|v| v.at).collect();
         let within = density(&region, &cut.field, Bounds::around(&all, 0.0), DEEPEST);
-        // Of the vertices of equilateral triangles, those of rims have but half their triangles.
+        // Vertices on rims have only half the triangles of those inside.
         Ok((within + 0.5 * all.len() as f64) as usize)
     }
 }
 
-/// A typed error if a mesh of an area (m²) would have more vertices than can be handled.
+/// Refuses a mesh of an area (m²) that would have too many vertices.
 pub(super) fn check_count(rims: &Rims, area: f64, sizing: &Sizing) -> Result<(), PhysicsError> {
     let count = rough(rims, area, sizing);
     if count <= MOST {
@@ -55,7 +55,7 @@ pub(super) fn check_count(rims: &Rims, area: f64, sizing: &Sizing) -> Result<(),
     )))
 }
 
-/// The vertices that a sizing asks for, without what curves, corners and narrow places need.
+/// The number of vertices for a sizing, without those for curves, corners and narrow places.
 fn rough(rims: &Rims, area: f64, sizing: &Sizing) -> f64 {
     let each = |size: f64| size * size * 0.75_f64.sqrt();
     let inside = area / each(sizing.size);
@@ -72,7 +72,7 @@ fn rough(rims: &Rims, area: f64, sizing: &Sizing) -> f64 {
     inside + 0.5 * (length(true) + length(false)) / sizing.size + layer + near.sum::<f64>()
 }
 
-/// The integral of 1/(h² √¾) over what of a box lies within, h the length wanted.
+/// The integral of 1/(h² √¾) over the part of a box that lies within the region, with h the desired edge length.
 fn density(region: &Region, field: &Field, bounds: Bounds, depth: u32) -> f64 {
     let (width, height) = (bounds.high.x - bounds.low.x, bounds.high.y - bounds.low.y);
     let (centre, longer) = (bounds.centre(), width.max(height));

@@ -1,20 +1,20 @@
-//! The size field: edge length wanted at every place, with bounded growth.
+//! The size field: the desired edge length at each place, with bounded growth.
 
 use unripple_core::Point;
 use unripple_core::plane::{Bounds, Node, Tree};
 
-/// Where edges of some length are wanted.
+/// A place where edges of some length are desired.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Source {
-    /// Place around which the length is wanted, in metres.
+    /// Place around which the length is desired, in metres.
     pub(super) at: Point,
-    /// How far around it the length holds, in metres.
+    /// Radius around it within which the length applies, in metres.
     pub(super) reach: f64,
     /// The length, in metres.
     pub(super) edge: f64,
 }
 
-/// How long edges should be, anywhere: as long as at the sources, growing with the distance from them.
+/// The desired edge length at any place: that of the sources, growing with the distance from them.
 #[derive(Clone, Debug)]
 pub(super) struct Field {
     size: f64,
@@ -22,11 +22,11 @@ pub(super) struct Field {
     tree: Tree,
 }
 
-/// By how much edges grow per distance: along a line to a source each is e^0.65 = 1.9 times the one before.
-/// Doubled, meshes have fewer triangles, of worse shape.
+/// Growth of the edge length per distance: along a line away from a source each edge is e^0.65 = 1.9 times as long as the one
+/// before. Doubled, meshes have fewer triangles, of worse shape.
 pub(super) const GROWTH: f64 = 0.65;
-/// A source that wants nearly the common length, as a share of it, is none: it would cost a search at every
-/// place for edges 15 % shorter.
+/// Sources of more than this share of the common length are ignored: they would cost a search at every place for edges at
+/// most 15 % shorter.
 const NEARLY: f64 = 0.85;
 
 impl Field {
@@ -38,7 +38,7 @@ impl Field {
         Self { size, tree: Tree::new(&boxes), sources }
     }
 
-    /// The edge length wanted at a point (m), in metres.
+    /// The desired edge length at a point (m), in metres.
     pub(super) fn at(&self, p: Point) -> f64 {
         let mut least = self.size;
         let open = |least: &f64, node: &Node| node.least + GROWTH * node.bounds.distance(p) < *least;
@@ -49,7 +49,7 @@ impl Field {
         least
     }
 
-    /// Whether edges of the common length are wanted all over a box.
+    /// Whether the desired edge length is the common one everywhere in a box.
     pub(super) fn is_even(&self, bounds: &Bounds) -> bool {
         let shorter = |edge: f64, apart: f64| edge + GROWTH * apart < self.size;
         let mut even = true;

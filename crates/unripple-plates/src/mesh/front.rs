@@ -1,5 +1,5 @@
-//! Vertices inside, put where they make equilateral triangles with those there already, from the rims inwards (advancing
-//! front: Löhner and Parikh, *Int. J. Numer. Meth. Fluids* 8, 1135, 1988), without regard to the triangles.
+//! Placement of inner vertices so that they form equilateral triangles with existing ones, from the rims inwards (advancing
+//! front: Löhner and Parikh, *Int. J. Numer. Meth. Fluids* 8, 1135, 1988). Only points are made; they are triangulated later.
 
 use super::cells::{Cells, Near, Quick};
 use super::field::Field;
@@ -11,36 +11,36 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use unripple_core::Point;
 use unripple_core::plane::{Rims, along, doubled, middle, minus, norm, turned};
 
-/// A vertex nearer than this share of the edge length is taken for the one wanted. Doubled (above 1), no new
-/// vertex would ever be far enough from the one before.
+/// An existing vertex nearer than this share of the edge length is used instead of a new one. Doubled (above 1), no new
+/// vertex would ever be far enough from existing ones.
 const SAME: f64 = 0.72;
 
-/// Points that become vertices; those of the rims come first, and then those that must stay in place.
+/// Points that become vertices: first those of the rims, then others that must stay in place, then the rest.
 #[derive(Clone, Debug)]
 pub(super) struct Cloud {
     /// Places of the points, in metres.
     pub(super) points: Vec<Point>,
-    /// Edges wanted there, in metres.
+    /// Desired edge length at each point, in metres.
     pub(super) sizes: Vec<f64>,
-    /// How many of them must stay.
+    /// Number of points that must stay in place.
     pub(super) fixed: usize,
 }
 
-/// A cloud while it grows.
+/// A cloud of points while it grows.
 pub(super) struct Front<'a> {
     /// The points so far.
     pub(super) cloud: Cloud,
-    /// The points by where they are, for what is too near.
+    /// A spatial hash of the points, to find those too near a place.
     pub(super) cells: Cells,
     field: &'a Field,
     region: &'a Region,
-    /// Pairs of points that a third is wanted to the left of: the shortest first, and then the oldest.
+    /// Pairs of points to whose left a third point is to be placed: the shortest first, and then the oldest.
     waiting: BinaryHeap<Reverse<(i32, usize, [usize; 2])>>,
     seen: Quick<(usize, usize), ()>,
 }
 
 impl<'a> Front<'a> {
-    /// A front of the rims, with vertices at the places wanted (m).
+    /// A front that starts from the rims, and from vertices at the given places (m).
     pub(super) fn new(rims: &Rims, cut: &'a Cut, region: &'a Region, places: &[Point]) -> Self {
         let points: Vec<Point> = cut.vertices.iter().map(|v| v.at).collect();
         let mut sizes = vec![f64::INFINITY; points.len()];
@@ -63,7 +63,7 @@ impl<'a> Front<'a> {
         front
     }
 
-    /// Vertices at the places wanted, each with six around it.
+    /// Puts vertices at the given places, each with six around it.
     fn put_places(&mut self, places: &[Point]) {
         let centres: Vec<usize> = places.iter().filter_map(|p| self.put(*p).ok()).collect();
         self.cloud.fixed = self.cloud.points.len();
@@ -79,7 +79,7 @@ impl<'a> Front<'a> {
         }
     }
 
-    /// Vertices that divide the wide corners evenly.
+    /// Puts vertices that divide wide corners into equal angles.
     fn put_fans(&mut self, rims: &Rims, cut: &Cut) {
         let mut corners: Vec<usize> = (0..cut.starts.len()).collect();
         corners.sort_by(|i, j| self.cloud.sizes[cut.starts[*i]].total_cmp(&self.cloud.sizes[cut.starts[*j]]));
@@ -108,7 +108,7 @@ impl<'a> Front<'a> {
         }
     }
 
-    /// Adds a point (m) and returns its index, unless it is outside or too near others.
+    /// Adds a point (m) and returns its index, unless it is outside the region or too near others.
     pub(super) fn put(&mut self, p: Point) -> Result<usize, Near> {
         self.put_apart(p, SAME * self.field.at(p))
     }
@@ -128,7 +128,7 @@ impl<'a> Front<'a> {
         }
     }
 
-    /// Puts a pair of points in line for a third, unless it was there before.
+    /// Queues a pair of points for a third, unless it was queued before.
     fn wait(&mut self, pair: [usize; 2]) {
         let [a, b] = pair.map(|i| self.cloud.points[i]);
         let (length, size) = (a.distance(b), self.field.at(middle(a, b)));
@@ -153,7 +153,7 @@ impl<'a> Front<'a> {
         }
     }
 
-    /// Where a third point makes the triangle equilateral, or as nearly so as edges may grow.
+    /// The place of a third point that makes the triangle equilateral, or as nearly so as the growth of edges allows.
     fn apex(&self, pair: [usize; 2]) -> Point {
         let [a, b] = pair.map(|i| self.cloud.points[i]);
         let (ab, m) = (minus(b, a), middle(a, b));

@@ -1,4 +1,4 @@
-//! Triangular meshes that cover a sheet: graded, and small where they must be.
+//! Graded triangular meshes of a sheet.
 
 mod build;
 mod cells;
@@ -23,7 +23,7 @@ pub(crate) use sizing::Sizing;
 /// A mesh of triangles that conforms to the outline; along curved sides an edge stands for a piece of the curve.
 #[derive(Clone, Debug)]
 pub(crate) struct Mesh {
-    /// All sides of all rims, the sheet to their left, and how they are held.
+    /// All sides of all rims, with the sheet to their left, and their edge conditions.
     pub(crate) sides: Vec<(Side, Edge)>,
     /// The vertices; those on a rim lie on their sides exactly.
     pub(crate) vertices: Vec<Vertex>,
@@ -36,9 +36,9 @@ pub(crate) struct Mesh {
 /// A vertex of a mesh.
 #[derive(Clone, Debug)]
 pub(crate) struct Vertex {
-    /// Where it is.
+    /// Place of the vertex, in metres.
     pub(crate) at: Point,
-    /// The sides it lies on, and the parameter there: none inside, one on a side, two where sides meet (of a single
+    /// The sides it lies on, and the parameter there: none inside, one on a side, two where sides meet (for a single
     /// closed side its end and its start).
     #[cfg_attr(not(test), allow(dead_code))] // What tests of meshes are made of.
     pub(crate) on: Vec<(usize, f64)>,
@@ -47,9 +47,9 @@ pub(crate) struct Vertex {
 /// An edge of a mesh.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MeshEdge {
-    /// Its ends. Of a rim's edge in the direction of its side, so that the sheet is to the left.
+    /// Indices of its ends. On a rim they are in the direction of the side, so that the sheet is to the left.
     pub(crate) ends: [usize; 2],
-    /// The piece of a side that it stands for; `None` inside.
+    /// The piece of a side that the edge represents; `None` inside.
     pub(crate) span: Option<Span>,
 }
 

@@ -3,7 +3,7 @@
 use unripple_core::Point;
 use unripple_core::plane::{Bounds, Node, Tree, doubled};
 
-/// What lies within closed polygons.
+/// The region within closed polygons.
 #[derive(Clone, Debug)]
 pub(super) struct Region {
     chords: Vec<[Point; 2]>,
@@ -11,13 +11,13 @@ pub(super) struct Region {
 }
 
 impl Region {
-    /// The region to the left of chords (m) that close.
+    /// The region to the left of chords (m) that form closed polygons.
     pub(super) fn new(chords: Vec<[Point; 2]>) -> Self {
         let boxes: Vec<(Bounds, f64)> = chords.iter().map(|ends| (Bounds::around(ends, 0.0), 0.0)).collect();
         Self { tree: Tree::new(&boxes), chords }
     }
 
-    /// Whether a point (m) lies within.
+    /// Whether a point (m) lies within the region.
     pub(super) fn contains(&self, p: Point) -> bool {
         let mut inside = false;
         let open = |_: &bool, node: &Node| {

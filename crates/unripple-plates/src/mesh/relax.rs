@@ -1,4 +1,4 @@
-//! Mesh smoothing: vertices moved until triangles are well shaped, the triangles kept.
+//! Mesh smoothing: vertices are moved until triangles are well shaped, with unchanged connectivity.
 
 use super::field::Field;
 use super::front::Cloud;
@@ -6,8 +6,8 @@ use std::f64::consts::PI;
 use unripple_core::Point;
 use unripple_core::plane::{along, middle, minus, norm, sharpness, turned};
 
-/// A triangle less sharp than this (the cotangent of its least angle, 34°) may lose some of it to its
-/// neighbours. Doubled, angles down to 19° would be left alone.
+/// Cotangent of the least angle (34°) from which triangles count as well shaped, so that their least angle may become smaller
+/// in favour of their neighbours. Doubled, angles down to 19° would be left alone.
 const FAIR: f64 = 1.46;
 
 /// The triangles around each vertex.
@@ -17,7 +17,7 @@ pub(super) struct Stars {
 }
 
 impl Stars {
-    /// The stars of `vertices` vertices: each triangle (of indices) is listed with its vertex first.
+    /// The triangles around each of `vertices` vertices; each triangle (of indices) is listed with that vertex first.
     pub(super) fn new(vertices: usize, triangles: &[[usize; 3]]) -> Self {
         let mut first = vec![0; vertices + 1];
         triangles.iter().flatten().for_each(|v| first[v + 1] += 1);
@@ -44,7 +44,7 @@ impl Stars {
     }
 }
 
-/// Moves each vertex to where its edges are as long as wanted, on average (the balance of springs of Persson
+/// Moves each vertex to where its edges have the desired lengths on average (the balance of springs of Persson
 /// and Strang, *SIAM Rev.* 46, 329, 2004), unless angles get worse; `sweeps` is the number of passes over all
 /// vertices.
 pub(super) fn relax(cloud: &mut Cloud, triangles: &[[usize; 3]], field: &Field, sweeps: usize) {
@@ -76,7 +76,7 @@ pub(super) fn relax(cloud: &mut Cloud, triangles: &[[usize; 3]], field: &Field, 
     }
 }
 
-/// Moves the vertices of sharp triangles to where the least angle around them grows; `sweeps` is the number
+/// Moves the vertices of sharp triangles so that the least angle around them increases; `sweeps` is the number
 /// of passes.
 pub(super) fn widen(cloud: &mut Cloud, triangles: &[[usize; 3]], sweeps: usize) {
     let stars = Stars::new(cloud.points.len(), triangles);

@@ -1,4 +1,4 @@
-//! Rims cut into edges as the sizing, curvature and narrow places ask.
+//! Rims cut into edges whose lengths follow from the sizing, the curvature and the width of narrow places.
 
 use super::field::{Field, Source};
 use super::sizing::Sizing;
@@ -7,17 +7,16 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use unripple_core::plane::{Rims, norm, turned};
 use unripple_core::{Edge, Point};
 
-/// Most that a rim's edge turns, in radians: a small hole gets at least 14 edges. Doubled, 7.
+/// Greatest turn of a rim edge, in radians: a small hole gets at least 14 edges. Doubled, 7.
 const TURN: f64 = 0.45;
-/// Most that a rim's edge measures of the way across the sheet. Doubled, edges would be longer than narrow
+/// Greatest length of a rim edge as a share of the width of the sheet there. Doubled, edges would be longer than narrow
 /// places are wide.
 const GAP: f64 = 0.7;
-/// Steps per edge when the length of a side is measured in edges: so the wanted length is sampled six times
-/// along each. Doubled, cutting takes twice as long.
+/// Number of samples of the desired edge length per edge when a side is cut. Doubled, cutting takes twice as long.
 const STEPS: f64 = 6.0;
-/// Shortest edge there is, as a share of the extent: above what coordinates resolve.
+/// Shortest edge length, as a share of the extent: above the resolution of coordinates.
 const SHORTEST: f64 = 1e-12;
-/// Rounds in which short edges on one side shorten those nearby. More change edges far from short ones only,
+/// Rounds in which short edges on one side shorten those nearby. More change only edges far from short ones,
 /// and little.
 const ROUNDS: usize = 3;
 
@@ -26,15 +25,15 @@ const ROUNDS: usize = 3;
 pub(super) struct Cut {
     /// The vertices, rim by rim, in order.
     pub(super) vertices: Vec<Vertex>,
-    /// The edges: both ends, the sheet to the left, and what they stand for.
+    /// The edges: indices of both ends, with the sheet to the left, and the pieces of sides that they represent.
     pub(super) edges: Vec<([usize; 2], Span)>,
-    /// The vertex at which each side starts.
+    /// Index of the vertex at which each side starts.
     pub(super) starts: Vec<usize>,
-    /// The length wanted of edges, anywhere.
+    /// The desired edge length at any place.
     pub(super) field: Field,
 }
 
-/// Cuts rims as a sizing wants, and finer by the factor `finer`, at least 1, where curves or narrow places ask for it.
+/// Cuts rims for a sizing, and finer by the factor `finer`, at least 1, on curves and in narrow places.
 pub(super) fn cut(rims: &Rims, sizing: &Sizing, finer: f64) -> Cut {
     let wanted = Wanted { rims, sizing, finer };
     let given = wanted.given();
@@ -55,7 +54,7 @@ pub(super) fn cut(rims: &Rims, sizing: &Sizing, finer: f64) -> Cut {
     })
 }
 
-/// What decides how long edges are.
+/// The inputs that determine the lengths of rim edges.
 struct Wanted<'a> {
     rims: &'a Rims,
     sizing: &'a Sizing,
@@ -63,7 +62,7 @@ struct Wanted<'a> {
 }
 
 impl Wanted<'_> {
-    /// What the sizing itself asks for, and short sides.
+    /// The sources of the sizing itself, and of short sides.
     fn given(&self) -> Vec<Source> {
         let near = self.sizing.near.iter();
         let near = near.map(|(at, reach, edge)| Source { at: *at, reach: reach.max(*edge), edge: *edge });
@@ -76,7 +75,7 @@ impl Wanted<'_> {
         near.chain(corners).collect()
     }
 
-    /// The greatest length that the rim itself allows at a place: by its curvature, by what is opposite, and as held.
+    /// The greatest edge length (m) at a place of a rim: by its curvature, the distance of the opposite rim, and the edge condition.
     fn limit(&self, side: usize, t: f64) -> f64 {
         let (curve, edge) = self.rims.sides[side];
         let held = match (edge, self.sizing.edge_size) {
@@ -93,7 +92,7 @@ impl Wanted<'_> {
         held.min(bend.max(least)).min(gap.max(least))
     }
 
-    /// What an edge asks of those around it.
+    /// The source by which an edge limits the length of those around it.
     fn source(&self, span: &Span) -> Source {
         let t = 0.5 * (span.from + span.to);
         Source { at: self.rims.sides[span.side].0.at(t), reach: 0.0, edge: self.limit(span.side, t) }
@@ -104,7 +103,7 @@ impl Wanted<'_> {
         (0..self.rims.sides.len()).map(|i| self.cut_side(i, field)).collect()
     }
 
-    /// One side cut into edges: its length is measured in edges as wanted, and cut into equal parts of that.
+    /// Cuts one side into edges: its length is measured in desired edge lengths, and divided into equal parts of that measure.
     fn cut_side(&self, side: usize, field: &Field) -> Vec<Span> {
         let curve = &self.rims.sides[side].0;
         let least = SHORTEST * self.rims.extent;
@@ -124,14 +123,14 @@ impl Wanted<'_> {
         }
         let rim = self.rims.loops.iter().find(|rim| rim.contains(&side)).map_or(3, |rim| rim.len());
         let fewest = if rim < 3 { 4 / rim } else { 1 };
-        // A tenth of an edge that is left over is spread over the others.
+        // A remainder of up to a tenth of an edge is spread over the others.
         let count = ((edges - 0.1).ceil() as usize).max(fewest);
         let places: Vec<f64> = (0..=count).map(|i| place(&table, edges, i, count)).collect();
         places.windows(2).map(|w| Span { side, from: w[0], to: w[1] }).collect()
     }
 }
 
-/// The parameter up to which `i` of `count` equal parts of all edges lie.
+/// The parameter at the end of part `i` of `count` parts that are equal in the measure of `table`.
 fn place(table: &[(f64, f64)], edges: f64, i: usize, count: usize) -> f64 {
     if i == 0 || i == count {
         return if i == 0 { 0.0 } else { 1.0 };
@@ -170,7 +169,7 @@ fn join(rims: &Rims, spans: &[Vec<Span>], field: impl Fn(&mut dyn Iterator<Item 
     Cut { vertices, edges, starts, field }
 }
 
-/// Number of triangles that meet best at a corner of some angle (rad): about 60° each.
+/// Best number of triangles at a corner of some angle (rad): about 60° each.
 pub(super) fn fan(angle: f64) -> usize {
     ((angle / (PI / 3.0)).round() as usize).max(1)
 }

@@ -1,19 +1,19 @@
-//! How long the edges of a mesh should be.
+//! The desired edge lengths of a mesh.
 
 use super::corner::{Corner, smallest_edge};
 use crate::PhysicsError;
 use unripple_core::{Point, require};
 
-/// How long the edges of a mesh should be.
+/// The desired edge lengths of a mesh.
 #[derive(Clone, Debug)]
 pub(crate) struct Sizing {
-    /// Length of edges where nothing else is wanted, in metres.
+    /// Largest edge length, used unless a shorter one is desired, in metres.
     pub(crate) size: f64,
-    /// Places, how far around them it holds, and the length wanted there, all in metres. A vertex is put at each that is
-    /// not too near a rim or another.
+    /// Places with shorter edges: the place, the radius around it, and the edge length there, all in metres. A vertex is put at
+    /// each place that is not too near a rim or another place.
     pub(crate) near: Vec<(Point, f64, f64)>,
-    /// The smallest edge where a side starts, in metres, counted as in [`Mesh::sides`](super::Mesh::sides); edges grow
-    /// from there. None if infinite, or not listed.
+    /// Edge length at the start of each side, in metres, in the order of [`Mesh::sides`](super::Mesh::sides); edges grow
+    /// from there. Infinite or not listed for no limit.
     pub(crate) corners: Vec<f64>,
     /// Greatest length along rims that are clamped or supported, in metres.
     pub(crate) edge_size: Option<f64>,
@@ -26,7 +26,7 @@ impl Sizing {
         Self { size, near: Vec::new(), corners: Vec::new(), edge_size: None }
     }
 
-    /// The same with edges short enough at the corners of an outline for eigenvalues of the relative
+    /// This sizing with edges short enough at the corners of an outline for eigenvalues of the relative
     /// `accuracy`.
     pub(crate) fn refined(mut self, corners: &[Corner], bending: bool, accuracy: f64) -> Self {
         let smallest = |corner: &Corner| {
@@ -37,7 +37,7 @@ impl Sizing {
         self
     }
 
-    /// A typed error unless all lengths are positive.
+    /// Refuses lengths that are not positive.
     pub(super) fn check(&self) -> Result<(), PhysicsError> {
         let positive =
             |what: &'static str, value: f64| require(what, value > 0.0, "a positive finite number", value);

@@ -1,23 +1,23 @@
-//! Powers of the distance by which a plate's bending is singular at a corner (Williams, *J. Appl. Mech.* 19, 526, 1952).
+//! Exponents of the singularity of a bent plate at a corner (Williams, *J. Appl. Mech.* 19, 526, 1952).
 
 use std::f64::consts::PI;
 use unripple_core::Edge;
 use unripple_linalg::c64;
 
-/// Poisson's ratio where an edge is free, a common one: the powers change little with it.
+/// Poisson's ratio assumed at free edges, a common value: the exponents depend little on it.
 const POISSON: f64 = 0.3;
-/// Powers this near to a whole number are taken for it: the solution is a polynomial, which elements hold
+/// Exponents this near to a whole number count as whole: the solution is a polynomial, which elements represent
 /// exactly. Above the error of Newton's method, 1e-9.
 const WHOLE: f64 = 1e-5;
-/// Spacing of the places where roots are looked for, along the real and the imaginary axis. Doubled, Newton's
-/// method may pass from two neighbours to the same root and miss one between.
+/// Spacing of the starting points of Newton's method, along the real and the imaginary axis. Doubled, two neighbours may
+/// converge to the same root and miss one between.
 const STEP: [f64; 2] = [0.1, 0.4];
-/// How many of them along the imaginary axis: up to 1.2. More find roots that oscillate faster.
+/// Number of starting points along the imaginary axis, up to 1.2. More find roots that oscillate faster.
 const ROWS: u32 = 4;
 
-/// The least real part of z > 0, z no whole number, below `most`, so that a deflection as r^(z + 1) satisfies the
+/// The least positive real part, below `most`, of z (not a whole number) for which a deflection r^(z + 1) satisfies the
 /// biharmonic equation in a wedge of some angle (rad) and the conditions at both its edges. Infinite if there is none.
-/// Springs change only what is smoother.
+/// Springs at an edge change only smoother parts of the solution.
 pub(super) fn exponent(angle: f64, edges: [Edge; 2], most: f64) -> f64 {
     if edges == [Edge::Supported; 2] {
         return supported(angle, most);
@@ -38,14 +38,14 @@ pub(super) fn exponent(angle: f64, edges: [Edge; 2], most: f64) -> f64 {
     if best < most { best } else { f64::INFINITY }
 }
 
-/// The same between supported edges: r^(kπ/α) sin(kπθ/α), and r² times it.
+/// The least exponent between supported edges, from r^(kπ/α) sin(kπθ/α) and r² times it.
 fn supported(angle: f64, most: f64) -> f64 {
     let powers = (-32..=32).flat_map(|k| [f64::from(k) * PI / angle - 1.0, f64::from(k) * PI / angle + 1.0]);
     let singular = powers.filter(|z| *z > WHOLE && *z < most && (z - z.round()).abs() > WHOLE);
     singular.fold(f64::INFINITY, f64::min)
 }
 
-/// The root that Newton's method finds from a place.
+/// The root to which Newton's method converges from a starting point.
 fn root(angle: f64, edges: [Edge; 2], from: c64) -> Option<c64> {
     // Half the step of a central difference: its error is 1e-10, that of rounding 1e-11.
     const D: f64 = 1e-5;
@@ -69,7 +69,7 @@ fn root(angle: f64, edges: [Edge; 2], from: c64) -> Option<c64> {
     None
 }
 
-/// What vanishes where conditions at both edges can be met.
+/// The determinant that vanishes if the conditions at both edges can be satisfied.
 fn determinant(angle: f64, edges: [Edge; 2], z: c64) -> c64 {
     let [a, b] = conditions(edges[0], z, 0.0);
     let [c, d] = conditions(edges[1], z, angle);
