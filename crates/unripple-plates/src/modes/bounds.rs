@@ -1,20 +1,20 @@
-//! What modes are asked for: top frequency, accuracy, and the sheet's medium.
+//! The request for modes: top frequency, accuracy, and the wave properties of the sheet.
 
 use crate::damping::decay_rate;
 use crate::{Medium, PhysicsError};
 use std::f64::consts::TAU;
 use unripple_core::{Decay, Surface, require};
 
-/// What modes are asked of any sheet, and how accurately.
+/// The request for the modes of a sheet: up to what frequency, and how accurately.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
-    /// The sheet, with its air.
+    /// The wave properties of the sheet, with its air.
     pub(crate) medium: Medium,
     /// Poisson's ratio of the sheet, dimensionless.
     pub(crate) poisson: f64,
     /// Top frequency, in Hz.
     pub(crate) max_hz: f64,
-    /// Wavenumber of the sheet at the top, air included, in rad/m.
+    /// Wavenumber at the top frequency, with air, in rad/m.
     pub(crate) k_top: f64,
     /// Relative accuracy of the frequencies.
     pub(crate) accuracy: f64,
@@ -24,7 +24,7 @@ impl Bounds {
     /// The bounds of a surface's modes up to `max_hz` (Hz), to a relative `accuracy` of their frequencies.
     ///
     /// # Errors
-    /// [`PhysicsError::Range`] for values that cannot be.
+    /// [`PhysicsError::Range`] for a value out of its range.
     pub(crate) fn of(surface: &Surface, max_hz: f64, accuracy: f64) -> Result<Self, PhysicsError> {
         let sheet = &surface.sheet;
         let medium = Medium::of(sheet);
@@ -58,27 +58,27 @@ impl Bounds {
         Medium { air_sides: 0.0, ..self.medium }
     }
 
-    /// ω² of the top in vacuum, in 1/s².
+    /// ω² in vacuum at the top wavenumber, in 1/s².
     pub(crate) fn top_square(&self) -> f64 {
         self.vacuum().omega(self.k_top).powi(2)
     }
 
-    /// The frequency in air (rad/s) of a mode whose square in vacuum is given, its wavenumber kept: the air acts as beside a
-    /// plane wave. Rigid modes keep theirs.
+    /// The angular frequency in air (rad/s) of a mode, given its ω² in vacuum: that of a plane wave of the same wavenumber with
+    /// air. Rigid-body modes stay at 0.
     pub(crate) fn omega_in_air(&self, square: f64) -> f64 {
         let omega = square.sqrt();
         if self.medium.air_sides > 0.0 { self.medium.omega(self.vacuum().wavenumber(omega)) } else { omega }
     }
 
-    /// Frequency (rad/s) with the air's mass, and what that mass does to a mass-normalised shape:
+    /// Angular frequency (rad/s) with the air's mass, and the factor of that mass on a mass-normalised shape:
     /// √(ρ_s/ρ_eff) = ω/ω_vacuum.
     pub(crate) fn loaded(&self, square: f64) -> (f64, f64) {
         let omega = self.omega_in_air(square);
         (omega, if square > 0.0 { omega / square.sqrt() } else { 1.0 })
     }
 
-    /// Decay rate (1/s) of a mode of that frequency in air (rad/s) and share of bending: the sheet's own and, above
-    /// coincidence, radiation's.
+    /// Decay rate (1/s) of a mode of some frequency in air (rad/s) and share of bending: by the sheet's damping and, above
+    /// coincidence, by radiation.
     pub(crate) fn decay_rate(&self, decay: &Decay, omega: f64, bending_share: f64) -> f64 {
         let radiated = if self.medium.air_sides > 0.0 {
             self.medium.radiation(self.medium.wavenumber(omega))

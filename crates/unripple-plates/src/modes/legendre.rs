@@ -2,10 +2,11 @@
 
 use std::f64::consts::PI;
 
-/// Gauss-Legendre nodes and weights on [-1, 1], `count` pairs, exact for polynomials of degree 2·`count` - 1.
+/// Nodes and weights of Gauss-Legendre quadrature on [-1, 1], `count` pairs (node, weight), exact for polynomials of degree
+/// 2·`count` - 1.
 ///
-/// Newton's method on the three-term recurrence from the cosine estimate (Davis and Rabinowitz, *Methods of Numerical
-/// Integration*, 1984).
+/// Nodes are the zeros of the Legendre polynomial, by Newton's method from a cosine estimate (Davis and Rabinowitz, *Methods of
+/// Numerical Integration*, 1984).
 pub fn gauss(count: usize) -> Vec<(f64, f64)> {
     let n = count as f64;
     let mut rule: Vec<(f64, f64)> = (0..count)

@@ -1,4 +1,4 @@
-//! Normal modes of any sheet: natural frequencies, decay rates and mass-normalised shapes.
+//! Normal modes of a sheet: natural frequencies, decay rates and mass-normalised shapes.
 
 mod bounds;
 pub(crate) mod eigen;
@@ -21,12 +21,13 @@ const MEMORY: f64 = 4.0 * GIB;
 /// Bytes of a GiB, 2³⁰ by definition.
 const GIB: f64 = (1u64 << 30) as f64;
 
-/// The modes of a surface: frequencies, decay and mass-normalised shapes.
+/// The normal modes of a surface without the loads of actuators and fingers: frequencies, decay rates and mass-normalised shapes.
 ///
-/// Shapes φ satisfy ∫ρ φ_m φ_n dS = δ_mn, ρ the mass per area with the air that moves along. They are evaluated at any
-/// point of the sheet; places outside it stand for the nearest place inside. A shape's sign makes positive the first of its
-/// coefficients that is at least half the largest. On a rectangle, modes of one frequency are ordered by symmetry: even along
-/// x first, then even along y, then even under exchange of x and y; elsewhere any combination of them may come.
+/// Shapes φ satisfy ∫ρ φ_m φ_n dS = δ_mn, with ρ the mass per area including the added mass of air. They can be evaluated at any
+/// point of the sheet; for a point outside they have the value at the nearest point of the sheet. The sign of a shape is such that
+/// the first of its coefficients that is at least half the largest is positive. On a uniform rectangle, modes of equal frequency are
+/// ordered by symmetry: even along x first, then even along y, then even under exchange of x and y. On other sheets, they may be
+/// any combination of each other.
 #[derive(Debug)]
 pub struct Modes {
     poles: Vec<Pole>,
@@ -35,7 +36,7 @@ pub struct Modes {
     error: f64,
 }
 
-/// What every kind of solution gives, modes ascending.
+/// The result of each method of solution, modes in order of ascending frequency.
 struct Found {
     omegas: Vec<f64>,
     bending_shares: Vec<f64>,
@@ -44,31 +45,30 @@ struct Found {
 }
 
 impl Modes {
-    /// All modes of a surface up to `max_hz`, to a relative `accuracy` of their frequencies (1e-12 to 0.1; 1e-7 is about the
-    /// least that anything but a plain rectangle reaches).
+    /// Computes all modes of a surface up to `max_hz` (Hz), with a relative `accuracy` of their frequencies from 1e-12 to 0.1. On a
+    /// mesh (see below), about 1e-7 is the best that can be reached.
     ///
-    /// Any mix of clamped, supported, free and elastic sides, tension and bending together. Uniform isotropic rectangles
-    /// supported all round and membranes without bending stiffness are exact. Other rectangles are Ritz sums of
-    /// polynomials, split by symmetry, and of sines between supported sides; polynomials are added until what the
-    /// next ones would change is below `accuracy`. Frequencies approach from above; by e^-1.5 for each polynomial, but only
-    /// as their fourth power where a clamped side meets a free one. A sheet that nothing holds has rigid
-    /// modes at 0 Hz: three, or one if tension levels it.
+    /// Clamped, supported, free and elastic sides may be mixed, and tension and bending act together. The modes of uniform
+    /// isotropic rectangles without springs are exact if all sides are supported or if there is no bending stiffness. For other such
+    /// rectangles they are found by the Ritz method, from products of polynomials (of sines between supported sides), split by
+    /// symmetry. Polynomials are added until the estimated effect of further ones is below `accuracy`. Frequencies converge from
+    /// above, by a factor e^-1.5 for each polynomial, but only with the fourth power of their number where a clamped side meets a free
+    /// one. A sheet that nothing holds has rigid-body modes at 0 Hz: three, or one if it is under tension.
     ///
-    /// Every other outline, holes, springs at the rim, grain, profiles and scatterers take continuously differentiable
-    /// quintic elements on a mesh (Argyris, Fried and Scharpf 1968), curved along curved rims and graded towards corners
-    /// that need it. All modes below the top are there: their number is that of negative pivots (Sylvester). Frequencies fall
-    /// towards their limits as the seventh to eighth power of the edge length; two meshes are compared, and refined until they
-    /// agree to `accuracy`.
+    /// All other outlines, holes, springs at edges, orthotropy, profiles and scatterers are solved with continuously differentiable
+    /// quintic elements on a mesh (Argyris, Fried and Scharpf 1968), curved along curved edges and graded towards singular corners.
+    /// No mode is missed: the number of modes is known from the signs of pivots (Sylvester's law of inertia). Frequencies converge from
+    /// above with the seventh to eighth power of the edge length. The results of two meshes are compared, and the mesh is refined until
+    /// they agree to `accuracy`.
     ///
-    /// Air at the sides is an added mass ρ_0/√(k² - (ω/c_0)²) a side, k the wavenumber of the mode's frequency in vacuum;
-    /// modes faster than sound radiate instead, and decay the faster ([`Medium`](crate::Medium)).
+    /// Air is an added mass ρ_0/√(k² - (ω/c_0)²) on each side, with k the wavenumber at the mode's frequency in vacuum. Modes faster
+    /// than sound radiate instead, which adds to their decay rate ([`Medium`](crate::Medium)).
     ///
     /// # Errors
-    /// [`PhysicsError::Range`] for values out of range; [`PhysicsError::Outline`] for a rim that crosses itself, bounds
-    /// nothing, or holes beyond it; [`PhysicsError::Unsupported`] for a sheet that nothing brings back, free all round
-    /// and without stiffness; [`PhysicsError::TooLarge`] before more than 4 GiB would be taken;
-    /// [`PhysicsError::NotConverged`] if refinement stalls short of the accuracy; [`PhysicsError::Solver`] if the eigenproblem
-    /// of a mesh fails.
+    /// [`PhysicsError::Range`] for values out of range; [`PhysicsError::Outline`] for an invalid outline;
+    /// [`PhysicsError::Unsupported`] for a sheet without restoring force, with free edges only and without bending stiffness;
+    /// [`PhysicsError::TooLarge`] if more than 4 GiB of memory would be needed; [`PhysicsError::NotConverged`] if refinement does not
+    /// reach the accuracy; [`PhysicsError::Solver`] if the eigenvalue problem of a mesh cannot be solved.
     ///
     /// ```
     /// # use unripple_core::*;
@@ -106,22 +106,22 @@ impl Modes {
         self.poles.iter().map(|pole| pole.omega / TAU).collect()
     }
 
-    /// Amplitude decay times 1/σ, in s, infinite where nothing dissipates.
+    /// Amplitude decay times 1/σ of the modes, in s; infinite for modes without damping.
     pub fn decay_times(&self) -> Vec<f64> {
         self.poles.iter().map(|pole| 1.0 / pole.sigma).collect()
     }
 
-    /// The decaying oscillations, frequencies ascending.
+    /// The poles of the modes (frequency and decay rate), in order of ascending frequency.
     pub fn poles(&self) -> &[Pole] {
         &self.poles
     }
 
-    /// Bending's share of each mode's elastic energy, 0 to 1; 0 for rigid modes.
+    /// Share of bending in each mode's elastic energy, 0 to 1; 0 for rigid-body modes.
     pub fn bending_shares(&self) -> &[f64] {
         &self.bending_shares
     }
 
-    /// Largest relative error of a frequency, dimensionless, as estimated; 0 where modes are exact.
+    /// Estimated largest relative error of a frequency, dimensionless; 0 where modes are exact.
     pub fn error(&self) -> f64 {
         self.error
     }
@@ -141,7 +141,7 @@ impl Shapes for Modes {
     }
 }
 
-/// Refuses a sheet that nothing brings back: free all round, without stiffness.
+/// Refuses a sheet without restoring force: with free edges only and without bending stiffness.
 fn rests(surface: &Surface, bounds: &Bounds) -> Result<(), PhysicsError> {
     if bounds.medium.bending_stiffness > 0.0 || surface.outline.holds() {
         return Ok(());

@@ -14,16 +14,16 @@ pub(super) struct EigenBlock {
     pub(super) values: Vec<f64>,
     /// Norm in M of (K - σM)⁻¹Mx - x/(λ-σ), times abs(λ-σ), of each.
     pub(super) residuals: Vec<f64>,
-    /// Where its vector is: in which panel, and where there.
+    /// Place of each vector: index of its panel, and its index there.
     places: Vec<(usize, usize)>,
-    /// The vectors, M-orthonormal, and zeros.
+    /// The vectors, M-orthonormal, padded with zeros.
     pub(super) panels: Vec<Panel>,
     /// Number of values below the shift.
     pub(super) left: usize,
 }
 
 impl EigenBlock {
-    /// Eigenpairs ascending, their vectors one after the other in panels; `left` is the number of values
+    /// A block of eigenpairs, ascending, with their vectors in order in panels; `left` is the number of values
     /// below the shift.
     pub(super) fn new(values: Vec<f64>, residuals: Vec<f64>, panels: Vec<Panel>, left: usize) -> Self {
         let places = (0..values.len()).map(|i| (i / LANES, i % LANES)).collect();
@@ -35,7 +35,7 @@ impl EigenBlock {
         &self.values[self.left..]
     }
 
-    /// Forgets the eigenpairs outside a range of indices.
+    /// Drops the eigenpairs outside a range of indices.
     pub(super) fn keep(&mut self, range: Range<usize>) {
         let mut used = vec![[0.0; LANES]; self.panels.len()];
         self.places[range.clone()].iter().for_each(|(panel, lane)| used[*panel][*lane] = 1.0);
@@ -65,7 +65,7 @@ impl EigenBlock {
         }
     }
 
-    /// Takes up others, whatever their values.
+    /// Appends other eigenpairs, without regard to the order of values.
     pub(super) fn append(&mut self, other: Self) {
         let count = self.panels.len();
         self.values.extend(other.values);

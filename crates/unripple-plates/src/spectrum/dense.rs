@@ -8,14 +8,14 @@ use super::plan::{STEP, factor_near};
 use crate::modes::eigen::{Method, product, symmetric};
 use unripple_linalg::{Cholesky, Mat, Par, Scale, norm, solve_lower_alone, solve_upper_alone};
 
-/// The shift below zero, as a part of the bound: K may be singular, K + τM is not. Rounding is of the scale
-/// of λ + τ: doubled, it doubles for the lowest λ; much smaller, K + τM is singular but for rounding.
+/// The shift τ below zero, as a share of the bound: K may be singular, K + τM is not. Rounding errors are relative to
+/// λ + τ: doubled, they double for the lowest λ; much smaller, K + τM is nearly singular.
 const SHIFT: f64 = 1e-3;
 
-/// All eigenpairs below a bound, or a little above where factors there are better.
+/// All eigenpairs below a bound, or below one slightly above it if factors are more accurate there.
 ///
-/// With M = LLᵀ and K + τM = RRᵀ, (R⁻¹L)ᵀ(R⁻¹L) has the eigenvalues 1/(λ+τ), so that rounding is of the scale of the
-/// lowest λ, not of the highest.
+/// With M = LLᵀ and K + τM = RRᵀ, (R⁻¹L)ᵀ(R⁻¹L) has the eigenvalues 1/(λ+τ), so that rounding errors are relative to the
+/// lowest λ, not to the highest.
 ///
 /// # Errors
 /// [`SpectrumError::Matrices`] if M is not positive definite or K not semidefinite; [`SpectrumError::Missed`] if the

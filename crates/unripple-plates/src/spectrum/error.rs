@@ -1,25 +1,25 @@
-//! Why eigenpairs were not found.
+//! The errors of the eigenvalue solver.
 
 /// Why the eigenpairs of a pencil were not found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub(crate) enum SpectrumError {
-    /// The matrices are not a pencil of the kind asked for.
+    /// The matrices are not a symmetric pencil of the required kind.
     #[error("{what}: expected {expected}, found {found}")]
     Matrices {
-        /// What is wrong.
+        /// Name of the wrong quantity.
         what: &'static str,
-        /// What is legal.
+        /// Its allowed values.
         expected: String,
         /// What was found.
         found: String,
     },
-    /// Neither at the shift nor beside it does K - σM have factors that can be trusted.
+    /// K - σM has no accurate factors at the shift nor at shifts nearby.
     #[error("factors of K - σM at σ = {shift:e}: expected pivots clear of zero, found none nearby")]
     Factors {
         /// The shift σ.
         shift: f64,
     },
-    /// Fewer or more eigenpairs were found than inertia proves to exist.
+    /// The number of eigenpairs found is not the number given by inertia.
     #[error("eigenpairs below {top:e}: expected {expected} by inertia, found {found}")]
     Missed {
         /// The bound.

@@ -8,15 +8,15 @@ use unripple_linalg::sparse::{
     SparseColMatRef, SupernodalLdltRef, SymbolicSupernodalCholesky, Unfactored, factor_ldlt,
 };
 
-/// K - σM = L D Lᵀ, without exchange of rows or columns but those of the pencil's order.
+/// The factors of K - σM = L D Lᵀ, without pivoting other than the pencil's ordering.
 #[derive(Debug)]
 pub(super) struct Factor<'a> {
-    /// The shift σ at which it was factorised.
+    /// The shift σ.
     pub(super) shift: f64,
-    /// Number of negative pivots: by Sylvester's law of inertia that of eigenvalues below σ.
+    /// Number of negative pivots: by Sylvester's law of inertia, the number of eigenvalues below σ.
     pub(super) below: usize,
-    /// How far |L||D||Lᵀ| exceeds the matrix's diagonal, where most: rounding changes the matrix by that much more than
-    /// its own.
+    /// Largest ratio of |L||D||Lᵀ| to the matrix on the diagonal: the factor by which the factorisation amplifies rounding
+    /// errors.
     pub(super) growth: f64,
     /// L and D, supernode by supernode.
     pub(super) nodes: Nodes<'a>,
@@ -27,7 +27,7 @@ pub(super) struct Factor<'a> {
 pub(super) struct Nodes<'a> {
     supernodes: &'a SymbolicSupernodalCholesky<usize>,
     tiles: Vec<[f64; TILE]>,
-    /// Where each supernode's tiles begin.
+    /// Start of each supernode's tiles.
     starts: Vec<usize>,
     inverse_pivots: Vec<f64>,
 }
@@ -71,8 +71,8 @@ impl<'a> Factor<'a> {
     }
 }
 
-/// Number of negative pivots, and how far |L||D||Lᵀ| exceeds `diagonal` on the diagonal, where most; `None` unless all
-/// pivots are numbers other than zero.
+/// Number of negative pivots, and the largest ratio of |L||D||Lᵀ| to `diagonal` on the diagonal; `None` if a pivot is zero or not
+/// finite.
 fn pivots(factor: SupernodalLdltRef<usize, f64>, diagonal: &[f64]) -> Option<(usize, f64)> {
     let mut below = 0;
     let mut sizes = vec![0.0; diagonal.len()];

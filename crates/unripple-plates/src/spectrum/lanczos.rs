@@ -10,37 +10,37 @@ use crate::modes::eigen::{Method, symmetric};
 use unripple_core::Random;
 use unripple_linalg::Mat;
 
-/// Ratio of the smallest to the largest pivot of a panel's Gram matrix, its columns scaled to one, below
-/// which rounding calls for another pass: above it two digits are lost at most. Nearer to 1, panels take more
+/// Ratio of the smallest to the largest pivot of a panel's Gram matrix, with columns scaled to one, below
+/// which another pass of orthogonalisation is needed: above it at most two digits are lost. Nearer to 1, panels take more
 /// passes.
 const WELL: f64 = 1e-2;
-/// The ratio below which that pass goes over all panels and not over the panel alone.
+/// The ratio below which that pass is against all panels instead of within the panel alone.
 const ILL: f64 = 1e-4;
-/// Passes at most, of Gram-Schmidt orthogonalisation: more than two are taken where vectors are nearly
+/// Largest number of passes of Gram-Schmidt orthogonalisation: more than two are needed where vectors are nearly
 /// dependent or replaced.
 const PASSES: usize = 6;
-/// Part of a vector that may be taken from it without weighing it again (multiplying it by M): some hundred
-/// roundings. Smaller, nearly every pass would multiply by M.
+/// Relative size of the parts subtracted from a vector up to which its product with M is not computed again: some hundred
+/// rounding errors. Smaller, nearly every pass would multiply by M.
 const ROUNDING: f64 = 1e-13;
-/// What remains of a vector, relatively, if it lay among the others but for rounding: a random one takes its
-/// place.
+/// Relative size of the remainder of a vector at which it counts as dependent on the others: a random vector replaces
+/// it.
 const NOTHING: f64 = 1e-14;
 
 /// Block Lanczos iteration on (K - σM)⁻¹M (Grimes, Lewis and Simon, *SIAM J. Matrix Anal. Appl.* 15, 228, 1994), a panel
 /// each step, all vectors kept M-orthonormal.
 ///
-/// Each new panel loses what the recurrence says first and what rounding left of all the others after, which suffices as
-/// that is small.
+/// From each new panel the terms of the three-term recurrence are subtracted first, and then its remaining parts along all other
+/// panels; one such pass suffices since these are small.
 pub(super) struct Lanczos<'a> {
     pencil: &'a Pencil,
     factor: &'a Factor<'a>,
-    /// Number of panels kept out of the basis: eigenvectors that are known already.
+    /// Number of panels of known eigenvectors, to which the basis is orthogonal.
     known: usize,
-    /// The known ones and then the basis; the operator has not been applied to the last.
+    /// The known panels and then the basis; the operator has not been applied to the last.
     panels: Vec<Panel>,
     /// M times the last panel.
     weighed: Panel,
-    /// The operator between the panels of the basis: squares on the diagonal, and those below it.
+    /// The operator projected on the basis: the blocks on its diagonal, and those below it.
     diagonal: Vec<Square>,
     below: Vec<Square>,
     random: Random,
@@ -48,13 +48,13 @@ pub(super) struct Lanczos<'a> {
     rows: Vec<Row>,
 }
 
-/// What the basis says of the eigenpairs.
+/// The Ritz approximations of eigenpairs in the basis.
 pub(super) struct Ritz {
     /// 1/(λ-σ), ascending: the nearest λ below σ comes first, the nearest above last.
     pub(super) inverses: Vec<f64>,
     /// Norms in M of (K - σM)⁻¹Mx - x/(λ-σ), times abs(λ-σ).
     pub(super) residuals: Vec<f64>,
-    /// Their vectors in the basis.
+    /// The Ritz vectors, as coefficients of the basis.
     pub(super) vectors: Mat<f64>,
 }
 
@@ -92,7 +92,7 @@ impl<'a> Lanczos<'a> {
         self.diagonal.len() * LANES
     }
 
-    /// Number of vectors that are taken, so that no others fit beside: the known ones and the basis.
+    /// Number of vectors of the known panels and of the basis together.
     pub(super) fn taken(&self) -> usize {
         self.panels.len() * LANES
     }
@@ -160,7 +160,7 @@ impl<'a> Lanczos<'a> {
         Ok(coefficients)
     }
 
-    /// Puts random vectors in place of those that the basis holds already.
+    /// Replaces vectors that depend on the basis by random ones.
     fn replace(&mut self, new: &mut Panel, spent: [bool; LANES], coefficients: &mut Square) {
         for row in new.iter_mut() {
             let random = any(&mut self.random);
@@ -200,7 +200,7 @@ impl<'a> Lanczos<'a> {
         Some(Ritz { residuals: residuals.collect(), inverses, vectors })
     }
 
-    /// Vectors of the space from those in the basis, by their indices; the last panel is filled up with
+    /// The eigenvectors of some Ritz pairs, given by their indices, in panels; the last panel is padded with
     /// zeros.
     pub(super) fn vectors(&self, ritz: &Ritz, numbers: &[usize]) -> Vec<Panel> {
         let panels = &self.panels[self.known..][..self.diagonal.len()];
@@ -227,7 +227,7 @@ fn any(random: &mut Random) -> Row {
     std::array::from_fn(|_| random.between(-1.0, 1.0))
 }
 
-/// Whether what is taken from each vector is nothing but rounding, given the squares of their norms.
+/// Whether the parts subtracted from each vector are below rounding errors, given the squares of the vectors' norms.
 fn small(factor: &Square, squares: &Row) -> bool {
     factor.iter().all(|row| row.iter().zip(squares).all(|(f, s)| f * f <= ROUNDING * ROUNDING * s))
 }

@@ -1,15 +1,15 @@
-//! Memory that an eigenvalue problem will take, estimated before any is taken.
+//! Estimate of the memory that an eigenvalue problem needs, before any is allocated.
 
 use super::plan::{KEPT, SHARE};
 
-/// Entries of the matrices in each row, about: those of quintic elements on a surface. Doubled, small problems
-/// would be taken for twice as large.
+/// Approximate number of entries in each row of the matrices, for quintic elements on a surface. Doubled, small problems
+/// would be estimated twice as large.
 const ROW: f64 = 45.0;
-/// Vectors of a basis for a whole share of eigenpairs: 160 and what the iteration takes beyond. Doubled,
-/// problems would be refused that fit.
+/// Number of vectors of a Lanczos basis for a full share of 160 eigenpairs. Doubled,
+/// problems that fit would be refused.
 const BASIS: f64 = 300.0;
 
-/// Bytes that [`below`](super::below) takes for `wanted` eigenpairs of `n` unknowns, roughly.
+/// Approximate number of bytes that [`below`](super::below) needs for `wanted` eigenpairs of `n` unknowns.
 ///
 /// The fill of the factors is that of C1 elements on a surface, some 45 entries in a row: n (20 log₂ n - 125) entries,
 /// within 10 % from 2700 to 60 000 unknowns. Each thread holds a factor twice while it is made and one basis; shifts keep

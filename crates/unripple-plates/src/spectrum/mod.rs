@@ -1,8 +1,8 @@
-//! All eigenpairs below a bound of a sparse symmetric pencil K x = λ M x, none missed.
+//! All eigenpairs below a bound of a sparse symmetric pencil K x = λ M x, without missing any.
 //!
-//! The spectrum is cut by shifts; at each, block Lanczos on (K - σM)⁻¹M finds the eigenpairs nearest to it on both sides.
-//! How many there are between two shifts is told by the pivots of K - σM = LDLᵀ (Sylvester's law of inertia), and what is
-//! found must make up that number (Grimes, Lewis and Simon, *SIAM J. Matrix Anal. Appl.* 15, 228, 1994).
+//! The spectrum is divided by shifts σ; at each, block Lanczos on (K - σM)⁻¹M finds the nearest eigenpairs on both sides.
+//! The number of eigenvalues between two shifts follows from the pivots of K - σM = LDLᵀ (Sylvester's law of inertia), and as many
+//! must be found (Grimes, Lewis and Simon, *SIAM J. Matrix Anal. Appl.* 15, 228, 1994).
 
 mod block;
 mod dense;
@@ -29,14 +29,14 @@ use rayon::prelude::*;
 use unripple_linalg::Mat;
 use unripple_linalg::sparse::SparseColMatRef;
 
-/// Relative step by which a shift moves that meets an eigenvalue of K or of a part of it: some ten thousand
-/// roundings. Doubled, a count may take in eigenvalues up to 1.4e-10 above the bound.
+/// Relative step by which a shift is moved if it meets an eigenvalue of the pencil or of a leading part of it: some ten
+/// thousand rounding errors. Doubled, a count may include eigenvalues up to 1.4e-10 above the bound.
 #[cfg(test)]
 const NUDGE: f64 = 1e-11;
-/// Unknowns up to which matrices are taken as dense. Doubled, so are meshes of up to 640, in up to eight
+/// Number of unknowns up to which dense matrices are used. Doubled, this includes meshes of up to 640, in up to eight
 /// times the time that 320 take.
 const SMALL: usize = 320;
-/// Unknowns up to which they are if an eigenvalue has more vectors than the iteration can tell apart.
+/// Number of unknowns up to which dense matrices are used if Lanczos iteration misses eigenvectors of a multiple eigenvalue.
 /// Doubled, such a solution takes up to eight times as long.
 const MEDIUM: usize = 1500;
 
@@ -47,18 +47,18 @@ pub(crate) struct Pairs {
     pub(crate) values: Vec<f64>,
     /// An eigenvector in each column, unknowns x pairs, XᵀMX = 1.
     pub(crate) vectors: Mat<f64>,
-    /// Largest norm in M of (K - σM)⁻¹Mx - x/(λ-σ), times abs(λ-σ), σ the shift that the pair was found from. Relative to
-    /// its distance from σ, an eigenvalue's error is the square of this over the relative gap of its inverse; that of its
-    /// vector is this over that gap.
+    /// Largest residual: the norm in M of (K - σM)⁻¹Mx - x/(λ-σ), times abs(λ-σ), with σ the shift at which the pair was found. The error
+    /// of an eigenvalue, relative to its distance from σ, is the square of the residual over the relative gap of 1/(λ-σ); that of its
+    /// vector is the residual over that gap.
     pub(crate) residual: f64,
 }
 
-/// All eigenpairs with λ < `top`, K semidefinite and M positive definite, both given with both triangles.
+/// All eigenpairs with λ < `top`, for K positive semidefinite and M positive definite, both given with both triangles.
 ///
 /// # Errors
-/// [`SpectrumError::Matrices`] unless both matrices are square, alike in size, finite, and M is positive definite;
-/// [`SpectrumError::Factors`] where K - σM cannot be factorised; [`SpectrumError::Missed`] if the number of eigenpairs is
-/// not that proved by inertia.
+/// [`SpectrumError::Matrices`] unless both matrices are square, of equal size and finite, and M is positive definite;
+/// [`SpectrumError::Factors`] if K - σM cannot be factorised; [`SpectrumError::Missed`] if the number of eigenpairs found is
+/// not that given by inertia.
 pub(crate) fn below(
     stiffness: SparseColMatRef<usize, f64>,
     mass: SparseColMatRef<usize, f64>,

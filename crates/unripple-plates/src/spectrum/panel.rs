@@ -3,8 +3,8 @@
 use super::small::Square;
 use pulp::{Arch, NullaryFnOnce};
 
-/// Vectors of a panel: the numbers of a 512-bit register. Doubled, a matrix is read half as often, and bases
-/// grow in coarser steps than eigenpairs ask for.
+/// Number of vectors of a panel: a 512-bit register holds as many f64. Doubled, a matrix is read half as often, and bases
+/// grow in coarser steps than needed.
 pub(super) const LANES: usize = 8;
 
 /// One entry of each vector of a panel.
@@ -16,11 +16,11 @@ pub(super) type Panel = Vec<Row>;
 /// A row of zeros, where sums start.
 pub(super) const NONE: Row = [0.0; LANES];
 
-/// Rows of a panel that stay in the processor's nearest cache: 8 KiB of each of two panels. Doubled, results
-/// stay the same but for rounding.
+/// Number of rows of a panel that stay in the first-level cache: 8 KiB of each of two panels. Doubled, results
+/// stay the same except for rounding.
 const CHUNK: usize = 128;
 
-/// Rows that are worked on at once, so that their sums stay in registers: eight of AVX2's sixteen. Doubled,
+/// Number of rows processed at once, so that their sums stay in registers: eight of AVX2's sixteen. Doubled,
 /// they would take all.
 pub(super) const TILE: usize = 4;
 

@@ -10,20 +10,20 @@ use unripple_linalg::sparse::{
 
 /// The pencil K x = λ M x with its unknowns scaled and ordered: K ← SPᵀKPS, and M likewise.
 ///
-/// S makes the diagonal of M one, to the nearest power of two, so that scaling rounds nothing. P keeps the factors of
+/// S scales the diagonal of M to about one, by powers of two, so that scaling causes no rounding errors. P keeps the factors of
 /// K - σM sparse (approximate minimum degree).
 #[derive(Debug)]
 pub(super) struct Pencil {
-    /// The given unknown that comes i-th here.
+    /// Index of the given unknown at each place of the new order.
     pub(super) order: Vec<usize>,
-    /// S, in the order here.
+    /// The scale factors S, in the new order.
     pub(super) scale: Vec<f64>,
     /// The lower triangles of K and M on one pattern.
     pub(super) lower: Lower,
     /// All of M, row by row.
     rows: Rows,
     symbolic: SymbolicCholesky<usize>,
-    /// What the processor can do at once.
+    /// The SIMD instruction set of the processor.
     pub(super) arch: Arch,
 }
 
@@ -46,11 +46,10 @@ struct Rows {
 }
 
 impl Pencil {
-    /// The pencil of two matrices given with both triangles, of which those entries are read that come to lie below the
-    /// diagonal.
+    /// The pencil of two matrices given with both triangles; only entries on or below the diagonal in the new order are read.
     ///
     /// # Errors
-    /// [`SpectrumError::Matrices`] unless both are square, alike in size, finite, and M's diagonal positive.
+    /// [`SpectrumError::Matrices`] unless both are square, of equal size and finite, and M's diagonal is positive.
     pub(super) fn new(
         stiffness: SparseColMatRef<usize, f64>,
         mass: SparseColMatRef<usize, f64>,
@@ -76,7 +75,7 @@ impl Pencil {
         self.order.len()
     }
 
-    /// Structure of the factors, n x n, always one of supernodes.
+    /// The supernodal structure of the factors, n x n.
     pub(super) fn supernodes(&self) -> Result<&SymbolicSupernodalCholesky<usize>, SpectrumError> {
         match self.symbolic.raw() {
             SymbolicCholeskyRaw::Supernodal(supernodes) => Ok(supernodes),
@@ -123,7 +122,7 @@ impl NullaryFnOnce for Weigh<'_> {
 }
 
 impl Lower {
-    /// The entries that come to lie on and below the diagonal.
+    /// The entries on and below the diagonal in the new order.
     fn new(
         stiffness: SparseColMatRef<usize, f64>,
         mass: SparseColMatRef<usize, f64>,
@@ -216,7 +215,7 @@ fn check(
     if n >= u32::MAX as usize { Err(too_large(n)) } else { Ok(()) }
 }
 
-/// The error for a mass matrix that gives this number as xᵀMx.
+/// The error for a mass matrix that is not positive definite, with the value found for some xᵀMx.
 pub(super) fn indefinite(found: f64) -> SpectrumError {
     SpectrumError::Matrices {
         what: "square of a norm in M",

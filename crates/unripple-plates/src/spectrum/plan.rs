@@ -1,4 +1,4 @@
-//! Shifts that cut a spectrum into shares (spectrum slicing).
+//! Choice of the shifts that divide a spectrum into shares (spectrum slicing).
 
 use super::SpectrumError;
 use super::factor::Factor;
@@ -6,26 +6,26 @@ use super::pencil::Pencil;
 use rayon::prelude::*;
 use unripple_linalg::Par;
 
-/// Eigenpairs that a shift is asked for, about. Doubled, there are half as many factorisations, and bases of
-/// about twice the vectors, each of which is made orthogonal to all before.
+/// Approximate number of eigenpairs computed at each shift. Doubled, there are half as many factorisations, and bases of
+/// about twice as many vectors, each of which is made orthogonal to all before.
 pub(super) const SHARE: usize = 160;
-/// Growth of the factors, for each eigenvalue below, beyond which another shift is tried.
+/// Growth of the factors, per eigenvalue below the shift, above which another shift is tried.
 const GROWTH: f64 = 16.0;
-/// Shifts tried, each a little above the one before; the one of least growth is taken if none passes.
+/// Number of shifts tried, each a little above the one before; the one of least growth is taken if none passes.
 const TRIES: usize = 6;
-/// Relative step from one shift tried to the next. Doubled, shifts may stand 1 % from where they were wanted.
+/// Relative step from one shift tried to the next. Doubled, shifts may be 1 % from their intended places.
 pub(super) const STEP: f64 = 1e-3;
-/// Rounds of placing shifts: each factorises those that stand too far from their places. More only even out
-/// the shares.
+/// Rounds of placing shifts: each replaces those too far from their intended places. More only make
+/// the shares more equal.
 const ROUNDS: usize = 4;
-/// How far a shift may stand from its place, as a part of the eigenpairs of each. Doubled, fewer shifts are
-/// placed anew, and shares are less even.
+/// Distance of a shift from its intended place that is accepted, as a share of the eigenpairs of each. Doubled, fewer shifts
+/// are placed again, and shares are less equal.
 const SLACK: f64 = 0.1;
-/// Bytes that factors may take while they wait for their use, a quarter of a GiB; beyond, they are made
-/// again. Doubled, fewer are made twice for more memory.
+/// Memory in bytes for factors that are kept for later use, a quarter of a GiB; if they need more, they are computed
+/// again. Doubled, fewer are computed twice, for more memory.
 pub(super) const KEPT: usize = 1 << 28;
 
-/// A shift and what is known there.
+/// A shift and the number of eigenvalues below it.
 #[derive(Debug)]
 pub(super) struct Shift<'a> {
     /// The shift σ.
@@ -36,21 +36,21 @@ pub(super) struct Shift<'a> {
     pub(super) factor: Option<Factor<'a>>,
 }
 
-/// Shifts, ascending, each with about as many eigenvalues from one to the next, and half as many at the ends.
+/// Shifts, ascending, with about equal numbers of eigenvalues from one to the next, and half as many at the ends.
 #[derive(Debug)]
 pub(super) struct Plan<'a> {
     /// The shifts, ascending.
     pub(super) shifts: Vec<Shift<'a>>,
-    /// The bound, itself no eigenvalue, and the number of eigenvalues below.
+    /// The bound, which is not an eigenvalue.
     pub(super) top: f64,
     /// Number of eigenvalues below the bound.
     pub(super) below: usize,
 }
 
-/// Factors at a shift σ or, where pivots come close to zero, at one up to five times `step` above.
+/// Factors at a shift σ or, if pivots are close to zero there, at one up to five times `step` above.
 ///
-/// The growth of factors goes with the number of eigenvalues below, but for shifts where it is far larger by chance. Those
-/// are passed over: growth is lost accuracy.
+/// The growth of factors is about proportional to the number of eigenvalues below, except for shifts where it is far larger by
+/// chance. These are avoided, since growth loses accuracy.
 ///
 /// # Errors
 /// [`SpectrumError::Factors`] if there are none.
@@ -114,7 +114,7 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// Where about a number of eigenvalues lies below: their number is taken as a power of the bound between two that are known.
+/// Estimated shift with `place` eigenvalues below it: their number is interpolated as a power of the shift between two known shifts.
 fn guess(known: &[Shift], place: f64) -> f64 {
     let mut known: Vec<(f64, f64)> = known.iter().map(|k| (k.at, k.below as f64)).collect();
     known.retain(|(_, count)| *count > 0.0);

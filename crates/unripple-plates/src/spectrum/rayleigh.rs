@@ -6,9 +6,9 @@ use pulp::NullaryFnOnce;
 
 /// Rayleigh quotients xᵀKx / xᵀMx of the vectors of a panel.
 ///
-/// Their error is of second order in that of the vectors, so what rounding did to the factors of K - σM no longer shows.
-/// In a stiff pencil the terms of xᵀKx are larger than their sum by many orders, so it is accumulated with twice the
-/// digits (Ogita, Rump and Oishi, *SIAM J. Sci. Comput.* 26, 1955, 2005, algorithm 5.3).
+/// Their error is of second order in the error of the vectors, so that rounding errors in the factors of K - σM have no effect.
+/// In a stiff pencil the terms of xᵀKx are larger than their sum by many orders of magnitude, so that it is accumulated with
+/// twice the digits (Ogita, Rump and Oishi, *SIAM J. Sci. Comput.* 26, 1955, 2005, algorithm 5.3).
 pub(super) fn quotients(pencil: &Pencil, panel: &Panel) -> Row {
     pencil.arch.dispatch(Quotients { lower: &pencil.lower, x: panel })
 }
@@ -48,7 +48,7 @@ impl NullaryFnOnce for Quotients<'_> {
     }
 }
 
-/// A sum in each lane and what rounding took from it.
+/// A sum in each lane and its rounding error.
 #[derive(Clone, Copy)]
 struct Sum {
     high: Row,

@@ -8,23 +8,23 @@ use super::panel::{LANES, NONE, Panel, project, subtract};
 use super::pencil::Pencil;
 use super::solve::solve;
 
-/// Relative residual of an eigenpair that counts as found: its eigenvalue's error is about the square of it,
-/// below rounding. Ten times more saves one or two steps.
+/// Relative residual, as estimated by the iteration, at which an eigenpair counts as found: the error of its eigenvalue is
+/// about its square, below rounding errors. Ten times more saves one or two steps.
 const FOUND: f64 = 1e-9;
-/// Relative residual that it may turn out to have when checked: ten times what the iteration thinks, as
-/// rounding adds to it.
+/// Largest relative residual when it is computed from the vector: ten times the estimate, since rounding errors
+/// add to it.
 const CHECKED: f64 = 1e-8;
-/// Steps until the first eigenpairs of an interior are found, about: fewer, and the small eigenproblem is
-/// solved in vain; more, and steps are taken in vain.
+/// Approximate number of steps until the first eigenpairs near a shift are found: with fewer, the small eigenvalue problem is
+/// solved too early; with more, steps are wasted.
 const START: usize = 17;
-/// Steps for each panel of eigenpairs then, about. Doubled, more steps are taken than needed; halved, the
-/// small eigenproblem is solved in vain.
+/// Approximate number of further steps for each panel of eigenpairs. Doubled, more steps are taken than needed; halved, the
+/// small eigenvalue problem is solved too early.
 const PACE: f64 = 1.5;
-/// Decades that the residual of an eigenpair falls with each step once it is small, about. Doubled, the next
-/// look comes too early; halved, too late.
+/// Approximate number of decades by which a small residual falls with each step. Doubled, the next
+/// check comes too early; halved, too late.
 const DECADES: f64 = 0.7;
-/// Steps at most, over those expected: what is not found by then has more vectors of one eigenvalue than the
-/// iteration can tell apart, and is found otherwise. Doubled, that is noticed later.
+/// Largest number of steps, as a multiple of the number expected: eigenpairs not found by then belong to an eigenvalue of higher
+/// multiplicity than the block, and are found in another way. Doubled, that is noticed later.
 const PATIENCE: usize = 3;
 
 /// Number of eigenpairs wanted next to a shift, on either side.
@@ -36,8 +36,8 @@ pub(super) struct Wanted {
     pub(super) right: usize,
 }
 
-/// The eigenpairs nearest to a shift, as many as wanted on either side, or fewer if they are not found;
-/// `seed` gives the first vectors.
+/// The eigenpairs nearest to a shift, as many as wanted on either side, or fewer if not all are found;
+/// `known` are eigenvectors to leave out, `seed` that of the random first vectors.
 ///
 /// # Errors
 /// [`SpectrumError::Matrices`] if M is not positive definite.
@@ -103,7 +103,7 @@ fn residuals(pencil: &Pencil, factor: &Factor, inverses: &[f64], panels: &[Panel
 }
 
 impl Ritz {
-    /// Number of steps until as many as wanted are found, about.
+    /// Approximate number of steps until as many as wanted are found.
     fn steps_to(&self, wanted: Wanted) -> usize {
         let count = self.residuals.len();
         let sides = self.residuals[..wanted.left.min(count)]
@@ -113,8 +113,7 @@ impl Ritz {
         ((worst / FOUND).log10() / DECADES).ceil().max(1.0) as usize
     }
 
-    /// How many eigenpairs are found on either side, none missing between them and the shift but such as the basis knows
-    /// nothing of.
+    /// The number of eigenpairs found on either side, counted from the shift outwards up to the first that has not converged.
     fn found(&self) -> Wanted {
         let good =
             |(inverse, residual): &(&f64, &f64), side: f64| **inverse * side > 0.0 && **residual < FOUND;

@@ -1,4 +1,4 @@
-//! Spectrum slicing: eigenpairs of several shifts joined, none twice and none missed.
+//! Spectrum slicing: eigenpairs found at several shifts are joined, without duplicates or omissions.
 
 use super::SpectrumError;
 use super::block::EigenBlock;
@@ -9,17 +9,17 @@ use super::shift_invert::{Wanted, nearest};
 use super::small::transposed;
 use rayon::prelude::*;
 
-/// Eigenpairs asked for beyond those that a shift is meant to give, so that clusters need not be parted.
-/// Doubled, shifts find two more each for nothing.
+/// Number of eigenpairs requested from a shift beyond its share, so that clusters need not be divided.
+/// Doubled, each shift computes two more that are not needed.
 const MARGIN: usize = 2;
-/// Part of an interval that must lie free between the eigenvalues of one shift and those of the next: nearer
-/// ones may be the same, and the interval gets a shift of its own. Doubled, that happens the more often.
+/// Least distance, as a share of the interval, between the eigenvalues taken from one shift and those from the next: nearer
+/// ones may be the same, and the interval gets a shift of its own. Doubled, that happens more often.
 const CLEAR: f64 = 1e-6;
-/// Rounds of looking for eigenvectors of the same eigenvalue, each as many as a panel holds: up to 320. More
+/// Rounds of search for eigenvectors of the same eigenvalue, each of as many as a panel holds: up to 320. More
 /// are an error.
 const ROUNDS: usize = 40;
-/// Panels on either side of a boundary that are made orthogonal to each other: those of the nearest
-/// eigenvalues, whose vectors rounding mixes. Doubled, vectors that are orthogonal already are compared as
+/// Number of panels on either side of a boundary that are made orthogonal to each other: those of the nearest
+/// eigenvalues, whose vectors are mixed by rounding. Doubled, vectors that are orthogonal already are compared as
 /// well.
 const NEIGHBOURS: usize = 3;
 
@@ -46,7 +46,7 @@ impl Gap {
 /// All eigenpairs below the bound of a plan, piece by piece, ascending.
 ///
 /// # Errors
-/// [`SpectrumError::Missed`] if their number is not that proved by inertia.
+/// [`SpectrumError::Missed`] if their number is not that given by inertia.
 pub(super) fn all(pencil: &Pencil, mut plan: Plan) -> Result<Vec<EigenBlock>, SpectrumError> {
     let gaps = gaps(&plan);
     let wanted: Vec<Wanted> =
@@ -84,7 +84,7 @@ pub(super) fn all(pencil: &Pencil, mut plan: Plan) -> Result<Vec<EigenBlock>, Sp
     Ok(out)
 }
 
-/// The intervals that shifts part, from below all eigenvalues to the bound.
+/// The intervals between the shifts, from below all eigenvalues to the bound.
 fn gaps(plan: &Plan) -> Vec<Gap> {
     let ends = plan.shifts.iter().map(|s| (s.at, s.below)).chain([(plan.top, plan.below)]);
     let mut start = (f64::NEG_INFINITY, 0);
@@ -96,7 +96,7 @@ fn gaps(plan: &Plan) -> Vec<Gap> {
     .collect()
 }
 
-/// What the shift between the i-th gap and the next is asked for.
+/// The number of eigenpairs requested from the shift between gap `i` and the next.
 fn wanted(pair: &[Gap], i: usize, count: usize) -> Wanted {
     let (left, right) = (pair[0].count(), pair[1].count());
     Wanted {
@@ -105,7 +105,7 @@ fn wanted(pair: &[Gap], i: usize, count: usize) -> Wanted {
     }
 }
 
-/// The eigenpairs nearest to one shift; factors that were not kept are made again.
+/// The eigenpairs nearest to one shift; factors that were not kept are computed again.
 fn shift_invert(
     pencil: &Pencil,
     shift: Shift,
@@ -122,8 +122,8 @@ fn shift_invert(
     nearest(pencil, &factor, wanted, &[], seed)
 }
 
-/// How many of a gap's eigenpairs the shift at its start gives, the others coming from the shift at its end; `None` if
-/// what both found does not make up the gap.
+/// The number of a gap's eigenpairs to take from the shift at its start; the others are taken from the shift at its end. `None` if
+/// both together do not have all eigenpairs of the gap, clearly separated.
 fn part(gap: &Gap, i: usize, pieces: &[EigenBlock]) -> Option<usize> {
     let count = gap.count();
     let right: &[f64] = if i == 0 { &[] } else { pieces[i - 1].right() };
@@ -144,8 +144,8 @@ fn part(gap: &Gap, i: usize, pieces: &[EigenBlock]) -> Option<usize> {
     (clearance > CLEAR).then_some(p)
 }
 
-/// All eigenpairs within a gap from a shift of their own, those already found kept out until none is missing. So an
-/// eigenvalue is found with all its vectors, however many.
+/// All eigenpairs within a gap, from a shift of their own. The search is repeated in the complement of those already found until
+/// none is missing, so that a multiple eigenvalue is found with all its vectors.
 fn resolve(pencil: &Pencil, gap: &Gap) -> Result<EigenBlock, SpectrumError> {
     let low = gap.from.max(0.0);
     let factor = factor_near(pencil, low + 0.47 * (gap.to - low), 0.01 * (gap.to - low))?;
@@ -170,7 +170,7 @@ fn resolve(pencil: &Pencil, gap: &Gap) -> Result<EigenBlock, SpectrumError> {
     Ok(whole)
 }
 
-/// Takes from the vectors of two pieces, M-orthonormal each, what they have in common, in equal parts.
+/// Makes the vectors of two pieces, each M-orthonormal, orthogonal to each other by equal changes of both.
 fn separate(pencil: &Pencil, before: &mut [Panel], after: &mut [Panel]) {
     let old = after.to_vec();
     let mut factors = vec![Vec::new(); before.len()];

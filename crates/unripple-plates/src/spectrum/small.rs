@@ -7,7 +7,7 @@ use super::pencil::indefinite;
 /// A small matrix between two panels, row by row.
 pub(super) type Square = [Row; LANES];
 
-/// Least pivot of a Gram matrix with ones on its diagonal that is not rounding: smaller ones are lifted to
+/// Least pivot of a Gram matrix with ones on its diagonal that is above rounding errors: smaller ones are raised to
 /// it, so that R has an inverse.
 const LEAST: f64 = 1e-14;
 
@@ -32,7 +32,7 @@ pub(super) struct Triangle {
     pub(super) upper: Square,
     /// Its inverse R⁻¹.
     pub(super) inverse: Square,
-    /// Least pivot over the largest, the diagonal scaled to one; pivots that are rounding are lifted.
+    /// Least pivot over the largest, with the diagonal scaled to one; pivots below [`LEAST`] are raised to it.
     pub(super) ratio: f64,
 }
 

@@ -30,7 +30,7 @@ impl NullaryFnOnce for Solve<'_> {
     }
 }
 
-/// x ← L⁻¹x as far as a supernode goes.
+/// The part of x ← L⁻¹x for one supernode.
 #[inline(always)]
 fn forward(node: &Node, x: &mut [Row]) {
     let (top, below) = x[node.start..].split_at_mut(node.width);
@@ -85,7 +85,7 @@ fn subtract_transposed(tile: &[[f64; TILE]], rows: &[Row; TILE], x: &mut [Row]) 
     }
 }
 
-/// x ← L⁻ᵀD⁻¹x as far as a supernode goes.
+/// The part of x ← L⁻ᵀD⁻¹x for one supernode.
 #[inline(always)]
 fn backward(node: &Node, x: &mut [Row], top: &mut Vec<Row>) {
     top.clear();

@@ -1,4 +1,4 @@
-//! Modes of any sheet: quintic elements on a mesh, refined until they no longer change.
+//! Modes of any sheet by quintic finite elements on a mesh, refined until frequencies no longer change.
 
 mod sizing;
 
@@ -13,24 +13,24 @@ use sizing::Plan;
 use unripple_core::Surface;
 use unripple_linalg::{ColRef, Mat, sparse_times};
 
-/// How often the mesh may be refined: each time by 1.25 to 2, so that the last is up to 32 times finer than
-/// the first. More would change nothing but how late an accuracy out of reach is given up.
+/// Largest number of meshes solved, each finer than the one before by 1.25 to 2, so that the last is up to 32 times finer than
+/// the first. More would only delay the failure if the accuracy is out of reach.
 const ROUNDS: usize = 6;
 
-/// A mesh is compared with one this many times coarser: so the second solution costs about half of the first.
-/// Nearer to 1, the difference that tells the error drowns in rounding.
+/// Ratio of edge lengths of the first two meshes that are compared: the coarser one costs about half as much as the finer.
+/// Nearer to 1, their difference, from which the error is estimated, is lost in rounding.
 const COARSER: f64 = 1.3;
 
-/// The share of the error before that a refinement must fall below to count as progress: of edges 1.25 times
-/// shorter, sixth order leaves 0.26. At 1, rounding is refined until rounds are over.
+/// The share of the previous error that a refinement must fall below to count as progress: with edges 1.25 times
+/// shorter, sixth order leaves 0.26. At 1, refinement goes on when only rounding errors are left.
 const STALLED: f64 = 0.8;
 
-/// Largest residual of an eigenpair; its eigenvalue's relative error is about the square of it, 1e-10. Ten
-/// times more would let errors of 1e-8 pass.
+/// Largest residual of an eigenpair; the relative error of its eigenvalue is about its square, 1e-10. Ten
+/// times more would allow errors of 1e-8.
 const RESIDUAL: f64 = 1e-5;
 
-/// The order that errors of frequencies are taken to fall with, in the edge length; on straight sides they do so with the
-/// eighth, on curved ones and at graded corners more slowly.
+/// Order of convergence in the edge length that is assumed to estimate the errors of frequencies; on straight sides it is
+/// eight, on curved ones and at graded corners less.
 const ORDER: i32 = 6;
 
 /// Modes of a surface's sheet below the top of `bounds`.
@@ -46,7 +46,7 @@ pub(super) fn solve(surface: &Surface, bounds: &Bounds) -> Result<Found, Physics
         if error <= bounds.accuracy {
             return Ok(found(fine, bounds, error));
         }
-        // Rounding, or a corner that is not worth its triangles.
+        // The rest is rounding, or a corner that would need too many triangles.
         if error > STALLED * last {
             break;
         }
@@ -65,7 +65,7 @@ struct Solution {
     bending_shares: Vec<f64>,
 }
 
-/// Meshes a sheet as planned, assembles its forms and solves for the modes below the top.
+/// Meshes a sheet as planned, assembles its matrices and solves for the modes below the top.
 fn modes(surface: &Surface, fabric: &Fabric, bounds: &Bounds, plan: &Plan) -> Result<Solution, PhysicsError> {
     guard(surface, bounds, plan)?;
     let mesh = Mesh::new(&surface.outline, &plan.sizing())?;
@@ -88,16 +88,16 @@ fn modes(surface: &Surface, fabric: &Fabric, bounds: &Bounds, plan: &Plan) -> Re
     Ok(Solution { space, pairs, bending_shares })
 }
 
-/// Modes that move without strain told from rounding: frequencies a thousandth of what the first of so many would have
-/// on a plate are 0.
+/// Sets the eigenvalues of rigid-body modes, which are not 0 by rounding, to 0: frequencies below a thousandth of that
+/// expected of the first mode of a plate with as many modes.
 fn settled(mut pairs: Pairs, bounds: &Bounds) -> Pairs {
     let first = bounds.top_square() / (pairs.values.len().max(1) as f64).powi(2);
     pairs.values.iter_mut().filter(|square| **square < 1e-6 * first).for_each(|square| *square = 0.0);
     pairs
 }
 
-/// The largest relative difference of two lists of frequencies, given as squares, as far as both go; infinite
-/// if one has over a tenth and two more.
+/// The largest relative difference of two lists of frequencies, given as squares, up to the end of the shorter; infinite
+/// if the finer mesh has over a tenth and two more.
 fn change(coarse: &[f64], fine: &[f64]) -> f64 {
     let common = coarse.len().min(fine.len());
     if fine.len() as f64 > 1.1 * coarse.len() as f64 + 2.0 {
@@ -126,7 +126,7 @@ fn sign(coefficients: ColRef<'_, f64>) -> f64 {
     coefficients.iter().find(|c| c.abs() >= 0.5 * largest).map_or(1.0, |c| c.signum())
 }
 
-/// Refuses what would not fit in memory, before any of it is taken.
+/// Refuses a problem that would not fit in memory, before any is allocated.
 fn guard(surface: &Surface, bounds: &Bounds, plan: &Plan) -> Result<(), PhysicsError> {
     let cost = |plan: &Plan| {
         let unknowns = plan.unknowns(&surface.outline)?;

@@ -1,4 +1,4 @@
-//! Mesh size for a band and an accuracy: eighth-order convergence assumed.
+//! Mesh size for a band and an accuracy, with eighth-order convergence assumed.
 
 use crate::Medium;
 use crate::PhysicsError;
@@ -8,36 +8,36 @@ use crate::modes::bounds::Bounds;
 use std::f64::consts::PI;
 use unripple_core::{Edge, Outline, Point, ScattererKind, Surface};
 
-/// Edge length times wavenumber at the top of the band for which frequencies are right to 1e-3: edges of 0.56
+/// Edge length times wavenumber at the top of the band for which frequencies are accurate to 1e-3: edges of 0.56
 /// wavelengths. Halved, the first mesh has four times the triangles.
 const FILL: f64 = 3.5;
 
-/// The order that errors fall with inside: by it an accuracy becomes an edge length. Were it lower, first
+/// Order of convergence in the edge length, from which the edge length for an accuracy follows. If it were lower, first
 /// meshes would be finer than needed.
 const ORDER: f64 = 8.0;
 
-/// The least and largest edge in wavenumbers, whatever accuracy is asked for: 21 and 1.6 edges per
-/// wavelength. What that does not resolve, refinements must.
+/// Least and largest edge length times wavenumber, whatever the accuracy: 21 and 1.6 edges per
+/// wavelength. Refinements resolve what these do not.
 const FILLS: [f64; 2] = [0.3, 4.0];
 
-/// Unknowns for each vertex: six of its own and the middles of three edges, of which there are three per
+/// Number of unknowns for each vertex: six of its own and one for each edge, of which there are three per
 /// vertex.
 const UNKNOWNS: f64 = 9.0;
 
-/// Edges along a held rim, in lengths √(D/T) of the layer where bending gives way to tension, at an accuracy
-/// of 1e-3. Doubled, the layer is resolved half as well, and a refinement follows.
+/// Edge length along a clamped rim at an accuracy of 1e-3, in multiples of √(D/T), the width of the boundary layer where
+/// bending gives way to tension. Doubled, the layer is resolved half as well, and a refinement follows.
 const LAYER: f64 = 4.0;
 
-/// Places along each side of the bounding box where the fabric is looked at. What varies within a
-/// thirty-second of a side may be passed over, and costs a refinement.
+/// Number of places along each side of the bounding box at which the sheet's properties are sampled. Variation within a
+/// thirty-second of a side may be missed, and costs a refinement.
 const LOOKS: usize = 33;
 
-/// How finely a surface is meshed for an accuracy.
+/// The edge lengths of a mesh for a surface and an accuracy.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
     /// Edge length inside, in metres.
     size: f64,
-    /// What the last refinement divided it by.
+    /// Factor by which the last refinement shortened the edges.
     ratio: f64,
     /// Accuracy that corners are graded for.
     accuracy: f64,
@@ -56,7 +56,7 @@ impl Plan {
     /// A plan that is likely to give the accuracy of `bounds`.
     ///
     /// # Errors
-    /// [`PhysicsError::Outline`] if the outline bounds no sheet.
+    /// [`PhysicsError::Outline`] for an invalid outline.
     pub(super) fn new(surface: &Surface, fabric: &Fabric, bounds: &Bounds) -> Result<Self, PhysicsError> {
         let omega = bounds.top_square().sqrt();
         let locals = looks(&surface.outline, fabric);
@@ -88,7 +88,7 @@ impl Plan {
         })
     }
 
-    /// The sizing that the mesh is asked for.
+    /// The sizing for the mesh generator.
     pub(super) fn sizing(&self) -> Sizing {
         let edge_size = (self.layer < 1.0).then_some(self.layer * self.size);
         let sizing = Sizing { size: self.size, near: self.near.clone(), corners: Vec::new(), edge_size };
@@ -107,10 +107,10 @@ impl Plan {
         }
     }
 
-    /// A plan likely to be accurate to `wanted`, after one that was off by `error`, both relative; finer by
-    /// no more than half.
+    /// A plan likely to have the relative error `wanted`, after this one had `error`; edges are shortened by at most a factor
+    /// of 2.
     pub(super) fn refined(&self, error: f64, wanted: f64) -> Self {
-        // Somewhat finer than the error asks for; at least 1.25, so that the next difference tells something,
+        // Somewhat finer than the error requires; at least 1.25, so that the next difference is above rounding,
         // at most 2, which is four times the triangles.
         let ratio = (1.3 * error / wanted).powf(1.0 / (ORDER - 1.0)).clamp(1.25, 2.0);
         Self { ratio, accuracy: 0.25 * self.accuracy, ..self.coarser(1.0 / ratio) }
@@ -121,24 +121,24 @@ impl Plan {
         self.ratio
     }
 
-    /// The same for a top wavenumber lower by the factor `share`.
+    /// This plan for a top wavenumber lower by the factor `share`.
     pub(super) fn lower(&self, share: f64) -> Self {
         let share = share.max(1e-6);
         Self { wavenumber: self.wavenumber * share, ..self.coarser(1.0 / share) }
     }
 
-    /// About the number of unknowns that it takes on an outline.
+    /// Approximate number of unknowns of the plan on an outline.
     pub(super) fn unknowns(&self, outline: &Outline) -> Result<usize, PhysicsError> {
         Ok((UNKNOWNS * Mesh::estimate(outline, &self.sizing())? as f64) as usize)
     }
 
-    /// About the number of modes (Weyl 1911, rims aside).
+    /// Approximate number of modes (Weyl 1911, without the term of the perimeter).
     pub(super) fn modes(&self) -> usize {
         (self.area * self.wavenumber.powi(2) / (4.0 * PI)) as usize + 10
     }
 }
 
-/// The fabric at places all over an outline.
+/// The properties of the sheet at a grid of places over an outline; a single one for a uniform sheet.
 fn looks(outline: &Outline, fabric: &Fabric) -> Vec<Local> {
     let (width, height) = outline.extent();
     let at = |i: usize, side: f64| side * i as f64 / (LOOKS - 1) as f64;
@@ -149,13 +149,13 @@ fn looks(outline: &Outline, fabric: &Fabric) -> Vec<Local> {
     }
 }
 
-/// The isotropic sheet on which waves are as short as the shortest on this one.
+/// The isotropic sheet whose waves are as short as the shortest waves on this one.
 fn medium(local: &Local) -> Medium {
     let softest = local.bending[0].min(local.bending[3]);
     Medium { areal_density: local.mass, tension: local.tension, bending_stiffness: softest, air_sides: 0.0 }
 }
 
-/// The length √(D/T) over which a clamped rim's slope gives way to tension, in metres; infinite without either.
+/// Width √(D/T) of the boundary layer at a clamped rim, in metres; infinite if there is no tension or no bending stiffness.
 fn layer(local: &Local) -> f64 {
     let stiffest = local.bending[0].max(local.bending[3]);
     if stiffest > 0.0 && local.tension > 0.0 { (stiffest / local.tension).sqrt() } else { f64::INFINITY }

@@ -12,18 +12,18 @@ use std::f64::consts::PI;
 use unripple_core::Edge;
 use unripple_linalg::{Mat, Par};
 
-/// How often the polynomials may be added to, each time by at most 1.6 times. More would change nothing but
-/// how late an accuracy out of reach is given up.
+/// Largest number of rounds, each with up to 1.6 times as many polynomials as the one before. More would only delay the
+/// failure if the accuracy is out of reach.
 const ROUNDS: usize = 12;
 
-/// The share of the least error so far that a round must fall below to count as progress. At 1, rounding
-/// would count as progress by chance.
+/// The share of the least error so far that a round must fall below to count as progress. At 1, chance variation of
+/// rounding errors would count as progress.
 const STALLED: f64 = 0.7;
 
-/// Rounds without progress after which the accuracy is out of reach. Doubled, that is found two rounds later.
+/// Rounds without progress after which the accuracy counts as out of reach. Doubled, this takes two rounds more.
 const PATIENCE: usize = 2;
 
-/// A solution as accurate as was asked for.
+/// A solution of the accuracy asked for.
 pub(crate) struct Solution {
     /// The functions along x and y.
     pub(crate) lines: [Line; 2],
@@ -46,7 +46,7 @@ pub(crate) fn solve(problem: &Problem) -> Result<Solution, PhysicsError> {
         if error <= problem.bounds.accuracy {
             return Ok(Solution { blocks, error, lines: plate.lines });
         }
-        // Once rounding is all that is left, more polynomials only cost memory.
+        // Once only rounding errors are left, more polynomials only cost memory.
         stalled = if error.is_finite() && error > STALLED * best { stalled + 1 } else { 0 };
         if stalled == PATIENCE {
             break;
@@ -64,7 +64,7 @@ pub(crate) fn solve(problem: &Problem) -> Result<Solution, PhysicsError> {
     })
 }
 
-/// How many polynomials to add: along the power law seen so far, an even number so that both parities grow.
+/// Number of polynomials to add, extrapolated by the power law of the error so far; an even number, so that both parities grow.
 fn step(accuracy: f64, counts: [usize; 2], error: f64, before: &mut Option<(f64, f64)>) -> usize {
     let size = counts[0].max(counts[1]) as f64;
     let power = match before.replace((size, error)) {
@@ -79,10 +79,10 @@ fn step(accuracy: f64, counts: [usize; 2], error: f64, before: &mut Option<(f64,
     (wanted.max(2.0).ceil() as usize).next_multiple_of(2)
 }
 
-/// Functions to begin with along each side, for waves up to `k`.
+/// Initial number of functions along each side, for waves up to the wavenumber `k` (rad/m).
 ///
-/// Sines: all that can have energy below the top, as a strip whose sides may curl bends with D(1-ν²) at least.
-/// Polynomials: half a side's radians, k·side/2, resolve the wave; beyond, the error falls by about e^1.5 for each.
+/// Sines: all that can have an energy below the top, with the bending stiffness D(1-ν²), the least that a strip can have.
+/// Polynomials: about k·side/2 resolve the wave; beyond this number, the error falls by about e^1.5 for each.
 fn first_counts(problem: &Problem, k: f64) -> [usize; 2] {
     let mut soft = problem.bounds.vacuum();
     let square = soft.omega(k);
@@ -99,12 +99,12 @@ fn first_counts(problem: &Problem, k: f64) -> [usize; 2] {
     })
 }
 
-/// How many functions measure the error, beside `count`.
+/// Number of further functions beside `count` from which the error is estimated.
 fn further(count: usize) -> usize {
     (count / 4).max(4).next_multiple_of(2)
 }
 
-/// The plate's energy in so many functions along each side, and some further ones that measure the error.
+/// The plate's energy in `counts` functions along each side, and in the further ones from which the error is estimated.
 fn plate(problem: &Problem, counts: [usize; 2]) -> Plate {
     let line = |axis: usize| {
         let [low, high] = problem.edges[axis];
@@ -156,7 +156,7 @@ fn rigid(plate: &Plate, counts: [usize; 2]) -> Vec<BlockModes> {
         .collect()
 }
 
-/// Refuses what would not fit in memory, before any of it is taken.
+/// Refuses a problem that would not fit in memory, before any is allocated.
 fn guard(problem: &Problem, counts: [usize; 2]) -> Result<(), PhysicsError> {
     let (unknowns, needed) = cost(problem, counts);
     if needed <= MEMORY {
@@ -176,7 +176,7 @@ fn guard(problem: &Problem, counts: [usize; 2]) -> Result<(), PhysicsError> {
     })
 }
 
-/// Unknowns of the largest symmetry, and bytes that all take: six matrices for each in work, and all shapes.
+/// Number of unknowns of the largest symmetry class, and bytes for all: six matrices for each class in work, and all shapes.
 fn cost(problem: &Problem, counts: [usize; 2]) -> (usize, f64) {
     let class = |axis: usize| {
         let [low, high] = problem.edges[axis];

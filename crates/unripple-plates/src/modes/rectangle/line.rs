@@ -6,7 +6,7 @@ use std::f64::consts::FRAC_PI_2;
 use unripple_core::Edge;
 use unripple_linalg::Mat;
 
-/// One direction of a rectangle, on ξ in [-1, 1]: orthonormal functions and the integrals that energies are made of.
+/// The basis along one direction of a rectangle, on ξ in [-1, 1]: orthonormal functions and the integrals of their energies.
 #[derive(Clone, Debug)]
 pub(crate) struct Line {
     functions: Functions,
@@ -18,17 +18,17 @@ pub(crate) struct Line {
     pub(crate) mixed: Mat<f64>,
 }
 
-/// What deflections are made of along one direction.
+/// The basis functions along one direction.
 #[derive(Clone, Debug)]
 enum Functions {
     /// sin(nπ(1+ξ)/2), n = 1, 2, …: the exact shapes between two supported ends.
     Sines,
-    /// Polynomials that meet the essential conditions; each is stored with parity classes kept apart.
+    /// Polynomials that satisfy the essential boundary conditions.
     Polynomials(Polynomials),
 }
 
 impl Line {
-    /// The first `count` functions for ends held so at ξ = -1 and ξ = 1, bending included.
+    /// The first `count` functions for the edge conditions `low` at ξ = -1 and `high` at ξ = 1, for a sheet with bending stiffness.
     pub(crate) fn new(low: Edge, high: Edge, count: usize) -> Self {
         if (low, high) == (Edge::Supported, Edge::Supported) {
             return Self::sines(count);
@@ -74,7 +74,7 @@ impl Line {
         self.slope.nrows()
     }
 
-    /// Values at ξ, into `values` of length [`Line::count`].
+    /// Writes the values of all functions at ξ into `values`, of length [`Line::count`].
     pub(crate) fn at(&self, xi: f64, values: &mut [f64]) {
         match &self.functions {
             Functions::Sines => sines(FRAC_PI_2 * (1.0 + xi), values),
@@ -95,8 +95,8 @@ impl Line {
         matches!(self.functions, Functions::Sines)
     }
 
-    /// Classes of functions, among the first `count`, that nothing couples: each sine alone, even and odd polynomials,
-    /// or all polynomials.
+    /// Classes of functions, among the first `count`, that do not couple with each other: single sines, even and odd
+    /// polynomials, or all polynomials.
     pub(crate) fn classes(&self, count: usize) -> Vec<Class> {
         match &self.functions {
             Functions::Sines => (0..count).map(|n| Class { first: n, step: 1, end: n + 1 }).collect(),
@@ -108,14 +108,14 @@ impl Line {
     }
 }
 
-/// Indices `first`, `first + step`, … below `end`.
+/// A class of functions: those of the indices `first`, `first + step`, … below `end`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Class {
     /// The first index.
     pub(crate) first: usize,
-    /// From one index to the next.
+    /// Difference from one index to the next.
     pub(crate) step: usize,
-    /// Past the last index.
+    /// Upper bound of the indices, exclusive.
     pub(crate) end: usize,
 }
 

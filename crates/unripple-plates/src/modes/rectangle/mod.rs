@@ -1,4 +1,4 @@
-//! Modes of rectangles by the Rayleigh-Ritz method: products of one function along each side.
+//! Modes of rectangles: in closed form, or by the Rayleigh-Ritz method with products of one function along each side.
 
 mod adapt;
 mod line;
@@ -25,7 +25,7 @@ pub(super) fn solve(problem: &Problem) -> Result<Found, PhysicsError> {
     if problem.separable() { separable(problem) } else { ritz(problem) }
 }
 
-/// Shapes on a rectangle; places outside it stand for the nearest place inside.
+/// Mode shapes of a rectangle; a point outside has the value at the nearest point inside.
 #[derive(Debug)]
 struct Rectangle {
     sides: [f64; 2],
@@ -33,12 +33,12 @@ struct Rectangle {
     form: Form,
 }
 
-/// How shapes are known.
+/// The form of mode shapes.
 #[derive(Debug)]
 enum Form {
-    /// One sine or cosine along each side.
+    /// Products of a sine or cosine along each side.
     Separable(Separable),
-    /// Sums of products.
+    /// Sums of products of basis functions.
     Ritz(Box<Readout>),
 }
 

@@ -3,9 +3,8 @@
 use super::ritz::BlockModes;
 use unripple_linalg::ColRef;
 
-/// Frequencies closer than this, relatively in ω², are taken for one: above rounding, below any splitting
-/// that an accuracy can show. Doubled, pairs twice as far apart would be ordered by symmetry instead of
-/// frequency.
+/// Relative difference of ω² below which frequencies count as equal: above rounding, below any splitting that an accuracy
+/// can resolve. Doubled, pairs twice as far apart would be ordered by symmetry instead of frequency.
 const DOUBLE: f64 = 1e-9;
 
 /// Ascending squares and the block and column of each mode; equal ones are ordered by block, then column.

@@ -26,7 +26,7 @@ pub(crate) fn order(edge: Edge) -> i32 {
 }
 
 impl Polynomials {
-    /// The first `count`, for a line held so at ξ = -1 (`low`) and ξ = 1 (`high`).
+    /// The first `count` polynomials, for a line with the edge conditions `low` at ξ = -1 and `high` at ξ = 1.
     pub(crate) fn new(low: Edge, high: Edge, count: usize) -> Self {
         let (low, high) = (order(low), order(high));
         let (alpha, beta) = (f64::from(2 * high), f64::from(2 * low));
@@ -34,22 +34,22 @@ impl Polynomials {
         Self { low, high, first: 1.0 / weight_mass(2 * low, 2 * high).sqrt(), recurrence }
     }
 
-    /// Number of polynomials that there are.
+    /// Number of polynomials.
     pub(crate) fn count(&self) -> usize {
         self.recurrence.len() - 1
     }
 
-    /// Degree of the n-th, an index.
+    /// Degree of polynomial `n`, an index.
     pub(crate) fn degree(&self, n: usize) -> usize {
         n + (self.low + self.high) as usize
     }
 
-    /// Whether the n-th is even or odd in ξ, so that they fall in two classes.
+    /// Whether every polynomial is even or odd in ξ, so that there are two parity classes.
     pub(crate) fn symmetric(&self) -> bool {
         self.low == self.high
     }
 
-    /// Values at ξ, into `values` of length [`Polynomials::count`].
+    /// Writes the values of all polynomials at ξ into `values`, of length [`Polynomials::count`].
     pub(crate) fn at(&self, xi: f64, values: &mut [f64]) {
         let mut value = self.first * (1.0 + xi).powi(self.low) * (1.0 - xi).powi(self.high);
         let mut below = 0.0;
@@ -60,7 +60,7 @@ impl Polynomials {
         }
     }
 
-    /// Value, first and second derivative of each at ξ, by differentiating the recurrence.
+    /// Value, first and second derivative of each polynomial at ξ, by differentiating the recurrence.
     pub(crate) fn derivatives_at(&self, xi: f64) -> Vec<[f64; 3]> {
         let mut jet = weight_jet(self.low, self.high, xi).map(|w| w * self.first);
         let mut below = [0.0; 3];

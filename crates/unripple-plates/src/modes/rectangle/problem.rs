@@ -4,20 +4,19 @@ use super::super::bounds::Bounds;
 use crate::PhysicsError;
 use unripple_core::{Edge, Shape, Surface, require};
 
-/// What modes are asked of a rectangle: its sides, how they are held, and up to where.
+/// The eigenvalue problem of a rectangle: its sides, their edge conditions, and the modes requested.
 #[derive(Debug)]
 pub(crate) struct Problem {
     /// Width and height, in metres.
     pub(crate) sides: [f64; 2],
     /// The edges at the lower and upper end of x, then of y.
     pub(crate) edges: [[Edge; 2]; 2],
-    /// The sheet, and up to where.
+    /// The sheet, the top frequency and the accuracy.
     pub(crate) bounds: Bounds,
 }
 
 impl Problem {
-    /// The problem a surface poses; `None` unless it is a rectangle without holes, uniform and isotropic, no side of it
-    /// held by springs.
+    /// The problem of a surface; `None` unless it is a uniform, isotropic rectangle without holes and without elastic sides.
     pub(crate) fn of(surface: &Surface, bounds: Bounds) -> Result<Option<Self>, PhysicsError> {
         let Shape::Rectangle { width, height } = surface.outline.shape else { return Ok(None) };
         let positive = "a positive finite number";

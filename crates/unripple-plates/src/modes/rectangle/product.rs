@@ -11,7 +11,7 @@ pub(crate) struct Product {
     pub(crate) x: usize,
     /// Index of the function along y.
     pub(crate) y: usize,
-    /// What the mirror image is taken with: 0, 1 or -1.
+    /// Factor of the mirror image: 0 (none), 1 or -1.
     pub(crate) mirror: f64,
 }
 
@@ -54,7 +54,7 @@ impl Product {
     }
 }
 
-/// Products that couple among themselves only.
+/// A symmetry class: products that couple only with each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Symmetry {
     /// Functions along x.
@@ -74,8 +74,8 @@ impl Symmetry {
             .filter(move |p| mirror == 0.0 || p.x < p.y || (p.x == p.y && mirror > 0.0))
     }
 
-    /// All symmetries of two sets of classes, and whether each stands for its mirror image too. `square` if x and y may be
-    /// exchanged.
+    /// All symmetry classes from two sets of classes of functions, and whether each also stands for its mirror image. `square` if
+    /// x and y may be exchanged.
     pub(crate) fn all(x: &[Class], y: &[Class], square: bool) -> Vec<(Self, bool)> {
         let pairs =
             x.iter().enumerate().flat_map(|(i, x)| y.iter().enumerate().map(move |(j, y)| (i, j, *x, *y)));

@@ -8,11 +8,11 @@ use rayon::prelude::*;
 use unripple_core::Point;
 use unripple_linalg::{Accum, Mat, MatMut, Par, multiply};
 
-/// Points whose shapes are taken together, by one thread: more are shared among threads. Doubled, there are
+/// Number of points whose shapes one thread computes together; more are shared among threads. Doubled, there are
 /// half as many tasks.
 const POINTS: usize = 128;
 
-/// Modes whose coefficients are stored together: two lines of cache. Doubled, more zeros are added to fill
+/// Number of modes whose coefficients are stored together: two cache lines. Doubled, more zeros are added to fill
 /// the last lanes.
 const LANES: usize = 16;
 
@@ -21,10 +21,10 @@ const LANES: usize = 16;
 pub(crate) struct Readout {
     sides: [f64; 2],
     lines: [Line; 2],
-    /// From orthonormal on [-1, 1]² to mass-normalised, in 1/√kg.
+    /// Factor from functions orthonormal on [-1, 1]² to mass-normalised shapes, in 1/√kg.
     scale: f64,
     blocks: Vec<ReadoutBlock>,
-    /// What the processor can do at once.
+    /// The SIMD instruction set of the processor.
     arch: Arch,
     modes: usize,
 }
@@ -42,8 +42,8 @@ struct ReadoutBlock {
 }
 
 impl Readout {
-    /// A readout of blocks, the m-th mode of block b having rank `ranks[b][m]` and factor `factors[b][m]` (sign and
-    /// added mass); `mass` of the sheet in kg.
+    /// A readout for the modes of all blocks. Mode m of block b has the index `ranks[b][m]` among all modes, and its shape is
+    /// multiplied by `factors[b][m]` (sign and added mass of air); `mass` is that of the sheet in kg.
     pub(crate) fn new(
         sides: [f64; 2],
         lines: [Line; 2],

@@ -6,12 +6,12 @@ use super::plate::Plate;
 use super::product::{Product, Symmetry};
 use unripple_linalg::{Accum, Cholesky, Mat, Par, multiply};
 
-/// How far above the top's ω², relatively, modes are still computed, so that what is left out keeps clear of
-/// it. Halved, energies that are left out come nearer, and each sweep takes less of them away.
+/// Modes are computed up to this share above ω² of the top, so that those left out are well separated from those kept.
+/// Halved, they are closer, and each sweep removes less of them.
 const ABOVE: f64 = 0.3;
 
-/// How often the inverse is applied to the vectors (subspace iteration). Each time what rounding left of high
-/// energies shrinks by their ratio to the top's; one more changes the last digits only.
+/// Number of times that the inverse is applied to the vectors (subspace iteration). Each time, rounding errors along
+/// vectors of high energy shrink by the ratio of that energy to the top's; one more changes only the last digits.
 const SWEEPS: usize = 2;
 
 /// Modes within one symmetry class, ascending.
@@ -21,7 +21,7 @@ pub(crate) struct BlockModes {
     pub(crate) products: Vec<Product>,
     /// ω² of each mode, ascending, in 1/s².
     pub(crate) squares: Vec<f64>,
-    /// Bending's share of the elastic energy of each mode; 0 for rigid ones.
+    /// Share of bending in the elastic energy of each mode; 0 for rigid-body modes.
     pub(crate) bending_shares: Vec<f64>,
     /// Coefficients, products x modes; columns are orthonormal.
     pub(crate) coefficients: Mat<f64>,
@@ -42,8 +42,8 @@ impl BlockModes {
     }
 }
 
-/// The modes of one symmetry with ω² up to `top`, rigid ones aside. Functions that the lines hold beyond the symmetry's
-/// measure the error.
+/// The modes of one symmetry class with ω² up to `top`, without rigid-body modes. The error is estimated from the functions of
+/// the lines beyond those of the class.
 ///
 /// `None` if the eigenvalue iteration does not converge.
 pub(crate) fn solve_block(plate: &Plate, symmetry: Symmetry, top: f64, par: Par) -> Option<BlockModes> {
@@ -64,7 +64,7 @@ pub(crate) fn solve_block(plate: &Plate, symmetry: Symmetry, top: f64, par: Par)
     Some(BlockModes { products, squares, bending_shares, coefficients, error })
 }
 
-/// What is left of each mode's energy without the tension's.
+/// The share of bending in each mode's elastic energy: 1 minus the share of tension.
 fn bending_shares(
     plate: &Plate,
     products: &[Product],
@@ -89,11 +89,11 @@ fn bending_shares(
 
 /// Eigenvalues up to [`ABOVE`] beyond `top`, and their vectors.
 ///
-/// The energy matrix reaches 10¹⁰ times its lowest eigenvalues, and the rounding of its own decomposition would be of
-/// that scale. So (H + top)⁻¹ is decomposed, whose largest eigenvalues are the modes in question. Applying it to their
-/// vectors again sweeps out what rounding left there of the highest energies, and what remains is made second order by
-/// taking the energies once more between them (subspace iteration; Parlett, *The Symmetric Eigenvalue Problem*, 1998,
-/// chapter 14).
+/// The largest eigenvalues of the energy matrix H are 10¹⁰ times the lowest, and the rounding errors of its decomposition
+/// would be relative to the largest. Therefore (H + top)⁻¹ is decomposed, whose largest eigenvalues belong to the modes in
+/// question. Applying it to their vectors again removes the parts of highest energy that rounding left; the error of the
+/// rest is made second order by a final Rayleigh-Ritz step with H between these vectors (subspace iteration; Parlett, *The
+/// Symmetric Eigenvalue Problem*, 1998, chapter 14).
 fn lowest(energy: &Mat<f64>, top: f64, par: Par) -> Option<(Vec<f64>, Mat<f64>)> {
     let n = energy.nrows();
     let mut shifted = energy.clone();
@@ -115,12 +115,12 @@ fn lowest(energy: &Mat<f64>, top: f64, par: Par) -> Option<(Vec<f64>, Mat<f64>)>
     Some((values, product(vectors.as_ref(), rotation.as_ref(), par)))
 }
 
-/// Largest relative change of a frequency if the products went a quarter further along each side, doubled for all that
-/// lies beyond.
+/// Estimated largest relative error of a frequency: the change by a quarter more functions along each side, doubled to
+/// account for all further ones.
 ///
-/// To second order ω² falls by rᵀ(H - ω²)⁻¹r, with r the force that a mode leaves on the further products and H the energy
-/// of all products, the computed modes taken out (Löwdin, *J. Math. Phys.* 3, 969, 1962). They are taken out by lifting
-/// them above the top. Infinite if products that are not yet modes lie below it.
+/// To second order ω² falls by rᵀ(H - ω²)⁻¹r, with r the force of a mode on the further products and H the energy
+/// of all products, the computed modes projected out (Löwdin, *J. Math. Phys.* 3, 969, 1962). They are projected out by
+/// shifting their energy above the top. Infinite if the further products have more modes below the top.
 fn missing(
     plate: &Plate,
     further: &[Product],

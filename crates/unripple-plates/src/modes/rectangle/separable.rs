@@ -9,11 +9,11 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 use unripple_core::{Edge, Point};
 use unripple_linalg::Mat;
 
-/// Bytes that a mode takes while they are sought and kept, about: by it more modes are refused than memory is
-/// allowed for.
+/// Approximate number of bytes for each mode, by which a problem too large for the allowed memory is refused.
+/// Doubled, half as many modes are allowed.
 const BYTES_PER_MODE: f64 = 80.0;
 
-/// Points to one task. Doubled, there are half as many tasks to share among threads.
+/// Number of points in one task. Doubled, there are half as many tasks to share among threads.
 const CHUNK: usize = 64;
 
 /// Exact modes that are one sine or cosine along each side: any sides of a membrane, or a plate supported all round.
@@ -29,12 +29,12 @@ pub(crate) struct Separable {
     amplitudes: Vec<f64>,
 }
 
-/// What one direction's functions are; `held` as the ends hold displacement.
+/// The functions along one direction, by whether the ends hold displacement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Wave {
     /// sin(nπx/L), n = 1, 2, …: both ends held.
     Sine,
-    /// cos(nπx/L), n = 0, 1, …: neither.
+    /// cos(nπx/L), n = 0, 1, …: neither end held.
     Cosine,
     /// sin((n-½)πx/L), n = 1, 2, …: the lower end held.
     QuarterSine,
@@ -43,7 +43,7 @@ pub(crate) enum Wave {
 }
 
 impl Wave {
-    /// The functions of a line whose ends are held so; what holds slope makes no difference to a membrane.
+    /// The functions for a line with these edge conditions; without bending stiffness clamped and supported ends are alike.
     pub(crate) fn of(low: Edge, high: Edge) -> Self {
         match (low != Edge::Free, high != Edge::Free) {
             (true, true) => Self::Sine,
@@ -122,7 +122,7 @@ impl Separable {
         (separable, found.iter().map(|f| f.0).collect())
     }
 
-    /// Refuses more modes than memory is allowed for, before any is sought.
+    /// Refuses a problem with more modes than the allowed memory holds, before any is computed.
     pub(crate) fn guard(problem: &Problem) -> Result<(), PhysicsError> {
         let bytes =
             |k: f64| BYTES_PER_MODE * problem.sides.iter().map(|side| side * k / PI + 1.5).product::<f64>();
