@@ -1,11 +1,12 @@
-//! A test instrument that hears clicks: steps that no drive has by itself.
+//! Detection of clicks in emitted samples, for tests.
 
 use crate::Prepared;
 
-/// Hears steps of what was emitted that no drive has by itself.
+/// Detector of clicks: counts steps in the emitted samples that no drive contains by itself.
 ///
-/// Each drive that starts is announced; from one sample to the next, an output may move by no more than the sum of the
-/// largest steps of all that sounds (that from and to silence among them), and of each fade's share, its peak over a block.
+/// Each drive that starts is announced. From one sample to the next an output may change by at most the sum, over all
+/// drives that sound, of the drive's largest step (those from and to zero at its ends included) and its peak over the
+/// length of a block, the most that a fade changes it by.
 ///
 /// ```
 /// use unripple_player::{Clicks, Prepared};
@@ -31,12 +32,12 @@ struct Expected {
 }
 
 impl Clicks {
-    /// A listener for so many outputs, in blocks of so many samples.
+    /// A detector for `outputs` outputs, in blocks of `block` samples.
     pub fn new(outputs: usize, block: usize) -> Self {
         Self { block, last: vec![0.0; outputs], expected: Vec::new() }
     }
 
-    /// Announces a drive that starts at a sample of the clock with this gain.
+    /// Announces a drive that starts at sample `start` of the clock with this gain, a factor.
     pub fn expect(&mut self, drive: &Prepared, gain: f32, start: u64) {
         let steps = (0..drive.outputs()).map(|output| {
             let channel = drive.channel(output);
@@ -50,8 +51,8 @@ impl Clicks {
         self.expected.push(Expected { start, end: start + drive.samples() as u64, steps });
     }
 
-    /// Hears a planar block (outputs x samples) that begins at sample `clock`; returns the number of steps
-    /// that are larger than what is announced allows.
+    /// Takes in an emitted planar block (outputs x samples) that begins at sample `clock`; returns the number of steps
+    /// that are larger than the announced drives allow.
     pub fn hear(&mut self, clock: u64, emitted: &[f32]) -> usize {
         self.expected.retain(|held| held.end >= clock);
         let mut clicks = 0;

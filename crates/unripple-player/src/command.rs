@@ -3,7 +3,8 @@
 use crate::{Prepared, PreparedFilters};
 use std::sync::Arc;
 
-/// A name that the sender gives to what it starts, for changes and reports; starting a repeating voice under the name of another replaces it.
+/// A number by which the sender refers to a drive or waveform that it starts, in changes and reports. Starting a
+/// repeating voice under the name of another replaces that one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Voice(pub u64);
 
@@ -17,8 +18,8 @@ pub enum At {
     Sample(u64),
 }
 
-/// What is asked of a player. What goes on until somebody ends it is sent with [`Desk::hold`](crate::Desk::hold) and ends with its
-/// [`Hold`](crate::Hold).
+/// A command to a player. Combs, loops and looped waveforms, which play until they are ended, are sent with
+/// [`Desk::hold`](crate::Desk::hold) and end with their [`Hold`](crate::Hold).
 #[derive(Clone, Debug)]
 pub enum Command {
     /// Starts a drive: once, as a comb or as a loop.
@@ -27,22 +28,23 @@ pub enum Command {
         voice: Voice,
         /// The drive that is played.
         drive: Arc<Prepared>,
-        /// When its first sample sounds.
+        /// When its first sample is emitted.
         at: At,
-        /// Factor; the limiter may lower it.
+        /// Factor on the drive; the limiter may lower it.
         gain: f32,
-        /// Samples from each start to the next, each rounded to a sample, of a comb; at least one block. `None` plays a drive
-        /// once, and a loop for ever.
+        /// For a comb, the interval from each start to the next, in samples, at least one block; each start is rounded
+        /// to a sample. With `None` a drive is played once, and a loop is repeated without a gap.
         period: Option<f64>,
     },
-    /// Gives a comb or loop another drive: each start at or after `at` plays that, while the last copies of the old ring out.
-    /// Passes of a loop overlap by its fade, so this is a crossfade of that length.
+    /// Gives a comb or loop another drive: each copy that starts at or after `at` plays the new drive, while copies of
+    /// the old one that have begun play to their end. Passes of a loop overlap by its fade, so this is a crossfade of
+    /// that length.
     Swap {
         /// Name of the comb or loop.
         voice: Voice,
-        /// What is played from then on. The period stays.
+        /// The new drive. A comb keeps its period.
         drive: Arc<Prepared>,
-        /// From when on starts play it.
+        /// Copies that start from here on play the new drive.
         at: At,
     },
     /// Gives the copies of a comb or loop that start at or after `at` another gain.
@@ -51,19 +53,19 @@ pub enum Command {
         voice: Voice,
         /// Factor on the drive; the limiter may lower it.
         gain: f32,
-        /// From when on starts have it.
+        /// Copies that start from here on have the new gain.
         at: At,
     },
-    /// Gives an input its responses to all outputs. What entered before keeps the old responses to its end, what enters during the
-    /// fade goes through both in turning shares.
+    /// Gives an input its responses to all outputs. Samples that entered before are convolved with the old responses to
+    /// their end; those that enter during the fade go through both, with weights that change linearly from old to new.
     SetFilters {
         /// Index of the input.
         input: usize,
         /// Its responses to all outputs.
         filters: Arc<PreparedFilters>,
-        /// From the block that holds this sample.
+        /// When the fade begins: with the block that holds this sample.
         at: At,
-        /// Samples of the fade, rounded up to whole blocks, at least one.
+        /// Length of the fade in samples, rounded up to whole blocks, at least one.
         fade: u32,
     },
     /// Plays a prepared waveform into an input.
@@ -72,8 +74,9 @@ pub enum Command {
         voice: Voice,
         /// Index of the input.
         input: usize,
-        /// Responses that the input gets for this waveform, and samples of the fade from those it has: both come or neither. When
-        /// the waveform is over, the input has none. `None` leaves the input as it is.
+        /// Responses that the input gets for this waveform, and the length in samples of the fade from its present
+        /// ones. If the filters have to be refused, so is the waveform. When the waveform is over, the input has no
+        /// responses. `None` leaves those of the input as they are.
         filters: Option<(Arc<PreparedFilters>, u32)>,
         /// The waveform, at the full rate.
         samples: Arc<[f32]>,
@@ -81,13 +84,13 @@ pub enum Command {
         at: At,
         /// Factor on the waveform.
         gain: f32,
-        /// Whether it plays for ever, or once.
+        /// Whether the waveform is repeated until it is ended, or played once.
         looped: bool,
     },
 }
 
 impl Command {
-    /// When it acts, by the player's clock.
+    /// When the command acts, by the player's clock.
     pub fn at(&self) -> At {
         match self {
             Self::Start { at, .. }
@@ -112,7 +115,7 @@ impl Command {
         matches!(self, Self::Start { .. } | Self::Wave { .. }) && !self.goes_on()
     }
 
-    /// The voice that it is about; none of filters.
+    /// The voice that the command concerns; `None` for filters.
     pub fn voice(&self) -> Option<Voice> {
         match self {
             Self::Start { voice, .. }
@@ -124,7 +127,7 @@ impl Command {
     }
 }
 
-/// What a player reports to its desk.
+/// A report of the player to its desk.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Report {
     /// A copy of a drive, or a waveform, starts.
@@ -136,7 +139,7 @@ pub enum Report {
         /// Factor that it starts with, after limiting.
         gain: f32,
     },
-    /// The last copy, or the waveform, is over.
+    /// The last copy of a voice, or a waveform, has ended.
     Ended {
         /// Name of the voice.
         voice: Voice,
@@ -147,41 +150,41 @@ pub enum Report {
     Limited {
         /// Name of the voice.
         voice: Voice,
-        /// The gain that was asked for is multiplied by this.
+        /// Factor by which the gain asked for was reduced, below 1.
         scale: f32,
         /// The limit that decided.
         which: Which,
         /// Index of the actuator.
         output: usize,
     },
-    /// All waveforms together begin to be scaled down.
+    /// The common gain of all waveforms begins to be reduced, to stay within a limit.
     WavesLimited {
-        /// First sample of the block in which that begins.
+        /// First sample of the block in which the reduction begins.
         sample: u64,
-        /// The gain at the end of that block.
+        /// The common gain at the end of that block, below 1.
         gain: f32,
         /// The limit that decided.
         which: Which,
         /// Index of the actuator.
         output: usize,
     },
-    /// The asked sample had passed, or its block was full of work: it acts now.
+    /// A command acts later than asked for: its sample had passed, or its block was full of work.
     Late {
         /// Name of the voice; none for filters.
         voice: Option<Voice>,
-        /// Number of samples that it is late by.
+        /// Delay in samples.
         by: u64,
     },
     /// A command was refused: nothing was done.
     Refused {
         /// Name of the voice; none for filters.
         voice: Option<Voice>,
-        /// The reason, which says whether it may pass another time.
+        /// The reason; [`Why::may_pass`] says whether the command may succeed later.
         why: Why,
     },
 }
 
-/// Which limit of an actuator.
+/// Kind of limit of an actuator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Which {
     /// The limit on the largest sample.
@@ -192,33 +195,35 @@ pub enum Which {
     Thermal,
 }
 
-/// Why a command was refused.
+/// Reason for which a command was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Why {
-    /// As many voices as there may be.
+    /// The largest number of voices is repeating already.
     Voices,
-    /// As many copies or waveforms sound as may.
+    /// The largest number of copies or waveforms is sounding already.
     Copies,
-    /// As many commands wait for their sample as may.
+    /// The largest number of commands is waiting for its sample already.
     Pending,
-    /// No voice of that name repeats.
+    /// No repeating voice has this name.
     Unknown,
-    /// A drive of another number of outputs, or filters of another plan.
+    /// A drive has another number of outputs than the player, or filters are of another plan.
     Outputs,
-    /// A drive longer than the longest, or an empty waveform.
+    /// A drive is longer than [`Options::longest`](crate::Options::longest), or a waveform is empty.
     Samples,
-    /// A gain that is not finite.
+    /// The gain is not a finite number.
     Gain,
-    /// A period of less than a block, or not a number.
+    /// The period is shorter than a block, or not a number.
     Period,
-    /// No such input, or no waveforms at all.
+    /// The player has no such input, or no waveforms at all.
     Input,
-    /// Too late to be wanted: taken back with [`Desk::withdraw`](crate::Desk::withdraw), or put off for longer than it lasts.
+    /// The command is out of date: taken back with [`Desk::withdraw`](crate::Desk::withdraw), no longer held when it
+    /// should begin, or put off for longer than its drive lasts.
     Stale,
 }
 
 impl Why {
-    /// Whether the same may be obeyed another time: it was not for what was asked for.
+    /// Whether the same command may succeed later: it was refused because of the player's state, not because of its
+    /// contents.
     pub fn may_pass(self) -> bool {
         match self {
             Self::Voices | Self::Copies | Self::Pending | Self::Unknown | Self::Stale => true,

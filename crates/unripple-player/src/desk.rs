@@ -1,4 +1,4 @@
-//! The control side of a player: sends commands, hears reports.
+//! The control side of a player: sends commands, receives reports.
 
 use crate::hold::{Held, Hold};
 use crate::shelf::Garbage;
@@ -7,8 +7,8 @@ use crate::{Command, Count, FilterPlan, Meters, PlayerError, Prepared, PreparedF
 use rtrb::{Consumer, Producer};
 use std::sync::Arc;
 
-/// The end of a [`Player`](crate::Player) that lives off the audio thread: sends commands, hears reports, and frees what is no
-/// longer played.
+/// The control end of a [`Player`](crate::Player), for use off the audio thread: sends commands, receives reports, and
+/// frees the memory of what is no longer played.
 pub struct Desk {
     /// Commands on their way to the player.
     pub(crate) commands: Producer<Sent>,
@@ -20,15 +20,15 @@ pub struct Desk {
     pub(crate) garbage: Consumer<Garbage>,
     /// Rings of samples, one per input.
     pub(crate) feeds: Vec<Producer<f32>>,
-    /// How responses are made ready; none without waveforms.
+    /// The plan with which responses are prepared; `None` without waveforms.
     pub(crate) plan: Option<FilterPlan>,
     /// What is counted.
     pub(crate) meters: Arc<Meters>,
-    /// What is wanted of the player at any time.
+    /// Requests that concern the player as a whole.
     pub(crate) standing: Arc<Standing>,
     /// Number of outputs.
     pub(crate) outputs: usize,
-    /// Samples from an input to the outputs.
+    /// Delay from an input to the outputs, in samples.
     pub(crate) wave_delay: usize,
 }
 
@@ -49,10 +49,11 @@ impl std::fmt::Debug for Desk {
 }
 
 impl Desk {
-    /// Sends a command. One that is sent before a block begins is known to that block.
+    /// Sends a command. If it is sent before a block begins, that block takes it into account.
     ///
     /// # Errors
-    /// The command itself if as many are under way as may, or if it begins what goes on until it is ended: that is for [`Desk::hold`].
+    /// The command itself if the ring to the player is full, or if it begins a comb, a loop or a looped waveform, which
+    /// need [`Desk::hold`].
     pub fn send(&mut self, command: Command) -> Result<(), Box<Command>> {
         if command.goes_on() {
             return Err(Box::new(command));
@@ -60,10 +61,11 @@ impl Desk {
         self.push(command, None)
     }
 
-    /// Sends what begins something, which sounds as long as the hold is kept or until it is over by itself.
+    /// Sends a command that begins a drive or waveform, which plays until the hold is stopped or dropped, or until it
+    /// ends by itself.
     ///
     /// # Errors
-    /// The command itself if as many are under way as may.
+    /// The command itself if the ring to the player is full.
     pub fn hold(&mut self, command: Command) -> Result<Hold, Box<Command>> {
         let held = Arc::new(Held::new());
         self.push(command, Some(held.clone())).map(|()| Hold(held))
@@ -83,24 +85,24 @@ impl Desk {
         Ok(())
     }
 
-    /// How many commands find room now. The player takes all of them with each block.
+    /// Number of commands for which the ring to the player has room now. The player empties it at each block.
     pub fn room(&self) -> usize {
         self.commands.slots()
     }
 
-    /// Takes back what was sent so far, has not begun, and would be over by itself: for a player that stood still, so that nothing begins
-    /// when nobody wants it any more.
+    /// Takes back all drives and waveforms played once that were sent so far and have not begun: for a player that
+    /// stood still, so that nothing begins that is out of date.
     pub fn withdraw(&mut self) {
         self.standing.withdraw(self.sent);
     }
 
-    /// Lets the player fade out all that sounds over so many samples, at least a block, and be silent from then on: what waits is
-    /// not begun, what is sent later is not taken. A player whose desk is dropped does the same by itself.
+    /// Ends the player: everything fades out over `fade` samples, at least a block, and then it is silent. Commands
+    /// that wait do not begin, and later ones are not taken. A player whose desk is dropped ends in the same way.
     pub fn end(&mut self, fade: u32) {
         self.standing.end(fade);
     }
 
-    /// Whether the player has faded out after [`Desk::end`]. A player that is not asked for blocks never says so.
+    /// Whether the player has faded out after [`Desk::end`]. It stays false if no more blocks are computed.
     pub fn is_over(&self) -> bool {
         self.standing.is_over()
     }
@@ -111,34 +113,35 @@ impl Desk {
         self.reports.pop().ok()
     }
 
-    /// Frees what is no longer played. Sending and hearing do, too.
+    /// Frees the memory of what is no longer played. Sending commands and reading reports do so, too.
     pub fn collect(&mut self) {
         while self.garbage.pop().is_ok() {}
     }
 
-    /// Puts samples, at the full rate, into an input's ring; says how many there was room for. A ring that runs empty
-    /// is silent.
+    /// Puts samples (at the full rate) into the ring buffer of an input, by its index, and returns for how many there
+    /// was room. An input whose ring runs empty is silent.
     pub fn feed(&mut self, input: usize, samples: &[f32]) -> usize {
         let Some(ring) = self.feeds.get_mut(input) else { return 0 };
         samples.iter().take_while(|&&x| ring.push(x).is_ok()).count()
     }
 
-    /// Makes an input's responses ready, on this thread: one of up to as many taps as the player was made for, per output.
+    /// Prepares the responses of an input, on this thread: one per output, of at most
+    /// [`WaveOptions::taps`](crate::WaveOptions::taps) samples.
     ///
     /// # Errors
     /// [`PlayerError::Size`] for another number of responses, longer ones, or a player without waveforms;
-    /// [`PlayerError::Sample`] at the first that cannot be played.
+    /// [`PlayerError::Sample`] at the first sample that is not finite or too large.
     pub fn filters(&self, responses: &[Vec<f32>]) -> Result<Arc<PreparedFilters>, PlayerError> {
         let none = PlayerError::Size { what: "inputs for waveforms", expected: 1, found: 0 };
         Ok(Arc::new(self.plan.as_ref().ok_or(none)?.prepare(responses)?))
     }
 
-    /// How responses are made ready, for use on other threads; none without waveforms.
+    /// The plan with which responses are prepared, for use on other threads; `None` without waveforms.
     pub fn plan(&self) -> Option<&FilterPlan> {
         self.plan.as_ref()
     }
 
-    /// Number of samples from an input to the outputs, besides the responses' own.
+    /// Delay in samples from an input to the outputs, besides that of the responses themselves.
     pub fn wave_delay(&self) -> usize {
         self.wave_delay
     }
@@ -148,12 +151,12 @@ impl Desk {
         drive.outputs() == self.outputs
     }
 
-    /// First sample of the next block.
+    /// Index of the first sample of the next block, on the player's clock.
     pub fn clock(&self) -> u64 {
         self.meters.clock()
     }
 
-    /// What is counted; may be shared with any thread.
+    /// Counters and meters of the player, which can be shared with any thread.
     pub fn meters(&self) -> &Arc<Meters> {
         &self.meters
     }

@@ -1,8 +1,8 @@
-//! What cannot be prepared or set up.
+//! Why drives, filters or a player could not be made.
 
 use unripple_core::{OutOfRange, require};
 
-/// What cannot be prepared or set up.
+/// Why drives, filters or a player could not be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PlayerError {
     /// A value is out of its range.
@@ -18,12 +18,12 @@ pub enum PlayerError {
         /// How many there are.
         found: usize,
     },
-    /// A sample that is not finite, or beyond all that is ever played.
+    /// A sample is not finite, or its magnitude is above 1e12.
     #[error(
         "{what}, sample {sample} of channel {channel}: expected a finite number within ±1e12, found {found}"
     )]
     Sample {
-        /// What the sample is of.
+        /// What the sample belongs to.
         what: &'static str,
         /// Index of the channel, from 0.
         channel: usize,

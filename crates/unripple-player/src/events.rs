@@ -1,4 +1,4 @@
-//! Drives in the player: repeating, sounding, committed.
+//! Drives in the player: those that repeat, those that sound, and the ledger of what has been started.
 
 use crate::copies::{Fade, Sounding};
 use crate::kernels::Wide;
@@ -10,7 +10,7 @@ use pulp::Arch;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// Blocks of the ledger that are made anew per block, where something stopped early: a bound on the work.
+/// Most blocks of the ledger that are summed again per block, where something stopped early: a bound on the work.
 /// Doubled, room that was given up is free again in half the time.
 const REFILLS: u64 = 4;
 
@@ -22,17 +22,17 @@ pub(crate) struct Events {
     /// How many of them sounded before this block.
     older: usize,
     put_off: VecDeque<PutOff>,
-    /// What is committed of the limits.
+    /// Sums of what has been started, and what it takes of the limits.
     pub(crate) ledger: Ledger,
     /// Blocks of the ledger that hold more than what still sounds.
     stale: Option<(u64, u64)>,
-    /// Samples that may still be judged in this block.
+    /// Samples that may still be compared with the limits in this block.
     left: usize,
     options: Options,
     arch: Arch,
 }
 
-/// A name, and the number of the command that it goes back to.
+/// Name of a voice, and the number of the command that began it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Whose {
     /// Name of the voice.
@@ -85,7 +85,7 @@ impl Events {
         options.voices + 2 * options.copies + 2
     }
 
-    /// Begins, at sample `clock`, what the block before had no time for.
+    /// Begins, at sample `clock`, the copies for which the block before had no time.
     pub(crate) fn resume(&mut self, clock: u64, outlet: &mut Outlet) {
         self.left = self.options.work;
         for _ in 0..self.put_off.len() {

@@ -1,17 +1,18 @@
-//! Holds: a comb, loop or looped waveform sounds only as long as its hold is kept.
+//! Holds: handles by which combs, loops and looped waveforms are ended.
 
 use crate::At;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::Acquire, Ordering::Relaxed, Ordering::Release};
 
-/// No sample: nobody has said so yet. The largest there is, so that "before" needs no special case.
+/// In place of a sample: not set yet. The largest number there is, so that "before" needs no special case.
 const NEVER: u64 = u64::MAX;
 
-/// In the place of a fade: begun copies of a drive ring out. No fade is as long.
+/// In place of a fade: copies of a drive that have begun play to their end. No fade is as long.
 const RING: u32 = u32::MAX;
 
-/// Keeps something in the player going; once it is stopped or dropped, the player ends it. Nothing is sent for that and nothing has to find
-/// room, so it cannot be lost or refused; it takes hold with the next block.
+/// Handle of a comb, loop or looped waveform, which plays until the handle is stopped or dropped. The player reads the
+/// state of all handles at each block: stopping needs no message and no room in a queue, so it cannot be lost or
+/// refused. It takes effect with the next block.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -33,7 +34,8 @@ const RING: u32 = u32::MAX;
 pub struct Hold(pub(crate) Arc<Held>);
 
 impl Hold {
-    /// Ends it from a sample on. What sounds fades over so many samples, at least a block; `None` lets begun copies of a drive ring out.
+    /// Ends the sound from a sample on, with a fade of `fade` samples, at least a block. With `None`, copies of a drive
+    /// that have begun play to their end.
     pub fn stop(&self, at: At, fade: Option<u32>) {
         let until = match at {
             At::Now => 0,
@@ -43,12 +45,13 @@ impl Hold {
         self.0.until.store(until, Release);
     }
 
-    /// Whether somebody has stopped it.
+    /// Whether [`Hold::stop`] has been called.
     pub fn is_stopped(&self) -> bool {
         self.0.until() != NEVER
     }
 
-    /// A sample from which on it is silent, once the player has said so: it was stopped, is over by itself, or was refused.
+    /// A sample of the clock from which on it is silent, once the player has reported it: it was stopped, ended by
+    /// itself, or was refused.
     pub fn over(&self) -> Option<u64> {
         Some(self.0.over.load(Acquire)).filter(|over| *over != NEVER)
     }
@@ -62,13 +65,13 @@ impl Drop for Hold {
     }
 }
 
-/// What both sides know of something that is held.
+/// State of a hold, shared by desk and player.
 #[derive(Debug)]
 pub(crate) struct Held {
-    /// From which sample on it is not wanted any more.
+    /// Sample from which on it is to be ended.
     until: AtomicU64,
     fade: AtomicU32,
-    /// From which sample on it is silent: said by the player.
+    /// Sample from which on it is silent, set by the player.
     over: AtomicU64,
 }
 
@@ -78,17 +81,17 @@ impl Held {
         Self { until: AtomicU64::new(NEVER), fade: AtomicU32::new(RING), over: AtomicU64::new(NEVER) }
     }
 
-    /// Sample of the clock from which on it is not wanted any more.
+    /// Sample of the clock from which on it is to be ended.
     pub(crate) fn until(&self) -> u64 {
         self.until.load(Acquire)
     }
 
-    /// Samples of its fade; `None` to ring out.
+    /// Samples of its fade; `None` to let begun copies play to their end.
     pub(crate) fn fade(&self) -> Option<u32> {
         Some(self.fade.load(Relaxed)).filter(|fade| *fade != RING)
     }
 
-    /// Says from which sample on it is silent.
+    /// Sets the sample from which on it is silent.
     pub(crate) fn set_over(&self, sample: u64) {
         self.over.store(sample.min(NEVER - 1), Release);
     }

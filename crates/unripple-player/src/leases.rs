@@ -1,4 +1,4 @@
-//! The holds as the audio thread knows them: what each keeps going, and what is let go.
+//! Holds on the audio thread: what each keeps playing, and which are released.
 
 use crate::hold::Held;
 use crate::outlet::Outlet;
@@ -18,7 +18,7 @@ struct Lease {
     ended: bool,
 }
 
-/// Something that is let go.
+/// A hold that is released.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LetGo {
     /// Number of the command that began it.

@@ -1,4 +1,4 @@
-//! The committed future: how much of each actuator's limit is spoken for, sample by sample.
+//! Sums of what has been started, for each actuator and future sample, and how much of the limits they take.
 //!
 //! Voices add. For each actuator and future sample the ledger holds the sum of all positive parts, P, and of all negative
 //! parts, N, of what has been started (gains included). Whatever weights from 0 to 1 fading gives the parts from then on, their sum
@@ -53,7 +53,7 @@ struct Piece {
 }
 
 impl Ledger {
-    /// Nothing committed yet.
+    /// A ledger in which nothing has been started.
     pub(crate) fn new(options: &Options) -> Self {
         let blocks = options.longest.div_ceil(options.block) + 2;
         let span = blocks * options.block;
@@ -83,7 +83,7 @@ impl Ledger {
         verdict
     }
 
-    /// Puts a judged drive into the future, from sample `start` of the clock on, times `gain`.
+    /// Adds a judged drive to the sums, from sample `start` of the clock on, times `gain`.
     #[inline(always)]
     pub(crate) fn enter(&mut self, drive: &Prepared, start: u64, gain: f32) {
         for output in 0..self.outputs {
@@ -93,7 +93,7 @@ impl Ledger {
         self.powers.look_back(self.clock / self.block as u64, last / self.block as u64);
     }
 
-    /// Puts one channel of a drive into the future.
+    /// Adds one channel of a drive to the sums.
     #[inline(always)]
     fn enter_channel(&mut self, channel: &[f32], output: usize, start: u64, gain: f32) {
         for piece in self.pieces(channel.len(), start) {
@@ -121,7 +121,7 @@ impl Ledger {
         }
     }
 
-    /// Puts the part of a copy that lies within one block, and before sample `end`, back.
+    /// Adds the part of a copy that lies within one block, and before sample `end`, to an emptied block.
     #[inline(always)]
     pub(crate) fn refill(&mut self, block: u64, drive: &Prepared, start: u64, end: u64, gain: f32) {
         let first = block * self.block as u64;

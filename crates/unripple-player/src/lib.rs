@@ -1,22 +1,26 @@
-//! A real-time player: drives and waveforms into blocks of samples, within limits.
+//! A real-time player: mixes drives and waveforms into blocks of samples, within the limits of each actuator.
 //!
-//! [`player`] makes two ends. The [`Player`] lives on the audio thread and turns commands into blocks; the [`Desk`] lives anywhere
-//! else, sends the commands, hears reports, and frees what is no longer played. Between them are rings without locks.
+//! [`player`] makes two ends. The [`Player`] runs on the audio thread and computes blocks; the [`Desk`] runs on any
+//! other thread, sends commands, receives reports, and frees the memory of what is no longer played. They are connected
+//! by lock-free ring buffers.
 //!
-//! - **When.** A command for [`At::Now`] that was sent before a block begins acts at that block's first sample; one for a sample acts exactly
-//!   there. The same commands for the same samples give the same bits, however early they were sent. Of commands for the same
-//!   sample the first sent acts first.
-//! - **Until when.** What is over by itself, a drive or a waveform played once, is sent and forgotten. What goes on, a comb, a loop or a looped
-//!   waveform, is sent for a [`Hold`] and sounds as long as that is kept: the player looks at all holds with each block, so that ending
-//!   needs no room and cannot fail. The hold also says when the player is done with it or has refused it. What was sent may be taken back
-//!   ([`Desk::withdraw`]). All ends with a fade, by [`Desk::end`] or when the desk is dropped.
-//! - **Drives** ([`Prepared`]) are played once, as a comb, or as a loop. Voices add. Each copy is scaled, as a whole, as it starts, so that
-//!   no limit of any actuator can be passed by it and all that was started before, whatever is stopped or faded later.
-//!   With no limit in the way, the samples of a single voice are emitted bit for bit.
-//! - **Waveforms** enter a [`Convolver`] and leave through all actuators. They get what drives leave of the limits, by one gain that runs
-//!   smoothly and knows a block ahead.
-//! - **Work** in a block is bounded by [`Options`]: commands, copies, and the samples of drives that are judged in one block. Starts
-//!   beyond the last begin with the next block instead, as far as that has time, and are reported late.
+//! - **Start.** A command for [`At::Now`] that was sent before a block begins acts at that block's first sample; one
+//!   for a sample acts exactly at that sample. The same commands for the same samples give the same bits, however early
+//!   they were sent. Of commands for the same sample the first sent acts first.
+//! - **End.** A drive or a waveform played once ends by itself. A *comb* (a drive started again and again with a fixed
+//!   period), a *loop* (one pass repeated without a gap) or a looped waveform is sent with [`Desk::hold`] and plays
+//!   until its [`Hold`] is stopped or dropped: the player reads all holds at each block, so that stopping needs no room
+//!   in a queue and cannot fail. The hold also tells when the player has ended or refused it. Commands that have not
+//!   yet begun can be taken back ([`Desk::withdraw`]). [`Desk::end`], or dropping the desk, ends everything with a
+//!   fade.
+//! - **Drives** ([`Prepared`]) are played once, as a comb, or as a loop. Voices add. Each copy is scaled as a whole
+//!   when it starts, so that together with everything started before it no limit of any actuator can be exceeded,
+//!   whatever is stopped or faded later. Where no limit is reached, the samples of a single voice are emitted bit for
+//!   bit.
+//! - **Waveforms** enter a [`Convolver`] and leave through all actuators. They get what drives leave of the limits: one
+//!   gain for all of them, which changes smoothly and is computed a block ahead.
+//! - **Work** in a block is bounded by [`Options`]: commands, copies, and the samples of drives that are compared with
+//!   the limits in one block. Starts beyond the bound begin with a later block, and are reported late.
 
 mod clicks;
 mod command;

@@ -1,8 +1,8 @@
-//! Counters of a player, readable from anywhere.
+//! Counters and meters of a player, readable from any thread.
 
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering::Relaxed};
 
-/// What a player counts, to be read from anywhere at any time.
+/// Counters and meters of a player, which any thread can read at any time.
 #[derive(Debug)]
 pub struct Meters {
     clock: AtomicU64,
@@ -17,26 +17,26 @@ pub struct Meters {
 /// Number of things counted: one per variant of [`Count`].
 const COUNTS: usize = 9;
 
-/// Something counted since the player was made.
+/// Kinds of events that are counted from the start of the player.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Count {
-    /// Copies of drives, and waveforms, started.
+    /// Copies of drives and waveforms that were started.
     Started,
-    /// Copies of drives scaled down.
+    /// Copies of drives that were scaled down to stay within a limit.
     Limited,
-    /// Blocks in which waveforms were scaled down.
+    /// Blocks in which the gain of waveforms was held down by a limit.
     WavesLimited,
-    /// Commands whose sample had passed.
+    /// Commands and starts that acted later than asked for.
     Late,
-    /// Starts put off because their block was full of work.
+    /// Starts that were put off because their block was full of work.
     PutOff,
     /// Commands that were refused.
     Refused,
-    /// Reports that found no room on their way to the desk.
+    /// Reports that were lost because the ring to the desk was full.
     ReportsLost,
-    /// Commands that found no room on their way to the player.
+    /// Commands that were not sent because the ring to the player was full.
     CommandsLost,
-    /// Blocks of a wrong size, played as silence.
+    /// Calls of [`Player::process`](crate::Player::process) with a slice of a wrong size.
     Misfits,
 }
 
@@ -54,43 +54,46 @@ impl Meters {
         }
     }
 
-    /// First sample of the next block.
+    /// Index of the first sample of the next block, on the player's clock.
     pub fn clock(&self) -> u64 {
         self.clock.load(Relaxed)
     }
 
-    /// Whether the last block was silent and nothing that the player knows of is to come: no drive sounds, repeats or waits, and waveforms have
-    /// rung out.
+    /// Whether the last block was silent and nothing that the player knows of is to come: no drive sounds, repeats or
+    /// waits, and the responses to waveforms have ended.
     pub fn is_silent(&self) -> bool {
         self.silent.load(Relaxed)
     }
 
-    /// Share of the period that the last block took, as told by whoever runs the thread.
+    /// Time that the last block took to compute over the duration of a block, a ratio, as set with
+    /// [`Meters::set_load`].
     pub fn load(&self) -> f32 {
         f32::from_bits(self.load.load(Relaxed))
     }
 
-    /// Tells the load, a share of the period.
+    /// Sets the load: the time that a block took to compute over its duration, a ratio. Called by the thread that runs
+    /// the player.
     pub fn set_load(&self, share: f32) {
         self.load.store(share.to_bits(), Relaxed);
     }
 
-    /// The factor on all waveforms at the end of the last block.
+    /// The common gain of all waveforms at the end of the last block, a factor from 0 to 1.
     pub fn wave_gain(&self) -> f32 {
         f32::from_bits(self.wave_gain.load(Relaxed))
     }
 
-    /// Largest magnitude that an output, by its index, emitted since this was last asked, in its unit.
+    /// Largest magnitude that an output, by its index, emitted since the last call, in its unit.
     pub fn take_peak(&self, output: usize) -> f32 {
         self.peaks.get(output).map_or(0.0, |peak| f32::from_bits(peak.swap(0, Relaxed)))
     }
 
-    /// Share of its limits on the running rms that an output had used up after the last block; 0 without such limits.
+    /// Running rms of an output, by its index, after the last block, as a share of its limit: the largest over its rms
+    /// limits; 0 without such limits.
     pub fn heat(&self, output: usize) -> f32 {
         self.heats.get(output).map_or(0.0, |heat| f32::from_bits(heat.load(Relaxed)))
     }
 
-    /// Number of times that something has happened so far.
+    /// Number of events of a kind so far.
     pub fn count(&self, what: Count) -> u64 {
         self.counts[what as usize].load(Relaxed)
     }
@@ -100,29 +103,29 @@ impl Meters {
         self.counts[what as usize].fetch_add(1, Relaxed);
     }
 
-    /// Tells the first sample of the next block.
+    /// Sets the first sample of the next block.
     pub(crate) fn set_clock(&self, clock: u64) {
         self.clock.store(clock, Relaxed);
     }
 
-    /// Tells whether all is silent and nothing is to come.
+    /// Sets whether all is silent and nothing is to come.
     pub(crate) fn set_silent(&self, silent: bool) {
         self.silent.store(silent, Relaxed);
     }
 
-    /// Tells the factor on all waveforms.
+    /// Sets the common gain of all waveforms.
     pub(crate) fn set_wave_gain(&self, gain: f32) {
         self.wave_gain.store(gain.to_bits(), Relaxed);
     }
 
-    /// Tells the share of its limits that an output has used up.
+    /// Sets the share of its limits that an output has used up.
     pub(crate) fn set_heat(&self, output: usize, heat: f32) {
         if let Some(held) = self.heats.get(output) {
             held.store(heat.to_bits(), Relaxed);
         }
     }
 
-    /// Magnitudes are not negative, so their bits are ordered as they are.
+    /// Raises the peak of an output to a magnitude. Magnitudes are not negative, so their bits are ordered as they are.
     pub(crate) fn raise_peak(&self, output: usize, peak: f32) {
         if let Some(held) = self.peaks.get(output) {
             held.fetch_max(peak.to_bits(), Relaxed);

@@ -1,13 +1,13 @@
-//! What a player is made for: sizes that are allocated once.
+//! Options of a player: sizes, limits and bounds on its work.
 
 use crate::PlayerError;
 use crate::error::{count, same};
 use unripple_core::require;
 
-/// What a player is made for; all of it is allocated once.
+/// Options of a player. All memory for them is allocated once, when it is made.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// Number of actuators.
+    /// Number of outputs, one per actuator.
     pub outputs: usize,
     /// Samples per block, per output.
     pub block: usize,
@@ -15,18 +15,19 @@ pub struct Options {
     pub rate: f64,
     /// Limits of the actuators: one per output, or a single one for all.
     pub limits: Vec<Limit>,
-    /// Most repeating voices at once.
+    /// Largest number of repeating voices (combs and loops) at once.
     pub voices: usize,
-    /// Most drives sounding at once; a comb whose period is shorter than its drive sounds several times.
+    /// Largest number of copies of drives sounding at once; a comb whose period is shorter than its drive has several.
     pub copies: usize,
-    /// Samples of the longest drive.
+    /// Length of the longest drive, in samples.
     pub longest: usize,
-    /// Most samples (over all outputs) of drives that are judged in one block: the bound on its work, at some 2 ns each. Starts
-    /// beyond it wait for the next block, and are reported late; one drive a block is judged however long.
+    /// Largest number of samples (over all outputs) of drives that are compared with the limits in one block: the bound
+    /// on its work, at some 2 ns each. Starts beyond it wait for the next block, and are reported late; one drive a
+    /// block is taken, however long.
     pub work: usize,
-    /// Continuous waveforms, if there are any.
+    /// Inputs for continuous waveforms; `None` for a player without them.
     pub waves: Option<WaveOptions>,
-    /// Commands that may wait on their way to the player, and as many that wait there for their sample.
+    /// Largest number of commands in the ring to the player, and of those that wait in the player for their sample.
     pub commands: usize,
 }
 
@@ -51,11 +52,11 @@ impl Default for Options {
 /// The limits of an actuator, in its own unit: peak, short-term and thermal rms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit {
-    /// Largest magnitude of a sample.
+    /// Largest magnitude of a sample, in the actuator's unit.
     pub peak: f64,
-    /// Largest running rms over a short time.
+    /// Limit on the running rms over a short time; `None` for no such limit.
     pub rms: Option<Running>,
-    /// Largest running rms over a time as long as the actuator takes to heat up.
+    /// Limit on the running rms over a time as long as the actuator takes to heat up; `None` for no such limit.
     pub thermal: Option<Running>,
 }
 
@@ -66,27 +67,27 @@ impl Default for Limit {
     }
 }
 
-/// A bound on the root of the running power p, which follows p' = (d² − p) / τ.
+/// A limit on the running rms √p of an output d, where the running power p follows p' = (d² − p) / τ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Running {
-    /// Largest √p, in the actuator's unit.
+    /// Largest running rms √p, in the actuator's unit.
     pub level: f64,
-    /// The time constant τ.
+    /// The time constant τ over which power is averaged, in seconds.
     pub seconds: f64,
 }
 
-/// Continuous waveforms: each input is convolved into all outputs.
+/// Options of continuous waveforms, where each input is convolved into all outputs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WaveOptions {
-    /// Inputs: waveforms at as many places at once.
+    /// Number of inputs: waveforms can be played at as many points at once.
     pub inputs: usize,
-    /// Samples of the longest response, at the full rate.
+    /// Length of the longest response, in samples at the full rate.
     pub taps: usize,
-    /// Highest frequency that is kept whole, in Hz.
+    /// Highest frequency that is kept, in Hz: the top of the band.
     pub band_top_hz: f64,
-    /// Samples that may wait in each input's ring.
+    /// Size of each input's ring buffer, in samples.
     pub feed: usize,
-    /// Most prepared waveforms sounding at once, over all inputs.
+    /// Largest number of prepared waveforms playing at once, over all inputs.
     pub sounds: usize,
 }
 
@@ -108,10 +109,11 @@ impl Options {
         self.limits.get(which).copied().unwrap_or_default()
     }
 
-    /// Whether a player can be made of these.
+    /// Checks that a player can be made with these options.
     ///
     /// # Errors
-    /// [`PlayerError::Range`] or [`PlayerError::Size`] at the first fault.
+    /// [`PlayerError::Range`] for the first number out of range, [`PlayerError::Size`] for a number of limits that is
+    /// neither 1 nor that of the outputs.
     pub fn check(&self) -> Result<(), PlayerError> {
         count("outputs", self.outputs, 1, 4096)?;
         count("samples of a block", self.block, 8, 8192)?;

@@ -9,7 +9,7 @@ use std::sync::Arc;
 pub(crate) struct Outlet {
     reports: Producer<Report>,
     garbage: Producer<Garbage>,
-    /// What found no room in the ring yet. Never more than twice what the player can hold at once.
+    /// Data for which the ring had no room yet. Never more than twice what the player can hold at once.
     trash: Vec<Garbage>,
     most: usize,
     /// Where losses are counted.

@@ -1,4 +1,4 @@
-//! The audio side of a player: commands into blocks of samples, in real time.
+//! The audio side of a player: computes blocks of samples from commands, in real time.
 
 use crate::copies::Fade;
 use crate::desk::Sent;
@@ -14,11 +14,12 @@ use crate::{At, Command, Count, Desk, Meters, Options, PlayerError, Report, Why,
 use rtrb::{Consumer, RingBuffer};
 use std::sync::Arc;
 
-/// Seconds over which a player fades out whose desk is gone: short, and without a click. Doubled, it sounds
-/// on for as much longer.
+/// Seconds of the fade with which a player ends when its desk is dropped: short, and without a click. Doubled, it
+/// sounds for as much longer.
 const ABANDONED: f64 = 0.02;
 
-/// The end that lives on the audio thread: turns commands into blocks, and never allocates, frees, locks, waits or fails.
+/// The end of a player that runs on the audio thread: computes blocks from commands. It never allocates, frees, locks,
+/// waits or fails.
 pub struct Player {
     block: usize,
     outputs: usize,
@@ -30,9 +31,9 @@ pub struct Player {
     waves: Option<Waves>,
     outlet: Outlet,
     standing: Arc<Standing>,
-    /// How all of it ends, once that is wanted.
+    /// The fade with which everything ends, once that is asked for.
     ending: Option<Fade>,
-    /// Samples of the fade if nobody is left to ask for one.
+    /// Samples of the fade if the desk was dropped.
     abandoned: u32,
 }
 
@@ -43,7 +44,7 @@ impl std::fmt::Debug for Player {
     }
 }
 
-/// A player and the desk that it is run from.
+/// Makes a player, and the desk that controls it.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -61,7 +62,7 @@ impl std::fmt::Debug for Player {
 /// ```
 ///
 /// # Errors
-/// [`PlayerError`] for options that cannot be.
+/// [`PlayerError`] for options that [`Options::check`] refuses.
 pub fn player(options: &Options) -> Result<(Player, Desk), PlayerError> {
     options.check()?;
     let meters = Arc::new(Meters::new(options.outputs));
@@ -109,8 +110,8 @@ pub fn player(options: &Options) -> Result<(Player, Desk), PlayerError> {
 }
 
 impl Player {
-    /// The next block: planar, output after output, in the actuators' unit. A slice of another size is filled with silence and
-    /// counted; time stands still.
+    /// Computes the next block: planar, output after output, in the actuators' unit. A slice of a wrong size is filled
+    /// with silence and counted, and the clock does not advance.
     pub fn process(&mut self, out: &mut [f32]) {
         out.fill(0.0);
         if out.len() != self.outputs * self.block {
@@ -162,7 +163,7 @@ impl Player {
         }
     }
 
-    /// Turns all down while the player ends: limits hold for less, too.
+    /// Applies the final fade. Lower samples stay within the limits.
     fn fade(&self, out: &mut [f32]) {
         let Some(fade) = self.ending else { return };
         for channel in out.chunks_exact_mut(self.block) {
@@ -178,7 +179,7 @@ impl Player {
         idle && self.waves.as_ref().is_none_or(Waves::is_idle) && out.iter().all(|x| *x == 0.0)
     }
 
-    /// First sample of the next block.
+    /// Index of the first sample of the next block, on the player's clock.
     pub fn clock(&self) -> u64 {
         self.clock
     }
@@ -205,7 +206,8 @@ impl Player {
         }
     }
 
-    /// Does all that is due in this block, in the order of samples: first what is let go, then commands, then repetitions.
+    /// Carries out what is due in this block, in the order of samples: first holds that were released, then commands,
+    /// then repetitions.
     fn act(&mut self) {
         let end = self.clock + self.block as u64;
         let mut going = self.leases.next(end);
@@ -234,7 +236,7 @@ impl Player {
         }
     }
 
-    /// Ends what nobody holds any more.
+    /// Ends what was begun under a hold that was released.
     fn let_go(&mut self, LetGo { id, sample, fade }: LetGo) {
         let sample = sample.max(self.clock);
         self.leases.let_go(id);
@@ -244,7 +246,7 @@ impl Player {
         }
     }
 
-    /// Obeys a command unless nobody wants what it begins any more; whether something more is held since.
+    /// Carries out a command unless it was released or taken back; whether a hold was added.
     fn begin(&mut self, sample: u64, sent: Sent) -> bool {
         let let_go = sent.held.as_ref().is_some_and(|held| held.until() <= sample);
         if let_go || sent.command.is_passing() && sent.id <= self.standing.withdrawn() {
@@ -268,7 +270,7 @@ impl Player {
         begun
     }
 
-    /// Obeys a command; whether it began something.
+    /// Carries out a command; whether it began something.
     fn obey(&mut self, sample: u64, id: u64, command: Command) -> bool {
         let (events, outlet) = (&mut self.events, &mut self.outlet);
         match command {

@@ -4,12 +4,12 @@ use crate::kernels;
 use crate::{Options, Which};
 use std::ops::Range;
 
-/// Share of a limit on the power that waveforms may use up, for drives to find some left. Halved, waveforms
-/// alone reach 3 dB less of such a limit; at 1, drives that come beside them would find nothing.
+/// Share of a limit on the power that waveforms may use, so that some is left for drives. Halved, waveforms alone reach
+/// 3 dB less of such a limit; at 1, drives that come beside them would find nothing.
 const WAVES_SHARE: f64 = 0.75;
 
-/// Running powers of all actuators that have a limit on them, and how far each may have come at the start of each future
-/// block for the committed future to stay within.
+/// Running powers of all actuators that have a limit on them, and the largest power allowed at the start of each future
+/// block, so that what has been started stays within the limit.
 pub(crate) struct Powers {
     blocks: usize,
     tracks: Vec<Track>,
@@ -28,7 +28,7 @@ struct Track {
     decay: f64,
     growth: f64,
     share: f64,
-    /// What a square of each sample of a block is worth at the block's end.
+    /// Weight of each sample's square of a block in the power at the block's end.
     weights: Vec<f32>,
     power: f64,
     /// Largest power that may be at the start of each block of the ring.
@@ -156,7 +156,7 @@ pub(crate) struct WaveEnergies {
     pub(crate) falling: Energies,
 }
 
-/// Energy of something, and the sum of its products with what is there already, both as magnitudes.
+/// Energy of a signal, and the sum of the products of its magnitudes with those of what has been started already.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Energies {
     /// Sum of its own squares.
@@ -165,7 +165,7 @@ pub(crate) struct Energies {
     pub(crate) cross: f64,
 }
 
-/// Running power of what is committed and g times something new, from block to block: held + 2 g cross + g² own.
+/// Running power of what has been started plus g times a new signal, from block to block: held + 2 g cross + g² own.
 pub(crate) struct Walk<'a> {
     track: &'a Track,
     energies: &'a [f64],

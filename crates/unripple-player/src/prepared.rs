@@ -26,8 +26,8 @@ impl Prepared {
     /// A drive from planar samples, output after output, in the actuators' unit.
     ///
     /// # Errors
-    /// [`PlayerError::Range`] without outputs or samples, [`PlayerError::Size`] unless the samples divide among the outputs,
-    /// [`PlayerError::Sample`] at the first that cannot be played.
+    /// [`PlayerError::Range`] without outputs or samples, [`PlayerError::Size`] if the samples do not divide evenly
+    /// among the outputs, [`PlayerError::Sample`] at the first sample that is not finite or too large.
     pub fn new(outputs: usize, data: Vec<f32>) -> Result<Self, PlayerError> {
         count("outputs of a drive", outputs, 1, usize::MAX)?;
         let samples = data.len() / outputs;
@@ -37,7 +37,7 @@ impl Prepared {
         Ok(Self { outputs, samples, data, every: None })
     }
 
-    /// The same of a [`Drive`], rounded to float32 as devices emit it.
+    /// A drive from a [`Drive`], rounded to float32 as devices emit it.
     ///
     /// # Errors
     /// As [`Prepared::new`].
@@ -46,9 +46,9 @@ impl Prepared {
         Self::new(drive.channels().len(), data)
     }
 
-    /// A loop without a seam: `data` is one pass, repeated for ever. At its start it fades in over `fade` samples, taken from the
-    /// end of the pass; passes then overlap by as much, so that a loop may change its drive or gain from one pass to the next.
-    /// The overlapping parts add to the pass exactly.
+    /// A loop: `data` is one pass (planar, as for [`Prepared::new`]), repeated without a gap. At its start it fades in
+    /// over `fade` samples, taken from the end of the pass; passes then overlap by as many samples, so that a loop may
+    /// change its drive or gain from one pass to the next. The overlapping parts add up to the pass exactly.
     ///
     /// # Errors
     /// As [`Prepared::new`], and [`PlayerError::Range`] for a fade of no sample or one longer than the pass.
@@ -72,19 +72,21 @@ impl Prepared {
         self.outputs
     }
 
-    /// Number of samples in each channel; of a loop, one pass and a fade.
+    /// Number of samples in each channel; for a loop, one pass and a fade.
     pub fn samples(&self) -> usize {
         self.samples
     }
 
-    /// Number of samples from one pass to the next, of a loop.
+    /// For a loop, the number of samples from one pass to the next; otherwise `None`.
     pub fn every(&self) -> Option<usize> {
         self.every
     }
 
-    /// Largest sum that an output's copies, one every `period` samples, come to where all samples of the other sign vanish:
-    /// a comb whose gain is the output's limit over this has all its copies played alike. Of the rounded
-    /// period or the next shorter, whichever is more; of one that is no period, the drive's own peak.
+    /// Largest sum of the positive parts, or of the negative parts, of overlapping copies of an output's channel that
+    /// start every `period` samples, in the output's unit. A comb whose gain is at most the output's peak limit over
+    /// this is not scaled down by that limit, as long as nothing else sounds. Starts are rounded to a sample, so this
+    /// is the larger of the values for floor(`period`) and floor(`period`) + 1 samples; for a `period` below 1 or not a
+    /// number it is the drive's own peak.
     pub fn comb_peak(&self, output: usize, period: f64) -> f32 {
         let channel = self.channel(output);
         let short = if period >= 1.0 { period.floor() as usize } else { channel.len().max(1) };
@@ -99,7 +101,7 @@ impl Prepared {
             .fold(0.0, f32::max)
     }
 
-    /// The samples of an output; none for one that there is not.
+    /// The samples of an output, by its index; empty if there is no such output.
     pub fn channel(&self, output: usize) -> &[f32] {
         self.data.get(output * self.samples..(output + 1) * self.samples).unwrap_or(&[])
     }

@@ -1,4 +1,4 @@
-//! Shared data on the audio thread: counted by its uses there, and sent away to be freed when there are none.
+//! Shared data on the audio thread: their uses are counted there, and data without uses are sent away to be freed.
 
 use crate::hold::Held;
 use crate::{Prepared, PreparedFilters};

@@ -1,13 +1,14 @@
-//! What the desk wants of the player at any time: state rather than messages, so that it cannot be lost.
+//! Requests of the desk that concern the player as a whole, kept as state rather than messages, so that they cannot be
+//! lost.
 
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering::Acquire, Ordering::Release};
 
-/// What is wanted of a player as a whole.
+/// Requests that concern a player as a whole.
 #[derive(Debug, Default)]
 pub(crate) struct Standing {
-    /// What is over by itself is not begun any more if its number is this or less.
+    /// Drives and waveforms played once are not begun any more if their number is this or less.
     withdrawn: AtomicU64,
-    /// Samples over which all is to fade out for good; 0 as long as the player is to go on.
+    /// Samples over which everything is to fade out for good; 0 while the player is to go on.
     fade: AtomicU32,
     /// Said by the player: it has faded out.
     over: AtomicBool,

@@ -15,7 +15,7 @@ pub(crate) const LANES: usize = 16;
 /// sums no longer fit the registers.
 pub(crate) const OUTPUTS: usize = 4;
 
-/// How responses are made ready for a convolver; costly, but not bound to a thread.
+/// Prepares responses for a convolver: costly, but possible on any thread.
 #[derive(Clone)]
 pub struct FilterPlan {
     /// Number of outputs.
@@ -26,7 +26,7 @@ pub struct FilterPlan {
     pub(crate) low: usize,
     /// Number of partitions, each of a block at the lower rate.
     pub(crate) partitions: usize,
-    /// Takes responses to the lower rate.
+    /// Low-pass filter with which responses are brought to the lower rate.
     pub(crate) filter: LowPass,
     /// The Fourier transform of two blocks.
     pub(crate) forward: Arc<dyn RealToComplex<f32>>,
@@ -39,7 +39,7 @@ impl std::fmt::Debug for FilterPlan {
     }
 }
 
-/// One input's responses to all outputs, ready to be convolved with.
+/// Responses of one input to all outputs, as spectra of partitions, ready for a [`Convolver`](crate::Convolver).
 #[derive(Clone, Debug)]
 pub struct PreparedFilters {
     /// Group of outputs x group of lanes x partition x output in the group x (real, imaginary) x lane.
@@ -68,11 +68,12 @@ impl FilterPlan {
         [self.outputs.div_ceil(OUTPUTS), self.groups(), self.partitions]
     }
 
-    /// Makes one input's responses ready, one of at most the planned number of taps for each output.
+    /// Prepares the responses of one input: one per output, of at most the planned number of taps, in samples at the
+    /// full rate.
     ///
     /// # Errors
-    /// [`PlayerError::Size`] for another number of responses or a longer one, [`PlayerError::Sample`] at the first sample that cannot be
-    /// played.
+    /// [`PlayerError::Size`] for another number of responses or one that is too long, [`PlayerError::Sample`] at the
+    /// first sample that is not finite or too large.
     pub fn prepare(&self, responses: &[Vec<f32>]) -> Result<PreparedFilters, PlayerError> {
         same("responses of an input", responses.len(), self.outputs)?;
         for response in responses {
@@ -117,7 +118,8 @@ impl FilterPlan {
         Ok(output)
     }
 
-    /// Puts a spectrum where it belongs; the highest frequency's real value is lane 0's imaginary part.
+    /// Stores a spectrum in its place; the real value of the highest frequency is stored as the imaginary part of lane
+    /// 0.
     fn put(&self, spectra: &mut [f32], [output, partition]: [usize; 2], spectrum: &[Complex<f32>]) {
         let [_, groups, partitions] = self.shape();
         for (bin, value) in spectrum.iter().take(self.low).enumerate() {

@@ -6,12 +6,12 @@ use crate::shelf::{Garbage, Shelf};
 use realfft::num_complex::Complex;
 use std::sync::Arc;
 
-/// Floats of a group of lanes of an input's spectrum: the real parts; the imaginary, lane 0 without; the
-/// real, with the highest frequency in lane 0: three times the lanes, so that the product needs no special
-/// case for lane 0.
+/// Floats of a group of lanes of an input's spectrum: the real parts; the imaginary parts, with 0 in lane 0; the real
+/// parts again, with the highest frequency in lane 0. Three times the lanes, so that the product needs no special case
+/// for lane 0.
 pub(crate) const SPECTRUM: usize = 3 * LANES;
 
-/// What entered one input in the last blocks, as spectra, and through which filters each block goes.
+/// Spectra of the last blocks of one input, and the filters through which each block goes.
 pub(crate) struct History {
     /// Block of the ring x share (old, new) x group of lanes x [`SPECTRUM`].
     spectra: Vec<f32>,
@@ -41,7 +41,7 @@ pub(crate) struct Shares {
 }
 
 impl History {
-    /// Silence, through no filters, of a number of partitions and groups of lanes.
+    /// A silent input without filters, for a number of partitions and groups of lanes.
     pub(crate) fn new(partitions: usize, groups: usize) -> Self {
         Self {
             spectra: vec![0.0; partitions * 2 * groups * SPECTRUM],
@@ -60,8 +60,8 @@ impl History {
         partitions + 4
     }
 
-    /// Turns to other filters over a number of blocks, after a turn that is under way. What waited for that
-    /// is given back.
+    /// Cross-fades to other filters over a number of blocks, after a cross-fade that is under way. Filters that were
+    /// waiting for that are given back.
     pub(crate) fn turn(
         &mut self,
         filters: Arc<PreparedFilters>,
@@ -70,12 +70,12 @@ impl History {
         self.waits.replace((filters, blocks.max(1))).map(|(filters, _)| filters)
     }
 
-    /// Whether it turns to other filters, or will.
+    /// Whether a cross-fade is under way or waiting.
     pub(crate) fn is_turning(&self) -> bool {
         self.turning.is_some() || self.waits.is_some()
     }
 
-    /// Goes on without filters.
+    /// Removes the filters for what enters from now on.
     pub(crate) fn clear(&mut self, mut leave: impl FnMut(Garbage)) {
         let turning = self.turning.take().map(|turning| turning.to);
         for place in self.present.take().into_iter().chain(turning) {
@@ -84,7 +84,7 @@ impl History {
         self.waits.take().into_iter().for_each(|(filters, _)| leave(Garbage::Filters(filters)));
     }
 
-    /// Begins the next block: the oldest leaves. Says how its samples are shared.
+    /// Begins the next block; the oldest one is dropped. Returns how its samples are shared among filters.
     pub(crate) fn advance(&mut self, mut leave: impl FnMut(Garbage)) -> Shares {
         self.head = (self.head + 1) % self.through.len();
         for place in std::mem::take(&mut self.through[self.head]).into_iter().flatten() {

@@ -1,13 +1,13 @@
-//! Continuous waveforms: uniformly partitioned convolution of every input into every output, at the rate that
-//! the band needs.
+//! Uniformly partitioned convolution of every input into every output, at a rate just high enough for the band.
 //!
-//! Inputs are taken to the lower rate, cut into blocks and transformed, once per input and block. Responses are cut into
-//! partitions of a block. Products of the spectra of the last blocks with those of the partitions are summed per output,
-//! transformed back once, overlapped and added (overlap-add), and taken back to the full rate. Every block
-//! does the same work.
+//! Inputs are decimated to the lower rate, cut into blocks and transformed, once per input and block. Responses are cut
+//! into partitions of a block. Products of the spectra of the last blocks with those of the partitions are summed per
+//! output, transformed back once, overlapped and added (overlap-add), and interpolated to the full rate. Every block
+//! takes the same work.
 //!
 //! Each block of an input keeps the filters that it entered under until it has passed the last partition: filters are
-//! exchanged without cutting off what rings, and at no more cost than the blocks of the fade, which have two shares.
+//! exchanged without cutting off the responses to earlier samples, and at no more cost than the blocks of the fade,
+//! which are convolved twice.
 
 mod filters;
 mod history;
@@ -29,7 +29,7 @@ use realfft::{ComplexToReal, RealFftPlanner};
 use resample::{Decimator, Interpolator, LowPass};
 use std::sync::Arc;
 
-/// Inputs convolved into outputs, block by block.
+/// Convolves every input into every output, block by block.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -65,7 +65,7 @@ struct Input {
 
 struct Output {
     interpolator: Interpolator,
-    /// What of the last block reaches into this one.
+    /// Part of the last block's result that overlaps into this one.
     tail: Vec<f32>,
 }
 
@@ -76,11 +76,12 @@ impl std::fmt::Debug for Convolver {
 }
 
 impl Convolver {
-    /// A convolver of `[inputs, outputs]` in blocks at `rate`, for responses of up to `taps` samples, that keeps frequencies up
-    /// to `band_top_hz` within 1e-4. What an input holds above is lost or, from there to the lower rate less it, distorted.
+    /// A convolver of `[inputs, outputs]` in blocks of `block` samples at `rate` samples per second, for responses of
+    /// up to `taps` samples. Frequencies of an input up to `band_top_hz` are kept within 1e-4. Those from there to the
+    /// lower rate minus `band_top_hz` may be attenuated and aliased, and those above are removed.
     ///
     /// # Errors
-    /// [`PlayerError::Range`] for a size or frequency that cannot be.
+    /// [`PlayerError::Range`] for a size out of range.
     pub fn new(
         [inputs, outputs]: [usize; 2],
         block: usize,
@@ -118,29 +119,29 @@ impl Convolver {
         })
     }
 
-    /// How responses are made ready.
+    /// The plan with which responses are prepared.
     pub fn plan(&self) -> &FilterPlan {
         &self.plan
     }
 
-    /// The factor by which the rate is lower inside.
+    /// Factor by which the rate of the convolution is lower than the full rate.
     pub fn factor(&self) -> usize {
         self.plan.filter.factor
     }
 
-    /// Samples from an input to an output through a response of a single 1 at tap 0: half a low-pass filter down, half one
-    /// for the response, half one up.
+    /// Delay in samples from an input to an output through a response of a single 1 at tap 0: half a low-pass filter
+    /// each for the decimated input, for the response, and for the interpolated output.
     pub fn delay(&self) -> usize {
         3 * self.plan.filter.half
     }
 
-    /// Number of samples for which the filter down still gives out what has entered it.
+    /// Number of samples for which the decimator still puts out what has entered it.
     pub(crate) fn lag(&self) -> usize {
         2 * self.plan.filter.half + 1
     }
 
-    /// Takes the filters of an input, by its index, away, from the next block on. What entered before keeps
-    /// those that it entered through.
+    /// Removes the filters of an input, by its index, from the next block on. Samples that entered before keep those
+    /// under which they entered.
     pub(crate) fn clear(&mut self, input: usize, leave: impl FnMut(Garbage)) {
         if let Some(input) = self.inputs.get_mut(input) {
             input.history.clear(leave);
@@ -153,7 +154,7 @@ impl Convolver {
         self.plan.partitions + 2 + (4 * self.plan.filter.half + 2).div_ceil(self.block)
     }
 
-    /// Whether an input is being turned to other filters, or will be.
+    /// Whether a cross-fade of any input is under way or waiting.
     pub(crate) fn is_turning(&self) -> bool {
         self.inputs.iter().any(|input| input.history.is_turning())
     }
@@ -163,9 +164,9 @@ impl Convolver {
         self.inputs.len() * (History::places(self.plan.partitions) + 1)
     }
 
-    /// Turns an input to other filters over a number of blocks, from the next block on, or after the turn
-    /// that is under way. Gives back what is not used: filters of another plan, for an input that there is
-    /// not, or those that waited and are overtaken.
+    /// Cross-fades an input, by its index, to other filters over a number of blocks, from the next block on, or after
+    /// the cross-fade that is under way. Gives back filters that are not used: filters of another plan, those for an
+    /// input that does not exist, or those that were waiting and are replaced.
     pub fn turn(
         &mut self,
         input: usize,
@@ -178,13 +179,13 @@ impl Convolver {
         }
     }
 
-    /// Convolves a block: planar inputs in, planar outputs out (channels x samples). Of slices of a wrong
-    /// size nothing is used. Filters that are no longer used are dropped.
+    /// Convolves a block: planar inputs in, planar outputs out (channels x samples). If a slice has a wrong size the
+    /// output is silent. Filters that are no longer used are dropped.
     pub fn process(&mut self, input: &[f32], output: &mut [f32]) {
         self.process_leaving(input, output, drop);
     }
 
-    /// The same, planar samples in and out, where filters that are no longer used are handed over.
+    /// As [`Convolver::process`], planar samples in and out, but filters that are no longer used are handed to `leave`.
     pub(crate) fn process_leaving(
         &mut self,
         input: &[f32],

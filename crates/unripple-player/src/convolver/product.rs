@@ -6,7 +6,7 @@ use pulp::{Simd, WithSimd};
 
 /// Sums, over all inputs and partitions, products of spectra.
 pub(crate) struct Product<'a> {
-    /// What entered each input, as spectra.
+    /// The last blocks of each input, as spectra.
     pub(crate) histories: &'a [Input],
     /// Output x group of lanes x (real, imaginary) x lane.
     pub(crate) sums: &'a mut [f32],

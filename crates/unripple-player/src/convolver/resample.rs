@@ -55,7 +55,7 @@ pub(crate) fn factor(block: usize, rate: f64, top: f64) -> usize {
     (1..=block / 4).rev().find(|f| block.is_multiple_of(*f) && rate / *f as f64 >= 3.0 * top).unwrap_or(1)
 }
 
-/// One input's way to the lower rate.
+/// Decimator of one input, to the lower rate.
 pub(crate) struct Decimator {
     taps: Vec<f32>,
     factor: usize,
@@ -84,7 +84,7 @@ impl Decimator {
     }
 }
 
-/// One output's way back to the full rate.
+/// Interpolator of one output, to the full rate.
 pub(crate) struct Interpolator {
     /// Taps of each phase, the last sample's first.
     phases: Vec<Vec<f32>>,

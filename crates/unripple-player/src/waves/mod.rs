@@ -1,4 +1,4 @@
-//! Continuous waveforms in the player: what enters the convolver, and how loud what leaves it may be.
+//! Continuous waveforms in the player: inputs of the convolver, and the gain of its outputs.
 
 mod level;
 
@@ -24,7 +24,7 @@ pub(crate) struct Waves {
     shelf: Shelf<[f32]>,
     sounds: Vec<Sound>,
     entering: Vec<f32>,
-    /// What leaves in this block and, known a block ahead, in the next; planar.
+    /// Outputs of the convolver for this block and, a block ahead, for the next; planar.
     now: Vec<f32>,
     next: Vec<f32>,
     level: Level,
@@ -40,7 +40,7 @@ type Turn = (Arc<PreparedFilters>, u32);
 struct Sound {
     whose: Whose,
     input: usize,
-    /// Whether the input's filters are this waveform's.
+    /// Whether the input's filters came with this waveform.
     own: bool,
     samples: usize,
     start: u64,
@@ -74,7 +74,7 @@ impl Waves {
         })
     }
 
-    /// What the inputs are convolved by.
+    /// The convolver of the inputs.
     pub(crate) fn convolver(&self) -> &Convolver {
         &self.convolver
     }
@@ -84,7 +84,7 @@ impl Waves {
         self.convolver.places() + self.options.sounds
     }
 
-    /// Whether nothing enters and all that did has rung out, of this block and the next.
+    /// Whether nothing enters and the responses to all that did have ended, in this block and the next.
     pub(crate) fn is_idle(&self) -> bool {
         self.sounds.is_empty() && self.quiet > self.convolver.memory() + 1
     }
@@ -102,7 +102,7 @@ impl Waves {
         ));
     }
 
-    /// Turns an input, by its index, to other filters over `fade` samples.
+    /// Cross-fades an input, by its index, to other filters over `fade` samples.
     pub(crate) fn turn(
         &mut self,
         input: usize,

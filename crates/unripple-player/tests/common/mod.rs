@@ -5,14 +5,14 @@
 use std::sync::Arc;
 use unripple_player::{At, Command, Desk, Hold, Options, Player, Prepared, Report, Voice, player};
 
-/// A player whose desk is at hand.
+/// A player and its desk in one thread, with all reports and holds so far.
 pub struct Rig {
     pub options: Options,
     pub player: Player,
     pub desk: Desk,
-    /// All that was reported.
+    /// All reports so far.
     pub reports: Vec<Report>,
-    /// All that was begun.
+    /// Holds of all that was begun, by name.
     pub holds: Vec<(Voice, Hold)>,
 }
 
