@@ -51,7 +51,8 @@ impl Axis {
         Self { label: label.into(), scale: Scale::Logarithmic, ..Self::default() }
     }
 
-    /// The same axis showing its data multiplied. The multiplier has the unit shown per unit of the data.
+    /// This axis with its data multiplied for display. `multiplier` is the factor from the data's unit to the unit
+    /// shown: 1e3 for data in s on an axis in ms.
     pub fn times(mut self, multiplier: f64) -> Self {
         self.multiplier = multiplier;
         self
@@ -70,14 +71,14 @@ impl Axis {
     }
 }
 
-/// An axis with its range settled: takes data to fractions of its length.
+/// An axis with a fixed range and fixed ticks, which maps data to fractions of its length.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Ruler {
     scale: Scale,
     multiplier: f64,
     low: f64,
     high: f64,
-    /// Major ticks: data value shown, and label.
+    /// Major ticks: value in the unit shown, and label.
     pub major: Vec<(f64, String)>,
     /// Minor ticks, as values shown.
     pub minor: Vec<f64>,
@@ -85,7 +86,7 @@ pub(crate) struct Ruler {
     pub power: Option<i32>,
 }
 
-/// Which way a ruler lies, for the room its labels need.
+/// Direction of an axis, for the room its labels need.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Direction {
     Across,
@@ -102,7 +103,7 @@ pub(crate) struct Padding {
 }
 
 impl Ruler {
-    /// Settles an axis for data values, over `length` points with ticks labelled at `size`.
+    /// Fixes range and ticks of an axis for data values, over `length` points with ticks labelled at `size`.
     ///
     /// Errors when an end is not finite, or not positive on a logarithmic axis.
     pub fn new(
@@ -165,12 +166,12 @@ impl Ruler {
         })
     }
 
-    /// Where a datum lies, a share of the axis: 0 at the low end, 1 at the high one; not-a-number where it cannot be shown.
+    /// Place of a datum as a fraction of the axis: 0 at the low end, 1 at the high one; NaN where it cannot be shown.
     pub fn place(&self, datum: f64) -> f64 {
         self.shown(datum * self.multiplier)
     }
 
-    /// Where a value already in the unit shown lies.
+    /// Place of a value in the unit shown, as a fraction of the axis.
     pub fn shown(&self, value: f64) -> f64 {
         let fraction = match self.scale {
             Scale::Linear => (value - self.low) / (self.high - self.low),
@@ -246,7 +247,8 @@ pub(crate) fn usable(value: f64) -> bool {
     value.abs() <= LARGEST
 }
 
-/// Both ends moved outwards to a round number that is within a few thousandths of the span, as the last of many samples wants.
+/// Both ends moved outwards to a round number if one is within 0.3 % of the span: the last of many samples often
+/// falls just short of one.
 fn snapped(least: f64, most: f64) -> (f64, f64) {
     let span = most - least;
     let unit = 10f64.powf(span.log10().floor()) / 10.0;

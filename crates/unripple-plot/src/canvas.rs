@@ -53,15 +53,15 @@ impl Stroke {
     }
 }
 
-/// Which end of a text is at its place.
+/// Which part of a line of text is at its place.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Anchor {
-    /// It starts there.
+    /// The text starts at its place.
     #[default]
     Start,
-    /// It is centred there.
+    /// The text is centred at its place.
     Middle,
-    /// It ends there.
+    /// The text ends at its place.
     End,
 }
 

@@ -39,18 +39,18 @@ pub struct Cells {
     pub values: Vec<f64>,
     /// The axis of abscissae, along the columns.
     pub x: Axis,
-    /// Name of the quantity that the rows are.
+    /// Label of the axis of rows: what their names are.
     pub label: String,
     /// How values become colours.
     pub colours: Colours,
     /// Text above the frame; none if empty.
     pub title: String,
-    /// Height of the frame in millimetres; 4 to a row if absent, 30 to 160.
+    /// Height of the frame in millimetres; if absent, 4 per row, but from 30 to 160.
     pub height_mm: Option<f64>,
 }
 
-/// Height of a row in millimetres, where nothing else is asked for: that of its name and some room. At half of it
-/// names of rows would touch.
+/// Height of a row in millimetres, if none is given: that of its name and some room. At half of it names of rows
+/// would touch.
 const ROW: f64 = 4.0;
 /// Least and greatest height of all rows in millimetres, so that the bar has room and the figure fits a page.
 const HEIGHT: [f64; 2] = [30.0, 160.0];
@@ -72,7 +72,7 @@ impl Cells {
         }
     }
 
-    /// Places of the rows' names, from the foot, and those of them that are written in so much height.
+    /// Names of the rows that fit a height in points, each with its place in rows from the bottom.
     fn named(&self, height: f64, size: f64) -> Vec<(f64, String)> {
         let most = (height / (1.3 * size)).max(1.0);
         let steps = (0..12).flat_map(|power| [1, 2, 5].map(|digit| digit * 10_usize.pow(power)));
@@ -94,7 +94,7 @@ pub(crate) struct PreparedCells<'a> {
 }
 
 impl<'a> PreparedCells<'a> {
-    /// Settles axis and colours for a cell of the figure `width` points wide.
+    /// Fixes axis and colours for a panel `width` points wide.
     pub fn new(cells: &'a Cells, width: f64, style: &'a Style) -> Result<Self, PlotError> {
         cells.check()?;
         let usual = (ROW * cells.rows.len() as f64).clamp(HEIGHT[0], HEIGHT[1]);

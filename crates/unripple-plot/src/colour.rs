@@ -16,7 +16,7 @@ pub struct Rgb(
 impl Rgb {
     /// Black, for text and axes.
     pub const BLACK: Self = Self(0, 0, 0);
-    /// White, the paper's own.
+    /// White, the background of figures.
     pub const WHITE: Self = Self(255, 255, 255);
     /// A middle grey for guides. About half as light as paper, so that guides stay behind the data.
     pub const GREY: Self = Self(120, 120, 120);

@@ -31,7 +31,7 @@ impl Default for Colours {
 }
 
 impl Colours {
-    /// The colour scale with both ends settled for the values of some grids.
+    /// The colour scale with both ends fixed for the values of some grids.
     ///
     /// Errors when an end or the multiplier is not finite, or the ends are not in order.
     pub(crate) fn settle<'a>(&self, grids: impl Iterator<Item = &'a Grid>) -> Result<Self, PlotError> {
@@ -60,7 +60,7 @@ impl Colours {
         Ok(Self { low: Some(low), high: Some(high), ..self.clone() })
     }
 
-    /// Where a value lies on a settled scale, 0 to 1 within it.
+    /// Place of a value on a scale with fixed ends, 0 to 1 within it.
     pub(crate) fn place(&self, value: f32) -> f64 {
         let (low, high) = (self.low.unwrap_or(0.0), self.high.unwrap_or(1.0));
         (f64::from(value) - low) / (high - low)
@@ -82,7 +82,7 @@ const WIDTH: f64 = 7.0;
 const AWAY: f64 = 7.0;
 
 impl Bar {
-    /// A bar for a settled scale, `length` points long.
+    /// A bar for a scale with fixed ends, `length` points long.
     pub fn new(colours: &Colours, length: f64, style: &Style) -> Result<Self, PlotError> {
         let axis = Axis {
             label: colours.title.clone(),
@@ -104,13 +104,13 @@ impl Bar {
         }
     }
 
-    /// Room in points that it needs to the right of the field.
+    /// Room in points that the bar needs to the right of the field.
     pub fn room(&self, style: &Style) -> f64 {
         let title = if self.full_title().is_empty() { 0.0 } else { 1.5 * GAP + 1.2 * style.label_pt };
         AWAY + WIDTH + TICK + GAP + self.ruler.label_width(style.tick_pt) + title + 1.0
     }
 
-    /// Draws it to the right of the field.
+    /// Draws the bar to the right of the field.
     pub fn draw(&self, canvas: &mut Canvas, field: Rect, style: &Style) {
         let bar = Rect { x: field.right() + AWAY, width: WIDTH, ..field };
         canvas.gradient(bar, &self.stops());

@@ -12,19 +12,19 @@ use crate::{PlotError, encode, font};
 /// The kind of a marker on a map.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Symbol {
-    /// Where an actuator pushes: a dark square.
+    /// An actuator: a dark square.
     #[default]
     Actuator,
-    /// Where a focus is wanted: a cross.
+    /// A target of focusing: a cross.
     Target,
-    /// A circle of a radius in the map's unit, such as the focal disc.
+    /// A circle of a radius in the grid's unit of length, such as the focal disc.
     Circle(f64),
 }
 
 /// A marker on a map.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Marker {
-    /// Where, in the grid's unit.
+    /// Place of the marker, in the grid's unit of length.
     pub at: [f64; 2],
     /// The symbol that is drawn.
     pub symbol: Symbol,
@@ -32,7 +32,7 @@ pub struct Marker {
     pub name: String,
 }
 
-/// Pixels of an embedded picture to a point: 200 to an inch, smoothed further by whoever shows it.
+/// Pixels per point of an embedded picture: 200 per inch, interpolated further by the viewer.
 pub(crate) const DENSITY: f64 = 200.0 / 72.0;
 /// Most pixels along a side of an embedded picture. It bounds the file's size: at 200 to an inch that is 8 inches.
 pub(crate) const LONGEST: usize = 1600;
@@ -141,7 +141,7 @@ fn symbol(canvas: &mut Canvas, placed: &Placed, marker: &Marker, [x, y]: [f64; 2
     }
 }
 
-/// Where a name hides no marker and no other name, towards the middle of the map if it can.
+/// Place of a name that hides no marker and no other name, towards the middle of the map if possible.
 fn name_place(
     name: &str,
     [x, y]: [f64; 2],

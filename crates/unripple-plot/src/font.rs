@@ -1,9 +1,9 @@
-//! The one typeface, embedded, parsed once.
+//! The typeface of all figures, embedded and parsed once.
 
 use resvg::usvg::fontdb;
 use std::sync::{Arc, LazyLock};
 
-/// Its family name, with a metrically close fall-back for viewers of the SVG that lack it.
+/// Family name of the typeface, with a metrically close fall-back for viewers of the SVG that lack it.
 pub(crate) const FAMILY: &str = "DejaVu Sans, Verdana, sans-serif";
 
 /// Height of a digit over the font size. The typeface's own measure.

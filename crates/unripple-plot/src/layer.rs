@@ -10,11 +10,11 @@ pub enum Ink {
     /// The palette's next colour, counted over the layers of the plot.
     #[default]
     Auto,
-    /// The palette's colour of that number.
+    /// The colour of [`Rgb::palette`] with this index.
     Palette(usize),
-    /// A place from 0 (dark) to 1 (light) on the sequential map, for families in order.
+    /// A place from 0 (dark) to 1 (light) on the sequential colour map, for a family of curves in order.
     Graded(f64),
-    /// A colour of one's own.
+    /// A colour chosen by the caller.
     Rgb(Rgb),
 }
 
@@ -101,7 +101,7 @@ impl Mark {
 pub struct Line {
     /// Abscissae, in the axis's data unit.
     pub x: Vec<f64>,
-    /// Ordinates, as many.
+    /// Ordinates, as many as abscissae.
     pub y: Vec<f64>,
     /// Name of the line in the legend; none if empty.
     pub label: String,
@@ -118,9 +118,10 @@ pub struct Line {
 pub struct Points {
     /// Abscissae, in the axis's data unit.
     pub x: Vec<f64>,
-    /// Ordinates, as many.
+    /// Ordinates, as many as abscissae.
     pub y: Vec<f64>,
-    /// How far each error bar reaches below and above; empty for none, else as many as points.
+    /// Lengths of each error bar below and above its point, in the data unit of the ordinates; empty for none, else
+    /// as many as points.
     pub error: Vec<[f64; 2]>,
     /// Name of the points in the legend; none if empty.
     pub label: String,
@@ -135,9 +136,9 @@ pub struct Points {
 pub struct Band {
     /// Abscissae, in the axis's data unit.
     pub x: Vec<f64>,
-    /// Lower ordinates, as many.
+    /// Lower ordinates, as many as abscissae.
     pub low: Vec<f64>,
-    /// Upper ordinates, as many.
+    /// Upper ordinates, as many as abscissae.
     pub high: Vec<f64>,
     /// Name of the band in the legend; none if empty.
     pub label: String,
@@ -145,7 +146,7 @@ pub struct Band {
     pub ink: Ink,
 }
 
-/// Which way a rule or a span lies.
+/// Direction of a rule or a span.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Along {
     /// At one abscissa, from bottom to top.
@@ -158,11 +159,11 @@ pub enum Along {
 /// A straight line across the whole plot at one value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rule {
-    /// The value it stands at.
+    /// Value at which the rule is drawn, in the axis's data unit.
     pub at: f64,
     /// Direction in which the rule runs.
     pub along: Along,
-    /// Text beside it: above the frame for one along y, on the line for one along x.
+    /// Text beside the rule: above the frame for a rule along y, on the line for one along x; none if empty.
     pub label: String,
     /// Colour of the rule.
     pub ink: Ink,
@@ -197,10 +198,10 @@ impl Default for Span {
     }
 }
 
-/// Text at a place in the data.
+/// Text at a point of the plot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Note {
-    /// Where, in the data's units.
+    /// Place of the text, in the data's units.
     pub at: [f64; 2],
     /// The text of the note.
     pub text: String,

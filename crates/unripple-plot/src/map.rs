@@ -9,7 +9,8 @@ use crate::panel::{Margins, Placed, Prepared};
 use crate::style::{GAP, Style, points};
 use crate::{PlotError, frame};
 
-/// A field over the surface, in colour, with its outline, markers and a colour bar. One length is as long across as up.
+/// A field over the surface, in colour, with its outline, markers and a colour bar. Lengths have the same scale in
+/// both directions.
 ///
 /// # Example
 /// ```
@@ -23,7 +24,8 @@ use crate::{PlotError, frame};
 pub struct Map {
     /// The field's values, cell by cell.
     pub grid: Grid,
-    /// The rim, as closed polygons the field is clipped to; none shows the whole grid.
+    /// Outline of the surface, as closed polygons to which the field is clipped, in the grid's unit of length; if
+    /// empty, the whole grid is shown.
     pub outline: Vec<Ring>,
     /// Actuators, targets and focal discs.
     pub markers: Vec<Marker>,
@@ -33,7 +35,7 @@ pub struct Map {
     pub unit: String,
     /// Factor from the grid's unit of length to the unit of the axes.
     pub multiplier: f64,
-    /// Text above; none if empty.
+    /// Text above the map; none if empty.
     pub title: String,
     /// Greatest height of the frame in millimetres.
     pub height_mm: f64,
@@ -113,7 +115,7 @@ pub(crate) struct PreparedMap<'a> {
 }
 
 impl<'a> PreparedMap<'a> {
-    /// Settles axes and colours for a cell of the figure `width` points wide.
+    /// Fixes axes and colours for a panel `width` points wide.
     pub fn new(map: &'a Map, width: f64, style: &'a Style) -> Result<Self, PlotError> {
         map.grid.check("map")?;
         let view = view(&map.grid, &map.outline)?;

@@ -16,7 +16,7 @@ use crate::{PlotError, error};
 use rayon::prelude::*;
 use resvg::tiny_skia::Pixmap;
 
-/// A field in motion: an animated PNG that repeats for ever, of few colours so that it stays small.
+/// An animated PNG of a field in motion. It repeats for ever, and has few colours so that it stays small.
 ///
 /// # Example
 /// ```
@@ -33,15 +33,16 @@ use resvg::tiny_skia::Pixmap;
 pub struct Movie {
     /// The frames, on grids of one shape; captions tell the time.
     pub shots: Vec<Shot>,
-    /// The rim, as closed polygons the field is clipped to; none shows the whole grid.
+    /// Outline of the surface, as closed polygons to which the field is clipped, in the grids' unit of length; if
+    /// empty, the whole grid is shown.
     pub outline: Vec<Ring>,
     /// Actuators, targets and focal discs.
     pub markers: Vec<Marker>,
     /// How values become colours, the same in every frame.
     pub colours: Colours,
-    /// Unit of the bar for lengths.
+    /// Unit of the scale bar.
     pub unit: String,
-    /// Factor from the grids' unit of length to the unit of the bar.
+    /// Factor from the grids' unit of length to the unit of the scale bar.
     pub multiplier: f64,
     /// Width of the whole picture, 120 to 4000 pixels.
     pub width_px: u32,
@@ -69,7 +70,7 @@ const DENSITY: f64 = 1.5;
 /// Frames held in memory at once: they are encoded in parallel, and twice as many take twice the memory.
 const BATCH: usize = 64;
 
-/// Everything about a movie but its frames.
+/// What is common to all frames of a movie.
 struct Stage<'a> {
     movie: &'a Movie,
     style: Style,

@@ -32,7 +32,7 @@ macro_rules! panels {
 panels!(Plot, Traces, Map, Strip, Cells);
 
 impl Panel {
-    /// Checks the data and settles everything that decides how much room is needed, for a cell of `width` points.
+    /// Checks the data and fixes everything that determines the room needed, for a panel `width` points wide.
     pub(crate) fn prepare<'a>(
         &'a self,
         width: f64,
@@ -56,9 +56,9 @@ pub(crate) trait Prepared {
     fn aligned(&self) -> bool {
         true
     }
-    /// Height of the frame when it is so wide, in points.
+    /// Height of the frame for a width of the frame, both in points.
     fn height(&self, width: f64) -> f64;
-    /// Draws it with its frame there.
+    /// Draws the panel with its frame at a place.
     fn draw(&self, canvas: &mut Canvas, frame: Rect) -> Result<Placed, PlotError>;
 }
 
@@ -75,14 +75,14 @@ pub(crate) struct Margins {
     pub bottom: f64,
 }
 
-/// Where a panel's data have come to lie.
+/// The frame and axes of a panel that has been drawn, which place its data.
 #[derive(Clone, Debug)]
 pub(crate) struct Placed {
     /// The frame, in points.
     pub frame: Rect,
-    /// The axis of abscissae, settled.
+    /// The axis of abscissae, with its range and ticks fixed.
     pub x: Ruler,
-    /// The axis of ordinates, settled.
+    /// The axis of ordinates, with its range and ticks fixed.
     pub y: Ruler,
 }
 

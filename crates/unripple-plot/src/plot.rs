@@ -63,7 +63,7 @@ pub(crate) struct PreparedPlot<'a> {
 }
 
 impl<'a> PreparedPlot<'a> {
-    /// Settles axes and legend for a cell of the figure `width` points wide.
+    /// Fixes axes and legend for a panel `width` points wide.
     pub fn new(plot: &'a Plot, width: f64, style: &'a Style) -> Result<Self, PlotError> {
         plot.check()?;
         let across = (width - 6.0 * style.label_pt).max(20.0);

@@ -16,26 +16,27 @@ use crate::{PlotError, ticks};
 pub struct Shot {
     /// The field's values, cell by cell.
     pub grid: Grid,
-    /// Text above it, such as the time.
+    /// Text above the field, such as the time.
     pub caption: String,
 }
 
-/// Several fields over one surface, side by side, sharing a colour bar, with a bar for lengths instead of axes.
+/// Several fields over one surface, side by side, sharing a colour bar, with a scale bar instead of axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Strip {
     /// The fields, left to right, then down.
     pub shots: Vec<Shot>,
-    /// Fields side by side; all of them if zero.
+    /// Number of fields side by side; 0 for all of them.
     pub columns: usize,
-    /// The rim, as closed polygons the fields are clipped to; none shows the whole grids.
+    /// Outline of the surface, as closed polygons to which the fields are clipped, in the grids' unit of length; if
+    /// empty, the whole grids are shown.
     pub outline: Vec<Ring>,
-    /// Actuators, targets and focal discs, the same on each.
+    /// Actuators, targets and focal discs, the same on each field.
     pub markers: Vec<Marker>,
     /// How values become colours.
     pub colours: Colours,
-    /// Unit of the bar for lengths.
+    /// Unit of the scale bar.
     pub unit: String,
-    /// Factor from the grids' unit of length to the unit of the bar.
+    /// Factor from the grids' unit of length to the unit of the scale bar.
     pub multiplier: f64,
 }
 
@@ -68,7 +69,7 @@ pub(crate) struct PreparedStrip<'a> {
 }
 
 impl<'a> PreparedStrip<'a> {
-    /// Settles colours and rows for a cell of the figure `width` points wide.
+    /// Fixes colours and rows for a panel `width` points wide.
     pub fn new(strip: &'a Strip, width: f64, style: &'a Style) -> Result<Self, PlotError> {
         let Some(first) = strip.shots.first() else {
             return Err(PlotError::Empty { what: "strip".to_owned(), found: "no fields".to_owned() });
@@ -102,7 +103,7 @@ impl<'a> PreparedStrip<'a> {
     }
 }
 
-/// Below a field, a bar for a length of two fifths of it or less, and what it measures.
+/// Draws a scale bar below a field, at most two fifths as long as the field is wide, and the length it stands for.
 pub(crate) fn draw_scale(canvas: &mut Canvas, field: Rect, across: &Ruler, unit: &str, style: &Style) {
     let [low, high] = across.ends();
     let shown = (high - low).abs();

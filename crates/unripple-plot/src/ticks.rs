@@ -1,8 +1,10 @@
-//! Places and labels of ticks.
+//! Values and labels of ticks.
 
-/// Places on a linear axis at multiples of 1, 2 or 5 times a power of ten, at most `most` of them, all from `low` to `high`.
+/// Values of the ticks of a linear axis: multiples of 1, 2 or 5 times a power of ten, at most `most` of them, all
+/// from `low` to `high`.
 ///
-/// Empty when the ends are not finite or not in order, or when not even `most` = 1 leaves a place.
+/// Empty if the ends are not finite or not in order, if `most` is 0, or if no multiple of the step lies between the
+/// ends.
 ///
 /// # Example
 /// ```

@@ -13,7 +13,7 @@ use crate::{PlotError, font, frame, paint, ticks};
 /// A bar at the right gives the scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traces {
-    /// The shared abscissae.
+    /// The axis of abscissae, shared by all traces.
     pub x: Axis,
     /// Abscissa of the first sample, in the data's unit.
     pub start: f64,
@@ -25,13 +25,13 @@ pub struct Traces {
     pub unit: String,
     /// Factor from the data's unit to that of the scale bar.
     pub multiplier: f64,
-    /// Whether each trace fills its lane at a scale of its own, with a bar of its own.
+    /// Whether each trace fills its lane at a scale of its own, with its own scale bar.
     pub own_scales: bool,
     /// Lines at single abscissae across all traces.
     pub rules: Vec<Rule>,
-    /// Height of one lane in millimetres; absent, what suits their number.
+    /// Height of the lane of one trace in millimetres; chosen by the number of traces if absent.
     pub lane_mm: Option<f64>,
-    /// Text above; none if empty.
+    /// Text above the traces; none if empty.
     pub title: String,
 }
 
@@ -85,7 +85,7 @@ pub(crate) struct PreparedTraces<'a> {
 }
 
 impl<'a> PreparedTraces<'a> {
-    /// Settles the time axis and the lanes for a cell of the figure `width` points wide.
+    /// Fixes the time axis and the lanes for a panel `width` points wide.
     pub fn new(traces: &'a Traces, width: f64, style: &'a Style) -> Result<Self, PlotError> {
         traces.check()?;
         let longest = traces.traces.iter().map(|trace| trace.values.len()).max().unwrap_or(0);

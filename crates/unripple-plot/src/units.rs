@@ -1,6 +1,7 @@
 //! SI prefixes for axes.
 
-/// The decimal prefix that brings a largest value to between 1 and 1000: what to multiply data by, and the unit so prefixed.
+/// The SI prefix for data with a given largest value: the factor to multiply the data by, and the unit with its
+/// prefix. With them the largest value is from 1 to 1000.
 ///
 /// From pico to giga; a value of zero or one that is not finite keeps the unit as it is.
 ///
