@@ -1,4 +1,4 @@
-//! A folder under construction: beside its place, under a name of its own, locked while its maker lives.
+//! Folders under construction: hidden beside their destination, and locked while the process that fills them lives.
 
 use crate::StoreError;
 use crate::listing::{self, MARKER, Said, UNFINISHED};
@@ -9,7 +9,7 @@ use std::hash::{BuildHasher, Hasher};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-/// Characters of the place's name that are part of the hidden one, so that that is at most 255 bytes.
+/// Characters of the destination's name that the hidden name has, so that the latter has at most 255 bytes.
 const SHOWN: usize = 40;
 
 /// Letters of the random part of a hidden name. Sixteen hexadecimal digits hold the 64 random bits.
@@ -18,7 +18,7 @@ const LETTERS: usize = 16;
 /// Names that are tried: one is enough, unless somebody has 2^64 folders.
 const TRIES: usize = 16;
 
-/// A hidden folder that this process alone fills, gone when it is dropped unless it was put somewhere.
+/// A hidden folder that only this process fills. It is removed when dropped, unless it was put in place.
 #[derive(Debug)]
 pub(crate) struct Building {
     path: PathBuf,
@@ -38,8 +38,8 @@ impl Building {
         Err(StoreError::write(place)(ErrorKind::AlreadyExists.into()))
     }
 
-    /// Locked before it says what it is, so that nobody takes what says so for a killed run's; none if somebody took it for one
-    /// before it was locked.
+    /// Makes a hidden folder, and locks it before it is marked as unfinished, so that no other process takes it for
+    /// one that a killed run left. None if another process removed it before it was locked.
     fn locked(place: &Path) -> Result<Option<Self>, StoreError> {
         let (underway, path) = Underway::begin(|entry| {
             above(place, &mut entry.parents).map_err(StoreError::write(place))?;
@@ -65,17 +65,18 @@ impl Building {
         &self.path
     }
 
-    /// Does something with the folder's name or with names in it.
+    /// Runs an action that changes the folder's name or names in it, which [`abandon_all`](crate::abandon_all) cannot
+    /// interrupt.
     pub fn held<T>(&self, act: impl FnOnce(&mut Entry) -> T) -> T {
         self.underway.held(act)
     }
 
-    /// A new file in it.
+    /// Makes a new file in the folder.
     pub fn file(&self, name: &str) -> io::Result<File> {
         self.held(|_| File::options().read(true).write(true).create_new(true).open(self.path.join(name)))
     }
 
-    /// Puts the folder where nothing or an empty folder is.
+    /// Moves the folder to its destination, where nothing or an empty folder must be.
     pub fn put(self, place: &Path) -> io::Result<()> {
         self.held(|entry| {
             // Unlike on other systems, a folder cannot be renamed onto an empty one everywhere.
@@ -116,7 +117,7 @@ fn made(place: &Path) -> Result<PathBuf, StoreError> {
     Err(StoreError::write(place)(ErrorKind::AlreadyExists.into()))
 }
 
-/// A hidden name beside `place` that nobody else has: numbers of processes are not enough, containers share folders.
+/// A unique hidden name beside `place`. Process numbers would not be unique, since containers share folders.
 pub(crate) fn hidden(place: &Path) -> Result<PathBuf, StoreError> {
     let Some(start) = start(place) else {
         return Err(StoreError::Occupied {
@@ -135,8 +136,8 @@ fn start(place: &Path) -> Option<String> {
     Some(format!(".{}.unripple-", name.chars().take(SHOWN).collect::<String>()))
 }
 
-/// Removes what killed runs left beside `place`: folders that say that they are ours, and whose makers live no more. Others
-/// stay, and so does anything that cannot be looked at.
+/// Removes what killed runs left beside `place`: hidden folders with our mark whose process no longer lives.
+/// Everything else stays, and so does anything that cannot be examined.
 pub(crate) fn sweep(place: &Path) {
     let (Some(start), Some(above)) = (start(place), place.parent()) else { return };
     let above = if above.as_os_str().is_empty() { Path::new(".") } else { above };
@@ -158,9 +159,9 @@ fn bury(folder: &Path, place: &Path) -> io::Result<()> {
     }
     match listing::read(folder)? {
         Said::Unfinished => listing::remove_unfinished(folder),
-        // If it is empty: whoever was killed had just made it, or had removed all else.
+        // Only if it is empty: the killed process had just made it, or had removed everything else.
         Said::Nothing => fs::remove_dir(folder),
-        // An earlier run's that was replaced, unless nothing came in its place, or somebody put something into it.
+        // An earlier run's folder that was replaced; kept if nothing is in its place, or if it holds other files.
         Said::Files(files) if place.exists() && listing::guests(folder, &files)?.is_none() => {
             listing::remove(folder)
         }

@@ -8,7 +8,8 @@ use toml::de::DeTable;
 /// The format that this version reads and writes; a file that says another is refused with that alone.
 const FORMAT: i64 = 1;
 
-/// What `read` makes of a text with these keys at its top, and of the name that it has by its `name` or else by its file's.
+/// Parses a TOML text with these keys at its top. `read` makes the result from the top table and from the name, which
+/// is that of the key `name` or else of the file.
 pub(crate) fn parse<T>(
     text: &str,
     file: &str,
@@ -87,7 +88,7 @@ pub(crate) fn whole(file: &str, text: &str, at: usize, found: &str, expected: &s
     FileFaults::new(file, text, vec![fault])
 }
 
-/// A name for what a file describes, from the file's own name, where it gives none.
+/// A name made from the file's own, for a file without the key `name`.
 pub(crate) fn stem(file: &str) -> String {
     let stem = std::path::Path::new(file).file_stem().map(|s| s.to_string_lossy().into_owned());
     stem.map(|s| s.chars().filter(|c| !c.is_control()).take(50).collect::<String>().trim().to_owned())

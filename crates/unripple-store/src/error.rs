@@ -29,16 +29,16 @@ pub enum StoreError {
     UnknownSurface {
         /// The name asked for.
         name: String,
-        /// The names there are.
+        /// Names of the built-in surfaces.
         builtins: String,
-        /// The nearest of them.
+        /// The built-in name nearest to the one asked for.
         nearest: Option<String>,
     },
     /// A file of a surface or of effects has faults.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Surface(#[from] FileFaults),
-    /// What a file holds is not what was expected of it.
+    /// The content of a file is not as expected.
     #[error("{file}: expected {expected}, found {found}")]
     Content {
         /// The file as the message calls it.
@@ -48,22 +48,22 @@ pub enum StoreError {
         /// What it holds.
         found: String,
     },
-    /// An output would overwrite what is not ours.
+    /// An output would overwrite something that it must not, such as files that this program did not write.
     #[error("will not write to {}: expected {expected}, found {found}", path.display())]
     Occupied {
         /// Where the output was to go.
         path: PathBuf,
-        /// What could be written to.
+        /// What may be at that path.
         expected: &'static str,
         /// What is there.
         found: String,
     },
-    /// An output would take the place of what the same work reads.
+    /// An output would replace a file or folder that the same command reads.
     #[error("will not write to {}: expected no file that this command reads, found {}; name another output", path.display(), read.display())]
     Reads {
         /// Where the output was to go.
         path: PathBuf,
-        /// What is read.
+        /// The file or folder that is read.
         read: PathBuf,
     },
 }
@@ -73,7 +73,7 @@ fn did_you_mean(nearest: &Option<String>) -> String {
 }
 
 impl StoreError {
-    /// Whether what was given is at fault, rather than the place it should be written to.
+    /// Whether the input is at fault, rather than the destination of an output.
     pub fn is_bad_input(&self) -> bool {
         match self {
             Self::Read { .. }

@@ -23,7 +23,7 @@ pub struct Fault {
     pub expected: String,
     /// The nearest legal value or known name, in the file's own unit.
     pub nearest: Option<String>,
-    /// The bytes of the file that it is about.
+    /// Range of bytes of the file that is at fault.
     #[serde(skip)]
     pub span: Range<usize>,
 }
@@ -55,8 +55,8 @@ impl Diagnostic for Fault {
 
 /// All faults of one TOML file, of a surface or of effects, in the file's order.
 ///
-/// As text it is one line; as `{:#}` one line per fault, each with file, line and column. As a [`miette::Diagnostic`]
-/// it shows the lines of the file with a caret under each fault.
+/// Formatted by `{}` it is one line; by `{:#}`, one more line for each fault, with file, line and column. As a
+/// [`miette::Diagnostic`] it shows the lines of the file with a caret under each fault.
 ///
 /// ```
 /// let text = "format = 1\nnmae = \"film\"\n";
@@ -80,7 +80,7 @@ struct Report {
 impl FileFaults {
     pub(crate) fn new(file: &str, text: &str, mut faults: Vec<Fault>) -> Self {
         faults.sort_by_key(|fault| fault.span.start);
-        // What stands once and holds for several tables is at fault once.
+        // A value that applies to several tables is reported once.
         faults.dedup();
         let omitted = faults.len().saturating_sub(MOST_FAULTS);
         faults.truncate(MOST_FAULTS);

@@ -40,7 +40,8 @@ pub(crate) fn too_large(name: &str, bytes: u64) -> StoreError {
     StoreError::content(name, format!("at most {LARGEST_TEXT} bytes"), format!("{bytes}"))
 }
 
-/// Writes a file whole or not at all: beside its place first, then renamed into it. Of a link, what it leads to is replaced.
+/// Writes a file completely or not at all: first beside its destination, then renamed into place. If the path is a
+/// symbolic link, the file that it leads to is replaced.
 ///
 /// # Errors
 /// [`StoreError::Write`] if the folder cannot be written to, [`StoreError::Occupied`] if a device or the like is there;
@@ -93,7 +94,8 @@ fn replaceable(path: &Path) -> Result<PathBuf, StoreError> {
     Err(StoreError::Occupied { path: path.into(), expected, found })
 }
 
-/// Whether [`new_file`] could make a file here, for whoever has much to do before the file is wanted: nothing is made.
+/// Checks whether [`new_file`] could make a file at a path, without making it: for callers that have long work to do
+/// before they need the file.
 ///
 /// # Errors
 /// [`StoreError::Occupied`] if a file that is not empty, a folder or a link that leads nowhere is there, [`StoreError::Write`] if the
@@ -128,8 +130,9 @@ pub fn check_new_file(path: impl AsRef<Path>) -> Result<(), StoreError> {
     }
 }
 
-/// A new file for what cannot be made again, such as what people did: nothing that is there is overwritten but an empty file.
-/// It goes again unless it is kept.
+/// Opens a new file for data that cannot be made again, such as recorded touches. Nothing but an empty file is
+/// overwritten. A file that this made is removed when the [`Underway`] is dropped, unless [`Underway::keep`] is
+/// called.
 ///
 /// # Errors
 /// Those of [`check_new_file`], and [`StoreError::Write`] if it cannot be made.

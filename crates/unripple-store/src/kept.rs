@@ -1,4 +1,5 @@
-//! Drives that were kept while they were played, as WAV files that are known again: a later run may replace them.
+//! Drives that were recorded during play, as WAV files with a signature by which a later run knows that it may
+//! replace them.
 
 use crate::building::sweep;
 use crate::file::write_beside;
@@ -29,8 +30,9 @@ fn tail(check: u32) -> Vec<u8> {
     bytes
 }
 
-/// Writes a drive as [`write_wav`](crate::write_wav) does, with a last chunk by which the file is known to be ours for as long as
-/// nobody changes it. An earlier one is replaced; it may not be among `reads`.
+/// Writes a drive as [`write_wav`](crate::write_wav) does, with a last chunk that signs it by a checksum. A file at
+/// the path is replaced only if it has such a signature, is unchanged, and is not among `reads`, the files that the
+/// same command reads.
 ///
 /// # Errors
 /// As [`check_kept_wav`] and [`write_wav`](crate::write_wav).
@@ -49,11 +51,12 @@ pub fn write_kept_wav(
     Ok(Committed { path: path.into(), replaced })
 }
 
-/// Whether a drive kept earlier is at `path`, and removes what killed runs left beside it.
+/// Checks whether [`write_kept_wav`] may write to a path, and returns whether it would replace an earlier file.
+/// Removes what killed runs left beside it.
 ///
 /// # Errors
-/// [`StoreError::Occupied`] if anything else is there, a drive that was changed included; [`StoreError::Reads`] if it is among
-/// `reads`; [`StoreError::Write`] if it cannot be looked at.
+/// [`StoreError::Occupied`] if anything else is there, a signed file that was changed included; [`StoreError::Reads`]
+/// if it is among `reads`; [`StoreError::Write`] if it cannot be examined.
 pub fn check_kept_wav(path: impl AsRef<Path>, reads: &[PathBuf]) -> Result<bool, StoreError> {
     let path = path.as_ref();
     let real = match fs::canonicalize(path) {
@@ -96,11 +99,11 @@ fn is_signed(path: &Path) -> io::Result<bool> {
     let mut last = Vec::new();
     file.seek(SeekFrom::Start(length))?;
     file.read_to_end(&mut last)?;
-    // Cheap before dear: most other files do not end like this.
+    // The cheap test first: most other files do not end like this.
     Ok(last.starts_with(&tail(0)[..TAIL - TEXT]) && last == tail(checksum(&mut file, length)?))
 }
 
-/// Of the bytes past the count, up to `length`.
+/// CRC-32C of the bytes after the format's count, up to `length`.
 fn checksum(file: &mut File, length: u64) -> io::Result<u32> {
     file.seek(SeekFrom::Start(COUNTED))?;
     let (mut left, mut chunk, mut check) = (file.take(length - COUNTED), vec![0; 1 << 16], 0);

@@ -1,17 +1,18 @@
 //! Files: surfaces as TOML, drives as WAV, shapes as SVG, and folders of results.
 //!
-//! Only this crate knows file formats. Files speak millimetres, milliseconds and gigapascals, in keys that carry their
-//! unit; what comes out of here is SI. Whatever is written appears whole or not at all.
+//! Only this crate knows file formats. Files use millimetres, milliseconds and gigapascals, in keys that carry their
+//! unit; the types of this crate are in SI units. Whatever is written appears completely or not at all.
 //!
 //! - [`load_surface`] reads a built-in surface or a surface file, and reports all faults of a file at once;
 //!   [`to_toml`] writes one.
-//! - [`write_wav`] and [`read_wav`] carry drives, one channel per actuator.
-//! - [`Drawing`] reads the shapes of an SVG document in metres as polylines, [`read_curves`] its curves as curves.
-//! - [`Library`] keeps responses, measured or modelled, as a Zarr v3 folder that survives being killed, and exports them as
-//!   WAV and SOFA.
+//! - [`write_wav`] and [`read_wav`] write and read drives, one channel per actuator.
+//! - [`Drawing`] reads the shapes of an SVG document as polylines, in metres; [`read_curves`] keeps them as curves.
+//! - [`Library`] stores responses, measured or modelled, as a Zarr v3 folder that survives being killed, and exports
+//!   them as WAV and SOFA.
 //! - [`load_effects`] reads built-in effects, a file of effects, or one for phones; [`effects_to_toml`] writes one.
-//! - [`OutputDir`] gathers what a run writes and puts it in place in one step, over nothing but an earlier run's own;
-//!   [`abandon_all`] takes away what is under construction, for whoever ends the program.
+//! - [`OutputDir`] collects what a run writes and puts it in place in one step, replacing only the output of an
+//!   earlier run; [`abandon_all`] removes what is under construction before a program ends early.
+//!
 //!
 //! ```
 //! let surface = unripple_store::load_surface("hudin-2012")?;

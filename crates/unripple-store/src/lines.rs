@@ -16,7 +16,7 @@ impl Lines {
         self.0.push('\n');
     }
 
-    /// A key and its value, as it stands in the file.
+    /// Writes a key and its value, which is given as TOML text.
     pub fn line(&mut self, key: &str, value: &str) {
         // Writing to a string does not fail.
         let _ = writeln!(self.0, "{key} = {value}");

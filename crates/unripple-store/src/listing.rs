@@ -6,38 +6,39 @@ use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
-/// The hidden file that says which files of a folder are ours, so that a later run may replace them.
+/// Name of the hidden file of an output folder. It lists the files that a run wrote there, so that a later run may
+/// replace them and nothing else.
 pub const MARKER: &str = ".unripple";
 
-/// Its first lines. The number is that of the format.
+/// First lines of the hidden file. The number is that of the format.
 const HEAD: &str = "unripple output 1\n\
     A later run replaces this folder if it holds only what is listed here, unchanged: bytes, CRC-32C, name.\n";
 
-/// What it says while the folder is being filled.
+/// Content of the hidden file while the folder is being filled.
 pub(crate) const UNFINISHED: &str = "unripple output, unfinished\n";
 
-/// Largest one that is read, in bytes: a million files.
+/// Largest hidden file that is read, in bytes: that of a million files.
 const LARGEST: u64 = 1 << 26;
 
-/// Things that are not ours, named one by one. Of more the number is said, so that a message stays a line.
+/// Number of foreign files that a message names; of further ones it gives the number only, so that it stays a line.
 const NAMED: usize = 3;
 
 /// Bytes and checksum of a file.
 type Print = (u64, u32);
 
-/// What a folder says of itself.
+/// Content of a folder's hidden file.
 pub(crate) enum Said {
     /// Nothing: no run of ours wrote it.
     Nothing,
-    /// That it is not finished.
+    /// The folder is unfinished.
     Unfinished,
-    /// That it is ours, but not what was written: an earlier or a later version of this program.
+    /// The folder is ours, but its list cannot be read: an earlier or a later version of this program wrote it.
     Unlisted,
-    /// What was written.
+    /// The files that were written, with size and checksum.
     Files(BTreeMap<String, Print>),
 }
 
-/// What a folder says of itself.
+/// Reads the hidden file of a folder.
 pub(crate) fn read(folder: &Path) -> io::Result<Said> {
     let path = folder.join(MARKER);
     let metadata = match fs::symlink_metadata(&path) {
@@ -50,7 +51,7 @@ pub(crate) fn read(folder: &Path) -> io::Result<Said> {
     let mut bytes = Vec::new();
     File::open(&path)?.take(LARGEST).read_to_end(&mut bytes)?;
     let text = String::from_utf8(bytes).unwrap_or_default();
-    // An empty one: whoever was killed was about to say so.
+    // Empty: the process was killed when it was about to write it.
     if text.is_empty() || text == UNFINISHED {
         return Ok(Said::Unfinished);
     }
@@ -104,7 +105,7 @@ pub(crate) fn guests(folder: &Path, files: &BTreeMap<String, Print>) -> io::Resu
         }
         let listed = name.to_str().and_then(|name| files.get(name));
         let (kind, name) = (entry.file_type()?, name.to_string_lossy().into_owned());
-        // What is gone meanwhile is nobody's: another run has replaced all that was ours.
+        // A file that is gone meanwhile is no foreign one: another run has replaced all that was ours.
         let same = |known: &Print| match entry
             .metadata()
             .and_then(|found| Ok(found.len() == known.0 && print(&entry.path())? == *known))
@@ -139,8 +140,8 @@ pub(crate) fn remove(folder: &Path) -> io::Result<()> {
     gone(fs::remove_dir(folder))
 }
 
-/// Removes an unfinished folder with all that is in it, and what it says of itself last: whoever is killed meanwhile leaves a folder of
-/// which the next run still knows whose it is.
+/// Removes an unfinished folder with all that is in it, the hidden file last: if the program is killed meanwhile, the
+/// next run still recognises the folder.
 pub(crate) fn remove_unfinished(folder: &Path) -> io::Result<()> {
     for entry in fs::read_dir(folder)? {
         let entry = entry?;

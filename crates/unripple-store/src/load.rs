@@ -29,10 +29,10 @@ pub fn load_surface(name_or_path: &str) -> Result<Surface, StoreError> {
     load_surface_with(name_or_path, &[])
 }
 
-/// The same with keys of its file set to other values, as [`set_keys`] takes them.
+/// As [`load_surface`], with keys of the surface file first set to other values ([`set_keys`]).
 ///
 /// # Errors
-/// Those of [`load_surface`] and [`set_keys`]; faults have the lines of the text that came of it.
+/// Those of [`load_surface`] and [`set_keys`]. Lines of faults refer to the text after the keys were set.
 pub fn load_surface_with(name_or_path: &str, keys: &[(String, String)]) -> Result<Surface, StoreError> {
     if let Some(builtin) = BUILTINS.iter().find(|b| b.name == name_or_path) {
         let text = set_keys(builtin.text, builtin.name, keys)?;

@@ -1,4 +1,4 @@
-//! Folders of results: whole or not at all, and never over what is not ours.
+//! Output folders: complete or not at all, and never in place of what is not ours.
 
 use crate::StoreError;
 use crate::building::{Building, sweep};
@@ -10,10 +10,11 @@ use std::fs::{self, File};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// A folder of results in the making: built beside its place, put there in one step, gone if it never is.
+/// An output folder under construction: filled in a hidden folder beside its destination, put in place in one step,
+/// and removed if that never happens.
 ///
-/// A folder that an earlier run wrote is replaced whole if it holds only what that run wrote, as it wrote it: the hidden file
-/// [`MARKER`] lists that. Anything else is refused before any work is done, and again at the end.
+/// A folder of an earlier run is replaced as a whole if it holds only what that run wrote, unchanged; the hidden file
+/// [`MARKER`] lists it. Anything else is refused before any work is done, and again at the end.
 ///
 /// ```
 /// use unripple_store::OutputDir;
@@ -42,12 +43,12 @@ pub struct OutputDir {
 pub struct Committed {
     /// Path of the output.
     pub path: PathBuf,
-    /// Whether that of an earlier run was replaced.
+    /// Whether it replaced the output of an earlier run.
     pub replaced: bool,
 }
 
 impl OutputDir {
-    /// Begins a folder that is to be at `path`; folders above it are made where missing.
+    /// Begins an output folder with destination `path`; missing parent folders are made.
     ///
     /// # Errors
     /// [`StoreError::Occupied`] if something else is there; [`StoreError::Write`] if the folder above cannot be written to.
@@ -58,7 +59,7 @@ impl OutputDir {
     /// As [`OutputDir::create`], for work that reads these files and folders, none of which may be replaced.
     ///
     /// # Errors
-    /// As [`OutputDir::create`], and [`StoreError::Reads`] if one of them is there.
+    /// As [`OutputDir::create`], and [`StoreError::Reads`] if one of them is at the destination or in it.
     pub fn create_beside(path: impl AsRef<Path>, reads: &[PathBuf]) -> Result<Self, StoreError> {
         let path = path.as_ref();
         let place = match fs::canonicalize(path) {
@@ -91,7 +92,8 @@ impl OutputDir {
         write_file(self.path().join(name), bytes)
     }
 
-    /// Puts the folder in its place, replacing an earlier run's. At every moment one of the two is there, whoever is killed.
+    /// Puts the folder in place, replacing that of an earlier run. If the program is killed meanwhile, one of the two
+    /// is in place; only on systems that cannot exchange two folders in one step may both be left under hidden names.
     ///
     /// # Errors
     /// As [`OutputDir::create_beside`], if the place was taken meanwhile; what was there stays.
@@ -101,7 +103,7 @@ impl OutputDir {
         write_file(self.path().join(MARKER), list.as_bytes())?;
         let replaced = before == Occupant::EarlierRun;
         if replaced {
-            // Held until that run is gone: nobody else is to take it for what a killed run left.
+            // Locked until the earlier folder is gone, so that no other process takes it for what a killed run left.
             let earlier = File::open(&self.place).ok();
             let _locked = earlier.as_ref().is_some_and(|folder| folder.try_lock().is_ok());
             self.building.held(|entry| self.replace(entry))?;
@@ -112,7 +114,7 @@ impl OutputDir {
         Ok(Committed { path: self.place, replaced })
     }
 
-    /// Changes places with the earlier run, and looks once more at what that holds, now that nobody reaches it by its name.
+    /// Exchanges the two folders, and checks the earlier one once more, now that nobody reaches it by its name.
     fn replace(&self, entry: &mut Entry) -> Result<(), StoreError> {
         swap(self.path(), &self.place).map_err(StoreError::write(&self.place))?;
         let found = earlier(self.path());
@@ -121,11 +123,11 @@ impl OutputDir {
             return Ok(());
         };
         if swap(self.path(), &self.place).is_err() {
-            // What somebody put there is under the hidden name now, and stays.
+            // The earlier folder, with what somebody put into it, stays under the hidden name.
             entry.finish();
             return Err(error);
         }
-        // Said of the place that people know.
+        // The error is to name the path that people know.
         earlier(&self.place).and(Err(error))
     }
 }
@@ -176,7 +178,7 @@ fn occupant(place: &Path, reads: &[PathBuf]) -> Result<Occupant, StoreError> {
     earlier(place).map(|()| Occupant::EarlierRun)
 }
 
-/// Refuses a folder that is not an earlier run's, as that left it.
+/// Refuses a folder that is not the output of an earlier run, unchanged.
 fn earlier(folder: &Path) -> Result<(), StoreError> {
     let failed = StoreError::write(folder);
     let files = match listing::read(folder) {

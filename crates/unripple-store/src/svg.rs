@@ -76,12 +76,12 @@ pub struct Polyline {
     pub closed: bool,
 }
 
-/// Which points are inside a shape that crosses or nests.
+/// Rule for the inside of a shape whose curves cross or nest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FillRule {
-    /// Those it winds around.
+    /// Points around which the curves wind, in either direction.
     NonZero,
-    /// Those it winds around an odd number of times.
+    /// Points around which the curves wind an odd number of times.
     EvenOdd,
 }
 

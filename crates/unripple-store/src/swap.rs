@@ -1,14 +1,14 @@
-//! Two folders that change places.
+//! Exchange of two folders.
 
 use crate::building::hidden;
 use std::fs;
 use std::io;
 use std::path::Path;
 
-/// Lets two folders change places, in one step where the system has one.
+/// Exchanges two folders, in one step where the system can.
 pub(crate) fn swap(a: &Path, b: &Path) -> io::Result<()> {
     match at_once(a, b) {
-        // The error of a file system that cannot do this; by renaming, the true one comes up again if there is one.
+        // The file system may not be able to exchange; any other error occurs again when renaming.
         Err(_) => by_renaming(a, b),
         done => done,
     }
@@ -25,7 +25,8 @@ fn at_once(_: &Path, _: &Path) -> io::Result<()> {
     Err(io::ErrorKind::Unsupported.into())
 }
 
-/// In three steps. Whoever is killed between the first and the second leaves both folders under hidden names, whole.
+/// Exchanges two folders in three steps. A program that is killed between the first and the second leaves both
+/// folders under hidden names, complete.
 fn by_renaming(a: &Path, b: &Path) -> io::Result<()> {
     let aside = hidden(b).map_err(io::Error::other)?;
     fs::rename(b, &aside)?;

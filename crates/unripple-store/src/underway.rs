@@ -1,4 +1,4 @@
-//! Outputs under construction, so that whoever ends the program can remove them first.
+//! Outputs under construction, so that they can be removed before the program ends early.
 
 use crate::listing;
 use std::fs;
@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// All there is in this process. Names within are made and changed only while this is locked, so that nothing comes into a
-/// folder while it is taken away.
+/// All outputs under construction in this process. Names in them are made and changed only while this is locked, so
+/// that nothing is added to a folder while it is removed.
 static ALL: Mutex<Vec<Entry>> = Mutex::new(Vec::new());
 
 /// A file or folder under way, to be removed if the work does not end well.
@@ -33,13 +33,13 @@ pub(crate) enum What {
 }
 
 impl Entry {
-    /// It stays where it is from now on.
+    /// Marks the output as finished, so that it is not removed.
     pub(crate) fn finish(&mut self) {
         self.what = What::Nothing;
         self.parents.clear();
     }
 
-    /// Nobody is left to tell about a failure to tidy up.
+    /// Removes the output. Errors are ignored: nobody is left to report them to.
     fn remove(&mut self) {
         let _ = match std::mem::replace(&mut self.what, What::Nothing) {
             What::Nothing => Ok(()),
@@ -53,14 +53,15 @@ impl Entry {
     }
 }
 
-/// A thing under construction: taken away when this is dropped, or by [`abandon_all`], unless it was finished.
+/// Guard of an output under construction. The output is removed when this is dropped, or by [`abandon_all`], unless
+/// it is finished.
 #[derive(Debug)]
 pub struct Underway {
     id: u64,
 }
 
 impl Underway {
-    /// Makes a thing, and says in its entry what it has made.
+    /// Begins an output: `make` makes it, and enters what it has made.
     pub(crate) fn begin<T, E>(make: impl FnOnce(&mut Entry) -> Result<T, E>) -> Result<(Self, T), E> {
         static COUNT: AtomicU64 = AtomicU64::new(0);
         let underway = Self { id: COUNT.fetch_add(1, Ordering::Relaxed) };
@@ -69,14 +70,14 @@ impl Underway {
         Ok((underway, made))
     }
 
-    /// Does something with it that is not interrupted by taking it away.
+    /// Runs an action on the output that [`abandon_all`] cannot interrupt.
     pub(crate) fn held<T>(&self, act: impl FnOnce(&mut Entry) -> T) -> T {
         let mut all = lock();
         let mut gone = Entry { id: self.id, what: What::Nothing, parents: Vec::new() };
         act(all.iter_mut().find(|entry| entry.id == self.id).unwrap_or(&mut gone))
     }
 
-    /// Leaves it where it is.
+    /// Keeps the output: it is finished, and no longer removed.
     pub fn keep(self) {
         self.held(Entry::finish);
     }
@@ -91,20 +92,21 @@ impl Drop for Underway {
     }
 }
 
-/// Does something that makes names, while nothing is taken away.
+/// Runs an action that makes names, which [`abandon_all`] cannot interrupt.
 pub(crate) fn undisturbed<T>(act: impl FnOnce() -> T) -> T {
     let _all = lock();
     act()
 }
 
-/// While this lives, nothing is begun and nothing is finished in this process: whoever tries waits.
+/// Guard that [`abandon_all`] returns. While it lives, no output is begun or finished in this process: threads that
+/// try wait.
 #[derive(Debug)]
 pub struct Abandoned {
     _all: MutexGuard<'static, Vec<Entry>>,
 }
 
-/// Takes away everything in this process that is under construction, for whoever ends it. Threads that write meanwhile write
-/// into files without a name, or wait until what is returned here is dropped: keep it to the end.
+/// Removes all outputs under construction in this process, before it ends early. Other threads can then write only to
+/// files that have no name any more, or wait until the returned guard is dropped: keep it until the process ends.
 ///
 /// ```
 /// let place = std::env::temp_dir().join(format!("unripple-doc-abandon-{}", std::process::id()));
@@ -118,12 +120,12 @@ pub struct Abandoned {
 #[must_use = "others go on as soon as it is dropped"]
 pub fn abandon_all() -> Abandoned {
     let mut all = lock();
-    // The last one first: it may be within an earlier one.
+    // The last one first, since it may be within an earlier one.
     all.iter_mut().rev().for_each(Entry::remove);
     Abandoned { _all: all }
 }
 
 fn lock() -> MutexGuard<'static, Vec<Entry>> {
-    // Whoever panicked meanwhile has left a list that is as good as before.
+    // A thread that panicked has left the list in order.
     ALL.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -22,7 +22,7 @@ pub struct Wav {
 }
 
 impl Wav {
-    /// The drive of actuators of these names, in channel order.
+    /// Converts the channels to a drive of actuators with these names, in channel order.
     ///
     /// # Errors
     /// [`StoreError::Content`] if there are not as many channels as names; `file` names the file in the message.
@@ -126,7 +126,7 @@ pub fn read_wav(path: impl AsRef<Path>) -> Result<Wav, StoreError> {
     decode_wav(BufReader::new(file), &path.display().to_string())
 }
 
-/// Reads WAV from anything; `name` is what messages call it.
+/// Reads a WAV file from any reader; `name` is its name in messages.
 ///
 /// # Errors
 /// As [`read_wav`].
@@ -200,7 +200,7 @@ impl<'a> Filling<'a> {
         Err(StoreError::content(self.name, "finite samples", found))
     }
 
-    /// All of it; a last instant that not all channels have is a file cut short.
+    /// The complete content; channels of different lengths mean that the file was cut short.
     fn whole(self, name: &str) -> Result<Wav, StoreError> {
         let length = self.wav.channels.first().map_or(0, Vec::len);
         if self.wav.channels.iter().any(|channel| channel.len() != length) {
@@ -211,7 +211,7 @@ impl<'a> Filling<'a> {
     }
 }
 
-/// A reader's error as ours: what the bytes say is the file's fault, the rest the system's.
+/// Converts an error of the WAV reader: wrong content is the file's fault, the rest the system's.
 fn refuse(name: &str, error: hound::Error, samples: usize) -> StoreError {
     let found = match error {
         hound::Error::IoError(error)

@@ -6,7 +6,7 @@ use unripple_effects::EffectSet;
 /// Effects that come with the program, as the text of their file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BuiltinEffects {
-    /// The name that [`crate::load_effects`] knows them by.
+    /// Name of the effects, as [`crate::load_effects`] takes it.
     pub name: &'static str,
     /// Description of the effects, in a line.
     pub about: &'static str,
@@ -48,7 +48,7 @@ pub fn builtin_effects() -> &'static [BuiltinEffects] {
     BUILTINS
 }
 
-/// The built-in effects of that name.
+/// The built-in effects with a name; `None` if there are none.
 ///
 /// ```
 /// let purr = unripple_store::builtin_effect("purr").unwrap();

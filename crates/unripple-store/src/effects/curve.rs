@@ -55,7 +55,7 @@ pub(super) fn envelope(amplitude: &Entry, frequency: &Entry, faults: &mut Faults
     said(amplitude, Envelope::new(shape?, pitch?), faults)
 }
 
-/// An effect made of values that are each legal by themselves, or a fault where they are not together.
+/// The result of checking values together, each of which is legal alone; a fault if they are not legal together.
 pub(super) fn said<T>(
     entry: &Entry,
     made: Result<T, unripple_effects::EffectsError>,

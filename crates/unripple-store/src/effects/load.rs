@@ -17,8 +17,8 @@ const IMPORTED: [&str; 3] = ["haptic", "ahap", "hjif"];
 /// A file that happens to have a built-in's name is reached as `./name`.
 ///
 /// # Errors
-/// [`StoreError::Content`] if there is neither, with the nearest built-in name, or if an import is not what it should
-/// be; [`StoreError::Surface`] with all faults of a TOML file; [`StoreError::Read`] if it cannot be read.
+/// [`StoreError::Content`] if there is neither, with the nearest built-in name, or if an imported file is invalid;
+/// [`StoreError::Surface`] with all faults of a TOML file; [`StoreError::Read`] if it cannot be read.
 ///
 /// ```
 /// let rain = unripple_store::load_effects("rain")?;

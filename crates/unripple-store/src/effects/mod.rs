@@ -29,13 +29,13 @@ const KEYS: [&str; 4] = ["format", "name", "about", "effect"];
 /// Keys that every effect may have, whatever its kind.
 const COMMON: [&str; 5] = ["kind", "name", "region", "gain", "felt_db"];
 
-/// The JSON schema of a file of effects, for editors: drafts 2020-12, as of a TOML file read as JSON.
+/// The JSON schema (draft 2020-12) of a file of effects, for editors: it describes the TOML file read as JSON.
 pub const EFFECTS_SCHEMA: &str = include_str!("../../schema/effects-1.json");
 
 /// The effects that a text in format 1 describes. `file` names it in messages.
 ///
 /// # Errors
-/// All faults of the text at once; after an error of TOML itself, that one.
+/// [`FileFaults`] with all faults of the text, or only the first error of TOML syntax.
 ///
 /// ```
 /// let text = r#"

@@ -32,7 +32,7 @@ pub(crate) struct Array {
     /// Name of the array, and of its folder.
     pub name: &'static str,
     shape: Vec<usize>,
-    /// Indices of the first axis in one chunk.
+    /// Length of a chunk along the first axis.
     pub along: usize,
     kind: Kind,
     axes: &'static [&'static str],
@@ -52,7 +52,7 @@ pub(crate) struct Arrays {
     pub quality: Array,
     /// Relative error of reciprocity, one value for the whole library.
     pub reciprocity: Array,
-    /// Only some libraries have it. Quality by thirds of an octave, if the library keeps it.
+    /// Quality by third-octave bands; only some libraries have it.
     pub bands: Option<Bands>,
 }
 
@@ -109,7 +109,7 @@ impl Arrays {
         always.into_iter().chain(self.bands.as_ref().map(|bands| &bands.array))
     }
 
-    /// Arrays of figures, in which NaN stands for what is not known.
+    /// The arrays of quality figures, in which NaN means unknown.
     pub fn known_or_not(&self) -> impl Iterator<Item = &Array> {
         [&self.quality, &self.reciprocity].into_iter().chain(self.bands.as_ref().map(|bands| &bands.array))
     }
@@ -132,7 +132,7 @@ impl Array {
         }
     }
 
-    /// The array's metadata, as its `zarr.json` has them.
+    /// The array's metadata, as in its `zarr.json`.
     pub fn metadata(&self) -> Value {
         let (kind, fill) = match self.kind {
             Kind::U8 => ("uint8", json!(0)),
@@ -207,7 +207,7 @@ impl Array {
         disk::write(&self.chunk(root, number), &[bytes, &check])
     }
 
-    /// Writes a chunk of which nothing is known.
+    /// Writes a chunk of unknown values, NaN.
     pub fn write_unknown(&self, root: &Path, number: usize) -> Result<(), StoreError> {
         let unknown = f64::NAN.to_le_bytes();
         let bytes: Vec<u8> = unknown.into_iter().cycle().take(self.bytes()).collect();
@@ -229,7 +229,7 @@ impl Array {
         made.map_err(StoreError::write(&folder))
     }
 
-    /// Makes its folder and writes its metadata.
+    /// Makes the array's folder and writes its metadata.
     pub fn describe(&self, root: &Path) -> Result<(), StoreError> {
         self.make_folder(root)?;
         let text = serde_json::to_vec_pretty(&self.metadata()).unwrap_or_default();

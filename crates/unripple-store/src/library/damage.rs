@@ -37,8 +37,8 @@ impl Damage {
 }
 
 impl Library {
-    /// Reads everything and says what is damaged: chunks of the wrong size or checksum, missing ones, metadata that are not
-    /// those of the plan. Points without damage stay readable.
+    /// Reads all files of the library and returns what is damaged: chunks of the wrong size or checksum, missing
+    /// chunks, metadata that differ from the plan. Points without damage stay readable.
     pub fn verify(&self) -> Vec<Damage> {
         let mut damage = Vec::new();
         let mut note = |result: Result<(), StoreError>, file: PathBuf, point| {
@@ -68,19 +68,21 @@ impl Library {
         damage
     }
 
-    /// Makes a damaged library writable again: points whose responses are lost become missing, so that they can be taken
-    /// again, and what was logged of them goes; states and qualities that cannot be read are written anew, and qualities by bands that
-    /// nobody knows any more are removed. Returns what was damaged.
+    /// Makes a damaged library writable again, and returns what was damaged. Points whose responses are lost become
+    /// missing, so that they can be measured again, and their log entries are removed. States and qualities that
+    /// cannot be read are written anew, as far as they are known. The array of quality by bands is removed if its
+    /// frequencies are lost.
     ///
     /// # Errors
-    /// [`StoreError::Write`], or [`StoreError::Occupied`] if another process writes. The description of the whole and the
-    /// positions cannot be made anew: [`Library::open`] refuses a library without them.
+    /// [`StoreError::Write`], or [`StoreError::Occupied`] if another process writes. The metadata of the whole
+    /// library and the positions cannot be repaired: [`Library::open`] refuses a library without them.
     pub fn repair(&mut self) -> Result<Vec<Damage>, StoreError> {
         self.acquire()?;
         let damage = self.verify();
         let lost: Vec<usize> = damage.iter().filter_map(|damage| damage.point).collect();
         lost.iter().for_each(|point| self.states[*point] = PointState::Missing);
-        // What was said of responses goes with them. A record that cannot be read leaves a doubt, which is written down.
+        // Log entries and doubts are removed with the responses. A record that cannot be read leaves a doubt, which
+        // is stored.
         self.forget_points(&lost)?;
         if Bands::read(&self.root, &self.plan).is_err() {
             let file = bands::path(&self.root);

@@ -15,7 +15,7 @@ pub(crate) const PART: &str = ".part";
 pub(crate) fn write(path: &Path, parts: &[&[u8]]) -> Result<(), StoreError> {
     let beside = beside(path);
     let (underway, mut file) = Underway::begin(|entry| {
-        // One that is there is what a killed process left: only one writes at a time.
+        // A file that is there was left by a killed process: only one process writes at a time.
         let file = File::create(&beside)?;
         entry.what = What::File(beside.clone());
         Ok(file)

@@ -6,7 +6,7 @@ use std::io;
 use unripple_core::SampledResponses;
 
 impl Library {
-    /// The responses of one point, actuators x samples; of a bad one too.
+    /// The responses of one point, measured or bad, as actuators x samples in m/s per unit of drive and second.
     ///
     /// # Errors
     /// [`StoreError::Content`] if the point is missing or beyond the last, or its chunk is damaged; [`StoreError::Read`].
@@ -21,8 +21,8 @@ impl Library {
         Ok(samples)
     }
 
-    /// The responses of all finished points, from the impulse on: samples before [`crate::LibraryPlan::onset`], rounded, are left
-    /// out.
+    /// The responses of all finished points, from the impulse on: the samples before [`crate::LibraryPlan::onset`],
+    /// rounded to whole samples, are left out.
     ///
     /// # Errors
     /// As [`Library::get`], at the first damaged chunk.

@@ -12,12 +12,14 @@ use std::path::Path;
 const AT_ONCE: usize = 64;
 
 impl Library {
-    /// Puts a library of another plan in place of the one there, with what that one knows: `known[i]` is the old number of the new
-    /// point `i`, if it had one. All that is measured stays measured, whole or not at all; what is not named is lost.
+    /// Replaces the library in a folder by one of another plan, which takes over its measurements: `known[i]` is the old number of the
+    /// new point `i`, if it had one. Old points that `known` does not name are dropped. If the program is killed meanwhile, the old
+    /// library or the new one remains, complete.
     ///
     /// # Errors
-    /// [`StoreError::Content`] if no library can hold the plan, or responses have other sizes than there; [`StoreError::Occupied`] if
-    /// another process writes; [`StoreError::Write`]; and those of [`Library::open`] and [`Library::get`].
+    /// [`StoreError::Content`] if no library can hold the plan, or if its responses have other sizes than the old
+    /// ones; [`StoreError::Occupied`] if another process writes; [`StoreError::Write`]; and those of
+    /// [`Library::open`] and [`Library::get`].
     pub fn grow(
         folder: impl AsRef<Path>,
         plan: &super::LibraryPlan,
@@ -33,7 +35,7 @@ impl Library {
         let mut new = Self::open(building.path())?;
         old.copy(&mut new, known)?;
         drop(new);
-        // Whoever is killed from here on leaves a folder that the next run takes for what it is.
+        // If the program is killed from here on, the next run recognises the folder that is left.
         let marked = fs::write(folder.join(MARKER), UNFINISHED);
         marked.map_err(StoreError::write(folder))?;
         building.held(|_| swap(building.path(), folder)).map_err(StoreError::write(folder))?;

@@ -14,9 +14,9 @@ use unripple_core::{Conditions, Point, Port};
 const LARGEST: u64 = 1 << 24;
 /// The attribute that says that a Zarr group is a library of responses.
 const KEY: &str = "unripple_library";
-/// The attribute with the checksum of that one.
+/// The attribute with the checksum of [`KEY`].
 const CHECK: &str = "crc32c";
-/// Version of what is under [`KEY`]; a library of another version is refused with what it says.
+/// Version of the content of [`KEY`]; a library of another version is refused, with its version in the message.
 const FORMAT: u32 = 1;
 
 /// Where the metadata of a library, or of an array in it, are.
@@ -136,7 +136,7 @@ pub(crate) fn json(file: &Path) -> Result<Value, StoreError> {
     serde_json::from_slice(&bytes).map_err(|error| StoreError::content(&name, "JSON", error.to_string()))
 }
 
-/// Of the text without its spaces and line breaks, so that other tools may write it anew.
+/// CRC-32C of the JSON text without spaces and line breaks, so that other tools may reformat it.
 pub(crate) fn checksum(value: &Value) -> String {
     format!("{:08x}", crc32c::crc32c(value.to_string().as_bytes()))
 }

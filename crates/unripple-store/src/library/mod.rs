@@ -34,22 +34,23 @@ pub use quality::Quality;
 pub use record::Doubt;
 pub use state::PointState;
 
-/// The file that a process holds a lock on while it writes; within an array, where readers of Zarr do not wonder at it.
+/// The file that a process holds a lock on while it writes; inside an array's folder, where readers of Zarr ignore
+/// it.
 const LOCK: &str = "state/.lock";
 
-/// A library of responses on disk.
+/// A library of impulse responses on disk.
 ///
-/// What is in the folder: `zarr.json` with the whole plan and its checksum; `position` (metres), `state`, `quality` and
+/// Files in the folder: `zarr.json` with the whole plan and its checksum; `position` (metres), `state`, `quality` and
 /// `reciprocity_error` in few chunks, so that opening reads few files; `responses`, float32 in the order
-/// `[point][actuator][sample]`, one chunk per point. Every chunk ends in its crc32c. There may be `bands` as well, quality by thirds of
-/// an octave ([`Library::hold_bands`]).
+/// `[point][actuator][sample]`, one chunk per point. Every chunk ends in its crc32c. There may also be `bands`,
+/// quality by third-octave bands ([`Library::hold_bands`]).
 ///
-/// A point counts as finished once its chunk is on the medium and its state says so, in that order, each file put in place
-/// by renaming: whoever is killed, and whenever, loses no finished point, and others may read meanwhile. Only one process
-/// writes at a time.
+/// A point counts as finished once its chunk is on the medium and its state says so, in that order. Each file is put
+/// in place by renaming. So a process that is killed at any time loses no finished point, and others may read
+/// meanwhile. Only one process writes at a time.
 ///
-/// Beside them is a record of how it was measured, in a Zarr group `calibration`: a log, and why it is not to be trusted if it is not
-/// ([`Library::doubts`]).
+/// The Zarr group `calibration` beside the arrays records the measurement: a log, and the reasons to doubt the
+/// responses, if there are any ([`Library::doubts`]).
 ///
 /// ```
 /// use unripple_core::{Conditions, Outline, Point, Port, Shape};
@@ -83,12 +84,12 @@ pub struct Library {
 }
 
 impl Library {
-    /// A library to be filled: a new one, or the one there if its plan is the same but for [`MAY_DIFFER`].
+    /// Opens a library for writing: a new one, or an existing one with the same plan, the keys [`MAY_DIFFER`] aside.
     ///
     /// # Errors
-    /// [`StoreError::Content`] if no library can hold the plan; [`StoreError::Occupied`] if something else is there, a
-    /// library of another plan (with what differs), or one that another process is writing; [`StoreError::Write`]; and those
-    /// of [`Library::open`].
+    /// [`StoreError::Content`] if no library can hold the plan; [`StoreError::Occupied`] if the folder holds
+    /// something else, a library of another plan (the error says what differs), or one that another process is
+    /// writing; [`StoreError::Write`]; and those of [`Library::open`].
     pub fn create(folder: impl AsRef<Path>, plan: &LibraryPlan) -> Result<Self, StoreError> {
         let folder = folder.as_ref();
         plan.check(&folder.display().to_string())?;
@@ -106,11 +107,11 @@ impl Library {
         Ok(library)
     }
 
-    /// Whether [`Library::create`] may find room at `folder`, for whoever has long work to do before: nothing, an empty folder, or
-    /// a library.
+    /// Checks whether [`Library::create`] can use a folder, which must not exist, be empty or hold a library: for
+    /// callers that have long work to do before.
     ///
     /// # Errors
-    /// [`StoreError::Occupied`] if something else is there, [`StoreError::Write`] if it cannot be looked at.
+    /// [`StoreError::Occupied`] if something else is there, [`StoreError::Write`] if the folder cannot be examined.
     pub fn may_be_at(folder: impl AsRef<Path>) -> Result<(), StoreError> {
         let folder = folder.as_ref();
         if manifest::path(folder).exists() { Ok(()) } else { vacant(folder) }
@@ -126,12 +127,12 @@ impl Library {
         Ok(library)
     }
 
-    /// A library as it is now. Damage to states is tolerated: a point whose state cannot be read counts as measured if its
-    /// responses can.
+    /// Opens a library for reading. Damage to states is tolerated: a point whose state cannot be read counts as
+    /// measured if its responses can be read.
     ///
     /// # Errors
-    /// [`StoreError::Read`] and [`StoreError::Content`] if the description of the whole or the positions are missing or
-    /// damaged, with the file, what it should hold and what it holds.
+    /// [`StoreError::Read`] and [`StoreError::Content`] if the metadata of the whole library or the positions are
+    /// missing or damaged, with the file, what it should hold and what it holds.
     pub fn open(folder: impl AsRef<Path>) -> Result<Self, StoreError> {
         let root = folder.as_ref().to_path_buf();
         let (mut plan, count) = manifest::read(&root)?;
@@ -167,10 +168,10 @@ impl Library {
         folder.as_ref().is_dir() && manifest::path(folder.as_ref()).is_file()
     }
 
-    /// Looks again which points are finished, for a reader while another process writes.
+    /// Reads the states of the points again, for a reader while another process writes.
     pub fn refresh(&mut self) {
         (self.states, self.damaged) = self.read_states();
-        // Damage is tolerated here as that of quality is; [`Library::verify`] reports it.
+        // Damage is tolerated here, as that of `quality` is; [`Library::verify`] reports it.
         self.arrays.bands = Bands::read(&self.root, &self.plan).ok().flatten();
         self.record = record::read_or_doubt(&self.root);
     }
@@ -185,7 +186,7 @@ impl Library {
         &self.root
     }
 
-    /// All points, finished or not.
+    /// Positions of all points, finished or not, in metres.
     pub fn points(&self) -> &[Point] {
         &self.plan.points
     }
@@ -195,23 +196,23 @@ impl Library {
         self.states.get(point).copied()
     }
 
-    /// The points that are measured and not bad, ascending.
+    /// Indices of the points that are measured and not bad, ascending.
     pub fn done(&self) -> Vec<usize> {
         self.in_state(PointState::Measured)
     }
 
-    /// The points in one state, ascending.
+    /// Indices of the points in one state, ascending.
     pub fn in_state(&self, state: PointState) -> Vec<usize> {
         self.states.iter().enumerate().filter(|(_, s)| **s == state).map(|(point, _)| point).collect()
     }
 
-    /// The finished point nearest to a place; `None` if there is none.
+    /// Index of the finished point nearest to a place in metres; `None` if no point is finished.
     pub fn nearest(&self, place: Point) -> Option<usize> {
         let distance = |point: &usize| self.plan.points[*point].distance(place);
         self.done().into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 
-    /// Becomes the one process that writes, and forgets what was read before.
+    /// Takes the lock, so that this process is the only one that writes, and reads the states again.
     fn acquire(&mut self) -> Result<(), StoreError> {
         if self.lock.is_some() {
             return Ok(());
@@ -232,7 +233,7 @@ impl Library {
         }
         self.lock = Some(file);
         if matches!(listing::read(&self.root), Ok(Said::Unfinished)) {
-            // It was finished where it was made.
+            // The marker is from its construction, which was complete.
             undisturbed(|| fs::remove_file(self.root.join(MARKER))).map_err(StoreError::write(&self.root))?;
         }
         self.arrays.all().for_each(|array| disk::sweep(&array.folder(&self.root)));

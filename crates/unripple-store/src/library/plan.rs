@@ -14,14 +14,14 @@ const MOST_VALUES: usize = 1 << 28;
 /// Keys of [`LibraryPlan::provenance`] that may differ when measuring into a library is resumed.
 pub const MAY_DIFFER: [&str; 2] = ["created", "software"];
 
-/// The plan of a library: everything known before the first response is.
+/// The plan of a library: all that is known before the first response is stored.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LibraryPlan {
     /// The actuators, in channel order; their names are unique.
     pub ports: Vec<Port>,
     /// Unit of each actuator's drive: "N", "A" or "V". A response is in m/s per that unit and second.
     pub drive_units: Vec<String>,
-    /// Points at which responses are known, or are to be, in metres.
+    /// Points at which the responses are measured or computed, in metres.
     pub points: Vec<Point>,
     /// Rate, band, λ_min and outline.
     pub conditions: Conditions,
@@ -31,12 +31,12 @@ pub struct LibraryPlan {
     pub onset: f64,
     /// The surface as its file describes it, where there is one.
     pub surface: Option<Surface>,
-    /// Where it all comes from: device, stimulus, software, seed, time. Free text under free keys.
+    /// Origin of the data: device, stimulus, software, seed, time. Free text under free keys.
     pub provenance: BTreeMap<String, String>,
 }
 
 impl LibraryPlan {
-    /// A plan with drives in N, the impulse at the first sample and nothing said of where it comes from.
+    /// A plan with drives in N, the impulse at the first sample, and no provenance.
     ///
     /// ```
     /// use unripple_core::{Conditions, Outline, Point, Port, Shape};
@@ -107,7 +107,7 @@ impl LibraryPlan {
         require(whole(outline), "an outline around some area", "none".into())
     }
 
-    /// The differences of another plan, in words; `None` if it is the same but for [`MAY_DIFFER`].
+    /// The first difference of another plan, in words; `None` if it is the same, the keys [`MAY_DIFFER`] aside.
     pub fn difference(&self, found: &Self) -> Option<String> {
         let told = |what: &str, here: String, there: String| {
             (here != there).then(|| format!("{what}: {there} instead of {here}"))

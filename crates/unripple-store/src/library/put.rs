@@ -10,19 +10,20 @@ use std::collections::BTreeMap;
 pub struct Take<'a> {
     /// Index of the point.
     pub point: usize,
-    /// Responses of the point, actuators x samples.
+    /// Responses of the point, actuators x samples, in m/s per unit of drive and second.
     pub samples: &'a [f32],
-    /// The quality of each.
+    /// Quality of each response, one per actuator.
     pub quality: &'a [Quality],
-    /// The quality of each by the library's bands, `[actuator][band]` ([`Library::hold_bands`]); none where it is not known.
+    /// Quality of each response in the library's frequency bands, `[actuator][band]` ([`Library::hold_bands`]); empty
+    /// if it is not known.
     pub bands: &'a [Vec<BandQuality>],
-    /// [`PointState::Measured`], or [`PointState::Bad`].
+    /// New state of the point: [`PointState::Measured`] or [`PointState::Bad`].
     pub state: PointState,
 }
 
 impl Library {
-    /// Stores the responses of one point, actuators x samples, in place of any it had. When this returns they are on the
-    /// medium. Nothing is said of bands: [`Library::put_all`] does.
+    /// Stores the responses of one point, actuators x samples, in place of any it had. They are on the medium when
+    /// this returns. Quality by frequency bands becomes unknown; [`Library::put_all`] can store it.
     ///
     /// # Errors
     /// [`StoreError::Content`] if sizes do not fit or a sample is not finite; [`StoreError::Write`] if the folder cannot be
@@ -32,7 +33,7 @@ impl Library {
     }
 
     /// Stores responses of one point, `[actuator][sample]` in m/s per unit of drive and second, that are too bad to
-    /// be used, so that they can be looked at.
+    /// be used, so that they can be examined.
     ///
     /// # Errors
     /// As [`Library::put`].
@@ -68,7 +69,7 @@ impl Library {
         written
     }
 
-    /// Makes points missing again, so that they are measured anew; what the log says of them goes.
+    /// Makes points missing again, so that they are measured anew, and removes their log entries and doubts.
     ///
     /// # Errors
     /// [`StoreError::Content`] for a point beyond the last; [`StoreError::Write`]; [`StoreError::Occupied`] if another process writes.

@@ -7,11 +7,11 @@ use crate::StoreError;
 /// Quality of one response: signal-to-noise ratio, coherence, distortion, decay. NaN where it is not known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quality {
-    /// Signal over noise, in dB.
+    /// Signal-to-noise ratio, in dB.
     pub signal_to_noise_db: f64,
     /// Mean coherence over the band, 0 to 1.
     pub coherence: f64,
-    /// Energy in harmonics over that of the linear response, as a ratio of amplitudes.
+    /// Amplitude of the harmonics over that of the linear response: the square root of the ratio of their energies.
     pub distortion: f64,
     /// Time in which the amplitude decays to 1/e, in seconds.
     pub decay_time: f64,
@@ -21,7 +21,7 @@ pub struct Quality {
 const FIGURES: usize = 4;
 
 impl Quality {
-    /// Nothing is known.
+    /// Unknown quality: NaN in all fields.
     pub const UNKNOWN: Self = Self {
         signal_to_noise_db: f64::NAN,
         coherence: f64::NAN,
@@ -52,8 +52,8 @@ impl Library {
         Ok(values.as_chunks::<FIGURES>().0.iter().map(|figures| Quality::of(*figures)).collect())
     }
 
-    /// Relative difference between responses taken in both directions, as a ratio, for the whole library; `None`
-    /// where it is not known.
+    /// Reciprocity error: relative difference between responses measured in both directions between actuators, as a
+    /// ratio, for the whole library; `None` where it is not known.
     ///
     /// # Errors
     /// [`StoreError::Content`] and [`StoreError::Read`] for damage.

@@ -7,8 +7,8 @@ use std::path::Path;
 use unripple_core::Drive;
 
 impl Library {
-    /// Writes every finished point as a WAV file of float32, one channel per actuator, with `library.json` beside them:
-    /// rate, actuators, and each file's point, place and quality. An earlier export is replaced whole.
+    /// Writes every finished point as a WAV file of float32, one channel per actuator, with `library.json` beside
+    /// them: rate, actuators, and each file's point, place and quality. An earlier export is replaced as a whole.
     ///
     /// # Errors
     /// As [`Library::get`], [`OutputDir::create`] and [`write_wav`].

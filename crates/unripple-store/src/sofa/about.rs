@@ -11,7 +11,7 @@ pub struct SofaAbout {
     pub author: Option<String>,
     /// Organization where the data were measured or computed.
     pub organization: Option<String>,
-    /// Under what terms it may be used; where not said, the author has to be asked.
+    /// License of the data; if `None`, the file says that the author must be asked.
     pub license: Option<String>,
     /// Time of writing, in seconds after 1970-01-01 00:00 UTC.
     pub created: u64,

@@ -15,7 +15,8 @@ pub(super) struct Heap {
 }
 
 impl Heap {
-    /// Keeps a reference to an object at an address; returns how an attribute's element names it, the heap being `at`.
+    /// Adds a reference to an object at an address. Returns the bytes by which an attribute refers to it, if the heap
+    /// is at `at`.
     pub fn keep(&mut self, address: u64, at: u64) -> Vec<u8> {
         self.objects.push(address);
         Bytes::default().u32(1).u64(at).u32(self.objects.len() as u32).0

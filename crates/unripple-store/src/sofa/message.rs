@@ -1,4 +1,4 @@
-//! Messages: what an object's header says of it.
+//! Messages of an HDF5 object header, which describe the object.
 
 use super::bytes::{Bytes, NOWHERE};
 
@@ -72,20 +72,20 @@ impl Header {
         Self(self.0.u8(kind).u16(body.len() as u16).u8(0).raw(body))
     }
 
-    /// Makes it a group of `links` objects, which keeps the order in which its links were made.
+    /// Makes the object a group of `links` objects, which keeps the order in which its links were made.
     pub fn group(self, links: u64) -> Self {
         let info = Bytes::default().u8(0).u8(1).u64(links).u64(NOWHERE).u64(NOWHERE);
         self.message(LINK_INFO, &info.0).message(GROUP_INFO, &[0, 0])
     }
 
-    /// The group's next link: a name of an object.
+    /// Adds a link to the group: a name for the object at an address.
     pub fn link(self, name: &str, order: u64, address: u64) -> Self {
         // The order is said; the name's length takes two bytes.
         let body = Bytes::default().u8(1).u8(0x05).u64(order).u16(name.len() as u16).raw(name.as_bytes());
         self.message(LINK, &body.u64(address).0)
     }
 
-    /// Says that it is a dataset, all in one place.
+    /// Makes the object a dataset, whose values are together at an address.
     pub fn dataset(self, kind: Kind, shape: &[u64], address: u64) -> Self {
         let size = shape.iter().product::<u64>() * kind.size();
         let layout = Bytes::default().u8(3).u8(1).u64(address).u64(size);
@@ -96,7 +96,7 @@ impl Header {
             .message(LAYOUT, &layout.0)
     }
 
-    /// An attribute; `value` are its elements' bytes.
+    /// Adds an attribute; `value` has the bytes of its elements.
     pub fn attribute(self, name: &str, kind: Kind, shape: &[u64], value: &[u8]) -> Self {
         let (datatype, space) = (kind.encoded(), dataspace(shape));
         let body = Bytes::default()
@@ -114,7 +114,7 @@ impl Header {
         self.message(ATTRIBUTE, &body.0)
     }
 
-    /// A text; never of no bytes, which HDF5 has not.
+    /// Adds an attribute of text. An empty text becomes one zero byte, since HDF5 has no text without bytes.
     pub fn text(self, name: &str, text: &str) -> Self {
         let text = if text.is_empty() { "\0" } else { text };
         self.attribute(name, Kind::Text(text.len() as u32), &[], text.as_bytes())

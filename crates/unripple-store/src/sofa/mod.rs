@@ -1,4 +1,5 @@
-//! Libraries as SOFA (AES69-2022), which is netCDF-4, which is HDF5: the little of it that is needed, written here.
+//! Libraries written as SOFA files (AES69-2022). SOFA is netCDF-4, which is HDF5; the part of HDF5 that is needed is
+//! written here.
 
 mod about;
 mod bytes;
@@ -19,7 +20,7 @@ use std::io::{self, BufWriter, ErrorKind, Read, Write};
 use std::path::Path;
 use unripple_core::Point;
 
-/// Name of the software that writes, by which its files are known again.
+/// Name of this software in SOFA files, by which an earlier export is recognised.
 const API: &str = "unripple";
 
 /// First bytes of an HDF5 file, by which readers know one.
@@ -40,11 +41,12 @@ impl Library {
     /// `EmitterDescriptions`. Places are in metres, cartesian, on the plane z = 0; `Data.IR` is `[M][R][N][E]` in float64,
     /// in m/s per unit of drive and second, and `Data.Delay` says where time 0 is. Provenance is in `History`.
     ///
-    /// An earlier export is replaced while nobody has changed it. The file appears whole or not at all.
+    /// An earlier export is replaced if it is unchanged. The file appears completely or not at all.
     ///
     /// # Errors
-    /// [`StoreError::Content`] without finished points, for damage to one, or text of more than 60 000 bytes;
-    /// [`StoreError::Occupied`] if something else is at `path`; [`StoreError::Read`] and [`StoreError::Write`].
+    /// [`StoreError::Content`] if no point is finished, a finished one is damaged, or a text has more than 60 000
+    /// bytes; [`StoreError::Occupied`] if something else is at `path`; [`StoreError::Read`] and
+    /// [`StoreError::Write`].
     ///
     /// ```
     /// use unripple_core::{Conditions, Outline, Point, Port, Shape};
@@ -153,7 +155,7 @@ fn variables() -> Vec<Variable> {
     ]
 }
 
-/// Samples by which a response whose impulse comes at the onset is to be moved for it to come at 0.
+/// Delay in samples that moves the impulse from the onset to time 0.
 fn delay(onset: f64, rate: f64) -> f64 {
     0.0 - onset * rate
 }

@@ -11,7 +11,7 @@ const SUPERBLOCK: u64 = 48;
 /// A netCDF-4 file in the making: named axes, and arrays over them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct NetCdf {
-    /// Texts that go for the whole.
+    /// Names and texts of the global attributes.
     pub attributes: Vec<(String, String)>,
     /// Names and lengths of the axes; a variable refers to them by index.
     pub axes: Vec<(&'static str, u64)>,

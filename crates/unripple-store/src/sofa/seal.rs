@@ -1,4 +1,5 @@
-//! Last bytes of an export, past the end that HDF5 counts: by them it is known to be ours for as long as nobody changes it.
+//! The seal of an export: bytes after the end that HDF5 counts, with a checksum by which an unchanged export is
+//! recognised.
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -23,7 +24,7 @@ pub(super) fn is_whole(file: &mut File) -> io::Result<Option<bool>> {
     let mut last = Vec::new();
     file.seek(SeekFrom::Start(length))?;
     file.read_to_end(&mut last)?;
-    // Cheap before dear.
+    // The cheap test first.
     if !last.starts_with(NAME.as_bytes()) {
         return Ok(None);
     }

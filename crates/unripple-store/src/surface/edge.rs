@@ -21,7 +21,8 @@ pub(super) struct SidesListed {
     pub order: &'static str,
 }
 
-/// What `edge` of a table says; `default` if nothing. Without `sides`, which are at fault then, a list is only read.
+/// Reads the key `edge` of a table; `default` if there is none. Without `sides`, which are at fault then, a list is
+/// only checked.
 pub(super) fn read(
     section: &Section,
     default: Edge,
@@ -72,8 +73,9 @@ fn one(entry: &Entry, faults: &mut Faults) -> Option<Edge> {
     Some(Edge::Elastic { lift: lift?, tilt: tilt? })
 }
 
-/// A strip of adhesive as springs: with Young's modulus E (of a wide thin strip rather its constrained modulus), width w and thickness t
-/// it lifts by E w / t and tilts by E w³ / (12 t) per length of rim, each slice of it stretched as the sheet above it moves.
+/// A strip of adhesive as springs. With Young's modulus E (for a wide thin strip rather its constrained modulus),
+/// width w and thickness t its stiffness per length of rim is E w / t against displacement and E w³ / (12 t) against
+/// rotation, if each slice of it is stretched as the sheet above it moves.
 fn adhesive(strip: &Section, faults: &mut Faults) -> Option<Edge> {
     if let Some(other) = SPRING_KEYS.iter().find_map(|key| strip.get(key)) {
         let expected = format!("either {}, or {}", SPRING_KEYS.join(" and "), ADHESIVE_KEYS.join(", "));

@@ -20,7 +20,7 @@ const CORNER: &str = "[x, y] in mm, of the lower-left corner of its bounding box
 /// Width of a slit where a file does not say, in metres. 0.2 mm is narrow beside any wavelength of use.
 const SLIT_WIDTH: f64 = 0.2e-3;
 
-/// A hole of the file without faults of its own, and where it is said.
+/// A hole of the file without faults of its own, and where the file gives it.
 pub(super) struct Cut {
     /// The hole itself, in metres on the sheet.
     pub hole: Hole,

@@ -17,7 +17,7 @@ const SHAPES: [&str; 6] = ["rectangle_mm", "circle_mm", "stadium_mm", "polygon_m
 /// Hands over the text of the SVG file that an outline or a hole names.
 pub(super) type Fetch<'f> = dyn Fn(&str) -> Result<String, StoreError> + 'f;
 
-/// What of the table `[outline]` is without fault: actuators are checked even if the edges are at fault.
+/// The parts of the table `[outline]` that are without fault: actuators are checked even if the edges are at fault.
 #[derive(Default)]
 pub(super) struct Rim {
     /// Shape of the outer rim.
@@ -26,7 +26,7 @@ pub(super) struct Rim {
     pub edges: Option<Edges>,
     /// Holes drawn with the rim.
     pub holes: Vec<Hole>,
-    /// Where the shape is said, and where the edges are.
+    /// The bytes of the file that give the shape.
     pub shape_span: Range<usize>,
     /// The bytes of the file that say how the edges are held.
     pub edge_span: Range<usize>,

@@ -29,7 +29,7 @@ pub(super) struct Spot<'a> {
     pub place: Option<(&'a Outline, Point)>,
 }
 
-/// A piezo patch on a sheet, all of it.
+/// Reads a piezo patch, with all its keys.
 pub(super) fn read(section: &Section, spot: &Spot<'_>, faults: &mut Faults) -> Option<ActuatorKind> {
     let radius = section.number(PIEZO_KEYS[0], &of::PATCH_RADIUS, faults);
     let fits = radius.is_none() || within(section, radius, spot.place, faults);

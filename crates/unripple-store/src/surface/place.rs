@@ -87,7 +87,7 @@ pub(super) struct Ground {
 }
 
 impl Ground {
-    /// The sheet of an outline with its holes, made ready for quick questions.
+    /// The sheet of an outline with its holes, prepared for fast tests of points.
     pub fn new(outline: Outline) -> Self {
         let holes = outline.holes.iter().map(|hole| Fence::new(Shape::Path(hole.sides()))).collect();
         Self { rim: Fence::new(outline.shape.clone()), holes, outline }

@@ -10,7 +10,7 @@ use unripple_core::Point;
 /// The keys that say where actuators are.
 pub(super) const PLACE_KEYS: [&str; 5] = ["at_mm", "row_mm", "ring", "grid_mm", "count"];
 
-/// Those of them of which a table has one.
+/// The keys of which a table has exactly one.
 const WAYS: [&str; 4] = ["at_mm", "row_mm", "ring", "grid_mm"];
 
 /// Keys of the table `ring`: where it is, how large, and from where to where it goes.
@@ -21,13 +21,13 @@ const TURN: f64 = 1e-9;
 
 /// The places that a table stands for.
 pub(super) struct Places {
-    /// In the order of the channels.
+    /// Places in metres, in the order of the channels.
     pub at: Vec<Point>,
     several: bool,
 }
 
 impl Places {
-    /// Whether the table says that there may be more than one.
+    /// Whether the table describes a row, a ring or a grid of places, even one with a single place.
     pub fn are_several(&self) -> bool {
         self.several
     }

@@ -135,7 +135,7 @@ impl<'a> Entry<'a> {
         line
     }
 
-    /// One of several named things.
+    /// The value of one of several names.
     pub fn choice<T: Copy>(&self, choices: &[(&'static str, T)], faults: &mut Faults) -> Option<T> {
         let found = self.value.as_str();
         let chosen = choices.iter().find(|(name, _)| Some(*name) == found).map(|(_, value)| *value);
@@ -168,7 +168,7 @@ impl<'a> Entry<'a> {
         read.into_iter().collect::<Option<Vec<f64>>>()?.try_into().ok()
     }
 
-    /// Whether it is a number, a text, or a table.
+    /// Whether the value is a number.
     pub fn is_number(&self) -> bool {
         matches!(self.value, DeValue::Integer(_) | DeValue::Float(_))
     }
@@ -188,7 +188,7 @@ impl<'a> Entry<'a> {
         matches!(self.value, DeValue::Integer(i) if i.as_str().parse() == Ok(integer) && i.radix() == 10)
     }
 
-    /// The table here, or a fault.
+    /// The value as a table, or a fault if it is none.
     pub fn section(&self, faults: &mut Faults) -> Option<Section<'a>> {
         match self.value {
             DeValue::Table(table) => {
@@ -209,7 +209,7 @@ pub(crate) struct Section<'a> {
     /// The bytes of the file that the table's header takes up.
     pub span: Range<usize>,
     table: &'a DeTable<'a>,
-    /// Another table that says what this one does not.
+    /// Another table, for the keys that this one does not have.
     defaults: Option<&'a Section<'a>>,
 }
 
@@ -219,7 +219,8 @@ impl<'a> Section<'a> {
         Self { key: String::new(), span: 0..0, table: document, defaults: None }
     }
 
-    /// The same table, with another that says what this one does not. [`check_keys`](Self::check_keys) looks at this one alone.
+    /// This table, with another for the keys that it does not have. [`check_keys`](Self::check_keys) looks at this
+    /// one alone.
     pub fn with_defaults(self, defaults: Option<&'a Section<'a>>) -> Self {
         Self { defaults, ..self }
     }
@@ -275,7 +276,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// One of several named things, with a default.
+    /// The value of one of several names, with a default.
     pub fn choice_or<T: Copy>(
         &self,
         key: &str,

@@ -32,7 +32,7 @@ impl Ring {
         Self { sides, counts, turned }
     }
 
-    /// Each side of the file is one side.
+    /// Sides as the file lists them, where none of the file's sides became several.
     pub fn plain(sides: Vec<Side>) -> Self {
         let counts = vec![1; sides.len()];
         Self::new(sides, counts)
@@ -58,7 +58,7 @@ impl Ring {
         Edges::PerSide(edges)
     }
 
-    /// The same ring with the corner of its bounding box at the origin, and where that corner was, in metres.
+    /// This ring moved so that the corner of its bounding box is at the origin, and where that corner was, in metres.
     pub fn cornered(mut self) -> (Self, Point) {
         let corner = self.bounds().least;
         let back = Point::new(-corner.x, -corner.y);

@@ -6,13 +6,13 @@ use crate::file::{LARGEST_TEXT, too_large};
 use unripple_core::{Point, Side};
 use usvg::tiny_skia_path::{self, PathSegment, Transform};
 
-/// A connected curve of a drawing, as curves rather than points: metres, y up, the document's lower-left corner at the
-/// origin.
+/// A connected curve of a drawing, not flattened, in metres: y up, the document's lower-left corner at the origin.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Curve {
-    /// Lines and cubic curves that meet end to end; arcs of ellipses are several, within 1e-7 m.
+    /// Lines and cubic Bézier curves that meet end to end, in metres. An elliptic arc is approximated by several,
+    /// within 1e-7 m.
     pub sides: Vec<Side>,
-    /// How many of these each side as drawn became, in order.
+    /// Number of these for each segment that was drawn, in order.
     pub counts: Vec<usize>,
     /// Whether the curve returns to its start.
     pub closed: bool,
@@ -25,9 +25,9 @@ const STRAIGHT: f64 = 1e-8;
 
 /// Reads the curves of the text of an SVG document without flattening them; `name` is for messages.
 ///
-/// Quadratic curves are raised to cubic ones. An elliptic arc of a path is one side as drawn; a circle or an ellipse is
-/// four, a quarter each. A cubic curve that stands for a quarter of an ellipse as drawing programs write one, to within
-/// single precision, is taken as that quarter.
+/// Quadratic curves are raised to cubic ones. An elliptic arc of a path counts as one segment; a circle or an ellipse
+/// as four, a quarter each. A cubic curve by which drawing programs approximate a quarter of an ellipse is taken as
+/// that quarter, if it agrees to within single precision.
 ///
 /// ```
 /// let text = r#"<svg xmlns="http://www.w3.org/2000/svg" width="90mm" height="90mm" viewBox="0 0 90 90">
@@ -71,7 +71,7 @@ struct Tracer<'p> {
 struct Trace {
     curve: Curve,
     start: Point,
-    /// Where it has got to, in metres and as the file says.
+    /// The end so far, in metres and in the file's coordinates.
     at: Point,
     raw: Point,
     /// Within an arc that was spelled out: whether a side was begun for it.

@@ -15,14 +15,14 @@ use unripple_effects::{Envelope, Event, Score, Sound, Start, limits};
 /// Most points of all envelopes of an import together. Past it the file is refused, which bounds memory.
 const MOST_POINTS: usize = 1 << 16;
 
-/// What formats for phones call a pitch of 0 and of 1, in Hz: the range of MPEG's reference encoder for AHAP.
+/// Frequencies of the pitches 0 and 1 of formats for phones, in Hz: the range of MPEG's reference encoder for AHAP.
 const PITCH: [f64; 2] = [65.0, 300.0];
 
-/// A score from the text of a file for phones and controllers, told apart by its ending: `.haptic` (Lofelt, Meta),
-/// `.ahap` (Apple) or `.hjif` (ISO/IEC 23090-31).
+/// Reads a score of haptic events from the text of a file made for phones and controllers. The format follows from
+/// the file's extension: `.haptic` (Lofelt, Meta), `.ahap` (Apple) or `.hjif` (ISO/IEC 23090-31).
 ///
-/// It starts with a touch and plays at the finger. Short events become focused pulses, whatever their pitch; long ones
-/// become waveforms. A pitch given from 0 to 1 becomes 65 to 300 Hz. Sounds for the ear are left out.
+/// The score starts with a touch and plays at the finger. Short events become focused pulses, whatever their pitch;
+/// long ones become waveforms. A pitch from 0 to 1 becomes a frequency from 65 to 300 Hz. Audio events are left out.
 ///
 /// # Errors
 /// [`StoreError::Content`], with the place in the file, what was expected and what was found there.

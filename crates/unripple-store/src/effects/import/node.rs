@@ -12,7 +12,7 @@ pub(super) struct Node<'v> {
 }
 
 impl<'v> Node<'v> {
-    /// The whole document, for messages under the file's name.
+    /// The root of a JSON document; `file` is the file's name in messages.
     pub fn root(value: &'v Value, file: &'v str) -> Self {
         Self { value, file, path: String::new() }
     }
