@@ -1,4 +1,4 @@
-//! Targets between the points of a library.
+//! Responses at targets between the points of a library, by interpolation.
 
 use crate::TaskError;
 use unripple::act::Note;
@@ -6,15 +6,15 @@ use unripple::core::{Point, SampledResponses, Surface};
 use unripple::physics::Medium;
 use unripple_calibrate::{Between, BetweenOptions, Interpolation};
 
-/// Points farther than this from all places, in shortest wavelengths, say nothing of them.
+/// Stored points farther than this from every target, in shortest wavelengths, are not used to interpolate.
 const REACH: f64 = 5.0;
 
 /// A place this near to a stored point, in metres, is that point. Far below any wavelength: interpolation would give
 /// the same.
 const SAME: f64 = 1e-6;
 
-/// The stored responses together with interpolated ones at `places` (m) that are not among their points, and notes on
-/// these.
+/// Adds interpolated responses to the stored ones, at those of the `places` (m) that are not among the stored points,
+/// and returns a note on their estimated error. With [`Interpolation::Nearest`] nothing is added.
 pub fn completed(
     stored: SampledResponses,
     surface: &Surface,
@@ -48,7 +48,8 @@ fn error(between: &Between, place: Point) -> Result<f64, TaskError> {
     Ok(between.error(place).map_err(TaskError::input)?.relative)
 }
 
-/// The stored points around some places, but for those at actuators: near these there is more than waves.
+/// The stored points around some places. Points at actuators are left out: there the field is more than a sum of free
+/// waves.
 fn witnesses(stored: &SampledResponses, places: &[Point]) -> Result<SampledResponses, TaskError> {
     let reach = REACH * stored.conditions.lambda_min;
     let free = |point: &Point| stored.ports.iter().all(|port| port.at.distance(*point) > SAME);

@@ -1,11 +1,11 @@
-//! A device as an ask gives it, for whoever opens one.
+//! Options of a device as an ask gives them, and the options of each kind of device made from them.
 
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use unripple::core::Surface;
 use unripple_devices::{DevicesError, JackOptions, Links, Perturbation, Virtual, VirtualOptions};
 
-/// Advice of a build without sound cards.
+/// Advice on how to build the program with sound cards, given by a build without them.
 #[cfg(not(feature = "cards"))]
 pub const HOW_TO_GET_CARDS: &str = "build it with `cargo install --path crates/unripple-cli --features cards` (Debian: \
                                     libasound2-dev, pkg-config), or go through JACK or PipeWire";
@@ -14,19 +14,19 @@ pub const HOW_TO_GET_CARDS: &str = "build it with `cargo install --path crates/u
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum DeviceKind {
-    /// The surface computed in time, microphone included.
+    /// A simulation of the surface in the time domain, with its sensors and a probe.
     #[default]
     Virtual,
     /// A JACK server, or PipeWire.
     Jack,
     /// A sound card without a sound server, in a build with the feature `cards`.
     Card,
-    /// WAV files: what is to be played is written, what was recorded of it elsewhere is brought back.
+    /// WAV files: the signal to play is written to a file, and recordings of it made elsewhere are read.
     Tape,
 }
 
 impl DeviceKind {
-    /// Its name in asks and on the command line.
+    /// Name of the kind of device in asks and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Virtual => "virtual",
@@ -37,35 +37,36 @@ impl DeviceKind {
     }
 }
 
-/// The device, and what is virtual about it.
+/// Options of a device: its kind, and options of each kind, which the others ignore.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DeviceAsk {
-    /// What plays and listens.
+    /// Kind of the device that plays and records.
     pub device: DeviceKind,
-    /// JACK: another client whose ports `in_NAME` and `out_NAME` are to be joined, instead of the system's.
+    /// JACK: client whose ports `in_NAME` and `out_NAME` are connected, instead of the system's ports.
     pub jack_client: Option<String>,
     /// JACK: name of the server.
     pub jack_server: Option<String>,
-    /// JACK: let the server run without a clock, so that nothing is lost however slow the machine. Only for servers without hardware.
+    /// JACK: let the server run without a clock (freewheel), so that no block is lost on a slow machine. Only for servers without hardware.
     pub freewheel: bool,
-    /// Card: the device that plays, as `devices` lists it; by default the system's.
+    /// Card: the playback device, as `devices` lists it; by default the system's.
     pub card: Option<String>,
-    /// Card: the device that records, of the same card; by default the one that plays.
+    /// Card: the recording device, of the same card; by default the playback device.
     pub capture_card: Option<String>,
     /// Card: samples per block.
     pub card_block: usize,
-    /// Tape: folder of what is to be played, and of what was recorded of it.
+    /// Tape: folder for the file to play and for the recordings of it.
     pub tape: Option<PathBuf>,
-    /// Tape: what the channels of a recording hear, in order; by default all actuators, by name, and then the probe. There may be a
-    /// `reference`.
+    /// Tape: what is connected to each channel of a recording, in order; by default the sensors of all actuators, by name, then the probe.
+    /// May include `reference`.
     pub tape_inputs: Vec<String>,
-    /// JACK, card, tape: drive of a sample at full scale, in A, V or N; by default the surface's limit, and levels are not known.
+    /// JACK, card, tape: drive of an actuator when a sample is at full scale, in A, V or N; by default the surface's limit, and absolute
+    /// levels are unknown.
     pub output_scale: Option<f64>,
-    /// Virtual: make the true surface another than the surface file says, by this seed: noise, gains, places, tension, damping, stray
-    /// masses.
+    /// Virtual: seed by which the simulated surface differs at random from its file, in noise, gains, places, tension, damping and stray
+    /// masses; by default it does not differ.
     pub unknowns: Option<u64>,
-    /// Virtual, with unknowns: signal to noise, in dB.
+    /// Virtual, with `unknowns`: signal-to-noise ratio, in dB.
     pub snr_db: Option<f64>,
 }
 
@@ -89,13 +90,13 @@ impl Default for DeviceAsk {
 }
 
 impl DeviceAsk {
-    /// Whether the device has a clock of its own that nobody can stop.
+    /// Whether the device runs by a clock of its own. The virtual surface does not, nor does a JACK server with `freewheel`.
     pub fn is_real(&self) -> bool {
         self.device != DeviceKind::Virtual && !self.freewheel
     }
 }
 
-/// A virtual surface, and what is true of it beyond its file, if anything.
+/// Opens a virtual surface. If `unknowns` is given, the simulated surface is perturbed, and the perturbation is returned as well.
 ///
 /// # Errors
 /// Those of [`Virtual`] and [`Perturbation::truth`].
@@ -113,12 +114,12 @@ pub fn virtual_surface(
     Ok((device, Some(unknowns)))
 }
 
-/// Names of the actuators, which are those of their channels.
+/// Names of the actuators, which are also the names of their channels.
 pub fn names(surface: &Surface) -> Vec<String> {
     surface.actuators.iter().map(|actuator| actuator.name.clone()).collect()
 }
 
-/// A sound server that plays all actuators and hears some channels.
+/// Options of a JACK client with an output for each actuator and the input channels `inputs`.
 pub fn jack(options: &DeviceAsk, surface: &Surface, inputs: Vec<String>) -> JackOptions {
     JackOptions {
         server: options.jack_server.clone(),
@@ -131,7 +132,7 @@ pub fn jack(options: &DeviceAsk, surface: &Surface, inputs: Vec<String>) -> Jack
     }
 }
 
-/// A sound card, whose first channels are the actuators, and those that it hears.
+/// Options of a sound card whose first output channels are the actuators, with the input channels `inputs`.
 #[cfg(feature = "cards")]
 pub fn card(
     options: &DeviceAsk,

@@ -1,4 +1,4 @@
-//! Why a task was not done.
+//! Errors that tasks return.
 
 use unripple::act::{ActError, LevelKind};
 use unripple_calibrate::CalibrateError;
@@ -8,50 +8,50 @@ use unripple_plot::PlotError;
 use unripple_store::{FileFaults, StoreError};
 use unripple_touch::TouchError;
 
-/// Why a task was not done.
+/// Error that ended a task.
 #[derive(Debug, thiserror::Error)]
 pub enum TaskError {
-    /// A field of the ask, or fields together, make no sense.
+    /// A field of the ask, or a combination of fields, has a value that is not accepted.
     #[error("{field}: expected {expected}, found {found}")]
     Ask {
         /// The field, or fields separated by commas.
         field: &'static str,
-        /// What could be there.
+        /// Description of the values that are accepted.
         expected: String,
-        /// What is there.
+        /// The value that was found.
         found: String,
     },
-    /// What was given, such as a file, makes no sense.
+    /// An input, such as a file, cannot be used.
     #[error("{0}")]
     Input(String),
-    /// A file has faults that can be pointed at.
+    /// A file has faults, each with its line and column.
     #[error("{0:#}")]
     Faults(Box<FileFaults>),
-    /// The work could not be done.
+    /// The work failed, though its input was good.
     #[error("{0}")]
     Work(String),
-    /// Nobody waits for it any more.
+    /// The caller cancelled the task.
     #[error("cancelled")]
     Cancelled,
 }
 
 impl TaskError {
-    /// A field of an ask that makes no sense.
+    /// Error of a field of an ask, from what was expected and what was found.
     pub fn ask(field: &'static str, expected: impl Into<String>, found: impl std::fmt::Display) -> Self {
         Self::Ask { field, expected: expected.into(), found: found.to_string() }
     }
 
-    /// Bad input, in words.
+    /// Error of bad input, from its message.
     pub fn input(error: impl std::fmt::Display) -> Self {
         Self::Input(error.to_string())
     }
 
-    /// Failed work, in words.
+    /// Error of failed work, from its message.
     pub fn work(error: impl std::fmt::Display) -> Self {
         Self::Work(error.to_string())
     }
 
-    /// Whether what was given is at fault, rather than the work.
+    /// Whether the input is at fault rather than the work.
     pub fn is_bad_input(&self) -> bool {
         matches!(self, Self::Ask { .. } | Self::Input(_) | Self::Faults(_))
     }

@@ -1,4 +1,4 @@
-//! A library filled with responses that are computed, batch by batch.
+//! Fills a library with computed responses, batch by batch.
 
 use crate::{Progress, TaskError, go_on};
 use unripple::core::{Point, SampledResponses};
@@ -7,8 +7,8 @@ use unripple_store::{Library, PointState, Quality, Take};
 /// Points computed and stored at once: some megabytes, and a fraction of a second.
 const BATCH: usize = 64;
 
-/// Computes and stores the points that are not there yet; actuators that are `dead` have no response. One that was cancelled is taken up
-/// again.
+/// Computes and stores the responses of the library's missing points; those of `dead` actuators are zero. A library that was filled in part
+/// is completed.
 ///
 /// # Errors
 /// Those of `compute` and of the library; [`TaskError::Cancelled`].

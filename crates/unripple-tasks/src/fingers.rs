@@ -3,7 +3,7 @@
 use crate::{Place, TaskError, point};
 use unripple::core::{Contact, Surface};
 
-/// Fingers at some places, in metres, as the surface's file describes them.
+/// Contacts of fingers resting at some places (m), each with the finger model of the surface file.
 ///
 /// # Errors
 /// [`TaskError::Ask`] that names `field` for a place beyond the rim.

@@ -36,7 +36,7 @@ pub fn points(outline: &Outline, pitch: f64) -> Result<Vec<Point>, TaskError> {
     if found.is_empty() { Err(refuse("none inside the rim".into())) } else { Ok(found) }
 }
 
-/// A grid of some pitch (m), if one was asked for, then single places.
+/// The points of a grid of some pitch (m), if one is given, followed by single places.
 ///
 /// # Errors
 /// [`TaskError::Ask`] of a pitch that gives no grid, and of a place beyond the edge.

@@ -1,4 +1,4 @@
-//! The model of a surface, and the field of a drive on it, measured.
+//! Responses from the model of a surface, and figures of a drive's field on it.
 
 use crate::{Progress, TaskError, go_on};
 use unripple::act;
@@ -10,7 +10,7 @@ pub use unripple::act::{CELLS, Judged, Note, accuracy};
 /// A field longer than this, in seconds, takes long enough to measure that people should see it.
 const LONG: f64 = 0.2;
 
-/// The responses of a surface, on modes up to `max_hz` if given, under fingers.
+/// Responses of a surface computed from its modes, up to `max_hz` (Hz) or by default those of its band, under resting fingers.
 ///
 /// # Errors
 /// Those of [`act::model`].
@@ -18,7 +18,8 @@ pub fn model(surface: &Surface, max_hz: Option<f64>, contacts: &[Contact]) -> Re
     Ok(act::model(surface, max_hz, contacts)?)
 }
 
-/// Measures what the field of a drive is at the aims. Traces last until `until` seconds, or as long as the field is known.
+/// Evaluates the field of a drive at the aims, which are places and instants. `period` (s) is that of a repeated drive. Traces end at
+/// `until` (s), or where the field is no longer known.
 ///
 /// # Errors
 /// Those of [`act::judge`]; [`TaskError::Cancelled`].
@@ -33,7 +34,7 @@ pub fn judge(
     seen(until.min(act::known(field)), progress, || act::judge(surface, field, aims, period, until))
 }
 
-/// Does work on a field of `length` seconds, seen where that takes long.
+/// Runs `work` on a field of `length` (s), and reports it as a stage of its own if the field is long (above 0.2 s).
 ///
 /// # Errors
 /// Those of the work; [`TaskError::Cancelled`].

@@ -1,6 +1,6 @@
 //! The sentence about a probe's own delay, for reports and logs.
 
-/// A probe's delay (s) beside the sensors, which was taken out.
+/// Sentence that says that the probe's delay (s) relative to the sensors was found and corrected.
 pub fn comes(delay: f64) -> String {
     let (ms, side) = (1e3 * delay.abs(), if delay < 0.0 { "earlier" } else { "later" });
     format!("the probe comes {ms:.3} ms {side} than the sensors: corrected")

@@ -1,6 +1,6 @@
-//! Names of the library's choices, as asks write them.
+//! Focusing methods and interpolations by name, for the fields of asks.
 
-/// Methods of focusing by their names.
+/// Reads and writes a focusing method by its name, for `#[serde(with)]`.
 pub mod method {
     use serde::{Deserialize, Deserializer, Serializer, de::Error};
     use unripple::focus::Method;
@@ -16,7 +16,7 @@ pub mod method {
     /// Reads a name.
     ///
     /// # Errors
-    /// If no method has it.
+    /// If no method has that name.
     pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Method, D::Error> {
         let name = String::deserialize(from)?;
         let found = Method::ALL.into_iter().find(|method| method.name() == name);
@@ -27,7 +27,7 @@ pub mod method {
     }
 }
 
-/// Ways to stand in for a place between the points of a library, by their names.
+/// Reads and writes an interpolation between the points of a library by its name, for `#[serde(with)]`.
 pub mod interpolation {
     use serde::{Deserialize, Deserializer, Serializer, de::Error};
     use unripple_calibrate::Interpolation;
@@ -45,7 +45,7 @@ pub mod interpolation {
     /// Reads a name.
     ///
     /// # Errors
-    /// If there is none of it.
+    /// If no interpolation has that name.
     pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Interpolation, D::Error> {
         let name = String::deserialize(from)?;
         let found = ALL.into_iter().find(|way| way.name() == name);

@@ -1,4 +1,4 @@
-//! Numbers of asks, looked at before there is any work to lose.
+//! Checks of numbers in asks, made before any work is done.
 
 use crate::TaskError;
 

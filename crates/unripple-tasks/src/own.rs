@@ -1,4 +1,4 @@
-//! The actuators' own points of a library: they hold what sensors measured, and figures take them as velocities.
+//! Own points of a library: points at the actuators, measured by the actuators' own sensors. Figures use them as velocities.
 
 use crate::TaskError;
 use serde_json::{Value, json};
@@ -7,32 +7,32 @@ use unripple::physics::{Sensor, sensors};
 use unripple_calibrate::measure::MeasureOptions;
 use unripple_store::{Library, LibraryPlan, PointState, Quality};
 
-/// The key of the log that says what own points hold. Without it they hold velocities.
+/// Key of the library's log entry that says what own points hold: sensor signals. Without that entry they hold velocities.
 pub const KEY: &str = "own_points";
 
 /// A point this near to an actuator, in metres, is the actuator's own, if it is the last one there. Places are
 /// written in files to a nanometre, so that rounding stays below it.
 const SAME: f64 = 1e-6;
 
-/// The entry of the log of a library whose own points hold what sensors measured.
+/// Value of the log entry [`KEY`] for a library of this surface whose own points hold sensor signals, with their units.
 pub fn told(surface: &Surface) -> Result<Value, TaskError> {
     let units: Vec<&str> = sensing(surface)?.iter().map(|sensor| sensor.unit).collect();
     Ok(json!({ "hold": "what sensors heard", "units": units }))
 }
 
-/// Noise over signal, as a ratio of amplitudes; nothing where it is not known.
+/// Noise over signal, as a ratio of amplitudes; `None` where it is not known.
 pub fn noise(quality: &Quality) -> Option<f64> {
     let db = quality.signal_to_noise_db;
     db.is_finite().then(|| 10f64.powf(-db / 20.0))
 }
 
-/// The actuators of a surface as sensors.
+/// Sensor model of each actuator of a surface.
 pub fn sensing(surface: &Surface) -> Result<Vec<Sensor>, TaskError> {
     sensors(surface).map_err(TaskError::input)
 }
 
-/// What a sensor measured, responses one after the other, as velocities (m/s) under its contact; nothing from one that
-/// does not hear a velocity.
+/// Converts a sensor's responses to velocities (m/s) under its contact; `heard` holds one response after the other, `plan.samples` samples
+/// each. `None` for a patch, which senses the sheet's bending, not its velocity.
 pub fn velocities(sensor: &Sensor, heard: &[f32], plan: &LibraryPlan, surface: &Surface) -> Option<Vec<f32>> {
     let rows = heard.chunks_exact(plan.samples);
     let rows: Vec<Vec<f64>> = rows.map(|row| row.iter().map(|h| f64::from(*h)).collect()).collect();
@@ -42,8 +42,8 @@ pub fn velocities(sensor: &Sensor, heard: &[f32], plan: &LibraryPlan, surface: &
     Some(rows.into_iter().flatten().map(|v| v as f32).collect())
 }
 
-/// The responses of a library as velocities at all points. Own points are left out whose sensors do not hear a velocity, as patches, or are
-/// of another scale than the probe: figures over all points would mix both.
+/// The responses of a library as velocities at all points. An own point is left out if its sensor is a patch, and all own points if the
+/// sensors' scale differs from the probe's: figures over all points would mix quantities.
 pub fn as_velocities(
     library: &Library,
     surface: &Surface,

@@ -1,8 +1,8 @@
-//! How far a task is, and whether it is still wanted.
+//! Progress reports of tasks, and their cancellation.
 
 use crate::TaskError;
 
-/// Hears how far a task is, and says whether it is still wanted.
+/// Callbacks that a task calls to report its progress, and to ask whether it has been cancelled.
 ///
 /// ```
 /// use unripple_tasks::{Progress, TaskError, design};
@@ -19,22 +19,22 @@ use crate::TaskError;
 /// assert!(matches!(design::run(&design::Ask::default(), &mut Gone), Err(TaskError::Cancelled)));
 /// ```
 pub trait Progress {
-    /// A stage begins: what is done in it, for people.
+    /// Reports that a stage begins; `_what` says in words what is done in it.
     fn stage(&mut self, _what: &str) {}
 
-    /// How much of the stage is done, from 0 to 1.
+    /// Reports the share of the stage that is done, from 0 to 1.
     fn done(&mut self, _share: f64) {}
 
-    /// A line that people should read now, such as a warning.
+    /// Shows people a line at once, such as a warning.
     fn tell(&mut self, _line: &str) {}
 
-    /// Whether nobody waits for the task any more. Every long loop looks here.
+    /// Whether the task has been cancelled. Every long loop asks this.
     fn cancelled(&self) -> bool {
         false
     }
 
-    /// Does what cannot be taken back, as putting results in their place, unless the task is cancelled: whoever cancels it finds all of
-    /// it or nothing.
+    /// Performs `put`, which cannot be undone, such as moving results to their place, unless the task has been cancelled. After a
+    /// cancellation either all of it is done or nothing.
     ///
     /// # Errors
     /// [`TaskError::Cancelled`], and those of `put`.
@@ -43,13 +43,13 @@ pub trait Progress {
     }
 }
 
-/// Nobody listens, and the task goes on to its end.
+/// Progress that shows nothing and never cancels.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Silent;
 
 impl Progress for Silent {}
 
-/// An error once nobody waits for the task any more.
+/// Returns an error if the task has been cancelled.
 ///
 /// # Errors
 /// [`TaskError::Cancelled`].

@@ -1,13 +1,14 @@
-//! What every report offers.
+//! The trait of all reports.
 
 use serde::Serialize;
 
-/// What came of a task: keys in SI units for programs, text for people.
+/// Results of a task: serialised for programs, with keys in SI units, and as text for people.
 pub trait Report: Serialize {
     /// The report for people, as lines of text.
     fn text(&self) -> String;
 
-    /// Why the task counts as failed although it has a report, as a doubtful library; nothing where it does not.
+    /// Reason for which the task counts as failed although it has a report, such as a doubtful library; `None` if it
+    /// succeeded.
     fn failure(&self) -> Option<String> {
         None
     }

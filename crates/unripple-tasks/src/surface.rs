@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use unripple::core::Surface;
 use unripple_store::{Library, load_surface_with, parse_surface};
 
-/// A surface: by the name of a built-in surface or file, that with some keys set otherwise, or as the text of a surface file.
+/// A surface, given by the name of a built-in surface or file, by such a name with changed keys, or as the text of a surface file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum SurfaceAsk {
@@ -16,7 +16,7 @@ pub enum SurfaceAsk {
     Set {
         /// The name of a built-in surface, or the path of a surface file.
         name: String,
-        /// Values as the file would write them, by the paths of their keys: `sheet.tension_n_per_m`. An empty one takes the key away.
+        /// New values, written as in the file, by the paths of their keys: `sheet.tension_n_per_m`. An empty value removes the key.
         set: BTreeMap<String, String>,
     },
     /// The text of a surface file.
@@ -63,10 +63,11 @@ impl SurfaceAsk {
         }
     }
 
-    /// The surface.
+    /// Reads the surface from its file or text.
     ///
     /// # Errors
-    /// [`TaskError::Faults`] with all faults of the file or text; [`TaskError::Input`] if there is none of that name.
+    /// [`TaskError::Faults`] with all faults of the file or text; [`TaskError::Input`] if there is no surface of that name;
+    /// [`TaskError::Ask`] for changed keys of a library.
     pub fn load(&self) -> Result<Surface, TaskError> {
         match self {
             Self::Name(name) => Ok(load_surface_with(name, &[])?),

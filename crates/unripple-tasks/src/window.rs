@@ -1,4 +1,4 @@
-//! Times that must hold waves.
+//! Checks of windows and other times that must be long enough for waves.
 
 use crate::TaskError;
 use unripple::act;
@@ -9,7 +9,8 @@ pub(crate) fn carries(conditions: &Conditions, seconds: f64, field: &str) -> Res
     act::carries(conditions, seconds).map_err(|error| TaskError::Work(format!("`{field}`: {error}")))
 }
 
-/// An error, and if it is about a window that nobody `asked` for, the field that gives another.
+/// Adds to an error about the window, if it is the default one (not `asked` for), the name of the field that sets
+/// another.
 pub(crate) fn of_window(error: TaskError, asked: bool) -> TaskError {
     let told = |text: String| match !asked && text.contains("window") && !text.contains("window_s") {
         true => format!("{text} (the window is the default one; `window_s` gives another)"),

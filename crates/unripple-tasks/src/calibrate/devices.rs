@@ -1,4 +1,4 @@
-//! Devices by the names of the command line.
+//! Opens the device that an ask names, for a calibration.
 
 use super::hands::Hands;
 use super::rigs::{HandRig, VirtualRig};
@@ -9,11 +9,11 @@ use unripple::core::{PROBE, Surface};
 use unripple_calibrate::measure::Rig;
 use unripple_devices::{DevicesError, Jack, Perturbation, VirtualOptions};
 
-/// An open device with whoever moves its probe.
+/// An open device, and who moves its probe.
 pub struct Opened {
-    /// The device, and whoever moves its probe.
+    /// The device, and who moves its probe.
     pub rig: Box<dyn Rig>,
-    /// What is true of a virtual surface and not in its file.
+    /// How a virtual surface differs from its file, in words; `None` if it does not.
     pub truth: Option<String>,
 }
 
@@ -32,7 +32,8 @@ pub fn open(options: &DeviceAsk, surface: &Surface, hands: Hands) -> Result<Open
     open_under(options, surface, hands, Vec::new())
 }
 
-/// The same; a virtual surface under a tension as a share of its own against time (s).
+/// Opens the device of an ask as `open` does. `tension` is that of a virtual surface over its nominal tension (ratio),
+/// against time (s).
 pub fn open_under(
     options: &DeviceAsk,
     surface: &Surface,

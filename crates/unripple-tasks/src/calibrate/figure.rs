@@ -1,4 +1,4 @@
-//! What is drawn of a library's quality: signal to noise and coherence over frequency, and which point is bad in which band.
+//! The figure of a library's quality: signal-to-noise ratio and coherence over frequency, and which point is bad in which band.
 
 use super::Campaign;
 use super::ask::Ask;
@@ -9,7 +9,8 @@ use unripple_plot::{
 };
 use unripple_store::{BandQuality, Library, OutputDir};
 
-/// What is drawn at one end of all colours and axes, and, as one colour, whatever is above: noise is all there is, and what to aim at.
+/// Range of the signal-to-noise ratios that are drawn, in dB: 0, where noise is all there is, and 40, which is worth aiming at. Values
+/// beyond an end get its colour.
 const SHOWN_DB: [f64; 2] = [0.0, 40.0];
 
 /// Share of the responses that are worse than the second line.
@@ -18,7 +19,7 @@ const WORST: f64 = 0.1;
 /// Half a third of an octave, as a ratio. It is 2^(1/6), so that neighbouring bands meet.
 const HALF: f64 = 1.122_462_048_309_373;
 
-/// The folder that is asked for, before anything is measured.
+/// Creates the folder for the figure, if one is asked for, before anything is measured.
 pub fn place(ask: &Ask) -> Result<Option<OutputDir>, TaskError> {
     let Some(place) = &ask.figure else { return Ok(None) };
     if *place == ask.output {
@@ -32,7 +33,7 @@ pub fn place(ask: &Ask) -> Result<Option<OutputDir>, TaskError> {
     Ok(Some(OutputDir::create_beside(place, &reads)?))
 }
 
-/// Draws what is asked for of a library as it is now.
+/// Draws the figure, if one is asked for, from the library as it is now.
 pub fn write(campaign: &mut Campaign<'_>, library: &Library) -> Result<(), TaskError> {
     let Some(out) = campaign.figure.take() else { return Ok(()) };
     let known = Known::of(library, campaign.places.probed)?;

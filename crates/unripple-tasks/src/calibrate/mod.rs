@@ -46,7 +46,7 @@ pub(crate) struct Campaign<'a> {
     pub model: &'a ModalResponses,
     /// How responses are measured.
     pub settings: MeasureOptions,
-    /// What full scale stands for at inputs and outputs.
+    /// Values at full scale of inputs and outputs.
     pub scales: Scales,
     /// The places to be measured.
     pub places: Places,
@@ -56,8 +56,8 @@ pub(crate) struct Campaign<'a> {
     progress: RefCell<&'a mut dyn Progress>,
 }
 
-/// Measures responses through a device into a library, or, of recordings made elsewhere, writes what is to be played and takes in what was
-/// recorded. For devices that need nobody at the surface; see [`run_with`].
+/// Measures responses through a device and stores them in a library. With recordings made elsewhere (tape) it writes the file to play, then
+/// reads the recordings. For devices that need no person at the surface; for others see [`run_with`].
 ///
 /// # Errors
 /// Those of [`run_with`].
@@ -65,10 +65,11 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     run_with(ask, nobody(), progress)
 }
 
-/// The same with somebody who moves the probe and taps. One that is cancelled leaves the library as it is, to be continued.
+/// Measures responses as [`run()`] does; `hands` asks a person to move the probe or to tap. A cancelled run leaves the library as it is, to
+/// be continued.
 ///
 /// # Errors
-/// [`TaskError::Ask`] of what makes no sense; those of surfaces, devices, files and measurements; [`TaskError::Cancelled`].
+/// [`TaskError::Ask`] of options that make no sense; those of surfaces, devices, files and measurements; [`TaskError::Cancelled`].
 pub fn run_with(ask: &Ask, hands: Hands, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     let surface = ask.surface.load()?;
     let scales = Scales::of(ask, &surface)?;
@@ -174,7 +175,7 @@ impl Campaign<'_> {
         work(*self.progress.borrow_mut())
     }
 
-    /// An error once nobody waits for it any more.
+    /// Returns an error if the task has been cancelled.
     ///
     /// # Errors
     /// [`TaskError::Cancelled`].
@@ -210,7 +211,7 @@ impl Campaign<'_> {
         LibraryPlan { surface: Some(surface.clone()), provenance, ..known }
     }
 
-    /// What is known of scales, for the log. By taps the model says how strong they are.
+    /// Scales of the inputs and outputs, for the log. With taps the model tells their strength.
     fn scale_told(&self) -> Value {
         match self.ask.by {
             By::Probe => self.scales.told(),

@@ -5,11 +5,12 @@ use crate::TaskError;
 use serde::Serialize;
 use serde_json::Value;
 
-/// Report of a calibration: its kind depends on what was asked.
+/// Report of a calibration, whose content depends on what was asked.
 #[derive(Clone, Debug, Serialize)]
 #[serde(transparent)]
 pub struct Report {
-    /// Of a library its quality; of recordings also what is missing and wrong; of levels each channel's.
+    /// The report as JSON: the quality of a library; with recordings made elsewhere also which are missing or unusable;
+    /// of a check of levels the level of each channel.
     pub found: Value,
     #[serde(skip)]
     text: String,

@@ -5,7 +5,7 @@ use crate::TaskError;
 use crate::grid;
 use unripple::core::{Point, Surface};
 
-/// A grid, points typed, and last the actuators themselves, measured by their own sensors.
+/// The points of a grid, then single points, then the actuators' own places, which their own sensors measure.
 #[derive(Clone, Debug, Default)]
 pub struct Places {
     /// All points, the actuators' own last, in m.

@@ -1,4 +1,4 @@
-//! What a calibration found.
+//! Report of a calibration on its library.
 
 use super::points::Places;
 use super::shelf::SAID;
@@ -8,7 +8,7 @@ use std::fmt::Write;
 use std::time::Duration;
 use unripple_store::{Library, PointState, Quality};
 
-/// The library and its quality, SI units.
+/// A measured library and its quality, in SI units.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     library: String,

@@ -6,7 +6,8 @@ use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{Rig, SILENCE};
 use unripple_devices::{Handle, Tap, Virtual};
 
-/// The virtual surface, at rest before every recording, with noise and taps that depend on the point alone.
+/// The virtual surface, at rest before every recording. Its noise and taps depend on the seed, the point and the
+/// attempt alone.
 pub struct VirtualRig {
     device: Virtual,
     handle: Handle,
@@ -46,7 +47,7 @@ impl Rig for VirtualRig {
     }
 }
 
-/// People at a real surface, who do what they are asked.
+/// A real device, and people at the surface who move the probe and tap.
 pub struct HandRig<D> {
     device: D,
     hands: Hands,
@@ -54,7 +55,7 @@ pub struct HandRig<D> {
 }
 
 impl<D: Device> HandRig<D> {
-    /// A real device with somebody at it.
+    /// A real device, and the callback that asks people at it.
     pub fn new(device: D, hands: Hands) -> Self {
         Self { device, hands, place: None }
     }

@@ -1,4 +1,4 @@
-//! Scales of inputs and outputs: what full scale stands for, and so whether levels are known.
+//! Scales of inputs and outputs: values at full scale, and whether absolute levels are known.
 
 use super::ask::{Ask, InputScales};
 use crate::{DeviceKind, TaskError};
@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use unripple::core::{PROBE, Surface};
 use unripple_calibrate::measure::REFERENCE;
 
-/// Factors from what a device or a file holds to what it means.
+/// Factors from the samples of a device or file to physical units.
 #[derive(Clone, Debug)]
 pub struct Scales {
     all: Option<f64>,
@@ -56,7 +56,7 @@ impl Scales {
         self.own || self.all.is_some() || self.named.contains_key(name)
     }
 
-    /// Why lengths and velocities are not known, if they are not.
+    /// Reason why absolute lengths and velocities are unknown, if they are.
     pub fn unknown(&self) -> Option<String> {
         let mut lacking = Vec::new();
         if !self.knows(PROBE) {
@@ -75,7 +75,7 @@ impl Scales {
         self.own
     }
 
-    /// Whether sensors are known to be in the probe's own scale.
+    /// Whether the scales of all sensors and of the probe are known.
     pub fn sensors_too(&self, surface: &Surface) -> bool {
         surface.actuators.iter().all(|actuator| self.knows(&actuator.name)) && self.knows(PROBE)
     }
@@ -91,7 +91,7 @@ impl Scales {
     }
 }
 
-/// Refuses a scale of nothing, or of an input that there is not.
+/// Refuses a scale of 0, or of an input that does not exist.
 fn known(name: &str, scale: f64, surface: &Surface) -> Result<(), TaskError> {
     if !(scale.is_finite() && scale != 0.0) {
         return Err(TaskError::ask("input_scales", "a number other than 0, as in probe=0.5", scale));

@@ -11,14 +11,14 @@ use unripple_calibrate::measure::{self, Channel, Sink};
 use unripple_calibrate::signals::Reciprocity;
 use unripple_store::{BandQuality, Library, PointState, Quality, StoreError, Take};
 
-/// The key of a point's log under which is what its recording showed besides responses.
+/// Key of a point's log entry for remarks on its recording.
 pub const SAID: &str = "said";
 
 /// A library that is being filled.
 pub struct Shelf {
     /// The library itself.
     pub library: Library,
-    /// Points that this campaign measures; the rest are the actuators' own.
+    /// Number of points measured by a probe or by taps; the rest are the actuators' own.
     pub probed: usize,
     /// Factor on all that is measured at a point.
     probe: f64,
@@ -26,9 +26,9 @@ pub struct Shelf {
     sensors: Vec<f64>,
     /// Actuators that are left out: their responses are zero, since what was measured of them is noise.
     pub without: Vec<usize>,
-    /// Actuators whose sensor is dead: their own points are not missed.
+    /// Actuators whose sensor is dead: their own points need not be measured.
     pub deaf: Vec<usize>,
-    /// Points that were kept in this run.
+    /// Points that were stored in this run.
     pub made: BTreeSet<usize>,
 }
 
@@ -47,12 +47,12 @@ impl Shelf {
         Self { library, probed, probe: scales.input(PROBE), sensors, without, deaf, made }
     }
 
-    /// The same shelf for taps, whose strength follows from the model: scales do not matter.
+    /// The same shelf without scales, for taps: their strength follows from the model.
     pub fn by_taps(self) -> Self {
         Self { probe: 1.0, ..self }
     }
 
-    /// Keeps how reciprocal the actuators are, from the responses of all at each.
+    /// Stores the reciprocity error of the responses between actuators, which all sensors' channels give.
     pub fn reciprocity(&mut self, sensors: &[Channel]) -> Result<(), TaskError> {
         let alive: Vec<usize> = (0..sensors.len()).filter(|a| !self.without.contains(a)).collect();
         let mut flat = Vec::new();
@@ -66,8 +66,8 @@ impl Shelf {
         Ok(self.library.set_reciprocity_error(found.error)?)
     }
 
-    /// Responses at the sensors when the library was begun, if any were measured: what later takes are compared with.
-    /// Those that are dead or bad have none.
+    /// Stored responses at the actuators' sensors, with which later recordings are compared; `None` if no sensor's were
+    /// measured. Those of dead or bad sensors are zero.
     pub fn heard(&self) -> Result<Option<Vec<Channel>>, TaskError> {
         let (samples, count) = (self.library.plan().samples, self.sensors.len());
         let known = |sensor: usize| {

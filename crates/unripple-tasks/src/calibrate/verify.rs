@@ -1,4 +1,4 @@
-//! What was measured, checked against a model that is fitted to what the sensors recorded.
+//! Check of the measured points against a model that is fitted to what the sensors recorded.
 
 use super::shelf::Shelf;
 use crate::TaskError;
@@ -13,7 +13,7 @@ use unripple_calibrate::signals::{Band, shift};
 use unripple_calibrate::verify::{self, Checked, Doubted, Verified, VerifyOptions};
 use unripple_store::{Doubt, Library, PointState, Take};
 
-/// The check that finds responses which no model of the surface makes; the key of what it says, of the whole and of each point.
+/// Name of the check of responses against a model, and key of its log entries, for the library and for each point.
 pub const CHECK: &str = "model";
 
 /// The check that finds responses which are those of another point: it needs no model.
@@ -26,8 +26,8 @@ const PROBE: &str = "probe";
 /// degree.
 const NONE: f64 = 0.02;
 
-/// Says of each probed point whether a model agrees with what was measured there; takes the probe's own delay, and
-/// gains that are not those of the other points, out of them.
+/// Checks each probed point against a model fitted to the sensors' recordings, records doubts, and corrects responses for the probe's own
+/// delay and for gains that differ from those of the other points.
 pub fn check(
     shelf: &mut Shelf,
     surface: &Surface,
@@ -193,7 +193,7 @@ fn before(taken: &[Taken]) -> Option<f64> {
     median(taken.iter().map(|taken| taken.delay).filter(|delay| *delay != 0.0))
 }
 
-/// Keeps what is doubted. Without a model nothing takes back what one said before of points that are as they were.
+/// Records the doubts. Without a model, earlier doubts of a model stay for points that were not measured again.
 fn doubt(shelf: &mut Shelf, points: &[usize], found: &Verified) -> Result<(), TaskError> {
     let of = |check: &str, doubt: &Doubted| {
         Doubt::of(check, &doubt.what).at(doubt.points.iter().map(|p| points[*p]).collect())

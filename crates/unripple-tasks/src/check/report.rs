@@ -1,4 +1,4 @@
-//! What `check` found.
+//! Report of the task `check`.
 
 use serde::Serialize;
 use unripple_store::{Fault, FileFaults};
@@ -8,14 +8,14 @@ use unripple_store::{Fault, FileFaults};
 pub struct Report {
     /// The surface as it was named.
     pub surface: String,
-    /// Whether there is none.
+    /// Whether the file has no fault.
     pub ok: bool,
     /// Each fault with line and column, in the file's order; at most a hundred.
     pub faults: Vec<Fault>,
-    /// How many more there are; nothing of a file without faults.
+    /// Number of faults beyond those listed; absent for a file without faults.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub omitted: Option<usize>,
-    /// The faults with the lines they are about, for people.
+    /// The faults together with the lines of the file that they are in, for the text report.
     #[serde(skip)]
     pub file: Option<Box<FileFaults>>,
     /// The surface's own name and its number of actuators, where there is no fault.

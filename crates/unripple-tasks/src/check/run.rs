@@ -1,9 +1,9 @@
-//! Reading a surface file for its faults.
+//! Checks a surface file for faults.
 
 use super::{Ask, Report};
 use crate::{Progress, TaskError, go_on};
 
-/// Looks for all faults of a surface file. A file with faults is no error: they are what was asked for.
+/// Lists all faults of a surface file. Faults are the result of this task, not an error.
 ///
 /// # Errors
 /// [`TaskError::Input`] if there is no surface of that name, or its file cannot be read.

@@ -12,8 +12,8 @@ type Drawn = fn(&Front) -> (Vec<f64>, Vec<f64>);
 /// A felt figure of a target.
 type Felt = fn(&TargetFigures) -> Option<f64>;
 
-/// Contrast against the energy that a peak takes, and against the peak at the drive limit; what is felt elsewhere against the
-/// drive that it takes.
+/// Draws contrast against the energy that a given peak takes, contrast against the peak at the drive limit, and the level felt outside the
+/// target against the drive that a given felt level takes.
 pub fn draw(rows: &[Row], fronts: &[Front], felt: &[Row]) -> Figure {
     // What is felt is not made for contrast.
     let rows: Vec<&Row> = rows.iter().filter(|row| row.method != Method::Felt.name()).collect();

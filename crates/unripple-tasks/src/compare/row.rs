@@ -10,32 +10,33 @@ use unripple::act::{Act, Level, Note, Strength};
 use unripple::field::{DriveFigures, Measured, TargetFigures};
 use unripple::focus::{Focuser, Method, Options};
 
-/// Figures of one method, as emitted at the level asked for, or at its limit where that is beyond.
+/// Results of one method. The drive is emitted at the level asked for, or at the drive limit where that level is beyond
+/// it.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
     /// Name of the method.
     pub method: &'static str,
-    /// Seconds to plan for the surface.
+    /// Time to prepare the method for the surface, in s.
     pub plan_s: f64,
-    /// Seconds for the drive of these targets after that.
+    /// Time to compute the drive for the targets after that, in s.
     pub drive_s: f64,
-    /// Energy that the peak velocity of the first target takes, over that of time reversal.
+    /// Drive energy for a given peak velocity at the first target, relative to time reversal (ratio).
     pub energy_for_peak: f64,
-    /// Rms of the drive that the felt level of the first target takes, over that of time reversal, in dB.
+    /// Rms of the drive for a given felt level at the first target, relative to time reversal, in dB.
     pub drive_for_level_db: f64,
-    /// Peak velocity of the first target at the drive limit, over that of time reversal.
+    /// Peak velocity at the first target at the drive limit, relative to time reversal (ratio).
     pub peak_at_limit: f64,
-    /// Contrast at the drive limit.
+    /// Contrast at the first target at the drive limit (ratio).
     pub contrast_at_limit: f64,
     /// Figures of every target.
     pub targets: Vec<TargetFigures>,
     /// Figures of the drive.
     pub drive: DriveFigures,
-    /// Strength of the drive beside its limits.
+    /// Strength of the drive compared with its limits.
     pub level: Strength,
     /// Notes on the drive.
     pub notes: Vec<Note>,
-    /// What it trades at the drive limit.
+    /// Contrast, energy per squared peak, and peak, at the drive limit.
     #[serde(skip)]
     pub(super) trade: Trade,
 }
@@ -45,7 +46,7 @@ pub fn judge(ground: &Ground<'_>, method: Method) -> Result<Row, TaskError> {
     with(ground, &Options { method, ..ground.options.clone() })
 }
 
-/// Makes and evaluates the drive of some options.
+/// Computes and evaluates the drive that some options give.
 pub fn with(ground: &Ground<'_>, options: &Options) -> Result<Row, TaskError> {
     let start = Instant::now();
     let focuser = Focuser::new(ground.known, options).map_err(TaskError::input)?;
@@ -76,7 +77,8 @@ pub fn with(ground: &Ground<'_>, options: &Options) -> Result<Row, TaskError> {
     })
 }
 
-/// Energies for the same peak, drives for the same felt level and peaks at the limit, over those of the first row.
+/// Relates the energies, felt drives and peaks of all rows to those of the first row: ratios, and dB for the felt
+/// drives.
 pub fn relate(rows: &mut [Row]) {
     let first = rows.first().map_or([f64::NAN; 2], prices);
     let peak = rows.first().map_or(f64::NAN, |row| row.peak_at_limit);

@@ -1,4 +1,4 @@
-//! What `design` says.
+//! Report of the task `design`.
 
 pub use unripple::physics::design::Design as Report;
 

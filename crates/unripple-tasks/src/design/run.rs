@@ -3,10 +3,11 @@
 use super::{Ask, Report};
 use crate::{Progress, TaskError, go_on};
 
-/// Celerities, modes, window, predicted contrast, spot, power at the finger.
+/// Computes the design figures of a surface: celerities, modes, window, predicted contrast, spot, power at the finger.
 ///
 /// # Errors
-/// Those of [`SurfaceAsk::load`](crate::SurfaceAsk::load); [`TaskError::Input`] of what has no closed form.
+/// Those of [`SurfaceAsk::load`](crate::SurfaceAsk::load); [`TaskError::Input`] where a figure has no closed form;
+/// [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     let surface = ask.surface.load()?;
     go_on(progress)?;

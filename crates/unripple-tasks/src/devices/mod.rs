@@ -1,4 +1,4 @@
-//! `devices`: what drives can be played through.
+//! `devices`: the devices through which drives can be played.
 
 mod ask;
 mod report;

@@ -1,4 +1,4 @@
-//! What `devices` found.
+//! Report of the task `devices`.
 
 #[cfg(not(feature = "cards"))]
 use crate::device::HOW_TO_GET_CARDS;
@@ -7,10 +7,11 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 use unripple_devices::{Found, Stream};
 
-/// What drives can be played through.
+/// The devices through which drives can be played.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// One object for each device: `device` is its kind, `available` whether it can be played through, the rest what it offers.
+    /// One JSON object for each device: `device` is its kind, `available` says whether it can be played through; the other keys say what it
+    /// offers.
     pub devices: Vec<Value>,
     #[serde(skip)]
     text: String,

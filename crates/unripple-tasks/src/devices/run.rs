@@ -4,7 +4,7 @@ use super::{Ask, Report};
 use crate::{Progress, TaskError, go_on};
 use unripple_devices::list;
 
-/// Lists what drives can be played through: the virtual surface, files, a sound server, cards.
+/// Lists the devices through which drives can be played: the virtual surface, files, a sound server, cards.
 ///
 /// # Errors
 /// [`TaskError::Cancelled`].

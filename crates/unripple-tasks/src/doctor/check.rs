@@ -1,8 +1,8 @@
-//! One stage, and how it fares.
+//! Result of checking one stage between a touch and what is felt.
 
 use serde::Serialize;
 
-/// One stage, and how it fares.
+/// Result of checking one stage between a touch and what is felt.
 #[derive(Clone, Debug, Serialize)]
 pub struct Check {
     /// Name of the stage.
@@ -20,13 +20,13 @@ pub struct Check {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
-    /// As it should.
+    /// The stage works as it should.
     Good,
-    /// It works, but may be why little is felt.
+    /// The stage works, but may be the reason why little is felt.
     Doubtful,
-    /// It does not work.
+    /// The stage does not work.
     Failed,
-    /// It could not be looked at.
+    /// The stage could not be checked.
     Skipped,
 }
 

@@ -1,4 +1,4 @@
-//! The device, its wires and its clock.
+//! Checks of the device, its wires and its clock.
 
 use super::check::Check;
 use crate::calibrate::{nobody, open};
@@ -84,7 +84,7 @@ fn blocks(status: &Status) -> Check {
     }
 }
 
-/// Whether the audio thread would get its priority.
+/// Checks whether the audio thread would get real-time priority.
 pub fn priority() -> Check {
     match real_time() {
         Ok(granted) => Check::good("priority", granted),

@@ -1,4 +1,4 @@
-//! What `doctor` found.
+//! Report of the task `doctor`.
 
 use super::{Check, Verdict};
 use serde::Serialize;
@@ -9,9 +9,9 @@ use std::fmt::Write;
 pub struct Report {
     /// The surface's own name.
     pub surface: String,
-    /// The stages, in the order of a touch.
+    /// Results of all stages, in the order in which a touch passes them.
     pub checks: Vec<Check>,
-    /// Why nothing may be felt, the likeliest first; empty where there is no reason.
+    /// Reasons why nothing may be felt, the likeliest first; empty where there is none.
     pub why_you_may_feel_nothing: Vec<String>,
 }
 

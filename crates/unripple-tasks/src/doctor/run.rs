@@ -1,4 +1,4 @@
-//! Each stage, in turn.
+//! Checks of all stages between a touch and what is felt.
 
 use super::{Ask, Check, Report, device, felt, touch};
 use crate::{Progress, TaskError, go_on, judge};
@@ -6,7 +6,7 @@ use std::sync::Arc;
 use unripple::core::Surface;
 use unripple_live::Window;
 
-/// Looks at each stage between a touch and what is felt. A stage that fails is no error: it is what was asked for.
+/// Checks each stage between a touch and what is felt. A stage that fails is part of the report, not an error.
 ///
 /// # Errors
 /// Those of [`SurfaceAsk::load`](crate::SurfaceAsk::load); [`TaskError::Cancelled`].

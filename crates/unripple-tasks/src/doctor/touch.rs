@@ -1,11 +1,11 @@
-//! Where touches may come from.
+//! Checks of the sources of touches.
 
 use super::ask::Ask;
 use super::check::Check;
 use std::net::{SocketAddr, UdpSocket};
 use unripple_touch::Screen;
 
-/// The port of TUIO, and the screens.
+/// Checks the TUIO port and the multi-touch screens.
 pub fn checks(ask: &Ask) -> [Check; 2] {
     [port(ask), screens()]
 }

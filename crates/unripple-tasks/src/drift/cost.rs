@@ -1,4 +1,4 @@
-//! What a focus loses that is made for the tension of before.
+//! Loss of peak and contrast of a focus whose drive was made for an earlier tension.
 
 use crate::TaskError;
 use crate::place::anywhere;
@@ -11,14 +11,14 @@ use unripple::focus::{Options, Target, focus};
 /// Cells of the grid per shortest wavelength: enough for a share.
 const CELLS: f64 = 4.0;
 
-/// A focus by time reversal that is made from the responses as they were: what it is worth there, and on the sheet as it is.
+/// Peak and contrast of a time-reversal focus that is made from the earlier responses, on the sheet as it was and as it is.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Cost {
-    /// Where it is tried, in m.
+    /// Place of the focus, in m.
     pub at_m: [f64; 2],
-    /// Its window, the one that `focus` takes by itself.
+    /// Window of the drive, in s: the default window of `focus`.
     pub window_s: f64,
-    /// Peak velocity on the sheet as it is, over that on the sheet as it was.
+    /// Peak velocity on the sheet as it is, over that on the sheet as it was (ratio).
     pub peak_share: f64,
     /// Contrast on the sheet as it was.
     pub contrast_before: f64,
@@ -27,7 +27,7 @@ pub struct Cost {
 }
 
 impl Cost {
-    /// Between responses as they were and as they are.
+    /// Evaluates a focus made from the responses `before` on these and on the responses `now`.
     ///
     /// # Errors
     /// Those of making and judging the focus.
@@ -47,7 +47,7 @@ impl Cost {
         })
     }
 
-    /// Share of the contrast that is left.
+    /// Contrast on the sheet as it is, over that on the sheet as it was (ratio).
     pub fn contrast_share(&self) -> f64 {
         self.contrast_now / self.contrast_before
     }

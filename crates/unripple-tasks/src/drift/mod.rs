@@ -1,4 +1,4 @@
-//! `drift`: whether a sheet's tension is still what its responses were made for, and whether it goes on changing.
+//! `drift`: how much a sheet's tension differs from the one that its responses assume, and whether it keeps changing.
 
 mod ask;
 mod bench;

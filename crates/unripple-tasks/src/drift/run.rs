@@ -1,4 +1,4 @@
-//! Pings, one after the other, and what each says of the tension.
+//! Measurement of a sheet's tension by pings.
 
 use super::bench::Bench;
 use super::known::Known;
@@ -11,20 +11,20 @@ use unripple_calibrate::{Ping, PingOptions, Tracker};
 /// Length of an observation, in s: a ping, and until it is over.
 const PERIOD: f64 = 0.4;
 
-/// Fewest seconds of pings, three of them, which a rate takes, and most.
+/// Shortest duration of the pings, in s (three pings, which a rate takes), and longest.
 const SECONDS: [f64; 2] = [1.2, 3600.0];
 
 /// Largest change that may be looked for, as a share: beyond, another sheet is meant.
 const MOST: f64 = 0.5;
 
-/// What the law by which modes move with tension may be off by, as a share of the change: bending's share of a mode is that of before, to
-/// first order in what tension changes in the shapes, and of a fit it is right to 1e-3.
+/// Relative error of the law by which modes follow tension: it takes bending's share of each mode as it was before, which is right to first
+/// order in the change; for a fit that share is known to 1e-3.
 const LAW: f64 = 1e-3;
 
-/// What a fitted model may be off by beside that, as a share of tension: on a virtual film in a band of 1 kHz it was.
+/// Further relative error of the tension of a fitted model: as large as it was on a virtual film in a band of 1 kHz.
 const FITTED: f64 = 1.5e-3;
 
-/// Finds out whether a sheet's tension is still what its responses were made for, by how much not, and whether it goes on changing.
+/// Measures by how much a sheet's tension differs from the one that its responses assume, and whether it keeps changing.
 ///
 /// ```
 /// use unripple_tasks::{Silent, drift};
@@ -38,8 +38,8 @@ const FITTED: f64 = 1.5e-3;
 /// ```
 ///
 /// # Errors
-/// [`TaskError::Ask`] of what makes no sense; those of surfaces, libraries, fits and devices; [`TaskError::Input`] of a library without a
-/// model to follow, whose actuators do not listen; [`TaskError::Cancelled`].
+/// [`TaskError::Ask`] of numbers that make no sense; those of surfaces, libraries, fits and devices; [`TaskError::Input`] of a library
+/// without sensors at its actuators; [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     check(ask)?;
     go_on(progress)?;
@@ -110,8 +110,8 @@ fn follow(
     Ok(steps)
 }
 
-/// What a model's own error may look like, as a share of tension: a mode that rings for τ tells its tension from a phase of ωτ/2, and each
-/// mode of the ping's band is wrong in a way of its own.
+/// Relative change of tension that the model's own error may look like: a mode with decay time τ tells the tension from a phase of ωτ/2,
+/// and each mode of the ping's band has an error of its own.
 fn missed(known: &Known, ping: &PingOptions) -> f64 {
     let top = known.modal.conditions.band[1];
     let [low, high] = ping.band.map(|share| TAU * share * top);

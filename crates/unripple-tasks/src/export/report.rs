@@ -1,9 +1,9 @@
-//! What `export` wrote.
+//! Report of the task `export`.
 
 use serde::Serialize;
 use unripple::act::Note;
 
-/// A library as it was written.
+/// Result of exporting a library.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// Name of the program.
@@ -18,9 +18,9 @@ pub struct Report {
     pub format: &'static str,
     /// Path of the export.
     pub output: String,
-    /// Points that were written.
+    /// Number of points that were written.
     pub points: usize,
-    /// Points that were not, for whatever reason.
+    /// Number of points left out because they are missing or bad.
     pub points_left_out: usize,
     /// Number of points left out because they are bad.
     pub points_bad: usize,

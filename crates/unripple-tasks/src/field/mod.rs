@@ -1,4 +1,4 @@
-//! `field`: what any drive does to a surface.
+//! `field`: evaluates the motion of a surface under any drive.
 
 mod ask;
 mod report;

@@ -6,7 +6,8 @@ use crate::TaskError;
 use unripple::field::Field;
 use unripple_plot::{ColourMap, Movie, Shot};
 
-/// An animated PNG of the displacement over the surface at `frames` instants from `from` to `to` seconds.
+/// An animated PNG of the displacement over the surface at `frames` instants from `from` to `to` seconds; `None`
+/// without a grid.
 pub fn movie(
     field: &Field,
     scene: &Scene,

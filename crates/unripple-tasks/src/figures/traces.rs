@@ -6,7 +6,7 @@ use unripple_plot::{Axis, Figure, Ink, Rule, Traces, prefixed};
 /// Most targets whose traces are drawn: the palette has seven colours, and more lines cannot be followed.
 const MOST: usize = 8;
 
-/// Velocity and displacement of the targets against time; of a set of points, its first.
+/// Velocity and displacement of the targets against time; for a target of several points, of its first point.
 pub fn traces(targets: &[TargetFigures], traces: &[Trace], rate: f64) -> Figure {
     let units = |pick: fn(&Trace) -> &Vec<f64>, unit: &str| {
         let largest = traces.iter().flat_map(pick).fold(0.0, |m: f64, v| m.max(v.abs()));

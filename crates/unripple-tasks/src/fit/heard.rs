@@ -1,4 +1,4 @@
-//! What a library says of its actuators and of the points of its surface.
+//! The measurements in a library: responses between actuators, and responses at all other points.
 
 use crate::calibrate::before::SWEPT;
 use crate::own;
@@ -18,7 +18,7 @@ const SAME: f64 = 1e-9;
 /// changed amplitudes.
 const LOWEST: f64 = 1.2;
 
-/// Top of what is fitted, over the band's: modes at the very top are cut.
+/// Highest frequency that is fitted, over the top of the band: modes at the very top are cut.
 const TOP: f64 = 0.9;
 
 /// The measurements of a library.
@@ -27,18 +27,18 @@ pub struct Heard {
     pub measured: Measured,
     /// The responses at all other points.
     pub probed: SampledResponses,
-    /// Numbers of those points in the library, from 1.
+    /// Numbers of the points of `probed` in the library, from 1.
     pub numbers: Vec<usize>,
     /// Actuators that are dead, or left out.
     pub dead: Vec<usize>,
-    /// Whether a probe measured them, not taps.
+    /// Whether the responses at `probed` were measured by a probe, not by taps.
     pub probe: bool,
     /// The band that is fitted, in Hz.
     pub band: [f64; 2],
 }
 
 impl Heard {
-    /// Responses of actuators at each other in a library, and its responses at all other points.
+    /// Reads the responses between a library's actuators, and those at all other points.
     pub fn of(library: &Library, surface: &Surface, progress: &mut dyn Progress) -> Result<Self, TaskError> {
         let (all, damage) = library.intact()?;
         for damage in &damage {
@@ -80,7 +80,7 @@ impl Heard {
         Ok(Self { measured, probed, numbers, dead, probe, band })
     }
 
-    /// Responses between actuators that there are.
+    /// Number of measured responses between actuators.
     pub fn count(&self) -> usize {
         self.measured.pairs.iter().flat_map(|p| &p.responses).filter(|r| !r.is_empty()).count()
     }

@@ -1,4 +1,4 @@
-//! `fit`: the model fitted to the responses of a library's actuators at each other.
+//! `fit`: the model fitted to the responses between a library's actuators.
 
 mod ask;
 mod fill;

@@ -8,9 +8,9 @@ use unripple_calibrate::Fitted;
 use unripple_calibrate::signals::shift;
 use unripple_calibrate::verify::{Checked, Verified, VerifyOptions, check_by};
 
-/// Probed points that a model may be corrected by.
+/// Probed points of a library, by which a fitted model is corrected.
 pub struct Probed {
-    /// Responses of the points that agree with the model, brought to one gain and without the probe's own delay.
+    /// Responses of the points that agree with the model, scaled to one gain, with the probe's own delay removed.
     pub good: SampledResponses,
     /// Reasons for which other points are left out.
     pub left_out: Vec<String>,
@@ -18,12 +18,12 @@ pub struct Probed {
     pub doubts: Vec<String>,
     /// Notes on points that are kept.
     pub notes: Vec<String>,
-    /// Gain of the probe over the sensors.
+    /// Gain of the probe relative to the sensors (ratio).
     pub gain: f64,
 }
 
 impl Probed {
-    /// The probed points of a library, checked against a fitted model.
+    /// Checks the probed points of a library against a fitted model.
     pub fn of(fitted: &Fitted, surface: &Surface, heard: &Heard) -> Result<Self, TaskError> {
         let options = VerifyOptions {
             numbers: heard.numbers.clone(),
@@ -58,7 +58,7 @@ impl Probed {
     }
 }
 
-/// What is worth a word, that nothing was checked among it.
+/// Notes on the check, also where nothing was checked.
 fn notes(found: &Verified) -> Vec<String> {
     let mut notes = found.notes.clone();
     if let Checked::Not { why } = &found.model {

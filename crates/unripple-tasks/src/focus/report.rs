@@ -1,4 +1,4 @@
-//! What `focus` found: the report of an act of focusing, shared with `waveform`, `stroke` and `field`.
+//! Report of the task `focus`: the report on a drive and its field that `waveform`, `stroke` and `field` use too.
 
 pub use unripple::act::Report;
 

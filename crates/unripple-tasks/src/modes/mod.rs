@@ -1,4 +1,4 @@
-//! `modes`: frequencies and decay times.
+//! `modes`: natural frequencies and decay times of a surface's modes.
 
 mod ask;
 mod report;

@@ -1,4 +1,4 @@
-//! What `modes` found.
+//! Report of the task `modes`.
 
 use serde::Serialize;
 use std::fmt::Write;
@@ -15,11 +15,11 @@ pub struct Report {
     pub max_hz: f64,
     /// Number of modes.
     pub count: usize,
-    /// Frequency of each, in Hz.
+    /// Natural frequency of each mode, in Hz.
     pub frequencies_hz: Vec<f64>,
-    /// Time in which the amplitude of each falls to 1/e, in s; nothing where it does not decay.
+    /// Time in which the amplitude of each mode falls to 1/e, in s; `None` where it does not decay.
     pub decay_times_s: Vec<Option<f64>>,
-    /// Share of bending in the stiffness of each, 0 to 1; the rest is tension.
+    /// Share of bending in the stiffness of each mode, 0 to 1; the rest is tension.
     pub bending_shares: Vec<f64>,
     /// Largest relative error of the frequencies, estimated.
     pub relative_error: f64,

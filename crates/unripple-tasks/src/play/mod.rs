@@ -1,4 +1,4 @@
-//! `play`: a surface that answers fingers, live.
+//! `play`: a surface that is driven live, in answer to touches.
 
 mod ask;
 mod open;

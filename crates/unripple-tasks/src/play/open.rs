@@ -1,4 +1,4 @@
-//! The device that a surface is played through.
+//! Opens the device through which a surface is played.
 
 use super::ask::Ask;
 use crate::{DeviceAsk, DeviceKind, TaskError, device, judge};
@@ -20,10 +20,11 @@ const FELT: usize = 10;
 /// How often a lost sound server is looked for again. At four seconds each that is more than an hour.
 const TRIES: u32 = 1000;
 
-/// Blocks that drive is ahead of a device that does not call by itself: the fewest that it takes.
+/// Blocks by which the drive is ahead on a device that does not call by itself: the fewest that it takes.
 const LEAD: usize = 2;
 
-/// Share of the inputs that the model may miss: the sheet still rings a little as it did under a finger.
+/// Share of the sensors' signals that the model may leave unexplained: the sheet still rings a little as it did under a
+/// finger.
 const MODEL: f64 = 0.02;
 
 /// Period of the drift that may be asked for, in s, and how far apart its knots are.
@@ -37,9 +38,9 @@ const LONGEST: f64 = 3600.0;
 pub(super) struct Opened {
     /// The device that plays.
     pub device: Box<dyn Device>,
-    /// What computes the sensation of fingers, on a virtual surface.
+    /// Computes the sensations of fingers, on a virtual surface.
     pub feeler: Option<Feeler>,
-    /// Samples by which inputs come after the drive that they answer.
+    /// Latency from drive to input, in samples.
     pub latency: usize,
 }
 
@@ -70,18 +71,18 @@ fn virtual_surface(ask: &Ask, surface: &Surface) -> Result<Opened, TaskError> {
     Ok(Opened { device: Box::new(device), feeler: Some(feeler), latency: 0 })
 }
 
-/// Tension over nominal against time, up and down by a share.
+/// Tension over nominal against time (s), varying as a sine by a share, with a period of a minute.
 fn drift(share: f64) -> Vec<(f64, f64)> {
     let knots = (LONGEST / KNOT) as usize;
     let at = |i: usize| i as f64 * KNOT;
     (0..=knots).map(|i| (at(i), 1.0 + share * (TAU * at(i) / MINUTE).sin())).collect()
 }
 
-/// Opens the device of a surface; why not, in words.
+/// Function that opens the device of a surface, or says in words why it cannot be opened.
 pub type Opener = Arc<dyn Fn(&Surface) -> Result<Box<dyn Device>, String> + Send + Sync>;
 
-/// Opens the device that options name, with inputs of all actuators or of none: a virtual surface only if it is not
-/// the one that it is said to be, and then by the clock on the wall.
+/// Returns a function that opens the device that the options name. JACK and cards have an input for each actuator's
+/// sensor if `hears`, else none. A virtual surface runs in real time. Files (tape) are refused.
 pub fn opener(options: &DeviceAsk, hears: bool) -> Opener {
     let options = options.clone();
     Arc::new(move |surface| {
@@ -98,7 +99,8 @@ pub fn opener(options: &DeviceAsk, hears: bool) -> Opener {
     })
 }
 
-/// Samples by which what such a device hears comes after what was sent, for blocks of some length.
+/// Latency in samples from drive to input on a device that [`opener`] opens, for blocks of `block` samples; 0 on a
+/// virtual surface.
 pub fn late(options: &DeviceAsk, block: usize) -> usize {
     if options.device == DeviceKind::Virtual { 0 } else { (LEAD + 1) * block }
 }
@@ -135,7 +137,7 @@ fn heard(ask: &Ask, surface: &Surface) -> Vec<String> {
     if ask.follow_tension { device::names(surface) } else { Vec::new() }
 }
 
-/// A device that is opened again when it is lost. What may be said at once is said at once.
+/// A device that is opened again when it is lost. An error at the first opening is returned at once.
 fn recovering(
     mut open: impl FnMut() -> Result<Box<dyn Device>, DevicesError> + Send + 'static,
 ) -> Result<Opened, TaskError> {
@@ -155,7 +157,7 @@ fn recovering(
     Ok(Opened { device: Box::new(device), feeler: None, latency })
 }
 
-/// What follows the tension of a surface whose modes are known.
+/// Tracker of the tension of a surface whose modes are known.
 pub(super) fn tracker(surface: &Surface, modal: &ModalResponses) -> Result<Tracker, TaskError> {
     let warp = Warp::new(&Medium::of(&surface.sheet));
     let shares: Vec<f64> = modal.poles.iter().map(|pole| warp.bending_share(pole.omega)).collect();

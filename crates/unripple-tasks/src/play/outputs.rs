@@ -1,4 +1,4 @@
-//! The files that a session of play is to write, checked before there is any work to lose.
+//! Check of the files that a session of play is to write, before it begins.
 
 use super::ask::Ask;
 use crate::{DeviceKind, TaskError};
@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use unripple_store::{check_kept_wav, check_new_file};
 
-/// Refuses what could not be written when the session is over; nothing is made.
+/// Checks that the output files of a session can be written; creates none.
 pub fn check(ask: &Ask) -> Result<(), TaskError> {
     let record = ask.touch.record.as_ref();
     if let Some(path) = &ask.keep_drive {

@@ -1,4 +1,4 @@
-//! What was played and felt.
+//! Report of the task `play`: what was played and felt.
 
 use serde::Serialize;
 use std::fmt::Write;
@@ -15,7 +15,7 @@ use unripple_player::Count;
 pub struct Report {
     surface: String,
     window_s: f64,
-    /// The one that `design` recommends where nobody waits.
+    /// Window that `design` recommends where no one waits for the focus.
     window_unhurried_s: f64,
     #[serde(skip)]
     window: String,
@@ -60,7 +60,7 @@ pub struct Report {
     /// Whether what fingers feel is known.
     #[serde(skip)]
     tells_feelings: bool,
-    /// Whether the library that was played on has no scale, so that levels mean nothing.
+    /// Whether the library that was played on has no scale, so that absolute levels are unknown.
     #[serde(skip)]
     pub without_scale: bool,
 }
@@ -170,7 +170,7 @@ impl Report {
         }
     }
 
-    /// Looks at the fingers; a line of what they feel.
+    /// Samples the fingers' sensations, the tension and the device's state, and returns a line on them; empty if there is nothing to say.
     pub fn look(&mut self, stage: &mut Stage, pulse: Option<&Pulse>) -> String {
         let mut line = format!("{:7.1} s", stage.time());
         let feelings = stage.feelings();
@@ -203,7 +203,7 @@ impl Report {
         }
     }
 
-    /// The report of the whole session.
+    /// Completes the report at the end of the session.
     pub fn finish(mut self, engine: &mut Engine) -> Self {
         let rate = engine.heart().device().layout().rate;
         self.block_s = engine.heart().device().layout().block as f64 / rate;

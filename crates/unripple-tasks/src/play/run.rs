@@ -1,4 +1,4 @@
-//! A surface that answers fingers, live.
+//! Plays a surface live, in answer to touches.
 
 use super::open::{self, Opened};
 use super::report::Report;
@@ -24,10 +24,11 @@ const FOLLOWED: f64 = 0.4;
 /// How often fingers are reported, in s of played time. As fast as figures can be read.
 const TELL: f64 = 0.2;
 
-/// Plays a surface under touches until it is over, or is cancelled, which is no error: what was played until then is reported.
+/// Plays a surface in answer to touches until the session is over or cancelled. Cancelling is no error: the report covers what was played
+/// until then.
 ///
 /// # Errors
-/// [`TaskError::Ask`] of what makes no sense; those of surfaces, effects, devices, touches and files.
+/// [`TaskError::Ask`] of options that make no sense; those of surfaces, effects, devices, touches and files.
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     let source = source::open(&ask.surface, progress)?;
     let (surface, without_scale) = (source.surface.clone(), source.without_scale().is_some());
@@ -79,7 +80,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     Ok(session.report.finish(&mut engine))
 }
 
-/// What makes drives: of a library, at places between its points.
+/// The worker that computes drives; from a library, also at places between its points.
 fn maker(
     surface: &Surface,
     responses: &Arc<Responses>,
@@ -106,7 +107,10 @@ fn seconds_to_play(ask: &Ask, lasts: Option<f64>) -> Result<Option<f64>, TaskErr
     Ok(asked.or(lasts))
 }
 
-/// What follows the tension of a surface that is known by its modes.
+/// Follower of a surface's tension, and the ping that it plays. Needs modal responses; `latency` is the samples from drive to input.
+///
+/// # Errors
+/// [`TaskError::Input`] for sampled responses; those of the tracker and the ping.
 pub fn follower(
     surface: &Surface,
     responses: &Responses,

@@ -17,7 +17,7 @@ use unripple_touch::{
 /// Seconds that a recorded session is followed by, so that what it set off is over.
 const AFTER: f64 = 0.5;
 
-/// Fingers that are not there, where nothing else touches. Two show that foci do not disturb each other.
+/// Number of synthetic fingers where there is no other source of touches. Two show that foci do not disturb each other.
 const ALONE: usize = 2;
 
 /// The sources of touches, and the recording of them.
@@ -28,7 +28,7 @@ pub(super) struct Touches {
     unused: Option<Underway>,
     /// Duration of a recorded session, in s.
     pub lasts: Option<f64>,
-    /// A line for each source.
+    /// Description of each source, a line each.
     pub told: Vec<String>,
 }
 
@@ -91,7 +91,7 @@ impl Touches {
         Ok((touches, sources))
     }
 
-    /// The listener that records all touches and wishes, if they are recorded.
+    /// The listener that records all touches and requests, if they are recorded.
     pub fn listener(&self) -> Option<Listener> {
         let tape = self.recording.clone()?;
         Some(Box::new(move |now, heard| {
@@ -101,7 +101,7 @@ impl Touches {
         }))
     }
 
-    /// The session begins: what is recorded stays from now on, however it ends.
+    /// Keeps the recording from now on, however the session ends; to be called when it begins.
     pub fn begin(&mut self) {
         if let Some(unused) = self.unused.take() {
             unused.keep();

@@ -1,8 +1,8 @@
-//! What `respond` did.
+//! Report of the task `respond`.
 
 use serde::Serialize;
 
-/// A library of responses, as it was made.
+/// The library of responses that was written.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// Name of the program.
@@ -17,9 +17,9 @@ pub struct Report {
     pub library: String,
     /// Number of points in the library.
     pub points: usize,
-    /// Number of points that were there before.
+    /// Number of points that an earlier run had finished.
     pub points_found_done: usize,
-    /// Distance between them, in m.
+    /// Distance between neighbouring points, in m.
     pub pitch_m: f64,
     /// Number of actuators.
     pub actuators: usize,

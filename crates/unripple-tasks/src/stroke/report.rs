@@ -1,3 +1,3 @@
-//! What `stroke` found: the report of an act of focusing, shared with `focus`.
+//! Report of the task `stroke`: the report on a drive and its field that `focus` uses too.
 
 pub use unripple::act::Report;

@@ -9,7 +9,8 @@ use unripple::act::Level;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LevelAsk {
-    /// Nothing moves by more than about half the sheet's thickness, or the drive limit allows less.
+    /// No place moves by more than about half the sheet's thickness, which linear theory allows; less where the drive
+    /// limit is reached first.
     #[default]
     Linear,
     /// As strong as the drive limit allows, though linear theory may not hold there.
@@ -21,7 +22,7 @@ pub enum LevelAsk {
 }
 
 impl LevelAsk {
-    /// The level in the library's own type.
+    /// Converts the level to a [`Level`].
     ///
     /// # Errors
     /// [`TaskError::Ask`] of a displacement that is not above 0.
@@ -34,10 +35,11 @@ impl LevelAsk {
         })
     }
 
-    /// The level on responses of unknown scale, if there is a reason `why`: as strong as the limit allows.
+    /// Converts the level for responses whose scale is unknown for the reason `why`, if there is one: then only the
+    /// drive limit can be asked for.
     ///
     /// # Errors
-    /// [`TaskError::Ask`] of a level that is asked for by its size.
+    /// [`TaskError::Ask`] of an absolute level on responses of unknown scale.
     pub fn level_on(self, why: Option<&str>) -> Result<Level, TaskError> {
         let without = |field: &'static str, why: &str| {
             Err(TaskError::ask(field, "a library whose level is known", format!("one without: {why}")))

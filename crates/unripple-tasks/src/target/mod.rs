@@ -11,7 +11,8 @@ pub use shape::{LineAsk, ShapeAsk};
 use crate::TaskError;
 use unripple::focus::{Pattern, Target};
 
-/// All targets: points first, then shapes, as points close enough for the shortest wavelength (m).
+/// Targets of an ask: points first, then shapes, sampled at points close enough for the shortest wavelength
+/// `lambda_min` (m).
 ///
 /// # Errors
 /// [`TaskError::Ask`] if there is none, and of shapes that make no sense; those of reading drawings.

@@ -9,11 +9,11 @@ use unripple::focus::Target;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PointAsk {
-    /// Where, in m.
+    /// Place of the point, in m.
     pub at_m: Place,
-    /// Level of the target relative to the other targets, a ratio; below 0 it moves the other way.
+    /// Level of the target relative to the other targets, a ratio; below 0 the sheet moves the other way.
     pub gain: f64,
-    /// Repetition rate of the focus, in Hz; once if nothing is given.
+    /// Repetition rate of the focus, in Hz; by default the focus occurs once.
     pub rate_hz: Option<f64>,
 }
 
@@ -24,12 +24,12 @@ impl Default for PointAsk {
 }
 
 impl PointAsk {
-    /// A point, once, at the level of the others; in m.
+    /// A point at `x` and `y`, in m, that is in focus once, with a gain of 1.
     pub fn at(x: f64, y: f64) -> Self {
         Self { at_m: [x, y], ..Self::default() }
     }
 
-    /// The target in the library's own type.
+    /// Converts the point to a [`Target`].
     ///
     /// # Errors
     /// [`TaskError::Ask`] of a rate that is not above 0.

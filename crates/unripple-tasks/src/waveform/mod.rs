@@ -1,4 +1,4 @@
-//! `waveform`: waveforms at targets, silence at others.
+//! `waveform`: a drive by which targets follow waveforms while other places are still.
 
 mod ask;
 mod report;

@@ -10,7 +10,7 @@ use std::fmt::Write;
 const LISTED: usize = 12;
 
 impl Bench<'_> {
-    /// Says what was made, what is still to be recorded, and what is wrong.
+    /// Makes the report: what was made, what is still to be recorded, and what is wrong.
     pub fn answer(
         &self,
         outcome: Outcome,

@@ -20,7 +20,7 @@ pub struct Wanted {
     pub at: Option<Point>,
 }
 
-/// Recordings of points as a plan has them: where the probe is to be, and how the names of its files begin.
+/// Recordings that a plan asks for: the place of the probe at each point, and the beginning of its files' names.
 #[derive(Clone, Debug, Default)]
 pub struct Asked {
     points: Vec<(Point, String)>,
@@ -53,8 +53,8 @@ impl Asked {
         .collect()
     }
 
-    /// All recordings of a calibration, in order; first that of the actuators, where any input hears them. Points that this plan has keep
-    /// their files, new ones are counted on.
+    /// All recordings of a calibration, in order; those of the actuators come first, if an input records the actuators. Points of this plan
+    /// keep their files; files of new points get the next numbers.
     pub fn wanted(&self, places: &Places, hears_itself: bool, repeats: usize) -> Vec<Wanted> {
         let last = |repeat: usize| if repeat == 0 { String::new() } else { format!("-{}", repeat + 1) };
         let own = (0..repeats).filter(|_| hears_itself).map(|repeat| Wanted {

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 /// A recording that cannot be used, and what to do.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
-    /// Its file, or all that are concerned.
+    /// Name of the recording's file, or of all files that are concerned.
     pub file: String,
     /// What is wrong with it.
     pub why: String,

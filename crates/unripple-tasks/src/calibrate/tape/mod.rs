@@ -30,7 +30,7 @@ const BLOCK: usize = 256;
 
 pub(super) use plan::drive as sweeps;
 
-/// All that is known before anything is read.
+/// The calibration, its recordings, and what is known of them.
 struct Bench<'a> {
     campaign: Campaign<'a>,
     wanted: Vec<Wanted>,
@@ -40,7 +40,7 @@ struct Bench<'a> {
     good: Vec<usize>,
 }
 
-/// What came of the recordings that are there.
+/// Result of reading the recordings that are there.
 #[derive(Default)]
 struct Outcome {
     report: Option<report::Report>,

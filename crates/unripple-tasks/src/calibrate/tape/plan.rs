@@ -1,4 +1,4 @@
-//! What is to be played, and what is to be recorded of it.
+//! The plan of a calibration by recordings: the signal to play, and the recordings to make of it.
 
 use super::asked::{Asked, Wanted};
 use crate::TaskError;
@@ -45,7 +45,7 @@ pub fn found(folder: &Path) -> Result<Option<Value>, TaskError> {
     }
 }
 
-/// Measures as a plan says, where nothing else is asked for: recordings are read as they were made.
+/// Takes over the settings of a plan, where the ask does not give them, so that recordings are read as they were made.
 pub fn apply(plan: &Value, ask: &Ask, settings: &mut MeasureOptions) {
     let seconds = |key: &str| plan[key].as_f64().filter(|seconds| *seconds > 0.0 && *seconds < 60.0);
     let usual = MeasureOptions::default();
@@ -80,7 +80,7 @@ impl Rig for Recorder {
     }
 }
 
-/// What a session drives for one recording, `[actuator][sample]`, full scale as 1.
+/// The drive that a session plays for one recording, `[actuator][sample]`, 1 for full scale.
 pub fn drive(session: &Session, layout: &Layout, at: Point) -> Result<Drive, TaskError> {
     let mut recorder = Recorder(Tape::recorder(layout.clone()).map_err(TaskError::input)?);
     let listen = if session.wires().probe.is_some() { Listen::Probe } else { Listen::Sensors };
@@ -125,8 +125,8 @@ pub fn told(
     })
 }
 
-/// Puts what is to be played and the plan into the folder, unless they are there. A plan that has fewer points gets the new ones; one that is
-/// otherwise different is refused, with all that differs.
+/// Writes the plan and the file to play into the folder, unless they are there. An earlier plan with fewer points is extended; one that
+/// differs otherwise is refused, with all differences.
 pub fn put(folder: &Path, plan: &Value, drive: &Drive, before: Option<&Value>) -> Result<(), TaskError> {
     let failed = |error: std::io::Error| TaskError::Work(format!("{}: {error}", folder.display()));
     let (file, play) = (folder.join(PLAN), folder.join(PLAY));

@@ -1,4 +1,4 @@
-//! Recordings in place of a surface, and points that are kept with what they were made of.
+//! A rig that plays back recordings, and storage of points with a record of the files that they were computed from.
 
 use super::asked::Wanted;
 use super::fault::Fault;
@@ -12,7 +12,7 @@ use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{Channel, Rig, Sink};
 use unripple_devices::{DevicesError, Tape};
 
-/// Plays back what was recorded of each point.
+/// Rig that plays back the recordings of each point.
 pub struct TapeRig {
     takes: Takes,
     /// The recordings that are there.
@@ -53,22 +53,22 @@ impl Rig for TapeRig {
 /// there are.
 const AT_ONCE: usize = 32;
 
-/// Keeps points, and in their log what they were made of.
+/// Stores points, and in their log what they were computed from: recordings, scales and options.
 pub struct TapeShelf<'a> {
     shelf: &'a mut Shelf,
-    /// What each is made of.
+    /// What each point is computed from, by its number.
     made: BTreeMap<usize, Value>,
     /// What is still to be logged.
     pending: BTreeMap<usize, Value>,
 }
 
 impl<'a> TapeShelf<'a> {
-    /// Keeps points on a shelf; `made` says by number what each point is made of.
+    /// Stores points in a library; `made` says what each point is computed from, by its number.
     pub fn new(shelf: &'a mut Shelf, made: BTreeMap<usize, Value>) -> Self {
         Self { shelf, made, pending: BTreeMap::new() }
     }
 
-    /// Keeps the responses of the point of this number, and what they were made of.
+    /// Stores the responses of the point of this number, and what they were computed from.
     pub fn keep(&mut self, number: usize, channel: &Channel, fault: Option<&str>) -> Result<(), TaskError> {
         self.shelf.keep(number, channel, fault)?;
         // Responses first: a point whose log was not written is measured again.
@@ -77,7 +77,7 @@ impl<'a> TapeShelf<'a> {
         if self.pending.len() < AT_ONCE { Ok(()) } else { self.log() }
     }
 
-    /// Writes down what points were made of.
+    /// Writes to the log what points were computed from.
     pub fn log(&mut self) -> Result<(), TaskError> {
         let pending = std::mem::take(&mut self.pending);
         if pending.is_empty() { Ok(()) } else { Ok(self.shelf.library.log_points(pending)?) }
