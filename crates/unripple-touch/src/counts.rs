@@ -9,34 +9,35 @@ pub struct Counts {
     pub packets: u64,
     /// Touches handed on.
     pub touches: u64,
-    /// Wishes handed on.
+    /// Requests for an effect or a level ([`Wish`](crate::Wish)) handed on.
     pub wishes: u64,
     /// Senders seen: addresses, connections.
     pub senders: u64,
     /// Packets or messages that could not be read: truncated, too long, nested too deep, of wrong types.
     pub malformed: u64,
-    /// Messages that can be read but mean nothing here.
+    /// Well-formed messages without a meaning here: an unknown address, a finger that is not down.
     pub unknown: u64,
-    /// Positions, forces or levels that are no numbers, or impossible ones.
+    /// Positions, forces or gains that are NaN, infinite or out of range.
     pub numbers: u64,
     /// Positions that are not on the surface.
     pub outside: u64,
-    /// Frames older than one already taken.
+    /// Tracker frames that were dropped because a later one had been accepted already.
     pub late: u64,
-    /// Fingers, senders, connections or wishes beyond the most there may be.
+    /// Fingers, senders, connections or requests beyond the largest number allowed.
     pub crowded: u64,
-    /// Fingers lifted because nobody spoke of them any more.
+    /// Fingers lifted because no message about them came within the time-out
+    /// ([`Options::timeout`](crate::Options::timeout)).
     pub expired: u64,
-    /// Connections refused for where they came from.
+    /// Connections refused because of their origin, the web page that opened them.
     pub foreign: u64,
-    /// Connections dropped for saying nothing, or for taking nothing.
+    /// Connections closed because the client sent nothing or did not read its answers.
     pub silent: u64,
-    /// Readings that the system refused: an unplugged screen, a broken socket.
+    /// Errors of the operating system: an unplugged screen, a broken socket.
     pub failed: u64,
 }
 
 impl Counts {
-    /// Number of all refusals, of whatever kind.
+    /// Number of refusals and errors of all kinds. Fingers that expired are not among them.
     pub fn errors(&self) -> u64 {
         let read = self.malformed + self.unknown + self.numbers + self.outside;
         read + self.late + self.crowded + self.foreign + self.silent + self.failed

@@ -5,7 +5,7 @@ use unripple_core::OutOfRange;
 /// What goes wrong when a source of touches is opened. Once open, a source counts what it refuses: see [`Counts`](crate::Counts).
 #[derive(Debug, thiserror::Error)]
 pub enum TouchError {
-    /// A socket, a device or a file does not do what it should.
+    /// The operating system reports an error of a socket, a device or a file.
     #[error("{what}: {error}; {fix}")]
     Io {
         /// What was tried.
@@ -18,7 +18,7 @@ pub enum TouchError {
     /// A value is out of its range.
     #[error(transparent)]
     Range(#[from] OutOfRange),
-    /// A line of a recording is not what it should be.
+    /// A line of a recording is invalid.
     #[error("line {line}: {what}")]
     Line {
         /// Which line, counted from 1.
@@ -26,7 +26,7 @@ pub enum TouchError {
         /// What was expected and what was found.
         what: String,
     },
-    /// A device is no touch screen that can be read.
+    /// A device file is not that of a multi-touch screen that can be read.
     #[error("{device}: expected a multi-touch screen, found none: {what}")]
     Screen {
         /// Path of the device.

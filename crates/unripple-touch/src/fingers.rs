@@ -1,4 +1,4 @@
-//! The fingers that are down: which of them each sender speaks of, how long they are silent, how many there may be.
+//! The fingers of one source that are down: their numbers, time-outs and quotas.
 
 use crate::options::MOST_FORCE;
 use crate::{Counts, Heard, Options, TouchError, Wish};
@@ -7,12 +7,13 @@ use unripple_core::{Phase, Point, Touch};
 /// Fingers that may come within one poll: more are counted and dropped, so that a poll does bounded work.
 const DOWNS: usize = 256;
 
-/// Identity of a finger, by its sender's own numbers.
+/// Identity of a finger: its sender, and the numbers that the sender gave it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Key {
     /// Number of the sender: an address, a connection.
     pub peer: u32,
-    /// Number of the sender's list of fingers.
+    /// Number of one of the sender's lists of fingers, such as a TUIO profile or a slot of a touch screen. Each list
+    /// numbers its fingers independently. 0 if the sender has only one.
     pub stream: u32,
     /// The sender's number for the finger, which it may use again later.
     pub session: i64,
@@ -21,7 +22,7 @@ pub struct Key {
 /// Reason for which a finger was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Refusal {
-    /// A coordinate or a force is no number, or an impossible one.
+    /// A coordinate is not finite, or a force is not from 0 to 100 N.
     #[error("expected finite coordinates and a force from 0 to 100 N")]
     Number,
     /// The place is not on the surface.
@@ -38,14 +39,14 @@ struct Live {
     finger: u64,
     at: Point,
     force: Option<f64>,
-    /// When it was last spoken of, by the clock that stands still while nobody polls.
+    /// Time of the last message about it, in s of the clock of time-outs ([`Fingers::begin`]).
     spoken: f64,
-    /// Its last move among the touches of this poll.
+    /// Index of its last move among the touches of this poll.
     moved: Option<usize>,
 }
 
-/// The fingers that a source knows of: gives them numbers that are never used again, lifts those nobody speaks of any
-/// more, refuses impossible ones. Memory is bounded whatever comes.
+/// The fingers of one source that are down. It gives each finger a number that is never used again, lifts those
+/// without a message within the time-out, and refuses invalid ones. Memory is bounded for any input.
 ///
 /// ```
 /// use unripple_core::{Outline, Phase, Point, Shape};
@@ -76,7 +77,7 @@ pub struct Fingers {
 }
 
 impl Fingers {
-    /// No finger yet.
+    /// An empty set of fingers. Fails if an option is out of range.
     pub fn new(options: Options) -> Result<Self, TouchError> {
         options.check()?;
         let live = Vec::with_capacity(options.most);
@@ -84,12 +85,12 @@ impl Fingers {
         Ok(Self { options, live, given: 0, now, awake, downs: 0, counts })
     }
 
-    /// The options that it was made with.
+    /// The options that the set was made with.
     pub fn options(&self) -> &Options {
         &self.options
     }
 
-    /// Numbers of what was taken in and what was refused.
+    /// Counts of what was accepted and refused so far.
     pub fn counts(&self) -> Counts {
         self.counts
     }
@@ -99,7 +100,8 @@ impl Fingers {
         self.live.len()
     }
 
-    /// A poll begins, at `now` in s. The clock of time-outs stands still while nobody polls.
+    /// Begins a poll at `now`, in s. Between two polls the clock of time-outs advances by at most a quarter of the
+    /// time-out, so that no finger is lifted because polling paused.
     pub fn begin(&mut self, now: f64) {
         if now > self.now {
             if self.now.is_finite() {
@@ -111,7 +113,7 @@ impl Fingers {
         self.live.iter_mut().for_each(|finger| finger.moved = None);
     }
 
-    /// The time of the poll, in s.
+    /// Time of the present poll, in s.
     pub fn now(&self) -> f64 {
         self.now
     }
@@ -121,8 +123,9 @@ impl Fingers {
         self.awake
     }
 
-    /// A finger is at a place in m, pressing with a force in N: it comes, moves or only goes on. One that slides off the
-    /// surface leaves.
+    /// Reports a finger at a place, in m, pressing with a force, in N. A new finger comes down; a known one moves, or
+    /// rests if place and force are unchanged. A place off the surface is refused, and lifts the finger if it is
+    /// down.
     pub fn put(&mut self, key: Key, at: Point, force: Option<f64>, heard: &mut Heard) -> Result<(), Refusal> {
         if !at.is_finite() || force.is_some_and(|f| !(0.0..=MOST_FORCE).contains(&f)) {
             self.counts.numbers += 1;
@@ -138,7 +141,9 @@ impl Fingers {
         Ok(())
     }
 
-    /// The same for a sensor's coordinates and pressure, each from 0 to 1, the second coordinate from the top.
+    /// Reports a finger by a sensor's coordinates and pressure, each from 0 to 1. The first coordinate is from the
+    /// left, the second from the top. Converts them to m by [`Options::mapping`] and to N by [`Options::full_force`],
+    /// then proceeds as [`Fingers::put`].
     pub fn put_sensed(
         &mut self,
         key: Key,
@@ -177,8 +182,9 @@ impl Fingers {
         Ok(())
     }
 
-    /// Whether there is room for one more finger of a sender that has so many. Where all places are taken, the sender with most of them
-    /// gives up its latest if it still has no fewer than the other then: whoever comes first does not keep everybody else out.
+    /// Whether there is room for one more finger of a sender that has `same` fingers down. If all places are taken,
+    /// the sender with the most fingers loses its latest one, provided that it then still has at least as many as the
+    /// other: whoever comes first must not keep all others out.
     fn make_room(&mut self, same: usize, heard: &mut Heard) -> bool {
         if self.live.len() < self.options.most {
             return true;
@@ -226,41 +232,42 @@ impl Fingers {
         self.counts.touches += 1;
     }
 
-    /// Whether there is such a finger.
+    /// Whether the finger with this key is down.
     pub fn has(&self, key: Key) -> bool {
         self.live.iter().any(|finger| finger.key == key)
     }
 
-    /// Every finger that a rule holds for is still there.
+    /// Restarts the time-out of every finger whose key satisfies the rule.
     pub fn renew_where(&mut self, rule: impl Fn(&Key) -> bool) {
         let awake = self.awake;
         self.live.iter_mut().filter(|finger| rule(&finger.key)).for_each(|finger| finger.spoken = awake);
     }
 
-    /// Whether there was such a finger; if so, it leaves.
+    /// Lifts the finger with this key; returns whether it was down.
     pub fn lift(&mut self, key: Key, heard: &mut Heard) -> bool {
         self.lift_where(|other| *other == key, heard) > 0
     }
 
-    /// Every finger that a rule holds for leaves; returns their number.
+    /// Lifts every finger whose key satisfies the rule; returns their number.
     pub fn lift_where(&mut self, rule: impl Fn(&Key) -> bool, heard: &mut Heard) -> usize {
         self.leave(|finger| rule(&finger.key), heard)
     }
 
-    /// Lifts whatever nobody spoke of within the time-out; to be called when all that came was put.
+    /// Lifts every finger without a message within the time-out. To be called at the end of a poll, after all
+    /// [`Fingers::put`].
     pub fn expire(&mut self, heard: &mut Heard) {
         let oldest = self.awake - self.options.timeout;
         let gone = self.leave(|finger| finger.spoken < oldest, heard);
         self.counts.expired += gone as u64;
     }
 
-    /// When time-outs are to be looked at again, given the time in s: their clock goes on by a quarter of one at most from poll
-    /// to poll.
+    /// Time at which time-outs must be checked again, in s, given the present time in s; none while no finger is
+    /// down. The clock of time-outs advances by at most a quarter of the time-out from poll to poll.
     pub(crate) fn due(&self, now: f64) -> Option<f64> {
         (!self.live.is_empty()).then_some(now + self.options.timeout / 8.0)
     }
 
-    /// Hands a wish on, if there is room.
+    /// Hands a request on, if there is room.
     pub(crate) fn take_wish(&mut self, wish: Wish, heard: &mut Heard) {
         match heard.wish(wish) {
             true => self.counts.wishes += 1,

@@ -1,8 +1,9 @@
 //! Touches from screens, networks and recordings.
 //!
-//! A [`Source`] is polled and reports [`Touch`](unripple_core::Touch)es and [`Wish`]es; [`Sources`] joins several,
-//! and says where a finger [will be](Sources::predict). No source blocks, none reads a clock, none takes unbounded
-//! memory or time, and what they refuse is counted by kind ([`Counts`]).
+//! A [`Source`] is polled and reports [`Touch`](unripple_core::Touch)es and [`Wish`]es, which are requests for an
+//! effect or a level. [`Sources`] joins several sources, and [predicts](Sources::predict) the places of moving
+//! fingers. No source blocks, none reads a clock, none takes unbounded memory or time, and what they refuse is
+//! counted by kind ([`Counts`]).
 //!
 //! | source | receives |
 //! |---|---|
@@ -10,10 +11,10 @@
 //! | [`WebSocketPort`] | the JSON protocol of [`SCHEMA`] |
 //! | [`Screen`] | a multi-touch screen of Linux |
 //! | [`Playback`] | a [`Recording`], made with a [`Recorder`] |
-//! | [`Synthetic`] | fingers that are not there |
+//! | [`Synthetic`] | simulated fingers that tap and slide |
 //!
-//! Behind each that takes data from strangers is a decoder that needs no socket ([`OscReceiver`], [`Message`],
-//! [`Slots`]), and the [`Fingers`] that it knows of.
+//! Each source of external data has a decoder that works without a socket or a device ([`OscReceiver`], [`Message`],
+//! [`Slots`]), and a set of [`Fingers`].
 
 mod counts;
 mod error;

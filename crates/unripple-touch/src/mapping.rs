@@ -3,9 +3,10 @@
 use crate::error::TouchError;
 use unripple_core::{Outline, Point, require};
 
-/// Where the corners of a sensor lie on the surface.
+/// The map from a sensor's coordinates to places on the surface.
 ///
-/// Sensors speak of 0 to 1 from the left and 0 to 1 from the **top**; the surface has its origin at the lower left, y up.
+/// Sensor coordinates go from 0 to 1 from the left and from 0 to 1 from the **top**; the surface has its origin at
+/// the lower left, y up, in m.
 ///
 /// ```
 /// use unripple_core::{Outline, Point, Shape};
@@ -35,7 +36,7 @@ impl Mapping {
         Self { offset: Point::default(), size: outline.extent(), mirror: false, turns: 0 }
     }
 
-    /// The place on the surface of a sensor's coordinates; nothing for coordinates that are not from 0 to 1.
+    /// Place on the surface of a sensor's coordinates, in m; `None` if one of them is not from 0 to 1.
     pub fn point(&self, right: f64, down: f64) -> Option<Point> {
         let legal = 0.0..=1.0;
         if !legal.contains(&right) || !legal.contains(&down) {

@@ -4,13 +4,13 @@ use unripple_core::{Outline, Point};
 
 /// How many places are remembered: of a screen that reports a hundred times a second, those of the last 80 ms.
 const PLACES: usize = 8;
-/// How far back they count, in s: twice as long smooths the velocity more and follows a turn of the finger later.
+/// How far back places count, in s: twice as long smooths the velocity more and follows a turn of the finger later.
 const MEMORY: f64 = 0.08;
 
-/// How a finger moves, from the times and places at which it was noticed; a sender's own word on it is not used.
+/// Motion of a finger, from the times and places of its touches. A velocity stated by the sender is not used.
 ///
-/// The velocity is the slope of the least-squares line through the places of the last 80 ms, at most eight of them. A
-/// finger without a new place for as long is at rest.
+/// The velocity is the slope of the least-squares line through the places of the last 80 ms, at most eight of them.
+/// With fewer than two places in that time the finger is at rest.
 ///
 /// ```
 /// use unripple_core::Point;
@@ -34,12 +34,13 @@ impl Motion {
         Self { places: [(time, at); PLACES], count: 1 }
     }
 
-    /// Where it was last, in m.
+    /// Last place of the finger, in m.
     pub fn at(&self) -> Point {
         self.last().1
     }
 
-    /// It was noticed again. Of two places at one time the later one counts.
+    /// Adds a place, in m, at a time, in s. If the time is not later than that of the last place, the new place
+    /// replaces it.
     pub fn push(&mut self, time: f64, at: Point) {
         if time <= self.last().0 {
             self.places[self.count - 1].1 = at;
@@ -72,7 +73,9 @@ impl Motion {
         (along(&|p| p.1.x - x), along(&|p| p.1.y - y))
     }
 
-    /// Where it will be `ahead` s after `now`: on a straight line, no further than `reach` m, and on the surface.
+    /// Predicted place of the finger, in m, `ahead` s after `now`: on a straight line from its last place, at most
+    /// `reach` m from it, and on the surface. A path that leaves the surface is shortened to a half or a quarter, or
+    /// to the last place.
     pub fn predict(&self, now: f64, ahead: f64, reach: f64, surface: &Outline) -> Point {
         let (at, (vx, vy)) = (self.at(), self.velocity(now));
         let time = (now - self.last().0).max(0.0) + ahead.max(0.0);

@@ -11,9 +11,11 @@ pub struct Options {
     pub surface: Outline,
     /// Place on the surface of a sensor whose coordinates go from 0 to 1.
     pub mapping: Mapping,
-    /// A finger that nobody spoke of for as long is lifted, in s. TUIO trackers repeat a resting finger once a second.
+    /// Time-out of a finger, in s: without a message for that long it is lifted. TUIO trackers repeat a resting
+    /// finger once a second.
     pub timeout: f64,
-    /// Fingers at once; more are counted and dropped, but for those of a sender that has fewer than another, which gives way.
+    /// Most fingers at once. Further ones are counted and dropped, unless their sender has at least two fingers fewer
+    /// than the sender with the most, whose latest finger is then lifted instead.
     pub most: usize,
     /// Fingers at once from one sender, so that no sender takes the place of all others.
     pub most_per_sender: usize,
@@ -22,14 +24,15 @@ pub struct Options {
 }
 
 impl Options {
-    /// A sensor that covers the whole surface, 2 s, 32 fingers, 16 from one sender, no force.
+    /// Defaults for a surface: a sensor that covers its bounding box, a time-out of 2 s, 32 fingers, 16 from one
+    /// sender, and no conversion of pressure to force.
     pub fn new(surface: &Outline) -> Self {
         let mapping = Mapping::covering(surface);
         let surface = surface.clone();
         Self { surface, mapping, timeout: 2.0, most: 32, most_per_sender: 16, full_force: None }
     }
 
-    /// A typed error for the first value that cannot be.
+    /// Checks all values. The error names the first one that is out of range.
     pub fn check(&self) -> Result<(), TouchError> {
         self.mapping.check()?;
         require("time-out, s", (0.05..=3600.0).contains(&self.timeout), "0.05 to 3600", self.timeout)?;
@@ -47,5 +50,5 @@ impl Options {
     }
 }
 
-/// The hardest press that is believed, in N. Ten kilograms' weight: what is more is an error of the sensor.
+/// The largest force that is accepted, in N: the weight of 10 kg. A larger value is an error of the sensor.
 pub(crate) const MOST_FORCE: f64 = 100.0;

@@ -1,32 +1,32 @@
-//! The trait of whatever reports touches: screens, sockets, recordings.
+//! The trait of sources of touches: screens, sockets, recordings.
 
 use crate::{Counts, Heard};
 #[cfg(unix)]
 use std::os::fd::BorrowedFd;
 
-/// How long to wait before a source is asked again that cannot say when it will have something, in s. Twice as long
-/// delays a touch by as much more, half as long wakes the thread twice as often.
+/// Time until the next poll of a source that does not state one, in s. Twice as long delays a touch by as much more,
+/// half as long wakes the thread twice as often.
 const PACE: f64 = 0.002;
 
-/// Whatever reports touches.
+/// A source of touches: a screen, a socket, a recording.
 ///
-/// From any source, a finger comes ([`Down`](unripple_core::Phase::Down)) before it moves, leaves once, and its number is
-/// never used again; times never run back.
+/// From any source, a finger comes down ([`Down`](unripple_core::Phase::Down)) before it moves, is lifted once, and
+/// its number is never used again; times never decrease.
 pub trait Source: Send {
-    /// Name for people: `UDP 127.0.0.1:3333`.
+    /// Name of the source, as shown to people: `UDP 127.0.0.1:3333`.
     fn name(&self) -> &str;
 
-    /// Appends what happened up to `now`, in s of the caller's clock. Never blocks, and does bounded work: what is left
-    /// over comes at the next call. Call it some hundred times a second.
+    /// Appends what happened up to `now`, in s of the caller's clock. Never blocks, and does bounded work: the rest
+    /// comes at the next call. To be called some hundred times a second.
     fn poll(&mut self, now: f64, heard: &mut Heard);
 
-    /// When to ask again at the latest if none of its [files](Source::files) wakes the caller before: a time in s of the clock of
-    /// [`Source::poll`], or never. What cannot say is asked every 2 ms.
+    /// Latest time of the next [poll](Source::poll), in s of the caller's clock, if none of the
+    /// [files](Source::files) becomes readable before; `None` for no limit. By default 2 ms after `now`.
     fn due(&self, now: f64) -> Option<f64> {
         Some(now + PACE)
     }
 
-    /// Appends the files and sockets that can be read as soon as there is something to poll for.
+    /// Appends the files and sockets that become readable when there is something to poll for.
     #[cfg(unix)]
     fn files<'a>(&'a self, files: &mut Vec<BorrowedFd<'a>>) {
         let _ = files;

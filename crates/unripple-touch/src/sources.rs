@@ -7,8 +7,8 @@ use unripple_core::{Outline, Phase, Point, Touch};
 
 /// Fingers at once over all sources; more are counted and dropped.
 const MOST: usize = 128;
-/// How far a place is ever predicted, in m. A finger at 0.3 m/s gets there in 67 ms, about a window; a wrong velocity
-/// moves a focus by no more.
+/// Largest distance of a predicted place from the last one, in m. A finger at 0.3 m/s covers it in 67 ms, about a
+/// focusing window; a wrong velocity moves a focus by no more.
 const REACH: f64 = 0.02;
 
 #[derive(Clone, Debug)]
@@ -52,7 +52,7 @@ pub struct Sources {
 }
 
 impl Sources {
-    /// No source yet, for a surface.
+    /// An empty set of sources for a surface.
     pub fn new(surface: &Outline) -> Self {
         let (sources, fingers, fresh) = (Vec::new(), Vec::with_capacity(MOST), Heard::default());
         let (now, told) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
@@ -69,14 +69,14 @@ impl Sources {
         self.sources.iter().map(|source| (source.name(), source.counts()))
     }
 
-    /// Counts over all sources, with what was refused here for want of room.
+    /// Sums of the counts of all sources, and of the fingers refused here because 128 were down.
     pub fn counts(&self) -> Counts {
         let all = self.sources.iter().map(|source| source.counts());
         let here = Counts { crowded: self.crowded, ..Counts::default() };
         all.fold(here, |sum, counts| sum + counts)
     }
 
-    /// Asks every source what happened up to `now`, in s of the caller's clock, and appends it.
+    /// Polls every source up to `now`, in s of the caller's clock, and appends what they report in order of time.
     pub fn poll(&mut self, now: f64, heard: &mut Heard) {
         self.now = self.now.max(now);
         let mut fresh = std::mem::take(&mut self.fresh);
@@ -92,20 +92,20 @@ impl Sources {
         self.fresh = fresh;
         // Stable, so that what one source reports stays in order.
         heard.touches[before..].sort_by(|a, b| a.time.total_cmp(&b.time));
-        // A source that lags behind reports what was before the others' last.
+        // A source that lags behind reports times before those already reported by others.
         for touch in &mut heard.touches[before..] {
             self.told = self.told.max(touch.time);
             touch.time = self.told;
         }
     }
 
-    /// When to ask again at the latest if none of the [files](Sources::files) can be read before: a time in s of the caller's
-    /// clock, or never.
+    /// Latest time of the next poll, in s of the caller's clock, if none of the [files](Sources::files) becomes
+    /// readable before; `None` for no limit.
     pub fn due(&self, now: f64) -> Option<f64> {
         self.sources.iter().filter_map(|source| source.due(now)).min_by(f64::total_cmp)
     }
 
-    /// Files and sockets that can be read as soon as there is something to poll for.
+    /// Files and sockets that become readable when there is something to poll for.
     #[cfg(unix)]
     pub fn files(&self) -> Vec<BorrowedFd<'_>> {
         let mut files = Vec::new();
@@ -137,13 +137,13 @@ impl Sources {
         heard.touches.push(Touch { finger: ours, ..touch });
     }
 
-    /// The fingers there are, and how each moves.
+    /// Numbers of the fingers that are down, and the motion of each.
     pub fn fingers(&self) -> impl Iterator<Item = (u64, &Motion)> {
         self.fingers.iter().map(|finger| (finger.ours, &finger.motion))
     }
 
-    /// Where a finger will be `ahead` s after `now`: at most 20 mm from where it was last, and on the surface. Nothing
-    /// for a finger that is not there.
+    /// Predicted place of a finger, in m, `ahead` s after `now`: at most 20 mm from its last place, and on the
+    /// surface. `None` if no such finger is down.
     pub fn predict(&self, finger: u64, now: f64, ahead: f64) -> Option<Point> {
         let found = self.fingers.iter().find(|f| f.ours == finger)?;
         Some(found.motion.predict(now, ahead, REACH, &self.surface))

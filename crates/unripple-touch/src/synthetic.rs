@@ -7,10 +7,10 @@ use unripple_core::{OutOfRange, Outline, Phase, Point, Random, Touch, require};
 /// Places looked at to find one on the surface. On a sheet that fills a hundredth of its bounding box one is still
 /// found, but for one time in 20 000.
 const TRIALS: usize = 1000;
-/// Steps of all fingers in one poll at most.
+/// Most steps of all fingers in one poll, so that a poll does bounded work.
 const STEPS: usize = 256;
-/// Taps last so long, slides too, and so long nothing touches in between, in s. Each is drawn evenly between the two,
-/// as people's are.
+/// Shortest and longest tap, slide, and pause between two of them, in s. Each is drawn uniformly in its range; the
+/// ranges are typical of people.
 const TAP: (f64, f64) = (0.05, 0.2);
 const SLIDE: (f64, f64) = (0.3, 2.0);
 const REST: (f64, f64) = (0.1, 0.5);
@@ -22,18 +22,18 @@ const RADIUS: (f64, f64) = (0.004, 0.015);
 pub struct SyntheticOptions {
     /// Number of fingers.
     pub fingers: usize,
-    /// Another seed, another session.
+    /// Seed of the random numbers; equal seeds give equal sessions.
     pub seed: u64,
-    /// Distance that fingers keep from the rim, in m.
+    /// Distance that fingers keep from the edge of the surface, in m.
     pub margin: f64,
-    /// How often a sliding finger is reported, per s.
+    /// Rate at which fingers are simulated and sliding ones reported, in Hz.
     pub rate: f64,
-    /// Speeds of slides, in m/s: the least and the most.
+    /// Lowest and highest speed of slides, in m/s.
     pub speed: (f64, f64),
 }
 
 impl Default for SyntheticOptions {
-    /// Two fingers, seed 1, 5 mm from the rim, 120 times a second, 20 to 200 mm/s.
+    /// Two fingers, seed 1, 5 mm from the edge, 120 reports a second, 20 to 200 mm/s.
     fn default() -> Self {
         Self { fingers: 2, seed: 1, margin: 0.005, rate: 120.0, speed: (0.02, 0.2) }
     }
@@ -53,9 +53,9 @@ struct Hand {
     waver: f64,
 }
 
-/// Synthetic fingers: they tap, and slide along lines, circles and at random.
+/// Simulated fingers that tap, and slide along lines, circles and random paths.
 ///
-/// A seed gives one session, however often it is polled.
+/// The session depends on the seed, not on the rate of polling.
 ///
 /// ```
 /// use unripple_core::{Outline, Shape};
@@ -82,7 +82,8 @@ pub struct Synthetic {
 }
 
 impl Synthetic {
-    /// Fingers on a surface.
+    /// Simulated fingers on a surface. Fails if an option is out of range, or if the margin leaves no room on the
+    /// surface.
     pub fn new(surface: &Outline, options: SyntheticOptions) -> Result<Self, TouchError> {
         let SyntheticOptions { fingers, seed, margin, rate, speed } = options;
         require("synthetic fingers", (1..=64).contains(&fingers), "1 to 64", fingers as f64)?;
@@ -110,7 +111,7 @@ impl Synthetic {
         Ok(all)
     }
 
-    /// A place at random, away from the rim.
+    /// A random place at least the margin away from the edge.
     fn place(&self, random: &mut Random) -> Option<Point> {
         let (width, height) = self.surface.extent();
         let draw = |random: &mut Random| Point::new(random.between(0.0, width), random.between(0.0, height));

@@ -10,14 +10,14 @@ pub(super) struct Set {
     pub(super) pressure: Option<f64>,
 }
 
-/// One frame of one list of a sender: which fingers are there, and where those are that moved.
+/// One TUIO frame of one list of fingers: which are down, and the places of those that moved.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Frame {
-    /// Whether the frame lists all that are there.
+    /// Whether the frame lists all fingers that are down.
     pub(super) listed: bool,
     pub(super) alive: Vec<i64>,
     pub(super) sets: Vec<Set>,
-    /// Whether it is to be dropped.
+    /// Whether the frame is older than one already accepted, and so is dropped.
     pub(super) late: bool,
 }
 
@@ -32,7 +32,7 @@ impl Frame {
         !self.listed && self.sets.is_empty()
     }
 
-    /// Lists who is there; false if that is not a list of numbers.
+    /// Sets the list of fingers that are down; false if an entry is not an integer.
     pub(super) fn list(&mut self, sessions: &[OscType]) -> bool {
         self.alive.clear();
         self.alive.extend(sessions.iter().filter_map(int));
@@ -41,7 +41,7 @@ impl Frame {
         self.listed
     }
 
-    /// A finger is somewhere; the last word on it counts.
+    /// Sets the place of a finger; of several for one finger the last counts.
     pub(super) fn set(&mut self, set: Set) {
         match self.sets.iter_mut().find(|other| other.session == set.session) {
             Some(other) => *other = set,

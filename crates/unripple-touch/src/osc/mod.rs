@@ -1,4 +1,4 @@
-//! OSC over UDP: TUIO 1.1, TUIO 2.0 and addresses of our own.
+//! OSC over UDP: TUIO 1.1, TUIO 2.0 and the addresses under `/unripple/`.
 
 mod frame;
 mod own;

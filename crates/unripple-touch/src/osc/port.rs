@@ -25,10 +25,10 @@ pub struct OscPort {
 }
 
 impl OscPort {
-    /// The port that TUIO trackers send to.
+    /// The UDP port that TUIO trackers send to by default.
     pub const PORT: u16 = 3333;
 
-    /// Listens to this machine alone; port 0 takes any that is free.
+    /// Opens a UDP port that receives from this machine only; with port 0 the system chooses a free one.
     ///
     /// ```
     /// use unripple_core::{Outline, Shape};
@@ -48,7 +48,7 @@ impl OscPort {
         Self::bind(SocketAddr::from((Ipv4Addr::LOCALHOST, port)), options)
     }
 
-    /// Listens at an address; one that is not of the loopback lets the network in.
+    /// Opens a UDP port at an address. Any address but a loopback one also receives from the network.
     pub fn bind(address: SocketAddr, options: Options) -> Result<Self, TouchError> {
         let fix = "another program may listen there: stop it, or choose another port";
         let error = |error| TouchError::io(format!("listening at UDP {address}"), error, fix);
@@ -65,7 +65,7 @@ impl OscPort {
         self.socket.local_addr().unwrap_or_else(|_| SocketAddr::from((Ipv4Addr::LOCALHOST, 0)))
     }
 
-    /// How many fingers, senders and names are kept in memory.
+    /// Number of fingers, senders and names of senders that are kept in memory.
     pub fn tracked(&self) -> usize {
         self.receiver.tracked()
     }

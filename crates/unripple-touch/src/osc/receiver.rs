@@ -1,4 +1,4 @@
-//! TUIO 1.1, TUIO 2.0 and our own addresses, from packets to fingers.
+//! Decoder of TUIO 1.1, TUIO 2.0 and the addresses under `/unripple/`, from packets to fingers.
 
 use super::frame::Frame;
 use super::packet;
@@ -10,10 +10,10 @@ use rosc::OscMessage;
 use std::net::SocketAddr;
 use std::ops::Range;
 
-/// Reads packets of TUIO 1.1, TUIO 2.0 and the addresses under `/unripple/`, from whatever carried them.
+/// Decoder of OSC packets of TUIO 1.1, TUIO 2.0 and the addresses under `/unripple/`, independent of the transport.
 ///
 /// Any bytes may be put in: what cannot be read, or means nothing, is counted. Fingers are distinguished by the
-/// address they come from, the sender's name for itself, and the sender's number for them.
+/// address of their sender, the name that the sender gives itself, and the sender's number for the finger.
 ///
 /// ```
 /// use unripple_core::{Outline, Point, Shape};
@@ -39,24 +39,24 @@ pub struct OscReceiver {
     messages: Vec<Range<usize>>,
 }
 
-/// The sender of a packet: an address, the place of the sender and of its name.
+/// The sender of a packet: its address, the index of the sender and that of its name.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Speaker {
     pub(super) address: SocketAddr,
     pub(super) sender: Option<usize>,
     pub(super) name: usize,
-    /// Whether there was no room for it: whatever the packet says is nobody's.
+    /// Whether there was no room for the sender, so that the packet is ignored.
     pub(super) refused: bool,
 }
 
 impl OscReceiver {
-    /// A receiver that no packet has reached yet.
+    /// A receiver without any finger. Fails if an option is out of range.
     pub fn new(options: Options) -> Result<Self, TouchError> {
         let (senders, frames) = (Senders::default(), Default::default());
         Ok(Self { fingers: Fingers::new(options)?, senders, frames, messages: Vec::new() })
     }
 
-    /// A poll begins, at `now` in s.
+    /// Begins a poll at `now`, in s.
     pub fn begin(&mut self, now: f64) {
         self.fingers.begin(now);
     }
@@ -80,7 +80,8 @@ impl OscReceiver {
         self.messages = messages;
     }
 
-    /// All packets of this poll are read: fingers that nobody speaks of any more leave.
+    /// Ends a poll: lifts the fingers whose time-out has passed, and forgets senders that have been silent for twice
+    /// as long.
     pub fn end(&mut self, heard: &mut Heard) {
         self.fingers.expire(heard);
         // Later than its fingers, so that no sender is forgotten while one is there.
@@ -88,22 +89,22 @@ impl OscReceiver {
         self.senders.forget(before);
     }
 
-    /// When time-outs are to be looked at again.
+    /// Time at which time-outs must be checked again, in s.
     pub(super) fn due(&self, now: f64) -> Option<f64> {
         self.fingers.due(now)
     }
 
-    /// Numbers of what was taken in and what was refused so far.
+    /// Counts of what was accepted and refused so far.
     pub fn counts(&self) -> Counts {
         self.fingers.counts
     }
 
-    /// How many fingers, senders and names are kept in memory.
+    /// Number of fingers, senders and names of senders that are kept in memory.
     pub fn tracked(&self) -> usize {
         self.fingers.count() + self.senders.count()
     }
 
-    /// The socket behind it gave an error instead of a packet.
+    /// Counts an error of the socket that packets come from.
     pub(super) fn fail(&mut self) {
         self.fingers.counts.failed += 1;
     }
@@ -121,7 +122,7 @@ impl OscReceiver {
         }
     }
 
-    /// The place of the sender at an address; nothing, counted, if there are too many.
+    /// Index of the sender at an address; none, and counted, if there are too many senders.
     pub(super) fn sender(&mut self, address: SocketAddr) -> Option<usize> {
         let found = self.senders.find(address, self.fingers.awake());
         match found {
@@ -131,7 +132,7 @@ impl OscReceiver {
         found.map(|(i, _)| i)
     }
 
-    /// A sender names itself.
+    /// Sets the name that a sender gives itself.
     pub(super) fn introduce(&mut self, speaker: &mut Speaker, name: &str) {
         if !self.speak(speaker) {
             return;
@@ -145,7 +146,7 @@ impl OscReceiver {
         }
     }
 
-    /// The order of a frame by its number.
+    /// Classifies a frame by its number: next, late or a restart.
     pub(super) fn judge(&mut self, speaker: &Speaker, list: usize, id: u32, bits: u32) -> Verdict {
         let now = self.fingers.awake();
         match speaker.sender {
@@ -163,7 +164,7 @@ impl OscReceiver {
         !speaker.refused
     }
 
-    /// A sender has begun anew: its old fingers are gone.
+    /// Lifts all fingers of a sender that has restarted.
     pub(super) fn restart(&mut self, speaker: &Speaker, list: usize, heard: &mut Heard) {
         if let Some((peer, stream)) = self.stream(speaker, list) {
             self.fingers.lift_where(|key| key.peer == peer && key.stream == stream, heard);
@@ -175,7 +176,7 @@ impl OscReceiver {
         Some((self.senders.peer(sender), (speaker.name * LISTS + list) as u32))
     }
 
-    /// Takes what a frame says, and forgets it.
+    /// Applies a frame to the fingers, and clears it.
     pub(super) fn apply(&mut self, speaker: &Speaker, list: usize, heard: &mut Heard) {
         let mut frame = std::mem::take(&mut self.frames[list]);
         if frame.late {
@@ -208,7 +209,7 @@ impl OscReceiver {
         }
     }
 
-    /// The end of a packet ends its frames, whether it says so or not.
+    /// Applies the frames that a packet leaves open: the end of a packet ends its frames.
     fn finish(&mut self, speaker: &Speaker, heard: &mut Heard) {
         for list in 0..LISTS {
             if !self.frames[list].is_empty() || self.frames[list].late {

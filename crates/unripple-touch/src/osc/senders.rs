@@ -20,8 +20,8 @@ struct Sender {
     spoken: f64,
 }
 
-/// The addresses that have sent something lately. Whoever is known keeps its place until it falls silent; newcomers
-/// beyond the most are turned away.
+/// The addresses that have sent something lately. A known sender keeps its place until it has been silent for a
+/// while; new ones are refused while all places are taken.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Senders {
     known: Vec<Sender>,
@@ -29,7 +29,8 @@ pub(super) struct Senders {
 }
 
 impl Senders {
-    /// The place of a sender that speaks now, at a time in s, and whether it is new; nothing if there is no room for it.
+    /// Index of the sender at an address, which sends a packet at a time in s, and whether it is new; none if there
+    /// is no room for it.
     pub(super) fn find(&mut self, address: SocketAddr, now: f64) -> Option<(usize, bool)> {
         if let Some(i) = self.known.iter().position(|sender| sender.address == address) {
             self.known[i].spoken = now;
@@ -44,12 +45,12 @@ impl Senders {
         Some((self.known.len() - 1, true))
     }
 
-    /// The number of the sender at a place, which no other ever had.
+    /// Unique number of the sender at an index.
     pub(super) fn peer(&self, i: usize) -> u32 {
         self.known[i].peer
     }
 
-    /// The place of a name among those of a sender; nothing if there is no room for it.
+    /// Index of a name among those of a sender; none if there is no room for it.
     pub(super) fn name(&mut self, i: usize, name: &str) -> Option<usize> {
         let names = &mut self.known[i].names;
         if let Some(found) = names.iter().position(|(known, _)| known == name) {
@@ -62,7 +63,7 @@ impl Senders {
         Some(names.len() - 1)
     }
 
-    /// The numbers of a sender's frames.
+    /// The frame numbers of one list of a sender.
     pub(super) fn sequence(&mut self, i: usize, name: usize, list: usize) -> &mut Sequence {
         &mut self.known[i].names[name].1[list]
     }

@@ -1,17 +1,17 @@
 //! Order of TUIO frames: late ones dropped, restarts noticed.
 
-/// A sender that was silent for as long may have begun anew, in s. TUIO trackers repeat themselves once a second;
-/// sooner, late packets would count as a new beginning.
+/// Silence after which a smaller frame number means that the sender has restarted, in s. TUIO trackers repeat
+/// themselves once a second; with a shorter time, late packets would count as a restart.
 const SILENCE: f64 = 1.0;
-/// A frame that is behind by more than this is not late: its sender has begun anew.
+/// Largest lag of a late frame; a number further behind means that the sender has restarted.
 const LATEST: u32 = 100;
 
 /// The order of a frame by its number: new, late or a restart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Verdict {
-    /// It is the next, or another part of the same.
+    /// The next frame, or another part of the last one.
     Next,
-    /// One that came after it was taken already.
+    /// A later frame was accepted already.
     Late,
     /// Its sender counts from the beginning again.
     Restart,

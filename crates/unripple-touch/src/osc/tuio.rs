@@ -24,7 +24,7 @@ impl Profile {
         }
     }
 
-    /// Which list of fingers it is.
+    /// Index of the profile's list of fingers.
     fn list(self) -> usize {
         match self {
             Self::Cursor => 0,

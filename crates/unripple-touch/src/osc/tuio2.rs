@@ -6,7 +6,7 @@ use super::sequence::Verdict;
 use crate::Heard;
 use rosc::OscType;
 
-/// The list of fingers that TUIO 2 keeps. The fourth, after TUIO 1's three.
+/// Index of the list of fingers of TUIO 2: the fourth, after the three of TUIO 1.
 const LIST: usize = 3;
 
 /// Messages of TUIO 2 that are of no finger, and are passed over.
@@ -62,7 +62,8 @@ impl OscReceiver {
         true
     }
 
-    /// A finger; bounds alone are one too, but a pointer or token knows better where it is.
+    /// Adds a finger to the frame. Bounds alone count as a finger, but do not replace a pointer or token, whose place
+    /// is more exact (`better`).
     fn component(&mut self, who: &mut Speaker, set: Option<Set>, better: bool) -> bool {
         let Some(set) = set else {
             return false;

@@ -17,7 +17,7 @@ pub(super) struct Head {
 pub(super) const FORMAT: &str = "unripple-touches";
 pub(super) const VERSION: u64 = 1;
 
-/// The largest coordinate, in mm, and time, in ms, that are believed: a kilometre, a month.
+/// The largest coordinate, in mm, and time, in ms, that are accepted: a kilometre, a month.
 const FARTHEST: f64 = 1e6;
 const LATEST: f64 = 2.7e9;
 

@@ -1,4 +1,4 @@
-//! Sessions kept in files.
+//! Recordings of touch sessions in files.
 
 mod line;
 mod playback;

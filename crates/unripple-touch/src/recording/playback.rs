@@ -5,10 +5,11 @@ use super::session::Recording;
 use crate::{Counts, Heard, Source, TouchError};
 use unripple_core::{Outline, Phase, Touch};
 
-/// Most touches and wishes that are played in one poll.
+/// Most touches and requests that are played in one poll, so that a poll does bounded work.
 const MOST: usize = 1024;
 
-/// Plays a [`Recording`]: every touch has the time it had there, counted from the first poll, however often it is polled.
+/// A source that plays a [`Recording`]. Touches have their recorded times, counted from the first poll, at whatever
+/// rate it is polled.
 ///
 /// ```
 /// use unripple_core::{Outline, Shape};

@@ -4,8 +4,8 @@ use super::line::{self, FORMAT, Head, Item, VERSION};
 use crate::{Heard, TouchError};
 use std::io::{self, Write};
 
-/// Writes touches and wishes as a [`Recording`](crate::Recording), line by line, so that what was written is whole
-/// after any interruption.
+/// Writes touches and requests as a [`Recording`](crate::Recording), line by line, so that the file is valid after
+/// any interruption.
 ///
 /// ```
 /// use unripple_core::{Phase, Point, Touch};
@@ -37,7 +37,7 @@ impl<W: Write> Recorder<W> {
         Ok(Self { to, start, last: start })
     }
 
-    /// Adds touches and wishes up to `now`, in s.
+    /// Appends touches at their own times, and requests at `now`, in s.
     pub fn record(&mut self, now: f64, heard: &Heard) -> Result<(), TouchError> {
         let touches = heard.touches.iter().map(|touch| Item::Touch(*touch));
         let wishes = heard.wishes.iter().map(|wish| Item::Wish(now, wish.clone()));
@@ -49,7 +49,7 @@ impl<W: Write> Recorder<W> {
             }
             put(&mut self.to, line::write(&item, self.start))?;
         }
-        // Whoever is killed has lost no touch.
+        // Flushed at once, so that a program that is killed loses no touch.
         if heard.touches.is_empty() && heard.wishes.is_empty() {
             Ok(())
         } else {

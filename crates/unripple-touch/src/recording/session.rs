@@ -14,10 +14,10 @@ const LONGEST_FILE: u64 = 256 << 20;
 /// Fingers at once in a recording; a line that puts one more down is an error.
 const MOST: usize = 64;
 
-/// A session: who touched where and when, and what was asked for.
+/// A recorded session: touches, and requests for effects and levels.
 ///
-/// A file of JSON lines. The first is `{"format":"unripple-touches","version":1}`; each of the others is one touch, effect
-/// or level, in mm and ms.
+/// A file of JSON lines. The first is `{"format":"unripple-touches","version":1}`; each of the others is one touch,
+/// effect or level, in mm, ms, N and dB.
 ///
 /// ```
 /// use unripple_touch::Recording;
@@ -53,7 +53,7 @@ impl Recording {
         Ok(Self { items })
     }
 
-    /// Reads a file.
+    /// Reads a recording from a file of at most 256 MiB.
     pub fn open(path: &Path) -> Result<Self, TouchError> {
         let fix = "a recording is a text file of at most 256 MB";
         let error = |error| TouchError::io(format!("reading {}", path.display()), error, fix);
@@ -68,12 +68,12 @@ impl Recording {
         self.items.last().map_or(0.0, Item::time)
     }
 
-    /// How many touches and wishes it holds; the one at i is on line i + 2.
+    /// Number of touches and requests; the one at index i is on line i + 2.
     pub fn len(&self) -> usize {
         self.items.len()
     }
 
-    /// Whether nothing happens in it.
+    /// Whether it holds no touch and no request.
     pub fn is_empty(&self) -> bool {
         self.items.is_empty()
     }

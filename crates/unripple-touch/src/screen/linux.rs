@@ -18,7 +18,7 @@ pub(super) struct Found {
     pub(super) pressure: Option<Axis>,
 }
 
-/// A device file of the kernel's.
+/// An open device file of the kernel.
 pub(super) struct Kernel {
     path: PathBuf,
     device: RawDevice,

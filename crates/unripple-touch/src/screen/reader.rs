@@ -9,13 +9,14 @@ use unripple_core::require;
 
 /// Batches of events read in one poll, so that a poll does bounded work: the rest is read by the next.
 const BATCHES: usize = 16;
-/// How often a screen is looked at that cannot wake anybody, in s. Twice as long delays a touch by as much more.
+/// Interval at which a screen without a file to wait for is polled, in s. Twice as long delays a touch by as much
+/// more.
 const PACE: f64 = 0.002;
 /// How long to wait before a lost screen is opened again, in s. Opening a device that is not there costs little, so
 /// that a second is not missed.
 const RETRY: f64 = 1.0;
 
-/// The range of an axis, as the screen states it.
+/// The range of an axis, as the screen states it, in its own unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Axis {
     /// Least value of the axis.
@@ -25,7 +26,7 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// A value as a share of the range.
+    /// A value as a fraction of the range.
     fn share(self, value: i32) -> f64 {
         let (low, high) = (f64::from(self.minimum), f64::from(self.maximum));
         (f64::from(value) - low) / (high - low)
@@ -37,29 +38,29 @@ impl Axis {
     }
 }
 
-/// Where a screen's events come from: the kernel, or a list of them.
+/// The events of a screen, read from the kernel or from a list.
 pub trait Contacts: Send {
-    /// Appends events that are there; never blocks, and takes some tens at a time. Nothing appended means that there is
-    /// nothing more.
+    /// Appends the next events that are available, some tens at a time; never blocks. If it appends none, no more are
+    /// available.
     fn read(&mut self, events: &mut Vec<Event>) -> io::Result<()>;
 
-    /// Which slot the next events are of; asked for after events were lost.
+    /// The slot that the next events belong to; called after events were lost.
     fn slot(&mut self) -> io::Result<usize>;
 
-    /// What can be read as soon as there are events; without it they are looked for every 2 ms.
+    /// File that becomes readable when there are events; without one, the screen is polled every 2 ms.
     #[cfg(unix)]
     fn file(&self) -> Option<BorrowedFd<'_>> {
         None
     }
 
-    /// Opens a screen again that was lost.
+    /// Opens a screen again after a read error.
     fn reopen(&mut self) -> io::Result<()>;
 }
 
-/// A multi-touch screen.
+/// A multi-touch screen as a source of touches.
 ///
-/// A resting finger stays as long as the screen says so. When the screen is unplugged its fingers leave; it is opened
-/// again when it comes back.
+/// A resting finger stays down until the screen reports that it has left: there is no time-out. When the screen is
+/// unplugged its fingers are lifted; it is opened again when it comes back.
 pub struct Screen {
     name: String,
     contacts: Box<dyn Contacts>,
@@ -72,7 +73,9 @@ pub struct Screen {
 }
 
 impl Screen {
-    /// A screen whose events come from anywhere, with the ranges of x to the right, y down, and pressure.
+    /// A screen with given events. `axes` are the ranges of x, to the right, and of y, downwards; `pressure` is that
+    /// of the pressure, if the screen measures it. All are in the screen's own units. Fails if a range is empty or an
+    /// option out of range.
     pub fn new(
         name: impl Into<String>,
         contacts: Box<dyn Contacts>,
@@ -94,7 +97,7 @@ impl Screen {
         Self::new(found.name, Box::new(found.kernel), found.axes, found.pressure, options)
     }
 
-    /// The multi-touch screens that there are and may be read: device files and names.
+    /// The multi-touch screens that this user may read: device files and names.
     #[cfg(target_os = "linux")]
     pub fn list() -> Vec<(std::path::PathBuf, String)> {
         super::linux::list()
@@ -184,7 +187,7 @@ impl Source for Screen {
 
     #[cfg(unix)]
     fn files<'a>(&'a self, files: &mut Vec<BorrowedFd<'a>>) {
-        // A screen that was unplugged can be read for ever, and says nothing.
+        // The file of an unplugged screen is always readable but gives no events, so it is not waited for.
         files.extend(self.contacts.file().filter(|_| self.lost.is_none()));
     }
 

@@ -1,6 +1,6 @@
 //! The evdev multi-touch protocol B: slots and tracking ids.
 
-/// One event of the kernel's, as `linux/input.h` has it.
+/// One input event of the kernel, as in `linux/input.h`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Event {
     /// Kind: 0 for `EV_SYN`, 3 for `EV_ABS`.
@@ -28,27 +28,28 @@ const MOST: usize = 64;
 /// The state of one slot of a multi-touch screen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Slot {
-    /// The contact in it; contacts whose number was lost get a negative one.
+    /// Tracking id of the contact in the slot; contacts whose id was lost get a negative one.
     pub(super) contact: Option<i64>,
     pub(super) x: Option<i32>,
     pub(super) y: Option<i32>,
     pub(super) pressure: Option<i32>,
-    /// Whether events were lost, so that there may be a contact of unknown number.
+    /// Whether events were lost, so that there may be a contact of unknown tracking id.
     lost: bool,
 }
 
-/// The touches that a report gives rise to.
+/// State of a screen's report after an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Report {
-    /// The report is not at its end.
+    /// The report is not complete.
     Open,
-    /// The slots are as the screen has them.
+    /// The report is complete: the slots agree with the screen.
     Whole,
-    /// Events were lost: all contacts are to leave, and [`Slots::resume`] is to be called.
+    /// Events were lost: the caller lifts all contacts and calls [`Slots::resume`].
     Lost,
 }
 
-/// The slots of a screen of type B, from its events (`Documentation/input/multi-touch-protocol.rst` of the kernel).
+/// The contact slots of a screen of protocol type B, followed by its events
+/// (`Documentation/input/multi-touch-protocol.rst` of the kernel).
 ///
 /// ```
 /// use unripple_touch::{Event, Slots};
@@ -74,7 +75,7 @@ impl Slots {
         Self { slots: vec![Slot::default(); MOST], current: 0, dropping: false, unnamed: 0 }
     }
 
-    /// Takes the next event; contacts are worth looking at when a report is whole.
+    /// Processes the next event. The contacts are consistent whenever it returns [`Report::Whole`].
     pub fn push(&mut self, event: Event) -> Report {
         match (event.kind, event.code) {
             (EV_SYN, SYN_DROPPED) => self.dropping = true,
@@ -86,14 +87,14 @@ impl Slots {
         Report::Open
     }
 
-    /// Goes on after a loss, the screen's events being of this slot from now on. Contacts come back as they move.
+    /// Resumes after lost events; the next events belong to `slot`. Contacts are known again once they move.
     pub fn resume(&mut self, slot: usize) {
         let lost = Slot { lost: true, ..Slot::default() };
         self.slots.fill(lost);
         (self.current, self.dropping) = (slot, false);
     }
 
-    /// Slot, number, place and pressure of every contact whose place is known, as the screen counts them.
+    /// Slot, tracking id, place (x, y) and pressure of every contact whose place is known, in the screen's own units.
     pub fn contacts(&self) -> impl Iterator<Item = (usize, i64, (i32, i32), Option<i32>)> + '_ {
         let known = |(i, slot): (usize, &Slot)| Some((i, slot.contact?, (slot.x?, slot.y?), slot.pressure));
         self.slots.iter().enumerate().filter_map(known)
@@ -111,7 +112,8 @@ impl Slots {
         match code {
             TRACKING_ID if value < 0 => *slot = Slot { pressure: None, contact: None, lost: false, ..*slot },
             TRACKING_ID => {
-                // A place that does not change is not reported again, so that of the contact before holds.
+                // A coordinate that does not change is not reported again, so that of the previous contact still
+                // holds.
                 (slot.contact, slot.lost) = (Some(i64::from(value)), false);
             }
             X => slot.x = Some(value),

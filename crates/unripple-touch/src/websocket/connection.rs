@@ -83,12 +83,12 @@ impl Connection {
         Self { peer, state: Some(State::Shaking(Box::new(shaking))), spoken: now, pinged: now, more: false }
     }
 
-    /// Whether messages may be left that were read already.
+    /// Whether messages that were received already may still have to be processed.
     pub(super) fn has_more(&self) -> bool {
         self.more
     }
 
-    /// What can be read when there is something to poll for.
+    /// The socket, which becomes readable when there is something to poll for.
     pub(super) fn stream(&self) -> Option<&TcpStream> {
         match self.state.as_ref()? {
             State::Shaking(shaking) => Some(shaking.get_ref().get_ref().stream()),
@@ -96,7 +96,7 @@ impl Connection {
         }
     }
 
-    /// Whether it has not yet shown that it is a client.
+    /// Whether the WebSocket handshake is not complete.
     pub(super) fn is_shaking(&self) -> bool {
         matches!(self.state, Some(State::Shaking(_)))
     }

@@ -10,7 +10,7 @@ pub const SCHEMA: &str = include_str!("../../schema/touch-1.json");
 
 /// The version of the protocol that is spoken; a client that asks for another is refused.
 const VERSION: u64 = 1;
-/// The longest explanation that is sent, in characters. Longer ones are cut.
+/// The longest explanation of an error that is sent, in characters. Longer ones are cut.
 const LONGEST: usize = 200;
 
 /// A message of a WebSocket client.
@@ -26,22 +26,22 @@ const LONGEST: usize = 200;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Message {
-    /// A finger did something.
+    /// A finger comes down, moves or is lifted.
     Touch {
-        /// The client's number for it.
+        /// The client's number for the finger.
         finger: u32,
         /// Phase of the touch.
         phase: Phase,
-        /// Where it is, in m; may be missing when it leaves.
+        /// Place of the finger, in m; may be missing when the finger is lifted.
         at: Option<Point>,
-        /// How hard it presses, in N.
+        /// Force of the finger, in N, if known.
         force: Option<f64>,
     },
-    /// All fingers of the client leave.
+    /// All fingers of the client are lifted.
     Clear,
-    /// Something is asked for.
+    /// A request for an effect or a level.
     Wish(Wish),
-    /// The client wants to know whom it speaks to.
+    /// A request for the server's version and the size of the surface.
     Hello,
 }
 
@@ -97,7 +97,7 @@ fn given<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<Opti
 }
 
 impl Message {
-    /// Reads any text; the error is for the client to read.
+    /// Decodes a message. The error is an explanation for the client.
     pub fn read(text: &str) -> Result<Self, String> {
         // An array would be taken for the values in order.
         if !text.trim_start().starts_with('{') {
@@ -146,7 +146,7 @@ fn short(text: &str) -> String {
     text.chars().take(LONGEST).collect()
 }
 
-/// The message that says what server and what surface a client speaks to.
+/// The answer to [`Message::Hello`]: the server's version and the size of the surface.
 pub(super) fn hello(surface: &Outline) -> String {
     let (width, height) = surface.extent();
     let version = env!("CARGO_PKG_VERSION");
@@ -155,7 +155,7 @@ pub(super) fn hello(surface: &Outline) -> String {
         .to_string()
 }
 
-/// The message that says what was wrong with the client's own.
+/// The answer to an invalid message: what was wrong with it.
 pub(super) fn error(what: &str) -> String {
     json!({"v": VERSION, "type": "error", "what": short(what)}).to_string()
 }

@@ -20,7 +20,7 @@ impl Metered {
         &self.stream
     }
 
-    /// Allows so many bytes more to be read.
+    /// Sets how many bytes may be read from now on.
     pub(super) fn allow(&mut self, bytes: usize) {
         self.left = bytes;
     }

@@ -9,26 +9,27 @@ use std::os::fd::{AsFd, BorrowedFd};
 use std::sync::Arc;
 use unripple_core::require;
 
-/// How often clients are looked after, to be pinged and dropped, in s. Far below the seconds of silence that are
-/// allowed.
+/// Interval at which clients are checked, to be pinged or disconnected, in s. Far below the seconds of silence that
+/// are allowed.
 const LOOK: f64 = 0.1;
 
 /// Connections taken in one poll, so that a flood of them keeps no finger waiting.
 const ACCEPTED: usize = 8;
 
-/// The clients that may connect: their origins and number.
+/// Options of a WebSocket port: origins, number of connections, time-out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WebSocketOptions {
     /// Pages that may connect beside those of this machine, as browsers name them: `https://lab.example:8443`.
     pub origins: Vec<String>,
-    /// Connections at once; one more takes the place of one that has not said yet what it wants, or is closed at once.
+    /// Most connections at once. A further one replaces the oldest that has not completed its handshake; if there is
+    /// none, the new one is closed.
     pub most: usize,
-    /// A client that says nothing for as long, not even to a ping, is dropped, in s.
+    /// Time after which a client that sends nothing, not even the answer to a ping, is disconnected, in s.
     pub silence: f64,
 }
 
 impl Default for WebSocketOptions {
-    /// Pages of this machine, 16 connections, 5 s.
+    /// Pages of this machine only, 16 connections, 5 s of silence.
     fn default() -> Self {
         Self { origins: Vec::new(), most: 16, silence: 5.0 }
     }
@@ -36,7 +37,7 @@ impl Default for WebSocketOptions {
 
 /// A TCP port that speaks the protocol of [`SCHEMA`](crate::SCHEMA) over WebSocket.
 ///
-/// Fingers of a connection leave when it closes, and when its client no longer answers pings.
+/// Fingers of a connection are lifted when it closes, and when its client no longer answers pings.
 pub struct WebSocketPort {
     name: String,
     listener: TcpListener,
@@ -49,7 +50,8 @@ pub struct WebSocketPort {
 }
 
 impl WebSocketPort {
-    /// Listens to this machine alone; port 0 takes any that is free. `port` is its number.
+    /// Opens a TCP port that accepts connections from this machine only; with port number 0 the system chooses a free
+    /// one.
     ///
     /// ```
     /// use unripple_core::{Outline, Shape};
@@ -64,7 +66,7 @@ impl WebSocketPort {
         Self::bind(SocketAddr::from((Ipv4Addr::LOCALHOST, port)), options, sockets)
     }
 
-    /// Listens at an address; one that is not of the loopback lets the network in.
+    /// Opens a TCP port at an address. Any address but a loopback one also accepts connections from the network.
     pub fn bind(
         address: SocketAddr,
         options: Options,
@@ -88,7 +90,7 @@ impl WebSocketPort {
         self.listener.local_addr().unwrap_or_else(|_| SocketAddr::from((Ipv4Addr::LOCALHOST, 0)))
     }
 
-    /// How many connections and fingers are kept in memory.
+    /// Number of connections and fingers that are kept in memory.
     pub fn tracked(&self) -> usize {
         self.connections.len() + self.fingers.count()
     }
@@ -109,11 +111,12 @@ impl WebSocketPort {
     fn welcome(&mut self, stream: TcpStream) {
         if self.connections.len() >= self.most {
             self.fingers.counts.crowded += 1;
-            // Whoever says nothing keeps nobody out: the oldest that has not said yet what it wants makes room.
+            // A client that sends nothing must not keep others out: the oldest without a complete handshake makes
+            // room.
             let Some(quiet) = self.connections.iter().position(Connection::is_shaking) else { return };
             self.connections.remove(quiet);
         }
-        // Answers are short and wanted at once.
+        // Answers are short and must not be delayed.
         if stream.set_nonblocking(true).and_then(|()| stream.set_nodelay(true)).is_err() {
             self.fingers.counts.failed += 1;
             return;
