@@ -7,7 +7,7 @@ use rust_embed::RustEmbed;
 #[folder = "assets/"]
 struct Assets;
 
-/// A file of the page: its bytes, kind and fingerprint. Only what was embedded can be had, whatever the name.
+/// A file of the page by its name: its bytes, media type and ETag; `None` if no such file was embedded.
 pub fn file(name: &str) -> Option<(Vec<u8>, &'static str, String)> {
     let found = Assets::get(name)?;
     let kind = match name.rsplit_once('.').map(|(_, extension)| extension) {

@@ -1,4 +1,4 @@
-//! Where connections come in: how long they may take, and how many there may be.
+//! Acceptance of connections: how long they may take, and how many there may be.
 
 use crate::lobby::{Lobby, Seat};
 use axum::Router;
@@ -22,7 +22,7 @@ const LONGEST: usize = 16 << 10;
 /// How long to wait when the system has no room for a connection: some of those there are end meanwhile.
 const FULL: Duration = Duration::from_millis(100);
 
-/// Serves whoever comes, for ever.
+/// Accepts connections and serves them; never returns.
 pub async fn listen(listener: TcpListener, router: Router) {
     let (lobby, service) = (Arc::new(Lobby::default()), TowerToHyperService::new(router));
     loop {

@@ -1,27 +1,27 @@
-//! The surfaces that pages were sent lately, by the number of the edit that made each.
+//! The surfaces that pages were sent lately, each by the number of the edit that made it.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use unripple::core::Surface;
 
-/// Surfaces that can still be asked about: a page that lags behind by more has lost sight of what it asks.
+/// Number of surfaces that are kept: a page that lags behind by more edits cannot ask about its surface any more.
 const KEPT: usize = 16;
 
-/// A surface as pages know it.
+/// A surface as it was sent to pages, with its number.
 #[derive(Clone, Debug)]
 pub struct Edition {
-    /// How many edits came before; 0 for the surface that the program was started with.
+    /// Number of edits before this surface; 0 for the one that the program was started with.
     pub edit: u64,
     /// The surface after that edit.
     pub surface: Surface,
 }
 
-/// The newest of them.
+/// The editions that are kept, the newest last.
 #[derive(Debug, Default)]
 pub struct Editions {
     kept: VecDeque<Arc<Edition>>,
-    /// The newest edit, for whoever computes an older one elsewhere.
+    /// Number of the newest edit, shared with the worker that computes figures.
     newest: Arc<AtomicU64>,
 }
 
@@ -35,15 +35,15 @@ impl Editions {
         self.kept.push_back(edition);
     }
 
-    /// The edit that is the newest, whenever it is looked at.
+    /// Shared number of the newest edit, which is kept up to date.
     pub fn newest(&self) -> Arc<AtomicU64> {
         self.newest.clone()
     }
 
-    /// The one that a page speaks of; the newest where it does not say.
+    /// The edition with the edit number that a page names; the newest if it names none.
     ///
     /// # Errors
-    /// Why there is none, in words.
+    /// Reason in words why there is no such edition.
     pub fn find(&self, edit: Option<u64>) -> Result<Arc<Edition>, String> {
         let kept = &self.kept;
         let found = match edit {

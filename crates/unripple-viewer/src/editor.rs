@@ -1,4 +1,4 @@
-//! The surface as pages change it, and how it is to be played.
+//! Editing of the surface and of its playing options by pages.
 
 use crate::ViewError;
 use crate::draft::Draft;
@@ -13,23 +13,23 @@ use unripple::core::Surface;
 use unripple::focus::Method;
 use unripple_store::{BUILTINS, load_surface, parse_surface};
 
-/// The surface as pages change it. What has been asked for meanwhile is made in one.
+/// The surface as pages edit it, and its playing options. Changes made while an instrument is being built go together into the next one.
 pub struct Editor {
     draft: Draft,
     spec: Spec,
-    /// What is played.
+    /// The specification that is played now.
     played: Spec,
     told: Settled,
     edits: u64,
-    /// Whether what is played is not what is wanted, and whether the surface is another.
+    /// Whether another specification is to be built, and whether the surface was edited since it was last sent.
     stale: bool,
     edited: bool,
-    /// Whether something is being made ready.
+    /// Whether an instrument is being built.
     building: bool,
 }
 
 impl Editor {
-    /// An editor of what is played now.
+    /// An editor that starts from the instrument that is played now.
     pub fn new(instrument: &Instrument, told: Settled) -> Self {
         let draft = Draft::new(instrument.spec.surface.clone());
         let spec = instrument.spec.clone();
@@ -43,44 +43,44 @@ impl Editor {
         settings(&self.told, instrument)
     }
 
-    /// Another surface, bit by bit.
+    /// Applies an edit of a page to the surface.
     ///
     /// # Errors
-    /// [`ViewError`] for what cannot be; then nothing has changed.
+    /// [`ViewError`] for an edit that cannot be applied; then nothing has changed.
     pub fn edit(&mut self, edit: &Edit) -> Result<(), ViewError> {
         self.draft.edit(edit)?;
         self.changed(edit.settled != Some(false));
         Ok(())
     }
 
-    /// Goes back to the surface before the last edit.
+    /// Undoes the last edit of the surface.
     pub fn undo(&mut self) {
         if self.draft.undo() {
             self.changed(true);
         }
     }
 
-    /// Goes forth to the surface that was undone.
+    /// Redoes the edit that was undone last.
     pub fn redo(&mut self) {
         if self.draft.redo() {
             self.changed(true);
         }
     }
 
-    /// A built-in surface.
+    /// Replaces the surface by a built-in one.
     ///
     /// # Errors
-    /// [`ViewError::Range`] for a name that none has.
+    /// [`ViewError::Range`] if no built-in surface has that name.
     pub fn open(&mut self, name: String) -> Result<(), ViewError> {
         let surface = open(&name)?;
         self.replace(surface, name);
         Ok(())
     }
 
-    /// The text of a surface file.
+    /// Replaces the surface by one read from the text of a surface file.
     ///
     /// # Errors
-    /// All its faults, as text.
+    /// All faults of the file, as text.
     pub fn load(&mut self, text: &str) -> Result<(), String> {
         let surface = parse_surface(text, "uploaded").map_err(|faults| format!("{faults:#}"))?;
         let name = surface.name.clone();
@@ -105,10 +105,10 @@ impl Editor {
         self.changed(true);
     }
 
-    /// Changes how the surface is played.
+    /// Changes the playing options of the surface.
     ///
     /// # Errors
-    /// [`ViewError::Range`] for names that there are not.
+    /// [`ViewError::Range`] for methods and effects that do not exist.
     pub fn set(&mut self, settings: &Settings) -> Result<(), ViewError> {
         if let Some(name) = &settings.method {
             let refused = |found: String| ViewError::Range {
@@ -131,7 +131,7 @@ impl Editor {
         Ok(())
     }
 
-    /// What is to be made ready now, if it is not what is played and nothing is being made.
+    /// The specification to build now, if it differs from the one that is played and none is being built.
     pub fn wanted(&mut self) -> Option<Box<Spec>> {
         if self.building || !std::mem::take(&mut self.stale) {
             return None;
@@ -140,14 +140,14 @@ impl Editor {
         Some(Box::new(self.spec.clone()))
     }
 
-    /// Something has been made ready.
+    /// Notes that an instrument of this specification has been built.
     pub fn built(&mut self, spec: &Spec, out: &mut Outbox) {
         self.building = false;
         self.played = spec.clone();
         out.withdraw("notice");
     }
 
-    /// Says that what was wanted cannot be made, and why.
+    /// Notes that the specification could not be built, and tells pages why.
     pub fn failed(&mut self, why: &str, out: &mut Outbox) {
         self.building = false;
         if !self.stale {
@@ -160,8 +160,8 @@ impl Editor {
         out.tell("notice", &serde_json::json!({ "is": "notice", "text": why }));
     }
 
-    /// Tells the surface that pages are shown, if it has been edited since it was last sent; then it is to be computed, and can be asked
-    /// about.
+    /// If the surface has been edited since it was last sent, sends it to pages and returns it as a new edition, whose figures are then to
+    /// be computed.
     pub fn renew(&mut self, editions: &mut Editions, out: &mut Outbox) -> Option<Arc<Edition>> {
         if !std::mem::take(&mut self.edited) {
             return None;

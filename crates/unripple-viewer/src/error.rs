@@ -1,32 +1,32 @@
-//! Why a surface cannot be shown.
+//! Errors of the viewer.
 
 use unripple_store::StoreError;
 
 /// Errors that keep a surface from being shown.
 #[derive(Debug, thiserror::Error)]
 pub enum ViewError {
-    /// Nobody can listen at an address.
+    /// The server cannot listen at an address.
     #[error("listening at {address}: {why} (another program may use it: choose another port)")]
     Address {
         /// The address as it was given.
         address: String,
-        /// What the system said.
+        /// Reason that the operating system gave.
         why: String,
     },
     /// A thread cannot be started, or ended early.
     #[error("a thread of the viewer is gone: {why}")]
     Gone {
-        /// Why, as far as is known.
+        /// Reason, as far as it is known.
         why: String,
     },
-    /// A value that cannot be.
+    /// A value is not accepted.
     #[error("{what}: expected {expected}, found {found}")]
     Range {
         /// Name of the value.
         what: &'static str,
-        /// What would do.
+        /// Description of the values that are accepted.
         expected: String,
-        /// What there is.
+        /// The value that was found.
         found: String,
     },
     /// A surface or library that cannot be read.
@@ -38,16 +38,16 @@ pub enum ViewError {
     /// A surface that cannot be computed.
     #[error(transparent)]
     Physics(#[from] unripple::physics::PhysicsError),
-    /// A virtual surface that cannot be.
+    /// A virtual surface that cannot be simulated.
     #[error(transparent)]
     Devices(#[from] unripple_devices::DevicesError),
-    /// A surface that cannot be touched.
+    /// A surface on which touches cannot be received.
     #[error(transparent)]
     Touch(#[from] unripple_touch::TouchError),
     /// A device that cannot be opened.
     #[error("device: {why}")]
     Device {
-        /// What the device said.
+        /// Reason that the device gave.
         why: String,
     },
 }

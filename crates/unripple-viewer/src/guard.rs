@@ -1,13 +1,13 @@
-//! Access to the server: host, origin, token.
+//! Access control of the server: host name, origin and token of a request.
 
 use axum::http::{HeaderMap, Uri, header};
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, UdpSocket};
 
 /// The rules of access to the server.
 ///
-/// A page of another site can make a browser send requests here, and a name that resolves to this machine can pass for this machine's own.
-/// So the name that was asked for must be this server's, and a page that opens a link must come from it. Where the network may listen,
-/// the address holds a token besides.
+/// A page of another site can make a browser send requests to this server, and a foreign name can resolve to this machine's address. So a
+/// request must name this server as its host, and a page that opens a WebSocket link must come from this server. If the server listens to
+/// the network, the address also holds a token.
 #[derive(Clone, Debug)]
 pub struct Guard {
     address: SocketAddr,
@@ -37,12 +37,12 @@ pub enum Turned {
 }
 
 impl Guard {
-    /// For a server that listens at an address, with a token where others than this machine may come.
+    /// Rules for a server that listens at `address`, with a `token` if other machines can connect.
     pub fn new(address: SocketAddr, token: Option<String>) -> Self {
         Self { address, token }
     }
 
-    /// The address to open on this machine, the token in it.
+    /// URL to open on this machine, including the token.
     pub fn url(&self) -> String {
         let local = if self.address.is_ipv4() {
             IpAddr::V4(Ipv4Addr::LOCALHOST)
@@ -53,7 +53,7 @@ impl Guard {
         self.at(ip)
     }
 
-    /// The address to open on another machine, if any can come.
+    /// URL to open on another machine; `None` if only this machine can connect.
     pub fn elsewhere(&self) -> Option<String> {
         match self.address.ip() {
             ip if ip.is_loopback() => None,
@@ -67,7 +67,7 @@ impl Guard {
         format!("http://{}/{token}", SocketAddr::new(ip, self.address.port()))
     }
 
-    /// Lets a request through, or says why not.
+    /// Checks whether a request is allowed; the error is the reason why not.
     pub fn check(&self, uri: &Uri, headers: &HeaderMap, needs: Needs) -> Result<(), Turned> {
         let text = |name| headers.get(name).and_then(|value| value.to_str().ok());
         let host = text(header::HOST).filter(|host| self.is_ours(host)).ok_or(Turned::Host)?;

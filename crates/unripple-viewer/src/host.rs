@@ -1,4 +1,4 @@
-//! Where the session lives on this machine: threads for the surface and for what is computed beside it, the notices that pages' links read.
+//! Threads that run the session and the computations beside it, and the notices that links send to pages.
 
 use crate::compute::Task;
 use crate::jobs::Jobs;
@@ -16,7 +16,7 @@ use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-/// Pictures a second: as many as most screens show smoothly. Each costs a product of matrices.
+/// Pictures per second: as many as most screens show smoothly. Each costs a product of matrices.
 const FRAMES: f64 = 30.0;
 
 /// Most of a picture's time that the surface may take to catch up. The rest of the time goes to the picture and to
@@ -26,7 +26,7 @@ const BUSY: f64 = 0.8;
 /// Least time between two pictures, so that what pages say is heard between them.
 const BREATH: Duration = Duration::from_millis(2);
 
-/// What the session's thread receives.
+/// Messages to the session's thread.
 enum Word {
     Come,
     Leave(u64),
@@ -39,24 +39,25 @@ enum Word {
 /// The links of pages, by number, to say why something is refused.
 type Links = Arc<Mutex<BTreeMap<u64, tokio::sync::mpsc::Sender<String>>>>;
 
-/// Where everything a page asks for goes.
+/// The running session: its threads, and the notices and links by which pages reach it.
 pub struct SessionHost {
-    /// What all pages are shown.
+    /// Newest messages and pictures for all pages.
     pub notices: Arc<Notices>,
     words: Sender<Word>,
     links: Links,
     jobs: Arc<Jobs>,
     measured: Arc<Mutex<Option<Measured>>>,
-    /// The thread that plays.
+    /// The thread that runs the session and plays the surface.
     playing: Mutex<Option<JoinHandle<()>>>,
     quiet: bool,
 }
 
 impl SessionHost {
-    /// Makes a surface ready and puts everybody to work; other machines come by the address `elsewhere`.
+    /// Builds the instrument of a surface and starts all threads. `elsewhere` is the URL for other machines, if they
+    /// can connect.
     ///
     /// # Errors
-    /// Those of [`Instrument::build`]; [`ViewError::Gone`] if a thread cannot be had.
+    /// Those of [`Instrument::build`]; [`ViewError::Gone`] if a thread cannot be started.
     pub fn open(view: &View, elsewhere: Option<String>) -> Result<Arc<Self>, ViewError> {
         let instrument = Instrument::build(view.spec())?;
         let told =
@@ -97,59 +98,59 @@ impl SessionHost {
         Ok(Arc::new(Self { notices, words, links, jobs, measured, playing, quiet: view.quiet }))
     }
 
-    /// A page came: it must be shown something, and learns what is refused.
+    /// Adds a page. `told` receives the reasons for which its requests are refused.
     pub fn come(&self, page: u64, told: tokio::sync::mpsc::Sender<String>) {
         lock(&self.links).insert(page, told);
         self.say(Word::Come);
     }
 
-    /// A page went.
+    /// Removes a page; its fingers are lifted.
     pub fn leave(&self, page: u64) {
         lock(&self.links).remove(&page);
         self.say(Word::Leave(page));
     }
 
-    /// Does what a page, by its number, asks for, or sees to it, in the order in which it is asked.
+    /// Passes on a command of a page, given by its number. Commands are carried out in the order in which they come.
     pub fn obey(&self, page: u64, command: Command) {
         self.say(Word::Hear(page, command));
     }
 
-    /// Says to a page, by its number, why something is refused.
+    /// Tells a page, given by its number, why a request is refused.
     pub fn refuse(&self, page: u64, why: &str) {
         refuse(&self.links, page, why);
     }
 
-    /// Takes in a surface file's text.
+    /// Replaces the surface by one read from the text of a surface file.
     ///
     /// # Errors
-    /// All its faults, as text.
+    /// All faults of the file, as text.
     pub async fn load(&self, text: String) -> Result<(), String> {
         let (answer, loaded) = tokio::sync::oneshot::channel();
         self.say(Word::Load(text, answer));
         loaded.await.unwrap_or_else(|_| Err("the program is ending".into()))
     }
 
-    /// The surface as it is, as the text of its file.
+    /// The present surface, as the text of its file.
     pub fn toml(&self) -> String {
         toml(&self.notices)
     }
 
-    /// The last act that was measured.
+    /// Files of the last focus that was computed on a page's request.
     pub fn measured(&self) -> Option<Measured> {
         lock(&self.measured).clone()
     }
 
-    /// A line on standard error.
+    /// Prints a line on standard error, unless the viewer is quiet.
     pub fn log(&self, line: &str) {
         if !self.quiet {
             eprintln!("{line}");
         }
     }
 
-    /// Ends jobs and the play; returns when the device is let go.
+    /// Stops jobs and playing; returns once the device is closed.
     ///
     /// # Errors
-    /// [`ViewError::Gone`] if the play ended before.
+    /// [`ViewError::Gone`] if the thread that plays failed before.
     pub fn close(&self) -> Result<(), ViewError> {
         self.say(Word::Stop);
         self.jobs.close();
@@ -190,7 +191,7 @@ struct Stage {
 }
 
 impl Stage {
-    /// Works until it is stopped, or until nobody is there any more.
+    /// Runs the session until it is stopped, or until nothing can send to it any more.
     fn run(mut self, words: &Receiver<Word>) {
         let mut due = Instant::now();
         let mut passed = Instant::now();
@@ -242,7 +243,7 @@ impl Stage {
         self.pass_on();
     }
 
-    /// Passes on what the session says, and what it wants done.
+    /// Passes on the session's messages and the work that it wants done.
     fn pass_on(&mut self) {
         while let Some(errand) = self.session.errand() {
             // Whoever has gone is at the program's end.

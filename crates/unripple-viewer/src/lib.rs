@@ -1,15 +1,15 @@
 //! A surface seen and touched in a browser.
 //!
-//! [`View::open`] makes a surface ready and listens; [`Viewer::serve`] serves pages until told to stop. All pages share one surface, one
-//! clock and one design: what one does, all see.
+//! [`View::open`] builds a surface and listens; [`Viewer::serve`] serves pages until told to stop. All pages share one surface, one clock
+//! and one design: a change by one page is seen on all.
 //!
 //! # In reading order
 //!
-//! A page speaks `wire`. `door` takes connections in, `lobby` has too many of them leave; `server` lets a page in if `guard` does,
-//! `link` talks with it. `host` runs the `session`, a state machine: what pages say and the time go in, what they are shown comes out.
-//! It has the `simulation`, which is the surface at work, and the `editor`, where surfaces are changed; what takes longer than a picture may
-//! wait is done beside it by `compute`. What comes of it leaves by the `outbox` for the `notices`, from which each page takes what it has
-//! not seen, as fast as it can. `jobs` are tasks that take a while: a calibration, what the doctor says.
+//! `wire` is the protocol of pages. `door` accepts connections, `lobby` limits their number; `server` answers requests that `guard` allows,
+//! and `link` serves a page's WebSocket. `host` runs the `session`, a state machine: it takes the pages' commands and the time that passes,
+//! and gives messages and pictures. The session consists of the `simulation`, which plays the surface, and the `editor`, which changes it;
+//! `compute` does beside it what takes longer than a picture may wait. Results leave through the `outbox` to the `notices`, from which each
+//! page takes those that it has not seen, as fast as it can. `jobs` are long tasks, such as a calibration or the doctor.
 
 mod assets;
 mod compute;
@@ -43,7 +43,7 @@ pub use unripple_tasks::play::Opener;
 pub use view::{View, Viewer};
 pub use wire::{Command, Edit, Job, Measure, Phase, Probe, Refused, Settings, Transport};
 
-/// Lets some time pass, for whoever waits within [`Viewer::serve`]. The time is that of the machine's own clock.
+/// Waits for some time by the machine's clock, for futures given to [`Viewer::serve`].
 pub async fn pause(time: std::time::Duration) {
     tokio::time::sleep(time).await;
 }

@@ -1,4 +1,4 @@
-//! One page's link: what it is shown, and what it asks for.
+//! One page's WebSocket link: sends it messages and pictures, and receives its commands.
 
 use crate::host::SessionHost;
 use crate::notices::Notice;
@@ -10,8 +10,8 @@ use std::time::Duration;
 use tokio::sync::mpsc::{Receiver, channel};
 use tokio::time::{Instant, MissedTickBehavior, timeout};
 
-/// Frames that may be on their way before the page says that it has drawn them. With one a distant page draws one
-/// frame for each round trip; with many it lags behind by as many.
+/// Number of frames that may be sent before the page says that it has drawn them. With one a distant page draws one frame for each round
+/// trip; with many it lags behind by as many.
 const UNSEEN: u64 = 3;
 
 /// A page that does not say what it has drawn is shown a frame this often. So a hidden page still follows, and costs
@@ -27,7 +27,7 @@ const STUCK: Duration = Duration::from_secs(20);
 const ASKED: Duration = Duration::from_secs(5);
 const UNANSWERED: u32 = 4;
 
-/// Messages a second that are listened to, refusals after which the link ends, and refusals that may wait to be sent.
+/// Largest number of messages per second, of refusals before the link is closed, and of refusals that may wait to be sent.
 const FASTEST: u32 = 600;
 const BORNE: u32 = 50;
 const WAITING: usize = 32;
@@ -35,7 +35,7 @@ const WAITING: usize = 32;
 /// The number that the next page gets: from 1, never used again.
 static GIVEN: AtomicU64 = AtomicU64::new(1);
 
-/// Serves a page until it goes.
+/// Serves a page's link until it is closed.
 pub async fn serve(mut socket: WebSocket, host: Arc<SessionHost>) {
     let page = GIVEN.fetch_add(1, Ordering::Relaxed);
     let (told, faults) = channel(WAITING);
@@ -62,10 +62,10 @@ struct Link {
     host: Arc<SessionHost>,
     page: u64,
     faults: Receiver<String>,
-    /// Of the newest text that was sent, and of the newest frame.
+    /// Version of the newest text that was sent, and of the newest frame.
     texts: u64,
     frames: u64,
-    /// Newest frame that was sent, and that was drawn, and when the former was.
+    /// Number of the newest frame that was sent, and of the newest that was drawn; when the former was sent.
     shown: u64,
     seen: u64,
     last: Instant,
@@ -169,5 +169,5 @@ async fn send(socket: &mut WebSocket, message: Message) -> bool {
     matches!(timeout(STUCK, socket.send(message)).await, Ok(Ok(())))
 }
 
-/// The longest message that is taken from a page.
+/// Longest message that is accepted from a page, in bytes.
 pub const TAKEN: usize = LONGEST;

@@ -1,4 +1,4 @@
-//! Who is connected, and who has to go when there is no room.
+//! The connections, and which are closed when there are too many.
 
 use crate::lock::lock;
 use std::collections::BTreeMap;
@@ -6,21 +6,22 @@ use std::net::{IpAddr, Ipv6Addr};
 use std::sync::{Arc, Mutex};
 use tokio::sync::Notify;
 
-/// Connections of strangers at once, in all and from one address: a browser opens six, and several may sit behind one address.
+/// Largest number of connections that have not been admitted yet, in all and from one address: a browser opens six, and several may sit
+/// behind one address.
 const STRANGERS: usize = 128;
 const STRANGERS_EACH: usize = 32;
 
-/// Connections at once of those that may come in and hold no page's link: what browsers keep open for the next file.
+/// Largest number of admitted connections that hold no page's link: what browsers keep open for the next file.
 const GUESTS: usize = 128;
 
-/// What a connection has shown.
+/// Standing of a connection, by the requests that it has made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Standing {
-    /// Nothing so far: anybody may have opened it.
+    /// No request was allowed so far: anybody may have opened it.
     Stranger,
-    /// That it may come in.
+    /// A request of it was allowed.
     Guest,
-    /// That it is a page's link. How many there may be is counted elsewhere.
+    /// It is a page's link. How many there may be is counted elsewhere.
     Page,
 }
 
@@ -31,14 +32,14 @@ struct Seated {
     cut: Arc<Notify>,
 }
 
-/// All connections, the oldest first. There is always room for one more: where there are too many of a kind the oldest of that kind goes,
-/// so that those who say nothing never keep out those who do. Whoever has shown that he may come in never goes for a stranger.
+/// All connections, the oldest first. A new one is always accepted: if there are too many of a kind, the oldest of that kind is closed, so
+/// that silent connections never keep out others. An admitted connection is never closed for one that is not admitted.
 #[derive(Debug, Default)]
 pub struct Lobby {
     seats: Mutex<(u64, BTreeMap<u64, Seated>)>,
 }
 
-/// A connection's place; given back when it is dropped.
+/// A connection's entry in the lobby, which is removed when this is dropped.
 #[derive(Debug)]
 pub struct Seat {
     lobby: Arc<Lobby>,
@@ -47,7 +48,7 @@ pub struct Seat {
 }
 
 impl Lobby {
-    /// A connection came from an address.
+    /// Adds a connection from an address, and closes another if there are too many.
     pub fn enter(self: &Arc<Self>, address: IpAddr) -> Seat {
         let (network, cut) = (network(address), Arc::new(Notify::new()));
         let mut seats = lock(&self.seats);
@@ -60,7 +61,7 @@ impl Lobby {
         Seat { lobby: self.clone(), number: *given, cut }
     }
 
-    /// Connections there are.
+    /// Number of connections.
     #[cfg(test)]
     fn count(&self) -> usize {
         lock(&self.seats).1.len()
@@ -68,7 +69,7 @@ impl Lobby {
 }
 
 impl Seat {
-    /// Notes that the connection has shown that it may come in.
+    /// Notes that a request of the connection was allowed.
     pub fn admit(&self) {
         self.rise(Standing::Guest);
         let seats = &mut lock(&self.lobby.seats).1;
@@ -87,7 +88,7 @@ impl Seat {
         self.rise(Standing::Page);
     }
 
-    /// Resolves when the connection has to go.
+    /// Resolves when the connection must be closed.
     pub async fn cut(&self) {
         self.cut.notified().await;
     }

@@ -1,4 +1,4 @@
-//! What pages are sent of the surface and of how it is played.
+//! Messages to pages on the surface and on its playing options.
 
 use crate::edition::Edition;
 use crate::simulation::{CELLS, Cells, Instrument, PULSES};
@@ -15,7 +15,7 @@ use unripple_store::{builtin_effects, to_toml};
 /// Points along each rim that is drawn: at the size of a screen a circle of so many looks round.
 const RIM: usize = 256;
 
-/// What does not change with the surface.
+/// Values in messages that do not change with the surface.
 #[derive(Clone, Debug)]
 pub struct Settled {
     /// Name of the surface's file or library.
@@ -26,7 +26,7 @@ pub struct Settled {
     pub address: Option<String>,
 }
 
-/// The message on a surface.
+/// The message that describes a surface, as JSON; lengths in mm.
 pub fn surface(edition: &Edition, (undo, redo): (bool, bool), source: &str, library: bool) -> Value {
     let surface = &edition.surface;
     let lambda = Medium::of(&surface.sheet).lambda_min(surface.emission.band[1]);
@@ -89,7 +89,7 @@ fn unit(kind: &ActuatorKind) -> &'static str {
     unripple::act::unit(kind)
 }
 
-/// What can be edited by a slider.
+/// Values that pages can edit.
 fn values(surface: &Surface) -> Value {
     let (shape, size) = match &surface.outline.shape {
         Shape::Rectangle { width, height } => ("rectangle", vec![*width, *height]),
@@ -122,7 +122,7 @@ fn values(surface: &Surface) -> Value {
     })
 }
 
-/// The message on how a surface is played.
+/// The message on the playing options of a surface, as JSON.
 pub fn settings(told: &Settled, instrument: &Instrument) -> Value {
     let spec = &instrument.spec;
     let method = |method: Method| json!({ "name": method.name(), "needs_modes": !method.reverses() });

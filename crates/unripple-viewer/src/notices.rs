@@ -7,17 +7,17 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use tokio::sync::watch;
 
-/// Something that is to be shown to all pages.
+/// A message or picture for all pages.
 #[derive(Clone, Debug)]
 pub enum Notice {
     /// A message as JSON.
     Text(Arc<str>),
-    /// A picture of the field.
+    /// A picture of the field as encoded bytes, and its number.
     Frame(Bytes, u64),
 }
 
-/// What all pages are to be shown: of each kind of thing the newest. A page takes what it has not seen when it has time, so that a slow
-/// one misses some and keeps nobody waiting.
+/// The newest message or picture of each kind. Each page takes those that it has not seen when it has time, so that a slow page misses some
+/// and delays no one.
 #[derive(Debug)]
 pub struct Notices {
     posted: Mutex<BTreeMap<String, (u64, Notice)>>,
@@ -25,7 +25,7 @@ pub struct Notices {
     viewers: AtomicUsize,
 }
 
-/// A page that is there.
+/// A page that is counted as open until this is dropped.
 #[derive(Debug)]
 pub struct Viewing {
     notices: Arc<Notices>,
@@ -38,13 +38,13 @@ impl Drop for Viewing {
 }
 
 impl Notices {
-    /// Notices of which there are none yet.
+    /// An empty set of notices.
     pub fn new() -> Self {
         let (version, _) = watch::channel(0);
         Self { posted: Mutex::new(BTreeMap::new()), version, viewers: AtomicUsize::new(0) }
     }
 
-    /// Puts a notice in place of the last of its kind. Never waits for a page.
+    /// Stores a notice in place of the last one of its kind. Never waits for a page.
     pub fn post(&self, kind: &str, notice: Notice) {
         let mut posted = lock(&self.posted);
         // Under the same lock, so that no two notices share a version.
@@ -53,7 +53,7 @@ impl Notices {
         self.version.send_replace(version);
     }
 
-    /// Puts up a message as JSON.
+    /// Stores a message as JSON, in place of the last one of its kind.
     pub fn tell(&self, kind: &str, message: &impl serde::Serialize) {
         // A message is made of numbers and names: always JSON.
         if let Ok(text) = serde_json::to_string(message) {
@@ -61,13 +61,12 @@ impl Notices {
         }
     }
 
-    /// Takes a notice away.
+    /// Removes the notice of a kind.
     pub fn withdraw(&self, kind: &str) {
         lock(&self.posted).remove(kind);
     }
 
-    /// All that was put up after a version, a number that rises with each notice; oldest first, each with its
-    /// version.
+    /// All notices newer than a version, oldest first, each with its version: a number that rises with each notice.
     pub fn since(&self, version: u64) -> Vec<(u64, Notice)> {
         let posted = lock(&self.posted);
         let mut fresh: Vec<(u64, Notice)> =
@@ -76,17 +75,17 @@ impl Notices {
         fresh
     }
 
-    /// The newest of a kind.
+    /// The newest notice of a kind.
     pub fn newest(&self, kind: &str) -> Option<Notice> {
         lock(&self.posted).get(kind).map(|(_, notice)| notice.clone())
     }
 
-    /// Follows the version, a number that rises whenever something is put up.
+    /// Channel that follows the version of the newest notice.
     pub fn watch(&self) -> watch::Receiver<u64> {
         self.version.subscribe()
     }
 
-    /// A page comes, unless there are so many already; it is there until what is returned is dropped.
+    /// Counts one more open page, unless there are `most` already; it counts until what is returned is dropped.
     pub fn enter(self: &Arc<Self>, most: usize) -> Option<Viewing> {
         let one_more = |viewers| (viewers < most).then_some(viewers + 1);
         self.viewers.fetch_update(Ordering::Relaxed, Ordering::Relaxed, one_more).ok()?;

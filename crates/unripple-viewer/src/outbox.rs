@@ -1,11 +1,11 @@
-//! Messages and pictures for pages, on their way out of the session.
+//! Messages and pictures of the session for pages, before they are sent.
 
 use serde::Serialize;
 
-/// Files of the last act that was measured.
+/// Files of the last focus that was computed on a page's request.
 #[derive(Clone, Debug, Default)]
 pub struct Measured {
-    /// The number that the page gave it.
+    /// The page's own number for the request.
     pub id: u64,
     /// Bytes of the file `drive.wav`.
     pub drive: Vec<u8>,
@@ -18,24 +18,24 @@ pub struct Measured {
 /// One message of the session to pages.
 #[derive(Clone, Debug)]
 pub enum Out {
-    /// JSON for all pages, in place of the last of its kind.
+    /// Kind and JSON text for all pages, in place of the last message of that kind.
     Text(String, String),
-    /// A picture of the field for all pages, in place of the last of its kind, and its number.
+    /// Kind, bytes and number of a picture for all pages, in place of the last picture of that kind.
     Frame(String, Vec<u8>, u64),
-    /// The last message of a kind holds no longer.
+    /// Kind of the messages whose last one is not valid any more.
     Withdraw(String),
-    /// Why what one page asked for is refused.
+    /// Number of a page, and the reason for which its request is refused.
     Refuse(u64, String),
-    /// Files of an act that was measured.
+    /// Files of a focus that was computed on a page's request.
     Measured(Box<Measured>),
 }
 
-/// Messages, oldest first.
+/// Messages to pages, the oldest first.
 #[derive(Debug, Default)]
 pub struct Outbox(Vec<Out>);
 
 impl Outbox {
-    /// JSON for all pages.
+    /// Adds a message as JSON for all pages.
     pub fn tell(&mut self, kind: &str, message: &impl Serialize) {
         // A message is made of numbers and names: always JSON.
         if let Ok(text) = serde_json::to_string(message) {
@@ -43,17 +43,17 @@ impl Outbox {
         }
     }
 
-    /// A picture for all pages.
+    /// Adds a picture for all pages, with its number.
     pub fn frame(&mut self, kind: String, bytes: Vec<u8>, number: u64) {
         self.0.push(Out::Frame(kind, bytes, number));
     }
 
-    /// The last message of a kind holds no longer.
+    /// Withdraws the last message of a kind.
     pub fn withdraw(&mut self, kind: &str) {
         self.0.push(Out::Withdraw(kind.to_owned()));
     }
 
-    /// Says to one page, by its number, why what it asked for is refused.
+    /// Tells one page, given by its number, why its request is refused.
     pub fn refuse(&mut self, page: u64, why: impl Into<String>) {
         self.0.push(Out::Refuse(page, why.into()));
     }
@@ -63,7 +63,7 @@ impl Outbox {
         self.0.push(out);
     }
 
-    /// All messages, which leave.
+    /// Takes out all messages.
     pub fn take(&mut self) -> Vec<Out> {
         std::mem::take(&mut self.0)
     }

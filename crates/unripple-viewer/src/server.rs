@@ -1,4 +1,4 @@
-//! What can be asked over HTTP.
+//! Answers to HTTP requests.
 
 use crate::assets;
 use crate::guard::{Guard, Needs, Turned};
@@ -20,26 +20,26 @@ use tokio::time::timeout;
 /// Bytes of the largest surface file that is taken. A surface file has a few kilobytes.
 const LARGEST: usize = 256 << 10;
 
-/// How long a file may take to come. As long as a poor network takes for the largest.
+/// How long an upload may take: as long as a poor network takes for the largest file.
 const SENT: Duration = Duration::from_secs(20);
 
-/// Pages at once, a classroom's and more; one too many is refused with the reason.
+/// Largest number of open pages, a classroom's and more; one too many is refused with the reason.
 const MOST_PAGES: usize = 64;
 
 /// What a page may load: its own files alone.
 const POLICY: &str = "default-src 'self'; img-src 'self' blob: data:; object-src 'none'; base-uri 'none'; form-action 'none'; \
     frame-ancestors 'none'";
 
-/// What every request needs.
+/// State that the handlers of all requests share.
 #[derive(Clone)]
 pub struct Desk {
     /// The session that all pages share.
     pub host: Arc<SessionHost>,
-    /// Who may come in.
+    /// The rules of access.
     pub guard: Guard,
 }
 
-/// Everything that can be asked for.
+/// Router of all requests, behind the checks of access.
 pub fn router(desk: Desk) -> Router {
     Router::new()
         .route("/", get(|headers: HeaderMap| async move { file("index.html", &headers) }))
@@ -56,7 +56,7 @@ pub fn router(desk: Desk) -> Router {
         .with_state(desk)
 }
 
-/// Turns away whoever may not come in, and says what answers may be used for.
+/// Refuses requests that are not allowed, and adds security headers to answers.
 async fn guard(State(desk): State<Desk>, request: Request, next: Next) -> Response {
     let path = request.uri().path();
     // The page's own files are no secret, and its modules cannot name a token to one another.

@@ -1,6 +1,5 @@
-//! The state that all pages share, as a state machine: what pages say and the time go in, what they are to be shown
-//! and what is to be computed beside it comes out. It knows of no thread, clock or network: whoever runs it has
-//! those.
+//! The state that all pages share, as a state machine. It takes the pages' commands and the time that passes; it gives messages, pictures
+//! and work to be done beside it. It uses no thread, clock or network: whoever runs it provides them.
 
 use crate::ViewError;
 use crate::compute::{ComputeWorker, Found, Queue, Responder, Task};
@@ -13,32 +12,32 @@ use crate::wire::Command;
 use std::sync::Arc;
 use unripple::core::Point;
 
-/// Something that takes longer than a picture may wait. It is done wherever there is room, one of each kind at a time.
+/// Work that takes longer than a picture may wait. It is done on other threads, one of each kind at a time.
 pub enum Errand {
-    /// A surface is to be made ready to be played: [`build`](Self::build) does it.
+    /// Build the instrument that plays a surface: [`build`](Self::build) does it.
     Build(Box<Spec>),
-    /// Figures are to be computed, by the session's [`ComputeWorker`].
+    /// Compute figures, by the session's [`ComputeWorker`].
     Compute(Task),
 }
 
 /// Result of an errand.
 pub enum Done {
-    /// A surface that is ready, or why it cannot be.
+    /// An instrument that was built, or the reason why it cannot be.
     Built(Result<Box<Instrument>, String>),
-    /// Something was found.
+    /// One result of a computation.
     Found(Found),
-    /// All of a task's was found.
+    /// The computation is complete.
     Computed,
 }
 
 impl Errand {
-    /// Makes a surface ready.
+    /// Builds the instrument of a specification.
     pub fn build(spec: Box<Spec>) -> Done {
         Done::Built(Instrument::build(*spec).map(Box::new).map_err(|error| error.to_string()))
     }
 }
 
-/// The state that all pages share.
+/// The state that all pages share: simulation, editor and messages.
 pub struct Session {
     simulation: Simulation,
     editor: Editor,
@@ -50,7 +49,7 @@ pub struct Session {
 }
 
 impl Session {
-    /// A session on a surface that is ready.
+    /// A session that plays an instrument.
     pub fn new(instrument: Instrument, told: Settled) -> Self {
         let editor = Editor::new(&instrument, told);
         let mut out = Outbox::default();
@@ -63,24 +62,23 @@ impl Session {
         session
     }
 
-    /// What computes figures for it; `known` is what the first surface is called on the command line, the responses of its library, and why
-    /// nobody knows what those mean.
+    /// The worker that computes figures for this session. `known` is the name of the first surface on the command line, the responses of
+    /// its library, and the reason why their scale is unknown.
     pub fn compute(&self, known: (String, Option<Responder>, Option<String>)) -> ComputeWorker {
         ComputeWorker::new(known, self.editions.newest())
     }
 
-    /// A page came: it must be shown something.
+    /// Notes that a page came, which must be shown a picture.
     pub fn come(&mut self) {
         self.simulation.obey(Order::Look, &mut self.out);
     }
 
-    /// A page went: its fingers are lifted.
+    /// Notes that a page went; its fingers are lifted.
     pub fn leave(&mut self, page: u64) {
         self.simulation.obey(Order::Leave(page), &mut self.out);
     }
 
-    /// Does what a page asks for, or sees to it. What concerns its link or the machine alone is not for the session.
-    /// Pages are numbered from 1.
+    /// Carries out a command of a page; pages are numbered from 1. Commands for the link or for jobs are ignored here.
     pub fn hear(&mut self, page: u64, command: Command) {
         match command {
             Command::Touch { finger, phase, at_mm: [x, y] } => {
@@ -127,23 +125,24 @@ impl Session {
         }
     }
 
-    /// Takes in a surface file's text; pages are sent the surface at once.
+    /// Replaces the surface by one read from the text of a surface file; pages are sent it at once.
     ///
     /// # Errors
-    /// All its faults, as text.
+    /// All faults of the file, as text.
     pub fn load(&mut self, text: &str) -> Result<(), String> {
         self.editor.load(text)?;
         self.renew();
         Ok(())
     }
 
-    /// Lets so many seconds of the page pass. The surface goes on while there is time for `more`, and so many pages look at it.
+    /// Lets `seconds` of the pages' time pass. The surface is stepped as long as `more` returns true; `viewers` is the number of open
+    /// pages.
     pub fn advance(&mut self, seconds: f64, viewers: usize, more: &mut dyn FnMut() -> bool) {
         self.renew();
         self.simulation.advance(seconds, viewers, more, &mut self.out);
     }
 
-    /// The next task that is to be done beside the session, if there is one.
+    /// The next work to be done beside the session, if there is any.
     pub fn errand(&mut self) -> Option<Errand> {
         self.renew();
         if let Some(spec) = self.editor.wanted() {
@@ -154,7 +153,7 @@ impl Session {
         task.map(Errand::Compute)
     }
 
-    /// Takes over what an errand brought.
+    /// Takes in the result of an errand.
     pub fn done(&mut self, done: Done) {
         match done {
             Done::Built(Ok(instrument)) => {
@@ -169,7 +168,7 @@ impl Session {
         }
     }
 
-    /// Messages and pictures for pages, oldest first; they leave.
+    /// Takes out the messages and pictures for pages, the oldest first.
     pub fn take(&mut self) -> Vec<Out> {
         self.out.take()
     }
@@ -184,7 +183,7 @@ impl Session {
         }
     }
 
-    /// Has something computed of the surface that a page shows.
+    /// Queues a computation for the surface that a page shows.
     fn ask(&mut self, page: u64, edit: Option<u64>, task: impl FnOnce(Arc<Edition>) -> Task) {
         // What was edited just before can be asked about.
         self.renew();
@@ -200,7 +199,7 @@ impl Session {
         }
     }
 
-    /// Pages are sent a surface that was edited, and its figures are to be computed.
+    /// If the surface was edited, sends it to the pages, and queues the computation of its figures.
     pub fn renew(&mut self) {
         if let Some(edition) = self.editor.renew(&mut self.editions, &mut self.out) {
             self.wait(Task::Design(edition));

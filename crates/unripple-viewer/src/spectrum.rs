@@ -1,18 +1,19 @@
-//! Spectrum of an act in bands.
+//! Spectra of a focus's drive and of the motion at its targets, in bands.
 
 use serde_json::{Value, json};
 use unripple::act::Acted;
 use unripple::dsp::band_energies;
 
-/// Bands that are drawn, up to so many times the top of the surface's band. A few pixels wide each in a panel of the
-/// page.
+/// Number of bands that are drawn, a few pixels wide each in a panel of the page, and their upper end as a multiple of
+/// the top of the surface's band.
 const BANDS: usize = 120;
 const BEYOND: f64 = 1.5;
 
 /// Levels below this, in dB, are drawn as this.
 const FLOOR: f64 = -120.0;
 
-/// The spectrum of an act: levels in bands of equal width, each channel's and target's over its strongest, in dB.
+/// The spectra of a focus as JSON: levels in bands of equal width, of each channel of the drive and each target's
+/// velocity, relative to its strongest band, in dB.
 pub fn spectrum(acted: &Acted, top_hz: f64) -> Value {
     let rate = acted.drive.rate();
     let top = (BEYOND * top_hz).min(rate / 2.0);

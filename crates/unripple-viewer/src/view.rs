@@ -1,4 +1,4 @@
-//! What is to be shown and to whom, and the server that shows it.
+//! Options of the viewer, and the server that runs it.
 
 use crate::ViewError;
 use crate::compute::Responder;
@@ -24,37 +24,37 @@ const RATE: f64 = 10.0;
 /// Threads that serve pages: one, so that serving never takes a core from the simulation.
 const THREADS: usize = 1;
 
-/// What is to be shown, and to whom.
+/// Options of the viewer: the surface to show, how it is played, and who may connect.
 pub struct View {
     /// The surface that is shown.
     pub surface: Surface,
-    /// Responses of the surface, where they were measured.
+    /// Measured responses of the surface; computed ones are used where `None`.
     pub stored: Option<Arc<SampledResponses>>,
     /// Reason for which the scale of the responses is not known, if it is not.
     pub without_scale: Option<String>,
-    /// Responses of its library at any places, as the command line has them.
+    /// Function that gives responses of the surface's library at any places, as the command line has them.
     pub respond: Option<Responder>,
     /// Name of the surface on the command line.
     pub source: String,
-    /// How drives are made at first.
+    /// Focusing method to begin with; pages can change it.
     pub method: Method,
-    /// A real device; the surface is simulated where `None`.
+    /// Function that opens a real device; the surface is simulated where `None`.
     pub device: Option<Opener>,
-    /// How the sheet's tension is followed, if it is.
+    /// Function that makes the follower of the sheet's tension, if it is to be followed.
     pub follow: Option<Follow>,
     /// Name of the device, for people.
     pub device_name: String,
     /// Address to listen at; port 0 takes any that is free.
     pub address: SocketAddr,
-    /// Token that pages must know; `None` where only this machine can come.
+    /// Token that the page's URL must hold; `None` where only this machine can connect.
     pub token: Option<String>,
-    /// Folder for libraries.
+    /// Folder for libraries that are calibrated from the page.
     pub folder: PathBuf,
-    /// Whether to be silent about what is refused.
+    /// Whether to print nothing about requests that are refused.
     pub quiet: bool,
 }
 
-/// A viewer that listens.
+/// A viewer that listens for connections.
 pub struct Viewer {
     listener: TcpListener,
     desk: Desk,
@@ -62,10 +62,10 @@ pub struct Viewer {
 }
 
 impl View {
-    /// Makes the surface ready and listens.
+    /// Builds the instrument of the surface, and listens for connections.
     ///
     /// # Errors
-    /// [`ViewError::Address`] if nobody can listen there; those of the surface.
+    /// [`ViewError::Address`] if the server cannot listen at the address; those of the surface and the device.
     pub fn open(self) -> Result<Viewer, ViewError> {
         let refused = |why: &dyn std::fmt::Display| ViewError::Address {
             address: self.address.to_string(),
@@ -81,7 +81,7 @@ impl View {
         Ok(Viewer { listener, desk: Desk { host, guard }, runtime })
     }
 
-    /// What is played at first.
+    /// Specification of the instrument to begin with.
     pub(crate) fn spec(&self) -> Spec {
         Spec {
             surface: self.surface.clone(),
@@ -99,20 +99,20 @@ impl View {
 }
 
 impl Viewer {
-    /// The address to open in a browser of this machine, the token in it.
+    /// URL to open in a browser on this machine, including the token.
     pub fn url(&self) -> String {
         self.desk.guard.url()
     }
 
-    /// The address to open on another machine of the network, where such are listened to.
+    /// URL to open on another machine of the network; `None` if only this machine can connect.
     pub fn elsewhere(&self) -> Option<String> {
         self.desk.guard.elsewhere()
     }
 
-    /// Serves pages until `stop` is done. Then connections are cut, jobs ended, and the device let go.
+    /// Serves pages until the future `stop` is ready. Then connections are cut, jobs stopped, and the device is closed.
     ///
     /// # Errors
-    /// [`ViewError::Gone`] if the surface ended before.
+    /// [`ViewError::Gone`] if the thread that plays the surface failed before.
     pub fn serve(self, stop: impl Future<Output = ()>) -> Result<(), ViewError> {
         let Self { listener, desk, runtime } = self;
         let host = desk.host.clone();

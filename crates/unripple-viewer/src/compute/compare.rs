@@ -1,4 +1,4 @@
-//! Two methods of focusing on the same touch, side by side.
+//! Comparison of two focusing methods on the same targets, side by side.
 
 use super::{ComputeWorker, Found, Hear, method, options, places, tell, text};
 use crate::edition::Edition;
@@ -11,7 +11,8 @@ use unripple::focus::{Method, Target};
 use unripple::physics::Modes;
 
 impl ComputeWorker {
-    /// Measures two methods on the same touch, each brought to the same peak, and has both shown side by side.
+    /// Evaluates two methods on the same targets, each brought to the same peak, and sends both to be shown side by
+    /// side.
     pub(super) fn compare(
         &mut self,
         at: &[[f64; 2]],

@@ -16,7 +16,8 @@ const ACROSS: usize = 24;
 const PLACE: [f64; 2] = [62.0 / 150.0, 0.6];
 
 impl ComputeWorker {
-    /// Computes and tells what a surface can do, the quickest first; what another edit overtakes is left.
+    /// Computes the design figures of a surface and sends them, the quickest first; stops when a newer edit has been
+    /// made.
     pub(super) fn design(&mut self, edition: &Edition, hear: &mut Hear) {
         let surface = &edition.surface;
         let mut told = Stage::new(edition.edit);

@@ -1,4 +1,4 @@
-//! An act of focusing, with every figure that the command line has.
+//! Computation and evaluation of a focus, with every figure that the command line has.
 
 use super::{ComputeWorker, Found, Hear, given, method, options, places, tell, text};
 use crate::edition::Edition;
@@ -17,7 +17,7 @@ use unripple_store::encode_wav;
 const DRAWN: usize = 480;
 
 impl ComputeWorker {
-    /// Measures one act, and tells all figures of it.
+    /// Computes and evaluates a focus, and sends all figures of it.
     pub(super) fn measure(&mut self, measure: &Measure, of: &Edition, hear: &mut Hear) -> Result<(), String> {
         let began = Instant::now();
         let places = places(&measure.at);
@@ -64,7 +64,7 @@ impl ComputeWorker {
     }
 }
 
-/// What to type for the same act.
+/// The command line that computes the same focus.
 fn command(source: &str, measure: &Measure, method: Method) -> String {
     let mut command = format!("unripple focus {source}");
     for [x, y] in &measure.at {

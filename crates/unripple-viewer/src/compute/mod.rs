@@ -1,4 +1,4 @@
-//! Where figures are computed, as the command line computes them: what takes longer than a picture may wait, done beside the session.
+//! Computations on a thread beside the session, with the results of the command line: what takes longer than a picture may wait.
 
 mod compare;
 mod design;
@@ -18,68 +18,69 @@ use unripple::core::{Point, Responses, Surface};
 use unripple::drafting::Draft;
 use unripple::focus::{Method, Options};
 
-/// What a surface is called on the command line that is none of those it knows: as its file is saved.
+/// Name on the command line of a surface that was edited on the page: that of the file in which it is saved.
 const SAVED: &str = "surface.toml";
 
-/// The responses of a library at some places.
+/// Function that gives the responses of a library at some places (m), or says in words why it cannot.
 pub type Responder = Arc<dyn Fn(&[Point]) -> Result<Responses, String> + Send + Sync>;
 
-/// What is to be computed. An act is of the surface that was shown where it was asked for, whatever has become of it meanwhile.
+/// A computation that a page asks for. A focus is computed for the surface that the page showed, even if it has been edited since.
 pub enum Task {
-    /// The figures of a surface.
+    /// The design figures of a surface.
     Design(Arc<Edition>),
-    /// One act of focusing, with all its figures.
+    /// A focus, computed and evaluated with all figures.
     Measure {
         /// Targets, method and level.
         measure: Measure,
-        /// Of which surface.
+        /// The surface that the page showed.
         of: Arc<Edition>,
         /// The page that asked.
         page: u64,
     },
-    /// Two methods on the same touch.
+    /// Two focusing methods on the same targets.
     Compare {
-        /// Where, in mm.
+        /// Places of the targets, in mm.
         at: Vec<[f64; 2]>,
         /// Names of the two methods.
         methods: Vec<String>,
-        /// The window, in ms; 0 or nothing for the surface's own.
+        /// The window, in ms; 0 or `None` for the recommended one.
         window_ms: Option<f64>,
-        /// Of which surface.
+        /// The surface that the page showed.
         of: Arc<Edition>,
         /// The page that asked.
         page: u64,
     },
 }
 
-/// What the worker finds.
+/// A result of the worker.
 pub enum Found {
     /// A message for pages.
     Out(Out),
-    /// Two acts side by side, to be played.
+    /// Two simulated drives, to be shown side by side.
     Replay(Box<Replay>),
 }
 
-/// Whoever hears at once what is found.
+/// Callback that receives each result at once.
 pub type Hear<'a> = dyn FnMut(Found) + 'a;
 
-/// Computes figures, and keeps what the next ones need too.
+/// Worker that computes figures, and keeps intermediate results for the next ones.
 pub struct ComputeWorker {
-    /// What the surface is called on the command line, and the responses of a library: both of the surface before any edit.
+    /// Name of the surface on the command line, and the responses of its library: both of the surface before any edit.
     source: String,
     stored: Option<Responder>,
-    /// Why nobody knows what those responses mean, if nobody does.
+    /// Reason why the scale of those responses is unknown, if it is.
     without_scale: Option<String>,
     /// The surface that was worked on last, by its edit.
     draft: Option<(u64, Arc<Draft>)>,
-    /// Where the last act was.
+    /// Place of the last focus.
     place: Option<Point>,
     /// The newest edit of the surface.
     newest: Arc<AtomicU64>,
 }
 
 impl ComputeWorker {
-    /// A worker for a surface, by its name, and its library, if it has one; `newest` is the edit that pages see.
+    /// A worker for a surface: its name, the responses of its library if it has one, and the reason why their scale is unknown if it is;
+    /// `newest` is the number of the edit that pages see.
     pub fn new(
         (source, stored, without_scale): (String, Option<Responder>, Option<String>),
         newest: Arc<AtomicU64>,
@@ -87,7 +88,7 @@ impl ComputeWorker {
         Self { source, stored, without_scale, draft: None, place: None, newest }
     }
 
-    /// Does a task.
+    /// Performs a task, and passes its results to `hear`.
     pub fn work(&mut self, task: Task, hear: &mut Hear) {
         let (page, done) = match task {
             Task::Design(edition) => return self.design(&edition, hear),
@@ -102,27 +103,27 @@ impl ComputeWorker {
         }
     }
 
-    /// Whether pages see another surface by now.
+    /// Whether the surface has been edited again since.
     fn is_overtaken(&self, edition: &Edition) -> bool {
         self.newest.load(Ordering::Relaxed) > edition.edit
     }
 
-    /// What a surface is called on the command line.
+    /// Name of a surface on the command line.
     fn source(&self, of: &Edition) -> &str {
         if of.edit == 0 { &self.source } else { SAVED }
     }
 
-    /// Why lengths and velocities on a surface mean nothing, if they do not.
+    /// Reason why absolute lengths and velocities on a surface are unknown, if they are.
     fn unscaled(&self, of: &Edition) -> Option<&str> {
         self.without_scale.as_deref().filter(|_| of.edit == 0)
     }
 
-    /// A report without what nobody knows.
+    /// The report, without absolute levels where these are unknown.
     fn known_of(&self, report: Report, of: &Edition) -> Report {
         if self.unscaled(of).is_some() { report.without_scale() } else { report }
     }
 
-    /// The modes of a surface, and what stands on them.
+    /// The modes of a surface, and figures computed from them.
     fn draft(&mut self, of: &Edition) -> Result<Arc<Draft>, ActError> {
         if let Some((_, draft)) = self.draft.as_ref().filter(|(edit, _)| *edit == of.edit) {
             return Ok(draft.clone());
@@ -132,7 +133,7 @@ impl ComputeWorker {
         Ok(draft)
     }
 
-    /// The window in s that is asked for, or else the recommended one and the note that says why it is that.
+    /// The window in s that is asked for, or else the recommended one with a note on the reason for it.
     fn window(&self, of: &Edition, responses: &Responses, asked: Option<f64>) -> (f64, Option<Note>) {
         if let Some(seconds) = asked {
             return (seconds, None);
@@ -149,7 +150,7 @@ impl ComputeWorker {
         (seconds, Some(Note { topic: "window", text }))
     }
 
-    /// The responses of a surface, which hold some places.
+    /// Responses of a surface that include some places.
     fn known(&mut self, of: &Edition, places: &[Point]) -> Result<Arc<Responses>, String> {
         self.place = places.first().copied();
         if let Some(stored) = self.stored.as_ref().filter(|_| of.edit == 0) {
@@ -159,7 +160,7 @@ impl ComputeWorker {
     }
 }
 
-/// The options of an act, as the command line makes them.
+/// The options of a focus, as the command line makes them.
 fn options(surface: &Surface, method: Method, window: f64) -> Options {
     let (limit, rms_limit) = (surface.emission.limit, surface.emission.rms_limit);
     Options { method, window, limit, rms_limit, ..Options::default() }

@@ -3,7 +3,7 @@
 use super::Task;
 use std::collections::VecDeque;
 
-/// Acts to be measured or compared that may wait. Surfaces are not counted: of them one waits at most.
+/// Largest number of computations of a focus that may wait. Design figures are not counted: of these one waits at most.
 const MOST: usize = 16;
 
 /// Tasks to be computed, in the order in which they were asked for.
@@ -13,11 +13,11 @@ pub struct Queue {
 }
 
 impl Queue {
-    /// One more task. A surface takes the place of one that waits, and is never refused itself: what pages show would stay without
-    /// figures. An act too many is refused.
+    /// Adds a task. Design figures take the place of those that wait for an earlier edit, and are never refused: pages would have no
+    /// figures of the surface that they show. A focus is refused if too many wait.
     ///
     /// # Errors
-    /// Why it is refused, and the page that asked for it.
+    /// The page that asked for the refused task, and the reason.
     pub fn push(&mut self, task: Task) -> Result<(), (u64, &'static str)> {
         match &task {
             Task::Design(_) => self.waiting.retain(|other| !matches!(other, Task::Design(_))),
@@ -32,7 +32,7 @@ impl Queue {
         Ok(())
     }
 
-    /// The next task.
+    /// Removes the next task from the queue.
     pub fn next(&mut self) -> Option<Task> {
         self.waiting.pop_front()
     }

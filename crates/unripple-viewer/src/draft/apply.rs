@@ -1,10 +1,11 @@
-//! A surface with an edit applied.
+//! Applies an edit to a surface.
 
 use super::places;
 use crate::wire::Edit;
 use unripple::core::{Decay, Edge, Edges, Material, Outline, Point, Shape, Surface};
 
-/// A surface with changes. What they make of it is checked by whoever asks: names that do not exist go through as they are.
+/// Returns a surface with an edit applied. The result is not checked here: names that do not exist change nothing or are copied as they
+/// are.
 pub fn apply(surface: &Surface, edit: &Edit) -> Surface {
     let mut surface = surface.clone();
     sheet(&mut surface, edit);
@@ -52,7 +53,7 @@ fn shape(edit: &Edit) -> Option<Shape> {
     rectangle.or(circle).or(stadium)
 }
 
-/// An edge by name.
+/// The edge condition of a name: clamped, supported or free.
 pub fn edge(name: &str) -> Option<Edge> {
     match name {
         "clamped" => Some(Edge::Clamped),
@@ -62,7 +63,7 @@ pub fn edge(name: &str) -> Option<Edge> {
     }
 }
 
-/// Gives the sheet another outline; actuators go along in proportion, and onto the sheet where they would not be.
+/// Gives the sheet another outline. Actuators are moved in proportion, and onto the sheet where they would lie beside it.
 fn reshape(surface: &mut Surface, shape: Shape) {
     let (width, height) = surface.outline.extent();
     let edges = match &surface.outline.edges {

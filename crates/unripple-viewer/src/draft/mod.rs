@@ -1,4 +1,4 @@
-//! The surface that is being designed: edits, and the way back.
+//! The surface that is being designed: edits, undo and redo.
 
 mod apply;
 mod places;
@@ -14,10 +14,10 @@ use unripple_store::{parse_surface, to_toml};
 /// Shortest length of an outline that is drawn at all, in mm; other limits are those of the surface file.
 const LEAST_MM: f64 = 0.1;
 
-/// Surfaces that can be gone back to; the oldest go first. Each is a few kilobytes.
+/// Largest number of undo steps; the oldest are dropped. Each is a few kilobytes.
 const MOST: usize = 200;
 
-/// A surface, and those it was before.
+/// A surface that is edited, with its earlier states for undo and redo.
 ///
 /// ```
 /// use unripple_viewer::{Draft, Edit};
@@ -48,16 +48,16 @@ impl Draft {
         &self.surface
     }
 
-    /// Whether there is a way back, and one forth.
+    /// Whether an edit can be undone, and whether one can be redone.
     pub fn ways(&self) -> (bool, bool) {
         (!self.past.is_empty(), !self.future.is_empty())
     }
 
-    /// Changes it; edits that are not settled are one with the next.
+    /// Applies an edit. Edits that are not settled, as during a drag, form one undo step with the next settled one.
     ///
     /// # Errors
-    /// [`ViewError::Range`] for names and actuators that there are not, [`ViewError::Store`] with all faults of the surface that it would
-    /// be; it stays as it was.
+    /// [`ViewError::Range`] for names and actuators that do not exist; [`ViewError::Store`] with all faults that the edited surface would
+    /// have. The surface then stays as it was.
     pub fn edit(&mut self, edit: &Edit) -> Result<(), ViewError> {
         known(edit, self.surface.actuators.len())?;
         let edited = checked(&apply(&self.surface, edit))?;
@@ -71,14 +71,14 @@ impl Draft {
         Ok(())
     }
 
-    /// Goes over to another surface, with a way back.
+    /// Replaces the surface by another one, as one undo step.
     pub fn replace(&mut self, surface: Surface) {
         let before = std::mem::replace(&mut self.surface, surface);
         let base = self.base.take().unwrap_or(before);
         self.keep(base);
     }
 
-    /// Goes back one edit; whether there was one.
+    /// Undoes one edit; returns whether there was one.
     pub fn undo(&mut self) -> bool {
         if let Some(base) = self.base.take() {
             self.keep(base);
@@ -88,7 +88,7 @@ impl Draft {
         true
     }
 
-    /// Goes forth one edit; whether there was one.
+    /// Redoes one edit; returns whether there was one.
     pub fn redo(&mut self) -> bool {
         let Some(next) = self.future.pop() else { return false };
         self.past.push(std::mem::replace(&mut self.surface, next));
@@ -104,7 +104,7 @@ impl Draft {
     }
 }
 
-/// Refuses what no surface can become.
+/// Refuses names, actuators and lengths that no surface can have.
 fn known(edit: &Edit, actuators: usize) -> Result<(), ViewError> {
     let refuse =
         |what, expected: String, found: &str| Err(ViewError::Range { what, expected, found: found.into() });
@@ -134,7 +134,7 @@ fn known(edit: &Edit, actuators: usize) -> Result<(), ViewError> {
     }
 }
 
-/// The surface as its file says it: what cannot be in a file is refused here, and what is saved is what is shown.
+/// The surface as it is read back from the text of its file: this refuses what a file cannot hold, and shows what would be saved.
 fn checked(surface: &Surface) -> Result<Surface, ViewError> {
     parse_surface(&to_toml(surface), &surface.name).map_err(|faults| ViewError::Store(faults.into()))
 }

@@ -6,8 +6,8 @@ use unripple::core::{Actuator, ActuatorKind, Outline, Point, Surface};
 const AROUND: usize = 97;
 const INWARD: [f64; 3] = [0.14, 0.22, 0.3];
 
-/// Gives a surface so many actuators: the first it has stay, and each new one comes where it is farthest from all others, at a place
-/// near the rim that repeats no distance.
+/// Gives a surface `count` actuators: the first ones stay, and each new one is placed near the rim where it is farthest from all others, at
+/// varying depths, so that distances do not repeat.
 pub fn fill(surface: &mut Surface, count: usize) {
     surface.actuators.truncate(count);
     let model = surface.actuators.first().cloned();
@@ -26,7 +26,7 @@ pub fn fill(surface: &mut Surface, count: usize) {
     }
 }
 
-/// A place on the sheet (m): the same, or the nearest that is a little inside.
+/// The same place (m) if it is on the sheet, else the nearest one a little inside.
 pub fn onto(outline: &Outline, at: Point) -> Point {
     if outline.contains(at) {
         return at;

@@ -1,4 +1,4 @@
-//! Tasks that take a while, as pages ask for them: calibrations, the list of devices, the doctor.
+//! Long tasks that pages ask for: calibrations, the list of devices, the doctor.
 
 mod quality;
 mod running;
@@ -13,7 +13,7 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 use unripple_tasks::{DeviceAsk, SurfaceAsk, calibrate, devices, doctor};
 
-/// Jobs at once: one that measures, and one that looks.
+/// Largest number of jobs at once: one that measures, and one that looks.
 const MOST: usize = 2;
 
 /// How long jobs are waited for at the end, and how often they are looked at then. A longer call is left behind; the
@@ -27,7 +27,7 @@ const GRID_MM: f64 = 15.0;
 /// Name of the surface's file when people save it.
 const SAVED: &str = "surface.toml";
 
-/// The jobs there are.
+/// The long tasks that pages have started.
 pub struct Jobs {
     notices: Arc<Notices>,
     folder: PathBuf,
@@ -36,15 +36,15 @@ pub struct Jobs {
 }
 
 impl Jobs {
-    /// No jobs yet; libraries go to `folder`.
+    /// No jobs yet; calibrations write their libraries to `folder`.
     pub fn new(notices: Arc<Notices>, folder: PathBuf) -> Self {
         Self { notices, folder, given: AtomicU64::new(0), running: Mutex::new(Vec::new()) }
     }
 
-    /// Starts or ends a job on a surface, given as the text of its file.
+    /// Starts or stops a job, as a page asks. The surface is given as the text of its file.
     ///
     /// # Errors
-    /// Why it cannot be started.
+    /// Reason why the job cannot be started.
     pub fn obey(&self, job: &Job, toml: String) -> Result<(), String> {
         if let Some(id) = job.stop {
             lock(&self.running).iter().filter(|running| running.id == id).for_each(|running| running.stop());
@@ -61,7 +61,7 @@ impl Jobs {
         Ok(())
     }
 
-    /// What is to be done, and what to type for the same.
+    /// The task of a job, and the command line that does the same.
     fn work(&self, kind: &str, job: &Job, toml: String) -> Result<(Work, String), String> {
         let surface = SurfaceAsk::Text { toml };
         match kind {
@@ -85,7 +85,7 @@ impl Jobs {
         }
     }
 
-    /// Ends all of them, and waits until they have.
+    /// Stops all jobs, and waits until they have ended, at most 3 s.
     pub fn close(&self) {
         let running = lock(&self.running).clone();
         running.iter().for_each(|running| running.stop());

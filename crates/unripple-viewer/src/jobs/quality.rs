@@ -1,4 +1,4 @@
-//! How far a library has got that is being filled, and how good it is.
+//! Progress of a library that is being filled, and quality of its points.
 
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -8,17 +8,18 @@ use unripple_store::{Library, PointState};
 /// Progress and quality of a library that is being filled.
 pub struct Quality {
     folder: PathBuf,
-    /// Signal over noise of points that were looked at, in dB: what is measured stays.
+    /// Signal-to-noise ratio in dB of points that were looked at: what is measured does not change.
     known: Vec<Option<f64>>,
 }
 
 impl Quality {
-    /// The quality of a library that may not be there yet.
+    /// Progress and quality of a library that may not exist yet.
     pub fn of(folder: PathBuf) -> Self {
         Self { folder, known: Vec::new() }
     }
 
-    /// The share that is done, and what each point is like.
+    /// The share of the points that are done, and place, state and signal-to-noise ratio of each as JSON; `None` if
+    /// there is no library yet.
     pub fn look(&mut self) -> (Option<f64>, Value) {
         let Ok(library) = Library::open(&self.folder) else { return (None, Value::Null) };
         let points = library.points();
@@ -46,7 +47,7 @@ impl Quality {
     }
 }
 
-/// The worst of a point's responses, in dB over the noise.
+/// The lowest signal-to-noise ratio of a point's responses, in dB.
 fn worst(library: &Library, point: usize) -> Option<f64> {
     let qualities = library.quality(point).ok()?;
     let levels = qualities.iter().map(|quality| quality.signal_to_noise_db).filter(|db| db.is_finite());

@@ -1,4 +1,4 @@
-//! A task at work beside the session, and what pages are sent of it.
+//! A long task that runs beside the session, and the messages on its progress to pages.
 
 use super::quality::Quality;
 use crate::lock::lock;
@@ -12,11 +12,11 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use unripple_tasks::{Progress, Report, TaskError, apart, calibrate, devices, doctor};
 
-/// Lines that are shown, and how long each may be. As many as a panel shows.
+/// Number of lines that are shown, and longest length of each: as many as a panel shows.
 const LINES: usize = 12;
 const LONGEST: usize = 400;
 
-/// How often pages are sent how far it is. As fast as a bar's progress is seen.
+/// Interval of the messages on progress: as fast as a bar's progress is seen.
 const LOOKED: Duration = Duration::from_millis(400);
 
 /// A task that a page asked for.
@@ -60,7 +60,7 @@ fn told(report: impl Report) -> Value {
     serde_json::to_value(report).unwrap_or_default()
 }
 
-/// A task at work.
+/// A task that is running.
 pub struct Running {
     /// Number of the job.
     pub id: u64,
@@ -71,7 +71,7 @@ pub struct Running {
     now: Mutex<Now>,
 }
 
-/// How it fares.
+/// Its progress.
 #[derive(Default)]
 struct Now {
     share: Option<f64>,
@@ -100,10 +100,10 @@ impl Progress for Heard {
 }
 
 impl Running {
-    /// Starts a task; `command` is what to type for the same. `id` is the job's number.
+    /// Starts a task. `id` is the job's number; `command` is the command line that does the same.
     ///
     /// # Errors
-    /// Why it cannot be started.
+    /// Reason why the task cannot be started.
     pub fn start(id: u64, work: Work, command: String, notices: Arc<Notices>) -> Result<Arc<Self>, String> {
         let (stopped, over, now) = (AtomicBool::new(false), AtomicBool::new(false), Mutex::default());
         let running = Arc::new(Self { id, kind: work.name(), command, stopped, over, now });
@@ -124,7 +124,7 @@ impl Running {
         Ok(running)
     }
 
-    /// Sends pages how the task fares until it is over, and then what came of it.
+    /// Sends pages the task's progress until it ends, and then its result.
     fn accompany(
         &self,
         result: &Receiver<Result<Value, TaskError>>,
@@ -152,7 +152,7 @@ impl Running {
         self.tell(notices, state, found, quality);
     }
 
-    /// Has it ended.
+    /// Cancels the task, which then ends by itself.
     pub fn stop(&self) {
         self.stopped.store(true, Ordering::Relaxed);
     }

@@ -1,4 +1,4 @@
-//! A surface with all that plays it: device, engine, the picture's modes.
+//! The instrument that plays a surface: device, engine, and the modes from which pictures are computed.
 
 use super::lens::Lens;
 use super::page_touches::{PageTouches, Pressed};
@@ -24,79 +24,82 @@ use unripple_touch::Sources;
 /// cost four times the products.
 pub const CELLS: usize = 128;
 
-/// Fingers that are felt at once, and those that the sheet bears, the ones being lifted included.
+/// Largest number of fingers whose sensations are computed, and of fingers that load the sheet, those being lifted
+/// included.
 const FINGERS: usize = 10;
 const BORNE: usize = 24;
 
-/// Samples per block of a surface that is stepped here. 1.3 ms at 48 kHz: a finger is heard no later, and the fixed
-/// work of a block stays small.
+/// Samples per block of a simulated surface. 1.3 ms at 48 kHz: a touch is answered no later, and the fixed work of a
+/// block stays small.
 const BLOCK: usize = 64;
 
-/// How long is remembered, in s, and most bytes that this may take. Longer than waves ring on the paper's film.
+/// Duration of the past states that are stored, in s, and most bytes that they may take. Longer than waves ring on the
+/// paper's film.
 const REMEMBERED: f64 = 1.0;
 const MOST_BYTES: usize = 256 << 20;
 
-/// The effect of a page that asks for none: pulses at the finger while it rests.
+/// Name of the default effect: pulses at the finger while it rests.
 pub const PULSES: &str = "pulses";
 
-/// Makes what follows the tension of a surface that is played with some options, in blocks of some length.
+/// Function that makes the follower of a surface's tension and its ping, from the surface, the options of live play and
+/// the samples per block; an error says in words why it cannot.
 pub type Follow =
     Arc<dyn Fn(&Surface, &LiveOptions, usize) -> Result<(Follower, Ping), String> + Send + Sync>;
 
-/// Everything that a surface is played with: responses, method, effect, device.
+/// Specification of an instrument: surface, responses, method, effect and device.
 #[derive(Clone)]
 pub struct Spec {
     /// The surface that is played.
     pub surface: Surface,
-    /// Responses of the surface, where they were measured.
+    /// Measured responses of the surface; computed ones are used where `None`.
     pub stored: Option<Arc<SampledResponses>>,
-    /// Whether nobody knows what those mean.
+    /// Whether the scale of the measured responses is unknown.
     pub without_scale: bool,
-    /// Method by which drives are made.
+    /// Focusing method by which drives are computed.
     pub method: Method,
-    /// Effect that a touch sets off: [`PULSES`] or a built-in one.
+    /// Name of the effect that a touch triggers: [`PULSES`] or a built-in one.
     pub effect: String,
     /// The window in s; the one that suits live play where `None`.
     pub window: Option<f64>,
-    /// Pulses per second, of [`PULSES`].
+    /// Pulses per second of the effect [`PULSES`].
     pub rate: f64,
-    /// Whether fingers weigh on the surface that is computed.
+    /// Whether resting fingers load the simulated surface.
     pub load: bool,
-    /// A real device; the surface is stepped here where `None`.
+    /// Function that opens a real device; the surface is simulated where `None`.
     pub device: Option<Opener>,
-    /// How the sheet's tension is followed, if it is.
+    /// Function that makes the follower of the sheet's tension, if it is to be followed.
     pub follow: Option<Follow>,
 }
 
-/// A surface ready to be touched and looked at.
+/// A surface that is ready to be played and shown.
 pub struct Instrument {
     /// The specification that it was made from.
     pub spec: Spec,
-    /// The player, and the surface that moves.
+    /// The engine, with the device or the simulated surface that it plays.
     pub playback: Playback,
-    /// The surface, as it is computed here.
+    /// Handle of the simulated surface, which with a real device is computed along with it.
     pub handle: Handle,
-    /// Modes of the surface, to be read anywhere.
+    /// Modal model of the surface, from which the readout weights of any place follow.
     pub plant: Plant,
-    /// Maps states of the modes to pictures.
+    /// Linear map from states of the modes to pictures.
     pub lens: Lens,
-    /// Where fingers of pages are sent.
+    /// Channel to which the fingers of pages are sent.
     pub page_touches: Sender<Pressed>,
-    /// Drive of the last second.
+    /// The drive of the last second.
     pub tape: Tape,
-    /// The window, in s, and what it gives.
+    /// The window in use, with the contrast expected of it.
     pub window: Window,
-    /// The window that suits live play.
+    /// The window that suits live play, used where none is asked for.
     pub suggested: Window,
     /// The level that a gain of 1 stands for.
     pub level: Level,
 }
 
 impl Instrument {
-    /// Makes all of it; takes some tenths of a second, and seconds for a sheet that needs a mesh.
+    /// Builds the instrument. This takes some tenths of a second, or seconds for a sheet that needs a mesh.
     ///
     /// # Errors
-    /// Those of each part.
+    /// Those of building the model, the device, the engine and the other parts.
     pub fn build(spec: Spec) -> Result<Self, ViewError> {
         let surface = &spec.surface;
         let accuracy = unripple::act::accuracy(surface);
@@ -157,7 +160,7 @@ impl Instrument {
     }
 }
 
-/// The maker of drives: of a library, at places between its points.
+/// The worker that computes drives; from a library, also at places between its points.
 fn maker(spec: &Spec, accuracy: f64, options: &LiveOptions) -> Result<FocusWorker, ViewError> {
     let surface = &spec.surface;
     match &spec.stored {
@@ -192,10 +195,10 @@ fn effect(spec: &Spec) -> Result<EffectSet, ViewError> {
     builtin_effect(&spec.effect).ok_or_else(|| no_such_effect(&spec.effect))
 }
 
-/// Refuses names of effects that there are not.
+/// Checks that an effect of this name exists.
 ///
 /// # Errors
-/// [`ViewError::Range`].
+/// [`ViewError::Range`] if there is none.
 pub fn check_effect(name: &str) -> Result<(), ViewError> {
     if name == PULSES || builtin_effect(name).is_some() { Ok(()) } else { Err(no_such_effect(name)) }
 }

@@ -1,4 +1,4 @@
-//! Modal states to the picture's cells: one matrix product.
+//! The picture of a modal state: one matrix product.
 
 use unripple::core::{Outline, Point};
 use unripple::physics::stepper::Plant;
@@ -53,7 +53,7 @@ pub struct Lens {
 }
 
 impl Lens {
-    /// A picture so many cells long of a sheet within an outline.
+    /// A picture of a sheet within an outline, with `longest` cells along the longer side.
     pub fn new(plant: &Plant, outline: &Outline, longest: usize) -> Self {
         let cells = Cells::of(outline, longest);
         let inside: Vec<bool> = cells.centres().map(|at| outline.contains(at)).collect();
@@ -61,7 +61,7 @@ impl Lens {
         Self { cells, inside, modes: plant.modes(), weights: weights(plant, &held) }
     }
 
-    /// The field of a state, a value for each mode: what every cell reads, row by row, in m or m/s; 0 outside.
+    /// The field of a modal state (one value per mode) at every cell, row by row, in m or m/s; 0 outside the surface.
     pub fn look(&self, state: &[f32]) -> Vec<f32> {
         let mut readings = self.weights.chunks_exact(self.modes.max(1)).map(|row| product(row, state));
         let cell = |inside: &bool| if *inside { readings.next().unwrap_or(0.0) } else { 0.0 };
@@ -69,7 +69,7 @@ impl Lens {
     }
 }
 
-/// Readout weights of all modes at some places: a row for each.
+/// Readout weights of all modes at some places (m), places x modes.
 pub fn weights(plant: &Plant, places: &[Point]) -> Vec<f32> {
     let mut weights = Vec::with_capacity(places.len() * plant.modes());
     for batch in places.chunks(BATCH) {
@@ -81,7 +81,7 @@ pub fn weights(plant: &Plant, places: &[Point]) -> Vec<f32> {
     weights
 }
 
-/// The product of two rows as long as each other.
+/// Scalar product of two vectors of equal length.
 pub fn product(one: &[f32], other: &[f32]) -> f32 {
     let (ones, others) = (one.chunks_exact(LANES), other.chunks_exact(LANES));
     let rest: f32 = ones.remainder().iter().zip(others.remainder()).map(|(a, b)| a * b).sum();

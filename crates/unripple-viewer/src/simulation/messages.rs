@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use unripple_calibrate::Drift;
 use unripple_devices::Feeling;
 
-/// Time over which the drive is looked at, in s.
+/// Time over which the drive's peak and rms are taken, in s.
 const LOOKED: f64 = 0.2;
 
 /// A finger, and what it feels.
@@ -21,7 +21,7 @@ struct Feels {
 }
 
 impl Simulation {
-    /// Says how the surface fares.
+    /// Sends a message on the state of the surface.
     pub(super) fn tell(&mut self, out: &mut Outbox) {
         let fingers = std::mem::take(&mut self.known.fingers);
         self.known = self.instrument.playback.look();
@@ -71,8 +71,8 @@ impl Simulation {
         }
     }
 
-    /// Tells all there is to tell of another clock, at once: whoever is told next of how that surface is played must not take what he
-    /// knows of the clock before for it, nor see a picture of then.
+    /// Sends all messages that depend on the clock, at once, after another clock has begun: pages must not take what they know of the
+    /// earlier clock for the new one, nor see one of its pictures.
     pub(super) fn tell_anew(&mut self, out: &mut Outbox) {
         for pane in ["frame 0", "frame 1"] {
             out.withdraw(pane);
@@ -82,7 +82,7 @@ impl Simulation {
         self.tell_transport(out);
     }
 
-    /// Says how time passes and what is followed.
+    /// Sends a message on how time passes and which places are followed.
     pub(super) fn tell_transport(&mut self, out: &mut Outbox) {
         let probe =
             |probe: &super::Probe| json!({ "id": probe.id, "at_mm": [probe.at.x * 1e3, probe.at.y * 1e3] });

@@ -1,4 +1,4 @@
-//! The surface at work: touched, stepped through time, remembered and looked at.
+//! The surface in use: touched, stepped through time, with its past stored, and shown.
 
 mod instrument;
 mod lens;
@@ -26,8 +26,8 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use unripple::core::Point;
 
-/// How often pages get a report of how the surface fares, and how often its pace is taken, in s: five times a second,
-/// as fast as figures can be read.
+/// Interval of the messages on the state of the surface, and of the measurement of its pace, in s: five times a second, as fast as figures
+/// can be read.
 const TOLD: f64 = 0.2;
 const PACED: f64 = 1.0;
 
@@ -46,17 +46,17 @@ pub enum Order {
     Touch((u64, u32), wire::Phase, Point),
     /// A page went: its fingers are lifted.
     Leave(u64),
-    /// How time passes.
+    /// Sets how time passes.
     Transport(wire::Transport),
-    /// `displacement` or `velocity`.
+    /// Shows velocity if true, else displacement.
     Velocity(bool),
-    /// A place whose motion is followed.
+    /// Adds or removes a place whose motion is followed.
     Probe(wire::Probe),
-    /// Another surface, or the same played otherwise; and what pages are told once it is.
+    /// Plays another instrument; the message is sent to pages after that.
     Play(Box<Instrument>, Value),
-    /// Two recorded acts side by side; or back to the live surface.
+    /// Shows two recorded acts side by side; with `None` the live surface again.
     Replay(Option<Box<Replay>>),
-    /// A page came: it must be shown something.
+    /// A page came, and must be shown a picture.
     Look,
 }
 
@@ -67,7 +67,7 @@ struct Probe {
     weights: Vec<f32>,
 }
 
-/// A surface, its clock, and what pages look at.
+/// A surface that is played, its clock, and what pages see of it.
 pub struct Simulation {
     instrument: Instrument,
     transport: Transport,
@@ -76,7 +76,8 @@ pub struct Simulation {
     given: u32,
     replay: Option<Box<Replay>>,
     known: Known,
-    /// Fingers of pages that are down, by page and number: what is played next has them too. And whether they are as the instrument knows.
+    /// Fingers of pages that are down, by page and number; the next instrument gets them too. And whether the present one has yet to be
+    /// sent them.
     pressed: BTreeMap<(u64, u32), Point>,
     moved: bool,
     /// Places focused on last, and what they read of the modes.
@@ -95,7 +96,7 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// A simulation of a surface.
+    /// A simulation that plays an instrument.
     pub fn new(instrument: Instrument) -> Self {
         Self {
             instrument,
@@ -118,13 +119,13 @@ impl Simulation {
         }
     }
 
-    /// Sends all there is to say at first.
+    /// Sends the first messages to pages.
     pub fn begin(&mut self, out: &mut Outbox) {
         self.tell_anew(out);
     }
 
-    /// Lets so many seconds of the page pass, in which the surface goes on while there is time for `more`, and shows what has become of it
-    /// to so many pages.
+    /// Lets `seconds` of the pages' time pass, and shows the result. The surface is stepped as long as `more` returns true; `viewers` is
+    /// the number of open pages.
     pub fn advance(
         &mut self,
         seconds: f64,
@@ -142,7 +143,7 @@ impl Simulation {
         }
     }
 
-    /// Does what is asked for.
+    /// Carries out a request.
     pub fn obey(&mut self, order: Order, out: &mut Outbox) {
         self.changed = true;
         match order {
@@ -192,7 +193,7 @@ impl Simulation {
         }
     }
 
-    /// Sends the instrument the fingers that are down, if it does not know; while time stands still it hears nothing.
+    /// Sends the instrument the fingers that are down, if they have changed; not while time is paused.
     fn press(&mut self) {
         let stands = self.transport.paused && matches!(self.instrument.playback, Playback::Here(_));
         if self.moved && !stands {
@@ -202,7 +203,7 @@ impl Simulation {
         }
     }
 
-    /// Goes over to another instrument, at the same pace and under the same fingers.
+    /// Plays another instrument, at the same pace and with the same fingers.
     fn play(&mut self, instrument: Instrument, out: &mut Outbox) {
         self.instrument = instrument;
         self.replay = None;
@@ -270,7 +271,7 @@ impl Simulation {
         here.map(|((page, finger), at)| (page * FINGERS + u64::from(*finger), *at)).collect()
     }
 
-    /// Steps the surface to where it should be; what cannot be done in time is let go, so that it runs slower.
+    /// Steps the surface up to the present of its clock; if there is not enough time for that, the clock falls behind.
     fn catch_up(&mut self, more: &mut dyn FnMut() -> bool) {
         let Instrument { playback, tape, spec, .. } = &mut self.instrument;
         let Playback::Here(engine) = playback else { return };
@@ -287,7 +288,7 @@ impl Simulation {
         }
     }
 
-    /// Lets the computed surface follow the one out there.
+    /// Steps the simulated surface by the drive that the real device was sent.
     fn mirror(&mut self, more: &mut dyn FnMut() -> bool) {
         let Instrument { playback, tape, .. } = &mut self.instrument;
         let Playback::Away(away) = playback else { return };
@@ -300,13 +301,13 @@ impl Simulation {
         }
     }
 
-    /// Where the live surface has got to, in s.
+    /// Time up to which the live surface has been computed, in s.
     fn head(&self) -> f64 {
         let newest = self.instrument.handle.history(|history| history.newest()).unwrap_or(0);
         newest as f64 / self.instrument.rate()
     }
 
-    /// The oldest moment that is remembered, and the time from one to the next, in s.
+    /// The oldest instant whose state is stored, and the interval of the states, in s.
     fn remembered(&self) -> (f64, f64) {
         if let Some(replay) = &self.replay {
             return (replay.from(), replay.state());

@@ -1,4 +1,4 @@
-//! Fingers on pages as a source of touches.
+//! Fingers on pages, as a source of touches of the surface.
 
 use std::collections::BTreeMap;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -14,7 +14,7 @@ const MOST: usize = 128;
 /// Fingers of pages that are down, by page and number.
 pub type Pressed = BTreeMap<(u64, u32), Point>;
 
-/// Fingers on pages as a source of touches.
+/// Source of touches that receives the fingers on pages.
 pub struct PageTouches {
     outline: Outline,
     pressed: Receiver<Pressed>,
@@ -23,10 +23,11 @@ pub struct PageTouches {
 }
 
 impl PageTouches {
-    /// A source for a surface, and the end that fingers of pages are sent to.
+    /// A source of touches on a surface with this outline, and the channel through which it receives the fingers that
+    /// are down.
     ///
     /// # Errors
-    /// [`TouchError`], for a surface that cannot be.
+    /// [`TouchError`] for an outline on which touches cannot be received.
     pub fn new(outline: &Outline) -> Result<(Sender<Pressed>, Self), TouchError> {
         let (tell, pressed) = channel();
         // A page is one sender among others, and its link says when it is gone: nothing is lifted for want of news.

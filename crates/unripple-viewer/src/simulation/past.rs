@@ -8,42 +8,43 @@ use unripple::physics::stepper::History;
 /// trace smooth. Twice as many take twice the memory.
 const STATES: f64 = 4.0;
 
-/// Samples from one state that is remembered of a surface to the next.
+/// Interval of the stored states of a surface, in samples.
 pub fn stride(surface: &Surface) -> usize {
     (surface.emission.rate / (STATES * surface.emission.band[1])).floor().max(1.0) as usize
 }
 
-/// Past states of a surface, as displacement or as velocity.
+/// Reader of the stored states of a surface, as displacement or as velocity.
 pub struct Past<'a> {
-    /// The states that are remembered.
+    /// The stored states of the modes.
     pub history: &'a History,
     /// Samples per second.
     pub rate: f64,
-    /// Whether velocity is looked at.
+    /// Whether states are read as velocity rather than displacement.
     pub velocity: bool,
 }
 
 impl Past<'_> {
-    /// The state nearest to a time (s), counted back from the newest; the oldest where it is forgotten.
+    /// Number of the stored state nearest to a time (s), counted back from the newest; that of the oldest if the time
+    /// lies before it.
     pub fn back(&self, time: f64) -> usize {
         let samples = (self.history.newest() as f64 - time * self.rate).max(0.0);
         let states = (samples / self.history.stride() as f64).round() as usize;
         states.min(self.history.len().saturating_sub(1))
     }
 
-    /// The modes so many states before the newest.
+    /// State of the modes at index `back` from the newest: one value per mode; `None` if it is not stored.
     pub fn state(&self, back: usize) -> Option<&[f32]> {
         let (displacement, velocity) = self.history.state(back)?;
         Some(if self.velocity { velocity } else { displacement })
     }
 
-    /// States that there are within `seconds` before the one so far back, itself included.
+    /// Number of stored states within `seconds` up to the one at index `back`, itself included.
     pub fn span(&self, back: usize, seconds: f64) -> usize {
         let states = (seconds * self.rate / self.history.stride() as f64) as usize;
         states.min(self.history.len() - back)
     }
 
-    /// What a place that reads the modes by `weights` did over so many states up to the one so far back.
+    /// Motion of a place with these readout weights, over `span` states up to the one at index `back`, in m or m/s.
     pub fn trace(&self, weights: &[f32], back: usize, span: usize) -> Vec<f32> {
         let states = (back..back + span).rev().filter_map(|back| self.state(back));
         states.map(|state| product(weights, state)).collect()

@@ -1,4 +1,4 @@
-//! Playback of the surface: here, or by a device elsewhere that is mirrored.
+//! Playing of the surface: simulated here, or by a real device whose surface is simulated along with it.
 
 use crate::ViewError;
 use crate::lock::lock;
@@ -15,28 +15,28 @@ use unripple_live::{Engine, LiveError, PlayStats, Stage};
 /// is lost to the picture alone.
 const WAITING: usize = 512;
 
-/// The player of a surface, and the surface that moves.
+/// The engine of a surface, with the simulated surface or the real device that it plays.
 pub enum Playback {
-    /// Both here, at whatever pace is asked for.
+    /// A simulated surface, at any pace.
     Here(Box<Engine>),
-    /// A real device at its own pace; what it does is computed from the drive it gets.
+    /// A real device at its own pace; the surface's motion is computed from the drive that it is sent.
     Away(Box<Away>),
 }
 
-/// The state of the play at the moment: fingers, sensations, counts, drift, faults.
+/// State of playing at the moment: fingers, sensations, counts, drift, faults.
 #[derive(Clone, Debug, Default)]
 pub struct Known {
-    /// Fingers, by number.
+    /// Fingers on the surface: their numbers and places (m).
     pub fingers: Vec<(u64, Point)>,
-    /// Sensations of fingers since the last look.
+    /// Sensations of fingers since the state was last read.
     pub feelings: Vec<Feeling>,
     /// Counts of what was played and what was not.
     pub tally: PlayStats,
-    /// State of the tension, where it is followed.
+    /// Estimate of the tension, where it is followed.
     pub drift: Option<Drift>,
-    /// The fault that stops it; nothing while all runs.
+    /// The fault that stops playing; `None` while all runs.
     pub wrong: Option<String>,
-    /// Blocks that a device lost.
+    /// Number of blocks that the device lost.
     pub lost: u64,
 }
 
@@ -49,30 +49,32 @@ impl Known {
     }
 }
 
-/// A real device, played on threads of its own, and the surface that is computed along with it.
+/// A real device, played on a thread of its own, and the simulated surface that is stepped along with it.
 pub struct Away {
     shadow: Virtual,
     drive: Consumer<f32>,
     known: Arc<Mutex<Known>>,
     stop: Arc<AtomicBool>,
     thread: Option<JoinHandle<()>>,
-    /// Blocks of the shadow, and what it hears.
+    /// Blocks of drive and of sensor signals of the simulated surface.
     block: Vec<f32>,
     heard: Vec<f32>,
 }
 
 impl Away {
-    /// A device whose drive is passed on as it plays, and the samples of that, 1 for full scale.
+    /// Wraps a device so that its drive is copied while it plays, and returns the receiver of the copied samples, 1 for
+    /// full scale.
     pub fn listen(device: Box<dyn Device>) -> (Box<dyn Device>, Consumer<f32>) {
         let layout = device.layout();
         let (drive, overheard) = RingBuffer::new(WAITING * layout.block * layout.outputs.len().max(1));
         (Box::new(Overheard { device, drive }), overheard)
     }
 
-    /// Begins to play. `drive` yields the samples that the device was driven with, 1 for full scale.
+    /// Starts playing on a thread of its own. `drive` yields the samples that the device was driven with, 1 for full
+    /// scale.
     ///
     /// # Errors
-    /// [`ViewError::Gone`] if no thread can be had.
+    /// [`ViewError::Gone`] if no thread can be started.
     pub fn start(mut engine: Engine, shadow: Virtual, drive: Consumer<f32>) -> Result<Self, ViewError> {
         let (known, stop) = (Arc::new(Mutex::new(Known::default())), Arc::new(AtomicBool::new(false)));
         let (told, ended) = (known.clone(), stop.clone());
@@ -99,7 +101,8 @@ impl Away {
         Ok(Self { shadow, drive, known, stop, thread: Some(thread), block, heard })
     }
 
-    /// Lets the shadow go on by a block of what was driven; `None` if there is none yet.
+    /// Steps the simulated surface by a block of the device's drive, and returns that block; `None` if there is none
+    /// yet.
     pub fn step(&mut self) -> Result<Option<&[f32]>, DeviceError> {
         let Ok(chunk) = self.drive.read_chunk(self.block.len()) else { return Ok(None) };
         self.block.iter_mut().zip(chunk).for_each(|(to, x)| *to = x);
@@ -119,7 +122,7 @@ impl Drop for Away {
 }
 
 impl Playback {
-    /// The state of the play now.
+    /// Reads the present state of playing.
     pub fn look(&mut self) -> Known {
         match self {
             Self::Here(engine) => {
@@ -136,7 +139,7 @@ impl Playback {
         }
     }
 
-    /// Fingers, by number.
+    /// Fingers on the surface: their numbers and places (m).
     pub fn fingers(&mut self) -> Vec<(u64, Point)> {
         match self {
             Self::Here(engine) => engine.stage().fingers(),
@@ -145,7 +148,7 @@ impl Playback {
     }
 }
 
-/// A block of a surface that is stepped here.
+/// Plays a block on a simulated surface, and returns its drive, `[actuator][sample]` one after the other.
 ///
 /// # Errors
 /// Those of [`Engine::step`].
@@ -154,7 +157,7 @@ pub fn step(engine: &mut Engine) -> Result<&[f32], LiveError> {
     Ok(engine.heart().drive())
 }
 
-/// A device whose drive is passed on as it plays; what finds no room is lost to the picture alone.
+/// A device whose drive is copied while it plays; samples that find no room are lost to the picture alone.
 struct Overheard {
     device: Box<dyn Device>,
     drive: Producer<f32>,

@@ -1,4 +1,4 @@
-//! Two recorded acts shown side by side.
+//! Two simulated acts, each a drive on a surface that nobody touches, shown side by side.
 
 use super::lens::{Lens, weights};
 use super::past::{Past, stride};
@@ -13,24 +13,24 @@ use unripple::physics::stepper::{History, Plant, StepperOptions, VirtualSurface}
 /// Cells along the longer side of each picture: two of these are no more than one of the live surface's.
 const CELLS: usize = 88;
 
-/// How slowly it is played at first, in s of the surface in a second of the page. A focus of a millisecond then takes
+/// Speed at which it is shown at first, in s of the surface per second of the page. A focus of a millisecond then takes
 /// a fifth of a second.
 const SPEED: f64 = 0.005;
 
 /// How much of the past a trace shows, in s. Half of the live trace's, since only the focus is looked at.
 const SPAN: f64 = 0.02;
 
-/// How long after the focus it goes on, in s. So that the waves are seen to part again.
+/// Time for which it goes on after the focus, in s, so that the waves are seen to part again.
 const AFTER: f64 = 6e-3;
 
-/// One act as it was simulated: a drive on a surface that nobody touches.
+/// One simulated act: the motion caused by a drive on a surface that nobody touches.
 pub struct Pane {
     history: History,
     /// Drive of each actuator over its limit.
     drive: Vec<Vec<f32>>,
 }
 
-/// Acts side by side, played over and over, in step.
+/// Simulated acts shown side by side, over and over, in step.
 pub struct Replay {
     panes: Vec<Pane>,
     lens: Lens,
@@ -41,10 +41,11 @@ pub struct Replay {
 }
 
 impl Replay {
-    /// Plays drives on a surface from rest until shortly after they focus at some places.
+    /// Simulates the surface under each drive, from rest until shortly after the focal instant `focus` (s); `places`
+    /// (m) are the targets.
     ///
     /// # Errors
-    /// [`ViewError::Physics`] for drives that are not the surface's.
+    /// [`ViewError::Physics`] for drives that do not fit the surface.
     pub fn record(
         surface: &Surface,
         modes: Arc<Modes>,
@@ -60,7 +61,7 @@ impl Replay {
         Ok(Self { panes, lens, rate: surface.emission.rate, focus, targets })
     }
 
-    /// The first moment that can be shown, in s.
+    /// The first instant that can be shown, in s.
     pub fn from(&self) -> f64 {
         let oldest = |pane: &Pane| {
             pane.history.newest() as usize - pane.history.stride() * pane.history.len().saturating_sub(1)
@@ -68,7 +69,7 @@ impl Replay {
         self.panes.first().map_or(0.0, |pane| oldest(pane) as f64 / self.rate)
     }
 
-    /// The last moment that can be shown, in s.
+    /// The last instant that can be shown, in s.
     pub fn to(&self) -> f64 {
         self.panes.first().map_or(0.0, |pane| pane.history.newest() as f64 / self.rate)
     }
@@ -78,27 +79,27 @@ impl Replay {
         self.focus
     }
 
-    /// Time from one moment to the next, in s.
+    /// Interval of the stored states, in s.
     pub fn state(&self) -> f64 {
         self.panes.first().map_or(1.0, |pane| pane.history.stride() as f64) / self.rate
     }
 
-    /// Speed at first, in s of the surface in a second of the page.
+    /// Speed at which it is shown at first, in s of the surface per second of the page.
     pub fn speed(&self) -> f64 {
         SPEED
     }
 
-    /// The clock at the beginning of the drive.
+    /// A clock set to the first instant.
     pub fn start(&self) -> Transport {
         Transport { now: self.from(), ..Transport::default() }
     }
 
-    /// A moment in s, or the first one where it lies past the end: the acts are played over and over.
+    /// The instant `now` (s), or the first instant if `now` lies past the last one: the acts are shown over and over.
     pub fn wrapped(&self, now: f64) -> f64 {
         if now > self.to() { self.from() } else { now }
     }
 
-    /// The pictures at a moment (s), one for each act.
+    /// The pictures at the instant `shown` (s), one for each act.
     pub fn frames(&self, shown: f64, velocity: bool) -> Vec<Frame> {
         let frame = |(index, pane): (usize, &Pane)| {
             let history = &pane.history;

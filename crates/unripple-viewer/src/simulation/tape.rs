@@ -1,6 +1,6 @@
 //! The drive of the last second.
 
-/// The latest drive: every sample of every actuator, as a share of its limit.
+/// The latest drive: all samples of every actuator, as ratios to the drive limit.
 #[derive(Clone, Debug)]
 pub struct Tape {
     outputs: usize,
@@ -11,12 +11,12 @@ pub struct Tape {
 }
 
 impl Tape {
-    /// The newest so many samples of so many outputs.
+    /// Storage for the newest `most` samples of each of `outputs` actuators, at first zero.
     pub fn new(outputs: usize, most: usize) -> Self {
         Self { outputs, most: most.max(1), count: 0, samples: vec![0.0; outputs * most.max(1)] }
     }
 
-    /// Keeps a block, one output after the other, over the limit.
+    /// Stores a block of drive, `[output][sample]` one after the other, divided by `limit`.
     pub fn keep(&mut self, planes: &[f32], limit: f32) {
         if self.outputs == 0 {
             return;
@@ -31,7 +31,7 @@ impl Tape {
         self.count += block as u64;
     }
 
-    /// Drive of all outputs at a sample; nothing if that is no longer known.
+    /// Drive of all outputs at a sample, as ratios to the limit; `None` if that sample is not stored.
     pub fn at(&self, sample: u64) -> Option<&[f32]> {
         if sample >= self.count || self.count - sample > self.most as u64 {
             return None;
@@ -40,7 +40,7 @@ impl Tape {
         Some(&self.samples[slot..slot + self.outputs])
     }
 
-    /// Largest magnitude and rms of every output over its newest samples.
+    /// Largest magnitude and rms of every output over the newest `samples` samples, as ratios to the limit.
     pub fn newest(&self, samples: usize) -> (Vec<f32>, Vec<f32>) {
         let (mut peaks, mut squares) = (vec![0.0f32; self.outputs], vec![0.0f32; self.outputs]);
         let first = self.count.saturating_sub(samples.min(self.most) as u64);

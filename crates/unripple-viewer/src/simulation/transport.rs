@@ -1,20 +1,20 @@
-//! How time passes: speed, pause, scrubbing.
+//! The clock of the surface as pages control it: speed, pause, and going back to stored states.
 
 use crate::wire::Transport as Asked;
 
-/// From this many seconds of the surface in a second of the page on, a picture shows the strongest instant since the last.
+/// Speed, in s of the surface per second of the page, from which a picture shows the strongest instant since the last picture.
 const STROBED: f64 = 0.05;
 
-/// How time passes, and which moment is shown. Times in s of the surface's clock.
+/// The surface's clock: how time passes, and which instant is shown; in s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transport {
-    /// Seconds of the surface in a second of the page.
+    /// Speed, in s of the surface per second of the page.
     pub speed: f64,
-    /// Whether time stands still.
+    /// Whether time is paused.
     pub paused: bool,
-    /// Present of the surface's clock, in s.
+    /// Present time of the surface, in s.
     pub now: f64,
-    /// The moment that is shown, if it is not now.
+    /// The past instant that is shown, in s; `None` for the present.
     pub back: Option<f64>,
 }
 
@@ -25,17 +25,17 @@ impl Default for Transport {
 }
 
 impl Transport {
-    /// The moment that is shown, in s of the surface's clock.
+    /// The instant that is shown, in s of the surface's clock.
     pub fn shown(&self) -> f64 {
         self.back.unwrap_or(self.now)
     }
 
-    /// Whether pictures are taken of the strongest instants.
+    /// Whether a picture shows the strongest instant since the last picture, rather than the present one.
     pub fn strobes(&self) -> bool {
         self.back.is_none() && !self.paused && self.speed >= STROBED
     }
 
-    /// Obeys, where moments from `oldest` on are remembered, `state` seconds apart.
+    /// Applies a request of a page. States are stored from `oldest` (s) on, `state` seconds apart.
     pub fn obey(&mut self, asked: &Asked, oldest: f64, state: f64) {
         self.speed = asked.speed.unwrap_or(self.speed);
         self.paused = asked.paused.unwrap_or(self.paused);
@@ -57,7 +57,7 @@ impl Transport {
         self.settle(oldest);
     }
 
-    /// Obeys, where all that can be shown has been recorded, from one moment to another (s), `state` seconds apart.
+    /// Applies a request of a page to a recording that reaches from one instant to another (s), with states `state` seconds apart.
     pub fn wind(&mut self, asked: &Asked, [from, to]: [f64; 2], state: f64) {
         self.speed = asked.speed.unwrap_or(self.speed);
         self.paused = asked.paused.unwrap_or(self.paused || asked.shown_s.is_some() || asked.step.is_some());
@@ -65,7 +65,7 @@ impl Transport {
         (self.now, self.back) = (shown.clamp(from, to.max(from)), None);
     }
 
-    /// Lets so many seconds of the page pass.
+    /// Lets `seconds` of the page's time pass; `oldest` is the oldest stored instant (s).
     pub fn pass(&mut self, seconds: f64, oldest: f64) {
         if self.paused {
             return;
@@ -77,8 +77,8 @@ impl Transport {
         self.settle(oldest);
     }
 
-    /// Takes over the clock (s) of a surface that cannot be slowed, while so many seconds of the page pass; what is
-    /// shown falls behind.
+    /// Sets the present to the clock (s) of a real device, which cannot be slowed, while `seconds` of the page's time pass. In slow motion
+    /// the instant that is shown falls behind, at most to `oldest` (s).
     pub fn follow(&mut self, clock: f64, seconds: f64, oldest: f64) {
         let slow = self.paused || self.speed < 1.0;
         if slow && self.back.is_none() {
