@@ -1,4 +1,4 @@
-//! `view` as a task: a plain question, progress with a cancel flag, a report.
+//! `view` as a task: a struct of options, a function that can be cancelled, a report.
 
 mod ask;
 mod report;

@@ -1,13 +1,13 @@
-//! Where a surface is shown.
+//! Report of the task `view`: the addresses of the page.
 
 use serde::Serialize;
 
-/// Where a surface is shown, from when it can be.
+/// Addresses at which a surface is shown, once pages can be opened.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Report {
-    /// The address to open in a browser of this machine, the token in it.
+    /// URL to open in a browser on this machine, including the token.
     pub url: String,
-    /// The address for other machines of the network, where such are listened to.
+    /// URL for other machines of the network; `None` if only this machine can connect.
     pub elsewhere: Option<String>,
 }
 

@@ -1,4 +1,4 @@
-//! A surface opened with its device and shown until nobody wants it any more.
+//! Opens a surface with its device, and shows it until the task is cancelled.
 
 use super::{Ask, Report};
 use crate::compute::Responder;
@@ -17,7 +17,7 @@ const TOKEN: usize = 16;
 /// Lengths of a token that is given: not guessed in a lifetime, and still typed on a phone.
 const LENGTHS: std::ops::RangeInclusive<usize> = 8..=64;
 
-/// How often it is asked whether the page is still wanted. As late as nobody notices.
+/// Interval at which it is checked whether the task has been cancelled: too short to be noticed.
 const LOOKED: Duration = Duration::from_millis(100);
 
 impl From<ViewError> for TaskError {
@@ -33,8 +33,8 @@ impl From<ViewError> for TaskError {
     }
 }
 
-/// Shows a surface until the task is cancelled or the time asked for is over; `opened` hears where, as soon as a page
-/// can be opened.
+/// Shows a surface until the task is cancelled or the time asked for is over. `opened` is called with the page's
+/// addresses as soon as a page can be opened.
 ///
 /// ```
 /// use unripple_tasks::Silent;
@@ -92,7 +92,7 @@ fn open(ask: &Ask, progress: &mut dyn Progress) -> Result<Viewer, TaskError> {
     Ok(view.open()?)
 }
 
-/// Responses of a library at places that pages ask for, as `focus` has them.
+/// Function that gives a library's responses at places that pages ask for, as `focus` computes them.
 fn respond(ask: &SurfaceAsk, source: &Source) -> Option<Responder> {
     source.stored.as_ref()?;
     let ask = ask.clone();
@@ -108,7 +108,7 @@ fn device(ask: &Ask) -> Option<Opener> {
     (!ask.simulated()).then(|| opener(&ask.device, ask.follow_tension))
 }
 
-/// What follows the tension of the surface out there, if it is to be followed.
+/// Function that makes the follower of the real surface's tension, if it is to be followed.
 fn follow(ask: &Ask) -> Result<Option<Follow>, TaskError> {
     if !ask.follow_tension {
         return Ok(None);
@@ -126,7 +126,7 @@ fn follow(ask: &Ask) -> Result<Option<Follow>, TaskError> {
     })))
 }
 
-/// Who does not know it is not let in, where others than this machine can come.
+/// The token that pages need where other machines can connect: the given one, or a random one.
 fn token(ask: &Ask) -> Result<Option<String>, TaskError> {
     if let Some(token) = &ask.token {
         let legal = LENGTHS.contains(&token.len()) && token.chars().all(|c| c.is_ascii_alphanumeric());

@@ -1,4 +1,4 @@
-//! Commands of pages, as JSON.
+//! Commands that pages send, as JSON.
 
 use serde::{Deserialize, Deserializer};
 
@@ -14,7 +14,7 @@ const FARTHEST: f64 = 100_000.0;
 /// Longest name that is listened to, in bytes. Longer ones are refused.
 const LONGEST_NAME: usize = 64;
 
-/// A command of a page. Lengths in mm, times in ms where the key says so, else in s.
+/// A command that a page sends. Lengths in mm, times in ms where the key says so, else in s.
 ///
 /// ```
 /// use unripple_viewer::Command;
@@ -27,7 +27,7 @@ const LONGEST_NAME: usize = 64;
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "do", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Command {
-    /// A finger on the picture of the surface.
+    /// A finger touches the picture of the surface, moves or is lifted.
     Touch {
         /// The page's number for the finger.
         finger: u32,
@@ -36,44 +36,44 @@ pub enum Command {
         /// Where the finger is, in mm.
         at_mm: [f64; 2],
     },
-    /// How time passes, and which moment is shown.
+    /// Set how time passes, and which instant is shown.
     Transport(Transport),
-    /// How the surface is played and shown.
+    /// Set how the surface is played and shown.
     Settings(Settings),
-    /// A place whose motion is followed.
+    /// Add or remove a place whose motion is followed.
     Probe(Probe),
-    /// Changes of the surface.
+    /// Change the surface.
     Edit(Box<Edit>),
-    /// Back to the surface before the last edit.
+    /// Undo the last edit of the surface.
     Undo,
-    /// The edit that was undone, again.
+    /// Redo the edit that was undone last.
     Redo,
-    /// A built-in surface.
+    /// Replace the surface by a built-in one.
     Open {
         /// Name of the built-in surface.
         name: String,
     },
-    /// The figures of one act, as the command line has them.
+    /// Compute and evaluate a focus, with the figures of the command line.
     Measure(Measure),
-    /// Two methods on the same touch; or back to the live surface.
+    /// Show two focusing methods on the same targets side by side, or the live surface again.
     Compare {
-        /// Where, in mm.
+        /// Places of the targets, in mm.
         #[serde(default)]
         at: Vec<[f64; 2]>,
         /// Names of the two methods.
         #[serde(default)]
         methods: Vec<String>,
-        /// The window; the surface's own where absent.
+        /// The window, in ms; the recommended one where absent or 0.
         #[serde(default)]
         window_ms: Option<f64>,
-        /// The edit of the surface that the page shows, as it was told; the newest where absent.
+        /// Number of the edit that made the surface which the page shows; the newest where absent.
         #[serde(default)]
         edit: Option<u64>,
-        /// Back to the live surface.
+        /// Whether to show the live surface again.
         #[serde(default)]
         off: bool,
     },
-    /// Something that takes a while: a calibration, what the doctor says.
+    /// Start or stop a long task, such as a calibration or the doctor.
     Job(Job),
     /// The page has drawn the frame of this number.
     Seen {
@@ -94,42 +94,42 @@ pub enum Phase {
     Up,
 }
 
-/// How time passes, and which moment is shown. What is absent stays.
+/// How time passes, and which instant is shown. Absent fields leave things as they are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Transport {
-    /// Seconds of the surface in a second of the page.
+    /// Speed, in s of the surface per second of the page.
     pub speed: Option<f64>,
-    /// Whether time stands still.
+    /// Whether time is paused.
     pub paused: Option<bool>,
-    /// So many remembered states on, or back.
+    /// Number of stored states by which to go on (or back, if negative).
     pub step: Option<i64>,
-    /// The moment to be shown, in s of the surface's clock.
+    /// The instant to show, in s of the surface's clock.
     pub shown_s: Option<f64>,
-    /// Whether to go back to the present.
+    /// Whether to show the present again.
     pub live: Option<bool>,
 }
 
-/// How the surface is played and shown. What is absent stays.
+/// How the surface is played and shown. Absent fields leave things as they are.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
-    /// Method by which drives are made.
+    /// Name of the focusing method by which drives are computed.
     pub method: Option<String>,
-    /// Effect that a touch sets off.
+    /// Name of the effect that a touch triggers.
     pub effect: Option<String>,
-    /// The window; 0 or `null` for the one that the surface suggests.
+    /// The window, in ms; 0 or `null` for the one that the surface suggests.
     #[serde(deserialize_with = "or_none")]
     pub window_ms: Option<f64>,
     /// Pulses per second while a finger rests.
     pub rate_hz: Option<f64>,
     /// `displacement` or `velocity`.
     pub quantity: Option<String>,
-    /// Whether fingers weigh on the surface.
+    /// Whether resting fingers load the simulated surface.
     pub load: Option<bool>,
 }
 
-/// A place whose motion is followed.
+/// A place whose motion is to be followed, or no longer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Probe {
@@ -139,11 +139,11 @@ pub struct Probe {
     pub remove: Option<u32>,
 }
 
-/// Changes of a surface. What is absent stays.
+/// Changes of a surface. Absent fields leave it as it is.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Edit {
-    /// A material by name.
+    /// Name of the sheet's material.
     pub material: Option<String>,
     /// Thickness of the sheet, in mm.
     pub thickness_mm: Option<f64>,
@@ -153,68 +153,68 @@ pub struct Edit {
     pub decay_time_ms: Option<f64>,
     /// Top of the band, in Hz.
     pub band_top_hz: Option<f64>,
-    /// A rectangle of this width and height.
+    /// New outline: a rectangle of this width and height, in mm.
     pub rectangle_mm: Option<[f64; 2]>,
-    /// A circle of this radius.
+    /// New outline: a circle of this radius, in mm.
     pub circle_mm: Option<f64>,
-    /// Two half circles and the straight length between them: that length, then the radius.
+    /// New outline: two half circles joined by straight sides; length of these and radius, in mm.
     pub stadium_mm: Option<[f64; 2]>,
     /// How the rim is held: `clamped`, `supported` or `free`.
     pub edge: Option<String>,
-    /// So many actuators, at irregular places near the rim.
+    /// Number of actuators; new ones are placed at irregular places near the rim.
     pub actuators: Option<usize>,
-    /// An actuator that moves to `at_mm`.
+    /// Index of an actuator that is moved to `at_mm`, from 0.
     pub actuator: Option<usize>,
     /// Place to which the actuator moves, in mm.
     pub at_mm: Option<[f64; 2]>,
-    /// Whether that is final: the live surface follows then.
+    /// Whether the edit is complete; only then the played surface follows it. By default it is.
     pub settled: Option<bool>,
 }
 
-/// One act to be measured.
+/// A focus to compute and evaluate.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Measure {
-    /// A number of the page's own, which the answer carries.
+    /// The page's own number for the request, which the answer repeats.
     pub id: u64,
-    /// Where, in mm.
+    /// Places of the targets, in mm.
     pub at: Vec<[f64; 2]>,
-    /// The method; that of the settings where absent.
+    /// Name of the focusing method; time reversal where absent.
     pub method: Option<String>,
-    /// The window; the command line's own where absent.
+    /// The window, in ms; the recommended one where absent or 0.
     pub window_ms: Option<f64>,
-    /// The peak at the first target; as much as linear theory allows where absent.
+    /// Peak displacement at the first target, in µm; where absent or 0, as much as linear theory allows.
     pub peak_um: Option<f64>,
-    /// The edit of the surface that the page shows, as it was told; the newest where absent.
+    /// Number of the edit that made the surface which the page shows; the newest where absent.
     pub edit: Option<u64>,
 }
 
-/// Something that takes a while.
+/// A long task to start or stop.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Job {
-    /// `calibrate`, `doctor` or `devices`.
+    /// Task to start: `calibrate`, `doctor` or `devices`.
     pub start: Option<String>,
-    /// Ends one, by its number.
+    /// Number of the task to stop.
     pub stop: Option<u64>,
-    /// Of a calibration: seed of the unknowns by which the true surface differs from its file.
+    /// For a calibration: seed by which the simulated surface differs at random from its file.
     pub unknowns: Option<u64>,
-    /// Of a calibration: distance between points, in mm.
+    /// For a calibration: spacing of the points, in mm.
     pub grid_mm: Option<f64>,
-    /// Of a calibration: name of the library.
+    /// For a calibration: name of the library.
     pub name: Option<String>,
 }
 
-/// Why a message is refused.
+/// Reason for which a message is refused.
 #[derive(Debug, thiserror::Error)]
 pub enum Refused {
-    /// It is too long.
+    /// The message is too long.
     #[error("message: expected at most {LONGEST} bytes, found {found}")]
     Long {
         /// Its length in bytes.
         found: usize,
     },
-    /// It is not of the protocol.
+    /// The message is not one of the protocol.
     #[error("message: {0}")]
     Malformed(#[from] serde_json::Error),
     /// A value is out of range.
@@ -222,9 +222,9 @@ pub enum Refused {
     Range {
         /// Name of the value.
         what: &'static str,
-        /// What would do.
+        /// Description of the values that are accepted.
         expected: String,
-        /// What there is.
+        /// The value that was found.
         found: String,
     },
 }

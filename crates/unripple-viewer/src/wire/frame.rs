@@ -1,4 +1,4 @@
-//! A picture as bytes: a JSON head, then 16-bit cells and traces.
+//! Encoding of a picture as bytes: a JSON head, then 16-bit cells and traces.
 
 use serde::Serialize;
 
@@ -7,8 +7,8 @@ const FULL: f32 = 32_000.0;
 
 /// The field at an instant, as it goes over the wire: a JSON head, then the cells and the traces as 16-bit counts.
 ///
-/// u32 (little-endian) with the length of the head, the head padded with spaces to a multiple of four bytes, the cells row by row from
-/// the bottom, then the samples of each trace.
+/// The bytes are a u32 (little-endian) with the length of the head, the head padded with spaces to a multiple of four bytes, the cells row
+/// by row from the bottom, then the samples of each trace; cells and samples as i16 (little-endian).
 #[derive(Clone, Debug)]
 pub struct Frame {
     /// Description of the frame, sent before the cells.
@@ -22,9 +22,9 @@ pub struct Frame {
 /// The JSON head of a frame.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Head {
-    /// Number of the frame, rising.
+    /// Number of the frame, which rises with each frame.
     pub frame: u64,
-    /// Number of the picture among those side by side.
+    /// Number of the picture among those shown side by side, from 0.
     pub pane: usize,
     /// Number of pictures side by side.
     pub panes: usize,
@@ -32,21 +32,21 @@ pub struct Head {
     pub columns: usize,
     /// Number of cells upward.
     pub rows: usize,
-    /// Value of one count.
+    /// Value of one count of a cell, in m or m/s.
     pub scale: f32,
     /// The instant, in s of the surface's clock.
     pub time_s: f64,
     /// `displacement` or `velocity`.
     pub quantity: &'static str,
-    /// Whether this is the instant of the strongest focus since the frame before, rather than the one asked for.
+    /// Whether this is the instant of the strongest motion since the frame before, rather than the one asked for.
     pub strobed: bool,
-    /// Largest magnitude of all cells.
+    /// Largest magnitude of all cells, in m or m/s.
     pub peak: f32,
-    /// Drive of every actuator at that instant, as a share of its limit.
+    /// Drive of every actuator at that instant, as a ratio to its limit.
     pub drive: Vec<f32>,
     /// Fingers on the surface.
     pub fingers: Vec<Resting>,
-    /// Places where waves are to meet, in mm.
+    /// Places of the targets, in mm.
     pub targets: Vec<[f64; 2]>,
     /// Samples of each trace.
     pub samples: usize,
@@ -61,7 +61,7 @@ pub struct Head {
 pub struct Resting {
     /// Number of the finger.
     pub id: u64,
-    /// Where, in mm.
+    /// Place of the finger, in mm.
     pub at_mm: [f64; 2],
     /// Force of the surface on the finger, in N.
     pub force_n: f64,
@@ -72,14 +72,14 @@ pub struct Resting {
 pub struct Strip {
     /// Name of the place.
     pub name: String,
-    /// Where, in mm.
+    /// Place of the trace, in mm.
     pub at_mm: [f64; 2],
-    /// Value of one count.
+    /// Value of one count of a sample, in m or m/s.
     pub scale: f32,
 }
 
 impl Frame {
-    /// The bytes that go over the wire.
+    /// Encodes the frame as bytes for the link to a page.
     pub fn encode(mut self) -> Vec<u8> {
         let (scale, peak) = scale(&self.cells);
         (self.head.scale, self.head.peak) = (scale, peak);
