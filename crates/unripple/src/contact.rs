@@ -1,29 +1,30 @@
-//! Sensation of a finger that rests on a surface, and the power that it absorbs from the field.
+//! Motion of a finger that rests on a surface, and the power that it absorbs from the field.
 
 use serde::Serialize;
 use unripple_core::{Contact, Outline};
 use unripple_field::{Field, FieldError, Trace};
 use unripple_physics::Footprint;
 
-/// How a finger moves under a field, and the power that goes into it.
+/// Motion of a finger that rests on a surface under a drive, with force, power and energy.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Touch {
     /// Centre of the contact, in metres.
     pub at_m: [f64; 2],
     /// Largest magnitude of the velocity, the mean over the contact disc, in m/s.
     pub peak_velocity_m_s: f64,
-    /// Largest magnitude of the displacement, in metres.
+    /// Largest magnitude of the displacement, the mean over the contact disc, in metres.
     pub peak_displacement_m: f64,
     /// Largest magnitude of the force on the finger, μv̇ + βv + κu, in N.
     pub peak_force_n: f64,
     /// Largest power into the finger, force times velocity, in W.
     pub peak_power_w: f64,
-    /// Energy that stays in the finger, ∫βv²dt, in J.
+    /// Energy that the damping of the finger absorbs, ∫βv²dt, in J.
     pub energy_j: f64,
 }
 
-/// Sensation of the finger of `contact` in a field up to `until` (s). The field must be one on responses that the finger
-/// loads; otherwise it is what would be felt by a finger that changes nothing.
+/// Motion of the finger of `contact` in a field, from the drive's first sample up to `until` (s). The field must be of
+/// responses computed with this finger on the surface (`ResponseOptions::contacts`); otherwise the result is for a
+/// finger that does not change the motion.
 ///
 /// # Errors
 /// Those of [`Field::traces`].

@@ -15,14 +15,14 @@
 //! // What to send so that waves meet at (62, 90) mm after 30 ms.
 //! let place = Point::from_mm(62.0, 90.0);
 //! let focused = focus(&responses, &[Target::at(place)], &Options { window: 0.03, ..Options::default() })?;
-//! // What that does to the surface.
+//! // What the drive does to the surface.
 //! let measured = measure(&responses, &focused.drive, &[Aim::at(place, 0.03)], &MeasureOptions::default())?;
 //! let contrast = measured.targets[0].contrast.unwrap();
 //! assert!((contrast - 25.07).abs() < 0.01);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The same from a surface file to a drive on disk, at a level that linear theory allows, with a report:
+//! From a surface file to a drive on disk, at a level within linear theory, with a report:
 //!
 //! ```
 //! use unripple::act::{Act, Level, chosen_window, model};
@@ -57,7 +57,7 @@
 //! let options = Options { method: Method::Concentrate, window, limit: film.emission.limit, ..Options::default() };
 //! let level = Level::Linear;
 //! let acted = Act { surface: &film, responses: &responses, targets: &targets, options: &options, level }.run()?;
-//! // Judged by other code than made it.
+//! // Evaluated by other code than the code that computed it.
 //! assert!(acted.judged.measured.targets[0].contrast.is_some_and(|contrast| contrast > 10.0));
 //! println!("{}", acted.report(&film, &options).text());
 //! let file = std::env::temp_dir().join(format!("unripple-drive-{}.wav", std::process::id()));
@@ -66,9 +66,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`core`] holds the conventions (axes, signs, units, samples) that everything keeps to. Then, upwards: [`dsp`]; [`physics`], [`focus`],
-//! [`field`], [`player`], [`effects`]; [`store`], [`plot`], [`devices`], [`calibrate`], [`mod@touch`]; and here [`act`], [`drafting`] and
-//! [`contrast_map`]. A surface played live is `unripple-live`, whole tasks with files and figures are `unripple-tasks`.
+//! [`core`] holds the conventions (axes, signs, units, samples) that all modules keep to. The modules, from the lowest
+//! layer up: [`dsp`]; [`physics`], [`focus`], [`field`], [`player`], [`effects`]; [`store`], [`plot`], [`devices`],
+//! [`calibrate`], [`mod@touch`]; and those of this crate, [`act`], [`drafting`] and [`contrast_map`]. Playing a surface
+//! live is in the crate `unripple-live`, whole tasks with files and figures are in `unripple-tasks`.
 
 pub use unripple_calibrate as calibrate;
 pub use unripple_core as core;

@@ -1,4 +1,4 @@
-//! What the machine can do, measured in the same run.
+//! Speed, load and memory of the machine, measured in the same run.
 
 use super::times::Times;
 use std::hint::black_box;
@@ -17,7 +17,7 @@ pub fn load() -> String {
     read.and_then(|text| text.split(' ').next().map(str::to_owned)).unwrap_or_else(|| "unknown".into())
 }
 
-/// Threads that parallel work runs on.
+/// Number of threads of the global rayon pool.
 pub fn threads() -> usize {
     rayon::current_num_threads()
 }

@@ -1,16 +1,16 @@
-//! Peers in Python, in a virtual environment of the benchmarks' own.
+//! Programs in Python that are compared with, run in a virtual environment of their own.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// What the peers are made of.
+/// Python packages that the scripts need.
 const PACKAGES: [&str; 4] = ["numpy>=2,<3", "scipy>=1.11,<2", "scikit-fem>=12,<13", "pyfar>=0.8,<0.9"];
 
 /// What a script printed: lists of numbers by name.
 pub type Answer = BTreeMap<String, Vec<f64>>;
 
-/// Runs `benches/peers/SCRIPT`, which prints lines of a name and numbers, on so many threads.
+/// Runs `benches/peers/SCRIPT`, which prints lines of a name and numbers, on `threads` threads.
 ///
 /// The first run makes the environment `peers` in the target folder, which takes Python 3 and the network. An error
 /// says why there is no answer.
@@ -26,7 +26,7 @@ pub fn run(script: &str, arguments: &[String], threads: usize) -> Result<Answer,
     Ok(text_of(&mut command)?.lines().filter_map(entry).collect())
 }
 
-/// The numbers of that name in an answer.
+/// The numbers that an answer has under a name.
 pub fn numbers<'a>(answer: &'a Answer, name: &str) -> Result<&'a [f64], String> {
     answer.get(name).map(Vec::as_slice).ok_or_else(|| format!("the peer did not print `{name}`"))
 }

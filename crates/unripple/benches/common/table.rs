@@ -35,7 +35,7 @@ pub fn number(value: f64, digits: usize) -> String {
     format!("{value:.digits$}")
 }
 
-/// A cell that says nothing.
+/// The text of an empty cell.
 pub fn none() -> String {
     "-".into()
 }

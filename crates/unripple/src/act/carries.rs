@@ -1,13 +1,13 @@
-//! How short a drive or a response may be.
+//! Shortest duration of a drive or a response that carries a wave of the band.
 
 use super::ActError;
 use crate::core::Conditions;
 
-/// Refuses a time shorter than one period at the top of the band: no wave of the band fits into it, so a drive of that length
-/// focuses nothing, and responses of that length hold nothing to focus with.
+/// Refuses a duration (s) shorter than one period at the top of the band: no wave of the band fits into it, so a drive
+/// of that length focuses nothing, and responses of that length hold nothing to focus with.
 ///
 /// # Errors
-/// [`ActError::Short`], with what the time is at least.
+/// [`ActError::Short`], with the shortest duration allowed.
 pub fn carries(conditions: &Conditions, seconds: f64) -> Result<(), ActError> {
     let top = conditions.band[1];
     // A rounded period is as good as an exact one.

@@ -1,59 +1,59 @@
-//! Why an act of focusing could not be carried out or evaluated.
+//! Why a focus could not be computed or evaluated.
 
 use crate::field::FieldError;
 use crate::focus::FocusError;
 use crate::physics::PhysicsError;
 use unripple_core::OutOfRange;
 
-/// Why an act of focusing could not be carried out or evaluated.
+/// Why a focus could not be computed or evaluated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ActError {
     /// The responses of the surface could not be computed.
     #[error(transparent)]
     Physics(#[from] PhysicsError),
-    /// No drive could be made.
+    /// No drive could be computed.
     #[error(transparent)]
     Focus(#[from] FocusError),
-    /// What a drive does could not be computed or measured.
+    /// The field of a drive could not be computed or evaluated.
     #[error(transparent)]
     Field(#[from] FieldError),
-    /// The level asked for makes no sense, or the drive limit does not give it.
+    /// The level asked for is not a legal number, is above what the drive limit gives, or cannot be reached.
     #[error("{what}: expected {expected}, found {found}")]
     Level {
-        /// What was asked for.
+        /// Kind of level asked for.
         what: LevelKind,
         /// The legal values.
         expected: String,
-        /// The value, or what stands in its way.
+        /// The value asked for, or why it cannot be reached.
         found: String,
     },
     /// A number is out of its range.
     #[error(transparent)]
     Range(#[from] OutOfRange),
-    /// No wave fits into so short a time.
+    /// A duration is shorter than one period at the top of the band, so that it carries no wave.
     #[error(
         "expected at least {:.4} ms, one period at the top of the band ({top} Hz): nothing shorter carries a wave, found {:.4} ms",
         least * 1e3, found * 1e3
     )]
     Short {
-        /// The shortest time, in seconds.
+        /// The shortest duration allowed, in seconds.
         least: f64,
         /// The top of the band, in Hz.
         top: f64,
-        /// The time, in seconds.
+        /// The duration asked for, in seconds.
         found: f64,
     },
-    /// The responses are not of the form that is needed.
+    /// Modal responses are needed, and these are sampled.
     #[error("responses: expected modes, which {what} needs, found samples")]
     NeedsModes {
-        /// What needs them.
+        /// What needs modal responses.
         what: &'static str,
     },
 }
 
 impl ActError {
-    /// Whether the work failed although the input makes sense.
+    /// Whether the computation failed on legal input: it did not converge, or a duration is too short for the band.
     pub fn is_failed_work(&self) -> bool {
         matches!(self, Self::Physics(PhysicsError::NotConverged { .. }) | Self::Short { .. })
     }
@@ -62,9 +62,9 @@ impl ActError {
 /// Kinds of levels that a drive can be brought to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LevelKind {
-    /// By the peak displacement of the first target.
+    /// Peak displacement of the first target.
     Peak,
-    /// By what is felt at the first target.
+    /// Level felt at the first target, in dB above the threshold of touch.
     Felt,
 }
 

@@ -1,4 +1,4 @@
-//! Sensations of fingers under a drive, and the power that they absorb and scatter.
+//! Motion of fingers under a drive, and the power that they absorb.
 
 use super::ActError;
 use crate::core::{Contact, Drive, Responses, Surface};
@@ -6,19 +6,20 @@ use crate::field::Field;
 use crate::{Touch, touch};
 use serde::Serialize;
 
-/// The sensation of one finger under a drive, and what the finger does to the waves.
+/// Motion of one finger under a drive, and how much fingers reduce the motion of the surface.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Felt {
-    /// Sensation of the finger and the power that it absorbs.
+    /// Motion of the finger, and the power that it absorbs.
     #[serde(flatten)]
     pub loaded: Touch,
-    /// Velocity of the same contact disc without the fingers, over that with them.
+    /// Peak velocity at the contact disc without fingers on the surface, over that with them, a ratio.
     pub velocity_attenuation: f64,
-    /// Attenuation of the displacement.
+    /// Peak displacement at the contact disc without fingers on the surface, over that with them, a ratio.
     pub displacement_attenuation: f64,
 }
 
-/// The sensation of every finger under a drive up to `until` (s), from the responses under all of them and those without.
+/// Motion of every finger under a drive up to `until` (s). `under` are the responses of the surface with all fingers on
+/// it, `without` those of the bare surface.
 ///
 /// # Errors
 /// Those of [`Field::new`] and [`touch()`].

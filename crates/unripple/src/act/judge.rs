@@ -1,4 +1,4 @@
-//! The field that a drive makes on a surface: figures, traces, maps.
+//! Evaluation of the field of a drive on a surface: metrics, traces, maps.
 
 use super::ActError;
 use super::note::{self, Note};
@@ -6,27 +6,27 @@ use crate::core::{Point, Surface};
 use crate::field::{Aim, Field, Measured, Reach, Trace};
 use crate::physics::design::{Linearity, linearity};
 
-/// Cells of the grid per shortest wavelength that figures are taken on. On 4 contrasts differ by 2 % rms; 16 take
+/// Cells per shortest wavelength of the grid on which metrics are computed. On 4, contrasts differ by 2 % rms; 16 take
 /// four times as long.
 pub const CELLS: f64 = 8.0;
 
-/// The field of a drive, measured: figures, traces, maps, warnings.
+/// Evaluation of the field of a drive: metrics, traces, maps, warnings.
 #[derive(Clone, Debug)]
 pub struct Judged {
-    /// All figures and maps.
+    /// All metrics and maps of the field.
     pub measured: Measured,
-    /// Velocity and displacement of each target, from the drive's first sample on; of a set, its first point.
+    /// Velocity and displacement at the first point of each target, from the drive's first sample on.
     pub traces: Vec<Trace>,
     /// End of the traces, in seconds.
     pub until: f64,
-    /// Slopes, strains and added tension of the field; `None` on a library's own points.
+    /// Slopes, strains and added tension of the field; `None` for sampled responses, which are on no grid.
     pub linearity: Option<Linearity>,
     /// Warnings, such as where linear theory no longer holds.
     pub notes: Vec<Note>,
 }
 
-/// Measures what the field of a drive is at the aims; `period` in seconds, of a repeated drive. Traces last until `until`
-/// seconds, or as long as the field is known.
+/// Evaluates the field of a drive at the aims; `period` is that of a repeated drive, in seconds. Traces last until
+/// `until` seconds, or as long as the field is known.
 ///
 /// # Errors
 /// Those of [`Field::measure`] and [`Field::traces`].

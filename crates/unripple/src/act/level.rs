@@ -1,4 +1,4 @@
-//! How strong a drive is to be: by linear theory, by limit, by peak, as felt.
+//! Level of a drive: by linear theory, by limit, by peak, as felt.
 
 use super::Readouts;
 use super::error::{ActError, LevelKind};
@@ -18,27 +18,28 @@ pub enum Level {
     Linear,
     /// As strong as the drive limit allows.
     Limit,
-    /// By the largest displacement of the first target's mean, in metres.
+    /// With this largest displacement of the first target (the mean over its points), in metres.
     Peak(f64),
-    /// By the level felt at the first target, in dB above the threshold of touch.
+    /// With this level felt at the first target, in dB above the threshold of touch.
     Felt(f64),
 }
 
 /// The factor that brings a drive to a level, and what decides it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Step {
-    /// Factor on the drive; above 1 the level is beyond it.
+    /// Factor on the drive; above 1 for a level above that of the drive.
     pub factor: f64,
-    /// Limit or wish that decides the step.
+    /// What decides the factor.
     pub by: DecidedBy,
 }
 
 impl Level {
-    /// The factor that brings a drive to this level; `None` for the limit, and where nothing is known that decides.
+    /// The factor that brings a drive to this level; `None` for the limit, and where no bound of linear theory is
+    /// known.
     ///
     /// # Errors
-    /// [`ActError::Level`] for numbers without meaning and a target that does not move; those of [`Field::traces`] and
-    /// [`Field::measure`].
+    /// [`ActError::Level`] for levels that are not legal numbers and a target that does not move; those of
+    /// [`Field::traces`] and [`Field::measure`].
     pub(super) fn step(
         self,
         surface: &Surface,

@@ -1,6 +1,7 @@
-//! An act of focusing, whole: from a surface, targets and options to a drive, what it was found to do, and a report.
+//! A complete focus, an *act*: computes a drive from a surface, targets and options, brings it to its level, evaluates
+//! what it does to the surface, and reports.
 //!
-//! [`Act`] does what `unripple focus` does, without its files: whoever shows figures of a focus takes them from here, so
+//! [`Act`] does what `unripple focus` does, without its files. Every program that shows metrics of a focus uses it, so
 //! that they are the same everywhere.
 
 mod aware;
@@ -34,7 +35,7 @@ pub use window::{chosen_window, lasting, recommended_window};
 use crate::core::{Drive, Responses, Surface};
 use crate::focus::{Focused, Focuser, Options, Target};
 
-/// One act of focusing.
+/// A focus to be computed, brought to its level and evaluated.
 ///
 /// ```
 /// use unripple::act::{Act, Level, model, recommended_window};
@@ -65,30 +66,31 @@ pub struct Act<'a> {
     pub targets: &'a [Target],
     /// Method of focusing and its options.
     pub options: &'a Options,
-    /// How strong the drive is to be.
+    /// Level that the drive is brought to.
     pub level: Level,
 }
 
-/// Result of an act of focusing.
+/// Result of an [`Act`]: the drive, its level and its evaluation.
 #[derive(Clone, Debug)]
 pub struct Acted {
-    /// The drive before its last scaling, and its timing.
+    /// The focus as computed, before its drive is scaled to the level and rounded, with its timing.
     pub focused: Focused,
     /// The drive at the level asked for, as float32 samples.
     pub drive: Drive,
-    /// Strength of the drive beside its limits, and what decided it.
+    /// Level of the drive relative to its limits, and what decided it.
     pub strength: Strength,
-    /// The field of the drive, measured.
+    /// Metrics, traces and maps of the field of the drive.
     pub judged: Judged,
 }
 
 impl<'a> Act<'a> {
-    /// What it takes to read the act's responses, for [`Act::send`] and [`Act::judge`]; acts on the same responses can share it.
+    /// Grids on which the fields of the act's responses are evaluated, for [`Act::send`] and [`Act::judge`]; acts on
+    /// the same responses can share them.
     pub fn readouts(&self) -> Readouts<'a> {
         Readouts::of(self.responses)
     }
 
-    /// Makes the drive, brings it to its level and evaluates it.
+    /// Computes the drive, brings it to its level and evaluates it.
     ///
     /// # Errors
     /// Those of [`carries`], [`Focuser`], [`Act::send`] and [`Act::judge`].
@@ -96,7 +98,7 @@ impl<'a> Act<'a> {
         self.run_on(&self.readouts())
     }
 
-    /// The same, reading the act's responses as acts before did.
+    /// As [`Act::run`], with readouts that are shared with other acts on the same responses.
     ///
     /// # Errors
     /// Those of [`Act::run`].
@@ -108,7 +110,7 @@ impl<'a> Act<'a> {
         Ok(Acted { focused: sent.focused, drive: sent.drive, strength: sent.strength, judged })
     }
 
-    /// Judges a drive on the act's own responses.
+    /// Evaluates the field of a drive on the act's own responses.
     ///
     /// # Errors
     /// Those of [`Readouts::fine`] and [`judge()`].
@@ -121,7 +123,7 @@ impl<'a> Act<'a> {
 }
 
 impl Acted {
-    /// The report of `unripple focus` on `surface` with these options, no files named.
+    /// The report of `unripple focus` on `surface` with these options, without names of files.
     pub fn report(&self, surface: &Surface, options: &Options) -> Report {
         let report = Report::of_focus(surface, &self.focused, options.window, &self.drive, &self.judged);
         Report { level: Some(self.strength.clone()), ..report }

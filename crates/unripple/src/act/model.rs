@@ -1,14 +1,15 @@
-//! The model's responses of a surface, fingers on it included.
+//! Modelled responses of a surface, with fingers on it.
 
 use super::ActError;
 use crate::core::{Contact, Responses, Shape, Surface};
 use crate::physics::{ResponseOptions, responses};
 
-/// Accuracy of the frequencies where they take a mesh: a phase of 0.06 rad at 3 kHz after 30 ms, alike in drive and judgement.
+/// Relative accuracy of natural frequencies that are computed on a mesh: a phase error of 0.06 rad at 3 kHz after 30
+/// ms, the same in the drive and in its evaluation.
 const MESHED: f64 = 1e-4;
 
-/// Relative accuracy, a ratio, that a surface's frequencies are worth: of what takes a mesh, no more than a drive can
-/// tell.
+/// Relative accuracy, a ratio, to which the natural frequencies of a surface are computed: the default of
+/// [`ResponseOptions`] for plain rectangles, 1e-4 where a mesh is needed.
 pub fn accuracy(surface: &Surface) -> f64 {
     let plain = matches!(surface.outline.shape, Shape::Rectangle { .. })
         && surface.outline.holes.is_empty()
@@ -16,7 +17,7 @@ pub fn accuracy(surface: &Surface) -> f64 {
     if plain { ResponseOptions::default().accuracy } else { MESHED }
 }
 
-/// The responses of a surface, on modes up to `max_hz` if given, under fingers.
+/// The responses of a surface with fingers at `contacts`, on modes up to `max_hz` (Hz), or those of its band.
 ///
 /// # Errors
 /// Those of [`responses`].

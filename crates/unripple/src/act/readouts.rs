@@ -1,19 +1,19 @@
-//! What it takes to read a surface where levels and figures are taken, made once for all drives.
+//! Grids on which levels and metrics of drives are evaluated, computed once for all drives.
 
 use super::{ActError, CELLS};
 use crate::core::Responses;
 use crate::field::Readout;
 use std::sync::OnceLock;
 
-/// Cells of the coarse grid per shortest wavelength: enough for displacements and for curves of contrast, while slopes take as many as
-/// figures.
+/// Cells of the coarse grid per shortest wavelength: enough for displacements and for curves of contrast, while slopes
+/// need as many as metrics.
 const COARSE: f64 = 4.0;
 
-/// Cells where only what is felt at a target is asked, which no grid changes.
+/// Cells per shortest wavelength where only the motion at targets matters, which no grid changes.
 const FEWEST: f64 = 1.0;
 
-/// The grids that drives are brought to their level and judged on, each made when it is first asked for and kept for all drives: an act
-/// takes two of them at most.
+/// The grids on which drives are brought to their level and evaluated. Each is computed when it is first needed and
+/// kept for all drives; an act uses two of them at most.
 #[derive(Debug)]
 pub struct Readouts<'a> {
     responses: &'a Responses,
@@ -23,12 +23,12 @@ pub struct Readouts<'a> {
 }
 
 impl<'a> Readouts<'a> {
-    /// Of the responses that drives are judged on.
+    /// Readouts of the responses on which drives are evaluated.
     pub fn of(responses: &'a Responses) -> Self {
         Self { responses, fewest: OnceLock::new(), coarse: OnceLock::new(), fine: OnceLock::new() }
     }
 
-    /// On the grid of figures, [`CELLS`].
+    /// Readout on the grid for metrics, [`CELLS`] cells per shortest wavelength.
     ///
     /// # Errors
     /// Those of [`Readout::new`].
@@ -36,7 +36,7 @@ impl<'a> Readouts<'a> {
         self.made(&self.fine, CELLS)
     }
 
-    /// On half as many cells each way.
+    /// Readout on a grid with half as many cells along each side.
     ///
     /// # Errors
     /// Those of [`Readout::new`].
@@ -44,7 +44,7 @@ impl<'a> Readouts<'a> {
         self.made(&self.coarse, COARSE)
     }
 
-    /// On a cell a wavelength.
+    /// Readout on a grid of one cell per shortest wavelength.
     pub(super) fn fewest(&self) -> Result<&Readout<'a>, ActError> {
         self.made(&self.fewest, FEWEST)
     }

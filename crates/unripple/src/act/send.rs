@@ -16,7 +16,7 @@ const STEPS: usize = 12;
 /// A drive at the level asked for, and where and when it is evaluated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sent {
-    /// The drive before its last scaling, and its timing.
+    /// The focus as computed, before its drive is scaled to the level and rounded, with its timing.
     pub focused: Focused,
     /// The drive, as float32 samples.
     pub drive: Drive,
@@ -24,11 +24,11 @@ pub struct Sent {
     pub aims: Vec<Aim>,
     /// The period of a repeated drive, in seconds.
     pub period: Option<f64>,
-    /// How far targets are traced, in seconds: twice the last focal instant, or the end of a repeated drive.
+    /// End of the time that is evaluated, in seconds: twice the last focal instant, or the end of a repeated drive.
     pub until: f64,
-    /// Strength of the drive beside its limits, and what decided it.
+    /// Level of the drive relative to its limits, and what decided it.
     pub strength: Strength,
-    /// Notes on what the level does to the method.
+    /// Notes on how the level affects the method.
     pub notes: Vec<Note>,
 }
 
@@ -76,12 +76,12 @@ struct Levelled {
 }
 
 impl Act<'_> {
-    /// Brings a drive that was made at its limit to the level asked for, as found on the act's own responses. A method whose drives take another shape at another
-    /// level is asked for that level.
+    /// Scales a drive that was computed for its limit to the level of this act, as evaluated on the act's own
+    /// responses. For [`Method::Limited`], whose waveforms depend on the level, the drive is solved for that level.
     ///
     /// # Errors
-    /// [`ActError::Level`] for numbers without meaning, levels above what the drive limit gives, a target that does not
-    /// move; those of [`Focuser::focus_at`] and of the field.
+    /// [`ActError::Level`] for levels that are not legal numbers or are above what the drive limit gives, and for a
+    /// target that does not move; those of [`Focuser::focus_at`] and of the field.
     pub fn send(&self, focuser: &Focuser<'_>, focused: Focused, on: &Readouts<'_>) -> Result<Sent, ActError> {
         let aimed = Aimed::of(self, &focused);
         let full = focused.drive.clone().as_emitted();
@@ -90,11 +90,11 @@ impl Act<'_> {
         self.brought((focuser, on), focused, full, step, aimed)
     }
 
-    /// As [`send`](Self::send), but for a level above what the drive limit gives the drive is at its limit, and a note says how far
-    /// that reaches: for whoever shows several drives side by side.
+    /// As [`send`](Self::send), but where the level asked for is above what the drive limit gives, the drive is at its
+    /// limit and a note says which level it reaches. Used to show several drives side by side.
     ///
     /// # Errors
-    /// As [`send`](Self::send), but for such levels.
+    /// As [`send`](Self::send), except for levels above what the drive limit gives.
     pub fn send_at_most(
         &self,
         focuser: &Focuser<'_>,

@@ -1,57 +1,57 @@
-//! How strong a drive is beside its limits, and what decided that.
+//! Level of a drive relative to its limits, and what decided it.
 
 use crate::core::Drive;
 use crate::focus::Options;
 use serde::Serialize;
 
-/// The limit or wish that decided the level of a drive.
+/// What decided the level of a drive: linear theory, a limit, or the level asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DecidedBy {
-    /// Linear theory: nothing moves by more than half the sheet's thickness, as found on a coarse grid.
+    /// Linear theory: no point moves by more than half the sheet's thickness, as found on a coarse grid.
     Thickness,
     /// Linear theory: slopes add a twentieth to the tension.
     Tension,
-    /// Linear theory: half of the strain that is left until the sheet yields.
+    /// Linear theory: the strain uses half of the margin between the strain at rest and yield.
     Yield,
     /// A limit of the drive.
     Limit,
     /// The displacement asked for.
     PeakUm,
-    /// The level asked for as felt.
+    /// The level felt that was asked for.
     FeltDb,
     /// The levels asked for of waveforms or of a stroke.
     Asked,
 }
 
-/// How strong a drive is, and how far below its limits.
+/// Level of a drive relative to its limits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Strength {
     /// What decided the level.
     pub decided_by: DecidedBy,
-    /// How far the drive is below the limit that it is nearest to, in dB and as a factor.
+    /// Headroom of the drive below the limit that it is nearest to, in dB.
     pub below_limit_db: f64,
-    /// That factor: how many times as strong the drive could be.
+    /// The same headroom as a factor by which the drive could grow.
     pub below_limit: f64,
-    /// Each limit, and what is used of it.
+    /// Each limit of the drive, and how much of it is used.
     pub limits: Vec<Headroom>,
-    /// Where the limit decided: how many times as strong linear theory would allow it to be.
+    /// Factor by which linear theory would allow the drive to grow; only where the limit decided the level.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub linear_theory_allows: Option<f64>,
 }
 
-/// A limit of the drive, and what is used of it.
+/// A limit of the drive, and how much of it is used.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Headroom {
-    /// `peak` and `rms` of an actuator, `total rms` of all together.
+    /// Name of the limit: `peak` or `rms` of an actuator, or `total rms` of all together.
     pub limit: &'static str,
     /// The limit, in the drive's unit.
     pub allowed: f64,
-    /// What the drive takes, of the actuator that takes most.
+    /// What the drive takes, in its unit: of the actuator that takes most, or of all together.
     pub used: f64,
     /// Headroom below the limit, in dB.
     pub below_db: f64,
-    /// Headroom as a factor.
+    /// Headroom below the limit, as a factor.
     pub below: f64,
 }
 
@@ -63,7 +63,7 @@ impl Headroom {
 }
 
 impl Strength {
-    /// Of a drive beside the limits of its options: of each sample, and of the rms over the whole of it.
+    /// Compares a drive with the limits of its options: on each sample, and on the rms over its whole length.
     pub fn of(drive: &Drive, options: &Options, decided_by: DecidedBy) -> Self {
         let square = |c: &Vec<f64>| c.iter().map(|d| d * d).sum::<f64>() / c.len().max(1) as f64;
         let squares: Vec<f64> = drive.channels().iter().map(square).collect();
@@ -77,13 +77,13 @@ impl Strength {
         Self { decided_by, below_limit_db, below_limit, limits, linear_theory_allows: None }
     }
 
-    /// With what linear theory would allow.
+    /// Adds the factor that linear theory would allow.
     pub(super) fn allowing(mut self, factor: Option<f64>) -> Self {
         self.linear_theory_allows = factor;
         self
     }
 
-    /// The strength in a sentence; `unit` is that of the drive, `thickness` the sheet's in m.
+    /// The level in a sentence; `unit` is that of the drive, `thickness` the sheet's in m.
     pub fn text(&self, unit: &str, thickness: f64) -> String {
         let linear = |what: String| format!("{what}, well within linear theory");
         let what = match self.decided_by {

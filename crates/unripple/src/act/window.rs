@@ -1,24 +1,25 @@
-//! The focusing window that is taken where none is asked for.
+//! The focusing window that is used by default.
 
 use crate::core::{Responses, Surface};
 use crate::physics::design::{Recommended, Windows};
 
-/// The window that is taken where none is asked for, in seconds: the one that `unripple design` recommends for the surface, or the
-/// longest that its responses last.
+/// The default window, in seconds: the one that `unripple design` recommends for the surface, or the length of its
+/// responses if that is shorter.
 pub fn recommended_window(surface: &Surface, responses: &Responses) -> f64 {
     chosen_window(surface, responses).seconds
 }
 
-/// The recommended window, with what is to be expected of it and why it is that. It takes a coarse solution for the
-/// modes: to be asked for once.
+/// The default window, with the contrast to be expected and the reason for the choice. Computing it solves a coarse
+/// model for the modes, so call it once.
 ///
-/// It takes a coarse solution for the modes: to be asked for once.
+/// See [`recommended_window`] for the window alone.
 pub fn chosen_window(surface: &Surface, responses: &Responses) -> Recommended {
     let windows = Windows::of(surface);
     windows.recommended().within(lasting(responses), &windows)
 }
 
-/// How long responses last, in seconds: the longest window that they serve.
+/// Length of the responses, in seconds, which is the longest window that they can be used with; infinite for modal
+/// responses.
 pub fn lasting(responses: &Responses) -> f64 {
     match responses {
         Responses::Modal(_) => f64::INFINITY,

@@ -1,4 +1,4 @@
-//! The contrast of time reversal at every place of a surface at once.
+//! The contrast of time reversal at every point of a surface, computed for all at once.
 
 mod reversal;
 
@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use unripple_core::OutOfRange;
 use unripple_linalg::{Accum, Mat, MatRef, Par, multiply, product};
 
-/// Points of the field read at once: their values fit a cache.
+/// Points of the field evaluated at once: their values fit a cache.
 const POINTS: usize = 128;
 
 /// A readout weight below this share of the largest anywhere is rounding error, not motion.
@@ -28,18 +28,20 @@ pub struct MapOptions {
     pub window: f64,
     /// Cells along the longer side of the surface, each with a target at its centre.
     pub across: usize,
-    /// Cells per shortest wavelength of the grid that the field outside is taken on; figures are taken on 8.
+    /// Cells per shortest wavelength of the grid on which the field outside the focal discs is evaluated;
+    /// [`act`](crate::act) uses 8.
     pub cells: f64,
 }
 
 impl Default for MapOptions {
-    /// 24 cells across, 30 ms, and a field on 4 cells per wavelength: contrasts within 2 % rms of those on 8.
+    /// 24 cells across, a window of 30 ms, and a field on 4 cells per wavelength: contrasts within 2 % rms of those on
+    /// 8.
     fn default() -> Self {
         Self { window: 30e-3, across: 24, cells: 4.0 }
     }
 }
 
-/// Contrast over a surface.
+/// Contrast of time reversal at the cells of a grid over a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContrastMap {
     /// The cells, row by row from the bottom; targets are their centres.
@@ -49,17 +51,18 @@ pub struct ContrastMap {
     pub contrast: Vec<Option<f64>>,
 }
 
-/// The map of what time reversal from all actuators achieves at every place of a surface: the `contrast` of a focus
-/// there, without making a drive.
+/// Computes the contrast of time reversal from all actuators at every cell of a surface: the `contrast` of a focus at
+/// its centre, without computing a drive.
 ///
-/// A target x is played its responses backwards, so that the modes end in `G φ(x)` with
-/// `G = (BᵀB) ∘ Σ_i p(i) p(i)ᵀ`, B the input weights and p the impulse response of every mode, summed over the samples of the
-/// window. The field at the focal instant is `Φ G φ(x)`, for all targets in two products of matrices. The drive's level and its
-/// rounding to single precision do not matter to a ratio.
+/// Time reversal to a target x leaves the modes at the focal instant with the velocities `G φ(x)`, φ(x) the shape
+/// weights at x, `G = (BᵀB) ∘ Σ_i p(i) p(i)ᵀ`, B the input weights and p the impulse response of every mode, summed
+/// over the samples of the window. The field at the focal instant is `Φ G φ(x)`, Φ the shape weights at its points, for
+/// all targets in two matrix products. The level of the drive and its rounding to single precision do not change a
+/// ratio.
 ///
 /// # Errors
-/// [`ActError::NeedsModes`] for sampled responses; [`ActError::Range`] for a window without a sample, a number of cells without
-/// meaning; [`ActError::Field`] for a grid without end.
+/// [`ActError::NeedsModes`] for sampled responses; [`ActError::Range`] for a window of no sample or of too many, and
+/// for a number of cells that is not 1 to 1024; [`ActError::Field`] for a grid that [`Grid::new`] refuses.
 ///
 /// ```
 /// use unripple::act::model;
@@ -94,7 +97,7 @@ fn check(what: &'static str, legal: bool, expected: &'static str, found: f64) ->
     if legal { Ok(()) } else { Err(ActError::Range(OutOfRange::new(what, expected, found))) }
 }
 
-/// So many cells along the longer side, nearly square ones.
+/// A grid of `across` cells along the longer side, nearly square ones.
 fn cells(conditions: &Conditions, across: usize) -> Grid {
     let (width, height) = conditions.outline.extent();
     let pitch = width.max(height) / across as f64;

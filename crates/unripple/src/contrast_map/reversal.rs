@@ -1,4 +1,4 @@
-//! Time reversal to every place at once, in modal coordinates.
+//! Time reversal to every point at once, in modal coordinates.
 
 use crate::core::{ModalResponses, Pole};
 use rayon::prelude::*;
@@ -7,8 +7,8 @@ use unripple_linalg::{Mat, times};
 /// A two by two matrix, by rows.
 type Square = [[f64; 2]; 2];
 
-/// G: from the readout weights of a target to the velocity of every mode at the focal instant of its time reversal over so many
-/// samples, up to one factor; modes x modes.
+/// The matrix G (modes x modes): from the shape weights at a target to the velocity of every mode at the focal instant
+/// of time reversal over so many samples, up to a common factor.
 pub(super) fn map(modal: &ModalResponses, samples: usize) -> Mat<f64> {
     let (poles, rate) = (&modal.poles, modal.conditions.rate);
     let sums = Sums::plan(poles, rate, samples);

@@ -1,4 +1,4 @@
-//! Figures of a surface as an edit changes them.
+//! Closed-form figures of a surface, recomputed after each edit.
 
 use crate::physics::design::Design;
 use serde::Serialize;
@@ -18,7 +18,7 @@ pub struct Figure {
     pub text: String,
 }
 
-/// The figures of a design that follow every edit, the most telling first.
+/// The main figures of a design, for display after each edit; the most important first.
 pub fn figures(design: &Design) -> Vec<Figure> {
     let d = design;
     let figure = |key, label, value: f64, unit, decimals: usize| Figure {

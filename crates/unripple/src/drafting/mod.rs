@@ -15,10 +15,10 @@ use crate::physics::design::{Design, design_by_law, design_on};
 use crate::physics::{Modes, PhysicsError, ResponseOptions, response_modes, responses_on};
 use std::sync::{Arc, OnceLock};
 
-/// A surface as it is drafted: its modes are solved for once, and all that is said of it stands on them.
+/// A surface being designed: its modes are computed once, and all results are derived from them.
 ///
-/// Its stages, each to be shown as it comes: [`Draft::by_law`], [`Draft::of`] with [`Draft::figures`], [`Draft::spot`],
-/// [`Draft::map`], and if all figures are wanted [`Draft::focus`].
+/// Results in the order in which they become available, the quickest first: [`Draft::by_law`], [`Draft::of`] with
+/// [`Draft::figures`], [`Draft::spot`], [`Draft::map`], and [`Draft::focus`] for all metrics of a focus.
 ///
 /// ```
 /// use unripple::core::Point;
@@ -45,7 +45,7 @@ pub struct Draft {
 }
 
 impl Draft {
-    /// Figures of a surface whose modes are not solved for: by Weyl's law, within milliseconds.
+    /// Figures of a surface estimated by Weyl's law, without computing its modes; takes milliseconds.
     ///
     /// # Errors
     /// Those of [`design_by_law`].
@@ -53,7 +53,7 @@ impl Draft {
         Ok(figures(&design_by_law(surface, "not counted yet")?))
     }
 
-    /// Solves for the modes of a surface. A surface whose modes cannot be computed has figures by Weyl's law and no responses.
+    /// Computes the modes of a surface. If that fails, the draft has figures by Weyl's law and no responses.
     ///
     /// # Errors
     /// Those of [`design()`](crate::physics::design()).
@@ -66,25 +66,26 @@ impl Draft {
         Ok(Self { surface: surface.clone(), design, modes, responses: OnceLock::new() })
     }
 
-    /// The surface that is drafted.
+    /// The surface of this draft.
     pub fn surface(&self) -> &Surface {
         &self.surface
     }
 
-    /// Everything that `unripple design` says of it.
+    /// All results of `unripple design` for the surface.
     pub fn design(&self) -> &Design {
         &self.design
     }
 
-    /// The figures to be shown.
+    /// The main figures of the design, the most important first.
     pub fn figures(&self) -> Vec<Figure> {
         figures(&self.design)
     }
 
-    /// The responses, those of `unripple focus`. The first call takes long where coils load the surface; later ones nothing.
+    /// The responses of the surface, as `unripple focus` computes them. The first call computes them, which takes long
+    /// where coils load the surface; later calls return the same ones.
     ///
     /// # Errors
-    /// [`ActError::Physics`] if there are none.
+    /// [`ActError::Physics`] if the modes or the responses cannot be computed.
     pub fn responses(&self) -> Result<&Arc<Responses>, ActError> {
         let found = self.responses.get_or_init(|| {
             let modes = self.modes.clone()?;
@@ -93,8 +94,8 @@ impl Draft {
         found.as_ref().map_err(Clone::clone)
     }
 
-    /// Time reversal at one place, evaluated at its focal instant only: the contrast of `unripple focus` there, in a
-    /// window of so many seconds or the one that it takes by itself.
+    /// Time reversal at one point (m), evaluated at its focal instant only: the contrast of `unripple focus` there,
+    /// with a window of `window` seconds or the recommended one.
     ///
     /// # Errors
     /// Those of [`Draft::responses`], [`focus`](crate::focus::focus()) and [`Field::snapshots`](crate::field::Field::snapshots).
@@ -102,7 +103,7 @@ impl Draft {
         spot::spot(self.responses()?, at, &self.options(window))
     }
 
-    /// Time reversal at one place (m) with every figure of `unripple focus`, in a window of so many seconds or the
+    /// Time reversal at one point (m) with all metrics of `unripple focus`, with a window of `window` seconds or the
     /// recommended one.
     ///
     /// # Errors
@@ -119,12 +120,13 @@ impl Draft {
         Options { window, limit, rms_limit, ..Options::default() }
     }
 
-    /// The window in s that is asked for, or the one that the surface recommends.
+    /// The window asked for, or the one recommended for the surface, in s.
     fn window(&self, asked: Option<f64>) -> f64 {
         asked.unwrap_or(self.design.window_recommended_s)
     }
 
-    /// The contrast of time reversal all over the surface, `across` cells along its longer side, for a window in s.
+    /// The contrast of time reversal over the whole surface, on `across` cells along its longer side, with a window of
+    /// `window` seconds or the recommended one.
     ///
     /// # Errors
     /// Those of [`Draft::responses`] and [`contrast_map`].

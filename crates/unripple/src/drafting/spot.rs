@@ -1,20 +1,21 @@
-//! Figures of a time-reversal focus at one place.
+//! Velocity and contrast of a time-reversal focus at one point.
 
 use crate::act::{ActError, CELLS};
 use crate::core::{Point, Responses};
 use crate::field::Field;
 use crate::focus::{Options, Target, focus};
 
-/// Figures of a time-reversal focus at one place, at its focal instant.
+/// Velocity and contrast of a time-reversal focus at one point, at its focal instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
-    /// The place, in metres.
+    /// The target point, in metres.
     pub at: Point,
     /// The window T, in seconds.
     pub window: f64,
-    /// Velocity there at T, in m/s, at the drive limit.
+    /// Velocity at the target at T, in m/s, with the drive at its limit.
     pub peak_velocity: f64,
-    /// That over the rms outside the focal disc: the `contrast` of `unripple focus`; `None` where nothing moves or is outside.
+    /// Contrast: the magnitude of this velocity over the rms velocity outside the focal disc, as `contrast` of
+    /// `unripple focus`; `None` where nothing moves outside, or nothing is outside.
     pub contrast: Option<f64>,
 }
 

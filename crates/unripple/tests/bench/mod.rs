@@ -1,4 +1,4 @@
-//! The paper's surface, twenty seeded targets, and a judge with modes to twice the band.
+//! The paper's surface, twenty seeded targets, and evaluation on modes to twice the band.
 
 #![allow(dead_code)]
 
@@ -11,24 +11,24 @@ use unripple_paper::study::Random;
 
 pub const WINDOW: f64 = 0.030;
 
-/// Responses that drives are made from, and those that they are judged on.
+/// Responses from which drives are computed (`known`), and those on which they are evaluated (`plant`).
 pub struct Bench {
     pub known: Responses,
     pub plant: Responses,
 }
 
-/// What a drive does at one target.
+/// Velocity and contrast of a focus at one target, and energy of its drive.
 #[derive(Clone, Copy, Debug)]
 pub struct Focus {
-    /// At the focal instant, in m/s.
+    /// Velocity at the target at the focal instant, in m/s.
     pub peak: f64,
     pub contrast: f64,
-    /// Σ∫d²dt.
+    /// Energy of the drive, Σ∫d²dt.
     pub energy: f64,
 }
 
 impl Focus {
-    /// Energy that this one takes for the peak of another, over the other's.
+    /// Energy of this drive over that of another, both scaled to the same peak.
     pub fn cost(&self, other: &Self) -> f64 {
         self.energy / self.peak.powi(2) / (other.energy / other.peak.powi(2))
     }
@@ -60,7 +60,7 @@ impl Bench {
         on(&self.plant, &drive, at, WINDOW)
     }
 
-    /// The focus that a plan gives.
+    /// The focus of the drive that a focuser computes for a target (m).
     pub fn judge(&self, plan: &Focuser, at: Point) -> Focus {
         self.focus(&plan.focus(&[Target::at(at)]).unwrap().drive, at)
     }
@@ -83,18 +83,18 @@ pub fn on(plant: &Responses, drive: &Drive, at: Point, instant: f64) -> Focus {
     Focus { peak, contrast: peak.abs() / rms, energy: drive.energy() }
 }
 
-/// Twenty targets, 20 mm or more from every edge.
+/// The first `count` of a seeded sequence of targets, 20 mm or more from every edge.
 pub fn targets(count: usize) -> Vec<Point> {
     let mut random = Random::seeded(2012);
     (0..count).map(|_| Point::new(random.between(0.02, 0.13), random.between(0.02, 0.13))).collect()
 }
 
-/// The first few of the twenty targets, and all of them where `UNRIPPLE_ALL_TARGETS` is set: what is costly to judge.
+/// The first `count` targets, or twenty where `UNRIPPLE_ALL_TARGETS` is set: for tests that take long.
 pub fn few(count: usize) -> Vec<Point> {
     targets(if std::env::var_os("UNRIPPLE_ALL_TARGETS").is_some() { 20 } else { count })
 }
 
-/// Mean, least and greatest.
+/// Mean, least and greatest of some values.
 pub fn spread(values: &[f64]) -> [f64; 3] {
     let mean = values.iter().sum::<f64>() / values.len() as f64;
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use unripple_core::{Actuator, ActuatorKind, Air, Decay, Edge, Edges, Outline, Point, Shape, Sheet, Surface};
 use unripple_physics::design::papers_surface;
 
-/// Loss factors of each kind.
+/// Loss factors that are tried on each kind of surface.
 pub const LOSS_FACTORS: [f64; 4] = [0.001, 0.005, 0.02, 0.1];
 
 /// Targets that contrast is averaged over.

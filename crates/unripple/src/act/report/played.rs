@@ -1,36 +1,38 @@
-//! The report of waveforms and strokes.
+//! Part of a report on waveforms and strokes.
 
 use crate::field::{SilenceFigures, WaveformFigures};
 use serde::Serialize;
 
-/// A target that follows a waveform: what was asked of it, and how well it did.
+/// A target that follows a waveform: what was prescribed, and how well it is followed.
 #[derive(Clone, Debug, Serialize)]
 pub struct Followed {
-    /// How well the target followed its waveform.
+    /// Metrics of how well the target follows its waveform.
     #[serde(flatten)]
     pub figures: WaveformFigures,
     /// Start of the waveform, in seconds from the drive's first sample.
     pub start_s: f64,
-    /// Largest magnitude asked for, in metres, after the limit and within the band.
+    /// Largest displacement prescribed, in metres, after scaling to the limits and within the band.
     pub asked_peak_m: f64,
-    /// Share of the waveform's energy outside the band, which was not asked for.
+    /// Share of the waveform's energy, 0 to 1, outside the band, which was left out.
     pub lost: f64,
 }
 
-/// A moving focus (stroke): what was asked of it, and how even it was.
+/// A focus that moves along a path (stroke): what was prescribed, and how even its level is.
 #[derive(Clone, Debug, Serialize)]
 pub struct Stroked {
-    /// Pulses that make it.
+    /// Number of pulses in the stroke.
     pub pulses: usize,
     /// Duration of the stroke, in seconds.
     pub duration_s: f64,
     /// Start of the stroke, in seconds from the drive's first sample.
     pub start_s: f64,
-    /// Velocity asked of every pulse, after the limit, in m/s.
+    /// Velocity prescribed for every pulse, after scaling to the limits, in m/s.
     pub asked_m_s: f64,
-    /// Least and greatest velocity along the path, each place at the pulse nearest to its own instant, over what was asked, in dB.
+    /// Least and greatest velocity along the path, in dB over `asked_m_s`. The velocity at each point of the path is
+    /// taken at the pulse nearest to the time at which the focus passes it.
     pub level_range_db: [f64; 2],
-    /// The same for the largest velocity of a place within half a pulse interval of its instant.
+    /// Least and greatest peak velocity along the path, in dB over `asked_m_s`. The peak at each point is the largest
+    /// velocity within half a pulse interval of the time at which the focus passes it.
     pub peak_range_db: [f64; 2],
 }
 

@@ -1,11 +1,11 @@
-//! What is left of a report where nobody knows what the responses' level is.
+//! Reports on responses whose absolute scale is unknown.
 
 use super::Report;
 use crate::field::TargetFigures;
 
 impl Report {
-    /// Takes out every figure that is a length, a velocity or a level: responses without a scale tell ratios, instants and places alone.
-    /// Numbers without meaning are NaN, `null` in JSON.
+    /// Removes every absolute displacement, velocity and level, for responses without a known scale: they determine
+    /// ratios, instants and positions only. The removed numbers are NaN, `null` in JSON.
     #[must_use]
     pub fn without_scale(mut self) -> Self {
         let ratios = |target: TargetFigures| TargetFigures {
