@@ -1,4 +1,4 @@
-//! Circles between the files of a crate: files that need each other, directly or through others.
+//! Circular dependencies between the files of a crate: files that need each other, directly or through others.
 
 mod reading;
 mod tokens;
@@ -16,7 +16,7 @@ pub struct Circle {
     pub name: String,
     /// The files, below its `src`.
     pub files: Vec<String>,
-    /// Which of them needs what of which other: from, to, names.
+    /// Dependencies between these files: from, to, and the names that are needed.
     pub needs: Vec<(String, String, Vec<String>)>,
 }
 
@@ -29,10 +29,10 @@ impl std::fmt::Display for Circle {
     }
 }
 
-/// The circles of every crate.
+/// Finds the circular dependencies within every crate.
 ///
-/// A file needs another if its code, tests left out, names or imports what is defined there. What it names of a module that only passes it
-/// on is needed of the file that defines it, and passing on is no need.
+/// A file needs another if its code, tests left out, names or imports an item that is defined there. An item that is reached through
+/// re-exports counts as needed from the file that defines it; a re-export itself is no need.
 pub fn find(root: &Path) -> Vec<Circle> {
     let mut manifests = crate::files(&root.join("crates"), &["Cargo.toml"]);
     manifests.push(root.join("xtask/Cargo.toml"));
@@ -49,7 +49,7 @@ fn of_crate(folder: &Path) -> Vec<Circle> {
     Sources::of(sources).circles(&name)
 }
 
-/// The module that a file is.
+/// Path of the module that a file holds.
 fn module(file: &Path) -> Module {
     let mut path: Module =
         file.with_extension("").iter().map(|part| part.to_string_lossy().into_owned()).collect();
@@ -80,7 +80,7 @@ impl Sources {
         Self { files, modules }
     }
 
-    /// A path as it is written in a module, from the crate's root on; nothing if it leads elsewhere.
+    /// Resolves a path written in a module to one from the crate's root; `None` if it leads out of the crate.
     fn absolute(&self, path: &[String], module: &Module) -> Option<Module> {
         let (first, rest) = path.split_first()?;
         let mut start = match first.as_str() {
@@ -98,7 +98,7 @@ impl Sources {
         Some([&start[..], &rest[ups..]].concat())
     }
 
-    /// The same for code, which may begin with a name that its module imports.
+    /// Resolves a path in a module's code, which may also begin with a name that the module imports.
     fn spoken(&self, path: &[String], module: &Module) -> Option<Module> {
         self.absolute(path, module).or_else(|| {
             let (first, rest) = path.split_first()?;

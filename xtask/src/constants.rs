@@ -3,7 +3,7 @@
 use crate::items::{self, declared};
 use std::path::Path;
 
-/// Constants that nothing is said of.
+/// Finds constants without a comment.
 pub fn check(root: &Path) -> Vec<String> {
     crate::sources(root, &|text| {
         let lines: Vec<&str> = text.lines().collect();

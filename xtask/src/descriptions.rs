@@ -6,7 +6,7 @@ use std::path::Path;
 /// Words that a doc has at least: "The value." says nothing that the name does not.
 const WORDS: usize = 3;
 
-/// Public items, fields and variants without a doc, or with one of too few words.
+/// Finds public items, fields and variants without a doc, or with one of too few words.
 pub fn check(root: &Path) -> Vec<String> {
     crate::sources(root, &|text| {
         let lines: Vec<&str> = text.lines().collect();

@@ -30,7 +30,7 @@ fn floor(name: &str) -> Option<i8> {
     FLOORS.iter().find(|(n, _)| *n == name).map(|(_, floor)| *floor)
 }
 
-/// Dependencies that do not run downward, and crates that stand on no floor.
+/// Finds dependencies that do not run downward, and crates without a floor.
 pub fn check(root: &Path) -> Vec<String> {
     let mut faults = Vec::new();
     for manifest in crate::files(&root.join("crates"), &["Cargo.toml"]) {

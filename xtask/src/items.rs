@@ -17,7 +17,7 @@ const KINDS: [&str; 9] = ["fn", "struct", "enum", "union", "trait", "type", "con
 /// Words that may stand before `fn`, `trait` or `static`.
 const QUALIFIERS: [&str; 5] = ["default", "async", "unsafe", "safe", "extern"];
 
-/// The declaration that a line begins, if it begins one.
+/// Finds the declaration that a line begins, if it begins one.
 pub fn declared(line: &str) -> Option<Declaration<'_>> {
     let code = line.trim_start();
     let (public, code) = match code.strip_prefix("pub") {
@@ -41,7 +41,7 @@ pub fn declared(line: &str) -> Option<Declaration<'_>> {
     }
 }
 
-/// Spaces before a line's first sign.
+/// Number of spaces before a line's first character.
 pub fn indent(line: &str) -> usize {
     line.len() - line.trim_start().len()
 }
@@ -54,7 +54,7 @@ pub fn code<'l, 't>(lines: &'l [&'t str]) -> &'l [&'t str] {
     &lines[..tests.unwrap_or(lines.len())]
 }
 
-/// The line after a declaration's signature: a function's, with the arguments that stand on lines of their own.
+/// Number of the line after a declaration's signature, which for a function includes arguments on lines of their own.
 pub fn signature_end(lines: &[&str], start: usize) -> usize {
     let ends = |line: &&str| line.ends_with(['{', ';', '}']);
     lines[start..].iter().position(ends).map_or(lines.len(), |length| start + length + 1)

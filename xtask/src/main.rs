@@ -47,7 +47,7 @@ fn main() -> ExitCode {
     if faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
-/// Every breach of the house rules, one line each.
+/// Finds every breach of the house rules, one line each.
 fn tidy(root: &Path) -> Vec<String> {
     let mut faults = floors::check(root);
     faults.extend(matrices::check(root));
@@ -83,8 +83,8 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// Files below `folder` whose name ends in one of `endings`. Build output is left out, what the README's commands write, which may be under
-/// way, and hidden folders.
+/// Files below `folder` whose name ends in one of `endings`. Hidden folders, build output, and output of the README's commands, which may
+/// be running, are left out.
 fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
     let mut found = Vec::new();

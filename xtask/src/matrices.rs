@@ -31,7 +31,7 @@ fn library() -> String {
     ["fa", "er"].concat()
 }
 
-/// Dependencies on the library, paths into it and calls of its algorithms outside [`OWN`], line by line.
+/// Finds dependencies on the library, paths into it and calls of its algorithms outside [`OWN`], line by line.
 pub fn check(root: &Path) -> Vec<String> {
     let (mut faults, path) = (Vec::new(), format!("{}::", library()));
     for file in crate::files(&root.join("crates"), &[".rs", "Cargo.toml"]) {
@@ -49,7 +49,7 @@ pub fn check(root: &Path) -> Vec<String> {
     faults
 }
 
-/// What in a line goes round [`OWN`].
+/// The dependency, path or call in a line that bypasses [`OWN`], if there is one.
 fn breach<'a>(line: &str, manifest: bool, path: &'a str) -> Option<&'a str> {
     if manifest {
         let name = path.trim_end_matches(':');

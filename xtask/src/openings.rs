@@ -5,7 +5,7 @@ use std::path::Path;
 /// Words that such a line has at least: a name alone says nothing.
 const WORDS: usize = 2;
 
-/// Source files whose first line says nothing.
+/// Finds source files whose first line does not describe them.
 pub fn check(root: &Path) -> Vec<String> {
     let files = crate::files(root, &[".rs"]).into_iter();
     let silent = files.filter(|path| !opens(&std::fs::read_to_string(path).unwrap_or_default()));

@@ -18,7 +18,7 @@ const WORDS: &str = "second millisecond microsecond nanosecond metre millimetre 
     percentile power amplitude correlation period wavelength octave neper unit dimensionless shape \
     matrix vector length weight probability likeness";
 
-/// Public functions of quantities whose docs name none.
+/// Finds public functions of quantities whose docs name no unit or shape.
 pub fn check(root: &Path) -> Vec<String> {
     crate::sources(root, &|text| {
         let lines: Vec<&str> = text.lines().collect();

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-/// Files of seeds that are read by no test, and tests that keep none.
+/// Finds files of seeds that no test reads, and tests that keep no seeds.
 pub fn check(root: &Path) -> Vec<String> {
     let crates = root.join("crates");
     let seeds = crate::files(&crates, &[".proptest-regressions", ".txt"]);
@@ -18,8 +18,8 @@ pub fn check(root: &Path) -> Vec<String> {
     faults
 }
 
-/// Whether proptest looks there, which depends on the sources beside it: for a file below a `lib.rs` or `main.rs` the seeds are below
-/// `proptest-regressions` beside that one's folder, for any other beside the file itself. Other texts are none of seeds.
+/// Whether proptest reads this file, which depends on the sources beside it: for a test below a `lib.rs` or `main.rs` the seeds are in a
+/// folder `proptest-regressions` beside that file's folder, for any other test beside the test itself. Other text files hold no seeds.
 fn is_read(path: &Path) -> bool {
     if path.extension().is_some_and(|ending| ending == "proptest-regressions") {
         let source = path.with_extension("rs");

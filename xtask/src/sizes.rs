@@ -7,7 +7,7 @@ use std::path::Path;
 const FILE_LINES: usize = 400;
 const FUNCTION_LINES: usize = 60;
 
-/// Files and functions that are too long.
+/// Finds files and functions that are too long.
 pub fn check(root: &Path) -> Vec<String> {
     let mut faults = Vec::new();
     for path in crate::files(root, &[".rs", ".py", ".js", ".css", ".html"]) {

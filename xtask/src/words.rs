@@ -1,8 +1,8 @@
-//! Nothing is left open, switched off, or tied to one machine.
+//! Rejects words in sources that mark unfinished code, ignored tests or paths of one machine.
 
 use std::path::Path;
 
-/// Lines that hold a word that does not belong.
+/// Finds lines that hold such a word.
 pub fn check(root: &Path) -> Vec<String> {
     let open = ["to", "do!("].concat();
     let missing = ["unimpl", "emented!("].concat();

@@ -1,4 +1,4 @@
-//! The workflow and the issue forms are YAML, and say what their readers need.
+//! Tests that the workflow and the issue forms are valid YAML with the keys that they need.
 
 use yaml_rust2::{Yaml, YamlLoader};
 

@@ -6,16 +6,16 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A module's path within its crate.
 pub type Module = Vec<String>;
 
-/// What is in one module, which is a file or a part of it.
+/// Contents of one module, which is a file or a part of it.
 #[derive(Debug, Default)]
 pub struct Names {
     /// Items that it defines itself.
     pub defined: BTreeSet<String>,
-    /// What it imports under which name.
+    /// Imports of the module, by the names that they have there.
     pub imported: BTreeMap<String, Import>,
-    /// Modules of which it imports all.
+    /// Paths of modules of which it imports everything (`*`).
     pub globs: Vec<Vec<String>>,
-    /// Paths in its code.
+    /// Paths that its code uses.
     pub paths: BTreeSet<Vec<String>>,
     /// All names in its code but for those of imports.
     pub spoken: BTreeSet<String>,
@@ -24,16 +24,16 @@ pub struct Names {
 /// One import of a module.
 #[derive(Debug)]
 pub struct Import {
-    /// As it is written.
+    /// Path as it is written.
     pub path: Vec<String>,
-    /// Whether it is passed on.
+    /// Whether it is a re-export.
     pub public: bool,
 }
 
 /// Words that declare an item which other files may need.
 const ITEMS: [&str; 8] = ["fn", "struct", "enum", "trait", "const", "static", "type", "union"];
 
-/// The modules in a file, tests left out; `module` is the file's own.
+/// Reads the modules in a file, tests left out; `module` is the file's own path.
 pub fn read(text: &str, module: &Module) -> BTreeMap<Module, Names> {
     let tokens = tokens(text);
     let mut found = BTreeMap::from([(module.clone(), Names::default())]);

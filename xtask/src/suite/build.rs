@@ -5,17 +5,17 @@ use std::collections::{BTreeMap, VecDeque};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// A test program, and what cargo would give it.
+/// A test program, with what cargo would tell it in its environment.
 pub struct Program {
-    /// Its package's name.
+    /// Name of its package.
     pub package: String,
-    /// Its target's name; `lib` for the tests that stand in the sources of a library.
+    /// Name of its target; `lib` for the tests within the sources of a library.
     pub name: String,
-    /// Where it was put.
+    /// Path of the program.
     pub path: PathBuf,
-    /// Its package's folder, in which it runs.
+    /// Folder of its package, in which it runs.
     pub folder: PathBuf,
-    /// Its package's version.
+    /// Version of its package.
     pub version: String,
 }
 
@@ -25,16 +25,16 @@ impl std::fmt::Display for Program {
     }
 }
 
-/// What was built.
+/// Test programs that were built.
 pub struct Built {
     /// All programs that were chosen.
     pub programs: VecDeque<Program>,
-    /// Where what they write is kept.
+    /// Folder in which the programs' output is stored.
     pub folder: PathBuf,
 }
 
-/// The programs that these arguments choose: `--built FILE` those of which cargo's messages in that file tell, others of `cargo test` those
-/// that cargo builds for them, none all of the workspace.
+/// Finds the test programs that the arguments choose. `--built FILE`: those in cargo's messages in that file; other arguments are passed to
+/// `cargo test`, and those that it builds are taken; without arguments, all of the workspace.
 pub fn programs(root: &Path, arguments: &[String]) -> Result<Built, String> {
     let messages = match arguments {
         [option, file] if option == "--built" => {

@@ -11,7 +11,8 @@ const REGISTRY: &str = "JACK keeps one registry of servers and clients for a use
 const CLOCK: &str = "it holds times against the machine's clock, or interrupts at moments of it";
 const CROWD: &str = "it opens as many connections as the machine grants";
 
-/// Programs that run one at a time, beside all others and before them when cores are given away; those that take longest begin.
+/// Programs that run one at a time, in this order (those that take longest first), while others run beside them; they have priority when
+/// cores are short.
 #[rustfmt::skip]
 pub const ALONE: &[Alone] = &[
     ("unripple-cli", "interrupts", CLOCK),
@@ -53,7 +54,7 @@ const LONG: &[(&str, &str)] = &[
     ("unripple", "thread_counts"),
 ];
 
-/// Those that run one at a time, and the others, each in the order in which they begin.
+/// Sorts programs into those that run one at a time and the others, each in the order in which they begin.
 pub fn sorted(programs: VecDeque<Program>) -> (VecDeque<Program>, VecDeque<Program>) {
     let place = |program: &Program| ALONE.iter().position(|alone| is(program, alone.0, alone.1));
     let (mut alone, mut others): (Vec<_>, Vec<_>) =

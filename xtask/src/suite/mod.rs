@@ -1,4 +1,4 @@
-//! All test programs, side by side: `cargo xtask test`.
+//! Runs all test programs side by side: `cargo xtask test`.
 //!
 //! Cargo runs test programs one after the other, and most of them end with one long test on one core. Here as many run at once as there are
 //! cores, the longest first, and beside them, one at a time, those of [`lanes::ALONE`].
@@ -17,7 +17,7 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 use tally::Tally;
 
-/// How long nothing may end until it is said what is still running, so that a program that hangs can be named.
+/// Time without any program ending after which those still running are printed, so that a program that hangs can be named.
 const SILENCE: Duration = Duration::from_secs(120);
 
 /// What a program says of itself to whoever waits.
@@ -26,7 +26,7 @@ enum News {
     Ended(String, Result<End, String>),
 }
 
-/// Runs the test programs that the arguments choose ([`build::programs`]); returns what failed.
+/// Runs the test programs that the arguments choose ([`build::programs`]); returns the failures.
 pub fn run(root: &Path, arguments: &[String]) -> Vec<String> {
     let built = match build::programs(root, arguments) {
         Ok(built) => built,

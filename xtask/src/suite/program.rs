@@ -1,4 +1,4 @@
-//! One test program: started as cargo would start it, its output kept.
+//! Runs one test program as cargo would, and keeps its output.
 
 use super::build::Program;
 use super::tally::Tally;
@@ -11,28 +11,28 @@ use std::time::{Duration, Instant};
 /// the test's.
 const THREADS: &str = "2";
 
-/// How much a program's neighbours may keep it from a core.
+/// Priority of a program on the processor's cores.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Pace {
-    /// It has a core whenever it wants one.
+    /// Normal priority: it has a core whenever it needs one.
     Prompt,
-    /// It takes what the prompt ones leave.
+    /// Low priority: it takes the time that prompt programs leave.
     Yielding,
 }
 
-/// How a program ended.
+/// Result of running a program.
 pub struct End {
-    /// Whether it ended with 0, after a result of all its tests.
+    /// Whether it ended with status 0, after printing the result of all its tests.
     pub passed: bool,
-    /// What became of its tests.
+    /// Counts of tests that passed and failed.
     pub tally: Tally,
     /// What it wrote on standard output and standard error, in order.
     pub output: String,
-    /// From its start to its end.
+    /// Time from its start to its end.
     pub took: Duration,
 }
 
-/// Runs a program in its package's folder, with what cargo says in the environment.
+/// Runs a program in its package's folder, with the environment that cargo would set.
 pub fn run(program: &Program, pace: Pace, folder: &Path) -> Result<End, String> {
     let began = Instant::now();
     // A file, not a pipe: what a program started and did not end would keep a pipe open.

@@ -1,17 +1,17 @@
-//! What a test program says of its tests at its end.
+//! Counts of passed and failed tests in a test program's output.
 
-/// Tests, by what became of them.
+/// Numbers of tests that passed and failed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
-    /// Those that passed.
+    /// Number of tests that passed.
     pub passed: usize,
-    /// Those that did not.
+    /// Number of tests that failed.
     pub failed: usize,
 }
 
 impl Tally {
-    /// Read from the last `test result:` of what a program wrote, since some run themselves, whose output may be among it; nothing if
-    /// there is none.
+    /// Reads the counts from the last `test result:` in a program's output: some programs run themselves, and their output may come before.
+    /// `None` if there is none.
     pub fn of(output: &str) -> Option<Self> {
         let (_, result) = output.lines().rev().find_map(|line| line.split_once("test result: "))?;
         let count = |what: &str| {
