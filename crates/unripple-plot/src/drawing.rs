@@ -1,4 +1,4 @@
-//! A finished figure, as SVG and PNG.
+//! A finished figure, as SVG, PDF and PNG.
 
 use crate::colour::Rgb;
 use crate::panel::Placed;
@@ -10,19 +10,20 @@ use rayon::prelude::*;
 pub struct Drawing {
     svg: String,
     size: [f64; 2],
+    description: String,
     placed: Vec<Placed>,
 }
 
-/// Dots to an inch that print asks for. At half of it thin lines show steps; twice as many make files four times as
-/// large.
+/// Resolution for print, in dots per inch. At half of it thin lines show steps; twice as many make files four times
+/// as large.
 pub const PRINT_DPI: f64 = 300.0;
 
 /// Most pixels in a picture, so that a slip in its size cannot take all memory.
 const MOST_PIXELS: f64 = 1e8;
 
 impl Drawing {
-    pub(crate) fn new(svg: String, size: [f64; 2], placed: Vec<Placed>) -> Self {
-        Self { svg, size, placed }
+    pub(crate) fn new(svg: String, size: [f64; 2], description: &str, placed: Vec<Placed>) -> Self {
+        Self { svg, size, description: description.to_owned(), placed }
     }
 
     /// The SVG document.
@@ -53,9 +54,18 @@ impl Drawing {
         encode::opaque(&pixmap, dpi)
     }
 
-    /// Where data of a panel have come to lie in the picture, in pixels from its upper left corner.
+    /// The figure as a page of PDF, curves as curves and text as outlines, titled by the figure's description.
     ///
-    /// `at` is in the units of the panel's data. Absent where there is no such panel or the data cannot be shown on its axes.
+    /// Deterministic, as [`png`](Self::png). Errors when the drawing cannot be read back, which no figure should give.
+    pub fn pdf(&self) -> Result<Vec<u8>, PlotError> {
+        crate::pdf::page(&self.svg, self.size, &self.description)
+    }
+
+    /// Place of a datum of a panel in the picture, in pixels from its upper left corner, at a resolution in dots per
+    /// inch.
+    ///
+    /// `panel` is the index of the panel; `at` is in the units of its data. Absent where there is no such panel or
+    /// the data cannot be shown on its axes.
     pub fn pixel(&self, panel: usize, at: [f64; 2], dpi: f64) -> Option<[f64; 2]> {
         let [x, y] = self.placed.get(panel)?.point(at[0], at[1])?;
         Some([x * dpi / 72.0, y * dpi / 72.0])

@@ -49,14 +49,19 @@ pub(crate) fn indexed(
     Ok(file)
 }
 
-/// Renders a drawing at a number of pixels for each of its CSS pixels (1/96 inch), over a background if any.
-pub(crate) fn render(svg: &str, scale: f32, background: Option<Rgb>) -> Result<tiny_skia::Pixmap, PlotError> {
+/// A drawing as the renderer reads it, text with the embedded typeface.
+pub(crate) fn tree(svg: &str) -> Result<usvg::Tree, PlotError> {
     let options = usvg::Options {
         fontdb: crate::font::database(),
         font_family: "DejaVu Sans".to_owned(),
         ..usvg::Options::default()
     };
-    let tree = usvg::Tree::from_str(svg, &options).map_err(|e| image_error("reading the drawing")(&e))?;
+    usvg::Tree::from_str(svg, &options).map_err(|e| image_error("reading the drawing")(&e))
+}
+
+/// Renders a drawing at a number of pixels for each of its CSS pixels (1/96 inch), over a background if any.
+pub(crate) fn render(svg: &str, scale: f32, background: Option<Rgb>) -> Result<tiny_skia::Pixmap, PlotError> {
+    let tree = tree(svg)?;
     let (width, height) = (tree.size().width() * scale, tree.size().height() * scale);
     let mut pixmap = tiny_skia::Pixmap::new(width.round() as u32, height.round() as u32)
         .ok_or_else(|| image_error("rendering the drawing")(&"no memory for its pixels"))?;

@@ -23,7 +23,7 @@ use crate::{Panel, PlotError};
 pub struct Figure {
     /// Width in millimetres; 85 fills a journal's single column, 178 both.
     pub width_mm: f64,
-    /// Panels side by side.
+    /// Number of panels side by side.
     pub columns: usize,
     /// The panels, filled in row by row.
     pub panels: Vec<Panel>,
@@ -59,7 +59,7 @@ impl Figure {
         Self { panels: vec![panel.into()], ..Self::default() }
     }
 
-    /// Draws it.
+    /// Draws the figure.
     ///
     /// Errors when there is no panel, when a panel has nothing finite to show or lengths that disagree, and when a
     /// value or an option is outside its range.
@@ -94,7 +94,7 @@ impl Figure {
         }
         let height = y - BETWEEN + EDGE;
         let svg = canvas.finish(width, height, &self.description);
-        Ok(Drawing::new(svg, [width, height], placed))
+        Ok(Drawing::new(svg, [width, height], &self.description, placed))
     }
 
     fn check(&self) -> Result<(), PlotError> {

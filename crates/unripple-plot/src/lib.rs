@@ -1,4 +1,4 @@
-//! Figures for publication, from data alone: one drawing gives SVG text and a PNG rendered from that same text.
+//! Figures for publication, from data alone: one drawing gives SVG text, a PDF page and a PNG made of that same text, and tables of the data.
 //!
 //! A [`Figure`] is a grid of [`Panel`]s: [`Plot`] (curves, points, bands and annotations on axes), [`Traces`] (one above the other,
 //! as on an oscilloscope), [`Map`] (a field over the surface), [`Strip`] (several fields, one colour bar) and [`Cells`] (a table in colour).
@@ -28,10 +28,12 @@ mod map;
 mod movie;
 mod paint;
 mod panel;
+mod pdf;
 mod plot;
 mod raster;
 mod strip;
 mod style;
+mod table;
 mod thin;
 mod ticks;
 mod traces;

@@ -2,5 +2,10 @@
 
 mod movie;
 mod oracle;
+mod pdf;
 mod property;
+#[path = "../../../unripple-core/tests/shared/python.rs"]
+mod python;
 mod refusal;
+#[path = "../../../unripple-core/tests/shared/skip.rs"]
+mod skip;

@@ -14,15 +14,25 @@ use crate::TaskError;
 use unripple_plot::{Figure, PRINT_DPI, pngs};
 use unripple_store::OutputDir;
 
-/// Writes each figure as NAME.svg and NAME.png; returns the file names.
+/// Writes each figure as NAME.svg, NAME.pdf and NAME.png, and its data as NAME.csv or, of several panels, NAME-a.csv and so on; returns the
+/// file names.
 pub fn write(out: &OutputDir, figures: &[(&str, Figure)]) -> Result<Vec<String>, TaskError> {
     let drawings = figures.iter().map(|(_, figure)| figure.draw()).collect::<Result<Vec<_>, _>>()?;
     let pictures = pngs(&drawings, PRINT_DPI)?;
     let mut names = Vec::new();
-    for (((name, _), drawing), picture) in figures.iter().zip(&drawings).zip(&pictures) {
-        for (ending, bytes) in [("svg", drawing.svg().as_bytes()), ("png", picture.as_slice())] {
+    for (((name, figure), drawing), picture) in figures.iter().zip(&drawings).zip(&pictures) {
+        let page = drawing.pdf()?;
+        let files =
+            [("svg", drawing.svg().as_bytes()), ("pdf", page.as_slice()), ("png", picture.as_slice())];
+        for (ending, bytes) in files {
             let file = format!("{name}.{ending}");
             out.write(&file, bytes)?;
+            names.push(file);
+        }
+        let tables = figure.tables();
+        for (letter, table) in ('a'..='z').zip(&tables) {
+            let file = if tables.len() > 1 { format!("{name}-{letter}.csv") } else { format!("{name}.csv") };
+            out.write(&file, table.as_bytes())?;
             names.push(file);
         }
     }
