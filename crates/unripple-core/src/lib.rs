@@ -1,21 +1,21 @@
-//! Points, surfaces, responses, drives and the conventions they share.
+//! Core types: points, surfaces, impulse responses, drives and audio devices, and the conventions they share.
 //!
 //! # Conventions
 //!
-//! - SI units and `f64` everywhere. Files and the command line speak millimetres and milliseconds; nothing here does.
+//! - SI units and `f64` for all values. Files, the command line and messages use millimetres and milliseconds.
 //! - Origin at the lower-left corner of the outline's bounding box, x to the right, y up. Displacement is positive
 //!   towards the finger.
 //! - Time factor e^{+jωt}. A decay time τ is that of the *amplitude*, e^{-t/τ}; a decay rate is σ = 1/τ.
 //! - A response `h[actuator][point][sample]` is the normal velocity at the point, in m/s, per unit impulse of drive at
-//!   the actuator. Sample 0 is the value just after the impulse, whole.
-//! - A drive `d[actuator][sample]` makes `v[i] = Σ_j h[i-j] d[j] / rate`.
-//! - A window of T holds samples 0 … n with `n = round(T · rate)`, so n + 1 samples; the focal instant is sample n.
+//!   the actuator. Sample 0 is the full value just after the impulse (not half of it).
+//! - A drive `d[actuator][sample]` causes the velocity `v[i] = Σ_j h[i-j] d[j] / rate`, summed over actuators.
+//! - A window of T seconds holds samples 0 … n with `n = round(T · rate)`, so n + 1 samples; the focal instant is sample n.
 //!
 //! # In reading order
 //!
-//! [`Point`], [`Outline`] and [`Surface`] say what there is; [`Responses`] is what the surface does; [`Drive`] is what
-//! we send. The two last are the waists of the whole: models and measurements meet in the one, virtual and real
-//! devices in the other.
+//! [`Point`], [`Outline`] and [`Surface`] describe a plate or film and its actuators; [`Responses`] are its impulse
+//! responses; [`Drive`] is the input signal of its actuators. The other crates exchange data through the last two: models
+//! and measurements both give [`Responses`], virtual and real devices both take a [`Drive`].
 //!
 //! ```
 //! use unripple_core::{Outline, Point, Shape};
@@ -29,6 +29,7 @@ mod cycle;
 mod device;
 mod drive;
 mod error;
+mod laminate;
 mod material;
 mod outline;
 pub mod plane;
@@ -47,6 +48,7 @@ pub use cycle::{Cycle, Work};
 pub use device::{Device, DeviceError, Layout, PROBE, Server, State, Status, TEND};
 pub use drive::Drive;
 pub use error::CoreError;
+pub use laminate::{Laminate, Layer};
 pub use material::{MATERIALS, Material};
 pub use outline::{Edge, Edges, Hole, Loop, Outline};
 pub use plane::OutlineFault;

@@ -7,6 +7,7 @@ mod edge;
 mod emission;
 mod grain;
 mod hole;
+mod layers;
 mod material;
 mod outline;
 mod path;
@@ -51,7 +52,7 @@ const KEYS: [&str; 10] = [
 /// text alone reaches no other file.
 ///
 /// # Errors
-/// All faults of the text at once; after an error of TOML itself, that one.
+/// [`FileFaults`] with all faults of the text, or only the first error of TOML syntax.
 ///
 /// ```
 /// let text = r#"
@@ -79,10 +80,10 @@ pub fn parse_surface(text: &str, file: &str) -> Result<Surface, FileFaults> {
     })
 }
 
-/// As [`parse_surface`], with `fetch` to hand over the text of the SVG file that an outline names.
+/// As [`parse_surface`], with `fetch` to return the text of an SVG file that an outline or a hole names.
 ///
 /// # Errors
-/// All faults of the text at once; after an error of TOML itself, that one.
+/// [`FileFaults`] with all faults of the text, or only the first error of TOML syntax.
 pub fn parse_surface_with(
     text: &str,
     file: &str,
@@ -120,7 +121,7 @@ fn read(root: &Section, name: Option<String>, fetch: &Fetch, faults: &mut Faults
     })
 }
 
-/// The holes of the file without fault, those drawn with the rim first, and whether these are all.
+/// The holes of the file that are without fault, those drawn with the outline first, and whether these are all.
 fn holes(root: &Section, rim: &Rim, fetch: &Fetch, faults: &mut Faults) -> (Vec<Hole>, bool) {
     let drawn = rim.holes.iter().map(|hole| Cut {
         hole: hole.clone(),

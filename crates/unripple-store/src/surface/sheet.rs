@@ -1,6 +1,7 @@
 //! The table `[sheet]`.
 
 use super::grain::{self, GRAIN_KEYS};
+use super::layers::{self, LAYER};
 use super::material::{self, MATERIAL_KEYS, MaterialProperties};
 use super::profile;
 use super::range::{Limits, of};
@@ -17,11 +18,13 @@ pub(super) const AIRS: [(&str, Air); 3] =
 
 /// The table `[sheet]`, but for scatterers.
 pub(super) fn read(section: &Section, faults: &mut Faults) -> Option<Sheet> {
-    let known = [&MATERIAL_KEYS[..], &GRAIN_KEYS, &KEYS, &UNEVEN_KEYS].concat();
+    let known = [&MATERIAL_KEYS[..], &GRAIN_KEYS, &KEYS, &UNEVEN_KEYS, &[LAYER]].concat();
     section.check_keys(&known, |_| None, faults);
-    let made_of = material::read(section, faults);
+    let (made_of, thickness) = match section.get(LAYER) {
+        Some(layers) => layers::read(&layers, section, faults).unzip(),
+        None => (material::read(section, faults), section.number("thickness_mm", &of::THICKNESS, faults)),
+    };
     let grain = grain::read(section, made_of.as_ref(), faults);
-    let thickness = section.number("thickness_mm", &of::THICKNESS, faults);
     let tension = section.number_or("tension_n_per_m", 0.0, &of::TENSION, faults);
     let decay = decay(section, faults);
     let air = section.choice_or("air", Air::None, &AIRS, faults);
@@ -75,12 +78,13 @@ fn pulled_back(
     }
     if tension == 0.0 {
         let span = section.get("tension_n_per_m").map_or(section.span.clone(), |entry| entry.span);
-        let expected = "a positive tension_n_per_m or young_gpa: nothing else restores the sheet";
+        let expected = "a positive tension_n_per_m or young_gpa: nothing else pulls the sheet back";
         faults.add("sheet.tension_n_per_m", span, "neither tension nor stiffness", expected, None);
     } else if let (Some(entry), Some(profile)) = (section.get(UNEVEN_KEYS[1]), profile)
         && profile.range().0 == 0.0
     {
-        let expected = "positive factors, or a positive young_gpa: nothing else restores the sheet there";
+        let expected =
+            "positive factors of tension, or a positive young_gpa: nothing else pulls the sheet back there";
         faults.add(&entry.key, entry.span, "places with neither tension nor stiffness", expected, None);
     }
 }

@@ -3,6 +3,7 @@
 mod arrays;
 mod faults;
 mod good;
+mod layers;
 mod rim_faults;
 mod rims;
 mod sheet_faults;
