@@ -3,16 +3,16 @@
 use crate::DspError;
 use unripple_core::OutOfRange;
 
-/// Thresholds stay between this and [`MOST`], in metres, however far a curve is continued: far beyond any
-/// measurement, but nowhere zero or infinite, so that levels above them stay finite.
+/// Extrapolated thresholds are limited to between this and [`MOST`], in metres: far beyond any measurement, but neither
+/// zero nor infinite, so that levels above them stay finite.
 const LEAST: f64 = 1e-20;
 /// The largest threshold, in metres; see [`LEAST`].
 const MOST: f64 = 1e20;
 
-/// The least vibration that is felt: peak displacement in metres against frequency.
+/// A vibrotactile detection threshold: the least peak displacement of a sine that is felt, in metres, against frequency.
 ///
-/// Straight lines on log-log axes between knots; flat below the first knot, so that it is finite at 0 Hz, and continued with
-/// the last slope above the last.
+/// The curve is linear on log-log axes between knots, constant below the first knot (so that it is finite at 0 Hz), and
+/// continued with its last slope above the last knot.
 ///
 /// # The published curve
 /// [`Threshold::default`] is that of glabrous skin under a large contactor: flat at 3.16 µm (10 dB re 1 µm) below
@@ -23,9 +23,10 @@ const MOST: f64 = 1e20;
 ///
 /// # How certain it is
 /// About ±6 dB between persons ([`Threshold::BETWEEN_PERSONS_DB`]). The part above 40 Hz falls by 3 dB with each doubling of
-/// the area of contact (Verrillo 1963; [`Threshold::PER_DOUBLED_AREA_DB`]) and falls further under pressing force. A
+/// the area of contact (Verrillo 1963; [`Threshold::PER_DOUBLED_AREA_DB`]) and falls further with pressing force. A
 /// cylinder held in the whole hand was felt by some at less than 0.01 µm: Brisben, Hsiao and Johnson (1999), J. Neurophysiol.
-/// 81, 1548–1558. What moves the whole curve moves levels in dB above it and leaves ratios between places.
+/// 81, 1548–1558. An error of the whole curve shifts all levels above threshold by as many dB; level differences between
+/// places do not change.
 ///
 /// ```
 /// use unripple_dsp::Threshold;
@@ -51,18 +52,23 @@ impl Default for Threshold {
 }
 
 impl Threshold {
-    /// How far thresholds of persons lie from the published curve, in dB, either way. Doubled, levels that one
-    /// drive has for different persons would spread over 24 dB.
+    /// Spread of thresholds between persons: they differ from the published curve by up to about this many dB either way.
+    /// Doubled, the levels above threshold of one drive would spread over 24 dB.
     pub const BETWEEN_PERSONS_DB: f64 = 6.0;
 
-    /// What a doubled area of contact adds to the threshold above 40 Hz, in dB (Verrillo 1963): spatial
-    /// summation of the Pacinian channel.
+    /// Highest frequency, in Hz, at which the published curve rests on measurements, which are of sustained vibration. Levels above it are
+    /// extrapolated: skin decouples from a surface that vibrates so fast, and short pulses are felt in other ways.
+    pub const MEASURED_TO_HZ: f64 = 1e3;
+
+    /// Change of the threshold above 40 Hz for each doubling of the contact area, in dB (Verrillo 1963), by spatial
+    /// summation in the Pacinian channel.
     pub const PER_DOUBLED_AREA_DB: f64 = -3.0;
 
-    /// A curve through knots of frequency (Hz, ascending) and peak displacement (m); a single knot is flat throughout.
+    /// A threshold curve through knots `[frequency in Hz, peak displacement in m]`, frequencies ascending; with a single knot it is
+    /// constant.
     ///
     /// # Errors
-    /// [`DspError::Range`] without knots, for frequencies that are not positive and ascending, and for displacements not
+    /// [`DspError::Range`] if there are no knots, if frequencies are not positive and ascending, or if a displacement is not
     /// between 1e-15 and 1 m.
     pub fn new(knots: Vec<[f64; 2]>) -> Result<Self, DspError> {
         let wrong = |what, expected: &str, found| {
@@ -85,12 +91,12 @@ impl Threshold {
         Ok(Self { knots })
     }
 
-    /// Frequency (Hz) and peak displacement (m) of each knot.
+    /// The knots of the curve, `[frequency in Hz, peak displacement in m]` each.
     pub fn knots(&self) -> &[[f64; 2]] {
         &self.knots
     }
 
-    /// Peak displacement in metres at a frequency in Hz of either sign.
+    /// The threshold at a frequency (Hz, of either sign), as peak displacement in metres.
     pub fn at(&self, hz: f64) -> f64 {
         let hz = hz.abs();
         let above = self.knots.partition_point(|knot| knot[0] <= hz);

@@ -3,6 +3,7 @@
 use crate::modal::ModalField;
 use crate::sampled::SampledField;
 use crate::source::{Quantity, Source};
+use crate::spot::Spot;
 use crate::{FieldError, Grid, Readout, Trace};
 use unripple_core::{Conditions, Drive, Point, Responses, require};
 use unripple_dsp::Threshold;
@@ -12,16 +13,17 @@ const MOST_VALUES: usize = 100_000_000;
 
 /// What a drive does to a surface: velocity and displacement anywhere, at any time.
 ///
-/// Modal responses are read on the cells of a [`Grid`], sampled ones on their own points. Velocity is
-/// `v[i] = Σ_j h[i−j] d[j] / rate` with `h[0]` whole; displacement is its exact integral over time, from rest.
+/// Modal responses are evaluated on the cells of a [`Grid`], sampled ones at their own points. Velocity is
+/// `v[i] = Σ_j h[i−j] d[j] / rate`, where `h[0]`, the value just after the impulse, counts whole; displacement is its
+/// exact integral over time, from rest.
 pub struct Field<'a> {
     /// Where velocity and displacement are read: modes or samples.
     pub(crate) source: Box<dyn Source + 'a>,
     /// Band, rate and region of the responses.
     pub(crate) conditions: &'a Conditions,
-    /// What was sent.
+    /// The drive that is simulated.
     pub(crate) drive: &'a Drive,
-    /// The least vibration that is felt.
+    /// Threshold of vibrotactile detection.
     pub(crate) threshold: Threshold,
     grid: Option<Grid>,
 }
@@ -44,8 +46,8 @@ pub struct Snapshot {
 }
 
 impl<'a> Field<'a> {
-    /// The field of `drive` through `responses`, on a grid of `cells` cells per shortest wavelength (8 for figures) or
-    /// on the library's own points.
+    /// The field of `drive` through `responses`, on a grid of `cells` cells per shortest wavelength (8 where metrics
+    /// are computed), or on the library's own points for sampled responses.
     ///
     /// # Errors
     /// [`FieldError::Channels`] and [`FieldError::Rate`] if the drive is not for these responses,
@@ -66,7 +68,7 @@ impl<'a> Field<'a> {
         Self { source, conditions, drive, threshold, grid }
     }
 
-    /// The same field, felt above another threshold than the published one.
+    /// The field with another threshold of vibrotactile detection than the published one.
     #[must_use]
     pub fn felt_above(mut self, threshold: Threshold) -> Self {
         self.threshold = threshold;
@@ -78,7 +80,7 @@ impl<'a> Field<'a> {
         self.source.points()
     }
 
-    /// The grid those points are on; `None` on a library.
+    /// The grid of [`Field::points`]; `None` for sampled responses, which have points of their own.
     pub fn grid(&self) -> Option<&Grid> {
         self.grid.as_ref()
     }
@@ -93,7 +95,7 @@ impl<'a> Field<'a> {
         self.source.known()
     }
 
-    /// Traces at points from the drive's first sample up to `until` (s), its own included.
+    /// Velocity and displacement at points (m) from the drive's first sample up to the sample at `until` (s), included.
     ///
     /// # Errors
     /// [`FieldError::Outside`] and [`FieldError::Unknown`] for points without responses, [`FieldError::Instant`] and
@@ -108,7 +110,7 @@ impl<'a> Field<'a> {
         Ok(self.source.traces(&sets, 0..end))
     }
 
-    /// The whole field at instants (s), rounded to samples: frames of an animation.
+    /// The field at all points at some instants (s), each rounded to a sample.
     ///
     /// # Errors
     /// [`FieldError::Instant`] and [`FieldError::Count`] for instants that are not known, or too many.
@@ -136,14 +138,14 @@ impl<'a> Field<'a> {
         Err(FieldError::Instant { found: instant, first: 0.0, last: last / rate, why })
     }
 
-    /// Spot diameters in metres, for [`crate::measure()`].
-    pub(crate) fn spots(&self, requests: &[(Point, usize, Quantity)]) -> Vec<Option<f64>> {
+    /// Focal spots, for [`crate::measure()`].
+    pub(crate) fn spots(&self, requests: &[(Point, usize, Quantity)]) -> Vec<Spot> {
         self.source.spots(requests)
     }
 }
 
 impl<'a> Readout<'a> {
-    /// The field of a drive on these points.
+    /// The field of a drive, evaluated on the points of this readout.
     ///
     /// # Errors
     /// [`FieldError::Channels`] and [`FieldError::Rate`] if the drive is not for these responses, [`FieldError::Count`] if it is empty.

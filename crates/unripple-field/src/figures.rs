@@ -1,33 +1,36 @@
-//! The figures of a drive, as numbers with units.
+//! Metrics of a drive, as numbers with units.
 
 use crate::{Grid, Snapshot};
 use serde::Serialize;
 use unripple_core::Point;
 
-/// All figures of a drive.
+/// All metrics of a drive, as [`measure()`](crate::measure()) returns them.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Measured {
-    /// Figures of each target, in the order of the aims.
+    /// Metrics of each target, in the order of the aims.
     pub targets: Vec<TargetFigures>,
-    /// Figures of the drive that was sent.
+    /// Metrics of the drive itself.
     pub drive: DriveFigures,
     /// Shortest wavelength of the band, in metres.
     pub lambda_min_m: f64,
     /// Radius around every target that does not count as outside, (4/3) λ_min, in metres.
     pub focal_radius_m: f64,
-    /// Whether outside figures are taken on a regular grid or on the library's own points.
+    /// Whether the points outside the focal discs are those of a regular grid or those of a library of responses.
     pub taken_on: TakenOn,
     /// How many points lie outside every target's disc.
     pub outside_points: usize,
-    /// The highest level felt at any outside point over all spans, in dB above the threshold; `None` where nothing is
-    /// outside, and in silence.
+    /// Number of outside points over that of all points, from 0 to 1; on a grid, the share of the surface over which
+    /// ratios are taken.
+    pub outside_share: f64,
+    /// The highest level felt at any outside point over all spans, in dB above the threshold; `None` without outside
+    /// points, or where none of them moves.
     pub felt_outside_db: Option<f64>,
-    /// Pictures of the field; not part of the report.
+    /// Maps and snapshots of the field; not part of the report.
     #[serde(skip)]
     pub maps: Maps,
 }
 
-/// What outside figures are taken on.
+/// The points at which the motion outside the focal discs is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum TakenOn {
@@ -37,64 +40,82 @@ pub enum TakenOn {
     Library,
 }
 
-/// How good the focus at one target is.
+/// Metrics of the focus at one target.
 ///
-/// A set of points is measured by the mean over its points: `peak_velocity_m_s` and all that is compared with it are of the
-/// mean. Its spot diameters are left out. Ratios are of magnitudes, `None` where nothing moves outside or nothing is
-/// outside.
+/// For a set of points all of these are of the mean motion over the points, except the ranges at the end; the metrics
+/// of the spot are left out. A point is *outside* if it is farther than the focal radius (4/3) λ_min from every point
+/// of every target. The *span* is the time evaluated: [0, 2T], or the last full period of a repeated drive. Ratios are
+/// of magnitudes; they are `None` without outside points, or where none of them moves.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TargetFigures {
     /// The point asked for, or the centroid of the set, in metres.
     pub at_m: [f64; 2],
-    /// How many points it has.
+    /// Number of points of the target.
     pub points: usize,
-    /// Mean distance from the points asked for to the points measured at, in metres; 0 unless on a library.
+    /// Mean distance from the points asked for to those at which the motion was evaluated, in metres; 0 unless the
+    /// responses are a library.
     pub misplaced_m: f64,
     /// Focal instant T, in seconds.
     pub instant_s: f64,
-    /// First and last instant of the span measured, in seconds.
+    /// First and last instant of the span, in seconds.
     pub span_s: [f64; 2],
-    /// Whether the field is known over the whole span of the definitions: responses of a library may end before.
+    /// Whether the field is known over the whole span: responses of a library may end earlier.
     pub span_complete: bool,
-    /// Velocity at the target at T, in m/s.
+    /// Velocity at the target at T, in m/s; contrasts and worst spot in velocity are ratios of its magnitude.
     pub peak_velocity_m_s: f64,
-    /// When the magnitude of the velocity at the target is largest, in seconds.
+    /// Instant at which the magnitude of the velocity at the target is largest, in seconds.
     pub peak_time_s: f64,
-    /// Peak over the rms of the outside points at T.
+    /// Contrast: `peak_velocity_m_s` over the rms velocity of the outside points at T.
     pub contrast: Option<f64>,
-    /// Peak over the rms of the outside points and the span.
+    /// `peak_velocity_m_s` over the rms velocity of the outside points during the span.
     pub background_contrast: Option<f64>,
-    /// Peak over the largest magnitude of the outside points and the span.
+    /// `peak_velocity_m_s` over the largest velocity of any outside point during the span.
     pub worst_spot: Option<f64>,
-    /// Full width at half maximum around the target at T, in metres.
+    /// Point at which that largest velocity outside occurs, in metres.
+    pub worst_spot_at_m: Option<[f64; 2]>,
+    /// Instant at which that largest velocity outside occurs, in seconds.
+    pub worst_spot_time_s: Option<f64>,
+    /// Full width at half maximum of the velocity around the target at T, in metres.
     pub spot_diameter_m: Option<f64>,
-    /// Full width at half maximum in time around T, in seconds.
+    /// Area around the target in which the velocity at T is above half that at the target, in square metres; of a library that of a circle
+    /// of `spot_diameter_m`.
+    pub spot_area_m2: Option<f64>,
+    /// Focus localisation error: distance from the target to the nearest maximum of the magnitude of the velocity at T, in metres; `None`
+    /// on a library.
+    pub focus_offset_m: Option<f64>,
+    /// Full width at half maximum of the velocity at the target in time, around T, in seconds.
     pub pulse_duration_s: Option<f64>,
-    /// Displacement at the target at its own extreme within the span, in metres.
+    /// Displacement at the target when its magnitude is largest within the span, in metres.
     pub peak_displacement_m: f64,
-    /// When that is, in seconds. The figures below are those above in displacement, at this instant.
+    /// Instant of `peak_displacement_m`, in seconds: the ratios and widths in displacement are taken at it.
     pub displacement_peak_time_s: f64,
-    /// The same as `contrast`, in displacement at that instant.
+    /// `peak_displacement_m` over the rms displacement of the outside points at that instant.
     pub displacement_contrast: Option<f64>,
-    /// The same as `background_contrast`, in displacement.
+    /// `peak_displacement_m` over the rms displacement of the outside points during the span.
     pub displacement_background_contrast: Option<f64>,
-    /// The same as `worst_spot`, in displacement.
+    /// `peak_displacement_m` over the largest displacement of any outside point during the span.
     pub displacement_worst_spot: Option<f64>,
-    /// The same as `spot_diameter_m`, in displacement.
+    /// Full width at half maximum of the displacement around the target at that instant, in metres.
     pub displacement_spot_diameter_m: Option<f64>,
-    /// The same as `pulse_duration_s`, in displacement.
+    /// Area around the target in which the displacement at that instant is above half that at the target, in square metres.
+    pub displacement_spot_area_m2: Option<f64>,
+    /// Full width at half maximum of the displacement at the target in time, around that instant, in seconds.
     pub displacement_pulse_duration_s: Option<f64>,
-    /// Largest magnitude of the weighed displacement at the target within the span, in dB above the threshold; `None` in
-    /// silence. Weighed is displacement filtered by 1/threshold(f) without delay, in units of the threshold; the figures
-    /// below are ratios of this level, in dB, higher being better.
+    /// Level felt: the largest magnitude of the weighted displacement at the target within the span, in dB above the
+    /// threshold; `None` without motion. The weighted displacement is the displacement filtered by 1/threshold(f) with
+    /// zero phase, in units of the threshold. The ratios below are those of this magnitude to what is felt outside, in
+    /// dB; higher is better.
     pub felt_level_db: Option<f64>,
-    /// When that is, in seconds.
+    /// Instant of `felt_level_db`, in seconds.
     pub felt_peak_time_s: f64,
-    /// The level over the rms of the weighed displacement of the outside points at that instant.
+    /// The magnitude of `felt_level_db` over the rms weighted displacement of the outside points at `felt_peak_time_s`,
+    /// in dB.
     pub felt_contrast_db: Option<f64>,
-    /// The level over the rms of the weighed displacement of the outside points and the span.
+    /// The magnitude of `felt_level_db` over the rms weighted displacement of the outside points during the span, in
+    /// dB.
     pub felt_background_db: Option<f64>,
-    /// The level over the largest magnitude of the weighed displacement of the outside points and the span.
+    /// The magnitude of `felt_level_db` over the largest weighted displacement of any outside point during the span, in
+    /// dB.
     pub felt_worst_spot_db: Option<f64>,
     /// Least and greatest velocity over a set of points at T, in m/s; `None` for one point.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -104,7 +125,7 @@ pub struct TargetFigures {
     pub displacement_range_m: Option<[f64; 2]>,
 }
 
-/// What was sent: the whole drive, or its last full period if it is repeated.
+/// Metrics of the drive: of all of it, or of its last full period if it is repeated.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DriveFigures {
     /// Largest magnitude over all channels, in the drive's unit.
@@ -115,27 +136,27 @@ pub struct DriveFigures {
     pub energy: f64,
     /// Share of the energy above the band of the responses, from 0 to 1.
     pub share_above_band: f64,
-    /// Length, in seconds.
+    /// Length of the drive or of its period, in seconds.
     pub duration_s: f64,
 }
 
-/// Pictures of the field: one value per point.
+/// Maps and snapshots of the field: one value per point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Maps {
-    /// Places of the values, in metres.
+    /// The points that the values belong to, in metres.
     pub points: Vec<Point>,
-    /// The grid the points are on; `None` on a library.
+    /// The grid of the points; `None` for the points of a library.
     pub grid: Option<Grid>,
-    /// Which points count as outside.
+    /// Whether each point is outside every focal disc.
     pub outside: Vec<bool>,
     /// Largest magnitude of the velocity over all spans, in m/s.
     pub peak_velocity: Vec<f32>,
     /// Largest magnitude of the displacement over all spans, in metres.
     pub peak_displacement: Vec<f32>,
-    /// Largest magnitude of the weighed displacement over all spans, in units of the threshold: 1 is just felt.
+    /// Largest magnitude of the weighted displacement over all spans, in units of the threshold: 1 is just felt.
     pub felt_peak: Vec<f32>,
-    /// The field at each target's T.
+    /// The field at each target's focal instant T.
     pub at_peak: Vec<Snapshot>,
-    /// The field at each target's extreme of displacement.
+    /// The field at the instant of each target's largest displacement.
     pub at_displacement_peak: Vec<Snapshot>,
 }

@@ -1,22 +1,24 @@
-//! All figures of a drive at its aims.
+//! All metrics of a drive at its aims.
 
 use crate::aim::{Resolved, last_period, segments};
 use crate::felt::{AllFelt, decibels, felt};
 use crate::figures::{DriveFigures, Maps, Measured, TakenOn, TargetFigures};
 use crate::source::{Quantity, Survey, Trace};
+use crate::spot::Spot;
 use crate::{Aim, Field, FieldError, MeasureOptions, pulse};
 use rayon::prelude::*;
 use std::ops::Range;
 use unripple_core::{Drive, Point, Responses, require};
 
-/// How good `drive` is at focusing on `aims` through `responses`: all figures, in velocity, in displacement and as felt.
+/// Evaluates how well `drive` focuses on `aims` through `responses`: all metrics, in velocity, in displacement and as
+/// felt.
 ///
-/// "Outside" are the points of the field farther than (4/3) λ_min from every point of every aim; the span is [0, 2T] with
-/// T the aim's instant, or the last full period of a repeated drive. Without aims, the span is that of a focus at the
-/// drive's last sample, and only the drive's figures and the maps are made.
+/// "Outside" are the points of the field farther than (4/3) λ_min from every point of every aim; the span is [0, 2T]
+/// with T the aim's instant, or the last full period of a repeated drive. Without aims, the span is that of a focus at
+/// the drive's last sample, and only the metrics of the drive and the maps are computed.
 ///
 /// # Errors
-/// Those of [`Field::new`] and, for aims, [`FieldError::Outside`], [`FieldError::Unknown`], [`FieldError::Instant`].
+/// Those of [`Field::new`] and of [`Field::measure`].
 pub fn measure(
     responses: &Responses,
     drive: &Drive,
@@ -28,12 +30,12 @@ pub fn measure(
 }
 
 impl Field<'_> {
-    /// All figures of this field at `aims`, as [`measure`](crate::measure()) gives them; `period` (s) as in
+    /// All metrics of this field at `aims`, as [`measure`](crate::measure()) gives them; `period` (s) as in
     /// [`MeasureOptions`].
     ///
     /// # Errors
-    /// [`FieldError::Outside`], [`FieldError::Unknown`] and [`FieldError::Instant`] for aims, [`FieldError::Range`] for a
-    /// period longer than the drive.
+    /// [`FieldError::Outside`], [`FieldError::Unknown`], [`FieldError::Instant`] and [`FieldError::Count`] for aims,
+    /// [`FieldError::Range`] for a period longer than the drive.
     pub fn measure(&self, aims: &[Aim], period: Option<f64>) -> Result<Measured, FieldError> {
         let field = self;
         let period = period.map(|period| whole_period(period, field.drive)).transpose()?;
@@ -69,6 +71,7 @@ impl Field<'_> {
             focal_radius_m: radius,
             taken_on: if field.grid().is_some() { TakenOn::Grid } else { TakenOn::Library },
             outside_points: outside.iter().filter(|out| **out).count(),
+            outside_share: outside.iter().filter(|out| **out).count() as f64 / outside.len().max(1) as f64,
             felt_outside_db: loudest(&felt.peak, &outside),
             maps: maps(field, survey, felt.peak, outside, &instants),
         })
@@ -84,7 +87,7 @@ pub(crate) fn whole_period(period: f64, drive: &Drive) -> Result<usize, FieldErr
     Ok(samples as usize)
 }
 
-/// The samples over which each aim is measured; without aims, those of a focus at the drive's last sample.
+/// The samples over which each aim is evaluated; without aims, those of a focus at the drive's last sample.
 pub(crate) fn spans(aims: &[Resolved], field: &Field<'_>, period: Option<usize>) -> Vec<Range<usize>> {
     if !aims.is_empty() {
         return aims.iter().map(|aim| aim.span.clone()).collect();
@@ -109,16 +112,16 @@ pub(crate) fn target_traces(
     field.source.traces(&sets, first..end).into_iter().map(|trace| (first, trace)).collect()
 }
 
-/// What a target's own trace says.
+/// Levels, instants and widths of the motion at a target.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Peaks {
-    /// Velocity at T, displacement at its extreme.
+    /// Velocity at T, and displacement when its magnitude is largest.
     pub levels: [f64; 2],
     /// Sample at which the velocity is largest.
     fastest: usize,
     /// Sample at which the displacement is largest.
     pub extreme: usize,
-    /// Widths in time, in samples.
+    /// Full widths at half maximum in time, of velocity and displacement, in samples.
     widths: [Option<f64>; 2],
 }
 
@@ -148,20 +151,20 @@ fn outside(points: &[Point], aims: &[Resolved], radius: f64) -> Vec<bool> {
     points.par_iter().map(|p| centres.iter().all(|centre| centre.distance(*p) > radius)).collect()
 }
 
-/// Spot diameters of the aims that are single points.
-fn spots(aims: &[Resolved], peaks: &[Peaks], field: &Field<'_>) -> Vec<[Option<f64>; 2]> {
+/// Focal spots, in velocity and in displacement, of the aims that are single points.
+fn spots(aims: &[Resolved], peaks: &[Peaks], field: &Field<'_>) -> Vec<[Spot; 2]> {
     let requests = aims.iter().zip(peaks).flat_map(|(aim, peaks)| {
         let at = aim.points[0];
         [(at, aim.instant, Quantity::Velocity), (at, peaks.extreme, Quantity::Displacement)]
     });
     let found = field.spots(&requests.collect::<Vec<_>>());
-    let single = |aim: &Resolved, pair: &[Option<f64>]| {
-        if aim.points.len() == 1 { [pair[0], pair[1]] } else { [None; 2] }
+    let single = |aim: &Resolved, pair: &[Spot]| {
+        if aim.points.len() == 1 { [pair[0], pair[1]] } else { [Spot::default(); 2] }
     };
     aims.iter().zip(found.chunks_exact(2)).map(|(aim, pair)| single(aim, pair)).collect()
 }
 
-/// Everything that one target's figures are made from.
+/// Everything from which the metrics of one target are computed.
 struct Judge<'a> {
     field: &'a Field<'a>,
     aims: &'a [Aim],
@@ -173,7 +176,7 @@ struct Judge<'a> {
     felt: &'a AllFelt,
 }
 
-/// What a level is compared with.
+/// Motion outside the focal discs that a level is compared with.
 struct Surroundings {
     /// Rms over outside points at the instant.
     then: f64,
@@ -181,11 +184,13 @@ struct Surroundings {
     background: f64,
     /// Largest magnitude over outside points and the span.
     worst: f64,
+    /// The point where that is, if anything moves.
+    worst_point: Option<usize>,
 }
 
 impl Judge<'_> {
-    /// The figures of the target of an index.
-    fn figures(&self, index: usize, spots: [Option<f64>; 2]) -> TargetFigures {
+    /// The metrics of the target with this index.
+    fn figures(&self, index: usize, spots: [Spot; 2]) -> TargetFigures {
         let (aim, resolved, peaks) = (&self.aims[index], &self.resolved[index], &self.peaks[index]);
         let rate = self.field.drive.rate();
         let seconds = |sample: usize| sample as f64 / rate;
@@ -207,14 +212,19 @@ impl Judge<'_> {
             contrast: ratio(peaks.levels[0], velocity.then),
             background_contrast: ratio(peaks.levels[0], velocity.background),
             worst_spot: ratio(peaks.levels[0], velocity.worst),
-            spot_diameter_m: spots[0],
+            worst_spot_at_m: velocity.worst_point.map(|point| self.place(point)),
+            worst_spot_time_s: velocity.worst_point.map(|point| seconds(self.fastest(point, &resolved.span))),
+            spot_diameter_m: spots[0].diameter,
+            spot_area_m2: spots[0].area,
+            focus_offset_m: spots[0].offset,
             pulse_duration_s: peaks.widths[0].map(|width| width / rate),
             peak_displacement_m: peaks.levels[1],
             displacement_peak_time_s: seconds(peaks.extreme),
             displacement_contrast: ratio(peaks.levels[1], displacement.then),
             displacement_background_contrast: ratio(peaks.levels[1], displacement.background),
             displacement_worst_spot: ratio(peaks.levels[1], displacement.worst),
-            displacement_spot_diameter_m: spots[1],
+            displacement_spot_diameter_m: spots[1].diameter,
+            displacement_spot_area_m2: spots[1].area,
             displacement_pulse_duration_s: peaks.widths[1].map(|width| width / rate),
             felt_level_db: felt.level_db,
             felt_peak_time_s: seconds(felt.extreme),
@@ -226,22 +236,40 @@ impl Judge<'_> {
         }
     }
 
-    /// What a level at the target of an index is compared with, in velocity (0) or displacement (1).
+    /// Motion that the level at the target with this index is compared with, in velocity (0) or displacement (1).
     fn surroundings(&self, index: usize, quantity: usize) -> Surroundings {
         let span = &self.resolved[index].span;
         let snapshot = &self.survey.snapshots[index + quantity * self.aims.len()][quantity];
         let outside = || self.outside.iter().enumerate().filter(|(_, out)| **out).map(|(point, _)| point);
         let count = outside().count().max(1) as f64;
         let then = outside().map(|p| f64::from(snapshot[p]).powi(2)).sum::<f64>();
-        let (mut squares, mut worst) = (0.0, 0.0);
+        let (mut squares, mut worst, mut worst_point) = (0.0, 0.0, None);
         for (segment, pair) in self.segments.iter().zip(&self.survey.tallies) {
             if span.start <= segment.start && segment.end <= span.end {
                 squares += outside().map(|p| pair[quantity].squares[p]).sum::<f64>();
-                worst = outside().map(|p| f64::from(pair[quantity].peak[p])).fold(worst, f64::max);
+                for point in outside() {
+                    let peak = f64::from(pair[quantity].peak[point]);
+                    if peak > worst {
+                        (worst, worst_point) = (peak, Some(point));
+                    }
+                }
             }
         }
         let background = (squares / (count * span.len() as f64)).sqrt();
-        Surroundings { then: (then / count).sqrt(), background, worst }
+        Surroundings { then: (then / count).sqrt(), background, worst, worst_point }
+    }
+
+    fn place(&self, point: usize) -> [f64; 2] {
+        let at = self.field.points()[point];
+        [at.x, at.y]
+    }
+
+    /// The sample of a span at which the magnitude of the velocity at a point of the field is largest.
+    fn fastest(&self, point: usize, span: &Range<usize>) -> usize {
+        let traces = self.field.source.traces(&[vec![self.field.points()[point]]], span.clone());
+        let velocity = traces.first().map_or(&[][..], |trace| trace.of(Quantity::Velocity));
+        let largest = velocity.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+        span.start + largest.map_or(0, |(i, _)| i)
     }
 
     /// Least and greatest velocity at T and displacement at its extreme over a set of points.
@@ -264,7 +292,7 @@ fn ratio(level: f64, surroundings: f64) -> Option<f64> {
     (surroundings > 0.0).then(|| level.abs() / surroundings)
 }
 
-/// What was sent: all of it, or the last `period` samples.
+/// Metrics of the drive: of all of it, or of the last `period` samples.
 fn drive_figures(field: &Field<'_>, period: Option<usize>) -> DriveFigures {
     let drive = field.drive;
     let first = period.map_or(0, |period| last_period(field, period).start);
@@ -286,7 +314,7 @@ fn loudest(felt: &[f32], outside: &[bool]) -> Option<f64> {
     Some(levels.fold(0.0, f64::max)).filter(|level| *level > 0.0).map(decibels)
 }
 
-/// The pictures of a survey.
+/// Maps and snapshots from a survey.
 fn maps(
     field: &Field<'_>,
     survey: Survey,

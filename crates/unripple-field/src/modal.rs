@@ -4,7 +4,7 @@ use crate::feeling::Feeling;
 use crate::motion::Motion;
 use crate::readout::Kept;
 use crate::source::{Passage, Quantity, Source, Survey, Tally, Trace, Weighed};
-use crate::spot::Around;
+use crate::spot::{Around, Spot};
 use crate::{FieldError, spot};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -24,8 +24,8 @@ const SAMPLES: usize = 128;
 /// Values of states (modes x samples) that are held at once, up to 32 MiB of them. Doubled, twice the memory.
 pub(crate) const STATES: usize = 1 << 22;
 
-/// Readout weights that are kept between surveys, half a GiB of them; more are computed again for each block
-/// of time. Doubled, a GiB.
+/// Most readout weights that are kept between surveys, half a GiB of them; if there are more, they are computed again
+/// for each block of time. Doubled, a GiB.
 const KEPT: usize = 1 << 27;
 
 /// The field of a modal system: states of all modes over time, read out in blocks and never stored as a whole.
@@ -188,7 +188,7 @@ impl Source for ModalField<'_> {
         Feeling::of(self, passage).weighed()
     }
 
-    fn spots(&self, requests: &[(Point, usize, Quantity)]) -> Vec<Option<f64>> {
+    fn spots(&self, requests: &[(Point, usize, Quantity)]) -> Vec<Spot> {
         let instants: Vec<usize> = requests.iter().map(|(_, sample, _)| *sample).collect();
         let states = self.states(&instants);
         let conditions = &self.responses.conditions;
@@ -199,7 +199,7 @@ impl Source for ModalField<'_> {
                 let value = |p| (0..state.len()).map(|m| weights[(p, m)] * state[m]).sum();
                 (0..points.len()).map(value).collect::<Vec<f64>>()
             };
-            spot::diameter(
+            spot::spot(
                 &Around { at: *at, outline: &conditions.outline, wavelength: conditions.lambda_min },
                 field,
             )

@@ -1,9 +1,11 @@
 //! The field at the points of a library, by convolution.
 
 use crate::source::{Passage, Quantity, Source, Survey, Tally, Trace, Weighed};
+use crate::spot::Spot;
 use crate::{FieldError, spot};
 use rayon::prelude::*;
 use std::collections::HashMap;
+use std::f64::consts::PI;
 use std::ops::Range;
 use unripple_core::{Drive, Point, SampledResponses};
 use unripple_dsp::{Convolver, integral};
@@ -25,7 +27,7 @@ impl<'a> SampledField<'a> {
         Self { responses, drive }
     }
 
-    /// Index of the stored point that stands for a place: the nearest, at most λ_min/4 away.
+    /// Index of the stored point used for a place: the nearest, at most λ_min/4 away.
     fn index(&self, place: Point) -> Result<usize, FieldError> {
         let reach = self.responses.conditions.lambda_min / 4.0;
         let stored = self.responses.nearest(place).ok_or(FieldError::Count {
@@ -84,7 +86,7 @@ impl Source for SampledField<'_> {
         self.index(place).map(|stored| self.responses.points[stored])
     }
 
-    /// Responses of L samples tell the field until L samples after the drive begins.
+    /// Responses of L samples determine the field until L samples after the drive begins.
     fn known(&self) -> usize {
         let sounds = |i: &usize| self.drive.channels().iter().any(|channel| channel[*i] != 0.0);
         let begins = (0..self.drive.samples()).find(sounds).unwrap_or(self.drive.samples());
@@ -147,11 +149,12 @@ impl Source for SampledField<'_> {
         }
     }
 
-    fn spots(&self, requests: &[(Point, usize, Quantity)]) -> Vec<Option<f64>> {
+    fn spots(&self, requests: &[(Point, usize, Quantity)]) -> Vec<Spot> {
         let mut players = HashMap::new();
         let spot = |(at, sample, quantity): &(Point, usize, Quantity)| {
             let player = players.entry(*sample).or_insert_with(|| Player::plan(self, *sample..sample + 1));
-            self.spot(*at, player, *quantity)
+            let diameter = self.spot(*at, player, *quantity);
+            Spot { diameter, area: diameter.map(|width| PI / 4.0 * width * width), offset: None }
         };
         requests.iter().map(spot).collect()
     }
@@ -164,7 +167,7 @@ struct Player<'a> {
     /// First sample of the drive that still matters.
     first: usize,
     plan: Convolver,
-    /// One per channel, divided by the rate.
+    /// Spectrum of each channel, divided by the rate.
     sent: Vec<Vec<Complex>>,
 }
 
@@ -196,7 +199,8 @@ impl<'a> Player<'a> {
         self.sum(point, |response| integral(response, self.responses.conditions.rate))
     }
 
-    /// The drive through something made of each response of one stored point, over the range.
+    /// The sum over actuators of the drive convolved with a signal that `made` computes from each response of one
+    /// stored point, over the range.
     fn sum(&self, point: usize, made: impl Fn(&[f32]) -> Vec<f64>) -> Vec<f64> {
         let mut sum = vec![Complex::default(); self.plan.size() / 2 + 1];
         for (actuator, sent) in self.sent.iter().enumerate() {

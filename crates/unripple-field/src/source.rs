@@ -1,6 +1,7 @@
-//! What a field is read from: modal or sampled responses.
+//! Motion at points of a surface, from modal or sampled responses.
 
 use crate::FieldError;
+use crate::spot::Spot;
 use std::ops::Range;
 use unripple_core::Point;
 use unripple_dsp::Weighting;
@@ -14,7 +15,7 @@ pub(crate) enum Quantity {
     Displacement,
 }
 
-/// How a place moves: one value per sample.
+/// Motion of a point, or the mean over a set of points: one value per sample.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trace {
     /// Velocity, in m/s.
@@ -24,7 +25,7 @@ pub struct Trace {
 }
 
 impl Trace {
-    /// One of the two, a number per sample in m/s or m.
+    /// Velocity (m/s) or displacement (m), one number per sample.
     pub(crate) fn of(&self, quantity: Quantity) -> &[f64] {
         match quantity {
             Quantity::Velocity => &self.velocity,
@@ -33,7 +34,7 @@ impl Trace {
     }
 }
 
-/// What one quantity does at every point of a field over a segment of time.
+/// Largest magnitude and sum of squares of one quantity at every point of a field, over a segment of time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Tally {
     /// Largest magnitude at each point.
@@ -43,7 +44,7 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
-    /// Nothing tallied yet at so many points, a number.
+    /// A tally of zeros at `points` points, a number.
     pub fn zeros(points: usize) -> Self {
         Self { peak: vec![0.0; points], squares: vec![0.0; points] }
     }
@@ -58,18 +59,18 @@ pub(crate) struct Survey {
     pub snapshots: Vec<[Vec<f32>; 2]>,
 }
 
-/// A stretch of displacement to be weighed by the threshold of touch.
+/// A stretch of time over which displacement is filtered by the threshold of touch.
 #[derive(Clone, Debug)]
 pub(crate) struct Passage {
-    /// Samples that are weighed together; what lies beyond them is the weighting's to say.
+    /// Samples that are filtered together; the weighting says what is assumed beyond them.
     pub taken: Range<usize>,
-    /// Those of them that are tallied.
+    /// The samples among them that are tallied.
     pub span: Range<usize>,
-    /// Those of the span that snapshots are taken at.
+    /// The samples of the span at which snapshots are taken.
     pub instants: Vec<usize>,
     /// 1/threshold, for as many samples as are taken.
     pub weighting: Weighting,
-    /// By how much the result may be off anywhere, in units of the threshold.
+    /// Error allowed anywhere, in units of the threshold.
     pub slack: f64,
 }
 
@@ -82,15 +83,16 @@ pub(crate) struct Weighed {
     pub snapshots: Vec<Vec<f32>>,
 }
 
-/// A field under a drive, whatever its responses are kept in. Samples count from the drive's first.
+/// The motion that a drive causes, from modal or sampled responses. Samples count from the drive's first.
 pub(crate) trait Source: Send + Sync {
-    /// The points (m) it is taken on.
+    /// The points (m) at which the field is evaluated.
     fn points(&self) -> &[Point];
 
-    /// The point that stands for a place, both in metres.
+    /// The point at which the motion at `place` is evaluated, both in metres: itself, or the nearest one with
+    /// responses.
     fn locate(&self, place: Point) -> Result<Point, FieldError>;
 
-    /// How many samples are known, from the drive's first.
+    /// Number of samples for which the field is known, from the drive's first.
     fn known(&self) -> usize;
 
     /// Traces over a range of samples, each the mean over a set of points.
@@ -103,6 +105,6 @@ pub(crate) trait Source: Send + Sync {
     /// What is felt during a passage.
     fn weighed(&self, passage: &Passage) -> Weighed;
 
-    /// Full width at half maximum around a point at a sample, in metres, for each request.
-    fn spots(&self, requests: &[(Point, usize, Quantity)]) -> Vec<Option<f64>>;
+    /// The focal spot around a point at a sample, for each request.
+    fn spots(&self, requests: &[(Point, usize, Quantity)]) -> Vec<Spot>;
 }

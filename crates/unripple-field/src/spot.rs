@@ -1,4 +1,4 @@
-//! Diameter of the focal spot: full width at half maximum.
+//! The focal spot: its size at half the value at the target, and how far its summit is from there.
 
 use std::f64::consts::PI;
 use unripple_core::{Outline, Point};
@@ -14,7 +14,7 @@ const REFINEMENTS: usize = 3;
 /// Where a spot is measured.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Around<'a> {
-    /// Its middle, in metres.
+    /// Centre of the spot, in metres.
     pub at: Point,
     /// The region that holds the field.
     pub outline: &'a Outline,
@@ -54,13 +54,66 @@ struct Ray {
     lost: bool,
 }
 
-/// Full width at half maximum of a field around a point, in metres: the mean over eight diameters.
+/// Size of a focal spot, and its distance from the target. Each is `None` where it is not defined.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Spot {
+    /// Full width at half maximum, in metres: the mean over diameters.
+    pub diameter: Option<f64>,
+    /// Area within which the field is above half the value at the target, in square metres.
+    pub area: Option<f64>,
+    /// Distance from the target to the nearest maximum of the field's magnitude, in metres.
+    pub offset: Option<f64>,
+}
+
+/// Steps, over the wavelength, of the search for the summit: the first is smaller than a spot, and the last well below what a figure shows.
+const STEPS: [f64; 8] = [0.08, 0.04, 0.02, 0.01, 0.005, 0.0025, 0.001, 0.0005];
+
+/// Moves at one step of that search: as many as lead across a spot.
+const MOVES: usize = 8;
+
+/// The focal spot of a field around a point: the mean over eight diameters, and the area within sixteen radii.
 ///
 /// In sixteen directions, from the point outwards, the first crossing of half the value at the point is bracketed in steps
 /// of λ_min/12 (or a tenth of the radius, if that is more) and then refined on the field itself. Diameters with an end that
-/// never falls to half are left out; `None` if there is none left.
-pub(crate) fn diameter(around: &Around<'_>, field: impl Fn(&[Point]) -> Vec<f64>) -> Option<f64> {
-    let top = field(&[around.at]).first().copied().filter(|top| *top != 0.0)?;
+/// never falls to half are left out, and so is the area if there is such an end.
+pub(crate) fn spot(around: &Around<'_>, field: impl Fn(&[Point]) -> Vec<f64>) -> Spot {
+    let Some(top) = field(&[around.at]).first().copied().filter(|top| *top != 0.0) else {
+        return Spot::default();
+    };
+    let radii = radii(around, top, &field);
+    let (near, far) = radii.split_at(DIRECTIONS / 2);
+    let widths: Vec<f64> = near.iter().zip(far).filter_map(|(a, b)| Some((*a)? + (*b)?)).collect();
+    let squares: Option<Vec<f64>> = radii.iter().map(|radius| radius.map(|r| r * r)).collect();
+    Spot {
+        diameter: (!widths.is_empty()).then(|| widths.iter().sum::<f64>() / widths.len() as f64),
+        // ½ ∫ r² dφ by the trapezoidal rule, which converges fast for a smooth closed curve.
+        area: squares.map(|squares| PI * squares.iter().sum::<f64>() / DIRECTIONS as f64),
+        offset: Some(summit(around, top, &field).distance(around.at)),
+    }
+}
+
+/// The maximum of the field's magnitude that is reached uphill from the point, by a compass search.
+fn summit(around: &Around<'_>, top: f64, field: impl Fn(&[Point]) -> Vec<f64>) -> Point {
+    let (mut at, mut height) = (around.at, top.abs());
+    for step in STEPS.map(|step| step * around.wavelength) {
+        for _ in 0..MOVES {
+            let from = Around { at, ..*around };
+            let directions = (0..DIRECTIONS).step_by(2);
+            let places = directions.map(|direction| from.place(direction, step));
+            let places: Vec<Point> = places.filter(|place| around.outline.contains(*place)).collect();
+            let heights = field(&places).into_iter().map(f64::abs);
+            let best = places.iter().zip(heights).max_by(|a, b| a.1.total_cmp(&b.1));
+            match best {
+                Some((place, found)) if found > height => (at, height) = (*place, found),
+                _ => break,
+            }
+        }
+    }
+    at
+}
+
+/// Distance in each direction at which the field falls to half its value `top` at the point; nothing where it does not.
+fn radii(around: &Around<'_>, top: f64, field: impl Fn(&[Point]) -> Vec<f64>) -> Vec<Option<f64>> {
     let excess = |value: f64| value / top - 0.5;
     let start = |direction| Ray { direction, inner: (0.0, 0.5), outer: None, lost: false };
     let mut rays: Vec<Ray> = (0..DIRECTIONS).map(start).collect();
@@ -91,10 +144,7 @@ pub(crate) fn diameter(around: &Around<'_>, field: impl Fn(&[Point]) -> Vec<f64>
             if end.1 > 0.0 { ray.inner = end } else { ray.outer = Some(end) }
         }
     }
-    let (near, far) = rays.split_at(DIRECTIONS / 2);
-    let widths: Vec<f64> =
-        near.iter().zip(far).filter_map(|(a, b)| Some(crossing(a)? + crossing(b)?)).collect();
-    (!widths.is_empty()).then(|| widths.iter().sum::<f64>() / widths.len() as f64)
+    rays.iter().map(crossing).collect()
 }
 
 /// Where the straight line between the ends of a bracket crosses half.
@@ -159,9 +209,25 @@ mod tests {
                 2.0 * 2f64.ln().sqrt() / ((cos / a).powi(2) + (sin / b).powi(2)).sqrt()
             });
             let exact = exact.sum::<f64>() / 8.0;
-            let found = diameter(&around, field).unwrap();
-            assert!((found / exact - 1.0).abs() < 1e-3, "{a} {b}: {found} {exact}");
+            let found = spot(&around, field);
+            let diameter = found.diameter.unwrap();
+            assert!((diameter / exact - 1.0).abs() < 1e-3, "{a} {b}: {diameter} {exact}");
+            // The ellipse at half height has the area π a b ln 2.
+            let area = PI * a * b * 2f64.ln();
+            assert!((found.area.unwrap() / area - 1.0).abs() < 0.01, "{a} {b}: {found:?} {area}");
+            assert!(found.offset.unwrap() < 1e-9, "{found:?}");
         }
+    }
+
+    #[test]
+    fn the_summit_is_found_where_it_is() {
+        let outline = sheet();
+        let (at, top) = (Point::new(0.06, 0.09), Point::new(0.0613, 0.0892));
+        let around = Around { at, outline: &outline, wavelength: 14.55e-3 };
+        let field =
+            |points: &[Point]| points.iter().map(|p| (-(p.distance(top) / 5e-3).powi(2)).exp()).collect();
+        let found = spot(&around, field).offset.unwrap();
+        assert!((found - at.distance(top)).abs() < 2e-5, "{found}");
     }
 
     #[test]
@@ -169,9 +235,10 @@ mod tests {
         let outline = sheet();
         let around = Around { at: Point::new(0.01, 0.075), outline: &outline, wavelength: 14.55e-3 };
         let tent = |points: &[Point]| points.iter().map(|p| p.x.min(0.02 - p.x)).collect::<Vec<f64>>();
-        assert!(diameter(&around, tent).unwrap() > 0.01);
-        assert_eq!(diameter(&around, |points| vec![1.0; points.len()]), None);
-        assert_eq!(diameter(&around, |points| vec![0.0; points.len()]), None);
+        assert!(spot(&around, tent).diameter.unwrap() > 0.01);
+        let flat = spot(&around, |points| vec![1.0; points.len()]);
+        assert_eq!((flat.diameter, flat.area), (None, None));
+        assert_eq!(spot(&around, |points| vec![0.0; points.len()]), Spot::default());
     }
 
     #[test]

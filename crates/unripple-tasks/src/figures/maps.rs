@@ -17,7 +17,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The rim and actuators of a surface, and targets with discs of `radius` metres; none if zero.
+    /// The rim and actuators of a surface, and targets with focal discs of `radius` (m); no discs if it is 0.
     pub fn new(surface: &Surface, targets: &[Vec<Point>], radius: f64) -> Self {
         let place = |p: &Point| [p.x, p.y];
         let rims = std::iter::once(surface.outline.rim(TURN)).chain(surface.outline.hole_rims(TURN));
@@ -37,6 +37,17 @@ impl Scene {
             }
         }
         Self { outline, markers }
+    }
+
+    /// The same with the places of the largest velocity outside the focal discs, each with its share of the peak.
+    fn with_worst_spots(&self, measured: &Measured) -> Self {
+        // Small enough that its name stands beside it.
+        let radius = measured.focal_radius_m / 8.0;
+        let found = measured.targets.iter().filter_map(|target| {
+            let (at, share) = (target.worst_spot_at_m?, 100.0 / target.worst_spot?);
+            Some(Marker { at, symbol: Symbol::Circle(radius), name: format!("{share:.0} %") })
+        });
+        Self { outline: self.outline.clone(), markers: self.markers.iter().cloned().chain(found).collect() }
     }
 
     /// A map of one field over the surface.
@@ -83,7 +94,8 @@ fn displacement(map: ColourMap, values: &[f32]) -> Colours {
     scale("Displacement", "m", map, values)
 }
 
-/// The field at the first target's focal instant: velocity, and displacement at its own extreme.
+/// Maps of velocity at the first target's focal instant, and of displacement at the instant of its extreme; `None`
+/// without a grid.
 pub fn snapshots(scene: &Scene, measured: &Measured) -> Option<Figure> {
     let maps = &measured.maps;
     let (v, u) = (maps.at_peak.first()?, maps.at_displacement_peak.first()?);
@@ -95,24 +107,28 @@ pub fn snapshots(scene: &Scene, measured: &Measured) -> Option<Figure> {
     Some(side_by_side(left, right, "Velocity and displacement of the surface when the waves meet"))
 }
 
-/// The largest velocity and displacement everywhere over the whole time measured.
+/// Maps of the largest velocity and displacement at each place over the whole time measured; `None` without a grid.
 pub fn peaks(scene: &Scene, measured: &Measured) -> Option<Figure> {
     let maps = &measured.maps;
     let title = "largest over time";
-    let left = scene.map(
+    let marked = scene.with_worst_spots(measured);
+    let left = marked.map(
         grid(maps, &maps.peak_velocity)?,
         title,
         velocity(ColourMap::Sequential, &maps.peak_velocity),
     );
     let colours = displacement(ColourMap::Sequential, &maps.peak_displacement);
     let right = scene.map(grid(maps, &maps.peak_displacement)?, title, colours);
-    Some(side_by_side(left, right, "Largest velocity and displacement of the surface over the time measured"))
+    let described = "Largest velocity and displacement of the surface over the time measured; small circles mark the largest velocity \
+        elsewhere, as a share of the peak";
+    Some(side_by_side(left, right, described))
 }
 
 /// Decibels below the largest value at which the map of what is felt ends.
 const FELT_RANGE: f64 = 30.0;
 
-/// The largest vibration everywhere over the whole time measured, as felt: in dB above the threshold of touch.
+/// Map of the largest vibration at each place over the whole time measured, as felt, in dB above the threshold of
+/// touch; `None` without a grid, or where nothing moves.
 pub fn felt(scene: &Scene, measured: &Measured) -> Option<Figure> {
     let maps = &measured.maps;
     let most = maps.felt_peak.iter().copied().fold(0.0, f32::max);

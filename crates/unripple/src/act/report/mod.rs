@@ -13,21 +13,21 @@ use crate::focus::Focused;
 use crate::physics::design::Linearity;
 use serde::Serialize;
 
-/// Everything said about one drive on one surface. Lengths in metres, times in seconds, drive in its own unit.
+/// The report of one drive on one surface. Lengths are in metres, times in seconds, drives in their own unit.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// Name of the program.
     pub program: &'static str,
     /// Version of the program.
     pub version: &'static str,
-    /// The command that the report is of.
+    /// The command that made the report.
     pub command: &'static str,
     /// Name of the surface.
     pub surface: String,
-    /// The model that figures were computed on, where it is not that surface with the modes of its band.
+    /// The model on which metrics were computed, where it is not the surface above with the modes of its band.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub judged_on: Option<String>,
-    /// How the drive was made.
+    /// Method by which the drive was computed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub method: Option<&'static str>,
     /// The window T, in seconds.
@@ -40,28 +40,31 @@ pub struct Report {
     pub sample_rate_hz: f64,
     /// The channels of the drive.
     pub actuators: Vec<Channel>,
-    /// Figures of every target.
+    /// Metrics of every target.
     pub targets: Vec<TargetFigures>,
-    /// Waveforms at targets, where they were asked for.
+    /// Metrics of targets that were to follow a waveform.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub waveforms: Vec<Followed>,
-    /// Points that were to be silent meanwhile.
+    /// Residual motion at points of silence.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub silent: Vec<SilenceFigures>,
-    /// A focus that was to move.
+    /// Metrics of a focus that moves along a path.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stroke: Option<Stroked>,
-    /// Fingers that rest on the surface.
+    /// Motion of the fingers that rest on the surface.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub fingers: Vec<Felt>,
-    /// Slopes, strains and added tension of the field, which linear theory takes to be small.
+    /// Slopes, strains and added tension of the field, which linear theory assumes to be small.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub linearity: Option<Linearity>,
-    /// Figures of the drive that was sent.
+    /// Metrics of the drive itself.
     pub drive: DriveFigures,
-    /// Strength of the drive beside its limits, and what decided it.
+    /// Level of the drive relative to its limits, and what decided it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub level: Option<Strength>,
+    /// Band of the drive, in hertz.
+    #[serde(skip)]
+    pub band: [f64; 2],
     /// Thickness of the sheet, in metres.
     #[serde(skip)]
     pub thickness: f64,
@@ -69,13 +72,15 @@ pub struct Report {
     pub lambda_min_m: f64,
     /// Radius around every target that does not count as outside, in metres.
     pub focal_radius_m: f64,
-    /// Whether outside figures are taken on a regular grid or on a library's own points.
+    /// Whether the points outside the focal discs are those of a regular grid or those of a library of responses.
     pub taken_on: TakenOn,
     /// Number of points that lie outside every target's disc.
     pub outside_points: usize,
+    /// Number of outside points over that of all points, from 0 to 1.
+    pub outside_share: f64,
     /// The highest level felt outside the focal discs, in dB above the threshold of touch.
     pub felt_outside_db: Option<f64>,
-    /// Notes that a reader of the figures must know.
+    /// Remarks and warnings that go with the results.
     pub notes: Vec<Note>,
     /// Files written beside the report.
     pub files: Vec<String>,
@@ -86,9 +91,9 @@ pub struct Report {
 pub struct Channel {
     /// Name of the actuator.
     pub name: String,
-    /// Place of the actuator, in metres.
+    /// Position of the actuator, in metres.
     pub at_m: [f64; 2],
-    /// Unit of what it is sent.
+    /// Unit of the samples of the channel.
     pub unit: &'static str,
 }
 
@@ -117,11 +122,13 @@ impl Report {
             linearity: judged.linearity,
             drive: measured.drive.clone(),
             level: None,
+            band: surface.emission.band,
             thickness: surface.sheet.thickness,
             lambda_min_m: measured.lambda_min_m,
             focal_radius_m: measured.focal_radius_m,
             taken_on: measured.taken_on,
             outside_points: measured.outside_points,
+            outside_share: measured.outside_share,
             felt_outside_db: measured.felt_outside_db,
             notes: judged.notes.clone(),
             files: Vec::new(),
@@ -145,7 +152,7 @@ impl Report {
     }
 }
 
-/// Unit of what an actuator is sent.
+/// Unit of the drive of an actuator of this kind.
 pub fn unit(kind: &ActuatorKind) -> &'static str {
     match kind {
         ActuatorKind::Force => "N",

@@ -3,11 +3,11 @@
 use super::{Report, played};
 use crate::Touch;
 use crate::act::Felt;
-use crate::field::{TargetFigures, Threshold};
+use crate::field::{TakenOn, TargetFigures, Threshold};
 use std::fmt::Write;
 
 impl Report {
-    /// For a terminal: one block of figures per target, then drive and notes.
+    /// The report as text for a terminal: one block of metrics per target, then drive and notes.
     pub fn text(&self) -> String {
         let mut text = format!("{}{}\n", self.surface, self.how());
         for target in &self.targets {
@@ -22,6 +22,9 @@ impl Report {
             );
             for [name, velocity, displacement, felt] in rows(target) {
                 let _ = writeln!(text, "  {name:<22}{velocity:>16}{displacement:>18}{felt:>14}");
+            }
+            if let Some(line) = self.elsewhere(target) {
+                let _ = writeln!(text, "  {line}");
             }
         }
         let played = played::lines(&self.waveforms, &self.silent, self.stroke.as_ref());
@@ -42,26 +45,11 @@ impl Report {
         text
     }
 
-    /// The report as Markdown, with the figures shown.
+    /// The report as Markdown, with links to its pictures.
     pub fn markdown(&self) -> String {
         let mut text = format!("# {}{}\n\n", self.surface, self.how());
         for target in &self.targets {
-            let [x, y] = target.at_m;
-            let _ = writeln!(
-                text,
-                "## Target ({:.2}, {:.2}) mm, in focus at {:.3} ms\n",
-                x * 1e3,
-                y * 1e3,
-                target.instant_s * 1e3
-            );
-            if target.points > 1 {
-                let _ = writeln!(text, "{} points; levels are means over them.\n", target.points);
-            }
-            text += "| | velocity | displacement | as felt |\n|---|---:|---:|---:|\n";
-            for [name, velocity, displacement, felt] in rows(target).into_iter().skip(1) {
-                let _ = writeln!(text, "| {name} | {velocity} | {displacement} | {felt} |");
-            }
-            text.push('\n');
+            self.target(target, &mut text);
         }
         let played = played::lines(&self.waveforms, &self.silent, self.stroke.as_ref());
         played.iter().for_each(|line| text.extend([line, "\n\n"]));
@@ -102,6 +90,29 @@ impl Report {
         text
     }
 
+    /// The block of one target in Markdown.
+    fn target(&self, target: &TargetFigures, text: &mut String) {
+        let [x, y] = target.at_m;
+        let _ = writeln!(
+            text,
+            "## Target ({:.2}, {:.2}) mm, in focus at {:.3} ms\n",
+            x * 1e3,
+            y * 1e3,
+            target.instant_s * 1e3
+        );
+        if target.points > 1 {
+            let _ = writeln!(text, "{} points; levels are means over them.\n", target.points);
+        }
+        *text += "| | velocity | displacement | as felt |\n|---|---:|---:|---:|\n";
+        for [name, velocity, displacement, felt] in rows(target).into_iter().skip(1) {
+            let _ = writeln!(text, "| {name} | {velocity} | {displacement} | {felt} |");
+        }
+        text.push('\n');
+        if let Some(line) = self.elsewhere(target) {
+            let _ = writeln!(text, "{line}\n");
+        }
+    }
+
     fn how(&self) -> String {
         let mut parts = Vec::new();
         parts.extend(self.method.map(|method| format!(", {method}")));
@@ -111,15 +122,40 @@ impl Report {
         parts.concat()
     }
 
+    /// The line on the strongest motion outside the focal discs, and on how much of the surface that is.
+    fn elsewhere(&self, target: &TargetFigures) -> Option<String> {
+        let ([x, y], at, ratio) = (target.worst_spot_at_m?, target.worst_spot_time_s?, target.worst_spot?);
+        let of = match self.taken_on {
+            TakenOn::Grid => "of the surface",
+            TakenOn::Library => "of the library's points",
+        };
+        Some(format!(
+            "strongest elsewhere: {:.0} % of the peak velocity, at ({:.1}, {:.1}) mm and {:.3} ms; elsewhere is {:.0} % {of}",
+            100.0 / ratio,
+            x * 1e3,
+            y * 1e3,
+            at * 1e3,
+            100.0 * self.outside_share
+        ))
+    }
+
     /// The line on sensations elsewhere than at the targets.
     fn felt_line(&self) -> Option<String> {
         let outside = self.felt_outside_db?;
+        let [low, _] = self.band;
+        if low >= Threshold::MEASURED_TO_HZ {
+            return Some(format!(
+                "what is felt is not known: the threshold of touch was measured up to {:.0} Hz, with vibration that lasts, and the band begins \
+                 at {low:.0} Hz; levels above threshold are a continuation, and short pulses may be felt in other ways",
+                Threshold::MEASURED_TO_HZ
+            ));
+        }
         let reached = self.targets.iter().any(|target| target.felt_level_db.is_some_and(|level| level > 0.0));
         let what = if outside > 0.0 {
-            format!("up to {outside:.2} dB above threshold: it may be felt elsewhere than at the foci")
+            format!("up to {outside:.0} dB above threshold: it may be felt elsewhere than at the foci")
         } else {
             let but = if reached { " except at the foci" } else { ", not even at the foci" };
-            format!("at least {:.2} dB below threshold: nothing is felt{but}", -outside)
+            format!("at least {:.0} dB below threshold: nothing is felt{but}", -outside)
         };
         let persons = Threshold::BETWEEN_PERSONS_DB;
         Some(format!(
@@ -184,7 +220,8 @@ fn rows(t: &TargetFigures) -> Vec<[String; 4]> {
     let scaled = |x: Option<f64>, factor: f64, unit: &str| {
         x.map_or("-".into(), |x| format!("{:.3} {unit}", x * factor))
     };
-    let felt = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.2} dB"));
+    // Thresholds differ by ±6 dB between persons; ratios of levels are as certain as tenths.
+    let felt = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.1} dB"));
     let row = |name: &str, v: String, u: String, f: String| [name.to_owned(), v, u, f];
     vec![
         row("", "velocity".into(), "displacement".into(), "as felt".into()),
@@ -214,6 +251,13 @@ fn rows(t: &TargetFigures) -> Vec<[String; 4]> {
             scaled(t.displacement_spot_diameter_m, 1e3, "mm"),
             "-".into(),
         ),
+        row(
+            "spot area",
+            scaled(t.spot_area_m2, 1e6, "mm²"),
+            scaled(t.displacement_spot_area_m2, 1e6, "mm²"),
+            "-".into(),
+        ),
+        row("focus offset", scaled(t.focus_offset_m, 1e3, "mm"), "-".into(), "-".into()),
         row(
             "pulse duration",
             scaled(t.pulse_duration_s, 1e3, "ms"),
