@@ -3,12 +3,14 @@
 use crate::StoreError;
 use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
 
-/// The text of a surface file in which keys have other values: pairs of a key's path, as messages write it (`sheet.tension_n_per_m`,
-/// `actuator[3].at_mm`), and a value as the file would write it. Quotes round text may be left out; an empty value takes the key away.
-/// A text that is not TOML stays as it is, for its reader to refuse. `file` names it in messages.
+/// Sets keys of the text of a surface file to other values, and returns the new text. `keys` has pairs of a key's
+/// path, as messages write it (`sheet.tension_n_per_m`, `actuator[3].at_mm`), and of a value as the file would write
+/// it. The quotes of a text may be left out; an empty value removes the key. A text that is not TOML is returned
+/// unchanged, for its reader to refuse. `file` is the file's name in messages.
 ///
 /// # Errors
-/// [`StoreError::Content`] for a path that leads nowhere.
+/// [`StoreError::Content`] for a path that is invalid, passes through a value without keys, or has an index beyond
+/// the end of a list.
 ///
 /// ```
 /// let text = "[sheet]\nmaterial = \"glass\"\nloss_factor = 0.01\n";
@@ -30,8 +32,7 @@ pub fn set_keys(text: &str, file: &str, keys: &[(String, String)]) -> Result<Str
             "" => None,
             text => Some(text.parse::<Value>().unwrap_or_else(|_| text.into())),
         };
-        in_table(document.as_table_mut(), &path, value)
-            .map_err(|why| refused(format!("`{key}`, where {why}")))?;
+        in_table(document.as_table_mut(), &path, value).map_err(|why| refused(format!("`{key}`, {why}")))?;
     }
     Ok(document.to_string())
 }
@@ -64,9 +65,9 @@ fn steps(path: &str) -> Option<Vec<Step<'_>>> {
     Some(steps)
 }
 
-/// Sets or removes what a path leads to from a table on, or says why it leads nowhere.
+/// Sets or removes the value at a path that begins in a table; the error says why there is no such place.
 fn in_table(table: &mut dyn TableLike, path: &[Step<'_>], value: Option<Value>) -> Result<(), String> {
-    let [Step::Key(key), rest @ ..] = path else { return Err("a table is, of which no key is named".into()) };
+    let [Step::Key(key), rest @ ..] = path else { return Err("which is a table: name a key in it".into()) };
     match (rest, value) {
         ([], Some(value)) => drop(table.insert(key, Item::Value(value))),
         ([], None) => drop(table.remove(key)),
@@ -78,13 +79,13 @@ fn in_table(table: &mut dyn TableLike, path: &[Step<'_>], value: Option<Value>) 
     Ok(())
 }
 
-/// The same from anything on.
+/// As [`in_table`], for a path that begins at any item.
 fn in_item(item: &mut Item, path: &[Step<'_>], value: Option<Value>) -> Result<(), String> {
     let [Step::Index(index), rest @ ..] = path else {
-        let table = item.as_table_like_mut().ok_or("a value is, which has no keys")?;
+        let table = item.as_table_like_mut().ok_or("but a value has no keys")?;
         return in_table(table, path, value);
     };
-    let beyond = |count: usize| format!("{count} are, counted from 0");
+    let beyond = |count: usize| format!("but there are only {count}, counted from 0");
     match item {
         Item::ArrayOfTables(tables) => {
             let count = tables.len();
@@ -97,12 +98,12 @@ fn in_item(item: &mut Item, path: &[Step<'_>], value: Option<Value>) -> Result<(
                 ([], Some(value)) => *here = value,
                 ([], None) => drop(list.remove(*index)),
                 (rest, value) => {
-                    let table = here.as_inline_table_mut().ok_or("a value is, which has no keys")?;
+                    let table = here.as_inline_table_mut().ok_or("but a value has no keys")?;
                     return in_table(table, rest, value);
                 }
             }
             Ok(())
         }
-        _ => Err("no list is".into()),
+        _ => Err("but only a list has numbered items".into()),
     }
 }

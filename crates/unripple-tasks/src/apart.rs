@@ -1,4 +1,4 @@
-//! A task on a thread of its own, so that whoever cancels it need not wait for a call that cannot be interrupted.
+//! Runs a task on its own thread, so that a cancelled call returns at once, even while the task is in work that cannot be interrupted.
 
 use crate::{Progress, TaskError};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -6,10 +6,11 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::Duration;
 
-/// How often a caller looks whether the task is still wanted: a tenth of the 0.2 s after which people take a program for stuck.
+/// Interval at which the caller checks for a cancellation: a tenth of the 0.2 s after which people take a program for stuck.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// How many tasks that were given up still run: the next begins when none does, since each holds its memory and cores until its longest call is over.
+/// How many tasks that were given up still run: the next begins when none does, since each holds its memory and cores until its longest
+/// call is over.
 static GIVEN_UP: (Mutex<usize>, Condvar) = (Mutex::new(0), Condvar::new());
 
 /// What a task on its own thread says.
@@ -24,7 +25,7 @@ enum Said<R> {
 #[derive(Default)]
 struct Shared {
     cancelled: AtomicBool,
-    /// Whether results were put in place: who cancels after that hears how the task ended. Held while they are put there.
+    /// Whether the task has begun to put its results in place: then a cancellation waits for its result. Locked meanwhile.
     placed: Mutex<bool>,
 }
 
@@ -62,8 +63,9 @@ impl<R> Progress for Relay<R> {
     }
 }
 
-/// Runs a task on a thread of its own, and comes back within 0.2 s of `progress` saying that it is cancelled, whatever the task does then.
-/// A task that was given up ends at its next look at its own progress; the next one begins only after that.
+/// Runs a task on its own thread and returns its result, or [`TaskError::Cancelled`] within 0.2 s after `progress` reports a cancellation.
+/// If the task has begun to put its results in place by then, its own result is awaited and returned. A cancelled task ends in the
+/// background when it next checks its progress; the next call waits until then.
 ///
 /// ```
 /// use unripple_tasks::{Report, Silent, apart, design};
@@ -118,7 +120,7 @@ fn follow<R>(
             Err(RecvTimeoutError::Timeout) => {}
             Err(RecvTimeoutError::Disconnected) => {
                 return Some(Err(TaskError::Work(
-                    "the task ended in a panic, which is a fault of ours".into(),
+                    "the task ended in a panic, which is an error in the program".into(),
                 )));
             }
         }

@@ -1,4 +1,4 @@
-//! A surface or a library of responses, as tasks take either.
+//! The input of tasks that work on either a surface or a library of responses.
 
 use crate::{Progress, SurfaceAsk, TaskError, between, judge, own};
 use std::path::PathBuf;
@@ -7,23 +7,23 @@ use unripple::core::{Point, Responses, SampledResponses, Surface};
 use unripple_calibrate::Interpolation;
 use unripple_store::{Library, surface_files};
 
-/// A surface with its responses, or a library: what a task works on.
+/// Input of a task: a surface, whose responses are computed, or a library of stored responses.
 pub struct Source {
-    /// The surface; of a library, the one it was made for.
+    /// The surface; for a library, the one that it was made for.
     pub surface: Surface,
-    /// Responses of a library, where they are stored.
+    /// The stored responses, if the input is a library.
     pub stored: Option<Stored>,
 }
 
-/// Responses from a library.
+/// Responses of a library, with remarks on them.
 pub struct Stored {
     /// Responses of the finished points that can be read.
     pub responses: SampledResponses,
-    /// Phrase for reports that says what responses figures were taken on.
+    /// Phrase for reports that names the responses from which figures were computed.
     pub told: String,
     /// Notes on what is wrong with the library.
     pub notes: Vec<Note>,
-    /// Reason for which levels mean nothing, if they do not.
+    /// Reason for which absolute levels are unknown, if they are.
     pub without_scale: Option<String>,
 }
 
@@ -33,7 +33,7 @@ fn about(library: &Library) -> Vec<Note> {
         library.doubts().iter().map(|doubt| Note { topic: "doubtful", text: doubt.to_string() }).collect();
     let dead: Vec<&str> = library.dead().iter().map(|i| library.plan().ports[*i].name.as_str()).collect();
     if !dead.is_empty() {
-        let text = format!("without {}, dead or left out when it was measured", dead.join(", "));
+        let text = format!("without {}: dead, or left out when the library was measured", dead.join(", "));
         notes.push(Note { topic: "actuators", text });
     }
     let unchecked = library.logged("model").filter(|log| log["checked"] == false);
@@ -43,7 +43,7 @@ fn about(library: &Library) -> Vec<Note> {
     notes
 }
 
-/// Warns of a library: why it is not to be trusted, what was left out, what is not known of it. Returns the same as notes.
+/// Prints warnings about a library, and returns them as notes: doubts, actuators left out, checks not made, unknown scale.
 pub fn warn(library: &Library, progress: &mut dyn Progress) -> Vec<Note> {
     let notes = about(library);
     for note in &notes {
@@ -53,7 +53,7 @@ pub fn warn(library: &Library, progress: &mut dyn Progress) -> Vec<Note> {
     notes
 }
 
-/// A surface by name, file or text, or a library by its folder; what is wrong with that is reported.
+/// Opens a surface by name, file or text, or a library by its folder, with warnings about the library.
 ///
 /// # Errors
 /// Those of [`SurfaceAsk::load`]; [`TaskError::Input`] of a library that does not describe its surface or has no finished point.
@@ -66,7 +66,7 @@ pub fn open(ask: &SurfaceAsk, progress: &mut dyn Progress) -> Result<Source, Tas
     open_again(ask)
 }
 
-/// A source opened without a warning, for whoever opens it again and again.
+/// Opens a surface or library as [`open`] does, without warnings: for callers that open the same one repeatedly.
 ///
 /// # Errors
 /// Those of [`open`].
@@ -115,17 +115,17 @@ fn library(name: &str) -> Result<Source, TaskError> {
     let mut notes = about(&library);
     notes.extend(damage.iter().take(LISTED).map(|damage| note(format!("damaged, and left out: {damage}"))));
     if damage.len() > LISTED {
-        notes.push(note(format!("{} files more are damaged", damage.len() - LISTED)));
+        notes.push(note(format!("{} more files are damaged", damage.len() - LISTED)));
     }
     if points < all {
-        notes.push(note(format!("{points} of {all} points are finished and sound")));
+        notes.push(note(format!("{points} of {all} points are finished and intact")));
     }
     let told = format!("the {points} points of {name}");
     let without_scale = library.without_scale().map(str::to_owned);
     Ok(Source { surface, stored: Some(Stored { responses, told, notes, without_scale }) })
 }
 
-/// The files that are read for a surface or a library.
+/// Paths that are read for a surface or a library.
 pub fn reads(ask: &SurfaceAsk) -> Vec<PathBuf> {
     match ask {
         SurfaceAsk::Name(name) if Library::is_at(name) => vec![name.into()],
@@ -134,25 +134,25 @@ pub fn reads(ask: &SurfaceAsk) -> Vec<PathBuf> {
     }
 }
 
-/// Phrase that says what responses figures were taken on, and notes on them.
+/// Phrase that names the responses from which figures were computed, and notes on these responses.
 pub type Told = (String, Vec<Note>);
 
 /// Damaged files named one by one; of more the number is said.
 const LISTED: usize = 5;
 
 impl Source {
-    /// The shortest wavelength of a library's band, in m; nothing of a surface file.
+    /// The shortest wavelength in a library's band, in m; `None` for a surface.
     pub fn lambda_min(&self) -> Option<f64> {
         self.stored.as_ref().map(|stored| stored.responses.conditions.lambda_min)
     }
 
-    /// Why lengths and velocities taken on it mean nothing, if they do not.
+    /// Reason for which absolute lengths and velocities are unknown, if they are.
     pub fn without_scale(&self) -> Option<String> {
         self.stored.as_ref().and_then(|stored| stored.without_scale.clone())
     }
 
-    /// The surface, its responses within the band, and, of a library, what to say of them. A library's are made complete at
-    /// `places`. Places are in m.
+    /// The surface and its responses within the band; for a library also a phrase and notes about its responses. A library's responses are
+    /// completed by interpolation (`way`) at `places`, in m.
     pub fn respond(
         self,
         places: &[Point],
@@ -171,7 +171,7 @@ impl Source {
         }
     }
 
-    /// Refuses, for a library, fields that need a model. Each is a name and whether it was given.
+    /// Refuses fields that need a model if the input is a library. Each field is its name and whether it was given.
     ///
     /// # Errors
     /// [`TaskError::Ask`] that names the first of them.

@@ -8,25 +8,25 @@ use unripple_core::{ModalResponses, Surface, require};
 use unripple_linalg::{Mat, Scale, squared_norm};
 use unripple_physics::{sensed, sensors};
 
-/// Change of the tension's ratio by which derivatives are taken: the highest modes turn by far less than a radian,
-/// and the change of a response still is far above rounding.
+/// Step of the tension ratio for numerical derivatives. It changes the phases of the highest modes by far less than a radian, and the
+/// responses by far more than rounding errors.
 const SMALL: f64 = 1e-5;
 
-/// Newton's steps of one estimate, and the change that ends them. The error falls quadratically, so that more steps
-/// change nothing; an estimate that needs more has begun too far away.
+/// Largest number of Newton steps of one estimate, and (`SETTLED`) the change of the tension ratio that ends them. The error falls
+/// quadratically, so that more steps change nothing; an estimate that needs more has started too far away.
 const STEPS: usize = 6;
 const SETTLED: f64 = 1e-7;
 
-/// Between two guesses when the tension is sought anew. Twice as wide, and Newton's method may start beyond the
-/// nearest maximum; half as wide takes twice as long.
+/// Distance between the tension ratios that are tried when the tension is searched over its whole range. With twice the distance,
+/// Newton's method may start beyond the nearest maximum; half the distance takes twice as long.
 const GUESS: f64 = 1e-3;
 
-/// Follows tension while the surface is used.
+/// Tracker of a sheet's tension, from the drive that is sent and the signals of the actuators used as sensors.
 ///
-/// The drive that is sent anyway, whatever it is, makes the sheet sound, and the actuators hear it. The model run
-/// under a tension hears something else; the difference shows the tension, since every mode's frequency moves by its own share
-/// of it (the dispersion relation). Between observations tension goes on at the rate found so far (a Kalman filter for
-/// ratio and rate).
+/// Any drive, whatever its purpose, makes the sheet vibrate, and the actuators sense the vibration. The model predicts their signals for
+/// a tension; the difference between signals and prediction shows the error of that tension, since the frequency of every mode depends on
+/// tension by its own share (the dispersion relation). A Kalman filter with the states ratio and rate predicts the tension between
+/// observations.
 ///
 /// ```
 /// use unripple_linalg::Mat;
@@ -69,7 +69,7 @@ pub struct Tracker {
     motion: Motion,
     /// Ratio of the tension, by the model, at the end of the last observation, and its rate (1/s).
     state: [f64; 2],
-    /// The ratio that counts as 1.
+    /// Model tension ratio of the calibrated surface, which is reported as 1.
     zero: f64,
     /// Covariance of ratio and rate.
     spread: [[f64; 2]; 2],
@@ -93,11 +93,12 @@ struct Estimate {
 }
 
 impl Tracker {
-    /// A tracker for a surface of some responses, whose sensors hear velocity where the actuators are, and bending's share of each
-    /// mode's elastic energy; by [`Warp::bending_share`](crate::Warp::bending_share) where nothing better is known.
+    /// A tracker for a surface with these modal responses, whose sensors measure velocity at the actuators. `bending_shares` holds the
+    /// share of bending in the elastic energy of each mode (0 to 1), by [`Warp::bending_share`](crate::Warp::bending_share) where nothing
+    /// better is known.
     ///
     /// # Errors
-    /// [`CalibrateError::Count`] for another number of shares than poles, [`CalibrateError::Range`] for options without meaning.
+    /// [`CalibrateError::Count`] for another number of shares than poles, [`CalibrateError::Range`] for options out of range.
     pub fn new(
         responses: &ModalResponses,
         bending_shares: &[f64],
@@ -108,7 +109,8 @@ impl Tracker {
         Self::with_sensors(responses, bending_shares, &sense, options)
     }
 
-    /// A tracker with the weights of each mode (columns) in the signal of each sensor (rows, as many as actuators).
+    /// As [`Tracker::new`], with other sensors: `sensors` holds the weights of the modes' velocities in the sensors' signals, sensors x
+    /// modes, one sensor per actuator.
     ///
     /// # Errors
     /// Those of [`Tracker::new`].
@@ -149,12 +151,12 @@ impl Tracker {
         })
     }
 
-    /// A tracker for a surface as its file describes it: each actuator hears in its own unit what its
-    /// [`Sensor`](unripple_physics::Sensor) does.
+    /// A tracker for a surface whose actuators are its sensors, each with the signal and the unit of its
+    /// [`Sensor`](unripple_physics::Sensor).
     ///
     /// # Errors
-    /// Those of [`Tracker::with_sensors`]; [`CalibrateError::Unsolvable`] for coils on a voltage with an inductance, which hear the sheet
-    /// through a circuit; [`CalibrateError::Physics`] for actuators that cannot be.
+    /// Those of [`Tracker::with_sensors`]; [`CalibrateError::Unsolvable`] for coils driven by a voltage that have an inductance, whose
+    /// signals are filtered by their circuits; [`CalibrateError::Physics`] for actuators that are not valid.
     pub fn of_surface(
         surface: &Surface,
         responses: &ModalResponses,
@@ -167,7 +169,7 @@ impl Tracker {
             Some(circuit) if circuit.inductance == 0.0 => Ok(sensor.gain / circuit.resistance),
             Some(_) => Err(CalibrateError::Unsolvable {
                 what: "tension",
-                expected: "actuators that hear the sheet at once: forces, patches, coils on a current",
+                expected: "sensors that follow the sheet without delay: forces, patches, coils on a current",
                 found: "coils on a voltage with an inductance".into(),
             }),
         });
@@ -177,7 +179,7 @@ impl Tracker {
         Self::with_sensors(responses, bending_shares, &sense, options)
     }
 
-    /// The same without some actuators, which neither drive nor hear: dead ones.
+    /// This tracker without the actuators of these indices, which then neither drive nor sense: for dead actuators.
     #[must_use]
     pub fn without(mut self, actuators: &[usize]) -> Self {
         let count = self.sheet.input.ncols();
@@ -188,10 +190,11 @@ impl Tracker {
         self
     }
 
-    /// The same, what it says of a surface that has just been calibrated (see [`Tracker::tension`]) counting as 1 from now on.
+    /// This tracker with `ratio` as the tension of the calibrated surface: from now on tension is reported relative to it. `ratio` is
+    /// what [`Tracker::tension`] reports for a surface that has just been calibrated.
     ///
-    /// A model that is fitted puts the modes that a focus moves a little off, which looks like some 1e-4 of tension, as much under
-    /// any tension. A few foci observed right after calibrating show how much.
+    /// A fitted model has small errors in the frequencies of the modes that a focus excites. They look like a change of tension of about
+    /// 1e-4, which is the same under any tension. A few foci observed right after calibration show how large it is.
     ///
     /// # Errors
     /// [`CalibrateError::Range`] for a ratio that is not positive.
@@ -207,26 +210,26 @@ impl Tracker {
         Ok(self)
     }
 
-    /// Tension over that at calibration, so many seconds after the end of the last observation.
+    /// Tension over that at calibration, predicted `ahead` seconds after the end of the last observation.
     pub fn tension(&self, ahead: f64) -> f64 {
         self.ratio(ahead) / self.zero
     }
 
-    /// The same by the model.
+    /// Tension over the model's nominal tension, predicted `ahead` seconds after the end of the last observation.
     fn ratio(&self, ahead: f64) -> f64 {
         self.state[0] + self.state[1] * ahead
     }
 
-    /// The responses as they are so many seconds after the end of the last observation.
+    /// Modal responses under the tension predicted `ahead` seconds after the end of the last observation.
     pub fn responses(&self, ahead: f64) -> ModalResponses {
         warped(&self.reference, &self.sheet.shares, self.ratio(ahead))
     }
 
-    /// Takes in what was sent since the last observation and what the sensors heard meanwhile, one signal per channel, of the same
-    /// stretch of time; drives that end earlier go on with silence.
+    /// Updates the tension from the drive sent since the last observation and the sensors' signals of the same time, both
+    /// `[channel][sample]`. Drives that are shorter than the signals are continued with zeros.
     ///
     /// # Errors
-    /// [`CalibrateError::Count`] for another number of channels, [`CalibrateError::Range`] for samples that are not finite.
+    /// [`CalibrateError::Count`] for another number of channels or no samples, [`CalibrateError::Range`] for samples that are not finite.
     pub fn observe(&mut self, drive: &[Vec<f64>], heard: &[Vec<f64>]) -> Result<Drift, CalibrateError> {
         let samples = self.check(drive, heard)?;
         let time = samples as f64 / self.sheet.rate;
@@ -244,7 +247,7 @@ impl Tracker {
             (self.state, self.spread) = ([found.course.middle, found.course.rate], found.spread);
             self.motion = found.motion;
         } else {
-            // What sounds is unknown: the next observation starts from what the drive alone would have made.
+            // The motion of the sheet is unknown: the next observation starts from the motion that the drive alone would have made.
             let course = Course { middle: self.state[0], rate: self.state[1] };
             self.motion = self.sheet.run(&self.motion, drive, samples, &instants, course).1;
         }
@@ -258,7 +261,8 @@ impl Tracker {
         })
     }
 
-    /// Lets a stretch of time pass of which nothing is to be learnt, a finger having been on the sheet, and notes what was sent.
+    /// Advances the tracker by `samples` samples without an observation, as while a finger touches the sheet. `drive`,
+    /// `[channel][sample]`, is what was sent in that time.
     ///
     /// # Errors
     /// [`CalibrateError::Count`] for another number of channels.
@@ -295,8 +299,8 @@ impl Tracker {
         Ok(samples)
     }
 
-    /// The course of tension over a stretch that agrees best with what was heard and with the prediction, by Newton's
-    /// method from a guess of its middle.
+    /// The course of tension that agrees best with the signals and with the prediction, by Newton's method from a guess of the ratio in
+    /// the middle of the observation.
     fn estimate(&self, heard: &Heard, guess: f64) -> Estimate {
         let mut course = Course { middle: guess, rate: self.state[1] };
         let (mut model, mut motion) = self.run(heard, course);
@@ -324,7 +328,7 @@ impl Tracker {
             });
             spread = inverse(system);
             let step = spread.map(|row| row[0] * downhill[0] + row[1] * downhill[1]);
-            // Beyond this the phases of the highest modes are no longer straight.
+            // With a larger step the phases of the highest modes are no longer linear in the tension.
             let share = (GUESS / step[0].abs().max(step[1].abs() * time)).min(1.0);
             let next =
                 Course { middle: course.middle + share * step[0], rate: course.rate + share * step[1] };
@@ -346,13 +350,13 @@ impl Tracker {
         self.sheet.run(&self.motion, heard.drive, heard.samples, heard.instants, course)
     }
 
-    /// Standard deviation of what the model cannot know: noise, and its own error as a share of what is heard.
+    /// Standard deviation of the expected residual: noise, and the error of the model as a share of the signals.
     fn noise(&self, signals: &Mat<f64>) -> f64 {
         let power = squared_norm(signals.as_ref()) / (signals.nrows() * signals.ncols()).max(1) as f64;
         (self.options.noise.powi(2) + self.options.model.powi(2) * power).sqrt()
     }
 
-    /// The best of many guesses.
+    /// The tension ratio with the smallest residual among many over the whole range.
     fn search(&self, heard: &Heard) -> f64 {
         use rayon::prelude::*;
         let count = (self.options.range / GUESS).ceil() as i32;
@@ -365,7 +369,7 @@ impl Tracker {
         all.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map_or(self.state[0], |best| best.1)
     }
 
-    /// Time passes: the ratio goes on at its rate, which wanders.
+    /// Prediction step of the Kalman filter over `time` seconds: the ratio changes at its rate, and the rate makes a random walk.
     fn pass(&mut self, time: f64) {
         let wander = self.options.wander.powi(2) * time;
         self.state[0] += self.state[1] * time;
@@ -378,7 +382,7 @@ impl Tracker {
     }
 }
 
-/// Of a symmetric matrix of two rows.
+/// Inverse of a symmetric 2 x 2 matrix.
 fn inverse([[a, b], [_, d]]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
     let determinant = a * d - b * b;
     [[d / determinant, -b / determinant], [-b / determinant, a / determinant]]

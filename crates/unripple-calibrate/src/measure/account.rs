@@ -1,75 +1,76 @@
 //! Findings of a recording besides the responses: clock error, lost samples, change of tension, knocks, harmonics.
 
-/// Samples that were lost, or repeated.
+/// A gap in a recording: samples that were lost or recorded twice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lost {
-    /// Number of samples lost; negative if as many were heard twice.
+    /// Number of samples lost; negative if that many were recorded twice.
     pub samples: i64,
-    /// Where, in s of what is played: not before and not after.
+    /// Earliest and latest time of the gap, in s of the played signal.
     pub between_s: [f64; 2],
-    /// The last sweep that ended before, and the first that began after; from 1.
+    /// Number of the last sweep that ended before the gap, and of the first that began after it; from 1.
     pub sweeps: [usize; 2],
 }
 
-/// Something that was heard and not played.
+/// A knock: a sound in a recording that was not played.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Knocked {
-    /// Where, in s of what is played.
+    /// Time of the knock, in s of the played signal.
     pub at_s: f64,
     /// The actuators whose sweeps it hit, from 1.
     pub actuators: Vec<usize>,
-    /// Energy of the knock over that of one sweep as heard, in dB.
+    /// Energy of the knock, relative to that of one recorded sweep, in dB.
     pub share_db: f64,
-    /// Whether other takes of the same point stand in for the sweeps that it hit.
+    /// Whether the sweeps that it hit were replaced by those of other takes of the same point.
     pub left_out: bool,
 }
 
-/// Findings from the sweeps of a take on its clock, its gaps, the sheet's tension and other sounds. `None` is not known:
-/// nothing that shows it was recorded.
+/// Findings from the sweeps of a take on its clock, its gaps, the sheet's tension and other sounds. `None` means not known: nothing that
+/// shows it was recorded.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Account {
-    /// Error of the recording's clock against that of what is played, in millionths, positive if it is quicker; taken
-    /// out.
+    /// Error of the recording's clock relative to that of playing, in parts per million, positive if it is faster; corrected in the
+    /// responses.
     pub clock_ppm: Option<f64>,
-    /// Standard error of that.
+    /// Standard error of `clock_ppm`, in parts per million.
     pub clock_error_ppm: f64,
-    /// Samples, root mean square, by which sweeps came early or late that neither one clock nor lost samples explain; left as it is.
+    /// Rms deviation of the sweeps' times of arrival, in samples, that neither a clock error nor lost samples explain; not corrected.
     pub scatter: Option<f64>,
-    /// Samples by which it came late beside the first take; taken out.
+    /// Delay of the take relative to the first take, in samples; corrected.
     pub late: Option<f64>,
-    /// Samples lost, put back as far as that goes.
+    /// Gaps in the recording; what comes after each is moved back to its time.
     pub lost: Vec<Lost>,
-    /// Tension (stiffness, of a plate without tension) beside the first take, as a share more, at the first and the last
-    /// sweep; taken out.
+    /// Relative change of tension (of stiffness, for a plate without tension) since the first take, at the first and at the last sweep;
+    /// corrected.
     pub drift: Option<[f64; 2]>,
-    /// Whether it is stiffness that `drift` speaks of.
+    /// Whether `drift` is that of stiffness, since the plate has no tension.
     pub of_stiffness: bool,
     /// The knocks that were found, in order of time.
     pub knocks: Vec<Knocked>,
-    /// Largest magnitude that was heard, in the device's unit: 1 is full scale.
+    /// Largest magnitude that was recorded, in the device's unit: 1 is full scale.
     pub peak: f64,
-    /// Second and third harmonic of each actuator, as a share of the amplitude; NaN where none stands out of the noise.
+    /// Second and third harmonic of each actuator, relative to the amplitude of the drive; NaN where none stands out of the noise.
     pub harmonics: Vec<[f64; 2]>,
-    /// Sweeps that sensors heard otherwise than in the first take, where neither noise nor a knock is why, and all sweeps; if they are many.
+    /// Number of sweeps that sensors recorded otherwise than in the first take, where neither noise nor a knock is the reason, and number
+    /// of all sweeps; `None` unless they are many.
     pub unlike: Option<[usize; 2]>,
-    /// The same of further takes of the same place, in their order; the fields above are the first's.
+    /// Accounts of further takes of the same place, in their order; the fields above are those of the first take.
     pub repeats: Vec<Account>,
 }
 
-/// Clocks closer than this, in millionths, are not worth a word.
+/// Clock error below which it is not reported, in parts per million.
 const SAME_PPM: f64 = 0.5;
 
-/// Neither is a change of tension below this share.
+/// Relative change of tension below which it is not reported.
 const SAME_TENSION: f64 = 1e-4;
 
-/// Nor is a delay below this many samples, a third of a degree of the phase at 1 kHz for a rate of 48 kHz.
+/// Delay below which it is not reported, in samples: a third of a degree of the phase at 1 kHz for a rate of 48 kHz.
 const SAME_TIME: f64 = 0.05;
 
-/// Share of the amplitude from which a harmonic is worth a word.
+/// Share of the amplitude from which a harmonic is reported.
 const LEAST_HARMONIC: f64 = 1e-3;
 
 impl Account {
-    /// The findings in words, a sentence each; nothing of what is as it should be.
+    /// The findings in words, one sentence each. What is as it should be is not mentioned.
     pub fn said(&self) -> Vec<String> {
         let mut said = self.brought();
         if !self.repeats.is_empty() {
@@ -88,7 +89,7 @@ impl Account {
         said
     }
 
-    /// How a take was brought to the clock, the time and the tension of the first.
+    /// The corrections of one take to the clock, the time and the tension of the first, in words.
     fn brought(&self) -> Vec<String> {
         let mut said = Vec::new();
         if let Some(ppm) = self.clock_ppm.filter(|ppm| ppm.abs() >= SAME_PPM) {
@@ -107,7 +108,7 @@ impl Account {
         if let Some(late) = self.late.filter(|late| late.abs() >= SAME_TIME) {
             let side = if late > 0.0 { "later" } else { "earlier" };
             let late = late.abs();
-            said.push(format!("it came {late:.2} samples {side} than the first: shifted back"));
+            said.push(format!("the recording is {late:.2} samples {side} than the first: shifted back"));
         }
         if let Some([first, last]) = self.drift.filter(|drift| drift.iter().any(|x| x.abs() >= SAME_TENSION))
         {
@@ -126,12 +127,12 @@ impl Account {
         said
     }
 
-    /// The harmonics that are worth a word, over all actuators for which any was found.
+    /// The harmonics in words, rms over all actuators for which any was found; `None` if they are small.
     fn distorted(&self) -> Option<String> {
         let rms = |order: usize| {
             let told: Vec<f64> = self.harmonics.iter().map(|h| h[order]).filter(|h| h.is_finite()).collect();
             let known = told.iter().map(|h| h * h).sum::<f64>() / told.len().max(1) as f64;
-            // Told of few, it is as likely the scatter of noise.
+            // Found for only a few actuators, it may be chance.
             if 2 * told.len() >= self.harmonics.len() { known.sqrt() } else { 0.0 }
         };
         let [second, third] = [rms(0), rms(1)];

@@ -10,49 +10,48 @@ use unripple_dsp::{DspError, median};
 use unripple_linalg::c64;
 use unripple_physics::Sensor;
 
-/// Actuators that are looked at, at most: the median of a dozen is sure enough, and the work grows with their square.
+/// Largest number of actuators that are used: the median of a dozen is reliable enough, and the work grows with their square.
 const ACTUATORS: usize = 12;
 
-/// Tones in a part of the band with its edges, about, and the fewest that are looked for. More in a part take larger
-/// systems, whose work grows as the cube; with fewer, parts get narrow and their edges ring long.
+/// Approximate number of tones in a part of the band with its edges, and (`FEWEST`) the smallest number that is searched. More in a
+/// part take larger systems, whose work grows as the cube; with fewer, parts get narrow and their edges ring long.
 const TONES: usize = 60;
 const FEWEST: usize = 8;
 
-/// Longest time in s until the beginning of a response counts as over, how much of it in terms of what it rings for, and shortest
-/// in periods. Earlier, what modes above the band leave still disturbs the phases; later, tones have died away.
+/// Time after which the beginning of a response counts as over: at most `PASSED` seconds and `OF_RINGING` decay times, but at least
+/// `PERIODS` periods. Earlier, what modes above the band leave still disturbs the phases; later, tones have died away.
 const PASSED: f64 = 0.025;
 const OF_RINGING: f64 = 0.8;
 const PERIODS: f64 = 2.0;
 
-/// Tones up to this ratio of frequencies say how long a part of the band rings. Fewer tones make a chance estimate,
-/// more mix decay times of other frequencies in.
+/// Ratio of frequencies up to which tones determine the decay time in a part of the band. Fewer tones make a chance estimate, more mix
+/// decay times of other frequencies in.
 const NEAR: f64 = 1.3;
 
-/// Most seconds of the model's responses whose tones are looked for, and how many of them make a cell of the band.
-/// Longer responses take longer and hold the same tones.
+/// Longest part of the model's responses, in s, in which tones are searched, and (`IN_CELL`) number of them in a cell of the band.
+/// Longer responses take longer and contain the same tones.
 const SAID: f64 = 2.0;
 const IN_CELL: usize = 8;
 
-/// Share of a period of the band's top within which the first estimate is taken to lie: half a period away, what is heard looks as if
-/// its sign were turned.
+/// Largest error of the first estimate, in periods of the band's top: half a period away, a signal looks as if its sign were reversed.
 const WITHIN: f64 = 0.75;
 
-/// Share of what cells of the band sum up to that agrees on a latency, below which there is none.
+/// Smallest share of the sums over cells of the band that must agree on a latency for it to count.
 const AGREED: f64 = 0.3;
 
-/// Samples by which what is heard comes late, from what actuators hear of each other and of themselves, `[sensor][drive][sample]` with
-/// `lead` samples before time 0; nothing of one that is left out.
+/// Latency of a device and its uncertainty, both in samples, from responses between actuators. `heard` is `[sensor][drive][sample]`
+/// with `lead` samples before time 0; it is empty for an actuator that is left out.
 ///
-/// An actuator hears each tone of the surface in step with its own drive: the sheet's velocity at a place is a sum of
-/// w² e^{-σt} (cos ωt - (σ/ω) sin ωt) whatever the sheet is, its tones above the band included. So the phases that its
-/// tones have at time 0, each followed back from when the beginning has passed, are those of a delay and nothing else; no
-/// model says where the tones are. A circuit between is known from the surface file, and taken back. What coils on a voltage
-/// damp and what masses leave undamped takes tones out of step, by what the model's own are, cell by cell of the band.
+/// An actuator senses each mode in phase with its own drive: the velocity at the driven place is a sum of w² e^{-σt} (cos ωt - (σ/ω)
+/// sin ωt) for any sheet, modes above the band included. Decaying tones are therefore fitted to the responses after their beginning and
+/// extrapolated back to time 0, where their phases are those of a delay alone. The frequencies come from the recording, not from a
+/// model. The phase of a circuit is known from the surface file and removed. Damping by voltage-driven coils, and masses without
+/// damping, shift the phases of tones; this is corrected, cell by cell of the band, by the phases of the model's own tones.
 ///
-/// The second number is how far actuators disagree, as half the range of the middle half.
+/// The uncertainty is half the interquartile range of the estimates from single actuators.
 ///
 /// # Errors
-/// [`CalibrateError::Recording`] if there is nothing to be found; [`CalibrateError::Dsp`] for a band out of range, or silence.
+/// [`CalibrateError::Recording`] if no actuator has a signal; [`CalibrateError::Dsp`] for a band out of range.
 pub fn latency(
     heard: &[Vec<Vec<f64>>],
     model: &Hearing,
@@ -63,7 +62,7 @@ pub fn latency(
     let count = heard.len().min(model.actuators());
     let alive: Vec<usize> = (0..count).filter(|a| !heard[*a].is_empty()).collect();
     if alive.is_empty() {
-        let (what, expected) = ("actuators that hear".into(), "at least one".into());
+        let (what, expected) = ("actuators with sensors".into(), "at least one".into());
         return Err(CalibrateError::Recording { what, expected, found: "none".into() });
     }
     let chosen = alive.len().min(ACTUATORS);
@@ -87,7 +86,7 @@ pub fn latency(
     }
     let most = WITHIN * rate / band.high[0].min(rate / 2.0);
     let whole: Vec<usize> = (0..some.len()).collect();
-    // A sensor may be reversed: each has the sign with which its own tones are most in step.
+    // A sensor may be reversed: each gets the sign with which its own tones agree best in phase.
     let sign =
         |a: usize| delay(&all, &[a], &cells, rate, most).map_or(signs[a], |(_, sign)| sign * signs[a].abs());
     let signs: Vec<f64> = whole.iter().map(|a| sign(*a)).collect();
@@ -96,7 +95,7 @@ pub fn latency(
     }
     let of = |actuators: &[usize]| {
         let (late, _) = delay(&all, actuators, &cells, rate, most)?;
-        // Within a cell what is out of step may go with frequency: the model's does so as well.
+        // Within a cell, phase shifts that depend on frequency look like a delay: that of the model is subtracted.
         let own = if said.is_empty() { 0.0 } else { delay(&said, actuators, &cells, rate, most)?.0 };
         Some(late - own)
     };
@@ -107,17 +106,17 @@ pub fn latency(
     Ok([coarse + late, disagreement(&alone)])
 }
 
-/// Half the range of the middle half of sorted values.
+/// Half the interquartile range of sorted values.
 fn disagreement(sorted: &[f64]) -> f64 {
     let quantile = |share: f64| sorted.get(((sorted.len().max(1) - 1) as f64 * share).round() as usize);
     quantile(0.75).zip(quantile(0.25)).map_or(0.0, |(high, low)| (high - low) / 2.0)
 }
 
-/// To a sample or so: the delays between what is heard and what the model says, ascending, at least one; and the sign of each
+/// First estimate, to about a sample: the delays between recorded and modelled responses, ascending, at least one; and the sign of each
 /// actuator, 0 if it is silent.
 ///
-/// Of what actuators hear of themselves; where coils on a voltage damp the surface, of what they hear of each other: of itself such a
-/// coil hears at first what is damped most, which no mode of the band is.
+/// From the response of each actuator at itself; where voltage-driven coils damp the surface, from responses at other actuators, since
+/// the beginning of such a coil's response at itself is mostly strongly damped motion that no mode of the band describes.
 fn roughly(
     heard: &[Vec<Vec<f64>>],
     some: &[usize],
@@ -138,7 +137,7 @@ fn roughly(
                 delays.push(delay.samples);
                 signs[b] = if delay.inverted && away == 0 { -1.0 } else { 1.0 };
             }
-            // A silent one gives no estimate; others may.
+            // A silent actuator gives no estimate; others may.
             Err(_) => signs[b] = 0.0,
         }
     }
@@ -146,14 +145,15 @@ fn roughly(
     if delays.is_empty() {
         return Err(CalibrateError::Recording {
             what: "latency".into(),
-            expected: "actuators that hear themselves".into(),
+            expected: "actuators whose own sensor receives their drive".into(),
             found: "silence".into(),
         });
     }
     Ok((delays, signs))
 }
 
-/// Parts of the band, each with about as many tones as can be resolved at once, and how many the model has there with its edges.
+/// Parts of the band, each with about as many tones as can be resolved at once, and the number of tones that the model has in each with
+/// its edges.
 fn parts(model: &Hearing, band: Band) -> Vec<(Part, usize)> {
     let mut known: Vec<[f64; 2]> = model.tones().filter(|[hz, _]| *hz > 0.0).collect();
     known.dedup_by(|a, b| (a[0] - b[0]).abs() < 1e-9 * b[0]);
@@ -180,15 +180,15 @@ fn parts(model: &Hearing, band: Band) -> Vec<(Part, usize)> {
     parts
 }
 
-/// The tones of all parts, in step but for what damping does to them: what a circuit does to each is taken back, and a tone of velocity
-/// that is struck at time 0 is turned into a positive number.
+/// The tones of all parts of the band, with the phase of circuits removed and turned so that the velocity after an impulse at time 0
+/// has a positive real amplitude. Phase shifts by damping remain.
 fn rung(heard: &Heard, parts: &[(Part, usize)], sensors: &[&Sensor]) -> Vec<Tone> {
     let mut all: Vec<Tone> =
         parts.par_iter().flat_map_iter(|(part, expected)| tones(heard, part, *expected)).collect();
     for tone in &mut all {
         let (s, struck) = (tone.s, c64::new(1.0, tone.s.re / tone.s.im));
         for (own, sensor) in tone.own.iter_mut().zip(sensors) {
-            // Once for the drive and once for what is heard of it.
+            // Once for the drive and once for the sensor.
             let through = sensor.per_velocity(s);
             let turn = through / through.norm().max(f64::MIN_POSITIVE);
             *own *= struck * (turn * turn).conj();
@@ -197,8 +197,8 @@ fn rung(heard: &Heard, parts: &[(Part, usize)], sensors: &[&Sensor]) -> Vec<Tone
     all
 }
 
-/// Cells of the band, each with several tones. The tones that one damper couples are out of step with each other and yet add up
-/// to what is not: a cell's sum is what can be compared.
+/// Cells of the band, each with several tones. Tones that one damper couples have different phase shifts, which cancel in their sum:
+/// sums over cells are compared.
 #[derive(Clone, Copy)]
 struct Cells {
     low: f64,
@@ -207,7 +207,7 @@ struct Cells {
 }
 
 impl Cells {
-    /// For about so many tones.
+    /// Cells of a band for about so many tones.
     fn new(tones: usize, band: Band) -> Self {
         let (low, count) = (band.low[1], (tones / IN_CELL).max(1));
         Self { low, width: (band.high[0] - low) / count as f64, count }
@@ -217,7 +217,7 @@ impl Cells {
         (((tone.s.im / TAU - self.low) / self.width).max(0.0) as usize).min(self.count - 1)
     }
 
-    /// Sums of what an actuator hears of itself, and of its magnitudes.
+    /// For each cell, the sum of an actuator's amplitudes at itself, and the sum of their magnitudes.
     fn sums(&self, tones: &[Tone], actuator: usize) -> Vec<(c64, f64)> {
         let mut sums = vec![(c64::new(0.0, 0.0), f64::MIN_POSITIVE); self.count];
         for tone in tones {
@@ -228,7 +228,8 @@ impl Cells {
         sums
     }
 
-    /// Brings tones into step that are out of it as a model's are; the less the model's agree with each other, the less they count.
+    /// Removes from `tones` the phase shifts of the model's tones, `said`, cell by cell; the less the model's tones in a cell agree in
+    /// phase, the less the cell counts.
     fn lead(&self, tones: &mut [Tone], said: &[Tone]) {
         let actuators = tones.first().map_or(0, |tone| tone.own.len());
         for actuator in 0..actuators {
@@ -253,7 +254,7 @@ fn said(
     let count = some.len();
     let one = |n: usize| {
         let (b, a) = (n / count, n % count);
-        // What one hears of another is what that one hears of it.
+        // By reciprocity one response of each pair is enough.
         let mut said = vec![0.0; if b <= a { lead } else { 0 }];
         if b <= a {
             said.extend(model.response(some[b], some[a], samples.saturating_sub(lead)));
@@ -267,8 +268,8 @@ fn said(
     Ok((0..count).map(|b| (0..count).map(|a| of(b, a)).collect()).collect())
 }
 
-/// The delay in samples, at most `most` either way, at which the tones that some actuators hear of themselves are most in step, if they
-/// are, and their sign.
+/// The delay in samples, at most `most` either way, at which the tones of these actuators at themselves agree best in phase, and their
+/// sign; `None` if they do not agree.
 fn delay(tones: &[Tone], actuators: &[usize], cells: &Cells, rate: f64, most: f64) -> Option<(f64, f64)> {
     let parts: Vec<(f64, c64)> = tones
         .iter()
@@ -277,7 +278,7 @@ fn delay(tones: &[Tone], actuators: &[usize], cells: &Cells, rate: f64, most: f6
             (tone.s.im / rate, own)
         })
         .collect();
-    // Value and two derivatives of how much they are in step.
+    // Sum of the tones' real parts after a delay, and its first two derivatives.
     let at = |late: f64| {
         parts.iter().fold([0.0; 3], |[value, first, second], (omega, own)| {
             let turned = own * c64::new(0.0, omega * late).exp();

@@ -5,10 +5,11 @@ use crate::CalibrateError;
 use crate::signals::{Quality, Sweep};
 use unripple_core::{Layout, ModalResponses, Surface, require};
 
-/// Decay time of amplitude, in s, that the default sweep, ringing and response are for: they are 7, 5 and 1.4 times as long.
+/// Amplitude decay time, in s, for which sweep, settle time and response length are chosen by default: they are 7, 5 and 1.4 times as
+/// long.
 const USUAL_DECAY: f64 = 0.07;
 
-/// Options of a measurement: sweep, rests, repeats, limits of quality.
+/// Options of a measurement: sweep, pauses, repeats, limits of quality.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasureOptions {
     /// Seconds of an actuator's sweep.
@@ -23,21 +24,21 @@ pub struct MeasureOptions {
     pub settle_time: f64,
     /// Seconds of each response that are kept.
     pub response_length: f64,
-    /// Times that each place is measured, and averaged.
+    /// Number of recordings of each place, which are averaged.
     pub repeats: usize,
     /// Harmonics up to this order are kept apart from the responses.
     pub highest_order: usize,
-    /// Times that a bad place is measured again before it is left as bad.
+    /// Number of times that a bad place is measured again before it is left as bad.
     pub retries: u64,
-    /// Signal to noise below which a response is bad, in dB.
+    /// Signal-to-noise ratio below which a response is bad, in dB.
     pub min_snr_db: f64,
     /// Distortion above which a response is bad, as a share of its power, in dB.
     pub max_distortion_db: f64,
-    /// Samples that what is heard comes late by.
+    /// Latency of the device, in samples.
     pub latency: f64,
-    /// Seconds by which the probe alone hears later than the sensors do; `None` to find it.
+    /// Delay of the probe relative to the sensors, in s; `None` to find it.
     pub probe_delay: Option<f64>,
-    /// Whether what is measured is compared with a model of the surface.
+    /// Whether measured responses are compared with a model of the surface.
     pub model: bool,
     /// Actuators that are left out, since they are dead: their responses are not checked.
     pub without: Vec<usize>,
@@ -66,51 +67,50 @@ impl Default for MeasureOptions {
     }
 }
 
-/// Share of the lowest mode's frequency at which a sweep begins at the latest: what it begins with is faded in.
+/// Highest start of a sweep, relative to the frequency of the lowest mode: the beginning of a sweep is faded in.
 const BELOW: f64 = 0.6;
 
-/// Lowest frequency that a sweep begins at by itself, in Hz: no exciter moves below.
+/// Lowest start of a sweep that is chosen automatically, in Hz: no exciter moves below.
 const LOWEST: f64 = 2.0;
 
-/// Most repeats that anybody is advised to make. They bring 20 dB; a bench where that does not do needs another
-/// probe.
+/// Largest number of repeats that is advised. They bring 20 dB; where that is not enough, another probe is needed.
 const MOST_REPEATS: f64 = 99.0;
 
 /// Longest response that is kept, in s: it bounds memory, and no sheet rings that long.
 const MOST_KEPT: f64 = 60.0;
 
 impl MeasureOptions {
-    /// Options that suit a surface that is expected to be like a model: sweep, ringing and response in proportion to the
-    /// slowest decay in the band, and those of [`MeasureOptions::default`] up to 70 ms. The sweep begins below the
-    /// lowest mode, at 60 Hz at the highest.
+    /// Options for a surface that is expected to be like a model: sweep, settle time and response length in proportion to the slowest
+    /// decay in the band, and those of [`MeasureOptions::default`] for decay times up to 70 ms. The sweep begins below the lowest
+    /// mode, at 60 Hz at the highest.
     ///
-    /// The next sweep's response begins when e⁻⁵ is left of the last, and the second harmonic comes before the linear response by 1.4
-    /// decay times: both as far apart in a slow surface as in a quick one.
+    /// A response has decayed to e⁻⁵ when the next one begins. The second harmonic precedes the linear response by about 1.2 decay
+    /// times, for a sweep from 60 Hz to 3.6 kHz. Both hold for slow and quick surfaces alike.
     pub fn for_model(model: &ModalResponses) -> Self {
         let usual = Self::default();
         let from = lowest(model).map_or(usual.start_hz, |hz| (BELOW * hz).clamp(LOWEST, usual.start_hz));
         let times = slowest_decay(model, from) / USUAL_DECAY;
-        // What differs in the last digits is the same surface, and the same plan.
+        // Surfaces that differ only in the last digits get the same plan.
         let times = if times > 1.001 { times } else { 1.0 };
         let [sweep, ringing, kept] =
             [usual.sweep, usual.settle_time, usual.response_length].map(|seconds| times * seconds);
         Self { sweep, start_hz: from, settle_time: ringing, response_length: kept, ..usual }
     }
 
-    /// Warnings of what is too short for a surface that is expected to be like a model, a sentence each.
+    /// Warnings, one sentence each, of times that are too short for a surface that is expected to be like a model.
     pub fn warnings(&self, model: &ModalResponses) -> Vec<String> {
         let suited = Self::for_model(model);
         let decay = 1e3 * slowest_decay(model, self.start_hz);
         let of = [
-            ("sweep", self.sweep, suited.sweep, "harmonics lie in each other's ringing"),
-            ("pause", self.settle_time, suited.settle_time, "sweeps lie in each other's ringing"),
+            ("sweep", self.sweep, suited.sweep, "the responses of harmonics overlap"),
+            ("pause", self.settle_time, suited.settle_time, "a response begins before the last has decayed"),
             ("response", self.response_length, suited.response_length, "what decays later is left out"),
         ];
         let short = of.into_iter().filter(|(_, found, wanted, _)| *found < 0.999 * wanted);
         short
             .map(|(what, found, wanted, why)| {
                 let [found, wanted] = [found, wanted].map(|s| 1e3 * s);
-                format!("{what}: {found:.0} ms are short for a surface that rings for {decay:.0} ms ({wanted:.0} ms would do): {why}")
+                format!("{what}: {found:.0} ms are short for a surface that rings for {decay:.0} ms ({wanted:.0} ms are enough): {why}")
             })
             .collect()
     }
@@ -164,7 +164,8 @@ impl MeasureOptions {
         [self.start_hz, (self.stop_over_band * surface.emission.band[1]).min(0.45 * surface.emission.rate)]
     }
 
-    /// Why a channel is bad, if it is: its first response that is worse than asked. `each` is what its responses are counted by.
+    /// Why a channel is bad, in words: a knock, unrecognised sweeps or the first response below the limits; `None` if it is good.
+    /// `each` names what its responses belong to, such as an actuator.
     pub(super) fn fault(&self, channel: &Channel, each: &str) -> Option<String> {
         let matters = |knock: &&Knocked| !knock.left_out && knock.share_db > -self.min_snr_db;
         if let Some(knock) = channel.account.knocks.iter().find(matters) {
@@ -209,15 +210,15 @@ impl MeasureOptions {
         channel.quality.iter().enumerate().find_map(one)
     }
 
-    /// Times that a place should be measured so that a channel's worst response has a signal to noise of `wanted_db`: noise falls with
-    /// their number. 0 if no number will do (99 at most).
+    /// Number of repeats, 1 to 99, with which a channel's worst response would have a signal-to-noise ratio of `wanted_db`, if
+    /// `channel` was measured with the present options; 0 if 99 are not enough.
     pub fn repeats_for(&self, channel: &Channel, wanted_db: f64) -> usize {
         let worst = channel.quality.iter().map(|quality| quality.snr_db).fold(f64::INFINITY, f64::min);
         let times = self.repeats as f64 * 10f64.powf((wanted_db - worst) / 10.0);
         if times <= MOST_REPEATS { times.ceil().max(1.0) as usize } else { 0 }
     }
 
-    /// Samples that responses are kept apart by, at least as many as are kept of them.
+    /// Distance between the responses of successive sweeps, in samples, at least as many as are kept of them.
     pub(super) fn apart(&self, rate: f64) -> usize {
         ((self.settle_time * rate).round() as usize).max(self.samples(rate))
     }
@@ -235,7 +236,7 @@ fn lowest(model: &ModalResponses) -> Option<f64> {
     within.min_by(f64::total_cmp).map(|omega| omega / std::f64::consts::TAU)
 }
 
-/// Seconds in which the amplitude of the slowest mode in the band falls to 1/e, above `from` Hz; 0 without modes there.
+/// Longest amplitude decay time (to 1/e), in s, of the modes in the band above `from` Hz; 0 without modes there.
 pub fn slowest_decay(model: &ModalResponses, from: f64) -> f64 {
     let [low, high] = model.conditions.band.map(|hz| std::f64::consts::TAU * hz);
     let low = low.max(std::f64::consts::TAU * from);

@@ -10,54 +10,54 @@ use unripple_dsp::median;
 use unripple_linalg::c64;
 use unripple_physics::Medium;
 
-/// Actuators that are enough: more make the fit slow, and locate a point no better.
+/// Largest number of actuators that are used: more make the fit slow, and locate a point no better.
 const ENOUGH: usize = 10;
 
-/// Fewest actuators, and lines of a spectrum, by which places can be distinguished.
+/// Fewest actuators, and (`LINES`) fewest spectral lines, by which places can be distinguished.
 const FEWEST: usize = 3;
 const LINES: usize = 12;
 
-/// Share of what sensors heard that a model may leave unexplained and still separate good points from bad ones. With
-/// more, points that are right could be called wrong; with less, sheets that differ a little from any model would
-/// have no check.
+/// Largest share of the sensors' responses, as amplitude, that a model may leave unexplained and still separate good points from bad
+/// ones. With more, points that are right could be called wrong; with less, sheets that differ a little from any model would have no
+/// check.
 const NO_MODEL: f64 = 0.35;
 
-/// A model that leaves less than this share unexplained is a good one; one of so many sensors may be left out to get there.
+/// Unexplained share below which a model is a good one; one sensor in `MOST_ODD` may be left out to get there.
 const SPOILT: f64 = 0.1;
 const MOST_ODD: usize = 3;
 
-/// An actuator that is heard with less than this share of the median power is silent.
+/// Power of an actuator's responses, relative to the median, below which it counts as silent.
 const SILENT: f64 = 1e-4;
 
-/// Most half waves of the tension's profile: 2 give five terms. More take longer, and the lowest modes do not
-/// determine them.
+/// Largest number of half waves in the tension's profile: 2 give five terms. More take longer, and the lowest modes do not determine
+/// them.
 const PROFILE: usize = 2;
 
-/// Stray masses that are looked for where the bare sheet does not explain what was heard. More take longer, and the
+/// Number of stray masses that are searched where the bare sheet does not explain the sensors' responses. More take longer, and the
 /// lowest modes do not show them.
 const STRAYS: usize = 2;
 
-/// Modes that are worked with, over those of the band: what is near an actuator is felt by many.
+/// Highest frequency of the modes used, relative to the top of the band: the field near an actuator consists of many modes.
 const REACH: f64 = 1.6;
 
-/// A model, and what was heard at the points in its frequencies.
+/// A fitted model, and the measured spectra at the frequencies compared.
 pub(super) struct Quick {
     /// The fitted model.
     pub fitted: Fitted,
     /// The band that it was fitted in, in Hz.
     pub band: [f64; 2],
-    /// Indices of the actuators that are looked at.
+    /// Indices of the actuators that are used.
     pub actuators: Vec<usize>,
     /// Complex frequencies that are compared, in 1/s.
     pub frequencies: Vec<c64>,
-    /// Responses at the sensors: of each, `[driven][frequency]`.
+    /// Spectra of the responses at the sensors, `[sensor][driven][frequency]`.
     pub sensed: Vec<Vec<Vec<c64>>>,
-    /// Responses at the probe, of each point `[driven][frequency]`.
+    /// Spectra of the responses at the probe, `[point][driven][frequency]`.
     pub probed: Vec<Vec<Vec<c64>>>,
 }
 
 impl Quick {
-    /// Fits the model; what speaks against one, in words, where there is none.
+    /// Fits the model; the error says, in words, why there is none.
     pub fn new(
         surface: &Surface,
         measured: &Measured,
@@ -85,7 +85,7 @@ impl Quick {
         };
         if quick.fitted.unexplained() > NO_MODEL {
             return Err(format!(
-                "{:.0} % of the responses between actuators from {:.0} to {:.0} Hz is not explained by the best model",
+                "{:.0} % of the responses between actuators from {:.0} to {:.0} Hz, by amplitude, is not explained by the best model",
                 100.0 * quick.fitted.unexplained(),
                 band[0],
                 band[1]
@@ -138,7 +138,7 @@ impl Quick {
         left.iter().map(|sensor| (*sensor, like(sensor))).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(s, _)| s)
     }
 
-    /// The part that is compared of a model that was fitted to all actuators before.
+    /// As [`Quick::new`], with some of the actuators of a model that was fitted to all before.
     pub fn known(
         fitted: &Fitted,
         surface: &Surface,
@@ -164,7 +164,7 @@ impl Quick {
         if frequencies.len() < LINES {
             return Err(format!("responses are too short to tell modes apart: {} lines", frequencies.len()));
         }
-        // The model is that of resistances alone: what circuits of coils make of drives and of what is heard is taken out.
+        // The model has coils without inductance: the effect of their circuits on drives and sensors is removed from the spectra.
         let through = |n: usize, row: &mut Vec<c64>| {
             row.iter_mut().zip(&frequencies).for_each(|(y, s)| *y /= lag(fitted.coil(n), *s));
         };
@@ -177,13 +177,13 @@ impl Quick {
         Ok(Self { fitted, band, actuators, frequencies, sensed, probed })
     }
 
-    /// The model as it is compared.
+    /// The model prepared for comparisons.
     pub fn checker(&self) -> Checker<'_> {
         Checker::new(self.fitted.beyond(), &self.frequencies)
     }
 }
 
-/// Some actuators that drive and hear, far from each other.
+/// Actuators that work as drives and as sensors, [`ENOUGH`] at most, far from each other.
 fn chosen(surface: &Surface, measured: &Measured, options: &VerifyOptions) -> Result<Vec<usize>, String> {
     let all = surface.actuators.len();
     let pairs = measured.pairs.iter().flat_map(|p| &p.responses);
@@ -213,7 +213,7 @@ fn chosen(surface: &Surface, measured: &Measured, options: &VerifyOptions) -> Re
     Ok(taken)
 }
 
-/// Responses of some of all actuators at each other.
+/// The measurement with some of the actuators only.
 fn among(measured: &Measured, actuators: &[usize], all: usize) -> Measured {
     let mut part = measured.clone();
     let count = actuators.len();
@@ -224,11 +224,11 @@ fn among(measured: &Measured, actuators: &[usize], all: usize) -> Measured {
     part
 }
 
-/// The lowest frequencies that were measured whole, up to so many modes.
+/// The lowest frequencies (Hz) that the measurement does not attenuate, up to about `modes` modes.
 fn band(surface: &Surface, measured: &Measured, modes: usize) -> Result<[f64; 2], String> {
     let medium = Medium::of(&surface.sheet);
     let (area, rim) = (surface.outline.area(), surface.outline.perimeter());
-    // Weyl's law, the rim held.
+    // Weyl's law for a fixed rim.
     let below = |hz: f64| {
         let k = medium.wavenumber(TAU * hz);
         (area * k * k / (4.0 * PI) - rim * k / (4.0 * PI)).max(0.0)
@@ -250,7 +250,7 @@ fn band(surface: &Surface, measured: &Measured, modes: usize) -> Result<[f64; 2]
     Ok([low, to])
 }
 
-/// Frequencies, what sensors heard and what the probe heard.
+/// Complex frequencies, spectra at the sensors and spectra at the probe.
 type Heard = (Vec<c64>, Vec<Vec<Vec<c64>>>, Vec<Vec<Vec<c64>>>);
 
 fn spectra(

@@ -5,12 +5,13 @@ use super::levels::Levels;
 use super::verdict::{Doubted, PointVerdict, VerifyOptions};
 use unripple_core::Point;
 
-/// A point is doubtful that is off by this share of the band's shortest wavelength, and worth a word from that share on.
+/// Distance from the stated place, in shortest wavelengths of the band, from which a point is doubtful, and (`WORTH`)
+/// from which it is reported.
 const FAR: f64 = 0.25;
 const WORTH: f64 = 0.025;
 
-/// How many standard errors a place has to be off by to be reported; with half as many, one place in seven would be
-/// by chance.
+/// Number of standard errors by which a place has to be off to be reported; with half as many, one place in seven would
+/// be by chance.
 const SURE: f64 = 3.0;
 
 /// The verdict on one point.
@@ -28,17 +29,17 @@ pub(super) fn verdict(
     let told = one.kind == Kind::Here && off > SURE * one.error && off > WORTH * lambda;
     let counts = one.kind == Kind::Here && bench.options.probe;
     let correction = levels.correction(one, bench.quick.actuators.len()).filter(|_| counts);
-    // Beside its place it is worth nothing there from some share of a wave on; what the model leaves unexplained
-    // shows that as well.
+    // A response measured too far beside its place is useless there; a large unexplained share at the place shows that
+    // as well.
     let beside = off > FAR * lambda || one.own.unexplained() > bench.limit();
     let doubt = match one.kind {
         Kind::Here if beside && told => Some(format!(
-            "the probe seems to have been {} the point, at {} (put it there, or give the place it is at)",
+            "the probe seems to have been {} the point, at {} (move it to the point, or give the place where it was)",
             away(at, one.nearby.at),
             one.nearby.at
         )),
         Kind::Here if levels.common.is_none() && bench.options.probe => Some(format!(
-            "its gain is {:.2} and other points have others: expected one gain at all points (was the probe's gain \
+            "its gain is {:.2}, and other points have other gains: expected one gain at all points (was the probe's gain \
              changed?)",
             one.nearby.found.gain / levels.scale
         )),
@@ -73,7 +74,7 @@ impl Bench<'_> {
     }
 }
 
-/// Where a point's response belongs.
+/// Doubt about a point whose response fits another place, in words.
 fn elsewhere(bench: &Bench, judged: &[Judged], point: usize, at: Point, whose: Whose) -> String {
     match whose {
         Whose::Point(other) => match judged[other].kind {
@@ -93,7 +94,7 @@ fn elsewhere(bench: &Bench, judged: &[Judged], point: usize, at: Point, whose: W
             bench.surface.actuators[a].name
         ),
         Whose::Nobody => format!(
-            "the probe seems to have been {} the point, at {at} (put it there, or give the place it is at)",
+            "the probe seems to have been {} the point, at {at} (move it to the point, or give the place where it was)",
             away(bench.places[point], at)
         ),
     }

@@ -33,7 +33,7 @@ fn all_methods_stand_side_by_side() {
     }
     assert!(of(1, "peak_at_limit") > 2.0 && of(0, "peak_at_limit") == 1.0);
     let text = report["methods"][4]["notes"][0]["text"].as_str().unwrap();
-    assert!(names[4] == "limited" && text.contains("the limit does not bind"), "{text}");
+    assert!(names[4] == "limited" && text.contains("the limit is not reached"), "{text}");
     let full = json(&["compare", &file, "--at", "62,90", "--window-ms", "30", "--full-limit"]);
     let at = |i: usize, key: &str| number(&full, &format!("/methods/{i}/{key}"));
     let ratio = at(1, "targets/0/peak_velocity_m_s") / at(0, "targets/0/peak_velocity_m_s");

@@ -29,8 +29,8 @@ fn doubts_are_told_by_every_command() {
     });
     let (output, told, said) = bench.calibrate(1, &["--no-model"]);
     assert_eq!(output.status.code(), Some(1), "{said}");
-    assert!(said.contains("is doubtful") && said.contains("both ways"), "{said}");
-    assert!(told["doubtful"].to_string().contains("both ways"), "{told}");
+    assert!(said.contains("is doubtful") && said.contains("between the two directions"), "{said}");
+    assert!(told["doubtful"].to_string().contains("between the two directions"), "{told}");
     assert!(number(&told, "/reciprocity_error") > 0.15);
     assert!(told["notes"].to_string().contains("--no-model"), "{told}");
 
@@ -41,7 +41,7 @@ fn doubts_are_told_by_every_command() {
         "{said}"
     );
     let focus: Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert!(focus["notes"].to_string().contains("both ways"), "{focus}");
+    assert!(focus["notes"].to_string().contains("between the two directions"), "{focus}");
     let drive = format!("{}/drive.wav", bench.scratch.join("out"));
     let wav = bench.scratch.join("wav");
     let others = [
@@ -54,7 +54,7 @@ fn doubts_are_told_by_every_command() {
         let said = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success() && said.contains("doubtful: the responses"), "{command:?}: {said}");
         let told: Value = serde_json::from_slice(&output.stdout).unwrap();
-        assert!(told["notes"].to_string().contains("both ways"), "{command:?}: {told}");
+        assert!(told["notes"].to_string().contains("between the two directions"), "{command:?}: {told}");
     }
 
     // The log of the measurement is in the library.

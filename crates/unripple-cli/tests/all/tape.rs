@@ -97,7 +97,7 @@ fn wrong(scratch: &Scratch, before: &str, good: &[Vec<f64>]) {
         (good[..2].to_vec(), 48e3, "expected 9 channels (a1, a2,"),
         (cut(0, length - 20_000), 48e3, "record until after it has ended"),
         (cut(8_000, length), 48e3, "begin to record first"),
-        (swapped, 48e3, "to hear the sweeps"),
+        (swapped, 48e3, "to receive the sweeps"),
         (faint, 48e3, "signal to noise"),
     ];
     let (folder, library) = (scratch.join("wrong"), scratch.join("none"));

@@ -78,7 +78,11 @@ fn the_others_go_on_without_a_dead_actuator() {
     });
     let (output, told, said) = bench.calibrate(2, &[]);
     assert!(output.status.success(), "{said}");
-    assert_eq!(said.matches("actuator `a3` is dead: nobody hears its sweep (output 3)").count(), 1, "{said}");
+    assert_eq!(
+        said.matches("actuator `a3` is dead: no sensor receives its sweep (output 3)").count(),
+        1,
+        "{said}"
+    );
     assert_eq!((number(&told, "/measured"), &told["bad"]), (6.0, &serde_json::json!([4])));
     assert!(
         told["notes"].as_array().unwrap().iter().any(|note| note.as_str().unwrap().contains("`a3` is dead"))
@@ -110,7 +114,7 @@ fn the_others_go_on_without_a_dead_actuator() {
     bench.surface.play[1].fill(0.0);
     bench.bring_all(1);
     let (output, _, said) = bench.calibrate(2, &[]);
-    assert!(output.status.code() == Some(1) && said.contains("nobody hears a1, a2, a3"), "{said}");
+    assert!(output.status.code() == Some(1) && said.contains("no sensor receives a1, a2, a3"), "{said}");
 }
 
 /// Most of it comes before it should: it was not begun late all the same.

@@ -2,36 +2,37 @@
 
 use unripple_dsp::rms;
 
-/// Above this share of what is not reciprocal wires are suspected: noise at 20 dB leaves 0.14, and with half the
-/// limit recordings as noisy as that would be suspected.
+/// Error of reciprocity above which wires are suspected: noise at 20 dB leaves 0.14, and with half the limit recordings as noisy as
+/// that would be suspected.
 const SUSPECT: f64 = 0.3;
 
-/// What an exchange of wires must leave of that share, at most, to be named as the fault: one that leaves more
+/// Largest share of that error that may be left after an exchange of wires for it to be named as the fault: one that leaves more
 /// explains less than half of it.
 const LEFT: f64 = 0.5;
 
-/// Faults of wires that contradict reciprocity.
+/// Result of a check of wires by reciprocity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reciprocal {
-    /// Rms of what differs both ways, as a share of what is the same; gains and signs of channels are free. 0 with fewer than two.
+    /// Rms difference between the two directions of a pair, relative to the rms of the responses, over all pairs; gains and signs of
+    /// channels are free. 0 with fewer than two actuators.
     pub error: f64,
-    /// What is wrong, a sentence each: sensors swapped, with each other or with a spare input, reversed, or of no use.
+    /// Faults, one sentence each: sensors swapped, with each other or with a spare input, reversed, or recording something else.
     pub faults: Vec<String>,
 }
 
-/// Responses of all channels, and which of them is taken for which actuator's sensor.
+/// Responses of all channels; the first are taken for the actuators' sensors.
 struct Heard<'a> {
     /// `[channel][drive][sample]`, sensors first.
     channels: Vec<&'a [Vec<f64>]>,
     actuators: usize,
 }
 
-/// Judges the wires of actuators of these names. `heard[sensor][drive]` are responses, `spare` other inputs by name
-/// that recorded the same drives, such as a probe wherever it was.
+/// Checks the wires of the actuators `names` by reciprocity, without a model. `heard[sensor][drive]` are responses; `spare` are other
+/// inputs by name that recorded the same drives, such as a probe at any place.
 ///
-/// h_ab = h_ba up to one factor for each actuator, that of its drive over that of its sensor. Sensors that are swapped break this for
-/// all pairs they are in, an input that records something else likewise; a reversed one shows in the signs. Whether
-/// an output or a sensor is at fault cannot be seen, nor an actuator whose wires are both swapped with another's.
+/// h_ab = h_ba up to one factor for each actuator, the ratio of its gains as drive and as sensor. Sensors that are swapped break this
+/// for all pairs that they are in, an input that records something else likewise; a reversed one shows in the signs. Whether an
+/// output or a sensor is at fault cannot be seen, nor an actuator whose wires are both swapped with another's.
 ///
 /// ```
 /// # let noise = |seed: u64| -> Vec<f64> {
@@ -69,7 +70,7 @@ pub fn reciprocal(
 }
 
 impl Heard<'_> {
-    /// Correlation of both ways between two actuators, sensors being the channels `rows`.
+    /// Correlation of both directions between two actuators, their sensors being the channels `rows`.
     fn correlation(&self, rows: &[usize], a: usize, b: usize) -> f64 {
         let empty = Vec::new();
         let of = |row: usize, drive: usize| self.channels[rows[row]].get(drive).unwrap_or(&empty);
@@ -79,7 +80,7 @@ impl Heard<'_> {
         if power > 0.0 { both / power } else { 0.0 }
     }
 
-    /// Share of what is not reciprocal, one actuator left out or none.
+    /// Error of reciprocity, without one actuator or with all.
     fn error(&self, rows: &[usize], without: Option<usize>) -> f64 {
         let taken: Vec<usize> = (0..self.actuators).filter(|a| Some(*a) != without).collect();
         let pairs = taken.iter().enumerate().flat_map(|(i, a)| taken[i + 1..].iter().map(move |b| (*a, *b)));
@@ -88,7 +89,7 @@ impl Heard<'_> {
         if count > 0.0 { (2.0 * (1.0 - sum / count)).max(0.0).sqrt() } else { 0.0 }
     }
 
-    /// The one exchange of wires, or the one input, that explains most of an error.
+    /// The one exchange of wires, or the one wrong input, that explains most of an error.
     fn suspect(&self, names: &[String], spare: &[(String, Vec<Vec<f64>>)], error: f64) -> Option<String> {
         let straight: Vec<usize> = (0..self.actuators).collect();
         let mut found: Vec<(f64, String)> = Vec::new();
@@ -113,18 +114,18 @@ impl Heard<'_> {
             let good = found.into_iter().filter(|(left, _)| *left <= LEFT * error);
             good.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, said)| said)
         };
-        // Whoever has fewer than four has too few pairs left to tell who is alone.
+        // With fewer than four actuators, too few pairs are left to find the one that is wrong.
         least(found).or_else(|| {
             let all = names.iter().enumerate().take(self.actuators).filter(|_| self.actuators > 3);
             let alone = all.map(|(a, name)| {
-                let said = format!("input `{name}` hears something else than the sensor of `{name}` does");
+                let said = format!("input `{name}` does not carry the signal of the sensor of `{name}`");
                 (self.error(&straight, Some(a)), said)
             });
             least(alone.collect())
         })
     }
 
-    /// Actuators whose sign is not that of the others.
+    /// Actuators whose sign differs from that of the others, in words.
     fn reversed(&self, names: &[String]) -> Vec<String> {
         let rows: Vec<usize> = (0..self.actuators).collect();
         let mut signs = vec![1.0; self.actuators];
@@ -198,7 +199,7 @@ mod tests {
             let found = reciprocal(&names, &elsewhere, &[]);
             assert_eq!(
                 &found.faults,
-                &[format!("input `a{0}` hears something else than the sensor of `a{0}` does", a + 1)]
+                &[format!("input `a{0}` does not carry the signal of the sensor of `a{0}`", a + 1)]
             );
             let probe = [("probe".to_owned(), right[a].clone())];
             let found = reciprocal(&names, &elsewhere, &probe);

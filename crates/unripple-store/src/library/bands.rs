@@ -1,4 +1,4 @@
-//! How good responses are in each third of an octave: an array beside `quality`, which a library may hold or not.
+//! Quality of responses in third-octave bands: an array beside `quality` that a library may have.
 
 use super::array::{Array, floats};
 use super::plan::LibraryPlan;
@@ -8,26 +8,26 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// How good one response is in one third of an octave. NaN where it is not known.
+/// Quality of one response in one third-octave band. NaN where it is not known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BandQuality {
-    /// Signal over noise, in dB; −∞ if there is no more than noise.
+    /// Signal-to-noise ratio, in dB; −∞ if there is no more than noise.
     pub signal_to_noise_db: f64,
-    /// Share of the power that repeats have in common, 0 to 1.
+    /// Coherence, 0 to 1: the share of the power that repeated recordings have in common.
     pub coherence: f64,
 }
 
 impl BandQuality {
-    /// Nothing is known.
+    /// Unknown quality: NaN in both fields.
     pub const UNKNOWN: Self = Self { signal_to_noise_db: f64::NAN, coherence: f64::NAN };
 }
 
 /// Values of one response in one band: signal-to-noise ratio and coherence.
 pub(crate) const FIGURES: usize = 2;
 
-/// The attribute with the middles of the bands, in Hz.
+/// The attribute with the middle frequencies of the bands, in Hz.
 const MIDDLES: &str = "middle_hz";
-/// The attribute with the checksum of that one: values without their frequencies mean nothing.
+/// The attribute with the checksum of [`MIDDLES`]: values without their frequencies mean nothing.
 const CHECK: &str = "crc32c";
 /// Most bands: thirds of an octave over more than twenty octaves.
 const MOST: usize = 64;
@@ -51,7 +51,7 @@ impl Bands {
         Self { array: Array::by_bands(plan, middles.len(), attributes), middles: middles.to_vec() }
     }
 
-    /// The bands that a library holds; none if it holds no such array, which is there once its metadata are.
+    /// The bands of a library; none if it has no such array. The array exists once its metadata do.
     ///
     /// # Errors
     /// [`StoreError::Content`] and [`StoreError::Read`] for damage to the metadata.
@@ -107,17 +107,18 @@ fn told(middles: &[f64]) -> String {
 }
 
 impl Library {
-    /// Middles, in Hz and ascending, of the bands that quality is kept by; `None` if this library keeps none.
+    /// Middle frequencies of the bands for which this library stores quality, in Hz and ascending; `None` if it
+    /// stores none.
     pub fn bands(&self) -> Option<&[f64]> {
         self.arrays.bands.as_ref().map(|bands| bands.middles.as_slice())
     }
 
-    /// Makes room for quality by bands of these middles, in Hz and ascending: unknown until a [`Take`] says more. Nothing is done
-    /// where there is that room already.
+    /// Makes room for the quality of responses in frequency bands with these middles, in Hz and ascending. It is unknown until a
+    /// [`Take`] gives it. Does nothing if the library has these bands already.
     ///
     /// # Errors
-    /// [`StoreError::Content`] if these are no middles, if quality is kept by other bands, or if what says by which is damaged;
-    /// [`StoreError::Write`]; [`StoreError::Occupied`] if another process writes.
+    /// [`StoreError::Content`] if these are no valid middles, if the library has other bands, or if the metadata of
+    /// its bands are damaged; [`StoreError::Write`]; [`StoreError::Occupied`] if another process writes.
     pub fn hold_bands(&mut self, middles: &[f64]) -> Result<(), StoreError> {
         let name = path(&self.root).display().to_string();
         check(middles, &name)?;
@@ -134,7 +135,7 @@ impl Library {
         for chunk in 0..bands.array.chunks() {
             bands.array.write_unknown(&self.root, chunk)?;
         }
-        // Values first: whoever is killed in between leaves no array.
+        // Values first: a process that is killed in between leaves no array.
         bands.array.describe(&self.root)?;
         bands.array.sync(&self.root)?;
         super::disk::sync_folder(&self.root)?;
@@ -142,8 +143,8 @@ impl Library {
         Ok(())
     }
 
-    /// How good a point's responses are by bands, `[actuator][band]`: unknown where nothing was stored, and of a missing point; `None`
-    /// if this library keeps none.
+    /// Quality of a point's responses in frequency bands, `[actuator][band]`. It is unknown where nothing was stored,
+    /// and for a missing point; `None` if this library has no bands.
     ///
     /// # Errors
     /// [`StoreError::Content`] and [`StoreError::Read`] for a point beyond the last, and for damage.
@@ -174,7 +175,7 @@ impl Library {
         }
         let name = self.root.display().to_string();
         let expected = match held {
-            0 => "quality by no bands, since there is no room for it yet".into(),
+            0 => "no quality by bands, since the library has no array for it yet".into(),
             held => format!("quality values of {} responses in {held} bands", self.plan.ports.len()),
         };
         let widths: Vec<String> = take.bands.iter().map(|row| row.len().to_string()).collect();

@@ -1,4 +1,4 @@
-//! The record of a library's making: a log of the measurement, and why it is not to be trusted.
+//! The record of a library's measurement: a log, and the reasons to doubt the library.
 
 use super::{Library, disk, manifest};
 use crate::StoreError;
@@ -9,26 +9,26 @@ use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The folder of the record: a Zarr group of its own, so that readers of Zarr do not wonder at it.
+/// The folder of the record: a Zarr group of its own, so that readers of Zarr accept it.
 const FOLDER: &str = "calibration";
 /// The attribute of the Zarr group that holds the record.
 const KEY: &str = "unripple_calibration";
-/// The attribute with the checksum of that one.
+/// The attribute with the checksum of [`KEY`].
 const CHECK: &str = "crc32c";
-/// Version of what is under [`KEY`]; a record of another version counts as a doubt.
+/// Version of the content of [`KEY`]; a record of another version counts as a doubt.
 const FORMAT: u32 = 1;
-/// The check that finds the record itself damaged.
+/// Name of the check that finds the record itself damaged.
 const OF_RECORD: &str = "record";
 
-/// Why a library, or some of its points, is not to be trusted.
+/// A reason to doubt a library, or some of its points.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Doubt {
-    /// The check that says so, in a short word: `reciprocity`, `latency`, `model`.
+    /// Name of the check that found it, a short word: `reciprocity`, `latency`, `model`.
     pub check: String,
     /// What was found, what it should be and what to do, in a sentence. Points and channels count from 1.
     pub what: String,
-    /// The points concerned, from 0, ascending; none if it is the whole library.
+    /// Indices of the points concerned, from 0, ascending; empty if it is the whole library.
     #[serde(default)]
     pub points: Vec<usize>,
 }
@@ -45,7 +45,7 @@ impl Doubt {
         Self { check: check.into(), what: what.into(), points: Vec::new() }
     }
 
-    /// The same doubt, of some points only, from 0.
+    /// This doubt, about some points only, by index from 0.
     #[must_use]
     pub fn at(self, points: Vec<usize>) -> Self {
         Self { points, ..self }
@@ -58,7 +58,7 @@ impl fmt::Display for Doubt {
     }
 }
 
-/// All that is kept beside the plan and the responses.
+/// All that is stored beside the plan and the responses.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Record {
@@ -69,7 +69,8 @@ pub(crate) struct Record {
 }
 
 impl Record {
-    /// That of a library with other numbers for its points: (new, old) of those that it has.
+    /// The record for a library in which points have other indices; `pairs` are (new, old) indices of the points that
+    /// it keeps.
     pub(crate) fn renumbered(&self, pairs: &[(usize, usize)]) -> Self {
         let new = |old: &usize| pairs.iter().find(|(_, other)| other == old).map(|(new, _)| *new);
         let doubtful = self.doubtful.iter().map(|doubt| {
@@ -118,21 +119,23 @@ pub(crate) fn read(root: &Path) -> Result<Record, StoreError> {
         .or_else(|error| wrong("the record of a calibration", error.to_string()))
 }
 
-/// The record, or one whose only doubt is that it cannot be read: a library is not believed for want of a file.
+/// The record, or one whose only doubt is that it cannot be read, so that a library is not trusted because a file is
+/// damaged.
 pub(crate) fn read_or_doubt(root: &Path) -> Record {
     read(root).unwrap_or_else(|error| {
-        let what = format!("the record of its calibration cannot be read, nor what it doubted ({error})");
+        let what = format!("the record of its calibration cannot be read, nor the doubts in it ({error})");
         Record { doubtful: vec![Doubt::of(OF_RECORD, what)], ..Record::default() }
     })
 }
 
 impl Library {
-    /// Why it is not to be trusted, by check; nothing if it is. A record that cannot be read is a reason of its own.
+    /// Reasons to doubt the library, sorted by check; empty if there are none. A record that cannot be read is such a
+    /// reason.
     pub fn doubts(&self) -> &[Doubt] {
         &self.record.doubtful
     }
 
-    /// Keeps what one check found, in place of what the same check found before. With nothing found its doubts go.
+    /// Stores the doubts that one check found, in place of those that it found before; an empty list removes them.
     ///
     /// # Errors
     /// [`StoreError::Write`], or [`StoreError::Occupied`] if another process writes.
@@ -155,7 +158,7 @@ impl Library {
         &self.record.log
     }
 
-    /// Keeps something in the log, in place of what was there under that key; `null` removes it.
+    /// Stores a value in the log under a key, in place of the one before; `null` removes it.
     ///
     /// # Errors
     /// As [`Library::set_doubts`].
@@ -169,13 +172,14 @@ impl Library {
         self.write_record(record)
     }
 
-    /// The log of how a point was measured.
+    /// The log entry of a point: how it was measured.
     pub fn logged_point(&self, point: usize) -> Option<&Value> {
         self.record.points.get(&point)
     }
 
-    /// Keeps how points were measured. Of objects keys are replaced one by one, and removed by `null`; anything else is replaced whole.
-    /// The record is written once for all of them.
+    /// Stores log entries of points, by index of the point. If the old and the new entry are objects, they are merged
+    /// key by key, and a `null` removes its key; otherwise the new entry replaces the old one, and `null` removes it.
+    /// The record is written once for all points.
     ///
     /// # Errors
     /// As [`Library::set_doubts`]; [`StoreError::Content`] for a point beyond the last.
@@ -201,7 +205,7 @@ impl Library {
         self.write_record(record)
     }
 
-    /// Forgets how points were measured, and what is doubted of them alone.
+    /// Removes the log entries of points, and the doubts about these points alone.
     pub(crate) fn forget_points(&mut self, points: &[usize]) -> Result<(), StoreError> {
         let mut record = self.record.clone();
         points.iter().for_each(|point| drop(record.points.remove(point)));
@@ -213,7 +217,8 @@ impl Library {
         self.write_record(record)
     }
 
-    /// Actuators that were found dead or left out when it was measured, by index: their responses are zero.
+    /// Indices of the actuators that were found dead or left out when the library was measured: their responses are
+    /// zero.
     pub fn dead(&self) -> Vec<usize> {
         let named: Vec<&str> = self
             .logged("dead")
@@ -226,12 +231,13 @@ impl Library {
         ports.filter(|(_, port)| named.contains(&port.name.as_str())).map(|(index, _)| index).collect()
     }
 
-    /// Why lengths and velocities made from it mean nothing, if they do not: the scale of what was recorded is not known.
+    /// Why the scale of the recordings is unknown, if it is; displacements and velocities computed from the library
+    /// then have no absolute value.
     pub fn without_scale(&self) -> Option<&str> {
         self.logged("scale")?.get("unknown")?.as_str()
     }
 
-    /// Puts a record in place of the one there.
+    /// Writes a record in place of the one on disk.
     pub(crate) fn write_record(&mut self, record: Record) -> Result<(), StoreError> {
         let unchanged = record == self.record && read(&self.root).is_ok_and(|there| there == record);
         if unchanged {

@@ -12,7 +12,7 @@ use unripple_core::{Actuator, ActuatorKind, CoilDrive, Point};
 /// Most actuators of a surface: a bound on what a small file may cost. The model's memory grows with their number.
 pub(super) const MOST_ACTUATORS: usize = 4096;
 
-/// The table of what actuators are that do not say otherwise.
+/// Name of the table with values for the keys that tables `[[actuator]]` leave out.
 pub(super) const DEFAULTS: &str = "actuator_defaults";
 
 /// Keys of the table `[[actuator]]`: of all kinds, of those that press on a disc, and of a moving magnet.
@@ -88,12 +88,12 @@ fn check_defaults(defaults: &Section, faults: &mut Faults) {
     let known = [&["kind", PAD_KEY], &MAGNET_KEYS[..], &PIEZO_KEYS].concat();
     let own = |key: &str| {
         let own = key == "name" || PLACE_KEYS.contains(&key);
-        own.then(|| "this key in a table [[actuator]]: it is of one alone".into())
+        own.then(|| "this key in a table [[actuator]], since it is of one actuator alone".into())
     };
     defaults.check_keys(&known, own, faults);
 }
 
-/// Which table of the file it is, and which channel its first actuator.
+/// Index of a table in the file, and of the channel of its first actuator.
 #[derive(Clone, Copy)]
 struct Numbers {
     index: usize,
@@ -167,7 +167,7 @@ fn check_keys(section: &Section, kind: Option<Kind>, faults: &mut Faults) {
     section.check_keys(&[&COMMON_KEYS[..], &PLACE_KEYS, &keys].concat(), elsewhere, faults);
 }
 
-/// What a table says of the names of its actuators.
+/// What a table gives for the names of its actuators.
 struct Named {
     /// The name as it stands in the file; without one, actuators are called by their channels.
     given: Option<String>,

@@ -33,15 +33,15 @@ pub(super) fn read(
     Some(Some(Grain { direction: direction?, young_across: across, shear }))
 }
 
-/// The shear modulus where a file does not say: E1 E2 / (E1 + E2 + 2 ν12 E2), which of an isotropic sheet is its own
-/// (Huber's estimate for orthotropic plates).
+/// The shear modulus where a file does not give it: E1 E2 / (E1 + E2 + 2 ν12 E2), Huber's estimate for orthotropic
+/// plates. For an isotropic sheet it is the exact one.
 fn mean(section: &Section, stuff: &MaterialProperties, across: f64, faults: &mut Faults) -> Option<f64> {
     let mean = stuff.young / (1.0 + stuff.young / across + 2.0 * stuff.poisson);
     if of::GRAIN_YOUNG.allow(mean / 1e9) {
         return Some(mean);
     }
     let expected =
-        format!("{}: what the other numbers make it is {:e} GPa", of::GRAIN_YOUNG.expected(), mean / 1e9);
+        format!("{}: the default from the other numbers is {:e} GPa", of::GRAIN_YOUNG.expected(), mean / 1e9);
     section.require(GRAIN_KEYS[1], &expected, faults);
     None
 }
@@ -51,7 +51,7 @@ fn bounded(section: &Section, stuff: &MaterialProperties, across: f64, faults: &
     if stuff.young < of::GRAIN_YOUNG.least * 1e9 {
         let span = section.get("young_gpa").map_or(section.span.clone(), |entry| entry.span);
         let found = format!("{} GPa", of::YOUNG.text(stuff.young));
-        let expected = format!("{}: a sheet with grain is stiff along it", of::GRAIN_YOUNG.expected());
+        let expected = format!("{}: a sheet is stiff along its grain", of::GRAIN_YOUNG.expected());
         let nearest = of::GRAIN_YOUNG.nearest(0.0);
         faults.add(&format!("{}.young_gpa", section.key), span, found, expected, nearest);
         return None;

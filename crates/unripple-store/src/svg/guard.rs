@@ -40,7 +40,7 @@ pub(super) fn document<'t>(text: &'t str, name: &str) -> Result<Document<'t>, St
     let most = MOST_STYLE.min(MOST_MATCHES / document.descendants().count().max(1));
     if style > most {
         return Err(refuse(
-            &format!("at most {most} bytes of style for so many elements"),
+            &format!("at most {most} bytes of style sheets, given the number of elements"),
             style.to_string(),
         ));
     }

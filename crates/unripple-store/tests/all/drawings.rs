@@ -142,5 +142,5 @@ fn hostile_documents_fail_clearly() {
     let rules = |n: usize| format!("<style>{}</style>", "g rect{fill:red}".repeat(n));
     assert!(refusal(&document(&format!("{}<rect/>", rules(2000)))).contains("at most 16384 bytes of style"));
     let many = format!("{}{}", rules(1000), "<rect width=\"1\" height=\"1\"/>".repeat(15_000));
-    assert!(refusal(&document(&many)).contains("bytes of style for so many elements"));
+    assert!(refusal(&document(&many)).contains("bytes of style sheets, given the number of elements"));
 }

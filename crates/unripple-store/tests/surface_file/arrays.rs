@@ -147,7 +147,7 @@ fn faults_of_places_and_defaults() {
         ("[[actuator]]\nring = { centre_mm = [75, 50], radius = 4 }\ncount = 3\n", "nearest: radius_mm"),
         (
             "[actuator_defaults]\nat_mm = [1, 2]\n[[actuator]]\nname = \"a\"\nat_mm = [1, 2]\n",
-            "it is of one alone",
+            "it is of one actuator alone",
         ),
         ("[actuator_defaults]\nknd = \"force\"\n[[actuator]]\nat_mm = [1, 2]\n", "nearest: kind"),
     ] {

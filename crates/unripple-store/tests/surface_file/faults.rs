@@ -119,7 +119,7 @@ fn materials() {
 fn nothing_pulls_back() {
     assert_eq!(
         says("tension_n_per_m = 200", "tension_n_per_m = 0\nyoung_gpa = 0"),
-        "9:19: sheet.tension_n_per_m: expected a positive tension_n_per_m or young_gpa: nothing else restores the sheet, found \
+        "9:19: sheet.tension_n_per_m: expected a positive tension_n_per_m or young_gpa: nothing else pulls the sheet back, found \
          neither tension nor stiffness"
     );
 }

@@ -87,8 +87,8 @@ fn profiles() {
 fn nothing_pulls_back_in_places() {
     assert_eq!(
         sheet("young_gpa = 0\ntension_profile = [[1, 0]]"),
-        "sheet.tension_profile: expected positive factors, or a positive young_gpa: nothing else restores the sheet there, \
-         found places with neither tension nor stiffness"
+        "sheet.tension_profile: expected positive factors of tension, or a positive young_gpa: nothing else pulls the sheet back \
+         there, found places with neither tension nor stiffness"
     );
     assert_eq!(faults(&GOOD.replace("air = \"none\"", "tension_profile = [[1, 0]]")), []);
 }

@@ -1,4 +1,4 @@
-//! Libraries that are continued: new points are measured as those that are there already.
+//! Settings of libraries that are continued: new points are measured with the settings of the points that are there already.
 
 use super::ask::Ask;
 use crate::TaskError;
@@ -6,16 +6,16 @@ use unripple::core::Surface;
 use unripple_calibrate::measure::MeasureOptions;
 use unripple_store::{Library, LibraryPlan};
 
-/// The key of a plan's provenance for the seconds of a sweep.
+/// Key of a plan's provenance for the length of a sweep, in s.
 pub const SWEEP: &str = "sweep s";
-/// The key for its lowest and highest frequency, in Hz.
+/// Key of a plan's provenance for the lowest and highest frequency of a sweep, in Hz.
 pub const SWEPT: &str = "swept Hz";
 
 /// Frequencies that differ by less than this share are the same.
 const SAME: f64 = 1e-9;
 
-/// Sweeps as a library that is there was measured, where nothing else is asked for: what suits the surface may be another sweep by now, and
-/// points of two sweeps do not go together.
+/// Takes over the sweep settings of a library that is continued, where the ask does not give them: the settings that suit the surface may
+/// have changed since, and points measured with different sweeps do not go together.
 pub fn apply(ask: &Ask, surface: &Surface, settings: &mut MeasureOptions) -> Result<(), TaskError> {
     if !Library::is_at(&ask.output) {
         return Ok(());
@@ -27,7 +27,7 @@ pub fn apply(ask: &Ask, surface: &Surface, settings: &mut MeasureOptions) -> Res
         return match plan.provenance.contains_key(SWEEP) {
             true => Err(TaskError::Work(format!(
                 "{}: expected a library that records the band of its sweeps (`{SWEPT}`), found one of an earlier version that \
-                 does not: new points may not fit its own; measure into another library",
+                 does not: new points may not match those that are there; measure into another library",
                 library.path().display()
             ))),
             false => Ok(()),

@@ -1,4 +1,4 @@
-//! Levels before the long run: what is too loud, what is too quiet, and what to do.
+//! Check of levels before the long run: what is too loud, what is too quiet, and what to do.
 
 use super::{Campaign, Report, middle};
 use crate::TaskError;
@@ -13,10 +13,10 @@ use unripple_store::read_wav;
 /// Share of full scale above which the next take may clip.
 const LOUD: f64 = 0.9;
 
-/// Share of full scale below which steps of integers show: 40 dB below it.
+/// Share of full scale below which the steps of integer samples matter: 40 dB below full scale.
 const QUIET: f64 = 0.01;
 
-/// Signal to noise, in dB, that is worth to be aimed at: half a per cent of noise in a focus of ten actuators.
+/// Signal-to-noise ratio, in dB, that is worth aiming at: half a per cent of noise in a focus of ten actuators.
 const AIM: f64 = 40.0;
 
 /// Signal to noise below which a response is bad, in dB, with some to spare.
@@ -92,7 +92,7 @@ impl Level {
         }
     }
 
-    /// The same of one that may be silent.
+    /// The level of an input that may be silent.
     fn unneeded(self) -> Self {
         let advice = self.advice.filter(|_| self.peak > 0.0);
         Self { advice, needed: false, ..self }
@@ -122,7 +122,8 @@ impl Level {
             )
         } else {
             format!(
-                "{worst:.0} dB of signal to noise will do; {louder}`repeats` {repeats:.0} makes {:.0}",
+                "a signal-to-noise ratio of {worst:.0} dB is enough; for a better one: {louder}`repeats` {repeats:.0} (which gives \
+                 {:.0} dB)",
                 worst + 10.0 * (repeats / settings.repeats as f64).log10()
             )
         });

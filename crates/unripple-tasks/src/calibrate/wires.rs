@@ -1,4 +1,4 @@
-//! What the wiring test through a device says: who is dead, what is wired otherwise than it should be, and whether to go on.
+//! Evaluation of the wiring test of a device: which actuators are dead, which wires are wrong, and whether to continue.
 
 use super::Campaign;
 use crate::TaskError;
@@ -6,10 +6,10 @@ use serde_json::{Value, json};
 use unripple_devices::WiringReport;
 use unripple_store::{Doubt, Library, PointState};
 
-/// The check that finds wires which are not as they should be; the key of what the log says of them.
+/// Name of the wiring check, and key of its log entry.
 pub const WIRING: &str = "wiring";
 
-/// The faults of the wires, and what is accepted of them.
+/// Faults of the wiring, and the dead actuators.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Found {
     /// Actuators that are left out, by index: no sensor records them, or the caller named them.
@@ -33,7 +33,7 @@ pub struct Asked<'a> {
 }
 
 impl<'a> Asked<'a> {
-    /// What a campaign knows of its wires.
+    /// What a calibration knows of its wires.
     pub fn of(known: &'a Campaign<'_>) -> Self {
         Self {
             actuators: known.surface.actuators.iter().map(|actuator| actuator.name.as_str()).collect(),
@@ -49,8 +49,8 @@ impl<'a> Asked<'a> {
             || (!self.model && !fault.ends_with("is silent"))
     }
 
-    /// What to make of what the wiring test found. Dead actuators are left out, unless they are more than half of all: then it is no
-    /// actuator that is at fault.
+    /// Evaluates the result of the wiring test. Dead actuators are left out, unless they are more than half of all: then the fault is not
+    /// theirs.
     pub fn judge(&self, report: &WiringReport) -> Result<Found, TaskError> {
         let silent: Vec<&str> =
             report.outputs.iter().filter(|lead| lead.silent).map(|lead| lead.name.as_str()).collect();
@@ -72,11 +72,11 @@ impl<'a> Asked<'a> {
         let named = |(output, name): (usize, &str)| {
             let both = gone.contains(&format!("actuator `{name}` is silent"));
             let alone = gone.contains(&format!("output `{name}` is silent"));
-            let too = if both { ", nor does its sensor hear anything" } else { "" };
+            let too = if both { ", and its own sensor receives nothing" } else { "" };
             (both || alone).then(|| {
                 format!(
-                    "actuator `{name}` is dead: nobody hears its burst (output {}){too}; look at its amplifier, its cable and itself. \
-                     The others go on without it",
+                    "actuator `{name}` is dead: no sensor receives its burst (output {}){too}; check its amplifier, its cable and the \
+                     actuator. The others go on without it",
                     output + 1
                 )
             })
@@ -99,15 +99,15 @@ impl<'a> Asked<'a> {
     }
 }
 
-/// Tells what was found of wires: what nobody knew of, and faults that are gone on with.
+/// Prints notes and accepted faults of the wiring.
 pub fn tell(campaign: &Campaign<'_>, notes: &[String], faults: &[String]) {
     notes.iter().for_each(|note| campaign.tell(&format!("warning: {note}")));
     faults.iter().for_each(|fault| campaign.tell(&format!("wiring: {fault}")));
 }
 
 impl Found {
-    /// Keeps in the library what was found; it is doubtful where it goes on with faults. Points that are there were measured with the wires
-    /// of then: what was doubted of these stays.
+    /// Records the notes and accepted faults in the library; faults make it doubtful. If it has points already, earlier doubts on the
+    /// wiring stay.
     pub fn keep(&self, library: &mut Library) -> Result<(), TaskError> {
         let said = json!({ "said": self.notes.join("; ") });
         library.log(WIRING, if self.notes.is_empty() { Value::Null } else { said })?;
@@ -146,8 +146,7 @@ mod tests {
     fn the_others_go_on_without_a_dead_actuator() {
         let found = asked(&[], false).judge(&report(&["a3"], &[])).unwrap();
         assert_eq!((found.dead, found.faults.len()), (vec![2], 0));
-        let said =
-            "actuator `a3` is dead: nobody hears its burst (output 3), nor does its sensor hear anything";
+        let said = "actuator `a3` is dead: no sensor receives its burst (output 3), and its own sensor receives nothing";
         assert!(found.notes.len() == 1 && found.notes[0].starts_with(said), "{:?}", found.notes);
         // Actuators that are named dead are not reported again.
         let found = asked(&["a3".into()], false).judge(&report(&["a3"], &[])).unwrap();

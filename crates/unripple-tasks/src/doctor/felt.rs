@@ -1,4 +1,4 @@
-//! What a focus is worth to a fingertip.
+//! Checks of a focus on the model: contrast, and the level that a fingertip feels at the focus and elsewhere.
 
 use super::check::Check;
 use crate::TaskError;
@@ -22,7 +22,7 @@ const APART: f64 = 3.0;
 /// Cells of the grid per shortest wavelength: enough for a verdict.
 const CELLS: f64 = 4.0;
 
-/// The focus as the model has it, and under a finger.
+/// Checks a focus on the model, free and under a finger's load: contrast, felt level, and level felt elsewhere.
 pub fn checks(surface: &Surface, model: &Arc<Responses>, window: Window) -> Result<Vec<Check>, TaskError> {
     let at = anywhere(&surface.outline);
     let options = Options { window: window.seconds, limit: surface.emission.limit, ..Options::default() };
@@ -55,7 +55,7 @@ fn level(free: &TargetFigures, under: &TargetFigures) -> Check {
     let db = |figures: &TargetFigures| figures.felt_level_db.unwrap_or(f64::NEG_INFINITY);
     let (alone, pressed) = (db(free), db(under));
     let found = format!(
-        "{pressed:.0} dB above the threshold of touch under a finger at the drive's limit ({alone:.0} dB without its load)"
+        "{pressed:.0} dB above the threshold of touch under a finger at the drive's limit ({alone:.0} dB without the finger)"
     );
     if pressed < 0.0 {
         let fix = "raise `limit`, use stronger actuators or more of them, or a lighter sheet";
@@ -76,13 +76,13 @@ fn spread(free: &TargetFigures) -> Check {
     let Some(worst) = free.felt_worst_spot_db else {
         return Check::skipped("elsewhere", "nothing moves outside the focus");
     };
-    let found = format!("the largest level felt elsewhere is {worst:.1} dB lower");
+    let found = format!("the largest level felt elsewhere is {worst:.1} dB below that at the focus");
     match worst >= APART {
         true => Check::good("elsewhere", found),
         false => Check::doubtful(
             "elsewhere",
             found,
-            "it is felt nearly everywhere: --method felt lowers what is felt elsewhere",
+            "vibration is felt nearly everywhere: --method felt lowers it outside the focus",
         ),
     }
 }

@@ -1,4 +1,4 @@
-//! Pings played one after the other without a break, and what the sensors hear of them.
+//! Playing of pings without a break, and recording of the sensors' responses to them.
 
 use super::Ask;
 use super::known::Known;
@@ -23,7 +23,7 @@ pub(super) struct Bench {
     rig: Box<dyn Rig>,
     layout: Layout,
     wires: Wires,
-    /// What each sensor hears is to be multiplied by.
+    /// Factor on each sensor's signal.
     scales: Vec<f64>,
     /// Samples by which what is heard comes late, if that is known.
     pub latency: f64,
@@ -35,7 +35,7 @@ pub(super) struct Bench {
 }
 
 impl Bench {
-    /// Opens the device, and finds out how late what it hears comes.
+    /// Opens the device, and measures its latency.
     ///
     /// # Errors
     /// Those of the device and of [`Session::find_latency`]; [`TaskError::Input`] of a device without an input for each actuator's sensor.
@@ -49,7 +49,7 @@ impl Bench {
         let wires = Wires::by_name(&known.modal.ports, &layout, &[])?;
         if wires.sensors.is_empty() {
             return Err(TaskError::Input(format!(
-                "device `{}`: expected an input for each actuator's sensor, which tell of the tension, found {} ({})",
+                "device `{}`: expected an input for each actuator's sensor, to find the tension from, found {} ({})",
                 layout.device,
                 layout.inputs.len(),
                 layout.inputs.join(", ")
@@ -158,7 +158,7 @@ impl Bench {
     }
 }
 
-/// Tension over its own against time, as an ask has it of a virtual surface.
+/// Tension of a virtual surface over its nominal tension against time (s), as the ask gives it.
 fn course(ask: &Ask) -> Vec<(f64, f64)> {
     let at = |seconds: f64| 1.0 + ask.changed + ask.changing_per_min * seconds / 60.0;
     match (ask.changed, ask.changing_per_min) {

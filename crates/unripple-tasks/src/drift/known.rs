@@ -1,4 +1,4 @@
-//! The model whose tension is followed: that of a surface file, or the one fitted to what a library's actuators heard.
+//! The model whose tension is followed: that of a surface file, or one fitted to the responses between a library's actuators.
 
 use crate::fit::{FITTED_TO, Heard, model};
 use crate::{Progress, SurfaceAsk, TaskError, fit, judge, source};
@@ -12,18 +12,18 @@ use unripple_store::Library;
 /// a place that is off by a millimetre is far above.
 const MODEL: f64 = 0.02;
 
-/// What the tension of a surface file is held against.
+/// Words for what a measured tension is compared with where that is a surface file.
 pub(super) const FILE: &str = "the surface file";
 
-/// What is known of a surface before it is listened to.
+/// What is known of a surface before the pings are played.
 pub(super) struct Known {
     /// The surface as its file or its library has it.
     pub surface: Surface,
-    /// Its responses as they were made or measured.
+    /// Responses of its model, computed from the file or fitted to the library.
     pub modal: ModalResponses,
-    /// What tension is held against, in words.
+    /// What the measured tension is compared with, in words.
     pub against: String,
-    /// Actuators that neither drive nor hear.
+    /// Actuators that are dead: they neither drive nor sense.
     pub dead: Vec<usize>,
     library: Option<Measured>,
 }
@@ -33,17 +33,17 @@ struct Measured {
     name: String,
     heard: Heard,
     fitted: Fitted,
-    /// What sensors hear is to be multiplied by, and the drive of a sample at full scale, where the library was told.
+    /// Factor on each sensor's signal, and the drive of a sample at full scale if the library's log gives it.
     scales: Vec<f64>,
     output: Option<f64>,
 }
 
 impl Known {
-    /// Of a surface or a library.
+    /// Reads a surface or a library, and computes or fits its model.
     ///
     /// # Errors
-    /// Those of reading either; [`TaskError::Input`] of a library whose actuators do not listen, and of a sheet without tension; those of
-    /// the model or fit.
+    /// Those of reading either; [`TaskError::Input`] of a library without sensors at its actuators, and of a sheet without tension; those
+    /// of the model or fit.
     pub fn of(ask: &SurfaceAsk, progress: &mut dyn Progress) -> Result<Self, TaskError> {
         let known = match ask {
             SurfaceAsk::Name(name) if Library::is_at(name) => {
@@ -54,7 +54,7 @@ impl Known {
         match known.surface.sheet.tension > 0.0 {
             true => Ok(known),
             false => Err(TaskError::Input(format!(
-                "{}: expected a sheet under tension, found a plate without, whose stiffness alone holds it",
+                "{}: expected a sheet under tension, found a plate without tension",
                 known.surface.name
             ))),
         }
@@ -82,7 +82,7 @@ impl Known {
         if let Some(measured) = provenance.get(FITTED_TO) {
             if !Library::is_at(measured) {
                 return Err(TaskError::Input(format!(
-                    "{name}: expected the library that it was fitted to, `{measured}`, whose actuators tell of the tension, found none there"
+                    "{name}: expected the library that it was fitted to, `{measured}`, whose responses show the tension, found none there"
                 )));
             }
             return Self::of_library(Library::open(measured)?, progress);
@@ -127,7 +127,7 @@ impl Known {
         self.library.as_ref().and_then(|library| library.scales.get(actuator)).copied().unwrap_or(1.0)
     }
 
-    /// Drive of a sample at full scale, as the library was told.
+    /// Drive of a sample at full scale, in the actuators' unit, if the library's log gives it.
     pub fn output_scale(&self) -> Option<f64> {
         self.library.as_ref().and_then(|library| library.output)
     }
@@ -139,13 +139,13 @@ impl Known {
         PingOptions::default().band.map(|share| share * top)
     }
 
-    /// Share of what is heard that the model leaves unexplained.
+    /// Share of the sensors' signals that the model leaves unexplained.
     pub fn unexplained(&self) -> f64 {
         self.library.as_ref().map_or(MODEL, |library| library.fitted.unexplained().max(MODEL))
     }
 
-    /// What follows the tension, by a ping and with so much noise on each sensor. Of a library, its own responses say what the ping would
-    /// have sounded like when it was measured: that counts as no change.
+    /// Tracker of the tension, for a ping (actuators x samples) and a noise (rms on each sensor). For a library, the response to the ping
+    /// as computed from the measured responses counts as no change.
     ///
     /// # Errors
     /// Those of the trackers; [`TaskError::Work`] of a library that its model does not explain.
@@ -160,8 +160,8 @@ impl Known {
         match then.observe(ping, &sounded(ping, heard))? {
             Drift::Followed { tension, .. } => Ok(fresh.with_zero(tension)?),
             Drift::Unexplained { excess, limit, .. } => Err(TaskError::Work(format!(
-                "{name}: expected a model that explains a ping through what was measured, found {excess:.1} times the noise and error \
-                 that it may leave, {limit:.0} at most"
+                "{name}: expected a model that predicts a ping as the measured responses do, found a residual of {excess:.1} times what \
+                 noise and the model's error explain, at most {limit:.0} times is accepted"
             ))),
         }
     }
@@ -181,7 +181,7 @@ fn bending_shares(surface: &Surface, modal: &ModalResponses) -> Result<Vec<f64>,
     Ok(modal.poles.iter().map(nearest).collect())
 }
 
-/// What sensors would have heard of a drive when a library was measured, for as long as its responses are known.
+/// Sensor signals that a drive would have caused when the library was measured, as long as its responses.
 fn sounded(drive: &[Vec<f64>], heard: &Heard) -> Vec<Vec<f64>> {
     let rate = heard.measured.rate;
     let pairs: Vec<&Vec<f64>> = heard.measured.pairs.iter().flat_map(|pairs| &pairs.responses).collect();

@@ -1,4 +1,4 @@
-//! What became of a sheet's tension.
+//! Report of the task `drift`: change of tension, and its rate.
 
 use super::Cost;
 use super::known::Known;
@@ -6,15 +6,15 @@ use serde::{Serialize, Serializer};
 use std::fmt::Write;
 use unripple_calibrate::{Drift, Ping};
 
-/// Standard errors above which a change or a rate is one.
+/// Number of standard errors above which a change or a rate counts as real.
 const SURE: f64 = 3.0;
 
 /// Rate below which a sheet counts as steady, as a share in a minute: it turns the phases of waves at 3 kHz that ring for 70 ms by half a
 /// radian, which a focus hardly notices.
 const STEADY: f64 = 1e-3;
 
-/// Rate above which it is no drift, as a share in a minute: a film under a warm hand changes by a hundredth or so. A model that does not fit,
-/// as that of a surface file which was never fitted, follows what it cannot explain at such rates.
+/// Rate above which it is no drift, as a share in a minute: a film under a warm hand changes by a hundredth or so. A model that does not
+/// fit, as that of a surface file which was never fitted, follows what it cannot explain at such rates.
 const FASTEST: f64 = 0.1;
 
 /// What a rate may be off by, as a share of it: rates come out low by a sixth where the band ends at 1 kHz, and by less in wider ones.
@@ -23,19 +23,19 @@ const RATE: f64 = 0.2;
 /// Share of its peak and contrast that a focus keeps where nothing need be done.
 const KEPT: f64 = 0.95;
 
-/// What a sheet's tension does.
+/// Verdict on a sheet's tension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// It holds still, where it was or elsewhere.
+    /// The tension is constant, at its earlier value or at another.
     Steady,
-    /// It goes on changing.
+    /// The tension keeps changing.
     Drifting,
-    /// No tension explains what is heard.
+    /// No tension explains the sensors' signals, or only one that changes faster than that of any sheet.
     Unexplained,
 }
 
 impl Verdict {
-    /// Its name in reports and JSON.
+    /// Name of the verdict in reports and JSON.
     pub fn name(self) -> &'static str {
         match self {
             Self::Steady => "steady",
@@ -51,14 +51,14 @@ impl Serialize for Verdict {
     }
 }
 
-/// What was thought after one ping.
+/// Estimate of the tension after one ping.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Step {
     /// Seconds since the first ping began.
     pub time_s: f64,
-    /// Change of tension, as a share; absent where none explains what was heard.
+    /// Relative change of tension; `None` where no tension explains the sensors' signals.
     pub change: Option<f64>,
-    /// What is left of what was heard, over the noise and error that the model may leave.
+    /// Rms of what the model leaves unexplained of the sensors' signals, over the noise and model error that are allowed for.
     pub excess: f64,
     #[serde(skip)]
     error: f64,
@@ -80,48 +80,48 @@ impl Step {
     }
 }
 
-/// A sheet's tension against what its responses were made for, SI units.
+/// Tension of a sheet compared with the tension that its responses assume, in SI units.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     program: &'static str,
     version: &'static str,
     command: &'static str,
     surface: String,
-    /// What the change is held against, in words.
+    /// What the tension is compared with, in words.
     pub against: String,
-    /// What the tension does.
+    /// Verdict on the tension.
     #[serde(rename = "state")]
     pub verdict: Verdict,
-    /// Change of tension, as a share, at the end; absent where none explains what was heard.
+    /// Relative change of tension at the end; absent where no tension explains the sensors' signals.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub change: Option<f64>,
-    /// Its standard error.
+    /// Standard error of `change`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub change_error: Option<f64>,
-    /// Change in a minute, as a share.
+    /// Relative change of tension in a minute.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub change_per_min: Option<f64>,
-    /// Its standard error.
+    /// Standard error of `change_per_min`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub change_per_min_error: Option<f64>,
-    /// Tension that the responses assume, and as it is, in N/m.
+    /// Tension that the responses assume, and the measured one, in N/m.
     tension_assumed_n_per_m: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     tension_n_per_m: Option<f64>,
-    /// What is left of the last ping, over the noise and error that the model may leave.
+    /// Rms of what the model leaves unexplained of the last ping, over the noise and model error that are allowed for.
     excess: f64,
-    /// Share of what is heard that the model may leave unexplained.
+    /// Share of the sensors' signals that the model may leave unexplained.
     model_error: f64,
     /// Root mean square of the noise on the sensors, in their own unit.
     pub noise: f64,
-    /// Samples by which what is heard comes late.
+    /// Latency from drive to sensor signal, in samples.
     pub latency_samples: f64,
     /// Level of a ping where it is felt most, in dB above threshold.
     ping_felt_db: f64,
-    /// What a focus loses that is made for the tension of before.
+    /// Peak and contrast of a focus that was made for the earlier tension.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub focus: Option<Cost>,
-    /// Ping by ping.
+    /// Estimates after each ping.
     pub pings: Vec<Step>,
     /// The rate that was found, where it is above [`FASTEST`].
     #[serde(skip)]
@@ -129,8 +129,8 @@ pub struct Report {
 }
 
 impl Report {
-    /// Of all pings. `missed` is what the model's error may look like as a change, `law` what the law of change may be off by as a share of
-    /// it.
+    /// Report on all pings. `missed` is the relative change of tension that the model's error may look like; `law` is the relative error of
+    /// the law by which modes follow tension.
     pub(super) fn of(known: &Known, ping: &Ping, pings: Vec<Step>, (missed, law): (f64, f64)) -> Self {
         let last = pings.last().copied();
         let followed = last.and_then(|step| step.change.map(|change| (step, change)));
@@ -179,8 +179,8 @@ impl Report {
     /// What is at fault where no tension explains what is heard.
     fn blame(&self) -> &'static str {
         match self.against == super::known::FILE {
-            true => "a surface file alone seldom explains a real sheet: calibrate it, and ask of the library",
-            false => "the sheet has changed in other ways: calibrate again",
+            true => "a surface file alone seldom fits a real sheet: calibrate it, then give the library",
+            false => "the sheet has changed in other ways than its tension: calibrate again",
         }
     }
 
@@ -190,7 +190,7 @@ impl Report {
         match self.verdict {
             Verdict::Unexplained => "calibrate again".into(),
             Verdict::Drifting => {
-                "let `play` follow it (`follow_tension`), or wait until it holds still, and calibrate then"
+                "let `play` follow it (`follow_tension`), or wait until it is steady, and calibrate then"
                     .into()
             }
             Verdict::Steady if little => "nothing need be done".into(),
@@ -204,8 +204,8 @@ impl Report {
     }
 }
 
-/// Rate of the change and its standard error (1/s): a straight line through what single pings say, by least squares, and their scatter about
-/// it. The first is left out, which knows nothing of the rate yet.
+/// Rate of the change and its standard error (1/s): a straight line through the estimates of single pings, by least squares, and their
+/// scatter about it. The first is left out, which knows nothing of the rate yet.
 fn slope(pings: &[Step]) -> Option<[f64; 2]> {
     let known: Vec<[f64; 2]> =
         pings.iter().skip(1).filter_map(|step| Some([step.time_s, step.change?])).collect();
@@ -229,14 +229,14 @@ fn percent(share: f64, error: f64) -> String {
 impl crate::Report for Report {
     fn text(&self) -> String {
         let mut text = format!(
-            "{}: {}, by {} pings {:.0} dB below what is felt\n",
+            "{}: {}, from {} pings {:.0} dB below the threshold of touch\n",
             self.surface,
             self.verdict.name(),
             self.pings.len(),
             -self.ping_felt_db
         );
         if let Some((change, error)) = self.change.zip(self.change_error) {
-            let sure = if change.abs() > SURE * error { "" } else { ": none that could be told from 0" };
+            let sure = if change.abs() > SURE * error { "" } else { ", not significantly different from 0" };
             let _ = writeln!(text, "  tension   {} against {}{sure}", percent(change, error), self.against);
         }
         if let Some((rate, error)) = self.change_per_min.zip(self.change_per_min_error) {
@@ -253,7 +253,7 @@ impl crate::Report for Report {
             let [x, y] = focus.at_m.map(|metres| metres * 1e3);
             let _ = writeln!(
                 text,
-                "  focus     made for the tension of before, at {x:.0},{y:.0} mm: {:.0} % of its peak, contrast {:.1} instead of {:.1}",
+                "  focus     computed for the assumed tension, at {x:.0},{y:.0} mm: {:.0} % of its peak, contrast {:.1} instead of {:.1}",
                 100.0 * focus.peak_share,
                 focus.contrast_now,
                 focus.contrast_before
@@ -266,15 +266,15 @@ impl crate::Report for Report {
     fn failure(&self) -> Option<String> {
         if let Some(rate) = self.too_fast {
             return Some(format!(
-                "no tension explains what is heard: it would change by {:.0} % a minute, and no sheet drifts so fast; {}",
+                "no tension explains what the sensors receive: it would change by {:.0} % a minute, and no sheet drifts so fast; {}",
                 100.0 * rate,
                 self.blame()
             ));
         }
         let limit = self.pings.last().and_then(|step| step.limit)?;
         Some(format!(
-            "no tension explains what is heard: {:.1} times the noise and error that the model may leave remain, at most {limit:.0} would do; \
-             {}",
+            "no tension explains what the sensors receive: the residual is {:.1} times what noise and the model's error explain, at most \
+             {limit:.0} times is accepted; {}",
             self.excess,
             self.blame()
         ))

@@ -1,11 +1,11 @@
-//! What a fit found.
+//! Report of the task `fit`.
 
 use serde::Serialize;
 use std::fmt::Write;
 use unripple::core::Surface;
 use unripple_calibrate::{Estimate, Fitted, FittedLoad, Verdict};
 
-/// The fitted model, SI units.
+/// Report on a fitted model, in SI units.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     program: &'static str,
@@ -25,7 +25,7 @@ pub struct Report {
     decay: Vec<DecayTime>,
     actuators: Vec<Load>,
     strays: Vec<Load>,
-    /// Why probed points contradict the model, and are left out.
+    /// Reasons why probed points contradict the model; these points are left out.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub left_out: Vec<String>,
     /// Doubts about the whole recording.
@@ -44,7 +44,7 @@ pub struct Report {
     pub(super) failure: Option<String>,
 }
 
-/// The library that was made.
+/// The library that the fit wrote.
 #[derive(Clone, Debug, Serialize)]
 pub struct Written {
     /// Path of its folder.
@@ -76,7 +76,7 @@ struct DecayTime {
 struct Load {
     name: String,
     at_m: [Value; 2],
-    /// From where it is said to be; absent for a stray.
+    /// Distance from the place in the surface file, in m; absent for a stray mass.
     #[serde(skip_serializing_if = "Option::is_none")]
     off_m: Option<f64>,
     mass_kg: Value,
@@ -197,7 +197,7 @@ impl crate::Report for Report {
         if let Some(most) = self.profile.iter().map(|t| t.share.value.abs()).max_by(f64::total_cmp) {
             let _ = writeln!(
                 text,
-                "  uneven       {} terms of tension, up to {:.2} %",
+                "  variation    {} cosine terms of the tension, up to {:.2} % each",
                 self.profile.len(),
                 100.0 * most
             );

@@ -1,4 +1,5 @@
-//! The conditions that a drive is made for: fingers on the surface, and other states that it has to be robust against.
+//! The conditions that a drive is computed for: fingers on the surface, and other states that it has to be robust
+//! against.
 
 use super::{ActError, Note, model};
 use crate::core::{Contact, Drive, Responses, Surface};
@@ -6,19 +7,19 @@ use crate::field::Field;
 use crate::focus::{Focused, Focuser, Options, Target, focus};
 use unripple_core::OutOfRange;
 
-/// The conditions that a drive is made for: the surface under fingers, and other states that it may get into.
+/// The conditions that a drive is computed for: the surface under fingers, and other states that it may get into.
 #[derive(Clone, Debug, Default)]
 pub struct Aware {
-    /// Responses of the surface under the fingers, if the drive is made for that.
+    /// Responses of the surface with fingers on it, if the drive is computed for that.
     pub under: Option<Responses>,
-    /// Other plants that [`Method::Robust`](crate::focus::Method::Robust) is to be robust against.
+    /// Responses of the surface in other states, that [`Method::Robust`](crate::focus::Method::Robust) optimises for as
+    /// well.
     pub others: Vec<Responses>,
 }
 
 impl Aware {
-    /// Conditions with fingers that the drive is made for, if any; of the tension changed by `tension`, a share,
-    /// either way; and of each of
-    /// `more` fingers in turn.
+    /// Computes the responses of the surface with the fingers `known`, if there are any. The other states are the
+    /// tension lower and higher by the share `tension`, and each of the fingers `more` added in turn.
     ///
     /// # Errors
     /// Those of [`model`]; [`ActError::Range`] for a share not between 0 and 0.5.
@@ -49,7 +50,7 @@ impl Aware {
         Ok(Self { under, others })
     }
 
-    /// The focuser for these conditions, from the responses of the bare surface.
+    /// A focuser for these conditions, given the responses of the bare surface.
     ///
     /// # Errors
     /// Those of [`Focuser::beside`].
@@ -58,7 +59,8 @@ impl Aware {
         Ok(Focuser::beside(known, &self.others, options)?)
     }
 
-    /// A note on what making the drive for the fingers gained, at the first target and the drive limit.
+    /// A note on the gain in level, at the first target and the drive limit, of computing the drive for the surface
+    /// under the fingers; `None` without fingers.
     ///
     /// # Errors
     /// Those of [`focus`] and [`Field::traces`].
@@ -85,8 +87,8 @@ impl Aware {
         Ok(Some(Note {
             topic: "fingers",
             text: format!(
-                "the drive was made for the surface under the fingers: at the limit the first target is {:.1} dB below that of \
-                 the bare surface, where a drive computed without them gives {:.1} dB less",
+                "the drive was computed for the surface under the fingers: at the drive limit the peak velocity at the first \
+                 target is {:.1} dB below that without fingers; a drive computed for the bare surface would be {:.1} dB below it",
                 below(restored),
                 below(lost)
             ),

@@ -1,4 +1,4 @@
-//! Notes: what a reader of the figures must know.
+//! Notes that go with the results of a focus.
 
 use super::level::Beyond;
 use super::{Act, ActError, Readouts};
@@ -8,7 +8,7 @@ use crate::focus::{Focused, Focuser, Method, Options, Target, focus};
 use crate::physics::design::Linearity;
 use serde::Serialize;
 
-/// Something a reader of the figures must know.
+/// A remark or warning that goes with the results.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Note {
     /// Topic of the note, in a word or two.
@@ -78,18 +78,19 @@ fn linear_theory(surface: &Surface, largest: f64, found: &Linearity) -> Vec<Note
     notes
 }
 
-/// That the level is that of the limit, because nothing is known of the sheet that would bound it.
+/// A note that the level is that of the limit, because neither thickness nor tension and strength of the sheet are
+/// known.
 pub(super) fn unknown(surface: &Surface, drive: &Drive) -> Option<Note> {
     let known = surface.sheet.thickness > 0.0;
     (!known && drive.peak() > 0.0).then(|| Note {
         topic: "level",
-        text: "neither thickness nor tension and strength say how far the sheet may move: the drive is at its limit, and \
-               whether linear theory holds there is not known"
+        text: "how far linear theory holds is not known, since the sheet has no thickness: the drive is at its limit, and \
+               displacements may be beyond linear theory"
             .into(),
     })
 }
 
-/// That a drive is at its limit, because the level asked for is beyond that.
+/// A note that a drive is at its limit, because the level asked for is above it.
 pub(super) fn beyond(beyond: &Beyond) -> Note {
     let Beyond { most, wanted, unit, .. } = beyond;
     Note {
@@ -109,10 +110,10 @@ pub(super) fn idle(
 ) -> Result<Option<Note>, ActError> {
     let text = match focused.method {
         Method::Limited if scaled => {
-            "no drive under the limit was found for this level: it is that at the limit, scaled down".into()
+            "no drive was found for this level: the drive is the one for the limit, scaled down".into()
         }
         Method::Limited if !focused.shaped => format!(
-            "the limit does not bind at this level: the drive is that of concentrate with a strength of {}, and its push has no \
+            "the limit is not reached at this level: the drive is that of concentrate with a strength of {}, and push has no \
              effect",
             act.options.strength.unwrap_or(focused.method.strength())
         ),
@@ -138,10 +139,10 @@ fn one_bit(
         Ok((sum / traces.len().max(1) as f64).abs())
     };
     let share = peak(drive)? / peak(&reversed)?;
-    let said = "one-bit is for the highest peak at the limit, which does not bind at this level";
+    let said = "one-bit is for the highest peak at the limit, which is not reached at this level";
     if share.is_nan() || share > 1.0 {
         return Ok(format!(
-            "{said}: its drive is scaled down as a whole, but time reversal would pass the limit for the same peak"
+            "{said}: its drive is scaled down as a whole, but time reversal would exceed the limit for the same peak"
         ));
     }
     let energy = share * share * reversed.energy() / drive.energy();

@@ -16,10 +16,10 @@ const PROGRESS: Duration = Duration::from_secs(10);
 /// Opening and closing clients is not for two threads at once.
 static DOOR: Mutex<()> = Mutex::new(());
 
-/// The thread that is in the library; nobody where the system does not tell.
+/// The thread that is calling the library; `None` where the system does not tell.
 static CALLER: Mutex<Option<Caller>> = Mutex::new(None);
 
-/// Leave to call the library, until it is dropped.
+/// Permission to call the library, until it is dropped.
 pub(super) struct Passage {
     _door: MutexGuard<'static, ()>,
 }
@@ -29,8 +29,8 @@ impl Passage {
     pub(super) fn wait() -> Self {
         static WATCHED: Once = Once::new();
         WATCHED.call_once(|| {
-            // SAFETY: a C function that is called once, from a program that ends; it neither unwinds nor uses what may be gone by then. If it
-            // cannot be entered, a program ends as one that never heard of it.
+            // SAFETY: a C function that is called once, from a program that ends; it neither unwinds nor uses what may be gone by then. If
+            // it cannot be registered, a program ends as one that never heard of it.
             unsafe { atexit(shut_at_exit) };
         });
         let door = DOOR.lock().unwrap_or_else(PoisonError::into_inner);
@@ -61,7 +61,7 @@ extern "C" fn shut_at_exit() {
 /// Waits until no client joins or leaves.
 ///
 /// # Errors
-/// [`DevicesError::Jack`] while one cannot leave its server: the library would let nobody join any server before.
+/// [`DevicesError::Jack`] while a client cannot leave its server: until it has, the library lets no client join any server.
 pub(super) fn door() -> Result<(), DevicesError> {
     let start = Instant::now();
     while start.elapsed() < PATIENCE {
@@ -71,8 +71,8 @@ pub(super) fn door() -> Result<(), DevicesError> {
         }
     }
     Err(DevicesError::Jack {
-        what: "a client of this program is still on its way into or out of a server that stands still".into(),
-        fix: "let that server go on, or end it".into(),
+        what: "a client of this program is still joining or leaving a server that does not respond".into(),
+        fix: "let that server continue, or end it".into(),
     })
 }
 

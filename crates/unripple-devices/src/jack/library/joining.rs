@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 /// How long the library is waited for to join: a server at work answers within some cycles, one on a loaded machine within a second.
 const JOINING: Duration = Duration::from_secs(5);
 
-/// A client just opened, until somebody takes it; whoever waited for it has gone otherwise, and it is closed again.
+/// A client that was just opened, until it is taken; if the thread that waited for it has gone, the client is closed again.
 struct Opened(&'static Api, *mut RawClient);
 
 // SAFETY: JACK's functions on a client may be called from any thread.
@@ -56,7 +56,7 @@ pub(super) fn join(
             }
             Opened(api, raw)
         });
-        // Nobody there any more drops it, and so closes it.
+        // If nobody waits any more, this drops the client, and so closes it.
         let _ = tell.send(opened);
     };
     let spawned = std::thread::Builder::new().name("join".into()).spawn(call);
@@ -67,13 +67,13 @@ pub(super) fn join(
     match told.recv_timeout(JOINING) {
         Ok(Some(opened)) => Ok(opened.take()),
         Ok(None) => Err(DevicesError::Jack {
-            what: "a client of this program has not left yet since a server was gone".into(),
-            fix: "let go of it first".into(),
+            what: "a client of this program has not been closed since its server ended".into(),
+            fix: "close it first".into(),
         }),
         Err(_) => Err(DevicesError::Jack {
             what: format!("no answer within {} s", JOINING.as_secs()),
             fix: format!(
-                "let a server that stands still go on, or end it; if there is none, a program was killed while it held JACK's lock: end \
+                "if the server does not respond, let it continue or end it; otherwise a program was killed while it held JACK's lock: end \
                  all JACK programs and remove {}",
                 database()
             ),

@@ -93,7 +93,7 @@ impl Marks {
             [] => None,
             [(file, of)] => Some(format!("{file} is at {of} Hz: resampled to {rate} Hz")),
             [(file, of), ..] => Some(format!(
-                "{file} ({of} Hz) and {} recordings more are at another rate: resampled to {rate} Hz",
+                "{file} ({of} Hz) and {} more recordings are at another rate: resampled to {rate} Hz",
                 other.len() - 1
             )),
         }
@@ -161,7 +161,7 @@ mod tests {
         assert_eq!(files(&["a.wav", "c.wav"]), ["a.wav", "c.wav"], "who is right is not known");
         assert!(marks.copies(&[])[0].why.contains("same samples as c.wav"));
         let said = marks.resampled(48_000.0).unwrap();
-        assert_eq!(said, "a.wav (44100 Hz) and 2 recordings more are at another rate: resampled to 48000 Hz");
+        assert_eq!(said, "a.wav (44100 Hz) and 2 more recordings are at another rate: resampled to 48000 Hz");
         assert_eq!(marks.resampled(44_100.0), None);
     }
 }

@@ -1,4 +1,4 @@
-//! The channels of a recording, if it is one of all inputs, at the rate, neither silent nor clipped.
+//! Reading of a recording's channels, with checks of their number, sample rate, silence and clipping.
 
 use super::fault::Fault;
 use std::path::Path;
@@ -18,13 +18,13 @@ const ROOM: f64 = 2.2;
 pub struct Reader {
     /// The channels that recordings have, and their rate.
     pub layout: Layout,
-    /// The band that sweeps cover.
+    /// The band of frequencies that the sweeps cover.
     pub band: Band,
     /// Whether recordings of another rate are brought to that of the surface.
     pub resample: bool,
 }
 
-/// What each channel must be.
+/// Channels that must have a signal.
 pub struct Needed<'a> {
     /// Channels that must have a signal.
     pub all: &'a [usize],
@@ -57,7 +57,7 @@ impl Reader {
         self.at_rate(wav, file)
     }
 
-    /// A file as it is, if it has all channels.
+    /// Reads a file as it is, if it has all channels.
     pub fn wav(&self, folder: &Path, file: &str) -> Result<Wav, Fault> {
         let wav = read_wav(folder.join(file)).map_err(|error| {
             let why = error.to_string();
@@ -88,7 +88,7 @@ impl Reader {
         }
         if wav.rate < ROOM * self.band.high[1] {
             let least = ROOM * self.band.high[1];
-            let why = format!("{why}, too few for what is swept ({least:.0} Hz)");
+            let why = format!("{why}, too low for the sweeps ({least:.0} Hz or more)");
             return Err(Fault::new(file, why, "record at a higher rate"));
         }
         Ok(wav.channels.iter().map(|line| resample(line, wav.rate / rate)).collect())

@@ -1,4 +1,4 @@
-//! Recordings made elsewhere: checked, and aligned to where playing began.
+//! Recordings made elsewhere: checked, and aligned to the start of playing.
 
 use super::asked::Wanted;
 use super::fault::Fault;
@@ -38,7 +38,7 @@ const AGREE: f64 = 0.05;
 /// Actuators that it is found from, at most.
 const ASKED: usize = 16;
 
-/// Reads recordings, and moves each to where playing began.
+/// Reads recordings, and aligns each to the start of playing.
 #[derive(Clone, Debug)]
 pub struct Takes {
     folder: PathBuf,
@@ -48,7 +48,8 @@ pub struct Takes {
     pub wires: Wires,
     /// The drive that is played.
     pub drive: Drive,
-    /// What the telling channels hear of it where it begins at time 0, give or take a latency common to all recordings.
+    /// Channels from which delays are found, with their signals for a drive that begins at time 0, but for a latency common to all
+    /// recordings.
     known: Vec<(usize, Vec<f64>)>,
     /// Samples by which recordings have to be moved, by their file.
     late: BTreeMap<String, f64>,
@@ -69,13 +70,13 @@ impl Takes {
         self.reader.layout.rate
     }
 
-    /// Inputs that hear the drive itself wherever the probe is: the reference, or the actuators' sensors.
+    /// Inputs that record the drive itself wherever the probe is: the reference, or the actuators' sensors.
     pub fn telling(&self) -> Vec<usize> {
         self.wires.reference.map_or_else(|| self.wires.sensors.clone(), |reference| vec![reference])
     }
 
-    /// Learns from the recording of the actuators how any other one is to be moved: its loudest telling channels are
-    /// kept, moved by whole samples to a little after where the sweeps begin.
+    /// Learns from the recording of the actuators how to align all others: its loudest channels that record the drive are kept, moved by
+    /// whole samples to a little after where the sweeps begin.
     pub fn learn(&mut self, wanted: &Wanted) -> Result<(), Fault> {
         let lines = self.lines(wanted)?;
         let telling = loudest(&lines, self.telling());
@@ -95,7 +96,7 @@ impl Takes {
         }
     }
 
-    /// The same by what actuators hear of themselves: most agree, but for dead ones.
+    /// The sample at which playing began, by what actuators hear of themselves: most agree, but for dead ones.
     fn heard_themselves(&self, lines: &[Vec<f64>]) -> Option<f64> {
         let own = |(actuator, input): (usize, &usize)| {
             let sent = self.drive.channels().get(*self.wires.drives.get(actuator)?)?;
@@ -109,7 +110,8 @@ impl Takes {
         all.iter().map(|at| near(*at)).max_by_key(Vec::len).and_then(median)
     }
 
-    /// The same by a reference, which hears all outputs, or one: all play the same sweep, so that only others tell which.
+    /// The sample at which playing began, by a reference. It hears all outputs or one; all play the same sweep, so that only `anchor` tells
+    /// which.
     fn of_reference(&self, line: &[f64], anchor: Option<f64>) -> Option<f64> {
         let whole = self.like(line, &sum(self.drive.channels()))?;
         let one = |sent: &Vec<f64>| self.like(line, sent).filter(|like| like.correlation > whole.correlation);
@@ -125,8 +127,7 @@ impl Takes {
         nearest.or(Some(whole.samples))
     }
 
-    /// A recording as the device would have recorded it, `[input][sample]`: as long as what is played, and brought to
-    /// where that begins.
+    /// Reads a recording as a device would have made it, `[input][sample]`: aligned to the start of the drive, and as long as the drive.
     pub fn take(&mut self, wanted: &Wanted) -> Result<Vec<Vec<f32>>, Fault> {
         let lines = self.lines(wanted)?;
         let late = match self.late.get(&wanted.file) {
@@ -222,7 +223,7 @@ impl Takes {
             let Some(best) = (0..all.len()).max_by(|a, b| all[*a].total_cmp(&all[*b])) else { continue };
             if best != *input && all[best] >= LIKE {
                 let why = format!(
-                    "expected {} to hear the sweeps as before, found what it heard in {}",
+                    "expected {} to receive the sweeps as before, found what it received before in {}",
                     self.reader.named(*input),
                     self.reader.named(best)
                 );
@@ -239,7 +240,7 @@ impl Takes {
         }
         let after = -(late + MARGIN) / self.rate();
         let why =
-            format!("expected a recording from before play.wav began, found one from {after:.3} s after");
+            format!("expected a recording that begins before play.wav, found one begun {after:.3} s later");
         Err(Fault::new(&wanted.file, why, "begin to record first, then to play"))
     }
 
@@ -263,7 +264,7 @@ impl Takes {
         let names: Vec<&str> =
             self.telling().iter().map(|input| self.layout().inputs[*input].as_str()).collect();
         let why = format!(
-            "expected {} to hear the sweeps of play.wav, likeness {LEAST} or more, found {likeness:.2}",
+            "expected {} to receive the sweeps of play.wav with a correlation of {LEAST} or more, found {likeness:.2}",
             names.join(", ")
         );
         Fault::new(&wanted.file, why, "record while play.wav plays, channels in the order of the plan")

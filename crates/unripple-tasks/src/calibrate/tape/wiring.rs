@@ -22,8 +22,8 @@ const QUIET: f64 = 0.3;
 /// is wrong, not so many wires.
 const BELIEVED: f64 = 0.67;
 
-/// Middle frequencies of the bursts that a fault is found by, as shares of the band. A wire is wrong at all of them; where the surface is not
-/// like its model, what seems wrong differs from one to the next.
+/// Middle frequencies of the bursts that a fault is found by, as shares of the band. A wire is wrong at all of them; where the surface is
+/// not like its model, what seems wrong differs from one to the next.
 const BURSTS: [f64; 3] = [0.2, 0.4, 0.6];
 
 /// Points that are looked at where there are no sensors. Near a node of one point's mode another still shows it.
@@ -132,16 +132,16 @@ impl Tried {
         if 2 * quiet.len() > actuators.len() {
             let names: Vec<&str> = quiet.iter().map(name).collect();
             let text =
-                format!("nobody hears {}: was play.wav played with all its channels?", names.join(", "));
+                format!("no sensor receives {}: were all channels of play.wav played?", names.join(", "));
             self.faults.push(text);
             return;
         }
         for actuator in quiet.iter().filter(|actuator| !self.dead.contains(actuator)) {
             let (name, output) = (name(actuator), bench.takes.wires.drives[*actuator] + 1);
-            let too = if self.deaf.contains(actuator) { ", nor does its sensor hear anything" } else { "" };
+            let too = if self.deaf.contains(actuator) { ", and its own sensor receives nothing" } else { "" };
             self.notes.push(format!(
-                "actuator `{name}` is dead: nobody hears its sweep (output {output}){too}; look at its amplifier, its cable and itself. \
-                 The others go on without it"
+                "actuator `{name}` is dead: no sensor receives its sweep (output {output}){too}; check its amplifier, its cable and the \
+                 actuator. The others go on without it"
             ));
         }
         let alone: Vec<usize> =
@@ -149,7 +149,7 @@ impl Tried {
         for actuator in alone {
             let input = bench.takes.reader.named(bench.takes.wires.sensors[actuator]);
             self.notes.push(format!(
-                "the sensor of `{}` hears nothing, {input}: look at its cable and gain. Its own point is left out",
+                "the sensor of `{}` receives nothing, {input}: check its cable and gain. Its own point is left out",
                 actuators[actuator].name
             ));
         }
@@ -235,7 +235,7 @@ impl Tried {
             leads.filter(|lead| lead.unlike).map(|lead| lead.name.clone()).collect();
         if !unlike.is_empty() {
             let names = unlike.iter().cloned().collect::<Vec<_>>().join(", ");
-            self.notes.push(format!("wires: {names} unlike the model, which says nothing of them"));
+            self.notes.push(format!("wires: {names} differ too much from the model to be checked by it"));
         }
         let sure = |fault: &String| !unlike.iter().any(|name| fault.contains(&format!("`{name}`")));
         let everywhere = |fault: &String| found.iter().all(|report| report.faults().contains(fault));
