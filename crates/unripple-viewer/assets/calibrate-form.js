@@ -12,7 +12,7 @@ export class CalibrateForm {
     this.grid = el('input', { type: 'number', min: 1, max: 200, step: 'any', required: true, inputmode: 'decimal', value: grid, on: { input: () => this.count() } });
     this.name = el('input', { type: 'text', required: true, maxlength: 64, autocomplete: 'off', spellcheck: 'false', value: name, 'aria-describedby': 'calibrate-fault' });
     this.other = el('input', { type: 'checkbox', checked: true, on: { change: () => { this.seed.disabled = !this.other.checked; } } });
-    this.seed = el('input', { type: 'number', min: 0, max: 4294967295, step: 1, inputmode: 'numeric', value: seed, 'aria-label': 'Seed of the unknowns' });
+    this.seed = el('input', { type: 'number', min: 0, max: 4294967295, step: 1, inputmode: 'numeric', value: seed, 'aria-label': 'Seed of the random differences' });
     this.counted = el('p', { class: 'quiet' });
     this.fault = el('p', { class: 'is-bad', id: 'calibrate-fault', role: 'status' });
     this.run = el('button', { type: 'submit', class: 'button primary' }, 'Calibrate');
@@ -22,7 +22,7 @@ export class CalibrateForm {
         el('label', { class: 'field' }, el('span', {}, 'Name of the library'), this.name)),
       this.counted,
       el('div', { class: 'row' },
-        el('label', { class: 'check' }, this.other, ' the true surface differs from its file, by seed'), this.seed),
+        el('label', { class: 'check' }, this.other, ' the simulated surface differs from its file, by seed'), this.seed),
       this.fault,
       el('div', { class: 'row' }, this.run));
     app.state.subscribe('surface', () => this.count());
@@ -50,7 +50,7 @@ export class CalibrateForm {
     const wavelength = surface.lambda_min_mm;
     const fine = Number.isFinite(wavelength) && pitch <= wavelength / 2;
     this.counted.textContent = Number.isFinite(wavelength)
-      ? `Shortest wave ${wavelength.toFixed(1)} mm: ${fine ? 'fine enough to focus between the points' : 'focus at the points; between them it takes half a wave or less'}.`
+      ? `Shortest wave ${wavelength.toFixed(1)} mm: ${fine ? 'fine enough to focus between the points' : 'focus at the points only; to focus between them, half a wavelength or less is needed'}.`
       : '';
   }
 

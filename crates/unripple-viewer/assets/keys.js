@@ -8,7 +8,7 @@ const KEYS = [
   [['Enter'], 'press and hold until Enter again'],
   [['P'], 'drop a probe at the cursor'],
   [['K'], 'pause or play'],
-  [[',', '.'], 'one kept sample back or forward; with Shift 10'],
+  [[',', '.'], 'one stored sample back or forward; with Shift 10'],
   [['[', ']'], 'half or twice the speed'],
   [['N'], 'back to now'],
   [['Arrows', '+', '−', '0'], 'in the relief: turn, zoom, start view'],

@@ -27,7 +27,7 @@ function figures(report) {
   const unit = actuators[0]?.unit ?? '';
   const whole = (name, text) => body.append(el('tr', {}, el('th', { scope: 'row', text: name }), el('td', { colspan: Math.max(1, targets.length), text })));
   whole('Drive peak', `${number(drive.peak)} ${unit}`);
-  whole('Drive effective', `${number(drive.rms)} ${unit}`);
+  whole('Drive rms', `${number(drive.rms)} ${unit}`);
   whole('Drive energy', `${number(drive.energy)} ${unit}²·s`);
   whole('Felt outside', decibels(report.felt_outside_db));
   table.append(body);
@@ -132,7 +132,7 @@ export function mount(root, app) {
     stale.hidden = of === null || of === app.state.last('surface')?.edit;
   };
   const found = el('div', { class: 'stack', hidden: true }, stale, table, el('h3', { text: 'The same from the command line' }), command,
-    notes, drawn.parts, el('p', { class: 'quiet', text: 'Spectrum: drives thin, target thick.' }), links);
+    notes, drawn.parts, el('p', { class: 'quiet', text: 'Spectrum: thin lines are the drives, thick lines the motion at the targets.' }), links);
   root.append(el('h2', { text: 'Measure' }), ...parts, busyText, found);
   app.state.subscribe('measured', (message) => {
     busy(false);

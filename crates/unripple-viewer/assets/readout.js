@@ -55,7 +55,7 @@ function drivePart(root, app) {
 
 function tallyText(tally) {
   if (!tally) return '–';
-  const parts = [`${tally.started ?? 0} started`, `${tally.limited ?? 0} held back by the limit`, `${tally.lost ?? 0} lost`];
+  const parts = [`${tally.started ?? 0} started`, `${tally.limited ?? 0} scaled down to the limit`, `${tally.lost ?? 0} lost`];
   if (tally.failed) parts.push(`${tally.failed} failed${tally.failure ? `: ${tally.failure}` : ''}`);
   return parts.join(', ');
 }

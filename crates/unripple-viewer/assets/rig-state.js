@@ -42,7 +42,7 @@ export class RigState {
     if (rms?.length) this.row('Drive, highest rms', `${number(Math.max(...rms) * 100, 2)} % of the limit`);
     if (tally) {
       this.row('Pulses started', tally.started);
-      this.row('Held back by the limit', tally.limited);
+      this.row('Scaled down to the limit', tally.limited);
       this.row('Blocks lost', tally.lost);
     }
     this.drift(drift);

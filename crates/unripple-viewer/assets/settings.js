@@ -3,7 +3,7 @@
 import { el, setOptions, setText } from './dom.js';
 import { fixed } from './units.js';
 
-const FREE = ['Places are touched without being held down: the free surface, as ', 'focus', ' computes it.'];
+const FREE = ['Fingers do not load the surface: it moves freely, as ', 'focus', ' computes it.'];
 const HELD = 'Each finger loads the film (its mass, damping, stiffness): it holds the place down, and waves meet around it.';
 
 /** A field with a label; the unit stands in the label. */

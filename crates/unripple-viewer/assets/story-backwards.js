@@ -45,7 +45,7 @@ export const backwards = {
       control: 'scrub',
       text: () => [
         'Forwards, a ring closes around the finger, meets itself, and opens again on the other side of the instant.',
-        'Just before and just after look alike. A wave obeys the same law either way, so the film could be shown in both directions.',
+        'Just before and just after look alike. A wave obeys the same law in both directions of time, so the motion could be shown either way.',
       ],
       chart: (f) => pulseChart(f),
     },
@@ -55,7 +55,7 @@ export const backwards = {
       show: { at: 'focus', run: [-1, 1] },
       control: 'scrub',
       text: (f) => [
-        `Over the whole window of ${f.s(f.window('pulse'))} the two halves differ: waves die away${decay(f)}, and a law with losses knows the direction of time.`,
+        `Over the whole window of ${f.s(f.window('pulse'))} the two halves differ: waves die away${decay(f)}, and with losses the law is not the same in both directions of time.`,
         `The actuators put in what is lost, from the start of the window to the focus; afterwards nothing is sent and the sheet rings down. So ripple remains over the whole time: the focus is ${f.n(f.target('pulse').background_contrast)} times its rms.`,
       ],
       figures: (f) => [['Contrast at the focus', f.n(f.target('pulse').contrast)], ['Over the whole time', f.n(f.target('pulse').background_contrast)]],

@@ -42,7 +42,7 @@ export const twoFingers = {
       figures: (f) => [
         ['Contrast at E, together', f.n(f.target('both', 0).contrast)],
         ['Contrast at D, together', f.n(f.target('both', 1).contrast)],
-        ['E alone over √2', f.n(f.target('first').contrast / Math.SQRT2)],
+        ['Contrast at E alone, over √2', f.n(f.target('first').contrast / Math.SQRT2)],
       ],
     },
     {
@@ -51,8 +51,8 @@ export const twoFingers = {
       show: { at: 'focus' },
       control: 'scrub',
       text: (f) => [
-        'Time stands still at the instant of both foci. Each is as wide as half the shortest wave, and not wider for being one of two.',
-        `E measures ${f.m(f.target('both', 0).spot_diameter_m)} across. Drag the slider to see both grow out of the same ripple.`,
+        'Time stands still at the instant of both foci. Each is about seven tenths of the shortest wavelength wide, and no wider for being one of two.',
+        `The focus at E is ${f.m(f.target('both', 0).spot_diameter_m)} wide. Drag the slider to see both grow out of the same ripple.`,
       ],
     },
     {

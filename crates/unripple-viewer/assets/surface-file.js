@@ -5,10 +5,10 @@ import { changedHere } from './recall.js';
 
 const BUILT_IN = [
   ['hudin-2012', 'hudin-2012: the film of the paper'],
-  ['drum', 'drum: the film on a ring'],
-  ['glass-plate', 'glass-plate: a touch glass'],
+  ['drum', 'drum: the film on a round frame'],
+  ['glass-plate', 'glass-plate: the glass of a touch screen'],
   ['picture-frame', 'picture-frame: one to build at home'],
-  ['stadium-film', 'stadium-film: the film on a stadium'],
+  ['stadium-film', 'stadium-film: the film cut as a stadium'],
 ];
 const LARGEST = 256 * 1024;
 
