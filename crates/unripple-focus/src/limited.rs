@@ -3,7 +3,7 @@
 use crate::FocusError;
 use crate::objective::{Levels, read};
 use crate::state::State;
-use unripple_linalg::{Lu, Mat, MatRef, Scale, product, times};
+use unripple_linalg::{Lu, Mat, MatRef, Scale, product};
 
 /// Most steps of Newton's method. Doubled, a problem that does not converge takes twice as long to fail.
 const STEPS: usize = 80;
@@ -124,12 +124,12 @@ impl Limits {
     /// The level that one-bit drives reach, all targets together: the smallest multiple of the levels wanted.
     fn highest(&self, map: &Mat<f64>, levels: &Levels) -> f64 {
         let wanted = Mat::from_fn(levels.wanted.len(), 1, |k, _| levels.wanted[k]);
-        let together = times(map.transpose(), product(levels.readout.as_ref(), wanted.as_ref()).as_ref());
+        let together = product(map.transpose(), product(levels.readout.as_ref(), wanted.as_ref()).as_ref());
         let hard: Vec<f64> = together.col_as_slice(0).iter().map(|d| self.peak * d.signum()).collect();
         let fit = self.scale(&hard).min(1.0);
         let reached = read(
             levels.readout.as_ref(),
-            times(map.as_ref(), MatRef::from_column_major_slice(&hard, hard.len(), 1)).as_ref(),
+            product(map.as_ref(), MatRef::from_column_major_slice(&hard, hard.len(), 1)).as_ref(),
         );
         let ratios = reached.iter().zip(&levels.wanted).filter(|(_, wanted)| **wanted != 0.0);
         fit * ratios.map(|(reached, wanted)| reached / wanted).fold(f64::INFINITY, f64::min)
@@ -175,7 +175,7 @@ impl Program<'_> {
     fn solve(&self, free: Mat<f64>) -> Result<Vec<f64>, FocusError> {
         // Without limits `ε d = Wᵀ(P μ - B η)` at η = W d.
         let force = &free * Scale(self.energy) + product(self.matrix.as_ref(), free.as_ref());
-        let gram = times(self.levels.readout.transpose(), self.levels.readout.as_ref());
+        let gram = product(self.levels.readout.transpose(), self.levels.readout.as_ref());
         let mut mu = product(self.levels.readout.transpose(), force.as_ref());
         Lu::new(gram.as_ref()).solve(mu.as_mut());
         let mut dual = free.col_as_slice(0).to_vec();
@@ -213,7 +213,7 @@ impl Program<'_> {
         let eta = MatRef::from_column_major_slice(eta, rank, 1);
         let omega = product(self.matrix.as_ref(), eta);
         let push = product(self.levels.readout.as_ref(), mu) - &omega;
-        let forced = times(self.map.transpose(), push.as_ref());
+        let forced = product(self.map.transpose(), push.as_ref());
         let mut drive = forced.col_as_slice(0).to_vec();
         let mut slopes = vec![0.0; drive.len()];
         let (samples, peak) = (self.limits.samples, self.limits.peak);
@@ -225,9 +225,9 @@ impl Program<'_> {
             }
         }
         let state = product(self.map.as_ref(), MatRef::from_column_major_slice(&drive, drive.len(), 1));
-        let cost = -0.5 * times(eta.transpose(), omega.as_ref())[(0, 0)];
+        let cost = -0.5 * product(eta.transpose(), omega.as_ref())[(0, 0)];
         let energy: f64 = 0.5 * self.energy * drive.iter().map(|d| d * d).sum::<f64>();
-        let work: f64 = times(push.transpose(), state.as_ref())[(0, 0)];
+        let work: f64 = product(push.transpose(), state.as_ref())[(0, 0)];
         let levels: f64 = mu.col(0).iter().zip(&self.wanted).map(|(mu, wanted)| mu * wanted).sum();
         let value = cost + energy - work + levels;
         Trial { dual, drive, slopes, state, value }
@@ -240,7 +240,7 @@ impl Program<'_> {
         let missed =
             missed.iter().zip(&self.wanted).zip(mu).map(|((got, wanted), mu)| (mu * (got - wanted)).abs());
         let forces = product(self.matrix.as_ref(), trial.state.as_ref());
-        let cost = 0.5 * times(trial.state.transpose(), forces.as_ref())[(0, 0)]
+        let cost = 0.5 * product(trial.state.transpose(), forces.as_ref())[(0, 0)]
             + 0.5 * self.energy * trial.drive.iter().map(|d| d * d).sum::<f64>();
         ((cost - trial.value).abs() + missed.sum::<f64>()) / cost
     }
@@ -250,10 +250,10 @@ impl Program<'_> {
         let (rank, count) = (self.matrix.nrows(), self.wanted.len());
         let slope = self.slope(trial);
         let readout = &self.levels.readout;
-        let costs = times(slope.as_ref(), self.matrix.as_ref());
+        let costs = product(slope.as_ref(), self.matrix.as_ref());
         let levels = product(slope.as_ref(), readout.as_ref());
-        let read_costs = times(readout.transpose(), costs.as_ref());
-        let read_levels = times(readout.transpose(), levels.as_ref());
+        let read_costs = product(readout.transpose(), costs.as_ref());
+        let read_levels = product(readout.transpose(), levels.as_ref());
         let system = Mat::from_fn(rank + count, rank + count, |i, j| match (i < rank, j < rank) {
             (true, true) => f64::from(i == j) + costs[(i, j)],
             (true, false) => -levels[(i, j - rank)],
@@ -278,6 +278,6 @@ impl Program<'_> {
             let column = weighed.col_as_slice_mut(to);
             column.iter_mut().zip(self.map.col_as_slice(*from)).for_each(|(to, w)| *to = root * w);
         }
-        times(weighed.as_ref(), weighed.transpose())
+        product(weighed.as_ref(), weighed.transpose())
     }
 }

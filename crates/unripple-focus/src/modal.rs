@@ -4,7 +4,7 @@ use crate::recording::energy;
 use crate::{FocusError, LossCorrection, Options};
 use unripple_core::{ModalResponses, Onset, Point, Pole};
 use unripple_dsp::ModalSynth;
-use unripple_linalg::{Mat, MatRef, Number, times};
+use unripple_linalg::{Mat, MatRef, Number, product};
 
 /// Values of responses that are held at once while their energies are summed, 32 MiB of them. Doubled, twice
 /// the memory; sums differ by rounding.
@@ -121,7 +121,7 @@ impl<'r> ModalRecorder<'r> {
                 let t = (first + i) as f64 / rate;
                 if self.lossless { undamped(poles[m], t) } else { poles[m].velocity(t) }
             });
-            let block = times(weights, ringing.as_ref());
+            let block = product(weights, ringing.as_ref());
             for (row, samples) in rows.chunks_exact_mut(self.length).enumerate() {
                 samples[first..first + count]
                     .iter_mut()

@@ -3,7 +3,7 @@
 use crate::FocusError;
 use crate::state::State;
 use unripple_core::{Conditions, Point};
-use unripple_linalg::{Cholesky, Mat, MatRef, Scale, add_square, product, squared_norm, times};
+use unripple_linalg::{Cholesky, Mat, MatRef, Scale, add_square, product, squared_norm};
 
 /// Share of energy in the objective that always stays, so that a drive of least velocity outside exists.
 /// Larger, the strongest concentration is less strong; smaller, A is singular but for rounding.
@@ -62,7 +62,7 @@ impl Objective {
             let (readout, points) = state.cells(plant);
             let share = 1.0 / (points.len() * state.plants()) as f64;
             let scaled = readout * Scale(share.sqrt());
-            let square = times(scaled.as_ref(), scaled.transpose());
+            let square = product(scaled.as_ref(), scaled.transpose());
             if plant == 0 {
                 let trace = (0..rank).map(|i| square[(i, i)]).sum::<f64>();
                 unit = state.plants() as f64 * squared_norm(square.as_ref()) / trace;
@@ -116,7 +116,7 @@ impl Objective {
 /// # Errors
 /// [`FocusError::Decomposition`] if no combination meets them.
 fn level(states: Mat<f64>, levels: &Levels) -> Result<Mat<f64>, FocusError> {
-    let mut system = times(levels.readout.transpose(), states.as_ref());
+    let mut system = product(levels.readout.transpose(), states.as_ref());
     let count = system.nrows();
     let mean = (0..count).map(|k| system[(k, k)]).sum::<f64>() / count.max(1) as f64;
     if count > 1 {
@@ -130,5 +130,5 @@ fn level(states: Mat<f64>, levels: &Levels) -> Result<Mat<f64>, FocusError> {
 
 /// Reads a state: `Pᵀ y`, one number per level.
 pub(crate) fn read(readout: MatRef<'_, f64>, y: MatRef<'_, f64>) -> Vec<f64> {
-    times(readout.transpose(), y).col_as_slice(0).to_vec()
+    product(readout.transpose(), y).col_as_slice(0).to_vec()
 }

@@ -8,8 +8,8 @@
 //!
 //! In a matrix product, faer shares the entries of the result among threads, so that each is summed in one order whatever the number of
 //! threads. In products with a single row or column, and for eigenvalues and singular values, it splits sums among threads. Here these
-//! run on one thread; a caller that has many of them can run several at a time. The exceptions are [`times`], [`times_column`] and
-//! [`multiply`] with several threads, where faer splits large products with a single row or column.
+//! run on one thread; a caller that has many of them can run several at a time. The exception is [`multiply`] with several threads, where
+//! faer splits large products with a single row or column.
 //!
 //! ```
 //! use unripple_linalg::{Mat, mat, norm, product, symmetric};
@@ -36,7 +36,7 @@ pub use faer::{Accum, Col, ColMut, ColRef, Mat, MatMut, MatRef, Par, RowRef, Sca
 pub use lu::Lu;
 pub use number::{Entry, Number};
 pub use product::{
-    add_square, adjoint_times, multiply, norm, product, sparse_times, squared_norm, times, times_adjoint,
+    add_square, adjoint_times, multiply, norm, product, sparse_times, squared_norm, times_adjoint,
     times_column,
 };
 pub use singular::{Singular, singular};

@@ -31,31 +31,29 @@ pub fn multiply<T: Number>(
 /// If the number of columns of `left` is not that of rows of `right`.
 pub fn product<T: Number>(left: MatRef<'_, T>, right: MatRef<'_, T>) -> Mat<T> {
     let mut out = Mat::zeros(left.nrows(), right.ncols());
-    let par = if left.nrows().min(right.ncols()) > 1 { Par::rayon(0) } else { Par::Seq };
-    T::multiply(out.as_mut(), Accum::Replace, left, right, T::one_impl(), par);
+    T::multiply(
+        out.as_mut(),
+        Accum::Replace,
+        left,
+        right,
+        T::one_impl(),
+        shared(left.nrows(), right.ncols()),
+    );
     out
 }
 
-/// The product of two matrices, m x k and k x n, as m x n, shared among threads whatever the sizes, as with faer's operator `*`. It equals
-/// that of [`product`], except for a result with a single row or column from a matrix of 65 536 entries or more: its last bits
-/// depend on the number of threads.
-///
-/// # Panics
-/// If the number of columns of `left` is not that of rows of `right`.
-pub fn times<T: Number>(left: MatRef<'_, T>, right: MatRef<'_, T>) -> Mat<T> {
-    let mut out = Mat::zeros(left.nrows(), right.ncols());
-    T::multiply(out.as_mut(), Accum::Replace, left, right, T::one_impl(), faer::get_global_parallelism());
-    out
+/// Threads for a product with so many rows and columns: sums of a single row or column would be split among them.
+fn shared(rows: usize, columns: usize) -> Par {
+    if rows.min(columns) > 1 { Par::rayon(0) } else { Par::Seq }
 }
 
-/// The product of a matrix, m x k, and a column vector of length k, as a vector of length m, shared among threads as in [`times`].
+/// The product of a matrix, m x k, and a column vector of length k, as a vector of length m, on one thread.
 ///
 /// # Panics
 /// If the number of columns of `left` is not that of rows of `right`.
 pub fn times_column<T: Number>(left: MatRef<'_, T>, right: ColRef<'_, T>) -> Col<T> {
     let mut out = Col::zeros(left.nrows());
-    let (to, par) = (out.as_mut().as_mat_mut(), faer::get_global_parallelism());
-    T::multiply(to, Accum::Replace, left, right.as_mat(), T::one_impl(), par);
+    T::multiply(out.as_mut().as_mat_mut(), Accum::Replace, left, right.as_mat(), T::one_impl(), Par::Seq);
     out
 }
 
@@ -77,7 +75,7 @@ pub fn times_adjoint(left: MatRef<'_, c64>, right: MatRef<'_, c64>) -> Mat<c64> 
 
 fn conjugated(left: MatRef<'_, c64>, one: Conj, right: MatRef<'_, c64>, other: Conj) -> Mat<c64> {
     let mut out = Mat::zeros(left.nrows(), right.ncols());
-    let (unit, par) = (c64::new(1.0, 0.0), faer::get_global_parallelism());
+    let (unit, par) = (c64::new(1.0, 0.0), shared(left.nrows(), right.ncols()));
     matmul_with_conj(out.as_mut(), Accum::Replace, left, one, right, other, unit, par);
     out
 }

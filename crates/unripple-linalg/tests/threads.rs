@@ -6,7 +6,7 @@ use unripple_linalg::sparse::{
 use unripple_linalg::{
     Cholesky, CholeskyInPlace, Lu, Mat, MatMut, MatRef, Par, add_square, adjoint_times, c64, exact_symmetric,
     general, norm, product, singular, solve_lower, solve_lower_alone, solve_upper_alone, sparse_times,
-    squared_norm, symmetric, times, times_adjoint, times_column,
+    squared_norm, symmetric, times_adjoint, times_column,
 };
 
 /// Numbers between -0.5 and 0.5 that look random.
@@ -56,6 +56,15 @@ fn products_are_one() {
         let complex =
             [&left, &right].map(|m| Mat::from_fn(m.nrows(), m.ncols(), |i, j| c64::new(m[(i, j)], 0.5)));
         is_one("complex", || parts(product(complex[0].as_ref(), complex[1].as_ref()).as_ref()));
+        let [a, b] = &complex;
+        is_one("adjoint first", || {
+            parts(adjoint_times(a.adjoint().to_owned().as_ref(), b.as_ref()).as_ref())
+        });
+        is_one("adjoint last", || parts(times_adjoint(a.as_ref(), b.adjoint().to_owned().as_ref()).as_ref()));
+        is_one("a column", || {
+            let column = times_column(left.as_ref(), right.col(0));
+            column.iter().map(|x| x.to_bits()).collect()
+        });
     }
 }
 
@@ -140,7 +149,7 @@ fn products_are_right() {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let exact = |i: usize, j: usize| dot(a.col_as_slice(i), b.col_as_slice(j));
     let all = || (0..5).flat_map(|i| (0..5).map(move |j| (i, j)));
-    let within = times(a.transpose(), b.as_ref());
+    let within = product(a.transpose(), b.as_ref());
     assert!(all().all(|(i, j)| (within[(i, j)] - exact(i, j)).abs() < 1e-14));
     let column = times_column(a.transpose(), b.col(3));
     assert!((0..5).all(|i| (column[i] - exact(i, 3)).abs() < 1e-14));

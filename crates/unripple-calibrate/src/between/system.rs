@@ -2,7 +2,7 @@
 
 use super::medium::{SpectralLine, Waves};
 use unripple_core::Point;
-use unripple_linalg::{CholeskyInPlace, Mat, MatMut, MatRef, times};
+use unripple_linalg::{CholeskyInPlace, Mat, MatMut, MatRef, product};
 
 /// Distances between points, the lower triangle row by row, the diagonal left out.
 pub(crate) fn distances(points: &[Point]) -> Vec<f64> {
@@ -40,6 +40,6 @@ impl System {
     pub fn explained(&self, row: &[f64]) -> f64 {
         let mut column = Mat::from_fn(row.len(), 1, |i, _| row[i]);
         self.solve(column.as_mut());
-        times(MatRef::from_row_major_slice(row, 1, row.len()), column.as_ref())[(0, 0)]
+        product(MatRef::from_row_major_slice(row, 1, row.len()), column.as_ref())[(0, 0)]
     }
 }

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 use unripple_core::{ModalResponses, Outline, Point, require};
 use unripple_dsp::{Threshold, Weighting};
-use unripple_linalg::{Mat, times};
+use unripple_linalg::{Mat, product};
 
 /// Points per shortest wavelength, along each axis, at which the level is computed: half a wave apart. Twice as many
 /// take four times as long and find the loudest place a little better.
@@ -158,7 +158,7 @@ fn felt_most(responses: &ModalResponses, drive: &[Vec<f64>], threshold: &Thresho
     let shapes = responses.shapes.at_all(&points);
     let columns = rows.first().map_or(0, Vec::len);
     let motion = Mat::from_fn(rows.len(), columns, |m, i| rows[m][i]);
-    let field = times(shapes.as_ref(), motion.as_ref());
+    let field = product(shapes.as_ref(), motion.as_ref());
     let most = |p: usize| field.row(p).iter().fold(0.0, |most: f64, u| most.max(u.abs()));
     let all = points.iter().enumerate().map(|(p, at)| (most(p), *at));
     all.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, Point::new(0.0, 0.0)))

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use unripple_core::{Outline, Point, Shapes, Surface};
-use unripple_linalg::{Mat, MatRef, times};
+use unripple_linalg::{Mat, MatRef, product};
 use unripple_physics::{Entry, Footprint, Medium, Modes, Transducer, sensors, transducers};
 
 /// Half the distance of the central difference for slopes of mode shapes, in metres: relative error 2e-7 for a wave of 1000 rad/m.
@@ -127,5 +127,5 @@ fn slopes(modes: &Modes, points: &[(Point, f64)]) -> [Mat<f64>; 2] {
 /// Σ_p value · slope slopeᵀ, times a factor.
 fn gram(slopes: MatRef<'_, f64>, values: &[f64], factor: f64) -> Mat<f64> {
     let weighed = Mat::from_fn(slopes.nrows(), slopes.ncols(), |p, m| factor * values[p] * slopes[(p, m)]);
-    times(slopes.transpose(), weighed.as_ref())
+    product(slopes.transpose(), weighed.as_ref())
 }

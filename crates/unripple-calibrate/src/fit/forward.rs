@@ -6,7 +6,7 @@ use super::system::System;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 use unripple_core::Shapes;
-use unripple_linalg::{Accum, Lu, Mat, MatRef, Par, c64, multiply, times};
+use unripple_linalg::{Accum, Lu, Mat, MatRef, Par, c64, multiply, product};
 
 /// Frequencies that one task of the thread pool works on: enough for its set-up, few enough that no thread waits long
 /// for another at the end.
@@ -66,7 +66,7 @@ impl System {
     ) -> Vec<Look> {
         let count = self.sheet.squares.len();
         let shapes = basis.modes.at_all(candidates);
-        let shapes = times(self.sheet.turn.transpose(), shapes.subcols(0, count).transpose());
+        let shapes = product(self.sheet.turn.transpose(), shapes.subcols(0, count).transpose());
         let look = |s: &c64| {
             let point = self.point(*s);
             let own = |c: usize| {
@@ -145,8 +145,8 @@ impl System {
             (0..places).for_each(|q| system[(p, q)] += impedance * alone[(p, q)]);
         }
         let shared = Lu::new(system.as_ref()).inverse();
-        let moved = times(free.as_ref(), shared.as_ref());
-        Point { s, moved, admittance: times(alone.as_ref(), shared.as_ref()), shared }
+        let moved = product(free.as_ref(), shared.as_ref());
+        Point { s, moved, admittance: product(alone.as_ref(), shared.as_ref()), shared }
     }
 
     /// Derivatives of the admittance by each unknown that changes the stiffness, `[frequency][unknown]`.
@@ -164,17 +164,17 @@ impl System {
             }
         }
         let mut nominal = Mat::<f64>::zeros(modes, moved.ncols());
-        product(&mut nominal, self.sheet.turn.as_ref(), moved.as_ref());
+        multiply_alone(&mut nominal, self.sheet.turn.as_ref(), moved.as_ref());
         let mut forces = Mat::<f64>::zeros(modes, moved.ncols());
         let mut found = vec![Vec::new(); points.len()];
         for (stiffness, scale) in stiffnesses {
-            product(&mut forces, *stiffness, nominal.as_ref());
+            multiply_alone(&mut forces, *stiffness, nominal.as_ref());
             for (i, point) in points.iter().enumerate() {
                 let (re, im) = block(i);
                 let part = |m: &Mat<f64>, from: usize| m.subcols(from, places).to_owned();
                 let (a, b, f, g) =
                     (part(&nominal, re), part(&nominal, im), part(&forces, re), part(&forces, im));
-                let meet = |a: &Mat<f64>, b: &Mat<f64>| times(a.transpose(), b.as_ref());
+                let meet = |a: &Mat<f64>, b: &Mat<f64>| product(a.transpose(), b.as_ref());
                 let (real, imaginary) = (meet(&a, &f) - meet(&b, &g), meet(&a, &g) + meet(&b, &f));
                 let factor = -point.s.inv() * *scale;
                 found[i].push(Mat::from_fn(places, places, |p, q| {
@@ -249,6 +249,6 @@ fn transposed_real(a: &Mat<f64>, b: &Mat<c64>) -> Mat<c64> {
 }
 
 /// Matrix product on one thread, since frequencies already run in parallel.
-fn product(out: &mut Mat<f64>, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
+fn multiply_alone(out: &mut Mat<f64>, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
     multiply(out.as_mut(), Accum::Replace, a, b, 1.0, Par::Seq);
 }

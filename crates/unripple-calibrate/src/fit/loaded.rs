@@ -8,7 +8,7 @@ use crate::CalibrateError;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use unripple_core::{Point, Pole, Shapes};
-use unripple_linalg::{Cholesky, ColRef, Mat, solve_lower_alone, times};
+use unripple_linalg::{Cholesky, ColRef, Mat, product, solve_lower_alone};
 use unripple_physics::Modes;
 
 /// The modes of a fitted sheet with all its loads: masses, dampers and coils.
@@ -71,7 +71,7 @@ impl LoadedModes {
         });
         let weighed = |by: &[f64]| {
             let scaled = Mat::from_fn(all, loaded, |m, p| felt[(m, p)] * by[p]);
-            times(scaled.as_ref(), felt.transpose())
+            product(scaled.as_ref(), felt.transpose())
         };
         let mut mass = weighed(&values.masses.iter().map(|m| m.max(0.0)).collect::<Vec<_>>());
         (0..all).for_each(|m| mass[(m, m)] += 1.0);
@@ -86,15 +86,15 @@ impl LoadedModes {
         let mut inverse = Mat::<f64>::identity(all, all);
         solve_lower_alone(factor.lower(), inverse.as_mut());
         let scaled = Mat::from_fn(all, all, |i, m| inverse[(i, m)] * squares[m]);
-        let stiff = times(scaled.as_ref(), inverse.transpose());
+        let stiff = product(scaled.as_ref(), inverse.transpose());
         let (found, vectors) = eigen(&stiff)?;
-        let vectors = times(inverse.transpose(), vectors.as_ref());
+        let vectors = product(inverse.transpose(), vectors.as_ref());
         let low = found.partition_point(|square| square.max(0.0).sqrt() < TAU * band[0]);
         let high = found.partition_point(|square| square.max(0.0).sqrt() <= TAU * band[1] * (1.0 + 1e-9));
         let vectors = vectors.subcols(low, high.saturating_sub(low)).to_owned();
-        let mixing = times(system.sheet.turn.as_ref(), vectors.subrows(0, modes));
-        let bent = times(system.sheet.bending.as_ref(), mixing.as_ref());
-        let loads = times(felt.transpose(), vectors.as_ref());
+        let mixing = product(system.sheet.turn.as_ref(), vectors.subrows(0, modes));
+        let bent = product(system.sheet.bending.as_ref(), mixing.as_ref());
+        let loads = product(felt.transpose(), vectors.as_ref());
         let near_energy = system.rest.square * system.rest.bending_share;
         let (mut poles, mut bending_shares) = (Vec::new(), Vec::new());
         for (m, square) in found[low..high].iter().enumerate() {

@@ -4,7 +4,7 @@ use super::layout::Values;
 use super::residual::{Case, Residual};
 use crate::CalibrateError;
 use unripple_core::Point;
-use unripple_linalg::{Cholesky, Mat, times};
+use unripple_linalg::{Cholesky, Mat, product};
 
 /// Largest number of steps of a descent, and the change of the cost that ends it: `STEPS` and `SETTLED`, a share of the cost, for all
 /// descents but the last; `LAST_STEPS` and `LAST_CHANGE`, far less than the cost of one standard error, 1, for the last.
@@ -94,9 +94,9 @@ impl Case<'_> {
     /// J and r are slopes and values of the residual, κ is `excess`, z is `offsets`.
     pub fn normal(&self, residual: &Residual, offsets: &[f64], excess: f64) -> (Mat<f64>, Mat<f64>) {
         let weight = 1.0 / excess.powi(2);
-        let mut system = weight * times(residual.slopes.transpose(), residual.slopes.as_ref());
+        let mut system = weight * product(residual.slopes.transpose(), residual.slopes.as_ref());
         let values = Mat::from_fn(residual.values.len(), 1, |i, _| residual.values[i]);
-        let mut downhill = -weight * times(residual.slopes.transpose(), values.as_ref());
+        let mut downhill = -weight * product(residual.slopes.transpose(), values.as_ref());
         for (i, offset) in offsets.iter().enumerate() {
             system[(i, i)] += 1.0;
             downhill[(i, 0)] -= offset;
@@ -153,7 +153,7 @@ fn pulled_apart(residual: &Residual, way: usize, inverse: &Mat<f64>, excess: f64
             pulls[(u, row[way])] += residual.slopes[(i, u)] * value / excess.powi(2);
         });
     }
-    let moved = times(inverse.as_ref(), pulls.as_ref());
+    let moved = product(inverse.as_ref(), pulls.as_ref());
     (0..unknowns).map(|u| FEW * (0..groups).map(|b| moved[(u, b)].powi(2)).sum::<f64>()).collect()
 }
 

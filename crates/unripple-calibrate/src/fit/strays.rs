@@ -6,7 +6,7 @@ use super::residual::Case;
 use super::solve::{Found, solve};
 use crate::CalibrateError;
 use unripple_core::{Outline, Point};
-use unripple_linalg::{Mat, Scale, product, times};
+use unripple_linalg::{Mat, Scale, product};
 
 /// Masses that are tried at every place, in kg. A factor of three apart: the derivative from the nearest of them
 /// leads the rest of the way.
@@ -38,9 +38,9 @@ impl Case<'_> {
             for mass in TRIED {
                 let answers: Vec<Answer> = looks.iter().map(|look| look.with(mass)).collect();
                 let signatures = self.columns(&found.values, &answers, &vec![Unknown::Mass(0); batch.len()]);
-                let known = times(slopes.transpose(), signatures.as_ref()) * Scale(1.0 / excess.powi(2));
+                let known = product(slopes.transpose(), signatures.as_ref()) * Scale(1.0 / excess.powi(2));
                 let explained = product(slopes.as_ref(), solve(&normal, &known, 0.0)?.as_ref());
-                let along = times(signatures.transpose(), left.as_ref());
+                let along = product(signatures.transpose(), left.as_ref());
                 for (n, place) in batch.iter().enumerate() {
                     let column = signatures.col(n);
                     let own: f64 = column.iter().zip(explained.col(n).iter()).map(|(v, e)| v * (v - e)).sum();

@@ -6,7 +6,7 @@ use super::layout::{Layout, Values};
 use super::sheet::Sheet;
 use crate::CalibrateError;
 use unripple_core::Point;
-use unripple_linalg::{Mat, Scale, times};
+use unripple_linalg::{Mat, Scale, product};
 use unripple_physics::{Footprint, Medium};
 
 /// Half the distance over which slopes of shapes are taken, in metres.
@@ -65,7 +65,7 @@ impl System {
         let sheet = Sheet::new(basis, values, count, top)?;
         let read = |footprints: &[Footprint]| {
             let all = Footprint::all_weights(footprints, basis.modes.as_ref());
-            times(sheet.turn.transpose(), all.subcols(0, count).transpose())
+            product(sheet.turn.transpose(), all.subcols(0, count).transpose())
         };
         let touching = |d: Point| -> Vec<Footprint> {
             let places = values.places.iter().enumerate();

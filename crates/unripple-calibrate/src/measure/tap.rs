@@ -2,7 +2,7 @@
 
 use crate::CalibrateError;
 use crate::signals::{Band, Deconvolver, Inversion, Stimulus};
-use unripple_linalg::{Cholesky, Mat, product, squared_norm, times};
+use unripple_linalg::{Cholesky, Mat, product, squared_norm};
 
 /// Assumptions about taps before they are recorded: length, and how far the model is trusted.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -141,7 +141,7 @@ fn force(
                 .for_each(|k| design[(a * early + i, k)] = moved[i - k * step]);
         }
     }
-    let mut normal = times(design.transpose(), design.as_ref());
+    let mut normal = product(design.transpose(), design.as_ref());
     let ridge = 1e-4 * (0..knots).map(|k| normal[(k, k)]).sum::<f64>() / knots as f64;
     (0..knots).for_each(|k| normal[(k, k)] += ridge);
     let unsolvable = || CalibrateError::Recording {

@@ -1,7 +1,7 @@
 //! A model's responses at any place, compared with measured ones frequency by frequency.
 
 use unripple_core::{ModalResponses, Point, Pole};
-use unripple_linalg::{Mat, c64, product, times};
+use unripple_linalg::{Mat, c64, product};
 
 /// Responses of a model between its actuators and any place, ready to be compared with those measured there.
 ///
@@ -52,8 +52,8 @@ impl<'a> Checker<'a> {
                 (both[(m, 2 * n)], both[(m, 2 * n + 1)]) = (mobilities[(m, n)].re, mobilities[(m, n)].im);
             }
         }
-        let mut gram = times(both.as_ref(), both.transpose());
-        let driven = times(model.input.transpose(), model.input.as_ref());
+        let mut gram = product(both.as_ref(), both.transpose());
+        let driven = product(model.input.transpose(), model.input.as_ref());
         for m in 0..modes {
             for n in 0..modes {
                 gram[(m, n)] *= driven[(m, n)];
@@ -92,7 +92,7 @@ impl<'a> Checker<'a> {
 
     /// Power of the model at each of some places, from their shapes (places x modes).
     pub fn powers(&self, shapes: &Mat<f64>) -> Vec<f64> {
-        let all = times(shapes.as_ref(), self.gram.as_ref());
+        let all = product(shapes.as_ref(), self.gram.as_ref());
         (0..shapes.nrows()).map(|p| (0..shapes.ncols()).map(|m| all[(p, m)] * shapes[(p, m)]).sum()).collect()
     }
 

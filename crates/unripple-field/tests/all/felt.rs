@@ -1,7 +1,7 @@
 //! What is felt, against closed forms and the sums that define it.
 
 use crate::common;
-use unripple_linalg::{Mat, times};
+use unripple_linalg::{Mat, product};
 
 use common::{Film, displacement, drive, reversed};
 use proptest::prelude::*;
@@ -255,7 +255,7 @@ fn library(modal: &ModalResponses, points: Vec<Point>, samples: usize) -> Respon
     for p in 0..points.len() {
         let rows =
             Mat::from_fn(modal.ports.len(), modal.poles.len(), |a, m| weights[(p, m)] * modal.input[(a, m)]);
-        let rows = times(rows.as_ref(), ringing.as_ref());
+        let rows = product(rows.as_ref(), ringing.as_ref());
         (0..rows.nrows()).for_each(|a| data.extend((0..samples).map(|i| rows[(a, i)] as f32)));
     }
     Responses::Sampled(

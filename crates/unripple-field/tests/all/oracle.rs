@@ -1,7 +1,7 @@
 //! Fields and figures against closed forms, the defining sums, and another kind of responses.
 
 use crate::common;
-use unripple_linalg::{Mat, times};
+use unripple_linalg::{Mat, product};
 
 use common::{Film, displacement, drive, reversed, velocity};
 use std::f64::consts::PI;
@@ -43,7 +43,7 @@ fn library(modal: &ModalResponses, points: Vec<Point>, samples: usize) -> Respon
     let rows = Mat::from_fn(points.len() * ports, ringing.nrows(), |row, m| {
         weights[(row / ports, m)] * modal.input[(row % ports, m)]
     });
-    let rows = times(rows.as_ref(), ringing.as_ref());
+    let rows = product(rows.as_ref(), ringing.as_ref());
     let data = (0..rows.nrows() * samples).map(|i| rows[(i / samples, i % samples)] as f32).collect();
     Responses::Sampled(
         SampledResponses::new(modal.ports.clone(), points, modal.conditions.clone(), samples, data).unwrap(),

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use unripple_core::{
     Conditions, Drive, ModalResponses, Outline, Point, Pole, Port, Responses, Shape, Shapes,
 };
-use unripple_linalg::{Mat, times};
+use unripple_linalg::{Mat, product};
 
 /// Sine products on a rectangle, mass-normalised.
 #[derive(Clone, Debug)]
@@ -146,7 +146,7 @@ pub fn reversed(modal: &ModalResponses, at: Point, n: usize) -> Drive {
     let ringing = Mat::from_fn(row.len(), n + 1, |m, i| {
         modal.poles[m].velocity((n - i) as f64 / modal.conditions.rate)
     });
-    let all = times(weights.as_ref(), ringing.as_ref());
+    let all = product(weights.as_ref(), ringing.as_ref());
     drive(modal, (0..modal.ports.len()).map(|a| (0..=n).map(|i| all[(a, i)]).collect()).collect())
 }
 

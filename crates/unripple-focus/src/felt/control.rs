@@ -2,7 +2,7 @@
 
 use super::reduced::Reduced;
 use unripple_core::{Outline, Point};
-use unripple_linalg::{Mat, Scale, times};
+use unripple_linalg::{Mat, Scale, product};
 
 /// Points whose shape weights are computed at once. Doubled, twice the memory for them; results stay the
 /// same.
@@ -79,7 +79,7 @@ impl Control {
         let mut products = Mat::zeros(heard.count(), heard.count());
         for (chunk, some) in points.chunks(AT_ONCE).enumerate() {
             let read = heard.at_all(some);
-            products += times(read.transpose(), read.as_ref());
+            products += product(read.transpose(), read.as_ref());
             let read = watched.at_all(some);
             for p in 0..some.len() {
                 (0..watched.count()).for_each(|m| shapes[(m, chunk * AT_ONCE + p)] = read[(p, m)] as f32);

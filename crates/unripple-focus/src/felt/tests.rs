@@ -8,7 +8,7 @@ use crate::Target;
 use common::Membrane;
 use unripple_core::{Drive, ModalResponses, Point, Responses};
 use unripple_dsp::Weighting;
-use unripple_linalg::{Lu, Mat, times};
+use unripple_linalg::{Lu, Mat, product};
 
 /// Weighed displacement at a point, at every sample of the drive and twice as long again.
 pub fn felt(modal: &ModalResponses, drive: &Drive, at: Point, options: &FeltOptions) -> Vec<f64> {
@@ -84,7 +84,7 @@ impl Sums {
                 let felt = weighting.weigh(&whole[..length]);
                 motion.col_as_slice_mut(k).copy_from_slice(&felt[..length]);
             }
-            let squares = times(motion.transpose(), motion.as_ref());
+            let squares = product(motion.transpose(), motion.as_ref());
             for i in 0..size {
                 let weight = |i: usize| modal.input[(i / count, m)];
                 level[i] += row[m] * weight(i) * motion[(before + plan.focal, i % count)];

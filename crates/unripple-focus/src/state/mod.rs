@@ -11,7 +11,7 @@ pub(crate) use sampled::SampledPlant;
 use crate::FocusError;
 use std::borrow::Cow;
 use unripple_core::{Point, require};
-use unripple_linalg::{Mat, MatRef, product, symmetric, times};
+use unripple_linalg::{Mat, MatRef, product, symmetric};
 
 /// Directions of the drive that move the surface less than this share of the strongest are left alone, in
 /// energy: rounding of the Gram matrix. Larger, weak directions that can be driven would be lost.
@@ -45,7 +45,7 @@ impl Plant<'_> {
     fn gram(&self, other: &Self) -> Mat<f64> {
         match (self, other) {
             (Self::Modal(one), Self::Modal(other)) => one.gram(other),
-            (one, other) => times(one.map().transpose(), other.map().as_ref().as_ref()),
+            (one, other) => product(one.map().transpose(), other.map().as_ref().as_ref()),
         }
     }
 
@@ -180,7 +180,7 @@ impl<'r> State<'r> {
 
     fn whiten(&self, plant: usize, weights: MatRef<'_, f64>) -> Mat<f64> {
         let first: usize = self.plants[..plant].iter().map(Plant::coordinates).sum();
-        times(self.white.as_ref().subcols(first, weights.nrows()), weights)
+        product(self.white.as_ref().subcols(first, weights.nrows()), weights)
     }
 
     /// The drive `Wᵀ y`, a row of samples per channel, one behind the other.

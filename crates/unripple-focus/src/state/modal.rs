@@ -3,7 +3,7 @@
 use crate::FocusError;
 use unripple_core::{ModalResponses, Point, Pole};
 use unripple_dsp::ModalSynth;
-use unripple_linalg::{Accum, Mat, Par, multiply, times};
+use unripple_linalg::{Accum, Mat, Par, multiply, product};
 
 /// Cells per shortest wavelength along each side, where velocity is kept low. Doubled, there are four times
 /// the cells, and their mean stays the same.
@@ -66,8 +66,8 @@ impl<'r> ModalPlant<'r> {
 
     /// `(BᵀB') ∘ (VᵀV')` with B the input weights and V the tables.
     pub fn gram(&self, other: &Self) -> Mat<f64> {
-        let inputs = times(self.responses.input.transpose(), other.responses.input.as_ref());
-        let tables = times(self.table.transpose(), other.table.as_ref());
+        let inputs = product(self.responses.input.transpose(), other.responses.input.as_ref());
+        let tables = product(self.table.transpose(), other.table.as_ref());
         Mat::from_fn(self.modes(), other.modes(), |i, j| inputs[(i, j)] * tables[(i, j)])
     }
 

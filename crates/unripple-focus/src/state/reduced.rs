@@ -3,7 +3,7 @@
 use super::modal::{lattice, ringing, steady};
 use crate::FocusError;
 use unripple_core::{ModalResponses, Point};
-use unripple_linalg::{Accum, Mat, MatRef, Par, multiply, product, symmetric, times};
+use unripple_linalg::{Accum, Mat, MatRef, Par, multiply, product, symmetric};
 
 /// Combinations of shapes with less than this share of the energy of the strongest, over the surface, count as none.
 /// Larger, independent shapes would be lost; smaller, rounding would count as a shape.
@@ -35,7 +35,7 @@ impl<'r> ReducedPlant<'r> {
         again: bool,
     ) -> Result<Self, FocusError> {
         let shapes = responses.shapes.at_all(&lattice(responses));
-        let gram = times(shapes.transpose(), shapes.as_ref());
+        let gram = product(shapes.transpose(), shapes.as_ref());
         let (values, vectors) = symmetric(gram.as_ref()).ok_or(FocusError::Decomposition)?;
         let count = values.len();
         let most = values[count - 1];

@@ -164,7 +164,7 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
     use unripple_dsp::Convolver;
-    use unripple_linalg::{Lu, Mat, times};
+    use unripple_linalg::{Lu, Mat, product};
 
     /// A system of arbitrary transfer functions.
     fn system(rows: usize, ports: usize) -> (Transfer, Plan, Lines) {
@@ -196,9 +196,9 @@ mod tests {
             part(i, transfer.values[i / 2 * transfer.ports + port] * turn)
         });
         let right = Mat::from_fn(2 * equations, 1, |i, _| part(i, asked[i / 2]));
-        let mut normal = times(matrix.transpose(), matrix.as_ref());
+        let mut normal = product(matrix.transpose(), matrix.as_ref());
         (0..normal.nrows()).for_each(|j| normal[(j, j)] += ridge / plan.taper[j % support]);
-        let mut found = times(matrix.transpose(), right.as_ref());
+        let mut found = product(matrix.transpose(), right.as_ref());
         Lu::new(normal.as_ref()).solve(found.as_mut());
         found
     }

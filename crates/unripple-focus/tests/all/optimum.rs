@@ -1,7 +1,7 @@
 //! Every method's drive against the same problem written out sample by sample and solved at once.
 
 use crate::common;
-use unripple_linalg::{Lu, Mat, MatRef, Scale, times};
+use unripple_linalg::{Lu, Mat, MatRef, Scale, product};
 
 use common::Membrane;
 use unripple_core::{Drive, ModalResponses, Point, Pole};
@@ -38,17 +38,17 @@ fn weights(modal: &ModalResponses, at: Point) -> Mat<f64> {
 
 /// A B.
 fn by(a: &Mat<f64>, b: &Mat<f64>) -> Mat<f64> {
-    times(a.as_ref(), b.as_ref())
+    product(a.as_ref(), b.as_ref())
 }
 
 /// Aᵀ B.
 fn within(a: &Mat<f64>, b: &Mat<f64>) -> Mat<f64> {
-    times(a.transpose(), b.as_ref())
+    product(a.transpose(), b.as_ref())
 }
 
 /// `tr K² / tr K` with K the mean of x xᵀ over all cells, x the response of a cell to every sample.
 fn unit(modal: &ModalResponses, map: &Mat<f64>) -> f64 {
-    let cost = by(&cells(modal, &[]), &times(map.as_ref(), map.transpose()));
+    let cost = by(&cells(modal, &[]), &product(map.as_ref(), map.transpose()));
     let trace = |m: &Mat<f64>| (0..m.nrows()).map(|i| m[(i, i)]).sum::<f64>();
     trace(&by(&cost, &cost)) / trace(&cost)
 }

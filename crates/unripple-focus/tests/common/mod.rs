@@ -7,7 +7,7 @@ use std::sync::Arc;
 use unripple_core::{
     Conditions, Drive, ModalResponses, Outline, Point, Pole, Port, Responses, Shape, Shapes,
 };
-use unripple_linalg::{Mat, times};
+use unripple_linalg::{Mat, product};
 
 /// Sine products on a rectangle, mass-normalised.
 #[derive(Clone, Debug)]
@@ -103,7 +103,7 @@ pub fn responses_at(modal: &ModalResponses, at: Point, samples: usize) -> Vec<Ve
     let weights = Mat::from_fn(modal.ports.len(), row.len(), |a, m| modal.input[(a, m)] * row[m]);
     let ringing =
         Mat::from_fn(row.len(), samples, |m, i| modal.poles[m].velocity(i as f64 / modal.conditions.rate));
-    let all = times(weights.as_ref(), ringing.as_ref());
+    let all = product(weights.as_ref(), ringing.as_ref());
     (0..modal.ports.len()).map(|a| (0..samples).map(|i| all[(a, i)]).collect()).collect()
 }
 

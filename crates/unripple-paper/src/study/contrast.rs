@@ -3,7 +3,7 @@
 use super::{Bench, Draw, Random, Replay, Sampling, StudyError};
 use rayon::prelude::*;
 use unripple_core::{Point, Surface};
-use unripple_linalg::{Mat, MatRef, times};
+use unripple_linalg::{Mat, MatRef, product};
 use unripple_physics::design::{Cavity, closed};
 
 /// A simulated contrast, with the predictions of the closed forms.
@@ -145,7 +145,7 @@ fn noise_state(
     random: &mut Random,
 ) -> Vec<f64> {
     let noise = Mat::from_fn(rings.nrows(), inputs.nrows(), |_, _| random.normal());
-    let left = times(rings.transpose(), noise.as_ref());
+    let left = product(rings.transpose(), noise.as_ref());
     let rate = bench.conditions().rate;
     (0..rings.ncols())
         .map(|m| (0..inputs.nrows()).map(|a| inputs[(a, m)] * left[(m, a)]).sum::<f64>() / rate)

@@ -4,7 +4,7 @@ use super::contrast::{mean, over};
 use super::{Bench, Sampling};
 use std::f64::consts::TAU;
 use unripple_core::{Point, Surface, window_samples};
-use unripple_linalg::{ColRef, Mat, MatRef, times, times_column};
+use unripple_linalg::{ColRef, Mat, MatRef, product, times_column};
 use unripple_physics::design::{Cavity, closed};
 
 /// Directions in which a spot is measured, 22.5 degrees apart; their mean changes little with more.
@@ -89,7 +89,7 @@ fn pulse(
     lag: usize,
 ) -> f64 {
     let weights = Mat::from_fn(rings.ncols(), inputs.nrows(), |m, a| inputs[(a, m)] * target[(0, m)]);
-    let responses = times(rings, weights.as_ref());
+    let responses = product(rings, weights.as_ref());
     let last = responses.nrows() - 1 - lag;
     let sum = |range: std::ops::RangeInclusive<usize>, s: usize| -> f64 {
         let product =

@@ -3,7 +3,7 @@
 
 use super::basis::Shape;
 use super::span::Span;
-use unripple_linalg::{Mat, MatRef, times};
+use unripple_linalg::{Mat, MatRef, product};
 
 /// Number of times that the loads' combinations of high modes are divided by their squared frequencies: each adds a
 /// fourth power of (ω/ω_m) to the order. Doubled, twice as many coordinates are kept.
@@ -52,7 +52,7 @@ impl Active {
                 damping[(low.len() + i, low.len() + j)] = sum(|s| 2.0 * s.pole.sigma);
             }
         }
-        let felt = times(felt, map.as_ref());
+        let felt = product(felt, map.as_ref());
         Self { map, stiffness, damping, felt }
     }
 }

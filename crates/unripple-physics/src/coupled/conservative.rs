@@ -2,7 +2,7 @@
 
 use super::active::Active;
 use crate::{Load, PhysicsError};
-use unripple_linalg::{Mat, singular, times};
+use unripple_linalg::{Mat, product, singular};
 
 /// Frequency given to rigid-body motion, as a share of the highest frequency, so that displacement follows from the state: far
 /// below anything that is heard or felt. Doubled, rigid bodies oscillate at twice that frequency.
@@ -33,18 +33,18 @@ impl Conservative {
         let unweighted = lightened(active, loads).ok_or_else(failed)?;
         let springs = weighted(&active.felt, loads, |load| load.stiffness);
         let whole = &active.stiffness + springs;
-        let half = times(unweighted.as_ref(), whole.as_ref());
-        let stiffness = times(half.as_ref(), unweighted.as_ref());
+        let half = product(unweighted.as_ref(), whole.as_ref());
+        let stiffness = product(half.as_ref(), unweighted.as_ref());
         let (squares, vectors) = unripple_linalg::exact_symmetric(stiffness.as_ref()).ok_or_else(failed)?;
         let top = squares.last().map_or(0.0, |square| square.max(0.0).sqrt());
-        let shapes = times(unweighted.as_ref(), vectors.as_ref());
+        let shapes = product(unweighted.as_ref(), vectors.as_ref());
         let dampers = weighted(&active.felt, loads, |load| load.damping + load.direct_coil_damping());
         let whole = &active.damping + dampers;
-        let half = times(shapes.transpose(), whole.as_ref());
-        let damping = times(half.as_ref(), shapes.as_ref());
+        let half = product(shapes.transpose(), whole.as_ref());
+        let damping = product(half.as_ref(), shapes.as_ref());
         Ok(Self {
             omegas: squares.iter().map(|square| square.max(0.0).sqrt().max(RIGID * top)).collect(),
-            felt: times(active.felt.as_ref(), shapes.as_ref()),
+            felt: product(active.felt.as_ref(), shapes.as_ref()),
             shapes,
             damping,
         })
@@ -65,12 +65,12 @@ fn lightened(active: &Active, loads: &[Load]) -> Option<Mat<f64>> {
     let factors: Vec<f64> = svd.values.iter().map(|s| 1.0 / (1.0 + s * s).sqrt() - 1.0).collect();
     let directions = &svd.left;
     let scaled = Mat::from_fn(count, factors.len(), |i, j| directions[(i, j)] * factors[j]);
-    root += times(scaled.as_ref(), directions.transpose());
+    root += product(scaled.as_ref(), directions.transpose());
     Some(root)
 }
 
 /// Σ value·w wᵀ over the loads.
 fn weighted(felt: &Mat<f64>, loads: &[Load], value: impl Fn(&Load) -> f64) -> Mat<f64> {
     let scaled = Mat::from_fn(felt.nrows(), felt.ncols(), |j, i| felt[(j, i)] * value(&loads[j]));
-    times(felt.transpose(), scaled.as_ref())
+    product(felt.transpose(), scaled.as_ref())
 }

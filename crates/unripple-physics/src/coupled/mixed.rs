@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 use unripple_core::{Point, Shapes};
-use unripple_linalg::{Mat, times};
+use unripple_linalg::{Mat, product};
 
 /// Mode shapes that are linear combinations of other shapes.
 #[derive(Debug)]
@@ -30,7 +30,7 @@ impl Shapes for Mixed {
     }
 
     fn at_all(&self, points: &[Point]) -> Mat<f64> {
-        let mixed = times(self.base.at_all(points).as_ref(), self.mixing.as_ref());
+        let mixed = product(self.base.at_all(points).as_ref(), self.mixing.as_ref());
         Mat::from_fn(points.len(), self.columns.len(), |p, m| mixed[(p, self.columns[m])])
     }
 }

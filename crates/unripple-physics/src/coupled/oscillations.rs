@@ -10,7 +10,7 @@ use crate::PhysicsError;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use unripple_core::{Pole, Shapes};
-use unripple_linalg::{Mat, c64, times};
+use unripple_linalg::{Mat, c64, product};
 
 /// A part of an oscillation below this share of its largest part is rounding and is left out. Larger, weak parts that matter
 /// at nodes of the others would be lost.
@@ -81,14 +81,14 @@ impl Loaded {
                 }
             }
         }
-        let basis = times(active.map.as_ref(), modes.shapes.as_ref());
+        let basis = product(active.map.as_ref(), modes.shapes.as_ref());
         Ok(parts.whole(self, kept, &basis))
     }
 
     /// How each transducer's drive acts: as forces on the modes, or as the voltage on its coil.
     fn drives(&self, active: &Active, modes: &Conservative) -> Drives {
-        let basis = times(active.map.as_ref(), modes.shapes.as_ref());
-        let mut forces = times(self.driven.as_ref(), basis.as_ref());
+        let basis = product(active.map.as_ref(), modes.shapes.as_ref());
+        let mut forces = product(self.driven.as_ref(), basis.as_ref());
         let coils: Vec<Option<usize>> = (0..self.transducers.len()).map(|t| self.driven_coil(t)).collect();
         for (drive, load) in coils.iter().enumerate() {
             let Some(load) = *load else { continue };

@@ -4,7 +4,7 @@ use super::remainder::{Profile, Remainder};
 use crate::{Footprint, Load, Medium};
 use std::sync::Arc;
 use unripple_core::{Point, Pole, Shapes};
-use unripple_linalg::{Mat, symmetric, times};
+use unripple_linalg::{Mat, product, symmetric};
 
 /// A combination of deflections whose inertia is less than this share of the largest is linearly dependent on the others.
 /// Larger, contacts that lie close to each other would count as one.
@@ -112,11 +112,11 @@ fn pencil(stiffness: &Mat<f64>, mass: &Mat<f64>) -> Option<(Vec<f64>, Mat<f64>)>
     let kept: Vec<usize> = (0..values.len()).filter(|i| values[*i] > ALIKE * most).collect();
     let normal =
         Mat::from_fn(mass.nrows(), kept.len(), |j, i| vectors[(j, kept[i])] / values[kept[i]].sqrt());
-    let half = times(normal.transpose(), stiffness.as_ref());
-    let reduced = times(half.as_ref(), normal.as_ref());
+    let half = product(normal.transpose(), stiffness.as_ref());
+    let reduced = product(half.as_ref(), normal.as_ref());
     let (squares, modes) = symmetric(reduced.as_ref())?;
     squares
         .iter()
         .all(|square| *square > 0.0 && square.is_finite())
-        .then(|| (squares, times(normal.as_ref(), modes.as_ref())))
+        .then(|| (squares, product(normal.as_ref(), modes.as_ref())))
 }

@@ -2,7 +2,7 @@
 
 use crate::core::{ModalResponses, Pole};
 use rayon::prelude::*;
-use unripple_linalg::{Mat, times};
+use unripple_linalg::{Mat, product};
 
 /// A two by two matrix, by rows.
 type Square = [[f64; 2]; 2];
@@ -12,7 +12,7 @@ type Square = [[f64; 2]; 2];
 pub(super) fn map(modal: &ModalResponses, samples: usize) -> Mat<f64> {
     let (poles, rate) = (&modal.poles, modal.conditions.rate);
     let sums = Sums::plan(poles, rate, samples);
-    let inputs = times(modal.input.transpose(), modal.input.as_ref());
+    let inputs = product(modal.input.transpose(), modal.input.as_ref());
     let modes = poles.len();
     let rows: Vec<Vec<f64>> = (0..modes)
         .into_par_iter()

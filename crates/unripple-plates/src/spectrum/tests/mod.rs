@@ -6,7 +6,7 @@ mod random;
 
 use super::{Pairs, below, count_below};
 use unripple_linalg::sparse::{SparseColMat, Triplet};
-use unripple_linalg::{sparse_times, times};
+use unripple_linalg::{product, sparse_times};
 
 type Sparse = SparseColMat<usize, f64>;
 
@@ -101,7 +101,7 @@ fn check(stiffness: &Sparse, mass: &Sparse, top: f64, expected: &[f64], toleranc
 /// Largest entry of XᵀMX - 1.
 fn disorder(mass: &Sparse, pairs: &Pairs) -> f64 {
     let weighed = sparse_times(mass.as_ref(), pairs.vectors.as_ref());
-    let gram = times(pairs.vectors.transpose(), weighed.as_ref());
+    let gram = product(pairs.vectors.transpose(), weighed.as_ref());
     let mut worst = 0.0_f64;
     for i in 0..gram.nrows() {
         for j in 0..gram.ncols() {
