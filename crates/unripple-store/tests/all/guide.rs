@@ -11,7 +11,7 @@ const GUIDE: &str = include_str!("../../../../docs/surface-file.md");
 #[test]
 fn examples_load() {
     let examples = blocks(GUIDE, "```toml");
-    assert_eq!(examples.len(), 4);
+    assert_eq!(examples.len(), 5);
     for example in examples {
         if let Err(faults) = parse_surface(&example, "guide.toml") {
             panic!("{faults:#}");
@@ -79,7 +79,7 @@ fn ranges_are_those_of_the_reader() {
 /// Unknown keys are answered with the list of known ones: the guide has exactly those.
 #[test]
 fn keys_are_those_of_the_reader() {
-    let whole = blocks(GUIDE, "```toml").remove(1);
+    let whole = blocks(GUIDE, "```toml").remove(2);
     for (table, single) in [
         ("outline", true),
         ("hole", false),

@@ -45,7 +45,7 @@ fn bands_are_kept_point_by_point_and_told_from_none() {
     let mut library = filled(&folder.0, &plan);
     assert!(library.bands().is_none() && library.band_quality(5).unwrap().is_none());
     let error = put(&mut library, 5, &bands(&plan, 5)).unwrap_err();
-    assert!(error.to_string().contains("no bands"), "{error}");
+    assert!(error.to_string().contains("no quality by bands"), "{error}");
 
     library.hold_bands(&MIDDLES).unwrap();
     for point in [1, 63, 64, 139] {

@@ -45,7 +45,7 @@ fn grains() {
     // E1 + E2 + 2 ν12 E2 nearly vanishes.
     let odd = sheet("young_gpa = 1999.0\nyoung_across_gpa = 1999\npoisson_ratio = -0.9999");
     assert!(
-        odd.starts_with("sheet.shear_gpa: expected a number from 0.000001 to 2000 GPa: what the"),
+        odd.starts_with("sheet.shear_gpa: expected a number from 0.000001 to 2000 GPa: the default from"),
         "{odd}"
     );
 }
