@@ -1,4 +1,4 @@
-//! `unripple calibrate`: responses measured through a device, point by point, into a library.
+//! `unripple calibrate`: measures responses through a device, point by point, into a library.
 
 use crate::args::{CalibrateOptions, WayName};
 use crate::common::Common;
@@ -9,12 +9,14 @@ use crate::targets::{places, positive, seconds};
 use std::io::{BufRead, Write};
 use unripple_tasks::calibrate::{self, Ask, By, Hands, InputScales};
 
-/// Measures responses, asking somebody to move the probe where the device is real.
+/// Measures responses; on a real device the user is asked to move the probe or to tap.
 pub fn run(options: &CalibrateOptions, common: &Common) -> Result<(), CliError> {
+    let ask = ask(common, options)?;
+    let record = output::record(common.json, &ask)?;
     let mut terminal = Terminal::default();
-    let done = calibrate::run_with(&ask(common, options)?, by_hand(terminal.bar()), &mut terminal);
+    let done = calibrate::run_with(&ask, by_hand(terminal.bar()), &mut terminal);
     drop(terminal);
-    output::report(common.json, &done?)
+    output::recorded(&done?, record.as_ref())
 }
 
 fn ask(common: &Common, options: &CalibrateOptions) -> Result<Ask, CliError> {
@@ -48,7 +50,7 @@ fn ask(common: &Common, options: &CalibrateOptions) -> Result<Ask, CliError> {
     })
 }
 
-/// A channel by another name: `a1=system:playback_3`.
+/// Parses a channel that has another name than its actuator, sensor or probe: `a1=system:playback_3`.
 fn wire(text: &str) -> Result<(String, String), CliError> {
     match text.split_once('=') {
         Some((name, channel)) if !name.is_empty() && !channel.is_empty() => {
@@ -58,7 +60,7 @@ fn wire(text: &str) -> Result<(String, String), CliError> {
     }
 }
 
-/// Scales of inputs: `probe=0.5`, or without a name that of all.
+/// Parses the scales of inputs: `probe=0.5`, or without a name the scale of all inputs.
 fn scales(typed: &[String]) -> Result<InputScales, CliError> {
     let mut scales = InputScales::default();
     for text in typed {

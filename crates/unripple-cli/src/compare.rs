@@ -1,4 +1,4 @@
-//! `unripple compare`: every method on the same targets.
+//! `unripple compare`: compares all focusing methods on the same targets.
 
 use crate::args::CompareOptions;
 use crate::common::Common;
@@ -16,6 +16,9 @@ pub fn run(options: &CompareOptions, common: &Common) -> Result<(), CliError> {
         level: targets::level(&options.targets)?,
         window_s: seconds(options.window_ms, "--window-ms")?,
         judge_hz: options.judge_hz,
+        // They take most of the time, and no table shows them.
+        no_tradeoffs: !(common.json || options.output.is_some()),
+        no_figures: options.no_figures,
         output: options.output.clone(),
     };
     output::perform(common.json, &ask, compare::run)

@@ -1,4 +1,4 @@
-//! `unripple field`: what any drive does to a surface.
+//! `unripple field`: evaluates the motion of a surface under any drive.
 
 use crate::args::FieldOptions;
 use crate::common::Common;
@@ -18,6 +18,7 @@ pub fn run(options: &FieldOptions, common: &Common) -> Result<(), CliError> {
         period_s: seconds(options.period_ms, "--period-ms")?,
         judge_hz: options.judge_hz,
         output: options.output.clone(),
+        no_figures: options.no_figures,
         movie_s: options.movie_ms.as_deref().map(movie).transpose()?,
         frames: options.frames,
         between: options.between.interpolation(),

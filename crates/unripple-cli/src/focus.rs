@@ -1,4 +1,4 @@
-//! `unripple focus`: a drive, its report and its figures.
+//! `unripple focus`: computes a drive, with its report and figures.
 
 use crate::args::{FocusOptions, LossName};
 use crate::common::Common;
@@ -8,7 +8,7 @@ use crate::{output, waveforms};
 use unripple_tasks::focus::{self, Losses};
 use unripple_tasks::{stroke, waveform};
 
-/// Makes a drive that focuses, or one for waveforms or a stroke, as the options say.
+/// Computes a drive that focuses, or one for waveforms or a stroke, as the options say.
 pub fn run(options: &FocusOptions, common: &Common) -> Result<(), CliError> {
     waveforms::check(options)?;
     let targets = &options.targets;
@@ -57,6 +57,7 @@ fn ask(common: &Common, options: &FocusOptions) -> Result<focus::Ask, CliError> 
         on: options.on.as_ref().map(Into::into),
         judge_hz: options.judge_hz,
         output: Some(options.output.clone()),
+        no_figures: options.no_figures,
     })
 }
 
@@ -69,6 +70,7 @@ fn waveform_ask(common: &Common, options: &FocusOptions) -> Result<waveform::Ask
         on: options.on.as_ref().map(Into::into),
         judge_hz: options.judge_hz,
         output: Some(options.output.clone()),
+        no_figures: options.no_figures,
     })
 }
 
@@ -83,5 +85,6 @@ fn stroke_ask(common: &Common, options: &FocusOptions, path: &str) -> Result<str
         on: options.on.as_ref().map(Into::into),
         judge_hz: options.judge_hz,
         output: Some(options.output.clone()),
+        no_figures: options.no_figures,
     })
 }

@@ -23,12 +23,14 @@ mod field;
 mod fit;
 mod focus;
 mod interrupt;
+mod lines;
 mod modes;
 mod options;
 mod output;
 mod play;
 mod progress;
 mod reproduce;
+mod rerun;
 mod respond;
 mod shell;
 mod targets;
@@ -39,10 +41,17 @@ use args::{Arguments, Command};
 use clap::Parser;
 use common::Common;
 use error::CliError;
+use lines::Talk;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    unripple_tasks::record::built_from(env!("UNRIPPLE_COMMIT"));
     let arguments = Arguments::parse();
+    lines::settle(match (arguments.verbose, arguments.quiet) {
+        (true, _) => Talk::Verbose,
+        (_, true) => Talk::Quiet,
+        _ => Talk::Usual,
+    });
     match interrupt::watch().and_then(|()| run(&arguments)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => error.report(),
@@ -68,6 +77,7 @@ fn run(arguments: &Arguments) -> Result<(), CliError> {
         Command::Doctor(options) => doctor::run(options, common),
         Command::Drift(options) => drift::run(options, common),
         Command::Reproduce(options) => reproduce::run(options, common),
+        Command::Rerun(options) => rerun::run(options, common),
         Command::Completions(options) => shell::completions(options, common),
         Command::Man(options) => shell::man(options, common),
     }

@@ -3,18 +3,9 @@
 use crate::error::CliError;
 use crate::options;
 use crate::progress::Terminal;
-use serde::Serialize;
 use std::io::Write;
-use unripple_tasks::{Progress, Report, TaskError, folder};
-
-/// Prints `report` as one JSON object, or `text`, in the words of the command line.
-///
-/// A reader that has gone away, as in `unripple … | head`, is no failure.
-pub fn answer(as_json: bool, report: &impl Serialize, text: &str) -> Result<(), CliError> {
-    let mut line = options::spoken(&if as_json { folder::json(report)? } else { text.trim_end().to_owned() });
-    line.push('\n');
-    print(line.as_bytes())
-}
+use unripple_tasks::record::Request;
+use unripple_tasks::{Progress, Record, Report, TaskError, folder};
 
 /// Writes bytes to standard output. A reader that has gone away, as in `unripple … | head`, is no failure.
 pub fn print(bytes: &[u8]) -> Result<(), CliError> {
@@ -25,17 +16,40 @@ pub fn print(bytes: &[u8]) -> Result<(), CliError> {
 }
 
 /// Does a task before people's eyes, and prints its report once nothing else is drawn there.
-pub fn perform<A, R: Report>(
+pub fn perform<A: Request, R: Report>(
     as_json: bool,
     ask: &A,
     run: fn(&A, &mut dyn Progress) -> Result<R, TaskError>,
 ) -> Result<(), CliError> {
+    let record = record(as_json, ask)?;
     let done = run(ask, &mut Terminal::default());
-    report(as_json, &done?)
+    recorded(&done?, record.as_ref())
 }
 
-/// Prints the report of a task, and fails if the task counts as failed.
+/// The record of a task that is about to be done, where it will be printed: files that are read may be large.
+pub fn record(as_json: bool, ask: &impl Request) -> Result<Option<Record>, CliError> {
+    Ok(as_json.then(|| Record::of(ask)).transpose()?)
+}
+
+/// Prints the report of a task, with a record as one JSON object, and fails if the task counts as failed.
+pub fn recorded(report: &impl Report, record: Option<&Record>) -> Result<(), CliError> {
+    let text = record.map_or_else(|| Ok(report.text()), |record| record.json(report))?;
+    say(&text)?;
+    failure(report)
+}
+
+/// Prints the report of a task that holds its record itself, and fails if the task counts as failed.
 pub fn report(as_json: bool, report: &impl Report) -> Result<(), CliError> {
-    answer(as_json, report, &report.text())?;
+    let text = if as_json { folder::json(report)? } else { report.text() };
+    say(&text)?;
+    failure(report)
+}
+
+/// Prints text in the words of the command line.
+fn say(text: &str) -> Result<(), CliError> {
+    print(format!("{}\n", options::spoken(text.trim_end())).as_bytes())
+}
+
+fn failure(report: &impl Report) -> Result<(), CliError> {
     report.failure().map_or(Ok(()), |why| Err(CliError::Work(options::spoken(&why))))
 }

@@ -1,4 +1,4 @@
-//! `unripple play`: a surface that answers fingers, live.
+//! `unripple play`: drives a surface live, in answer to touches.
 
 use crate::args::PlayOptions;
 use crate::common::Common;
@@ -7,7 +7,7 @@ use crate::output;
 use crate::progress::Terminal;
 use unripple_tasks::play::{self, Ask};
 
-/// Plays a surface under moving fingers.
+/// Plays a surface live, in answer to touches.
 pub fn run(options: &PlayOptions, common: &Common) -> Result<(), CliError> {
     let ask = Ask {
         surface: common.surface(&options.surface),
@@ -25,6 +25,7 @@ pub fn run(options: &PlayOptions, common: &Common) -> Result<(), CliError> {
         drift: options.drift_percent.map(|percent| percent / 100.0),
         keep_drive: options.keep_drive.clone(),
     };
+    let record = output::record(common.json, &ask)?;
     let played = play::run(&ask, &mut Terminal::that_stops());
-    output::report(common.json, &played?)
+    output::recorded(&played?, record.as_ref())
 }

@@ -1,5 +1,6 @@
-//! How far a task is, on a terminal; elsewhere only what people should read.
+//! Progress of tasks: a bar on a terminal, lines elsewhere.
 
+use crate::lines::{Lines, Talk, talk};
 use crate::options;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -10,7 +11,7 @@ use unripple_tasks::Progress;
 /// Steps of a bar, more than a terminal has columns.
 const STEPS: u64 = 1000;
 
-/// The bar on a terminal, if there is one now, for whoever has to speak to people meanwhile.
+/// Handle of the progress bar, if one is drawn, for code that has to print something meanwhile.
 #[derive(Clone, Debug, Default)]
 pub struct Bar(Arc<Mutex<Option<ProgressBar>>>);
 
@@ -19,7 +20,7 @@ impl Bar {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Does something with the bar out of the way, such as asking people and waiting for them.
+    /// Runs `work` while the bar is hidden, such as asking people something and waiting for the answer.
     pub fn aside<T>(&self, work: impl FnOnce() -> T) -> T {
         match &*self.get() {
             Some(bar) => bar.suspend(work),
@@ -28,22 +29,32 @@ impl Bar {
     }
 }
 
-/// A moving sign that work goes on, then a bar once it is known how far it is; lines on standard error.
-#[derive(Debug, Default)]
+/// Progress on a terminal: a spinner, then a bar once the share of the work that is done is known; messages go to
+/// standard error.
+#[derive(Debug)]
 pub struct Terminal {
     bar: Bar,
+    lines: Option<Lines>,
     /// Whether the bar shows a share rather than that something moves.
     measured: bool,
     wished: Option<Arc<AtomicBool>>,
 }
 
+impl Default for Terminal {
+    fn default() -> Self {
+        Self { bar: Bar::default(), lines: Lines::wanted(), measured: false, wished: None }
+    }
+}
+
 impl Terminal {
-    /// For a task that ends by itself when somebody wants to stop, so that it is asked before the program is ended.
+    /// Progress for a task that stops by itself: the first signal cancels the task instead of ending the program.
     pub fn that_stops() -> Self {
-        Self { bar: Bar::default(), measured: false, wished: Some(crate::interrupt::wished()) }
+        let mut terminal = Self::default();
+        terminal.wished = Some(crate::interrupt::wished());
+        terminal
     }
 
-    /// The bar on the terminal.
+    /// Handle of the progress bar.
     pub fn bar(&self) -> Bar {
         self.bar.clone()
     }
@@ -59,12 +70,21 @@ impl Terminal {
 impl Progress for Terminal {
     fn stage(&mut self, what: &str) {
         self.clear();
+        if let Some(lines) = &mut self.lines {
+            return lines.stage(what);
+        }
+        if talk() == Talk::Quiet {
+            return;
+        }
         let bar = ProgressBar::new_spinner().with_message(what.to_owned());
         bar.enable_steady_tick(Duration::from_millis(120));
         *self.bar.get() = Some(bar);
     }
 
     fn done(&mut self, share: f64) {
+        if let Some(lines) = &mut self.lines {
+            return lines.done(share);
+        }
         let bar = self.bar.get();
         let Some(bar) = &*bar else { return };
         if !self.measured

@@ -1,4 +1,4 @@
-//! `unripple view`: a surface in the browser.
+//! `unripple view`: shows a surface in a browser.
 
 use crate::args::ViewOptions;
 use crate::common::Common;
@@ -23,8 +23,9 @@ pub fn run(options: &ViewOptions, common: &Common) -> Result<(), CliError> {
         folder: options.folder.clone(),
         seconds: options.seconds,
     };
+    let record = output::record(common.json, &ask)?;
     task::run(&ask, &mut Terminal::that_stops(), &mut |report| {
-        output::report(common.json, report).map_err(TaskError::work)?;
+        output::recorded(report, record.as_ref()).map_err(TaskError::work)?;
         eprintln!("open the address in a browser; Ctrl+C ends");
         if !options.no_browser {
             browse(&report.url);

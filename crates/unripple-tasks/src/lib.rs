@@ -1,9 +1,9 @@
 //! The tasks of Unripple, each with plain options and a report.
 //!
-//! One folder a verb. In each, `Ask` is a plain struct in SI units, with defaults and serde; `run` does the work,
-//! informs a [`Progress`] how far it is and looks there whether it is still wanted; `Report` is what came of it, with
-//! serde and as text. The command line, the page and other languages call the same functions, and `--json` is the
-//! report.
+//! There is a module for each task. In each, `Ask` is a plain struct of options in SI units, with defaults and serde;
+//! `run` does the work, reports to a [`Progress`] how far it is, and asks it whether the task has been cancelled;
+//! `Report` holds the results, with serde and as text. The command line, the page and other languages call the same
+//! functions, and `--json` prints the report.
 //!
 //! ```
 //! use unripple_tasks::{Report, Silent, modes};
@@ -45,7 +45,9 @@ mod place;
 pub mod play;
 mod played;
 mod progress;
+pub mod record;
 mod report;
+pub mod rerun;
 pub mod respond;
 pub mod source;
 pub mod stroke;
@@ -60,6 +62,7 @@ pub use error::TaskError;
 pub use names::{interpolation, method};
 pub use place::{Place, point};
 pub use progress::{Progress, Silent, go_on};
+pub use record::Record;
 pub use report::Report;
 pub use source::Source;
 pub use surface::SurfaceAsk;

@@ -23,6 +23,9 @@ pub enum SurfaceAsk {
     Text {
         /// The text itself, as TOML.
         toml: String,
+        /// What the surface was called when it was read, for messages; "surface" if absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        name: Option<String>,
     },
 }
 
@@ -49,7 +52,7 @@ impl std::fmt::Display for SurfaceAsk {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Name(name) | Self::Set { name, .. } => f.write_str(name),
-            Self::Text { .. } => f.write_str("the surface's text"),
+            Self::Text { name, .. } => f.write_str(name.as_deref().unwrap_or("the surface's text")),
         }
     }
 }
@@ -75,9 +78,8 @@ impl SurfaceAsk {
                 Err(TaskError::ask("set", "a surface file, whose keys it sets", "a library"))
             }
             Self::Set { name, .. } => Ok(load_surface_with(name, &self.keys())?),
-            Self::Text { toml } => {
-                parse_surface(toml, "surface").map_err(|faults| TaskError::Faults(Box::new(faults)))
-            }
+            Self::Text { toml, name } => parse_surface(toml, name.as_deref().unwrap_or("surface"))
+                .map_err(|faults| TaskError::Faults(Box::new(faults))),
         }
     }
 }

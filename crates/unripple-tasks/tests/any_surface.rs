@@ -237,7 +237,7 @@ fn excused(error: &str) -> bool {
 }
 
 fn judged(text: &str) -> Outcome {
-    let surface = SurfaceAsk::Text { toml: text.into() };
+    let surface = SurfaceAsk::Text { toml: text.into(), name: None };
     match check::run(&check::Ask { surface: surface.clone() }, &mut Silent) {
         Ok(report) if !report.ok => return Outcome::Refused,
         Ok(_) => {}

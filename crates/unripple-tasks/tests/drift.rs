@@ -9,7 +9,7 @@ use unripple_tasks::{DeviceAsk, Report as _, Silent, SurfaceAsk, calibrate, resp
 fn film() -> SurfaceAsk {
     let mut film = load_surface("hudin-2012").unwrap();
     film.emission.band[1] = 1000.0;
-    SurfaceAsk::Text { toml: to_toml(&film) }
+    SurfaceAsk::Text { toml: to_toml(&film), name: None }
 }
 
 fn asked(ask: Ask) -> Report {

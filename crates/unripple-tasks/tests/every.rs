@@ -47,7 +47,7 @@ fn asks_go_through_json() {
         ..field::Ask::default()
     });
     through_json(&focus::Ask {
-        surface: SurfaceAsk::Text { toml: "format = 1".into() },
+        surface: SurfaceAsk::Text { toml: "format = 1".into(), name: Some("film.toml".into()) },
         points: vec![target::PointAsk { rate_hz: Some(5.0), ..target::PointAsk::at(0.062, 0.09) }],
         shapes: vec![target::ShapeAsk::Circle { centre_m: [0.075; 2], radius_m: 0.02 }],
         level: target::LevelAsk::FeltDb(12.0),

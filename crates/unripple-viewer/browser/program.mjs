@@ -31,6 +31,15 @@ export async function answer(...args) {
   return JSON.parse(stdout);
 }
 
+/** What a program has told as JSON, once all of it has come. */
+function whole(text) {
+  try {
+    return JSON.parse(text);
+  } catch {
+    return null;
+  }
+}
+
 /** A viewer that serves until the test ends; `url` is where, `said()` what it wrote on standard error. */
 export async function serve(t, ...args) {
   const child = spawn(program, ['view', ...args, '--no-browser', '--json', ...(args.includes('--port') ? [] : ['--port', '0'])],
@@ -46,11 +55,13 @@ export async function serve(t, ...args) {
   };
   t.after(() => kill());
   let out = '';
+  let told = null;
   for await (const text of child.stdout.setEncoding('utf8')) {
     out += text;
-    if (out.includes('}')) break;
+    told = whole(out);
+    if (told) break;
   }
-  if (!out.includes('}')) throw new Error(`the program ended before it told its address: ${said}`);
-  const { url } = JSON.parse(out);
+  if (!told) throw new Error(`the program ended before it told its address: ${said}`);
+  const { url } = told;
   return { url, port: Number(new URL(url).port), kill, signal: (name) => child.kill(name), said: () => said };
 }

@@ -1,4 +1,4 @@
-//! What can be typed. Lengths in mm, times in ms.
+//! The options of the command line: lengths in mm, times in ms unless an option says otherwise.
 
 mod calibrate;
 mod drift;
@@ -6,6 +6,7 @@ mod export;
 mod fit;
 mod names;
 mod play;
+mod rerun;
 mod shell;
 mod view;
 
@@ -16,6 +17,7 @@ pub use export::ExportOptions;
 pub use fit::FitOptions;
 pub use names::{BetweenName, DeviceName, LossName, MethodName, WayName};
 pub use play::{DoctorOptions, PlayOptions};
+pub use rerun::RerunOptions;
 pub use shell::{CompletionsOptions, ManOptions};
 use std::path::PathBuf;
 pub use view::ViewOptions;
@@ -29,11 +31,17 @@ pub struct Arguments {
     /// Print the report as one JSON object (SI units) on standard output, everything else on standard error.
     #[arg(long, global = true)]
     pub json: bool,
-    /// A key of SURFACE's file set to another value, as in sheet.tension_n_per_m=220 or actuator[0].at_mm=[12,31]; without a value the key is
-    /// taken away. Repeatable.
+    /// Set a key of SURFACE's file to another value, as in sheet.tension_n_per_m=220 or actuator[0].at_mm=[12,31]; without a value the key
+    /// is removed. Repeatable.
     #[arg(long, global = true, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// What to do.
+    /// Tell each stage of the work on standard error, with the time since the beginning.
+    #[arg(short, long, global = true, conflicts_with = "quiet")]
+    pub verbose: bool,
+    /// Tell nothing on standard error but warnings and errors.
+    #[arg(short, long, global = true)]
+    pub quiet: bool,
+    /// The command to perform.
     #[command(subcommand)]
     pub command: Command,
 }
@@ -50,7 +58,7 @@ fn version() -> &'static str {
     }
 }
 
-/// What to do.
+/// The commands of the program, each with its options.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Predict wave speeds, modes, time window, contrast, focal spot and power at the finger.
@@ -85,6 +93,8 @@ pub enum Command {
     Doctor(DoctorOptions),
     /// Reproduce the paper's table and figures beside ours, as one page.
     Reproduce(ReproduceOptions),
+    /// Run again what a report records: the same options, seeds and surfaces, on the same files.
+    Rerun(RerunOptions),
     /// Print a script with which a shell completes commands and options.
     Completions(CompletionsOptions),
     /// Write manual pages, one for each command.
@@ -121,7 +131,7 @@ pub struct ModesOptions {
     /// Highest frequency, in Hz; by default the top of the surface's band.
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     pub max_hz: Option<f64>,
-    /// Relative accuracy of the frequencies.
+    /// Relative accuracy of the modes' frequencies.
     #[arg(long, value_name = "FRACTION", default_value_t = 1e-6, allow_negative_numbers = true)]
     pub accuracy: f64,
 }
@@ -241,6 +251,9 @@ pub struct FocusOptions {
     /// Simulate the drive with modes up to this frequency, in Hz; by default those of the band.
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     pub judge_hz: Option<f64>,
+    /// Write no pictures.
+    #[arg(long)]
+    pub no_figures: bool,
     /// Folder for drive.wav, report.json, report.md and pictures. The folder of an earlier run is replaced, unless it holds
     /// anything else.
     #[arg(short, long, value_name = "DIR")]
@@ -260,6 +273,9 @@ pub struct CompareOptions {
     /// Simulate drives with modes up to this frequency, in Hz; by default twice the top of the band.
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     pub judge_hz: Option<f64>,
+    /// Write no pictures.
+    #[arg(long)]
+    pub no_figures: bool,
     /// Folder for the report and picture; without it only the table is printed.
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
@@ -290,6 +306,9 @@ pub struct FieldOptions {
     /// Simulate the field with modes up to this frequency, in Hz; by default those of the band.
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     pub judge_hz: Option<f64>,
+    /// Write no pictures.
+    #[arg(long)]
+    pub no_figures: bool,
     /// Folder for the report, snapshot, map of peaks and animation; without it only the report is printed.
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,

@@ -22,6 +22,7 @@ mod python;
 mod recordings;
 mod refusal;
 mod reproduce;
+mod rerun;
 mod short_drives;
 #[path = "../../../unripple-core/tests/shared/skip.rs"]
 mod skip;

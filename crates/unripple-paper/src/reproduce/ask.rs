@@ -2,20 +2,29 @@
 
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
+use unripple_tasks::record::Request;
 
-/// How thoroughly the paper is done again, and where the page is to be.
+/// Options of `reproduce`: number of placements, and folder for the page.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
-    /// Folder for the page and its figures; without it the numbers alone are made. An earlier run's folder is replaced whole, unless
-    /// something else is in it.
+    /// Folder for the page and its figures; without it only the numbers are computed. The folder of an earlier run is
+    /// replaced as a whole, unless something else is in it.
     pub output: Option<PathBuf>,
-    /// Placements averaged in the statistics of contrast, 2 or more.
+    /// Number of placements averaged in the statistics of contrast, 2 or more.
     pub placements: usize,
 }
 
 impl Default for Ask {
     fn default() -> Self {
         Self { output: None, placements: 20 }
+    }
+}
+
+impl Request for Ask {
+    const COMMAND: &'static str = "reproduce";
+
+    fn send_to(&mut self, output: Option<PathBuf>) {
+        self.output = output;
     }
 }

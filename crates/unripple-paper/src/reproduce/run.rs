@@ -1,31 +1,31 @@
-//! The paper's experiments, one after the other.
+//! The run of `reproduce`: the paper's experiments one after the other.
 
 use super::{
     Ask, Bed, Report, Section, cavities, coils, contrast, fig1, fig2, fig3, fig4, finger, levels, numbers,
     page, repetition, table1,
 };
-use unripple_store::OutputDir;
 use unripple_tasks::{Progress, TaskError, figures, folder, go_on};
 
 /// Fewest placements whose mean has a standard error.
 const FEWEST: usize = 2;
 
-/// Does the paper's figures, table and numbers again, and writes them as one page if a folder is given.
+/// Computes the paper's figures, table and numbers again, and writes them as one page if a folder is given.
 ///
 /// # Errors
-/// [`TaskError::Ask`] of fewer than two placements; those of writing the folder; [`TaskError::Cancelled`].
+/// [`TaskError::Ask`] for fewer than two placements; those of writing the folder; [`TaskError::Cancelled`];
+/// [`TaskError::Work`] where a simulation fails.
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     if ask.placements < FEWEST {
         return Err(TaskError::ask("placements", format!("at least {FEWEST}"), ask.placements));
     }
-    let out = ask.output.as_ref().map(OutputDir::create).transpose()?;
+    let out = folder::begin(ask.output.as_deref(), ask, &[])?;
     let sections = sections(ask.placements, progress)?;
     let report = Report::of(&sections, ask.placements);
-    if let Some(out) = out {
+    if let Some((out, record)) = out {
         let pages = [
             ("index.html", page::html(&sections)),
             ("reproduce.md", page::markdown(&sections)),
-            ("reproduce.json", folder::json(&report)?),
+            ("reproduce.json", record.json(&report)?),
         ];
         for (name, text) in &pages {
             out.write(name, text.as_bytes())?;

@@ -1,5 +1,6 @@
 //! Options of the task `calibrate`.
 
+use crate::record::Request;
 use crate::{DeviceAsk, Place, SurfaceAsk};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -9,14 +10,14 @@ use std::path::PathBuf;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum By {
-    /// A vibrometer, accelerometer or microphone at the place, actuators driving.
+    /// With a vibrometer, accelerometer or microphone at the place, while actuators drive.
     #[default]
     Probe,
-    /// Taps at the place, actuators listening.
+    /// With taps at the place, while the actuators' sensors record.
     Tap,
 }
 
-/// What inputs at full scale stand for.
+/// Scales of the inputs: the value that a sample at full scale (1) stands for.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct InputScales {
@@ -27,48 +28,48 @@ pub struct InputScales {
     pub named: BTreeMap<String, f64>,
 }
 
-/// What is to be measured, through what, and where it is to be kept.
+/// What is measured, through which device, and the library in which it is stored.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
-    /// A surface file, or the name of a built-in surface: what is known of the surface beforehand.
+    /// A surface file, or the name of a built-in surface: what is known of the surface before the measurement.
     pub surface: SurfaceAsk,
-    /// What plays and listens.
+    /// The device that plays and records.
     pub device: DeviceAsk,
-    /// Distance of the points of a square grid, in m.
+    /// Spacing of a square grid of points to measure, in m.
     pub pitch_m: Option<f64>,
     /// Single points, in m.
     pub points_m: Vec<Place>,
     /// How points are measured.
     pub by: By,
-    /// Recordings of each point, averaged; taps of each point.
+    /// Number of recordings of each point, which are averaged, or number of taps.
     pub repeats: usize,
-    /// Length of an actuator's sweep, in s; by default 0.5, or more as long as the surface rings.
+    /// Length of an actuator's sweep, in s; by default 0.5, or longer for a surface with a long decay time.
     pub sweep_s: Option<f64>,
-    /// Length of each response that is kept, in s; by default 0.1, or more as long as the surface rings.
+    /// Length of each stored response, in s; by default 0.1, or longer for a surface with a long decay time.
     pub response_s: Option<f64>,
-    /// Drive, as a share of the surface's limit.
+    /// Level of the sweeps, as a share of the surface's drive limit.
     pub level: f64,
-    /// Channels where they are not named as the actuator, sensor, probe or reference: the name, and the channel.
+    /// Channels of actuators, sensors, probe or reference whose channel has another name: pairs of that name and its channel.
     pub wires: Vec<(String, String)>,
-    /// What inputs at full scale stand for. Without it levels are not known.
+    /// Scales of the inputs. Without them absolute levels are unknown.
     pub input_scales: InputScales,
-    /// Actuators that are to be left out, since they are dead.
+    /// Names of actuators to leave out, for example because they are dead.
     pub without: Vec<String>,
-    /// Time by which the probe's signal is later than the sensors', in s: a vibrometer's decoder; by default it is found.
+    /// Delay of the probe relative to the sensors, in s, such as that of a vibrometer's decoder; by default it is estimated.
     pub probe_delay_s: Option<f64>,
-    /// Compare nothing with a model: for a surface that no model fits, such as a whole phone or a sheet with ribs.
+    /// Compare nothing with a model: for a surface that the model cannot describe, such as a whole phone or a sheet with ribs.
     pub no_model: bool,
-    /// Tape: bring recordings of another rate to that of the surface.
+    /// Tape: resample recordings whose sample rate is not that of the surface.
     pub resample: bool,
-    /// Listen to levels only: a short take that says what is too loud or too quiet, and what to do.
+    /// Only check levels: one short recording shows what is too loud or too quiet, and what to do about it.
     pub check_levels: bool,
-    /// Go on although the wiring test finds a fault.
+    /// Continue although the wiring test finds a fault.
     pub any_wiring: bool,
     /// Folder for a figure: signal to noise and coherence over frequency, and which point is bad in which band. An earlier run's folder is
     /// replaced whole, unless something else is in it.
     pub figure: Option<PathBuf>,
-    /// The library: a new folder, or one that a run like this one was filling.
+    /// Folder of the library: a new one, or that of an unfinished run with the same options.
     pub output: PathBuf,
 }
 
@@ -95,5 +96,18 @@ impl Default for Ask {
             figure: None,
             output: PathBuf::new(),
         }
+    }
+}
+
+impl Request for Ask {
+    const COMMAND: &'static str = "calibrate";
+
+    fn surfaces(&mut self) -> Vec<&mut SurfaceAsk> {
+        vec![&mut self.surface]
+    }
+
+    fn send_to(&mut self, output: Option<PathBuf>) {
+        self.output = output.unwrap_or_default();
+        self.figure = None;
     }
 }

@@ -3,8 +3,7 @@
 use super::Campaign;
 use super::shelf::Shelf;
 use super::verify;
-use crate::TaskError;
-use crate::own;
+use crate::{Record, TaskError, own};
 use serde_json::{Value, json};
 use std::time::{SystemTime, UNIX_EPOCH};
 use unripple_devices::reciprocal;
@@ -29,17 +28,18 @@ const UNFINISHED: &str = "unfinished";
 /// The check that finds own points missing or bad.
 const OWN: &str = "own";
 
-/// The key of the log for what was asked for that changes responses, beside scales.
+/// Key of the log entry for options that change responses, other than scales.
 pub const ASKED: &str = "asked";
 
-/// There, the probe's delay that was taken out as it was recorded, in s.
+/// Key within that entry for the probe's delay that was removed from recordings, in s.
 pub const PROBE_DELAY: &str = "probe_delay_s";
 
-/// Keeps in the library what its points are measured with, before they are: whoever is stopped leaves a library that says so, and that it
-/// was stopped.
+/// Records in the library the settings of a measurement before any point is measured, and a doubt that it is unfinished: both remain if the
+/// run is stopped.
 pub fn begin(campaign: &Campaign<'_>, library: &mut Library) -> Result<(), TaskError> {
     let names: Vec<&str> = campaign.surface.actuators.iter().map(|a| a.name.as_str()).collect();
     let dead: Vec<&str> = campaign.settings.without.iter().map(|actuator| names[*actuator]).collect();
+    Record::of(campaign.ask)?.log(library)?;
     library.log("dead", if dead.is_empty() { Value::Null } else { json!(dead) })?;
     library.log("scale", campaign.scale_told())?;
     library.log(ASKED, json!({ PROBE_DELAY: campaign.settings.probe_delay }))?;
@@ -55,7 +55,7 @@ pub fn begin(campaign: &Campaign<'_>, library: &mut Library) -> Result<(), TaskE
     Ok(library.set_doubts(UNFINISHED, vec![stopped])?)
 }
 
-/// Says in the library how far it is to be trusted; `latency` is in samples, with how far actuators disagree on it.
+/// Checks everything that was measured, and records doubts in the library. `latency` is in samples, followed by its spread over actuators.
 pub fn finish(
     campaign: &Campaign<'_>,
     shelf: &mut Shelf,
@@ -135,9 +135,9 @@ fn reciprocity(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskErr
         doubts.push(Doubt::of(
             CHECK,
             format!(
-                "the responses between actuators differ by {:.0} % both ways, expected at most {:.0} %: the surface or its \
-                 tension changed meanwhile, samples were lost, clocks run apart, or a sensor hears something else; measure it \
-                 again",
+                "the responses between actuators differ by {:.0} % between the two directions, expected at most {:.0} %: the \
+                 surface or its tension changed meanwhile, samples were lost, clocks run apart, or a sensor receives something \
+                 else; measure it again",
                 100.0 * beyond,
                 100.0 * RECIPROCITY
             ),
@@ -148,7 +148,7 @@ fn reciprocity(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskErr
     Ok(shelf.library.set_doubts(CHECK, doubts)?)
 }
 
-/// Share of the same that noise alone makes.
+/// The part of the reciprocity error that noise alone would cause.
 fn noise(shelf: &Shelf, alive: &[usize]) -> Result<f64, TaskError> {
     let (mut sum, mut count) = (0.0, 0.0);
     for sensor in alive {
@@ -184,8 +184,8 @@ fn spread(campaign: &Campaign<'_>, shelf: &mut Shelf, latency: Option<[f64; 2]>)
     Ok(shelf.library.set_doubts(CHECK, found.into_iter().collect())?)
 }
 
-/// Takes back the doubt of a record that could not be read, once all that is there was measured since: in this run, or as the new record
-/// says.
+/// Removes the doubt that a record of the library could not be read, once all points that are there were measured since: in this run, or as
+/// the new record says.
 fn recorded(shelf: &mut Shelf) -> Result<(), TaskError> {
     let library = &shelf.library;
     let own = library.logged("own").is_some();
@@ -259,8 +259,8 @@ fn sensors(campaign: &Campaign<'_>, shelf: &mut Shelf) -> Result<(), TaskError> 
             "over_probe": apart,
             "left_out": true,
             "said": format!(
-                "sensors are {apart:.3} times as loud as the probe, in another unit: the actuators' own points are used in no \
-                 metric (`input_scales` gives their scale)"
+                "sensors are {apart:.3} times as loud as the probe, so they must be in another unit: the actuators' own points \
+                 are used in no metric (`input_scales` gives their scale)"
             ),
         }),
         Some(apart) => json!({ "over_probe": apart, "left_out": false }),

@@ -1,7 +1,9 @@
 //! Options of the task `check`.
 
 use crate::SurfaceAsk;
+use crate::record::Request;
 use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
 
 /// Which surface file is to be checked.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -9,4 +11,14 @@ use serde::{Deserialize, Serialize};
 pub struct Ask {
     /// A surface file, or the name of a built-in surface.
     pub surface: SurfaceAsk,
+}
+
+impl Request for Ask {
+    const COMMAND: &'static str = "check";
+
+    fn surfaces(&mut self) -> Vec<&mut SurfaceAsk> {
+        vec![&mut self.surface]
+    }
+
+    fn send_to(&mut self, _output: Option<PathBuf>) {}
 }

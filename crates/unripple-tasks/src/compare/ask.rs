@@ -1,7 +1,8 @@
 //! Options of the task `compare`.
 
+use crate::record::{Request, Visit};
 use crate::target::{LevelAsk, PointAsk, ShapeAsk};
-use crate::{SurfaceAsk, source};
+use crate::{SurfaceAsk, TaskError, source};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -19,9 +20,13 @@ pub struct Ask {
     pub level: LevelAsk,
     /// Window T in s; by default the one that `design` recommends.
     pub window_s: Option<f64>,
-    /// Judge on modes up to this frequency, in Hz; by default to twice the band.
+    /// Evaluate drives on modes up to this frequency, in Hz; by default up to twice the top of the band.
     pub judge_hz: Option<f64>,
-    /// Folder for the report and figure; without it the table alone is made.
+    /// Leave out the tradeoffs of each method's parameter, which take most of the time, and the figure that shows them.
+    pub no_tradeoffs: bool,
+    /// Write no figure.
+    pub no_figures: bool,
+    /// Folder for the report and figure; by default no file is written.
     pub output: Option<PathBuf>,
 }
 
@@ -30,5 +35,21 @@ impl Ask {
     pub fn reads(&self) -> Vec<PathBuf> {
         let drawings = self.shapes.iter().filter_map(ShapeAsk::reads).cloned();
         source::reads(&self.surface).into_iter().chain(drawings).collect()
+    }
+}
+
+impl Request for Ask {
+    const COMMAND: &'static str = "compare";
+
+    fn surfaces(&mut self) -> Vec<&mut SurfaceAsk> {
+        vec![&mut self.surface]
+    }
+
+    fn inputs(&mut self, visit: &mut Visit<'_>) -> Result<(), TaskError> {
+        self.shapes.iter_mut().filter_map(ShapeAsk::file).try_for_each(visit)
+    }
+
+    fn send_to(&mut self, output: Option<PathBuf>) {
+        self.output = output;
     }
 }

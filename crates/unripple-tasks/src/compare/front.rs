@@ -1,71 +1,89 @@
-//! What turning a method's knob gives.
+//! Tradeoff curves of the focusing methods: contrast, energy and peak as a parameter of the method varies.
 
+use super::Failed;
 use super::row::{self, Row};
-use super::run::Ground;
+use super::run::{Ground, survived};
 use crate::{Progress, TaskError, go_on};
 use serde::Serialize;
 use unripple::focus::{Focused, Focuser, Method, Options};
 
-/// What turning a method's knob gives, point by point.
+/// Tradeoff curve of a focusing method: figures at each value of one of its parameters.
 #[derive(Clone, Debug, Serialize)]
 pub struct Front {
     /// Name of the method.
     pub method: &'static str,
-    /// `strength` or `push`.
+    /// Name of the parameter: `strength` or `push`.
     pub knob: &'static str,
-    /// Values of the knob.
+    /// Values of the parameter.
     pub at: Vec<f64>,
     /// Contrast at the first target and its focal instant.
     pub contrast: Vec<f64>,
-    /// Energy for the same peak, over time reversal's.
+    /// Drive energy for a given peak velocity, relative to time reversal (ratio).
     pub energy_for_peak: Vec<f64>,
-    /// Peak velocity at the drive limit, over time reversal's.
+    /// Peak velocity at the drive limit, relative to time reversal (ratio).
     pub peak: Vec<f64>,
 }
 
 /// Strengths at which a method is tried, closer where it is near its own limit and contrast changes fastest.
 const STRENGTHS: [f64; 7] = [0.0, 0.3, 0.6, 0.8, 0.9, 0.96, 0.99];
-/// The same for `robust`, fewer, since planning for several plants takes its time.
+/// Strengths at which `robust` is tried: fewer, since planning for several plants takes its time.
 const ROBUST: [f64; 4] = [0.0, 0.7, 0.95, 0.99];
-/// Of `felt`: weights of energy, and of the worst spot that goes with each.
+/// Parameters at which `felt` is tried: `economy`, the weight of energy, and `worst`, the weight of the worst spot that
+/// goes with it.
 const ECONOMIES: [[f64; 2]; 5] = [[0.01, 0.04], [0.06, 0.04], [0.2, 0.05], [0.5, 0.06], [1.5, 0.08]];
 const PUSHES: [f64; 6] = [0.1, 0.3, 0.5, 0.7, 0.85, 0.95];
 
 /// Contrast, energy per squared peak, peak.
 pub(super) type Trade = [f64; 3];
 
-/// What is felt elsewhere against the drive that it takes: one row per weight of energy, the first that of time reversal.
+/// Rows of `felt` for increasing weights of energy, after the row of time reversal: level felt outside the target
+/// against the drive.
 pub(super) fn felt(
     ground: &Ground<'_>,
     reversal: Row,
+    failed: &mut Vec<Failed>,
     progress: &mut dyn Progress,
 ) -> Result<Vec<Row>, TaskError> {
     let mut rows = vec![reversal];
+    if has_failed(failed, Method::Felt) {
+        return Ok(rows);
+    }
     for [economy, worst] in ECONOMIES {
         go_on(progress)?;
-        rows.push(row::with(
-            ground,
-            &Options { method: Method::Felt, economy, worst, ..ground.options.clone() },
-        )?);
+        let options = Options { method: Method::Felt, economy, worst, ..ground.options.clone() };
+        rows.extend(survived(row::with(ground, &options), Method::Felt, failed)?);
     }
     row::relate(&mut rows);
     Ok(rows)
 }
 
-/// The fronts of all methods that have a knob, against what time reversal trades.
+/// The tradeoff curves of all methods that have a parameter, relative to time reversal.
 pub(super) fn all(
     ground: &Ground<'_>,
     reversal: Trade,
+    failed: &mut Vec<Failed>,
     progress: &mut dyn Progress,
 ) -> Result<Vec<Front>, TaskError> {
+    const KNOBS: [(Method, &str, &[f64]); 4] = [
+        (Method::Inverse, "strength", &STRENGTHS),
+        (Method::Concentrate, "strength", &STRENGTHS),
+        (Method::Robust, "strength", &ROBUST),
+        (Method::Limited, "push", &PUSHES),
+    ];
     progress.stage("the tradeoffs of the methods' parameters");
-    let strong = |method, values: &[f64]| front(ground, reversal, method, "strength", values, progress);
-    Ok(vec![
-        strong(Method::Inverse, &STRENGTHS)?,
-        strong(Method::Concentrate, &STRENGTHS)?,
-        strong(Method::Robust, &ROBUST)?,
-        front(ground, reversal, Method::Limited, "push", &PUSHES, progress)?,
-    ])
+    let mut fronts = Vec::new();
+    for (method, knob, values) in KNOBS {
+        // What fails with its default would be told twice.
+        if !has_failed(failed, method) {
+            let found = front(ground, reversal, method, knob, values, progress);
+            fronts.extend(survived(found, method, failed)?);
+        }
+    }
+    Ok(fronts)
+}
+
+fn has_failed(failed: &[Failed], method: Method) -> bool {
+    failed.iter().any(|failed| failed.method == method.name())
 }
 
 fn front(
@@ -83,7 +101,7 @@ fn front(
             Method::Limited => options.push = *value,
             _ => options.strength = Some(*value),
         }
-        trade(ground, &options)
+        trade(ground, &options).map_err(|error| at(error, knob, *value))
     });
     let found = found.collect::<Result<Vec<Trade>, TaskError>>()?;
     let of = |i: usize, unit: f64| found.iter().map(|trade| trade[i] / unit).collect();
@@ -97,13 +115,21 @@ fn front(
     })
 }
 
+/// An error with the value of the parameter at which it came up.
+fn at(error: TaskError, knob: &str, value: f64) -> TaskError {
+    match error {
+        TaskError::Cancelled => TaskError::Cancelled,
+        error => TaskError::Work(format!("{knob} {value}: {error}")),
+    }
+}
+
 fn trade(ground: &Ground<'_>, options: &Options) -> Result<Trade, TaskError> {
     let focuser = Focuser::new(ground.known, options).map_err(TaskError::input)?;
     let focused = focuser.focus(ground.targets).map_err(TaskError::input)?;
     traded(ground, &focused)
 }
 
-/// What a drive trades at the first target and its focal instant.
+/// Contrast, energy per squared peak, and peak of a drive, at the first target and its focal instant.
 pub(super) fn traded(ground: &Ground<'_>, focused: &Focused) -> Result<Trade, TaskError> {
     let drive = focused.drive.clone().as_emitted();
     let field = ground.on.coarse()?.field(&drive).map_err(TaskError::input)?;

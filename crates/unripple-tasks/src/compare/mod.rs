@@ -1,4 +1,4 @@
-//! `compare`: every method on the same targets.
+//! `compare`: compares all focusing methods on the same targets.
 
 mod ask;
 mod figure;
@@ -9,6 +9,6 @@ mod run;
 
 pub use ask::Ask;
 pub use front::Front;
-pub use report::Report;
+pub use report::{Failed, Report};
 pub use row::Row;
 pub use run::run;

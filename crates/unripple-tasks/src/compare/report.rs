@@ -1,11 +1,20 @@
-//! What `compare` found.
+//! Report of the task `compare`.
 
 use super::row::{Conditions, table};
 use super::{Front, Row};
 use serde::Serialize;
 use unripple::act::Level;
 
-/// All methods, one row each, and what a method's knob trades.
+/// A focusing method that failed, and why.
+#[derive(Clone, Debug, Serialize)]
+pub struct Failed {
+    /// Name of the method.
+    pub method: &'static str,
+    /// Reason in words; for a tradeoff curve it names the value of the method's parameter.
+    pub why: String,
+}
+
+/// Results of all methods, one row each, and the tradeoff curves of their parameters.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// Name of the program.
@@ -18,16 +27,20 @@ pub struct Report {
     pub surface: String,
     /// Window T, in s.
     pub window_s: f64,
-    /// Reason for the window, where nobody asked for one.
+    /// Reason for the default window; absent if the ask gave a window.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub window_why: Option<String>,
     /// Highest frequency of the modes that drives were evaluated on, in Hz.
     pub judged_to_hz: f64,
-    /// Every method, time reversal first.
+    /// Results of every method that did not fail, time reversal first.
     pub methods: Vec<Row>,
-    /// What turning a method's knob gives.
+    /// Methods that failed, each with the reason.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub failed: Vec<Failed>,
+    /// Tradeoff curves of the methods that have a parameter; empty if the ask has `no_tradeoffs`.
     pub fronts: Vec<Front>,
-    /// What is felt elsewhere against the drive that it takes, time reversal first.
+    /// Results of the method `felt` for increasing weights of the drive's energy, after those of time reversal; empty if the ask has
+    /// `no_tradeoffs`.
     pub felt: Vec<Row>,
     /// Files in the output folder.
     pub files: Vec<String>,
@@ -48,6 +61,9 @@ impl Report {
 impl crate::Report for Report {
     fn text(&self) -> String {
         let mut text = table(&self.methods, self.conditions());
+        for Failed { method, why } in &self.failed {
+            text += &format!("\n{method} failed: {why}\n");
+        }
         if let Some(window) = &self.window_text {
             text += &format!("\nwindow {window}\n");
         }

@@ -1,7 +1,7 @@
-//! Every method on the same targets.
+//! Comparison of all focusing methods on the same targets.
 
 use super::row::{self, Row};
-use super::{Ask, Report, figure, front};
+use super::{Ask, Failed, Report, figure, front};
 use crate::numbers::above_zero;
 use crate::target::targets;
 use crate::window::{carries, of_window};
@@ -9,9 +9,8 @@ use crate::{Progress, TaskError, figures, folder, go_on, judge};
 use unripple::act::{Level, Readouts, chosen_window};
 use unripple::core::{Responses, Surface};
 use unripple::focus::{Method, Options, Target};
-use unripple_store::OutputDir;
 
-/// Everything that is compared with.
+/// What the drives of all methods have in common.
 pub(super) struct Ground<'a> {
     /// The surface in common.
     pub surface: &'a Surface,
@@ -19,7 +18,7 @@ pub(super) struct Ground<'a> {
     pub known: &'a Responses,
     /// Responses that drives are evaluated on.
     pub plant: &'a Responses,
-    /// What it takes to read that, made once for all of them.
+    /// Readouts of `plant`, computed once for all methods.
     pub on: &'a Readouts<'a>,
     /// The targets in common.
     pub targets: &'a [Target],
@@ -35,7 +34,7 @@ fn settings(surface: &Surface, window: f64) -> Options {
     Options { window, limit, rms_limit, ..Options::default() }
 }
 
-/// The row of time reversal, which knobs are held against, before it is related to itself.
+/// The row of time reversal, to which tradeoff curves are related, as it is before it is divided by itself.
 fn reversal(rows: &[Row]) -> Result<Row, TaskError> {
     let found = rows.iter().find(|row| row.method == Method::TimeReversal.name());
     found
@@ -43,13 +42,51 @@ fn reversal(rows: &[Row]) -> Result<Row, TaskError> {
         .ok_or_else(|| TaskError::Work("time reversal: expected among the methods, found none".into()))
 }
 
-/// Makes and evaluates the drive of every method on the same targets, and what their knobs trade.
+/// The row of every method, time reversal first, and the methods that failed; errors say whether the window was asked for.
+fn rows(
+    ground: &Ground<'_>,
+    asked: bool,
+    progress: &mut dyn Progress,
+) -> Result<(Vec<Row>, Vec<Failed>), TaskError> {
+    let (mut rows, mut failed) = (Vec::new(), Vec::new());
+    for method in Method::ALL {
+        go_on(progress)?;
+        progress.stage(method.name());
+        match row::judge(ground, method).map_err(|error| of_window(error, asked)) {
+            // All others are held against it.
+            Err(error) if method == Method::TimeReversal => return Err(error),
+            judged => rows.extend(survived(judged, method, &mut failed)?),
+        }
+    }
+    Ok((rows, failed))
+}
+
+/// Result of a method; `None` if it failed, which is noted in `failed`.
 ///
 /// # Errors
-/// [`TaskError::Ask`] of what makes no sense; those of reading and writing files; those of the methods; [`TaskError::Cancelled`].
+/// [`TaskError::Cancelled`].
+pub(super) fn survived<T>(
+    found: Result<T, TaskError>,
+    method: Method,
+    failed: &mut Vec<Failed>,
+) -> Result<Option<T>, TaskError> {
+    match found {
+        Ok(found) => Ok(Some(found)),
+        Err(TaskError::Cancelled) => Err(TaskError::Cancelled),
+        Err(error) => {
+            failed.push(Failed { method: method.name(), why: error.to_string() });
+            Ok(None)
+        }
+    }
+}
+
+/// Computes and evaluates the drive of every method on the same targets, and the tradeoff curves of the methods' parameters.
+///
+/// # Errors
+/// [`TaskError::Ask`] of options that make no sense; those of reading and writing files; those of the methods; [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     let surface = ask.surface.load()?;
-    let out = ask.output.as_ref().map(|place| OutputDir::create_beside(place, &ask.reads())).transpose()?;
+    let out = folder::begin(ask.output.as_deref(), ask, &ask.reads())?;
     go_on(progress)?;
     progress.stage("responses");
     let known = judge::model(&surface, None, &[])?;
@@ -71,16 +108,14 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
         options: &settings,
         level,
     };
-    let mut rows = Vec::new();
-    for method in Method::ALL {
-        go_on(progress)?;
-        progress.stage(method.name());
-        rows.push(row::judge(&ground, method).map_err(|error| of_window(error, asked.is_some()))?);
-    }
+    let (mut rows, mut failed) = rows(&ground, asked.is_some(), progress)?;
     let reversal = reversal(&rows)?;
     row::relate(&mut rows);
-    let fronts = front::all(&ground, reversal.trade, progress)?;
-    let felt = front::felt(&ground, reversal, progress)?;
+    let (mut fronts, mut felt) = (Vec::new(), Vec::new());
+    if !ask.no_tradeoffs {
+        fronts = front::all(&ground, reversal.trade, &mut failed, progress)?;
+        felt = front::felt(&ground, reversal, &mut failed, progress)?;
+    }
 
     let mut found = Report {
         program: "unripple",
@@ -91,16 +126,19 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
         window_why: chosen.as_ref().map(|chosen| chosen.why.clone()),
         judged_to_hz: judged_to,
         methods: rows,
+        failed,
         fronts,
         felt,
         files: Vec::new(),
         level,
         window_text: chosen.map(|chosen| chosen.text()),
     };
-    if let Some(out) = out {
-        let drawn = figure::draw(&found.methods, &found.fronts, &found.felt);
-        found.files = figures::write(&out, &[("compare", drawn)])?;
-        out.write("report.json", folder::json(&found)?.as_bytes())?;
+    if let Some((out, record)) = out {
+        if !(ask.no_figures || ask.no_tradeoffs) {
+            let drawn = figure::draw(&found.methods, &found.fronts, &found.felt);
+            found.files = figures::write(&out, &[("compare", drawn)])?;
+        }
+        record.write(&out, &found)?;
         let page = row::markdown(&found.surface, &found.methods, found.conditions());
         out.write("report.md", page.as_bytes())?;
         folder::finish(out, progress)?;

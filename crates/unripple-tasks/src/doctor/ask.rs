@@ -1,20 +1,22 @@
 //! Options of the task `doctor`.
 
+use crate::record::Request;
 use crate::{DeviceAsk, SurfaceAsk};
 use serde::{Deserialize, Serialize};
 use std::net::{IpAddr, Ipv4Addr};
+use std::path::PathBuf;
 
-/// Which surface, device and port are looked at.
+/// The surface, device and port of touches that are checked.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
     /// A surface file, or the name of a built-in surface.
     pub surface: SurfaceAsk,
-    /// The device to be looked at.
+    /// The device that is checked.
     pub device: DeviceAsk,
-    /// UDP port that touches would come to.
+    /// UDP port at which touches would arrive.
     pub tuio: u16,
-    /// Address that would be listened at.
+    /// Address at which touches would be received.
     pub listen: IpAddr,
 }
 
@@ -27,4 +29,14 @@ impl Default for Ask {
             listen: IpAddr::V4(Ipv4Addr::LOCALHOST),
         }
     }
+}
+
+impl Request for Ask {
+    const COMMAND: &'static str = "doctor";
+
+    fn surfaces(&mut self) -> Vec<&mut SurfaceAsk> {
+        vec![&mut self.surface]
+    }
+
+    fn send_to(&mut self, _output: Option<PathBuf>) {}
 }

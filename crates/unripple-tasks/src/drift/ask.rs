@@ -1,25 +1,26 @@
-//! What `drift` is asked.
+//! Options of the task `drift`.
 
+use crate::record::Request;
 use crate::{DeviceAsk, SurfaceAsk, source};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Which surface is listened to through which device, and for how long.
+/// The sheet whose tension is measured, the device, and the duration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
-    /// A surface file, the name of a built-in surface, or a library that `calibrate` measured with actuators that listen; of one that
-    /// `fit` wrote, the library that it was fitted to is followed.
+    /// A surface file, the name of a built-in surface, or a library that `calibrate` measured with sensors at the actuators. For a library
+    /// that `fit` wrote, the measured library that it was fitted to is used.
     pub surface: SurfaceAsk,
-    /// What plays and listens.
+    /// The device that plays and records.
     pub device: DeviceAsk,
-    /// Seconds of pings.
+    /// Duration of the sequence of pings, in s.
     pub seconds: f64,
-    /// Largest change of tension that is looked for, as a share, up and down.
+    /// Largest relative change of tension that is searched for, up and down (0.08 for 8 %).
     pub range: f64,
-    /// Virtual: by what share the tension of the true surface is another.
+    /// Virtual: relative deviation of the simulated sheet's tension from its file.
     pub changed: f64,
-    /// Virtual: by what share it changes in a minute, beginning with the pings.
+    /// Virtual: relative change of the simulated sheet's tension in a minute, from shortly before the first ping on.
     pub changing_per_min: f64,
 }
 
@@ -41,4 +42,14 @@ impl Ask {
     pub fn reads(&self) -> Vec<PathBuf> {
         source::reads(&self.surface)
     }
+}
+
+impl Request for Ask {
+    const COMMAND: &'static str = "drift";
+
+    fn surfaces(&mut self) -> Vec<&mut SurfaceAsk> {
+        vec![&mut self.surface]
+    }
+
+    fn send_to(&mut self, _output: Option<PathBuf>) {}
 }

@@ -1,5 +1,7 @@
 //! Options of the task `export`.
 
+use crate::TaskError;
+use crate::record::{Request, Visit};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -14,7 +16,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// Its name in asks and reports.
+    /// Name of the format in asks and reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Wav => "wav",
@@ -31,12 +33,24 @@ pub struct Ask {
     pub library: PathBuf,
     /// A folder for WAV, or a file for SOFA. An earlier export is replaced.
     pub output: PathBuf,
-    /// What to write; by default SOFA to a name that ends in .sofa, WAV to one without an ending.
+    /// Format; by default SOFA if the output's name ends in .sofa, WAV if it has no ending.
     pub format: Option<Format>,
-    /// SOFA: whom to ask about it, with an address.
+    /// SOFA: author to contact, with an address.
     pub author: Option<String>,
-    /// SOFA: where it was measured or computed.
+    /// SOFA: organization where the responses were measured or computed.
     pub organization: Option<String>,
-    /// SOFA: under what terms it may be used.
+    /// SOFA: licence of the data.
     pub license: Option<String>,
+}
+
+impl Request for Ask {
+    const COMMAND: &'static str = "export";
+
+    fn inputs(&mut self, visit: &mut Visit<'_>) -> Result<(), TaskError> {
+        visit(&mut self.library)
+    }
+
+    fn send_to(&mut self, output: Option<PathBuf>) {
+        self.output = output.unwrap_or_default();
+    }
 }

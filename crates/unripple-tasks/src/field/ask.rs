@@ -1,6 +1,7 @@
 //! Options of the task `field`.
 
-use crate::{Place, SurfaceAsk, names, source};
+use crate::record::{Request, Visit};
+use crate::{Place, SurfaceAsk, TaskError, names, source};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use unripple_calibrate::Interpolation;
@@ -15,7 +16,7 @@ pub enum DriveAsk {
     Samples {
         /// One list per actuator, in the actuators' units.
         channels: Vec<Vec<f64>>,
-        /// Their rate, in Hz.
+        /// Sample rate of the drive, in Hz.
         rate_hz: f64,
     },
 }
@@ -36,21 +37,24 @@ pub struct Ask {
     pub drive: DriveAsk,
     /// Where to measure, in m; by default where the field is strongest.
     pub points_m: Vec<Place>,
-    /// When to measure, in s; by default at each place's own peak. Once for all, or once per point.
+    /// When to measure, in s: one instant for all points, or one per point; by default the instant of each point's
+    /// largest velocity.
     pub instants_s: Vec<f64>,
     /// Fingers that rest on the surface, in m, as the surface file describes fingers.
     pub fingers_m: Vec<Place>,
     /// Period of a repeated drive, in s: figures are then those of the last full period.
     pub period_s: Option<f64>,
-    /// Measure on modes up to this frequency, in Hz; by default those of the band.
+    /// Compute the field with modes up to this frequency, in Hz; by default those of the band.
     pub judge_hz: Option<f64>,
-    /// Folder for the report, snapshot, map of peaks and animation; without it only figures in numbers are made.
+    /// Folder for the report, snapshot, map of peaks and animation; by default no file is written.
     pub output: Option<PathBuf>,
+    /// Write no figures and no animation.
+    pub no_figures: bool,
     /// Start and end of the animation in s; by default the last 6 ms before the instant and 3 ms after.
     pub movie_s: Option<[f64; 2]>,
     /// Frames of the animation; 0 for none.
     pub frames: usize,
-    /// What stands for a place between the points of a library.
+    /// How responses are interpolated for a place between the points of a library.
     #[serde(with = "names::interpolation")]
     pub between: Interpolation,
 }
@@ -66,6 +70,7 @@ impl Default for Ask {
             period_s: None,
             judge_hz: None,
             output: None,
+            no_figures: false,
             movie_s: None,
             frames: 60,
             between: Interpolation::default(),
@@ -81,5 +86,24 @@ impl Ask {
             DriveAsk::Samples { .. } => None,
         };
         source::reads(&self.surface).into_iter().chain(drive).collect()
+    }
+}
+
+impl Request for Ask {
+    const COMMAND: &'static str = "field";
+
+    fn surfaces(&mut self) -> Vec<&mut SurfaceAsk> {
+        vec![&mut self.surface]
+    }
+
+    fn inputs(&mut self, visit: &mut Visit<'_>) -> Result<(), TaskError> {
+        match &mut self.drive {
+            DriveAsk::File(file) => visit(file),
+            DriveAsk::Samples { .. } => Ok(()),
+        }
+    }
+
+    fn send_to(&mut self, output: Option<PathBuf>) {
+        self.output = output;
     }
 }

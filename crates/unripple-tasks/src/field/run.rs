@@ -3,13 +3,13 @@
 use super::{Ask, DriveAsk, Report, write};
 use crate::judge::{self, CELLS};
 use crate::numbers::above_zero;
-use crate::{Progress, TaskError, fingers, go_on, point, source};
+use crate::{Progress, TaskError, fingers, folder, go_on, point, source};
 use unripple::act::{self, Judged};
 use unripple::core::{Drive, Point, Responses, Surface};
 use unripple::field::{Aim, Field};
-use unripple_store::{OutputDir, read_wav};
+use unripple_store::read_wav;
 
-/// The field of a drive, measured, for whoever wants more than its report.
+/// The report on the field of a drive, together with all data from which it was made.
 #[derive(Debug)]
 pub struct Made {
     /// The report, as `run` returns it.
@@ -22,9 +22,9 @@ pub struct Made {
     pub aims: Vec<Aim>,
     /// The surface that was driven.
     pub surface: Surface,
-    /// Its responses: everything else follows from a [`Field`] of them and the drive.
+    /// The responses of the surface. A [`Field`] of these and the drive gives everything else.
     pub responses: Responses,
-    /// Whether lengths and velocities are known.
+    /// Whether absolute lengths and velocities are known: not for a library without a scale.
     pub scaled: bool,
 }
 
@@ -33,15 +33,16 @@ pub struct Made {
 /// # Errors
 /// [`TaskError::Ask`] of numbers that make no sense; those of reading and writing files; [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
-    let out = ask.output.as_ref().map(|place| OutputDir::create_beside(place, &ask.reads())).transpose()?;
-    let (mut made, movie) = measured(ask, out.is_some(), progress)?;
+    let out = folder::begin(ask.output.as_deref(), ask, &ask.reads())?;
+    let drawn = !ask.no_figures;
+    let (mut made, movie) = measured(ask, drawn && out.is_some(), progress)?;
     if let Some(out) = out {
-        write::write(out, &mut made, movie, progress)?;
+        write::write(out, &mut made, movie, drawn, progress)?;
     }
     Ok(made.report)
 }
 
-/// The same without writing a folder, with all that was found.
+/// Measures what a drive does to a surface as [`run()`] does, without writing a folder, and returns all data.
 ///
 /// # Errors
 /// Those of [`run()`], but for those of writing.
@@ -49,7 +50,7 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     Ok(measured(ask, false, progress)?.0)
 }
 
-/// What was found, and the animation if it is wanted: both of one field.
+/// All data, and the animation if it is wanted: both from one field.
 fn measured(
     ask: &Ask,
     animated: bool,

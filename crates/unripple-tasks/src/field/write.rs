@@ -2,7 +2,7 @@
 
 use super::{Ask, Made};
 use crate::figures::{self, Scene};
-use crate::{Progress, TaskError, folder, go_on};
+use crate::{Progress, Record, TaskError, folder, go_on};
 use unripple::act::Judged;
 use unripple::core::{Point, Surface};
 use unripple::field::{Aim, Field};
@@ -11,11 +11,12 @@ use unripple_store::OutputDir;
 /// What the animation shows before the instant of the first figure, and after it, in s.
 const AROUND: [f64; 2] = [6e-3, 3e-3];
 
-/// Writes all of it, names the files in the report, and puts the folder in its place.
+/// Writes report, figures and animation, names the files in the report, and puts the folder in its place.
 pub(super) fn write(
-    out: OutputDir,
+    (out, record): (OutputDir, Record),
     made: &mut Made,
     movie: Option<Vec<u8>>,
+    drawn: bool,
     progress: &mut dyn Progress,
 ) -> Result<(), TaskError> {
     go_on(progress)?;
@@ -24,7 +25,7 @@ pub(super) fn write(
     let scene = scene(&made.surface, &made.aims, &made.judged);
     let mut figures = Vec::new();
     // They are drawn in m/s and µm, which nobody knows without a scale.
-    if made.scaled {
+    if drawn && made.scaled {
         let rate = made.drive.rate();
         figures.push(("traces", figures::traces(&measured.targets, &made.judged.traces, rate)));
         figures.extend(figures::snapshots(&scene, measured).map(|figure| ("snapshot", figure)));
@@ -36,7 +37,7 @@ pub(super) fn write(
         out.write("animation.png", &movie)?;
         made.report.files.push("animation.png".into());
     }
-    out.write("report.json", folder::json(&made.report)?.as_bytes())?;
+    record.write(&out, &made.report)?;
     out.write("report.md", made.report.markdown().as_bytes())?;
     folder::finish(out, progress)
 }

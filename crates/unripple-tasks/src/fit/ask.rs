@@ -1,27 +1,30 @@
 //! Options of the task `fit`.
 
-use crate::Place;
+use crate::record::{Request, Visit};
+use crate::{Place, TaskError};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Which library the model is fitted to, what may be found, and where its responses are wanted.
+/// The library to which the model is fitted, what is fitted, and where responses of the model are computed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
-    /// A library that `calibrate` made on a device whose actuators listen: its last points are their responses at
-    /// each other.
+    /// A library that `calibrate` measured with sensors at the actuators: its last points hold the responses between
+    /// actuators.
     pub library: PathBuf,
-    /// Distance of the points of a square grid where responses of the fitted model are wanted, in m.
+    /// Spacing of a square grid of points where responses of the fitted model are computed, in m.
     pub pitch_m: Option<f64>,
-    /// Single points where they are wanted, in m.
+    /// Single points where responses of the fitted model are computed, in m.
     pub points_m: Vec<Place>,
-    /// Stray masses that may be found.
+    /// Largest number of stray point masses to fit.
     pub strays: usize,
-    /// Half waves that the tension's profile over the sheet may have; 0 for an even tension.
+    /// Largest number of half waves, both directions together, in the variation of tension over the sheet; 0 for
+    /// uniform tension.
     pub profile: usize,
-    /// Write the library even if the model is doubtful; it says so then, and tasks that use it warn.
+    /// Write the library even if the model is doubtful; the library is then marked, and tasks that use it warn.
     pub even_if_doubtful: bool,
-    /// Library of the fitted model's responses, blended with what was measured at points nearby. Needs points.
+    /// Library to write, with responses of the fitted model, corrected by measured responses near their points. Needs
+    /// points.
     pub output: Option<PathBuf>,
 }
 
@@ -36,5 +39,17 @@ impl Default for Ask {
             even_if_doubtful: false,
             output: None,
         }
+    }
+}
+
+impl Request for Ask {
+    const COMMAND: &'static str = "fit";
+
+    fn inputs(&mut self, visit: &mut Visit<'_>) -> Result<(), TaskError> {
+        visit(&mut self.library)
+    }
+
+    fn send_to(&mut self, output: Option<PathBuf>) {
+        self.output = output;
     }
 }

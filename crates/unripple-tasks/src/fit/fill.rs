@@ -1,25 +1,25 @@
-//! Responses of a fitted model, as a library.
+//! Writing of a fitted model's responses as a library.
 
+use super::Ask;
 use super::probed::Probed;
-use crate::{Progress, TaskError, filling};
+use crate::{Progress, Record, TaskError, filling, record};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::time::{SystemTime, UNIX_EPOCH};
 use unripple::core::{Decay, Point, SampledResponses, Surface};
 use unripple_calibrate::{Fitted, Verdict};
 use unripple_store::{Doubt, Library, LibraryPlan};
 
-/// What the log of a measurement says of all that is made from it: whether its scale is known, and which actuators are dead.
+/// Log entries of a measured library that are copied to the fitted one: its scale, and its dead actuators.
 const KEPT: [&str; 2] = ["scale", "dead"];
 
 /// The key of a plan's provenance for the library that the model was fitted to.
 pub const FITTED_TO: &str = "fitted to";
 
-/// Writes responses at some points, blended with those probed, as long as the measured ones. Dead actuators have none. What is doubted
-/// is written first: a library that is filled only in part is doubted as well.
+/// Writes a library of the fitted model's responses at some points, corrected by nearby probed responses, with as many samples as these.
+/// Responses of dead actuators are zero. Doubts are written first, so that a library filled in part carries them too.
 pub fn fill(
-    folder: &Path,
+    (ask, folder): (&Ask, &Path),
     source: &Library,
     surface: &Surface,
     fitted: &Fitted,
@@ -29,6 +29,7 @@ pub fn fill(
 ) -> Result<(), TaskError> {
     let plan = plan(source, surface, fitted, &probed.good, points);
     let mut library = Library::create(folder, &plan)?;
+    Record::of(ask)?.log(&mut library)?;
     for key in KEPT {
         library.log(key, source.logged(key).cloned().unwrap_or(Value::Null))?;
     }
@@ -62,7 +63,6 @@ fn plan(
         Verdict::Good => "good".to_owned(),
         Verdict::Doubtful { why, .. } => format!("doubtful: {why}"),
     };
-    let now = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
     let about = [
         ("device", "fitted model".to_owned()),
         (FITTED_TO, source.path().display().to_string()),
@@ -70,7 +70,7 @@ fn plan(
         ("verdict", verdict),
         ("modes", fitted.modal().poles.len().to_string()),
         ("software", format!("unripple {}", env!("CARGO_PKG_VERSION"))),
-        ("created", format!("{now} s after 1970-01-01 00:00 UTC")),
+        ("created", record::now()),
     ];
     let own = about.into_iter().map(|(key, text)| (key.to_owned(), text));
     let theirs = source.plan().provenance.iter().map(|(key, text)| (format!("measured {key}"), text.clone()));

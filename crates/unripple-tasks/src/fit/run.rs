@@ -1,4 +1,4 @@
-//! The model fitted to a library, and its responses anywhere.
+//! Fits the model to a library, and computes its responses anywhere.
 
 use super::heard::Heard;
 use super::{Ask, Report, fill, probed::Probed, report};
@@ -12,15 +12,16 @@ use unripple_store::{Library, StoreError};
 /// Most half waves of a profile, and most stray loads: beyond, a fit takes hours.
 const MOST: usize = 8;
 
-/// Modes are known up to here, in Hz, but no less than 1.4 and no more than 2.8 times the band's top: what a mass feels of those above is
-/// that of an endless sheet, which is good for waves much shorter than the way to the edge.
+/// Modes are computed up to this frequency, in Hz, but no less than 1.4 and no more than 2.8 times the top of the band: above it, the sheet
+/// reacts to a mass as an endless sheet, which holds for waves much shorter than the distance to the edge.
 const KNOWN: f64 = 4200.0;
 
-/// Fits the model to the responses of a library's actuators at each other, and may write a library of its responses.
+/// Fits the model to the responses between a library's actuators, and writes a library of the fitted model's responses if an output is
+/// given.
 ///
 /// # Errors
-/// [`TaskError::Ask`] of what makes no sense; [`TaskError::Input`] of a library without what is needed; those of the fit and of files;
-/// [`TaskError::Cancelled`].
+/// [`TaskError::Ask`] of options that make no sense; [`TaskError::Input`] of a library without what is needed; those of the fit and of
+/// files; [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     let name = ask.library.display().to_string();
     if !Library::is_at(&ask.library) {
@@ -53,7 +54,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     };
     if let Some(folder) = ask.output.as_ref().filter(|_| why.is_none() || ask.even_if_doubtful) {
         go_on(progress)?;
-        fill::fill(folder, &library, &surface, &fitted, &probed, &wanted, progress)?;
+        fill::fill((ask, folder), &library, &surface, &fitted, &probed, &wanted, progress)?;
         report.written =
             Some(report::Written { library: folder.display().to_string(), points: wanted.len() });
     }
@@ -61,11 +62,11 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     Ok(report)
 }
 
-/// What a library's actuators heard of each other, and the model fitted to it, with at most so many stray masses, and half waves of the
-/// tension's profile.
+/// Reads the responses between a library's actuators and fits the model to them, with at most `strays` stray masses and `profile` half
+/// waves of the tension's profile.
 ///
 /// # Errors
-/// [`TaskError::Input`] of a library whose actuators do not listen; those of the fit; [`TaskError::Cancelled`].
+/// [`TaskError::Input`] of a library without sensors at its actuators; those of the fit; [`TaskError::Cancelled`].
 pub(crate) fn model(
     library: &Library,
     surface: &Surface,
@@ -73,7 +74,7 @@ pub(crate) fn model(
     progress: &mut dyn Progress,
 ) -> Result<(Heard, Fitted), TaskError> {
     let heard = Heard::of(library, surface, progress)?;
-    progress.tell(&format!("fitting {} responses; minutes in a band of some kHz", heard.count()));
+    progress.tell(&format!("fitting {} responses, which takes minutes in a band of some kHz", heard.count()));
     go_on(progress)?;
     progress.stage("fit");
     let plan = FitOptions {

@@ -1,22 +1,23 @@
 //! Options of the task `focus`.
 
+use crate::record::{Request, Visit};
 use crate::target::{LevelAsk, PointAsk, ShapeAsk};
-use crate::{Place, SurfaceAsk, names, source};
+use crate::{Place, SurfaceAsk, TaskError, names, source};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use unripple::focus::{Method, Options};
 use unripple_calibrate::Interpolation;
 
-/// How the decay of what is played back is made up for.
+/// Compensation of the waves' decay in the drive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Losses {
-    /// Not at all: the paper's time reversal.
+    /// No compensation: the paper's time reversal.
     #[default]
     None,
-    /// By e^{+t/τ} with the surface's one decay time.
+    /// Responses are multiplied by e^{+t/τ}, with the surface's one decay time τ.
     Uniform,
-    /// Mode by mode, by e^{+t/τ} with each mode's own decay time.
+    /// Each mode's response is multiplied by e^{+t/τ}, with its own decay time τ.
     PerMode,
 }
 
@@ -32,46 +33,48 @@ pub struct Ask {
     pub shapes: Vec<ShapeAsk>,
     /// How strong the drive is to be.
     pub level: LevelAsk,
-    /// How to focus.
+    /// Focusing method by which the drive is computed.
     #[serde(with = "names::method")]
     pub method: Method,
-    /// How far from time reversal (0) to the method's own limit (1).
+    /// Weight of the method's own objective, from 0 (time reversal) to 1 (the extreme of the method); by default that of the method.
     pub strength: Option<f64>,
-    /// For `limited`: the level at the limit, from that of the unlimited drive (0) to that of one-bit (1).
+    /// For `limited`: peak velocity to reach, from that of the unconstrained drive scaled to the limit (0) to that of one-bit (1).
     pub push: f64,
     /// Largest rms of all actuators together, in the drive's unit.
     pub total_rms: Option<f64>,
-    /// For `robust`: the stretch of frequencies, up and down, that the drive must stand, as a share.
+    /// For `robust`: relative shift of all natural frequencies, up and down, that the drive must tolerate.
     pub spread: f64,
-    /// For `felt`: from the mean of what is felt elsewhere (0) to its worst spot (1).
+    /// For `felt`: what is minimised outside the targets, from the mean square of what is felt (0) to its largest value (1).
     pub worst: Option<f64>,
-    /// For `felt`: weight of the drive's energy.
+    /// For `felt`: weight of the drive's energy in the objective.
     pub economy: Option<f64>,
-    /// For `inverse`: bring displacements to zero as well.
+    /// For `inverse`: minimise displacements at the focal instant as well as velocities.
     pub rest: bool,
     /// Window T in s; by default the one that `design` recommends.
     pub window_s: Option<f64>,
-    /// What stands for a target between the points of a library.
+    /// How responses are interpolated for a target between the points of a library.
     #[serde(with = "names::interpolation")]
     pub between: Interpolation,
-    /// Make up for losses in what is played back.
+    /// Compensation of the waves' decay in the drive.
     pub losses: Losses,
-    /// Length of a repeated drive in s; by default long enough to be steady.
+    /// Length of a repeated drive in s; by default long enough for a periodic steady state.
     pub duration_s: Option<f64>,
-    /// Fingers that rest on the surface while the drive is judged, in m: the drive is what it would be without.
+    /// Places in m where fingers rest on the surface while the drive is evaluated; the drive is computed without them.
     pub fingers_m: Vec<Place>,
-    /// Make the drive for the surface under those fingers.
+    /// Compute the drive for the surface with the fingers of `fingers_m` on it.
     pub finger_aware: bool,
-    /// For `robust`: bear a tension off by this share, up and down.
+    /// For `robust`: relative error of the tension, up and down, that the drive must tolerate.
     pub bear_tension: Option<f64>,
-    /// For `robust`: bear fingers that may be there or not, in m.
+    /// For `robust`: places in m of fingers that may be there or not.
     pub bear_fingers_m: Vec<Place>,
-    /// Judge the drive on another surface than the one, or than the library, it was computed for.
+    /// Evaluate the drive on this surface instead of the surface or library that it was computed for.
     pub on: Option<SurfaceAsk>,
-    /// Judge on modes up to this frequency, in Hz; by default those of the band.
+    /// Evaluate the drive with modes up to this frequency, in Hz; by default those of the band.
     pub judge_hz: Option<f64>,
     /// Folder for drive.wav, report.json, report.md and figures. An earlier run's folder is replaced whole, unless something else is in it.
     pub output: Option<PathBuf>,
+    /// Write no figures.
+    pub no_figures: bool,
 }
 
 impl Default for Ask {
@@ -100,6 +103,7 @@ impl Default for Ask {
             on: None,
             judge_hz: None,
             output: None,
+            no_figures: false,
         }
     }
 }
@@ -110,5 +114,21 @@ impl Ask {
         let surfaces = std::iter::once(&self.surface).chain(&self.on);
         let drawings = self.shapes.iter().filter_map(ShapeAsk::reads).cloned();
         surfaces.flat_map(source::reads).chain(drawings).collect()
+    }
+}
+
+impl Request for Ask {
+    const COMMAND: &'static str = "focus";
+
+    fn surfaces(&mut self) -> Vec<&mut SurfaceAsk> {
+        std::iter::once(&mut self.surface).chain(&mut self.on).collect()
+    }
+
+    fn inputs(&mut self, visit: &mut Visit<'_>) -> Result<(), TaskError> {
+        self.shapes.iter_mut().filter_map(ShapeAsk::file).try_for_each(visit)
+    }
+
+    fn send_to(&mut self, output: Option<PathBuf>) {
+        self.output = output;
     }
 }

@@ -1,4 +1,4 @@
-//! A drive that focuses, and what it was found to do.
+//! Computes a drive that focuses, and evaluates it.
 
 use super::{Ask, Losses, Report, write};
 use crate::numbers::above_zero;
@@ -9,9 +9,8 @@ use unripple::act::{self, Act, Aware, Judged, Note, chosen_window};
 use unripple::core::{Decay, Drive, Responses, Surface};
 use unripple::focus::{Focused, LossCorrection, Method, Options};
 use unripple::physics::Medium;
-use unripple_store::OutputDir;
 
-/// A focus with all that came of it, for whoever wants more than its report.
+/// The report on a focus, together with all data from which it was made.
 #[derive(Debug)]
 pub struct Made {
     /// The report, as `run` returns it.
@@ -20,17 +19,17 @@ pub struct Made {
     pub drive: Drive,
     /// The field of the drive, measured, with traces at the targets and maps.
     pub judged: Judged,
-    /// The drive before its last scaling, and its timing.
+    /// The drive before it was scaled to its level, with its timing.
     pub focused: Focused,
     /// The surface that the drive was evaluated on.
     pub surface: Surface,
     /// The responses that the drive was made from.
     pub responses: Responses,
-    /// Whether lengths and velocities are known.
+    /// Whether absolute lengths and velocities are known: not for a library without a scale.
     pub scaled: bool,
 }
 
-/// A drive that focuses on points and shapes, evaluated, and written to a folder if one is given.
+/// Computes a drive that focuses on points and shapes, evaluates it, and writes it to a folder if one is given.
 ///
 /// ```
 /// use unripple_tasks::target::PointAsk;
@@ -43,19 +42,19 @@ pub struct Made {
 /// ```
 ///
 /// # Errors
-/// [`TaskError::Ask`] of what makes no sense; those of reading surfaces and drawings and of writing the folder; those of the methods;
-/// [`TaskError::Cancelled`].
+/// [`TaskError::Ask`] of options that make no sense; those of reading surfaces and drawings and of writing the folder; those of the
+/// methods; [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
-    let out = ask.output.as_ref().map(|place| OutputDir::create_beside(place, &ask.reads())).transpose()?;
+    let out = folder::begin(ask.output.as_deref(), ask, &ask.reads())?;
     let mut made = make(ask, progress)?;
-    if let Some(out) = out {
-        write::write(&out, &mut made)?;
+    if let Some((out, record)) = out {
+        write::write(&out, &mut made, &record, !ask.no_figures)?;
         folder::finish(out, progress)?;
     }
     Ok(made.report)
 }
 
-/// The same without writing a folder, with all that came of it.
+/// Computes and evaluates a drive as [`run()`] does, without writing a folder, and returns all data.
 ///
 /// # Errors
 /// Those of [`run()`], but for those of writing.
@@ -119,7 +118,7 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     Ok(Made { report, drive, judged, focused, surface, responses, scaled: unscaled.is_none() })
 }
 
-/// Fields that a library cannot serve, and whether they were given.
+/// Fields that need a model, and whether they were given.
 fn needing_modes(ask: &Ask) -> [(&'static str, bool); 7] {
     let on_surface = ask.on.is_some();
     [
@@ -165,7 +164,7 @@ fn settings(ask: &Ask, surface: &Surface, window: f64) -> Result<Options, TaskEr
     })
 }
 
-/// What a drive is made for: a surface under fingers, and others that it may turn into.
+/// The surface under fingers for which a drive is computed, and other states of it that the drive must tolerate.
 fn aware(ask: &Ask, surface: &Surface) -> Result<Aware, TaskError> {
     if ask.finger_aware && ask.fingers_m.is_empty() {
         return Err(TaskError::ask("finger_aware", "`fingers_m` with it", "none"));
@@ -181,7 +180,7 @@ fn aware(ask: &Ask, surface: &Surface) -> Result<Aware, TaskError> {
     Ok(Aware::of(surface, known, ask.bear_tension, &more)?)
 }
 
-/// What figures are of, where that is not what the drive was made from.
+/// Names what the drive was evaluated on, where that is not what it was computed for.
 fn judged_on(surface: &Surface, hz: Option<f64>) -> String {
     let modes = hz.map_or(String::new(), |hz| format!(", modes up to {hz} Hz"));
     format!("{}{modes}", surface.name)

@@ -2,13 +2,25 @@
 
 use super::Made;
 use crate::figures::{self, Scene};
-use crate::{TaskError, folder};
+use crate::{Record, TaskError};
 use unripple::act;
 use unripple::core::ActuatorKind;
+use unripple_plot::Figure;
 use unripple_store::{OutputDir, write_wav};
 
-/// Writes all of it, and names the files in the report.
-pub(super) fn write(out: &OutputDir, made: &mut Made) -> Result<(), TaskError> {
+/// Writes all of it, figures where they are wanted, and names the files in the report.
+pub(super) fn write(out: &OutputDir, made: &mut Made, record: &Record, drawn: bool) -> Result<(), TaskError> {
+    write_wav(out.path().join("drive.wav"), &made.drive)?;
+    made.report.files = vec!["drive.wav".into()];
+    if drawn {
+        made.report.files.extend(figures::write(out, &figures(made))?);
+    }
+    record.write(out, &made.report)?;
+    out.write("report.md", made.report.markdown().as_bytes())?;
+    Ok(())
+}
+
+fn figures(made: &Made) -> Vec<(&'static str, Figure)> {
     let (measured, surface) = (&made.judged.measured, &made.surface);
     let scene = Scene::new(surface, &made.focused.points, measured.focal_radius_m);
     let unit = act::unit(&surface.actuators.first().map_or(ActuatorKind::Force, |a| a.kind));
@@ -21,10 +33,5 @@ pub(super) fn write(out: &OutputDir, made: &mut Made) -> Result<(), TaskError> {
         figures.extend(figures::peaks(&scene, measured).map(|figure| ("peaks", figure)));
         figures.extend(figures::felt(&scene, measured).map(|figure| ("felt", figure)));
     }
-    write_wav(out.path().join("drive.wav"), &made.drive)?;
-    made.report.files = vec!["drive.wav".into()];
-    made.report.files.extend(figures::write(out, &figures)?);
-    out.write("report.json", folder::json(&made.report)?.as_bytes())?;
-    out.write("report.md", made.report.markdown().as_bytes())?;
-    Ok(())
+    figures
 }

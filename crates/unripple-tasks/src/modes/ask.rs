@@ -1,7 +1,9 @@
 //! Options of the task `modes`.
 
 use crate::SurfaceAsk;
+use crate::record::Request;
 use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
 
 /// Which modes are wanted, and how accurate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -11,7 +13,7 @@ pub struct Ask {
     pub surface: SurfaceAsk,
     /// Highest frequency, in Hz; by default the top of the surface's band.
     pub top_hz: Option<f64>,
-    /// Relative accuracy of the frequencies.
+    /// Relative accuracy of the modes' frequencies.
     pub accuracy: f64,
 }
 
@@ -19,4 +21,14 @@ impl Default for Ask {
     fn default() -> Self {
         Self { surface: SurfaceAsk::default(), top_hz: None, accuracy: 1e-6 }
     }
+}
+
+impl Request for Ask {
+    const COMMAND: &'static str = "modes";
+
+    fn surfaces(&mut self) -> Vec<&mut SurfaceAsk> {
+        vec![&mut self.surface]
+    }
+
+    fn send_to(&mut self, _output: Option<PathBuf>) {}
 }

@@ -1,6 +1,7 @@
 //! Options of the task `play`.
 
-use crate::{DeviceAsk, SurfaceAsk, names, source};
+use crate::record::{Request, Visit};
+use crate::{DeviceAsk, SurfaceAsk, TaskError, names, source};
 use serde::{Deserialize, Serialize};
 use std::net::{IpAddr, Ipv4Addr};
 use std::path::PathBuf;
@@ -11,21 +12,21 @@ use unripple_store::effect_files;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct TouchAsk {
-    /// Fingers that are not there, tapping and sliding; 2 where nothing else touches.
+    /// Number of synthetic fingers that tap and slide; by default 2 if there is no other source of touches, else 0.
     pub fingers: Option<usize>,
-    /// Another seed, other fingers.
+    /// Seed of the synthetic fingers' motion.
     pub seed: u64,
-    /// Hear TUIO 1.1, TUIO 2.0 and OSC at this UDP port; 3333 is theirs.
+    /// UDP port at which TUIO 1.1, TUIO 2.0 and OSC are received; the usual one is 3333.
     pub tuio: Option<u16>,
-    /// Hear WebSocket clients at this port.
+    /// Port at which WebSocket clients are accepted.
     pub websocket: Option<u16>,
-    /// Address to listen at; by default this machine alone.
+    /// Address to listen at; by default only this machine can connect.
     pub listen: IpAddr,
     /// Multi-touch screens, such as /dev/input/event5.
     pub screen: Vec<PathBuf>,
-    /// A recorded session, played again.
+    /// File of a recorded session of touches to replay.
     pub session: Option<PathBuf>,
-    /// Record all touches to a new file, for a session.
+    /// New file to which all touches are recorded, to be replayed as a `session`.
     pub record: Option<PathBuf>,
 }
 
@@ -45,7 +46,7 @@ impl Default for TouchAsk {
 }
 
 impl TouchAsk {
-    /// A field by which somebody out there may touch.
+    /// Name of the first given field that admits live touches: `tuio`, `websocket` or `screen`; `None` if none is given.
     pub fn live(&self) -> Option<&'static str> {
         let fields = [
             (self.tuio.is_some(), "`tuio`"),
@@ -56,37 +57,39 @@ impl TouchAsk {
     }
 }
 
-/// Which surface is played through what, what touches it, and what that sets off.
+/// The surface, the device, the sources of touches, and the effects that touches trigger.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
     /// A surface file, the name of a built-in surface, or a library of responses.
     pub surface: SurfaceAsk,
-    /// What plays and listens.
+    /// The device that plays and records.
     pub device: DeviceAsk,
-    /// What touches set off: the name of built-in effects, a TOML file, or a .haptic, .ahap or .hjif file.
+    /// Effects that touches trigger: the name of built-in effects, a TOML file, or a .haptic, .ahap or .hjif file.
     pub effect: String,
     /// Where touches come from.
     pub touch: TouchAsk,
-    /// How drives are made.
+    /// Focusing method by which drives are computed.
     #[serde(with = "names::method")]
     pub method: Method,
-    /// Window T in s, which is the delay of every focus; by default the shortest with three quarters of the largest contrast.
+    /// Window T in s, which is the delay from a touch to its focus; by default the shortest window that reaches three quarters of the
+    /// largest contrast.
     pub window_s: Option<f64>,
-    /// Samples of a block.
+    /// Samples per block.
     pub block: usize,
     /// Seconds to play; without it until cancelled, or until a recorded session is over.
     pub seconds: Option<f64>,
-    /// Let a gain of 1 be the surface's own drive limit, however far that moves the sheet; by default it is felt as much as a pulse that
-    /// moves the sheet by half its thickness.
+    /// Let a gain of 1 be the surface's drive limit, however far that moves the sheet. By default a gain of 1 has the felt level of a pulse
+    /// that moves the sheet by half its thickness.
     pub full_limit: bool,
-    /// Follow the tension of the sheet while playing, by what the actuators hear.
+    /// Follow the tension of the sheet while playing, from the signals of the actuators' sensors.
     pub follow_tension: bool,
-    /// Play by the clock on the wall even where nothing needs it.
+    /// Play in real time even where nothing requires it.
     pub real_time: bool,
-    /// Virtual: the tension drifts by this share, up and down within a minute.
+    /// Virtual: the tension varies by this share, up and down, with a period of a minute.
     pub drift: Option<f64>,
-    /// Keep all that was driven, as a WAV file in the actuators' unit; at most a minute. One that was kept earlier is replaced.
+    /// WAV file for the drive that was played, in the actuators' unit; of a run longer than a minute, the first minute. The file of an
+    /// earlier run is replaced.
     pub keep_drive: Option<PathBuf>,
 }
 
@@ -117,11 +120,33 @@ impl Ask {
         source::reads(&self.surface).into_iter().chain(effect_files(&self.effect)).chain(sessions).collect()
     }
 
-    /// What makes a sitting go by the clock on the wall; nothing where it goes as fast as it can.
+    /// Reason why the session runs in real time; `None` if it runs as fast as it can.
     pub fn clock(&self) -> Option<String> {
         let device = || format!("`device` {}", self.device.device.name());
         let real = self.device.is_real().then(device);
         real.or_else(|| self.real_time.then(|| "`real_time`".into()))
             .or_else(|| self.touch.live().map(Into::into))
+    }
+}
+
+impl Request for Ask {
+    const COMMAND: &'static str = "play";
+
+    fn surfaces(&mut self) -> Vec<&mut SurfaceAsk> {
+        vec![&mut self.surface]
+    }
+
+    fn inputs(&mut self, visit: &mut Visit<'_>) -> Result<(), TaskError> {
+        if !effect_files(&self.effect).is_empty() {
+            let mut file = PathBuf::from(&self.effect);
+            visit(&mut file)?;
+            self.effect = file.to_string_lossy().into_owned();
+        }
+        self.touch.session.iter_mut().try_for_each(visit)
+    }
+
+    fn send_to(&mut self, output: Option<PathBuf>) {
+        self.keep_drive = output;
+        self.touch.record = None;
     }
 }

@@ -1,8 +1,7 @@
-//! A drive that plays something, evaluated as a whole.
+//! Evaluation of drives for waveforms and strokes, over their whole length.
 
 use super::write;
-use crate::{Progress, SurfaceAsk, TaskError, folder, go_on, judge, source};
-use std::path::PathBuf;
+use crate::{Progress, Record, SurfaceAsk, TaskError, folder, go_on, judge, source};
 use unripple::act::{DecidedBy, Followed, Report, Strength, Stroked};
 use unripple::core::{Drive, Responses, Surface};
 use unripple::field::{Aim, Field, SilenceFigures};
@@ -13,10 +12,10 @@ use unripple_store::OutputDir;
 /// single focus: the time of a long drive counts, and rms figures change little.
 const CELLS: f64 = 3.0;
 
-/// A drive nearer to its limit than this was held by it: float32 rounds by less.
+/// If a drive is nearer to its limit than this share, the limit decided its level: rounding to float32 is smaller.
 const HELD: f64 = 1e-6;
 
-/// A drive, what is known of it, and how well it does.
+/// A drive, and what is known of how well it does.
 pub(crate) struct Played {
     /// The drive, float32 samples in the actuators' unit.
     pub drive: Drive,
@@ -32,7 +31,7 @@ pub(crate) struct Played {
     pub stroke: Option<Stroked>,
 }
 
-/// What a waveform and a stroke are asked alike.
+/// Options that the tasks `waveform` and `stroke` have in common.
 pub(crate) struct Common<'a> {
     /// The surface that the drive is made for.
     pub surface: &'a SurfaceAsk,
@@ -40,20 +39,20 @@ pub(crate) struct Common<'a> {
     pub on: Option<&'a SurfaceAsk>,
     /// Highest frequency of the modes that the drive is evaluated on, in Hz.
     pub judge_hz: Option<f64>,
-    /// Where the results are to go.
-    pub output: Option<&'a PathBuf>,
-    /// Files that are read, which no output may replace.
-    pub reads: Vec<PathBuf>,
-    /// Name of the field that a library does not serve.
+    /// Whether figures are written.
+    pub drawn: bool,
+    /// Where results go, and the record that goes with them.
+    pub out: Option<(OutputDir, Record)>,
+    /// Name of the field that needs a surface, for the error if a library is given.
     pub needs: &'static str,
     /// Multiples of the band up to which modes are planned with, and evaluated on by default.
     pub bands: [f64; 2],
 }
 
-/// Makes a drive by `play`, from the surface and the models it is planned and evaluated with, evaluates it, and
-/// writes it where a folder is given.
+/// Computes a drive by `play`, which gets the surface and the responses for planning and for evaluation; evaluates the
+/// drive, and writes it where a folder is given.
 pub(crate) fn judge(
-    common: &Common<'_>,
+    common: Common<'_>,
     progress: &mut dyn Progress,
     play: impl FnOnce(&Surface, [&Responses; 2]) -> Result<Played, TaskError>,
 ) -> Result<(Report, Drive), TaskError> {
@@ -62,7 +61,6 @@ pub(crate) fn judge(
     let surface = source.surface;
     let plant = common.on.map(|on| on.load()).transpose()?;
     let plant = plant.as_ref().unwrap_or(&surface);
-    let out = common.output.map(|place| OutputDir::create_beside(place, &common.reads)).transpose()?;
     go_on(progress)?;
     progress.stage("responses");
     let [planned, judged] = common.bands;
@@ -90,8 +88,9 @@ pub(crate) fn judge(
     report.waveforms = played.waveforms;
     report.silent = played.silent;
     report.stroke = played.stroke;
-    if let Some(out) = out {
-        write::write(&out, &mut report, plant, &played.drive, &judged)?;
+    if let Some((out, record)) = common.out {
+        write::write(&out, &mut report, common.drawn.then_some(plant), &played.drive, &judged)?;
+        record.write(&out, &report)?;
         folder::finish(out, progress)?;
     }
     Ok((report, played.drive))

@@ -1,19 +1,30 @@
 //! The folder of what is played: drive, report and figures.
 
+use crate::TaskError;
 use crate::figures::{self, Scene};
-use crate::{TaskError, folder};
 use unripple::act::{Judged, Report, unit};
 use unripple::core::{ActuatorKind, Drive, Point, Surface};
+use unripple_plot::Figure;
 use unripple_store::{OutputDir, write_wav};
 
-/// Writes all of it, and names the files in the report.
+/// Writes all of it but the report as JSON, and names the files in the report; figures are of a surface, where one is given.
 pub(super) fn write(
     out: &OutputDir,
     report: &mut Report,
-    surface: &Surface,
+    drawn: Option<&Surface>,
     drive: &Drive,
     judged: &Judged,
 ) -> Result<(), TaskError> {
+    write_wav(out.path().join("drive.wav"), drive)?;
+    report.files = vec!["drive.wav".into()];
+    if let Some(surface) = drawn {
+        report.files.extend(figures::write(out, &figures(surface, drive, judged))?);
+    }
+    out.write("report.md", report.markdown().as_bytes())?;
+    Ok(())
+}
+
+fn figures(surface: &Surface, drive: &Drive, judged: &Judged) -> Vec<(&'static str, Figure)> {
     let measured = &judged.measured;
     let points: Vec<Vec<Point>> =
         measured.targets.iter().map(|t| vec![Point::new(t.at_m[0], t.at_m[1])]).collect();
@@ -24,10 +35,5 @@ pub(super) fn write(
         ("drive", figures::channels(drive, unit)),
     ];
     figures.extend(figures::peaks(&scene, measured).map(|figure| ("peaks", figure)));
-    write_wav(out.path().join("drive.wav"), drive)?;
-    report.files = vec!["drive.wav".into()];
-    report.files.extend(figures::write(out, &figures)?);
-    out.write("report.json", folder::json(report)?.as_bytes())?;
-    out.write("report.md", report.markdown().as_bytes())?;
-    Ok(())
+    figures
 }

@@ -1,6 +1,7 @@
 //! Options of the task `respond`.
 
 use crate::SurfaceAsk;
+use crate::record::Request;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -10,10 +11,22 @@ use std::path::PathBuf;
 pub struct Ask {
     /// A surface file, or the name of a built-in surface.
     pub surface: SurfaceAsk,
-    /// Distance between points, in m: they lie at its multiples, those near the rim left out.
+    /// Spacing of the points, in m. They lie at its multiples, without those near the rim.
     pub pitch_m: f64,
     /// Length of the responses in s; by default twice the window that `design` recommends.
     pub length_s: Option<f64>,
-    /// Folder of the library. A library of the same plan is continued where it was left.
+    /// Folder of the library. An unfinished library of the same plan is continued.
     pub output: PathBuf,
+}
+
+impl Request for Ask {
+    const COMMAND: &'static str = "respond";
+
+    fn surfaces(&mut self) -> Vec<&mut SurfaceAsk> {
+        vec![&mut self.surface]
+    }
+
+    fn send_to(&mut self, output: Option<PathBuf>) {
+        self.output = output.unwrap_or_default();
+    }
 }

@@ -2,15 +2,14 @@
 
 use super::{Ask, Report};
 use crate::numbers::above_zero;
-use crate::{Progress, TaskError, filling, go_on, grid, judge};
-use std::time::{SystemTime, UNIX_EPOCH};
+use crate::{Progress, Record, TaskError, filling, go_on, grid, judge, record};
 use unripple::act::{carries, unit};
 use unripple::core::{ModalResponses, Responses, Surface, window_samples};
 use unripple::physics::design::Windows;
 use unripple::physics::sample;
 use unripple_store::{Library, LibraryPlan};
 
-/// Computes the responses of a surface at the points of a grid, and keeps them in a library. One that was cancelled is continued.
+/// Computes the responses of a surface at the points of a grid, and stores them in a library. A cancelled run can be continued.
 ///
 /// # Errors
 /// Those of [`SurfaceAsk::load`](crate::SurfaceAsk::load); [`TaskError::Ask`] of a pitch or length that makes no sense;
@@ -27,6 +26,7 @@ use unripple_store::{Library, LibraryPlan};
 /// ```
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     let surface = ask.surface.load()?;
+    let record = Record::of(ask)?;
     above_zero(ask.pitch_m, "pitch_m", "m")?;
     Library::may_be_at(&ask.output)?;
     go_on(progress)?;
@@ -38,6 +38,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     let plan = plan(ask, &surface, &modal)?;
     go_on(progress)?;
     let mut library = Library::create(&ask.output, &plan)?;
+    record.log(&mut library)?;
     let before = library.done().len();
     let samples = plan.samples;
     filling::fill(&mut library, &[], progress, &mut |places| Ok(sample(&modal, places, samples)))?;
@@ -66,13 +67,12 @@ fn plan(ask: &Ask, surface: &Surface, modal: &ModalResponses) -> Result<LibraryP
     let points = grid::points(&surface.outline, ask.pitch_m)?;
     let conditions = modal.conditions.clone();
     let samples = window_samples(length, conditions.rate) + 1;
-    let now = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
     let about = [
         ("device", "model".to_owned()),
         ("stimulus", "impulse".to_owned()),
         ("modes", modal.poles.len().to_string()),
         ("software", format!("unripple {}", env!("CARGO_PKG_VERSION"))),
-        ("created", format!("{now} s after 1970-01-01 00:00 UTC")),
+        ("created", record::now()),
     ];
     Ok(LibraryPlan {
         drive_units: surface.actuators.iter().map(|a| unit(&a.kind).to_owned()).collect(),

@@ -1,7 +1,8 @@
 //! Options of the task `stroke`.
 
+use crate::record::{Request, Visit};
 use crate::target::{LineAsk, ShapeAsk};
-use crate::{SurfaceAsk, source};
+use crate::{SurfaceAsk, TaskError, source};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -11,20 +12,22 @@ use std::path::PathBuf;
 pub struct Ask {
     /// A surface file, or the name of a built-in surface.
     pub surface: SurfaceAsk,
-    /// The path; of a shape its outline.
+    /// Path of the focus; of a filled shape, its outline.
     pub path: ShapeAsk,
     /// How fast the focus moves, in m/s.
     pub speed_m_s: f64,
-    /// Velocity of its pulses, in m/s.
+    /// Velocity of the sheet at each pulse along the path, in m/s.
     pub level_m_s: f64,
     /// Window T of each pulse, in s.
     pub window_s: Option<f64>,
-    /// Judge on another surface than the one it was computed for.
+    /// Evaluate the drive on this surface instead of the one that it was computed for.
     pub on: Option<SurfaceAsk>,
-    /// Judge on modes up to this frequency, in Hz; by default to twice the band.
+    /// Evaluate the drive with modes up to this frequency, in Hz; by default up to twice the top of the band.
     pub judge_hz: Option<f64>,
     /// Folder for drive.wav, report.json, report.md and figures. An earlier run's folder is replaced whole, unless something else is in it.
     pub output: Option<PathBuf>,
+    /// Write no figures.
+    pub no_figures: bool,
 }
 
 impl Default for Ask {
@@ -38,6 +41,7 @@ impl Default for Ask {
             on: None,
             judge_hz: None,
             output: None,
+            no_figures: false,
         }
     }
 }
@@ -47,5 +51,21 @@ impl Ask {
     pub fn reads(&self) -> Vec<PathBuf> {
         let surfaces = std::iter::once(&self.surface).chain(&self.on);
         surfaces.flat_map(source::reads).chain(self.path.reads().cloned()).collect()
+    }
+}
+
+impl Request for Ask {
+    const COMMAND: &'static str = "stroke";
+
+    fn surfaces(&mut self) -> Vec<&mut SurfaceAsk> {
+        std::iter::once(&mut self.surface).chain(&mut self.on).collect()
+    }
+
+    fn inputs(&mut self, visit: &mut Visit<'_>) -> Result<(), TaskError> {
+        self.path.file().map_or(Ok(()), visit)
+    }
+
+    fn send_to(&mut self, output: Option<PathBuf>) {
+        self.output = output;
     }
 }

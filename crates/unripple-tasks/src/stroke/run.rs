@@ -1,10 +1,10 @@
-//! A drive whose focus moves along a path, and what it was found to do.
+//! Computes a drive whose focus moves along a path, and evaluates it.
 
 use super::{Ask, Report};
 use crate::numbers::above_zero;
 use crate::played::{Common, Played, judge};
 use crate::window::carries;
-use crate::{Progress, TaskError};
+use crate::{Progress, TaskError, folder};
 use unripple::act::Stroked;
 use unripple::core::{Drive, Point, Responses, Surface};
 use unripple::field::{Aim, Field};
@@ -20,7 +20,7 @@ const AT_ONCE: usize = 256;
 /// Places measured for each pulse of a stroke. One at each focus and one midway, where a gap would show.
 const BETWEEN: usize = 2;
 
-/// A drive whose focus moves along a path at one level, evaluated, and written to a folder if one is given.
+/// Computes a drive whose focus moves along a path at one level, evaluates it, and writes it to a folder if one is given.
 ///
 /// # Errors
 /// [`TaskError::Ask`] of numbers that make no sense; those of reading and writing files; those of the method; [`TaskError::Cancelled`].
@@ -28,7 +28,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     Ok(make(ask, progress)?.0)
 }
 
-/// The same, with the drive: float32 samples in the actuators' unit, `[actuator][sample]`.
+/// Does what [`run()`] does, and also returns the drive: float32 samples in the actuators' unit, `[actuator][sample]`.
 ///
 /// # Errors
 /// Those of [`run()`].
@@ -39,12 +39,12 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<(Report, Drive), T
         surface: &ask.surface,
         on: ask.on.as_ref(),
         judge_hz: ask.judge_hz,
-        output: ask.output.as_ref(),
-        reads: ask.reads(),
+        drawn: !ask.no_figures,
+        out: folder::begin(ask.output.as_deref(), ask, &ask.reads())?,
         needs: "waveforms and path",
         bands: BANDS,
     };
-    judge(&common, progress, |surface, models| {
+    judge(common, progress, |surface, models| {
         let path = Pattern { filled: false, ..ask.path.pattern("path")? };
         stroked(ask, surface, &Stroke { level, ..Stroke::along(path, speed) }, models)
     })
@@ -92,8 +92,8 @@ fn stroked(
     })
 }
 
-/// Least and greatest velocity along a path: at the pulse nearest to each place's own instant, and at most within half an
-/// interval of it; in m/s.
+/// Least and greatest velocity along a path, in m/s: at each place at the instant of the nearest pulse, and the largest within half an
+/// interval of the place's own instant.
 fn evenness(
     stroke: &Stroke,
     instants: &[usize],

@@ -10,7 +10,7 @@ use unripple_store::Drawing;
 /// How closely the curves of an SVG shape are followed, in metres. A hundredth of a focus's width and less.
 const TOLERANCE: f64 = 0.05e-3;
 
-/// Corners one after the other.
+/// A polyline, given by its corners.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LineAsk {
@@ -31,21 +31,21 @@ pub enum ShapeAsk {
         /// Length of a side, in m.
         side_m: f64,
     },
-    /// A circle, as a line.
+    /// The circumference of a circle.
     Circle {
         /// Its centre, in m.
         centre_m: Place,
         /// Its radius, in m.
         radius_m: f64,
     },
-    /// Lines, or what they enclose.
+    /// Polylines, or the areas that they enclose.
     Lines {
-        /// The lines, each a list of corners.
+        /// The polylines, each a list of corners.
         lines: Vec<LineAsk>,
-        /// Whether what they enclose is meant.
+        /// Whether the enclosed areas are the targets rather than the lines.
         filled: bool,
     },
-    /// An SVG file, which says by itself what is filled and what is stroked.
+    /// An SVG file, whose paths say whether they are filled or stroked.
     Svg {
         /// Path of the SVG file.
         file: PathBuf,
@@ -53,7 +53,7 @@ pub enum ShapeAsk {
 }
 
 impl ShapeAsk {
-    /// The file that is read for it, if any.
+    /// Path of the SVG file of the shape, if it has one.
     pub fn reads(&self) -> Option<&PathBuf> {
         match self {
             Self::Svg { file } => Some(file),
@@ -61,7 +61,15 @@ impl ShapeAsk {
         }
     }
 
-    /// The shape in the library's own type; errors name `field`.
+    /// Mutable path of the SVG file of the shape, if it has one.
+    pub fn file(&mut self) -> Option<&mut PathBuf> {
+        match self {
+            Self::Svg { file } => Some(file),
+            _ => None,
+        }
+    }
+
+    /// Converts the shape to a [`Pattern`]; errors name `field`.
     ///
     /// # Errors
     /// [`TaskError::Ask`] of a size that is not above 0, or of a drawing without a path; those of reading a drawing.

@@ -1,6 +1,7 @@
 //! Options of the task `waveform`.
 
-use crate::{Place, SurfaceAsk, source};
+use crate::record::{Request, Visit};
+use crate::{Place, SurfaceAsk, TaskError, source};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -19,10 +20,10 @@ pub enum SoundAsk {
     Burst {
         /// Its frequency, in Hz.
         hz: f64,
-        /// How many of them.
+        /// Number of cycles of the tone.
         cycles: f64,
     },
-    /// A single push.
+    /// A single pulse in the shape of a raised cosine.
     Click {
         /// How long it lasts, in s.
         length_s: f64,
@@ -34,9 +35,9 @@ pub enum SoundAsk {
     },
     /// Samples given in the ask itself.
     Samples {
-        /// Their values; only their proportions matter.
+        /// Sample values; only their ratios matter, since the level sets the peak.
         values: Vec<f64>,
-        /// Their rate, in Hz.
+        /// Sample rate of the values, in Hz.
         rate_hz: f64,
     },
 }
@@ -45,7 +46,7 @@ pub enum SoundAsk {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WaveformAsk {
-    /// Where, in m.
+    /// Place of the target, in m.
     pub at_m: Place,
     /// The waveform that it is to follow.
     pub sound: SoundAsk,
@@ -67,16 +68,18 @@ pub struct Ask {
     pub surface: SurfaceAsk,
     /// Targets with the waveforms that they follow.
     pub waveforms: Vec<WaveformAsk>,
-    /// Targets that are to be still meanwhile, in m.
+    /// Places that are to stay still meanwhile, in m.
     pub silent_m: Vec<Place>,
-    /// Time that drives may begin before a waveform and end after it, in s.
+    /// Time by which the drive may begin before a waveform and end after it, in s.
     pub window_s: Option<f64>,
-    /// Judge on another surface than the one it was computed for.
+    /// Evaluate the drive on this surface instead of the one that it was computed for.
     pub on: Option<SurfaceAsk>,
-    /// Judge on modes up to this frequency, in Hz; by default to three times the band.
+    /// Evaluate the drive with modes up to this frequency, in Hz; by default up to three times the top of the band.
     pub judge_hz: Option<f64>,
     /// Folder for drive.wav, report.json, report.md and figures. An earlier run's folder is replaced whole, unless something else is in it.
     pub output: Option<PathBuf>,
+    /// Write no figures.
+    pub no_figures: bool,
 }
 
 impl Ask {
@@ -88,5 +91,24 @@ impl Ask {
             _ => None,
         });
         surfaces.flat_map(source::reads).chain(files).collect()
+    }
+}
+
+impl Request for Ask {
+    const COMMAND: &'static str = "waveform";
+
+    fn surfaces(&mut self) -> Vec<&mut SurfaceAsk> {
+        std::iter::once(&mut self.surface).chain(&mut self.on).collect()
+    }
+
+    fn inputs(&mut self, visit: &mut Visit<'_>) -> Result<(), TaskError> {
+        self.waveforms.iter_mut().try_for_each(|waveform| match &mut waveform.sound {
+            SoundAsk::Wav { file } => visit(file),
+            _ => Ok(()),
+        })
+    }
+
+    fn send_to(&mut self, output: Option<PathBuf>) {
+        self.output = output;
     }
 }

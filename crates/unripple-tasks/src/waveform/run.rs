@@ -1,9 +1,9 @@
-//! A drive that has targets follow waveforms, and what it was found to do.
+//! Computes a drive by which targets follow waveforms, and evaluates it.
 
 use super::{Ask, Report, sound};
 use crate::numbers::above_zero;
 use crate::played::{Common, Played, judge};
-use crate::{Progress, TaskError, point};
+use crate::{Progress, TaskError, folder, point};
 use unripple::act::Followed;
 use unripple::core::{Drive, Responses, Surface};
 use unripple::field::{Aim, Field, Wanted};
@@ -13,7 +13,8 @@ use unripple::focus::{PlayOptions, play};
 /// frequencies a sheet yields by modes far above.
 const BANDS: [f64; 2] = [2.0, 3.0];
 
-/// A drive that has targets follow waveforms while others are still, evaluated, and written to a folder if one is given.
+/// Computes a drive by which targets follow waveforms while other places are still, evaluates it, and writes it to a folder if one is
+/// given.
 ///
 /// # Errors
 /// [`TaskError::Ask`] without a waveform, and of numbers that make no sense; those of reading and writing files; those of the method;
@@ -22,7 +23,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     Ok(make(ask, progress)?.0)
 }
 
-/// The same, with the drive: float32 samples in the actuators' unit.
+/// Does what [`run()`] does, and also returns the drive: float32 samples in the actuators' unit, `[actuator][sample]`.
 ///
 /// # Errors
 /// Those of [`run()`].
@@ -34,12 +35,12 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<(Report, Drive), T
         surface: &ask.surface,
         on: ask.on.as_ref(),
         judge_hz: ask.judge_hz,
-        output: ask.output.as_ref(),
-        reads: ask.reads(),
+        drawn: !ask.no_figures,
+        out: folder::begin(ask.output.as_deref(), ask, &ask.reads())?,
         needs: "waveforms and path",
         bands: BANDS,
     };
-    judge(&common, progress, |surface, models| followed(ask, surface, models))
+    judge(common, progress, |surface, models| followed(ask, surface, models))
 }
 
 fn followed(ask: &Ask, surface: &Surface, [model, judging]: [&Responses; 2]) -> Result<Played, TaskError> {

@@ -63,7 +63,7 @@ impl Jobs {
 
     /// The task of a job, and the command line that does the same.
     fn work(&self, kind: &str, job: &Job, toml: String) -> Result<(Work, String), String> {
-        let surface = SurfaceAsk::Text { toml };
+        let surface = SurfaceAsk::Text { toml, name: None };
         match kind {
             "devices" => Ok((Work::Devices(devices::Ask::default()), "unripple devices".into())),
             "doctor" => {

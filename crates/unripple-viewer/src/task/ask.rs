@@ -4,26 +4,27 @@ use serde::{Deserialize, Serialize};
 use std::net::{IpAddr, Ipv4Addr};
 use std::path::PathBuf;
 use unripple::focus::Method;
+use unripple_tasks::record::Request;
 use unripple_tasks::{DeviceAsk, DeviceKind, SurfaceAsk, method};
 
-/// Which surface is shown in a browser, through what it is played, and who may come.
+/// The surface that is shown in a browser, the device that plays it, and who may connect.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
     /// A surface file, the name of a built-in surface, or a library of responses.
     pub surface: SurfaceAsk,
-    /// What plays and listens.
+    /// The device that plays and records.
     pub device: DeviceAsk,
-    /// How drives are made at first.
+    /// Focusing method to begin with; the page can change it.
     #[serde(with = "method")]
     pub method: Method,
-    /// Follow the tension of the sheet, by what the actuators hear: of a real device, or with unknowns.
+    /// Follow the tension of the sheet from the signals of the actuators' sensors, on a real device or with `unknowns`.
     pub follow_tension: bool,
-    /// The address to listen at; by default this machine alone. Where others can come, their address holds a token.
+    /// Address to listen at; by default only this machine can connect. For other machines the URL holds a token.
     pub listen: IpAddr,
-    /// TCP port; 0 takes any that is free.
+    /// TCP port; 0 for any free one.
     pub port: u16,
-    /// The token, where it is to be the same each time: 8 to 64 letters and digits. A new one each time otherwise.
+    /// The token, 8 to 64 letters and digits; by default a new one each time.
     pub token: Option<String>,
     /// Folder for libraries that are calibrated from the page.
     pub folder: PathBuf,
@@ -49,8 +50,22 @@ impl Default for Ask {
 }
 
 impl Ask {
-    /// Whether the surface is merely computed, and exactly the one that the file describes.
+    /// Whether the surface is simulated exactly as its file describes it.
     pub(super) fn simulated(&self) -> bool {
         self.device.device == DeviceKind::Virtual && self.device.unknowns.is_none()
+    }
+}
+
+impl Request for Ask {
+    const COMMAND: &'static str = "view";
+
+    fn surfaces(&mut self) -> Vec<&mut SurfaceAsk> {
+        vec![&mut self.surface]
+    }
+
+    fn send_to(&mut self, output: Option<PathBuf>) {
+        if let Some(folder) = output {
+            self.folder = folder;
+        }
     }
 }

@@ -1,0 +1,214 @@
+//! Records of runs: what a report says of how it was made, from which it can be made again.
+
+mod hash;
+
+use crate::{SurfaceAsk, TaskError};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+use std::time::{SystemTime, UNIX_EPOCH};
+use unripple_store::{Library, OutputDir, date, to_toml};
+
+pub use hash::{of_bytes, of_path};
+
+/// What is done with the path of a file that is read.
+pub type Visit<'a> = dyn FnMut(&mut PathBuf) -> Result<(), TaskError> + 'a;
+
+/// An ask as a record holds it: what it reads, and where its results go.
+pub trait Request: Clone + Serialize + DeserializeOwned {
+    /// The command that does it.
+    const COMMAND: &'static str;
+
+    /// Surfaces that it names.
+    fn surfaces(&mut self) -> Vec<&mut SurfaceAsk> {
+        Vec::new()
+    }
+
+    /// Shows `visit` the path of each file and folder that it reads beside those of its surfaces, to be changed in place.
+    ///
+    /// # Errors
+    /// Those of `visit`.
+    fn inputs(&mut self, _visit: &mut Visit<'_>) -> Result<(), TaskError> {
+        Ok(())
+    }
+
+    /// Sends results to another place, or nowhere where that is possible; whatever else would be written is not.
+    fn send_to(&mut self, output: Option<PathBuf>);
+}
+
+/// A surface that was read.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SurfaceRead {
+    /// How it was asked for.
+    pub asked: SurfaceAsk,
+    /// Name of the surface, from its file.
+    pub name: String,
+    /// SHA-256 of its text, which stands in the ask, in hexadecimal digits.
+    pub sha256: String,
+}
+
+/// A file that was read, or a folder.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FileRead {
+    /// Absolute path of it.
+    pub path: PathBuf,
+    /// SHA-256 of its bytes, or of the names and bytes of all files in the folder, in hexadecimal digits.
+    pub sha256: String,
+}
+
+/// How a report was made: the program, the ask with the text of its surfaces, and what was read.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// Name of the program.
+    pub program: String,
+    /// Version of the program.
+    pub version: String,
+    /// The commit that it was built from, where that is known.
+    pub commit: Option<String>,
+    /// When it began: date and time of day, UTC, as ISO 8601 writes them.
+    pub date: String,
+    /// Command that was run.
+    pub command: String,
+    /// What was asked for, in SI units; surface files stand here as text, other files by their absolute paths.
+    pub ask: Value,
+    /// Surface files that were read.
+    pub surfaces: Vec<SurfaceRead>,
+    /// Other files that were read, and libraries.
+    pub files: Vec<FileRead>,
+}
+
+/// A report with the record of how it was made, as files and `--json` hold both.
+#[derive(Serialize)]
+struct Recorded<'a, R> {
+    #[serde(flatten)]
+    report: &'a R,
+    run: &'a Record,
+}
+
+/// The key of a library's log under which the record of the run that began it stands.
+const LOGGED: &str = "run";
+
+/// Told by the program that is built on these tasks: it is built anew with each commit, they are not.
+static COMMIT: OnceLock<&str> = OnceLock::new();
+
+/// Says from which commit the program was built; an empty text leaves it unknown. The first one who says so is believed.
+pub fn built_from(commit: &'static str) {
+    // A second call changes nothing, as promised.
+    let _ = COMMIT.set(commit);
+}
+
+impl Record {
+    /// The record of an ask that is about to be done, with surfaces and files as they are now.
+    ///
+    /// ```
+    /// use unripple_tasks::{Record, focus};
+    ///
+    /// let record = Record::of(&focus::Ask::default())?;
+    /// assert_eq!(record.command, "focus");
+    /// assert!(record.ask["surface"]["toml"].as_str().is_some_and(|text| text.contains("tension_n_per_m = 200")));
+    /// # Ok::<(), unripple_tasks::TaskError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`TaskError::Input`] of a file that is there and cannot be read. What is not there, and a surface with faults, is left to the task,
+    /// which says it better.
+    pub fn of<A: Request>(ask: &A) -> Result<Self, TaskError> {
+        let mut ask = ask.clone();
+        let (mut surfaces, mut files) = (Vec::new(), Vec::new());
+        for surface in ask.surfaces() {
+            match surface {
+                SurfaceAsk::Name(library) if Library::is_at(&*library) => {
+                    let path = absolute(Path::new(library))?;
+                    library.clone_from(&path.to_string_lossy().into_owned());
+                    files.push(FileRead { sha256: of_path(&path)?, path });
+                }
+                _ => {
+                    let Ok(read) = surface.load() else { continue };
+                    let toml = to_toml(&read);
+                    let (name, sha256) = (read.name, of_bytes(toml.as_bytes()));
+                    let called = Some(surface.to_string());
+                    let asked = std::mem::replace(surface, SurfaceAsk::Text { toml, name: called });
+                    surfaces.push(SurfaceRead { asked, name, sha256 });
+                }
+            }
+        }
+        ask.inputs(&mut |path| {
+            *path = absolute(path)?;
+            if path.exists() {
+                files.push(FileRead { path: path.clone(), sha256: of_path(path)? });
+            }
+            Ok(())
+        })?;
+        Ok(Self {
+            program: "unripple".into(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            commit: COMMIT.get().filter(|commit| !commit.is_empty()).map(|commit| (*commit).to_owned()),
+            date: now(),
+            command: A::COMMAND.into(),
+            ask: serde_json::to_value(&ask).map_err(TaskError::work)?,
+            surfaces,
+            files,
+        })
+    }
+
+    /// A report with this record, as indented JSON.
+    ///
+    /// # Errors
+    /// [`TaskError::Work`] of what JSON cannot hold.
+    pub fn json(&self, report: &impl Serialize) -> Result<String, TaskError> {
+        serde_json::to_string_pretty(&Recorded { report, run: self }).map_err(TaskError::work)
+    }
+
+    /// Writes a report with this record as `report.json`.
+    ///
+    /// # Errors
+    /// Those of [`json`](Self::json) and of writing.
+    pub fn write(&self, out: &OutputDir, report: &impl Serialize) -> Result<(), TaskError> {
+        Ok(out.write("report.json", self.json(report)?.as_bytes())?)
+    }
+
+    /// Keeps this record in the log of a library that is about to be filled; one that is continued keeps that of its beginning.
+    ///
+    /// # Errors
+    /// Those of [`Library::log`].
+    pub(crate) fn log(&self, library: &mut Library) -> Result<(), TaskError> {
+        if library.logged(LOGGED).is_none() {
+            library.log(LOGGED, serde_json::to_value(self).map_err(TaskError::work)?)?;
+        }
+        Ok(())
+    }
+
+    /// The ask, provided that the files it reads are still what they were.
+    ///
+    /// # Errors
+    /// [`TaskError::Input`] that names what is gone or has changed, or the field that this version does not know.
+    pub fn ask<A: Request>(&self) -> Result<A, TaskError> {
+        for file in &self.files {
+            let found = match file.path.exists() {
+                true => of_path(&file.path)?,
+                false => "none".into(),
+            };
+            if found != file.sha256 {
+                return Err(TaskError::Input(format!(
+                    "{}: expected what the run read (SHA-256 {}), found {found}",
+                    file.path.display(),
+                    file.sha256
+                )));
+            }
+        }
+        serde_json::from_value(self.ask.clone())
+            .map_err(|error| TaskError::Input(format!("the ask of `{}`: {error}", self.command)))
+    }
+}
+
+/// Date and time of day now, UTC, as ISO 8601 writes them: `2026-03-14T09:26:53Z`.
+pub fn now() -> String {
+    let seconds = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    format!("{}Z", date(seconds).replace(' ', "T"))
+}
+
+fn absolute(path: &Path) -> Result<PathBuf, TaskError> {
+    std::path::absolute(path).map_err(|error| TaskError::Input(format!("{}: {error}", path.display())))
+}
