@@ -1,6 +1,7 @@
 // The connection to the server. It comes back by itself: after a loss, a silence of three seconds, a sleep, a network change.
 
 const SILENCE_MS = 3000;
+const LOOK_MS = 500;
 const FIRST_WAIT_MS = 250;
 const LONGEST_WAIT_MS = 4000;
 
@@ -16,13 +17,15 @@ export function token(url) {
 export class Link {
   #socket = null;
   #heard = 0;
+  #looked = 0;
+  #silence = 0;
   #tries = 0;
   #waiting = null;
   #on;
 
   constructor(on) {
     this.#on = on;
-    setInterval(() => this.#listen(), 500);
+    setInterval(() => this.#listen(), LOOK_MS);
     const wake = () => this.#wake();
     addEventListener('online', wake);
     addEventListener('pageshow', wake);
@@ -58,9 +61,9 @@ export class Link {
     const socket = new WebSocket(token(`${scheme}//${location.host}/link`));
     socket.binaryType = 'arraybuffer';
     this.#socket = socket;
-    this.#heard = performance.now();
+    this.#hear();
     socket.onopen = () => {
-      this.#heard = performance.now();
+      this.#hear();
       this.#on.change({ open: true, text: 'Connected' });
     };
     socket.onmessage = (event) => this.#receive(event.data);
@@ -81,14 +84,23 @@ export class Link {
       return;
     }
     if (message.is === 'status') {
-      this.#heard = performance.now();
+      this.#hear();
       this.#tries = 0;
     }
     this.#on.text(message);
   }
 
+  #hear() {
+    this.#heard = performance.now();
+    this.#silence = 0;
+  }
+
+  // While the page itself stands still it hears nothing either, and what came meanwhile still waits: a late look counts no more than two.
   #listen() {
-    if (this.#socket && performance.now() - this.#heard > SILENCE_MS) this.#lost('No answer for 3 s');
+    const now = performance.now();
+    this.#silence += Math.min(now - this.#looked, 2 * LOOK_MS);
+    this.#looked = now;
+    if (this.#socket && this.#silence > SILENCE_MS) this.#lost('No answer for 3 s');
   }
 
   #wake() {

@@ -64,9 +64,14 @@ export function last(page, kind) {
   return page.evaluate((name) => window.unripple?.state.last(name) ?? null, kind);
 }
 
-/** Waits until the last message of a kind is as `holds` says; returns it. */
-export function told(page, kind, holds = Boolean) {
-  return until(`a message: ${kind}`, () => last(page, kind), (message) => message !== null && holds(message));
+/** Waits until the last message of a kind is as `holds` says; returns it. What the page says to whoever reads it is in the error. */
+export async function told(page, kind, holds = Boolean) {
+  try {
+    return await until(`a message: ${kind}`, () => last(page, kind), (message) => message !== null && holds(message));
+  } catch (error) {
+    const says = await page.locator('#connection, #toasts .toast').allInnerTexts();
+    throw new Error(`${error.message}; the page says ${JSON.stringify(says)}`, { cause: error });
+  }
 }
 
 /** Waits until the page has drawn so many more pictures. */

@@ -7,6 +7,7 @@ import { drawn, open, shoot, told, unharmed, until } from './page.mjs';
 import { serve } from './program.mjs';
 
 const ASLEEP_MS = 5000;
+const BUSY_MS = 3800;
 const REFUSED = /ERR_CONNECTION_REFUSED|WebSocket/;
 
 const connection = (page) => page.evaluate(() => window.unripple.state.last('connection'));
@@ -36,6 +37,24 @@ test('interruptions', async (t) => {
     await cdp.send('Page.setWebLifecycleState', { state: 'active' });
     await until('the connection', () => connection(page), ({ open }) => open);
     await drawn(page, 3);
+    unharmed(page, REFUSED);
+  });
+
+  await t.test('a page that stands still itself keeps its connection', async () => {
+    await page.evaluate(() => {
+      window.losses = 0;
+      window.unripple.state.subscribe('connection', ({ open }) => {
+        window.losses += Number(!open);
+      });
+    });
+    for (let i = 0; i < 3; i += 1) {
+      await page.evaluate((still) => {
+        const began = performance.now();
+        while (performance.now() - began < still);
+      }, BUSY_MS);
+      await drawn(page, 3);
+    }
+    assert.equal(await page.evaluate(() => window.losses), 0);
     unharmed(page, REFUSED);
   });
 
