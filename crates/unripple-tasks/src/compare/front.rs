@@ -36,9 +36,20 @@ const PUSHES: [f64; 6] = [0.1, 0.3, 0.5, 0.7, 0.85, 0.95];
 /// Contrast, energy per squared peak, peak.
 pub(super) type Trade = [f64; 3];
 
+/// The tradeoff curves of all methods that have a parameter, and the rows of what is felt elsewhere.
+pub(super) fn both(
+    ground: &Ground<'_>,
+    reversal: Row,
+    failed: &mut Vec<Failed>,
+    progress: &mut dyn Progress,
+) -> Result<(Vec<Front>, Vec<Row>), TaskError> {
+    let fronts = all(ground, reversal.trade, failed, progress)?;
+    Ok((fronts, felt(ground, reversal, failed, progress)?))
+}
+
 /// Rows of `felt` for increasing weights of energy, after the row of time reversal: level felt outside the target
 /// against the drive.
-pub(super) fn felt(
+fn felt(
     ground: &Ground<'_>,
     reversal: Row,
     failed: &mut Vec<Failed>,
@@ -58,7 +69,7 @@ pub(super) fn felt(
 }
 
 /// The tradeoff curves of all methods that have a parameter, relative to time reversal.
-pub(super) fn all(
+fn all(
     ground: &Ground<'_>,
     reversal: Trade,
     failed: &mut Vec<Failed>,

@@ -111,11 +111,10 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     let (mut rows, mut failed) = rows(&ground, asked.is_some(), progress)?;
     let reversal = reversal(&rows)?;
     row::relate(&mut rows);
-    let (mut fronts, mut felt) = (Vec::new(), Vec::new());
-    if !ask.no_tradeoffs {
-        fronts = front::all(&ground, reversal.trade, &mut failed, progress)?;
-        felt = front::felt(&ground, reversal, &mut failed, progress)?;
-    }
+    let (fronts, felt) = match ask.no_tradeoffs {
+        true => (Vec::new(), Vec::new()),
+        false => front::both(&ground, reversal, &mut failed, progress)?,
+    };
 
     let mut found = Report {
         program: "unripple",
