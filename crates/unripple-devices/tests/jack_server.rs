@@ -358,7 +358,7 @@ fn nobody_joins_before_the_clients_of_a_server_that_is_gone_have_left() {
             other => break other.map(drop).unwrap_err().to_string(),
         }
     };
-    assert!(refused.contains("has not left"), "{refused}");
+    assert!(refused.contains("has not been closed"), "{refused}");
     drop(device);
 
     let _loop = bridge(&again).unwrap();
