@@ -9,6 +9,7 @@ use tungstenite::{Message, WebSocket};
 use unripple::core::Point;
 use unripple::drafting::Draft;
 use unripple::physics::design::papers_surface;
+use unripple_tasks::{Silent, rerun};
 
 type Page = WebSocket<TcpStream>;
 
@@ -129,7 +130,19 @@ fn files_are_those_of_the_act_that_is_named() {
     until(&mut page, "surface");
     say(&mut page, json!({ "do": "measure", "id": 5, "at": [[62, 90]] }));
     measured(&mut page, 5);
-    assert_eq!(common::status(&served.get("/report.json?id=5", "")), 200);
+    let answer = served.get("/report.json?id=5", "");
+    assert_eq!(common::status(&answer), 200);
+    // What is downloaded repeats the run.
+    let (_, text) = answer.split_once("\r\n\r\n").unwrap();
+    let report: Value = serde_json::from_str(text).unwrap();
+    let file = std::env::temp_dir().join(format!("unripple-asking-{}.json", std::process::id()));
+    std::fs::write(&file, text).unwrap();
+    let again = rerun::run(&rerun::Ask { report: file.clone(), output: None }, &mut Silent).unwrap();
+    std::fs::remove_file(file).unwrap();
+    let again: Value = serde_json::from_str(again.json.get()).unwrap();
+    for key in ["contrast", "peak_displacement_m", "felt_level_db"] {
+        assert_alike(again["targets"][0][key].as_f64().unwrap(), report["targets"][0][key].as_f64().unwrap());
+    }
     say(&mut page, json!({ "do": "measure", "id": 6, "at": [[40, 50]] }));
     measured(&mut page, 6);
     let answer = served.get("/drive.wav?id=5", "");

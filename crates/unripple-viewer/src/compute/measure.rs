@@ -11,7 +11,9 @@ use unripple::act::{Act, Acted, Level};
 use unripple::core::{Drive, Surface};
 use unripple::field::Trace;
 use unripple::focus::{Method, Target};
-use unripple_store::encode_wav;
+use unripple_store::{Library, encode_wav, to_toml};
+use unripple_tasks::target::{LevelAsk, PointAsk};
+use unripple_tasks::{Record, SurfaceAsk, focus};
 
 /// Points of a drive or trace that are drawn. One for each pixel of a panel.
 const DRAWN: usize = 480;
@@ -55,12 +57,30 @@ impl ComputeWorker {
             "drive": drive(&acted.drive, surface),
             "seconds": began.elapsed().as_secs_f64(),
         });
-        let json = serde_json::to_string_pretty(&value).map_err(|error| error.to_string())?;
+        let ask = ask(self.source(of), surface, measure, method);
+        let record = Record::of(&ask).and_then(|record| record.json(&report));
+        let json = record.map_err(|error| error.to_string())?;
         let wav = encode_wav(&acted.drive).map_err(|error| error.to_string())?;
         let files = Measured { id: measure.id, drive: wav, json, markdown: report.markdown() };
         hear(Found::Out(Out::Measured(Box::new(files))));
         tell(hear, "measured", &message);
         Ok(())
+    }
+}
+
+/// The ask that computes the same focus: of a library by its name, of a surface by its text as it is now.
+fn ask(source: &str, surface: &Surface, measure: &Measure, method: Method) -> focus::Ask {
+    let surface = match Library::is_at(source) {
+        true => SurfaceAsk::Name(source.into()),
+        false => SurfaceAsk::Text { toml: to_toml(surface), name: Some(source.into()) },
+    };
+    focus::Ask {
+        surface,
+        points: measure.at.iter().map(|[x, y]| PointAsk::at(x * 1e-3, y * 1e-3)).collect(),
+        method,
+        window_s: given(measure.window_ms).map(|ms| ms * 1e-3),
+        level: given(measure.peak_um).map_or(LevelAsk::default(), |um| LevelAsk::PeakM(um * 1e-6)),
+        ..focus::Ask::default()
     }
 }
 
