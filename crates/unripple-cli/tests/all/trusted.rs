@@ -137,7 +137,7 @@ fn a_recording_that_lost_many_samples_is_not_said_to_begin_late() {
     }
     bring(&bench.folder, "point-001.wav", &heard);
     let (_, _, said) = bench.calibrate(1, &[]);
-    assert!(said.contains("from before play.wav began"), "{said}");
+    assert!(said.contains("begins before play.wav"), "{said}");
 }
 
 #[test]
