@@ -16,7 +16,7 @@ pub fn run(options: &CompareOptions, common: &Common) -> Result<(), CliError> {
         level: targets::level(&options.targets)?,
         window_s: seconds(options.window_ms, "--window-ms")?,
         judge_hz: options.judge_hz,
-        // They take most of the time, and no table shows them.
+        // They take half of the time, and no table shows them.
         no_tradeoffs: !(common.json || options.output.is_some()),
         no_figures: options.no_figures,
         output: options.output.clone(),

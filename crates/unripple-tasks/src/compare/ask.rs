@@ -22,7 +22,7 @@ pub struct Ask {
     pub window_s: Option<f64>,
     /// Evaluate drives on modes up to this frequency, in Hz; by default up to twice the top of the band.
     pub judge_hz: Option<f64>,
-    /// Leave out the tradeoffs of each method's parameter, which take most of the time, and the figure that shows them.
+    /// Leave out the tradeoffs of each method's parameter, which take half of the time, and the figure that shows them.
     pub no_tradeoffs: bool,
     /// Write no figure.
     pub no_figures: bool,
