@@ -13,6 +13,8 @@ mod closing;
 mod door;
 mod joining;
 mod roll;
+#[cfg(unix)]
+mod starting;
 mod uncancelled;
 
 use super::events::{Events, Side};

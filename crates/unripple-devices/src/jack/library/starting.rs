@@ -1,0 +1,97 @@
+//! How JACK's threads begin: whoever creates one goes on once it runs.
+//!
+//! JACK 2 gives a thread that it created a second to begin (`JackPosixThread::StartSync` in its sources, a thousand naps of a millisecond).
+//! Then it deletes what the thread is to work on, but not the thread: the one that writes messages (`JackMessageBuffer::Create`) and the
+//! one that calls in each cycle (`JackClient::Activate`) begin later within memory that is free, and the program crashes. On a machine
+//! with more work than processors a thread may well wait that long. So threads are created here, where nobody counts the time that they
+//! need to begin.
+
+use super::api::{Arg, Routine};
+use std::ffi::c_int;
+use std::sync::mpsc::{Sender, channel};
+
+unsafe extern "C" {
+    fn pthread_create(thread: Arg, attributes: Arg, routine: Routine, arg: Arg) -> c_int;
+}
+
+/// A thread that was created and has not begun: what it is to run, and whom it tells that it runs.
+struct Start {
+    routine: Routine,
+    arg: Arg,
+    tell: Sender<()>,
+}
+
+/// Creates a thread as `pthread_create` does, and returns once it runs.
+pub(super) unsafe extern "C" fn create(thread: Arg, attributes: Arg, routine: Routine, arg: Arg) -> c_int {
+    // SAFETY: the first two are JACK's own, made for this function.
+    with(routine, arg, |begin, start| unsafe { pthread_create(thread, attributes, begin, start) })
+}
+
+/// Has `spawn` create a thread that runs the routine; returns its result, if that is 0 once the thread runs.
+fn with(routine: Routine, arg: Arg, spawn: impl FnOnce(Routine, Arg) -> c_int) -> c_int {
+    let (tell, told) = channel();
+    let start = Box::into_raw(Box::new(Start { routine, arg, tell }));
+    let failed = spawn(begin, start.cast());
+    if failed != 0 {
+        // SAFETY: no thread was created that would take it.
+        drop(unsafe { Box::from_raw(start) });
+    } else {
+        // Without an answer the thread has ended, and so has begun.
+        let _ = told.recv();
+    }
+    failed
+}
+
+/// The beginning of a thread.
+unsafe extern "C-unwind" fn begin(start: Arg) -> Arg {
+    let (routine, arg) = taken(start.cast());
+    // SAFETY: as JACK would have had it called. The thread may end within: nothing is left here that would have to be dropped.
+    unsafe { routine(arg) }
+}
+
+/// Takes what a thread is to run, and tells that it runs. A thread that just began cannot be cancelled within this: it has not yet asked
+/// to be cancelled anywhere, and nothing here is a place where threads are.
+fn taken(start: *mut Start) -> (Routine, Arg) {
+    // SAFETY: made by `with` for this thread alone.
+    let start = unsafe { Box::from_raw(start) };
+    let _ = start.tell.send(());
+    (start.routine, start.arg)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicBool, Ordering};
+    use std::time::{Duration, Instant};
+
+    unsafe extern "C-unwind" fn note(arg: Arg) -> Arg {
+        // SAFETY: the tests give a place that outlives the thread.
+        unsafe { &*arg.cast::<AtomicBool>() }.store(true, Ordering::Release);
+        arg
+    }
+
+    #[test]
+    fn a_thread_that_begins_late_is_waited_for() {
+        static RAN: AtomicBool = AtomicBool::new(false);
+        const LATE: Duration = Duration::from_millis(300);
+        let began = Instant::now();
+        let mut thread = None;
+        let failed = with(note, std::ptr::from_ref(&RAN).cast_mut().cast(), |begin, start| {
+            let start = start.expose_provenance();
+            thread = Some(std::thread::spawn(move || {
+                std::thread::sleep(LATE);
+                // SAFETY: called once, with what was given for it.
+                unsafe { begin(std::ptr::with_exposed_provenance_mut(start)) };
+            }));
+            0
+        });
+        assert!(failed == 0 && began.elapsed() >= LATE);
+        thread.unwrap().join().unwrap();
+        assert!(RAN.load(Ordering::Acquire));
+    }
+
+    #[test]
+    fn a_thread_that_cannot_be_created_is_not_waited_for() {
+        assert_eq!(with(note, std::ptr::null_mut(), |_, _| 11), 11);
+    }
+}
