@@ -21,9 +21,6 @@ pub(super) struct LatencyRange {
 
 pub(super) type Arg = *mut c_void;
 
-/// What a thread runs. It may end within it, cancelled by JACK.
-pub(super) type Routine = unsafe extern "C-unwind" fn(Arg) -> Arg;
-
 /// The functions used, by their C names without `jack_`.
 macro_rules! functions {
     ($($name:ident: fn($($arg:ty),*) $(-> $result:ty)?;)*) => {
@@ -71,7 +68,6 @@ functions! {
     free: fn(*mut c_void);
     set_error_function: fn(unsafe extern "C" fn(*const c_char));
     set_info_function: fn(unsafe extern "C" fn(*const c_char));
-    set_thread_creator: fn(unsafe extern "C" fn(Arg, Arg, Routine, Arg) -> c_int);
 }
 
 /// The functions of the library, which is searched on the first call.
@@ -93,13 +89,13 @@ pub(super) fn api() -> Result<&'static Api, DevicesError> {
                     let library: &'static Library = Box::leak(Box::new(library));
                     // SAFETY: see the function.
                     let api = unsafe { Api::find(library) }.map_err(|error| error.to_string())?;
-                    // SAFETY: the functions live for ever; two ignore what they get, the third is one that creates threads, as POSIX has it.
+                    // SAFETY: the functions live for ever and ignore what they get.
                     unsafe {
                         (api.set_error_function)(ignore);
                         (api.set_info_function)(ignore);
-                        #[cfg(unix)]
-                        (api.set_thread_creator)(starting::create);
                     }
+                    #[cfg(unix)]
+                    starting::lead(library);
                     return Ok(api);
                 }
                 Err(error) => why = error.to_string(),

@@ -6,9 +6,16 @@
 //! with more work than processors a thread may well wait that long. So threads are created here, where nobody counts the time that they
 //! need to begin.
 
-use super::api::{Arg, Routine};
+use super::api::Arg;
+use libloading::Library;
 use std::ffi::c_int;
 use std::sync::mpsc::{Sender, channel};
+
+/// What a thread runs. It may end within it, cancelled by JACK.
+type Routine = unsafe extern "C-unwind" fn(Arg) -> Arg;
+
+/// A function that creates threads as `pthread_create` does.
+type Create = unsafe extern "C" fn(Arg, Arg, Routine, Arg) -> c_int;
 
 unsafe extern "C" {
     fn pthread_create(thread: Arg, attributes: Arg, routine: Routine, arg: Arg) -> c_int;
@@ -21,8 +28,18 @@ struct Start {
     tell: Sender<()>,
 }
 
+/// Has the library create its threads here, if it lets others create them.
+pub(super) fn lead(library: &'static Library) {
+    // SAFETY: the type is that which jack.h declares for this name.
+    let set = unsafe { library.get::<unsafe extern "C" fn(Create)>(b"jack_set_thread_creator\0") };
+    if let Ok(set) = set {
+        // SAFETY: the function lives for ever, and creates threads as POSIX has it.
+        unsafe { set(create) };
+    }
+}
+
 /// Creates a thread as `pthread_create` does, and returns once it runs.
-pub(super) unsafe extern "C" fn create(thread: Arg, attributes: Arg, routine: Routine, arg: Arg) -> c_int {
+unsafe extern "C" fn create(thread: Arg, attributes: Arg, routine: Routine, arg: Arg) -> c_int {
     // SAFETY: the first two are JACK's own, made for this function.
     with(routine, arg, |begin, start| unsafe { pthread_create(thread, attributes, begin, start) })
 }
