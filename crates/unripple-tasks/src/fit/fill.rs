@@ -1,6 +1,5 @@
 //! Writing of a fitted model's responses as a library.
 
-use super::Ask;
 use super::probed::Probed;
 use crate::{Progress, Record, TaskError, filling, record};
 use serde_json::Value;
@@ -19,7 +18,7 @@ pub const FITTED_TO: &str = "fitted to";
 /// Writes a library of the fitted model's responses at some points, corrected by nearby probed responses, with as many samples as these.
 /// Responses of dead actuators are zero. Doubts are written first, so that a library filled in part carries them too.
 pub fn fill(
-    (ask, folder): (&Ask, &Path),
+    (record, folder): (&Record, &Path),
     source: &Library,
     surface: &Surface,
     fitted: &Fitted,
@@ -29,7 +28,7 @@ pub fn fill(
 ) -> Result<(), TaskError> {
     let plan = plan(source, surface, fitted, &probed.good, points);
     let mut library = Library::create(folder, &plan)?;
-    Record::of(ask)?.log(&mut library)?;
+    record.log(&mut library)?;
     for key in KEPT {
         library.log(key, source.logged(key).cloned().unwrap_or(Value::Null))?;
     }

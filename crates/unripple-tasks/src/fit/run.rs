@@ -2,7 +2,7 @@
 
 use super::heard::Heard;
 use super::{Ask, Report, fill, probed::Probed, report};
-use crate::{Progress, TaskError, go_on, grid, source};
+use crate::{Progress, Record, TaskError, go_on, grid, source};
 use std::path::Path;
 use std::time::Instant;
 use unripple::core::{Point, Surface};
@@ -29,6 +29,8 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
             "{name}: expected a library that `calibrate` made, found none there"
         )));
     }
+    // What was read is told as it was read: others may add to the library while the model is fitted.
+    let record = ask.output.as_ref().map(|_| Record::of(ask)).transpose()?;
     let library = Library::open(&ask.library)?;
     let warned = source::warn(&library, progress);
     let surface = source::described(&library)?;
@@ -52,9 +54,10 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
         Verdict::Good => None,
         Verdict::Doubtful { why, .. } => Some(why.clone()),
     };
-    if let Some(folder) = ask.output.as_ref().filter(|_| why.is_none() || ask.even_if_doubtful) {
+    let wanted_in = ask.output.as_ref().filter(|_| why.is_none() || ask.even_if_doubtful);
+    if let Some((folder, record)) = wanted_in.zip(record) {
         go_on(progress)?;
-        fill::fill((ask, folder), &library, &surface, &fitted, &probed, &wanted, progress)?;
+        fill::fill((&record, folder), &library, &surface, &fitted, &probed, &wanted, progress)?;
         report.written =
             Some(report::Written { library: folder.display().to_string(), points: wanted.len() });
     }
