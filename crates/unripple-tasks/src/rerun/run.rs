@@ -36,8 +36,18 @@ struct Recorded {
 /// [`TaskError::Input`] of a file without a record, of one that the run read and that is gone or has changed; those of the command.
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     go_on(progress)?;
-    let record = &record(ask)?;
-    let to = ask.output.clone();
+    repeat(&record(ask)?, ask.output.clone(), progress)
+}
+
+/// Does what a record holds once more, with its results sent to another place.
+///
+/// # Errors
+/// [`TaskError::Input`] of a command that is no task; those of [`again`].
+pub fn repeat(
+    record: &Record,
+    to: Option<PathBuf>,
+    progress: &mut dyn Progress,
+) -> Result<Report, TaskError> {
     match record.command.as_str() {
         check::Ask::COMMAND => again(record, to, check::run, progress),
         design::Ask::COMMAND => again(record, to, design::run, progress),
@@ -56,8 +66,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
         devices::Ask::COMMAND => again(record, to, devices::run, progress),
         play::Ask::COMMAND => again(record, to, play::run, progress),
         other => Err(TaskError::Input(format!(
-            "{}: expected a command that can be repeated, found `{other}`",
-            ask.report.display()
+            "expected the record of a command that can be repeated, found that of `{other}`"
         ))),
     }
 }
