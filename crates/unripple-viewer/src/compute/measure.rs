@@ -13,7 +13,7 @@ use unripple::field::Trace;
 use unripple::focus::{Method, Target};
 use unripple_store::{Library, encode_wav, to_toml};
 use unripple_tasks::target::{LevelAsk, PointAsk};
-use unripple_tasks::{Record, SurfaceAsk, focus};
+use unripple_tasks::{Record, SurfaceAsk, focus, folder};
 
 /// Points of a drive or trace that are drawn. One for each pixel of a panel.
 const DRAWN: usize = 480;
@@ -58,8 +58,12 @@ impl ComputeWorker {
             "seconds": began.elapsed().as_secs_f64(),
         });
         let ask = ask(self.source(of), surface, measure, method);
-        let record = Record::of(&ask).and_then(|record| record.json(&report));
-        let json = record.map_err(|error| error.to_string())?;
+        // A library that cannot be read any more, of which all is in memory, leaves the report without a record.
+        let json = match Record::of(&ask) {
+            Ok(record) => record.json(&report),
+            Err(_) => folder::json(&report),
+        };
+        let json = json.map_err(|error| error.to_string())?;
         let wav = encode_wav(&acted.drive).map_err(|error| error.to_string())?;
         let files = Measured { id: measure.id, drive: wav, json, markdown: report.markdown() };
         hear(Found::Out(Out::Measured(Box::new(files))));
