@@ -3,20 +3,16 @@
 use crate::record::{Record, Request};
 use crate::{Progress, TaskError};
 use serde::Serialize;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use unripple_store::OutputDir;
 
-/// An output folder under construction beside its place, if there is one, and the record of what is about to fill it. `reads` are what the
-/// folder must not take the place of.
+/// An output folder under construction beside its place, if there is one, and the record of what is about to fill it. It takes
+/// the place of nothing that the ask reads.
 ///
 /// # Errors
 /// Those of [`OutputDir::create_beside`] and [`Record::of`].
-pub fn begin<A: Request>(
-    place: Option<&Path>,
-    ask: &A,
-    reads: &[PathBuf],
-) -> Result<Option<(OutputDir, Record)>, TaskError> {
-    place.map(|place| Ok((OutputDir::create_beside(place, reads)?, Record::of(ask)?))).transpose()
+pub fn begin<A: Request>(place: Option<&Path>, ask: &A) -> Result<Option<(OutputDir, Record)>, TaskError> {
+    place.map(|place| Ok((OutputDir::create_beside(place, &ask.reads())?, Record::of(ask)?))).transpose()
 }
 
 /// Puts an output folder in its place unless the task is cancelled, and says so if it replaced an earlier run's.

@@ -18,7 +18,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     if ask.placements < FEWEST {
         return Err(TaskError::ask("placements", format!("at least {FEWEST}"), ask.placements));
     }
-    let out = folder::begin(ask.output.as_deref(), ask, &[])?;
+    let out = folder::begin(ask.output.as_deref(), ask)?;
     let sections = sections(ask.placements, progress)?;
     let report = Report::of(&sections, ask.placements);
     if let Some((out, record)) = out {

@@ -2,7 +2,7 @@
 
 use crate::record::{Request, Visit};
 use crate::target::{LevelAsk, PointAsk, ShapeAsk};
-use crate::{SurfaceAsk, TaskError, source};
+use crate::{SurfaceAsk, TaskError};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -28,14 +28,6 @@ pub struct Ask {
     pub no_figures: bool,
     /// Folder for the report and figure; by default no file is written.
     pub output: Option<PathBuf>,
-}
-
-impl Ask {
-    /// Files and folders that are read, which no output may take the place of.
-    pub fn reads(&self) -> Vec<PathBuf> {
-        let drawings = self.shapes.iter().filter_map(ShapeAsk::reads).cloned();
-        source::reads(&self.surface).into_iter().chain(drawings).collect()
-    }
 }
 
 impl Request for Ask {

@@ -86,7 +86,7 @@ pub(super) fn survived<T>(
 /// [`TaskError::Ask`] of options that make no sense; those of reading and writing files; those of the methods; [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     let surface = ask.surface.load()?;
-    let out = folder::begin(ask.output.as_deref(), ask, &ask.reads())?;
+    let out = folder::begin(ask.output.as_deref(), ask)?;
     go_on(progress)?;
     progress.stage("responses");
     let known = judge::model(&surface, None, &[])?;

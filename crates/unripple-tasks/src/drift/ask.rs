@@ -1,7 +1,7 @@
 //! Options of the task `drift`.
 
 use crate::record::Request;
-use crate::{DeviceAsk, SurfaceAsk, source};
+use crate::{DeviceAsk, SurfaceAsk};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -34,13 +34,6 @@ impl Default for Ask {
             changed: 0.0,
             changing_per_min: 0.0,
         }
-    }
-}
-
-impl Ask {
-    /// Files and folders that are read.
-    pub fn reads(&self) -> Vec<PathBuf> {
-        source::reads(&self.surface)
     }
 }
 

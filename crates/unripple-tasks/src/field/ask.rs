@@ -1,7 +1,7 @@
 //! Options of the task `field`.
 
 use crate::record::{Request, Visit};
-use crate::{Place, SurfaceAsk, TaskError, names, source};
+use crate::{Place, SurfaceAsk, TaskError, names};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use unripple_calibrate::Interpolation;
@@ -75,17 +75,6 @@ impl Default for Ask {
             frames: 60,
             between: Interpolation::default(),
         }
-    }
-}
-
-impl Ask {
-    /// Files and folders that are read, which no output may take the place of.
-    pub fn reads(&self) -> Vec<PathBuf> {
-        let drive = match &self.drive {
-            DriveAsk::File(file) => Some(file.clone()),
-            DriveAsk::Samples { .. } => None,
-        };
-        source::reads(&self.surface).into_iter().chain(drive).collect()
     }
 }
 

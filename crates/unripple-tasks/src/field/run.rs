@@ -33,7 +33,7 @@ pub struct Made {
 /// # Errors
 /// [`TaskError::Ask`] of numbers that make no sense; those of reading and writing files; [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
-    let out = folder::begin(ask.output.as_deref(), ask, &ask.reads())?;
+    let out = folder::begin(ask.output.as_deref(), ask)?;
     let drawn = !ask.no_figures;
     let (mut made, movie) = measured(ask, drawn && out.is_some(), progress)?;
     if let Some(out) = out {

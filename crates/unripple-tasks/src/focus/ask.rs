@@ -2,7 +2,7 @@
 
 use crate::record::{Request, Visit};
 use crate::target::{LevelAsk, PointAsk, ShapeAsk};
-use crate::{Place, SurfaceAsk, TaskError, names, source};
+use crate::{Place, SurfaceAsk, TaskError, names};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use unripple::focus::{Method, Options};
@@ -105,15 +105,6 @@ impl Default for Ask {
             output: None,
             no_figures: false,
         }
-    }
-}
-
-impl Ask {
-    /// Files and folders that are read, which no output may take the place of.
-    pub fn reads(&self) -> Vec<PathBuf> {
-        let surfaces = std::iter::once(&self.surface).chain(&self.on);
-        let drawings = self.shapes.iter().filter_map(ShapeAsk::reads).cloned();
-        surfaces.flat_map(source::reads).chain(drawings).collect()
     }
 }
 

@@ -45,7 +45,7 @@ pub struct Made {
 /// [`TaskError::Ask`] of options that make no sense; those of reading surfaces and drawings and of writing the folder; those of the
 /// methods; [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
-    let out = folder::begin(ask.output.as_deref(), ask, &ask.reads())?;
+    let out = folder::begin(ask.output.as_deref(), ask)?;
     let mut made = make(ask, progress)?;
     if let Some((out, record)) = out {
         write::write(&out, &mut made, &record, !ask.no_figures)?;

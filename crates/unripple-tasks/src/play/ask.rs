@@ -114,12 +114,6 @@ impl Default for Ask {
 }
 
 impl Ask {
-    /// Files and folders that are read, which no output may take the place of.
-    pub fn reads(&self) -> Vec<PathBuf> {
-        let sessions = self.touch.session.iter().chain(&self.touch.screen).cloned();
-        source::reads(&self.surface).into_iter().chain(effect_files(&self.effect)).chain(sessions).collect()
-    }
-
     /// Reason why the session runs in real time; `None` if it runs as fast as it can.
     pub fn clock(&self) -> Option<String> {
         let device = || format!("`device` {}", self.device.device.name());
@@ -143,6 +137,12 @@ impl Request for Ask {
             self.effect = file.to_string_lossy().into_owned();
         }
         self.touch.session.iter_mut().try_for_each(visit)
+    }
+
+    fn reads(&self) -> Vec<PathBuf> {
+        // A screen is a file too, which no drive may take the place of, and nothing that a record could keep.
+        let sessions = self.touch.session.iter().chain(&self.touch.screen).cloned();
+        source::reads(&self.surface).into_iter().chain(effect_files(&self.effect)).chain(sessions).collect()
     }
 
     fn send_to(&mut self, output: Option<PathBuf>) {

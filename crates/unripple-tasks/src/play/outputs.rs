@@ -1,6 +1,7 @@
 //! Check of the files that a session of play is to write, before it begins.
 
 use super::ask::Ask;
+use crate::record::Request;
 use crate::{DeviceKind, TaskError};
 use std::fs;
 use std::path::{Path, PathBuf};

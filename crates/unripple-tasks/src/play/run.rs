@@ -5,6 +5,7 @@ use super::report::Report;
 use super::touches::Touches;
 use super::{Ask, outputs};
 use crate::numbers::above_zero;
+use crate::record::Request;
 use crate::window::of_window;
 use crate::{Progress, TaskError, judge, source};
 use std::sync::Arc;

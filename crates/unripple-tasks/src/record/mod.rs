@@ -2,7 +2,7 @@
 
 mod hash;
 
-use crate::{SurfaceAsk, TaskError};
+use crate::{SurfaceAsk, TaskError, source};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -32,6 +32,20 @@ pub trait Request: Clone + Serialize + DeserializeOwned {
     /// Those of `visit`.
     fn inputs(&mut self, _visit: &mut Visit<'_>) -> Result<(), TaskError> {
         Ok(())
+    }
+
+    /// Files and folders that it reads, which no output may take the place of.
+    fn reads(&self) -> Vec<PathBuf> {
+        let mut ask = self.clone();
+        let mut paths: Vec<_> =
+            ask.surfaces().into_iter().flat_map(|surface| source::reads(surface)).collect();
+        let mut list = |path: &mut PathBuf| {
+            paths.push(path.clone());
+            Ok(())
+        };
+        // Listing has no errors.
+        let _ = ask.inputs(&mut list);
+        paths
     }
 
     /// Sends results to another place, or nowhere where that is possible; whatever else would be written is not.

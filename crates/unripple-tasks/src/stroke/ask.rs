@@ -2,7 +2,7 @@
 
 use crate::record::{Request, Visit};
 use crate::target::{LineAsk, ShapeAsk};
-use crate::{SurfaceAsk, TaskError, source};
+use crate::{SurfaceAsk, TaskError};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -43,14 +43,6 @@ impl Default for Ask {
             output: None,
             no_figures: false,
         }
-    }
-}
-
-impl Ask {
-    /// Files and folders that are read, which no output may take the place of.
-    pub fn reads(&self) -> Vec<PathBuf> {
-        let surfaces = std::iter::once(&self.surface).chain(&self.on);
-        surfaces.flat_map(source::reads).chain(self.path.reads().cloned()).collect()
     }
 }
 

@@ -53,15 +53,7 @@ pub enum ShapeAsk {
 }
 
 impl ShapeAsk {
-    /// Path of the SVG file of the shape, if it has one.
-    pub fn reads(&self) -> Option<&PathBuf> {
-        match self {
-            Self::Svg { file } => Some(file),
-            _ => None,
-        }
-    }
-
-    /// Mutable path of the SVG file of the shape, if it has one.
+    /// Path of the SVG file of the shape, if it has one, to be changed.
     pub fn file(&mut self) -> Option<&mut PathBuf> {
         match self {
             Self::Svg { file } => Some(file),

@@ -1,7 +1,7 @@
 //! Options of the task `waveform`.
 
 use crate::record::{Request, Visit};
-use crate::{Place, SurfaceAsk, TaskError, source};
+use crate::{Place, SurfaceAsk, TaskError};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -80,18 +80,6 @@ pub struct Ask {
     pub output: Option<PathBuf>,
     /// Write no figures.
     pub no_figures: bool,
-}
-
-impl Ask {
-    /// Files and folders that are read, which no output may take the place of.
-    pub fn reads(&self) -> Vec<PathBuf> {
-        let surfaces = std::iter::once(&self.surface).chain(&self.on);
-        let files = self.waveforms.iter().filter_map(|waveform| match &waveform.sound {
-            SoundAsk::Wav { file } => Some(file.clone()),
-            _ => None,
-        });
-        surfaces.flat_map(source::reads).chain(files).collect()
-    }
 }
 
 impl Request for Ask {

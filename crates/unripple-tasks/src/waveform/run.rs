@@ -36,7 +36,7 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<(Report, Drive), T
         on: ask.on.as_ref(),
         judge_hz: ask.judge_hz,
         drawn: !ask.no_figures,
-        out: folder::begin(ask.output.as_deref(), ask, &ask.reads())?,
+        out: folder::begin(ask.output.as_deref(), ask)?,
         needs: "waveforms and path",
         bands: BANDS,
     };
