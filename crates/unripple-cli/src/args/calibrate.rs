@@ -1,6 +1,6 @@
 //! Options of `unripple calibrate`, and of devices.
 
-use super::{DeviceName, WayName};
+use super::{DeviceName, WayName, examples, heading};
 use clap::Args;
 use std::path::PathBuf;
 use unripple_tasks::DeviceAsk;
@@ -9,44 +9,44 @@ use unripple_tasks::DeviceAsk;
 #[derive(Clone, Debug, Args)]
 pub struct DeviceOptions {
     /// The device that plays and records.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_enum, default_value_t, help_heading = heading::DEVICE)]
     pub device: DeviceName,
     /// JACK: connect to the ports `in_NAME` and `out_NAME` of this client instead of the system's ports.
-    #[arg(long, value_name = "CLIENT")]
+    #[arg(long, value_name = "CLIENT", help_heading = heading::JACK)]
     pub jack_client: Option<String>,
     /// JACK: name of the server.
-    #[arg(long, value_name = "SERVER")]
+    #[arg(long, value_name = "SERVER", help_heading = heading::JACK)]
     pub jack_server: Option<String>,
     /// JACK: let the server run without a clock (freewheel), so that no block is lost on a slow machine. Only for servers without
     /// hardware.
-    #[arg(long)]
+    #[arg(long, help_heading = heading::JACK)]
     pub freewheel: bool,
     /// Card: the playback device, as `unripple devices` lists it; by default the system's.
-    #[arg(long, value_name = "ID")]
+    #[arg(long, value_name = "ID", help_heading = heading::CARD)]
     pub card: Option<String>,
     /// Card: the recording device, of the same card; by default the playback device.
-    #[arg(long, value_name = "ID")]
+    #[arg(long, value_name = "ID", help_heading = heading::CARD)]
     pub capture_card: Option<String>,
     /// Card: samples per block.
-    #[arg(long, value_name = "N", default_value_t = 256)]
+    #[arg(long, value_name = "N", default_value_t = 256, help_heading = heading::CARD)]
     pub card_block: usize,
     /// Tape (recordings made elsewhere): folder for the file to play and for the recordings of it.
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", help_heading = heading::TAPE)]
     pub tape: Option<PathBuf>,
     /// Tape: what is connected to each channel of a recording, in order; by default the sensors of all actuators, by name, then
     /// the probe. May include `reference`.
-    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', help_heading = heading::TAPE)]
     pub tape_inputs: Vec<String>,
     /// JACK, card, tape: drive at an actuator when a sample is at full scale, in A, V or N. By default it is taken to be the
     /// surface's limit, and absolute levels are unknown.
-    #[arg(long, value_name = "DRIVE", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DRIVE", allow_negative_numbers = true, help_heading = heading::DEVICE)]
     pub output_scale: Option<f64>,
     /// Virtual: simulate a surface that differs randomly from SURFACE, by this seed, in noise, gains, places, tension, damping
     /// and unknown point masses.
-    #[arg(long, value_name = "SEED")]
+    #[arg(long, value_name = "SEED", help_heading = heading::VIRTUAL)]
     pub unknowns: Option<u64>,
     /// Virtual, with --unknowns: signal-to-noise ratio, in dB.
-    #[arg(long, value_name = "DB", requires = "unknowns", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DB", requires = "unknowns", allow_negative_numbers = true, help_heading = heading::VIRTUAL)]
     pub snr_db: Option<f64>,
 }
 
@@ -72,6 +72,7 @@ impl DeviceOptions {
 
 /// Options of `calibrate`.
 #[derive(Debug, Args)]
+#[command(after_help = examples::CALIBRATE)]
 pub struct CalibrateOptions {
     /// A surface file, or the name of a built-in surface: what is known of the surface before the measurement.
     pub surface: String,
@@ -79,56 +80,56 @@ pub struct CalibrateOptions {
     #[command(flatten)]
     pub device: DeviceOptions,
     /// Spacing of a square grid of points to measure, in mm.
-    #[arg(long, value_name = "P", allow_negative_numbers = true)]
+    #[arg(long, value_name = "P", allow_negative_numbers = true, help_heading = heading::POINTS)]
     pub grid_mm: Option<f64>,
     /// A point to measure, in mm. Repeatable.
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, help_heading = heading::POINTS)]
     pub at: Vec<String>,
     /// How points are measured.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_enum, default_value_t, help_heading = heading::POINTS)]
     pub by: WayName,
     /// Number of recordings of each point, which are averaged, or number of taps.
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, help_heading = heading::POINTS)]
     pub repeats: usize,
     /// Length of an actuator's sweep, in ms; by default 500, or longer for a surface with a long decay time.
-    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MS", allow_negative_numbers = true, help_heading = heading::SWEEPS)]
     pub sweep_ms: Option<f64>,
     /// Length of each stored response, in ms; by default 100, or longer for a surface with a long decay time.
-    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MS", allow_negative_numbers = true, help_heading = heading::SWEEPS)]
     pub response_ms: Option<f64>,
     /// Level of the sweeps, as a fraction of the surface's drive limit.
-    #[arg(long, value_name = "SHARE", default_value_t = 1.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SHARE", default_value_t = 1.0, allow_negative_numbers = true, help_heading = heading::SWEEPS)]
     pub level: f64,
     /// Channel of an actuator, sensor, probe or reference whose channel has another name. Repeatable.
-    #[arg(long, value_name = "NAME=CHANNEL")]
+    #[arg(long, value_name = "NAME=CHANNEL", help_heading = heading::WIRING)]
     pub wire: Vec<String>,
     /// Value of an input at full scale: in m/s for the probe, in the sensor's unit for an actuator; negative if the input is
     /// reversed. Without a name it applies to all inputs. Repeatable. Without it absolute levels are unknown.
-    #[arg(long, value_name = "[NAME=]SCALE", allow_hyphen_values = true)]
+    #[arg(long, value_name = "[NAME=]SCALE", allow_hyphen_values = true, help_heading = heading::WIRING)]
     pub input_scale: Vec<String>,
     /// Leave out this actuator, for example because it is dead. Repeatable.
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", help_heading = heading::WIRING)]
     pub without: Vec<String>,
     /// Delay of the probe relative to the sensors, in ms, such as that of a vibrometer's decoder; by default it is estimated.
-    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MS", allow_negative_numbers = true, help_heading = heading::WIRING)]
     pub probe_delay_ms: Option<f64>,
     /// Compare nothing with a model: for a surface that the model cannot describe, such as a whole phone or a sheet with ribs.
-    #[arg(long)]
+    #[arg(long, help_heading = heading::MODEL)]
     pub no_model: bool,
     /// Tape: resample recordings whose sample rate is not that of the surface.
-    #[arg(long)]
+    #[arg(long, help_heading = heading::WIRING)]
     pub resample: bool,
     /// Only check levels: one short recording shows what is too loud or too quiet, and what to do about it.
-    #[arg(long)]
+    #[arg(long, help_heading = heading::SWEEPS)]
     pub check_levels: bool,
     /// Continue although the wiring test finds a fault.
-    #[arg(long)]
+    #[arg(long, help_heading = heading::WIRING)]
     pub any_wiring: bool,
     /// Folder for a picture, SVG and PNG: signal-to-noise ratio and coherence over frequency, and which point is bad in which
     /// band. The folder of an earlier run is replaced, unless it holds anything else.
-    #[arg(long, value_name = "DIR", conflicts_with = "check_levels")]
+    #[arg(long, value_name = "DIR", conflicts_with = "check_levels", help_heading = heading::RESULTS)]
     pub figure: Option<PathBuf>,
     /// The library: a new folder, or that of an unfinished run with the same options.
-    #[arg(short, long, value_name = "LIBRARY")]
+    #[arg(short, long, value_name = "LIBRARY", help_heading = heading::RESULTS)]
     pub output: PathBuf,
 }

@@ -1,10 +1,11 @@
 //! Options of `unripple drift`.
 
-use super::DeviceOptions;
+use super::{DeviceOptions, examples, heading};
 use clap::Args;
 
 /// Options of `drift`.
 #[derive(Debug, Args)]
+#[command(after_help = examples::DRIFT)]
 pub struct DriftOptions {
     /// A surface file, the name of a built-in surface, or a library that `calibrate` measured with sensors at the actuators, or that `fit`
     /// wrote.
@@ -20,9 +21,9 @@ pub struct DriftOptions {
     #[arg(long, value_name = "PERCENT", default_value_t = 8.0, allow_negative_numbers = true)]
     pub within_percent: f64,
     /// Virtual: deviation of the simulated sheet's tension from SURFACE, in per cent.
-    #[arg(long, value_name = "PERCENT", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "PERCENT", default_value_t = 0.0, allow_negative_numbers = true, help_heading = heading::VIRTUAL)]
     pub changed_percent: f64,
     /// Virtual: change of the simulated sheet's tension, in per cent a minute.
-    #[arg(long, value_name = "PERCENT", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "PERCENT", default_value_t = 0.0, allow_negative_numbers = true, help_heading = heading::VIRTUAL)]
     pub changing_percent_per_min: f64,
 }

@@ -1,5 +1,6 @@
 //! Options of `unripple export`.
 
+use super::{examples, heading};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -25,6 +26,7 @@ impl FormatName {
 
 /// Options of `export`.
 #[derive(Debug, Args)]
+#[command(after_help = examples::EXPORT)]
 pub struct ExportOptions {
     /// A library of responses.
     pub library: String,
@@ -35,12 +37,12 @@ pub struct ExportOptions {
     #[arg(long, value_enum)]
     pub format: Option<FormatName>,
     /// SOFA: author to contact, with an address.
-    #[arg(long, value_name = "TEXT")]
+    #[arg(long, value_name = "TEXT", help_heading = heading::SOFA)]
     pub author: Option<String>,
     /// SOFA: organization where the responses were measured or computed.
-    #[arg(long, value_name = "TEXT")]
+    #[arg(long, value_name = "TEXT", help_heading = heading::SOFA)]
     pub organization: Option<String>,
     /// SOFA: licence of the data.
-    #[arg(long, value_name = "TEXT")]
+    #[arg(long, value_name = "TEXT", help_heading = heading::SOFA)]
     pub license: Option<String>,
 }

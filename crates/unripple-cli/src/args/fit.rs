@@ -1,31 +1,33 @@
 //! Options of `unripple fit`.
 
+use super::{examples, heading};
 use clap::Args;
 use std::path::PathBuf;
 
 /// Options of `fit`.
 #[derive(Debug, Args)]
+#[command(after_help = examples::FIT)]
 pub struct FitOptions {
     /// A library from `calibrate` on a device whose actuators can sense: its last points are the responses between actuators.
     #[arg(value_name = "LIBRARY")]
     pub library: String,
     /// Spacing of a square grid of points for the responses of the fitted model, in mm.
-    #[arg(long, value_name = "P", allow_negative_numbers = true, requires = "output")]
+    #[arg(long, value_name = "P", allow_negative_numbers = true, requires = "output", help_heading = heading::POINTS)]
     pub grid_mm: Option<f64>,
     /// A point for the responses of the fitted model, in mm. Repeatable.
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, requires = "output")]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, requires = "output", help_heading = heading::POINTS)]
     pub at: Vec<String>,
     /// Largest number of unknown point masses to fit.
-    #[arg(long, value_name = "N", default_value_t = 3)]
+    #[arg(long, value_name = "N", default_value_t = 3, help_heading = heading::MODEL)]
     pub strays: usize,
     /// Largest number of half waves, both directions together, in the variation of tension over the sheet; 0 for uniform tension.
-    #[arg(long, value_name = "N", default_value_t = 3)]
+    #[arg(long, value_name = "N", default_value_t = 3, help_heading = heading::MODEL)]
     pub profile: usize,
     /// Write the library even if the model is doubtful; the library is then marked, and commands that use it warn.
-    #[arg(long, requires = "output")]
+    #[arg(long, requires = "output", help_heading = heading::RESULTS)]
     pub even_if_doubtful: bool,
     /// Library to write, with responses of the fitted model, corrected by measured responses near their points. Needs --grid-mm
     /// or --at.
-    #[arg(short, long, value_name = "FITTED_LIBRARY")]
+    #[arg(short, long, value_name = "FITTED_LIBRARY", help_heading = heading::RESULTS)]
     pub output: Option<PathBuf>,
 }

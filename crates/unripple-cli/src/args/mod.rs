@@ -2,8 +2,10 @@
 
 mod calibrate;
 mod drift;
+mod examples;
 mod export;
 mod fit;
+mod heading;
 mod names;
 mod play;
 mod rerun;
@@ -29,17 +31,17 @@ pub use view::ViewOptions;
 #[command(version = version(), propagate_version = true, after_help = EXITS)]
 pub struct Arguments {
     /// Print the report as one JSON object (SI units) on standard output, everything else on standard error.
-    #[arg(long, global = true)]
+    #[arg(long, global = true, help_heading = heading::EVERY)]
     pub json: bool,
     /// Set a key of SURFACE's file to another value, as in sheet.tension_n_per_m=220 or actuator[0].at_mm=[12,31]; without a value the key
     /// is removed. Repeatable.
-    #[arg(long, global = true, value_name = "KEY=VALUE")]
+    #[arg(long, global = true, value_name = "KEY=VALUE", help_heading = heading::EVERY)]
     pub set: Vec<String>,
     /// Tell each stage of the work on standard error, with the time since the beginning.
-    #[arg(short, long, global = true, conflicts_with = "quiet")]
+    #[arg(short, long, global = true, conflicts_with = "quiet", help_heading = heading::EVERY)]
     pub verbose: bool,
     /// Tell nothing on standard error but warnings and errors.
-    #[arg(short, long, global = true)]
+    #[arg(short, long, global = true, help_heading = heading::EVERY)]
     pub quiet: bool,
     /// The command to perform.
     #[command(subcommand)]
@@ -103,6 +105,7 @@ pub enum Command {
 
 /// Options of `check`.
 #[derive(Debug, Args)]
+#[command(after_help = examples::CHECK)]
 pub struct CheckOptions {
     /// A surface file, or the name of a built-in surface.
     pub surface: String,
@@ -118,6 +121,7 @@ pub struct DevicesOptions {
 
 /// Options of `design`.
 #[derive(Debug, Args)]
+#[command(after_help = examples::DESIGN)]
 pub struct DesignOptions {
     /// A surface file, or the name of a built-in surface.
     pub surface: String,
@@ -125,6 +129,7 @@ pub struct DesignOptions {
 
 /// Options of `modes`.
 #[derive(Debug, Args)]
+#[command(after_help = examples::MODES)]
 pub struct ModesOptions {
     /// A surface file, or the name of a built-in surface.
     pub surface: String,
@@ -138,6 +143,7 @@ pub struct ModesOptions {
 
 /// Options of `respond`.
 #[derive(Debug, Args)]
+#[command(after_help = examples::RESPOND)]
 pub struct RespondOptions {
     /// A surface file, or the name of a built-in surface.
     pub surface: String,
@@ -156,40 +162,41 @@ pub struct RespondOptions {
 #[derive(Debug, Default, Args)]
 pub struct TargetOptions {
     /// A point in mm, with an optional gain and repetition rate in Hz. Repeatable.
-    #[arg(long, value_name = "X,Y[,GAIN[,HZ]]", allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,Y[,GAIN[,HZ]]", allow_hyphen_values = true, help_heading = heading::TARGETS)]
     pub at: Vec<String>,
     /// A shape in mm: an SVG file, triangle:X,Y,SIZE or circle:X,Y,R. Repeatable.
-    #[arg(long, value_name = "SHAPE")]
+    #[arg(long, value_name = "SHAPE", help_heading = heading::TARGETS)]
     pub shape: Vec<String>,
     /// Peak displacement at the first target, in µm. The default is the level at which no point of the sheet moves by more than
     /// about half the sheet's thickness.
-    #[arg(long, value_name = "UM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "UM", allow_negative_numbers = true, help_heading = heading::LEVEL)]
     pub peak_um: Option<f64>,
     /// Felt level at the first target, in dB above the threshold of touch.
-    #[arg(long, value_name = "L", allow_negative_numbers = true, conflicts_with = "peak_um")]
+    #[arg(long, value_name = "L", allow_negative_numbers = true, conflicts_with = "peak_um", help_heading = heading::LEVEL)]
     pub felt_db: Option<f64>,
     /// Drive at the surface's drive limit, even if linear theory does not hold there.
-    #[arg(long, conflicts_with_all = ["peak_um", "felt_db"])]
+    #[arg(long, conflicts_with_all = ["peak_um", "felt_db"], help_heading = heading::LEVEL)]
     pub full_limit: bool,
     /// A waveform at a point in mm: sine:HZ,MS, burst:HZ,CYCLES, click:MS or a WAV file, with its peak in µm. Repeatable.
-    #[arg(long, value_name = "X,Y,WHAT[,UM]", allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,Y,WHAT[,UM]", allow_hyphen_values = true, help_heading = heading::TARGETS)]
     pub waveform: Vec<String>,
     /// A point in mm that must stay still while waveforms play. Repeatable.
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, help_heading = heading::TARGETS)]
     pub silent: Vec<String>,
     /// A path in mm along which a focus moves: line:X1,Y1,X2,Y2, a shape as for --shape, or an SVG file.
-    #[arg(long, value_name = "PATH")]
+    #[arg(long, value_name = "PATH", help_heading = heading::TARGETS)]
     pub path: Option<String>,
     /// Speed of the focus along the path, in mm/s.
-    #[arg(long, value_name = "V", allow_negative_numbers = true)]
+    #[arg(long, value_name = "V", allow_negative_numbers = true, help_heading = heading::TARGETS)]
     pub speed_mm_s: Option<f64>,
     /// Peak velocity of the sheet at each pulse along the path, in mm/s; 10 by default.
-    #[arg(long, value_name = "V", allow_negative_numbers = true)]
+    #[arg(long, value_name = "V", allow_negative_numbers = true, help_heading = heading::LEVEL)]
     pub level_mm_s: Option<f64>,
 }
 
 /// Options of `focus`.
 #[derive(Debug, Args)]
+#[command(after_help = examples::FOCUS)]
 pub struct FocusOptions {
     /// A surface file, the name of a built-in surface, or a library of responses.
     #[arg(value_name = "SURFACE|LIBRARY")]
@@ -197,134 +204,137 @@ pub struct FocusOptions {
     #[command(flatten)]
     pub targets: TargetOptions,
     /// Method of focusing.
-    #[arg(long, value_enum, default_value_t = MethodName::TimeReversal)]
+    #[arg(long, value_enum, default_value_t = MethodName::TimeReversal, help_heading = heading::METHOD)]
     pub method: MethodName,
     /// Weight of the method's own objective: 0 is time reversal, 1 the extreme of the method.
-    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true, help_heading = heading::METHOD)]
     pub strength: Option<f64>,
     /// For `limited`: peak velocity to reach, from that of the unconstrained drive scaled to the limit (0) to that of one-bit
     /// (1).
-    #[arg(long, value_name = "SHARE", default_value_t = 0.5, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SHARE", default_value_t = 0.5, allow_negative_numbers = true, help_heading = heading::METHOD)]
     pub push: f64,
     /// Largest rms of all actuators together, in the drive's unit.
-    #[arg(long, value_name = "RMS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "RMS", allow_negative_numbers = true, help_heading = heading::LEVEL)]
     pub total_rms: Option<f64>,
     /// For `robust`: shift of all natural frequencies to allow for, up and down, in per cent.
-    #[arg(long, value_name = "PERCENT", default_value_t = 0.5, allow_negative_numbers = true)]
+    #[arg(long, value_name = "PERCENT", default_value_t = 0.5, allow_negative_numbers = true, help_heading = heading::METHOD)]
     pub spread_percent: f64,
     /// For `felt`: minimise the rms felt elsewhere (0), the largest level felt elsewhere (1), or a mixture.
-    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true, help_heading = heading::METHOD)]
     pub worst: Option<f64>,
     /// For `felt`: weight of the drive's energy in the objective.
-    #[arg(long, value_name = "WEIGHT", allow_negative_numbers = true)]
+    #[arg(long, value_name = "WEIGHT", allow_negative_numbers = true, help_heading = heading::METHOD)]
     pub economy: Option<f64>,
     /// For `inverse`: minimise displacements elsewhere as well as velocities.
-    #[arg(long)]
+    #[arg(long, help_heading = heading::METHOD)]
     pub rest: bool,
     /// Window T in ms; by default the one that `design` recommends.
-    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MS", allow_negative_numbers = true, help_heading = heading::TIME)]
     pub window_ms: Option<f64>,
     /// How responses are interpolated for a target between the points of a library.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_enum, default_value_t, help_heading = heading::SIMULATION)]
     pub between: BetweenName,
     /// Compensate the decay of the waves in the drive.
-    #[arg(long, value_enum, default_value_t = LossName::None)]
+    #[arg(long, value_enum, default_value_t = LossName::None, help_heading = heading::METHOD)]
     pub losses: LossName,
     /// Length of a repeated drive in ms; by default long enough for a periodic steady state.
-    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MS", allow_negative_numbers = true, help_heading = heading::TIME)]
     pub duration_ms: Option<f64>,
     /// Simulate the drive with a finger resting at X,Y in mm; the drive itself is computed without it. Repeatable.
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, help_heading = heading::SIMULATION)]
     pub finger: Vec<String>,
     /// Compute the drive for the surface with those fingers on it.
-    #[arg(long)]
+    #[arg(long, help_heading = heading::METHOD)]
     pub finger_aware: bool,
     /// For `robust`: also allow for a tension that is off by this many per cent, up and down.
-    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true)]
+    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, help_heading = heading::METHOD)]
     pub bear_tension_percent: Option<f64>,
     /// For `robust`: also allow for a finger at X,Y in mm that may be there or not. Repeatable.
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, help_heading = heading::METHOD)]
     pub bear_finger: Vec<String>,
     /// Simulate the drive on this surface instead of the surface or library that it was computed for.
-    #[arg(long, value_name = "SURFACE")]
+    #[arg(long, value_name = "SURFACE", help_heading = heading::SIMULATION)]
     pub on: Option<String>,
     /// Simulate the drive with modes up to this frequency, in Hz; by default those of the band.
-    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true, help_heading = heading::SIMULATION)]
     pub judge_hz: Option<f64>,
     /// Write no pictures.
-    #[arg(long)]
+    #[arg(long, help_heading = heading::RESULTS)]
     pub no_figures: bool,
     /// Folder for drive.wav, report.json, report.md and pictures. The folder of an earlier run is replaced, unless it holds
     /// anything else.
-    #[arg(short, long, value_name = "DIR")]
+    #[arg(short, long, value_name = "DIR", help_heading = heading::RESULTS)]
     pub output: PathBuf,
 }
 
 /// Options of `compare`.
 #[derive(Debug, Args)]
+#[command(after_help = examples::COMPARE)]
 pub struct CompareOptions {
     /// A surface file, or the name of a built-in surface.
     pub surface: String,
     #[command(flatten)]
     pub targets: TargetOptions,
     /// Window T in ms; by default the one that `design` recommends.
-    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MS", allow_negative_numbers = true, help_heading = heading::TIME)]
     pub window_ms: Option<f64>,
     /// Simulate drives with modes up to this frequency, in Hz; by default twice the top of the band.
-    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true, help_heading = heading::SIMULATION)]
     pub judge_hz: Option<f64>,
     /// Write no pictures.
-    #[arg(long)]
+    #[arg(long, help_heading = heading::RESULTS)]
     pub no_figures: bool,
     /// Folder for the report and picture; without it only the table is printed.
-    #[arg(short, long, value_name = "DIR")]
+    #[arg(short, long, value_name = "DIR", help_heading = heading::RESULTS)]
     pub output: Option<PathBuf>,
 }
 
 /// Options of `field`.
 #[derive(Debug, Args)]
+#[command(after_help = examples::FIELD)]
 pub struct FieldOptions {
     /// A surface file, the name of a built-in surface, or a library of responses.
     #[arg(value_name = "SURFACE|LIBRARY")]
     pub surface: String,
     /// The drive: a WAV file with one channel per actuator, in the actuators' units.
-    #[arg(long, value_name = "WAV")]
+    #[arg(long, value_name = "WAV", help_heading = heading::SIMULATION)]
     pub drive: PathBuf,
     /// Place to evaluate, in mm; by default where the velocity is largest. Repeatable.
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, help_heading = heading::TARGETS)]
     pub at: Vec<String>,
     /// Instant to evaluate, in ms; by default that of the largest velocity at each place. Give one for all places, or one for
     /// each --at.
-    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MS", allow_negative_numbers = true, help_heading = heading::TARGETS)]
     pub at_ms: Vec<f64>,
     /// Simulate the field with a finger, as the surface file describes it, resting at X,Y in mm. Repeatable.
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, help_heading = heading::SIMULATION)]
     pub finger: Vec<String>,
     /// Period of a repeated drive, in ms; results are then those of the last full period.
-    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MS", allow_negative_numbers = true, help_heading = heading::SIMULATION)]
     pub period_ms: Option<f64>,
     /// Simulate the field with modes up to this frequency, in Hz; by default those of the band.
-    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true, help_heading = heading::SIMULATION)]
     pub judge_hz: Option<f64>,
     /// Write no pictures.
-    #[arg(long)]
+    #[arg(long, help_heading = heading::RESULTS)]
     pub no_figures: bool,
     /// Folder for the report, snapshot, map of peaks and animation; without it only the report is printed.
-    #[arg(short, long, value_name = "DIR")]
+    #[arg(short, long, value_name = "DIR", help_heading = heading::RESULTS)]
     pub output: Option<PathBuf>,
     /// Start and end of the animation in ms; by default from 6 ms before the instant to 3 ms after it.
-    #[arg(long, value_name = "FROM,TO", allow_hyphen_values = true)]
+    #[arg(long, value_name = "FROM,TO", allow_hyphen_values = true, help_heading = heading::RESULTS)]
     pub movie_ms: Option<String>,
     /// Frames of the animation; 0 for none.
-    #[arg(long, value_name = "N", default_value_t = 60)]
+    #[arg(long, value_name = "N", default_value_t = 60, help_heading = heading::RESULTS)]
     pub frames: usize,
     /// How responses are interpolated for a place between the points of a library.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_enum, default_value_t, help_heading = heading::SIMULATION)]
     pub between: BetweenName,
 }
 
 /// Options of `reproduce`.
 #[derive(Debug, Args)]
+#[command(after_help = examples::REPRODUCE)]
 pub struct ReproduceOptions {
     /// Folder for the page and its pictures. The folder of an earlier run is replaced, unless it holds anything else.
     #[arg(short, long, value_name = "DIR")]

@@ -1,6 +1,6 @@
 //! Options of `unripple play`.
 
-use super::{DeviceOptions, MethodName};
+use super::{DeviceOptions, MethodName, examples, heading};
 use clap::Args;
 use std::net::IpAddr;
 use std::path::PathBuf;
@@ -8,6 +8,7 @@ use unripple_tasks::play::TouchAsk;
 
 /// Options of `play`.
 #[derive(Debug, Args)]
+#[command(after_help = examples::PLAY)]
 pub struct PlayOptions {
     /// A surface file, the name of a built-in surface, or a library of responses.
     #[arg(value_name = "SURFACE|LIBRARY")]
@@ -22,34 +23,34 @@ pub struct PlayOptions {
     #[command(flatten)]
     pub touch: TouchOptions,
     /// Method of focusing.
-    #[arg(long, value_enum, default_value = "time-reversal")]
+    #[arg(long, value_enum, default_value = "time-reversal", help_heading = heading::METHOD)]
     pub method: MethodName,
     /// Window T in ms, which is the delay from a touch to its focus; by default the shortest window that reaches three quarters of
     /// the largest contrast.
-    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MS", allow_negative_numbers = true, help_heading = heading::METHOD)]
     pub window_ms: Option<f64>,
     /// Samples per block.
-    #[arg(long, value_name = "N", default_value_t = 64)]
+    #[arg(long, value_name = "N", default_value_t = 64, help_heading = heading::TIME)]
     pub block: usize,
     /// Seconds to play; by default until interrupted, or until the recorded session ends.
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", allow_negative_numbers = true, help_heading = heading::TIME)]
     pub seconds: Option<f64>,
     /// Let a gain of 1 be the surface's drive limit, however far that moves the sheet. By default a gain of 1 has the felt level
     /// of a pulse that moves the sheet by half its thickness.
-    #[arg(long)]
+    #[arg(long, help_heading = heading::LEVEL)]
     pub full_limit: bool,
     /// Follow the tension of the sheet while playing, from the sensor signals of the actuators.
-    #[arg(long)]
+    #[arg(long, help_heading = heading::METHOD)]
     pub follow_tension: bool,
     /// Play in real time even where nothing requires it.
-    #[arg(long)]
+    #[arg(long, help_heading = heading::TIME)]
     pub real_time: bool,
     /// Virtual: let the tension drift by this many per cent, up and down within a minute.
-    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true)]
+    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, help_heading = heading::VIRTUAL)]
     pub drift_percent: Option<f64>,
     /// Store the drive that was played as a WAV file in the actuators' unit; of a run longer than a minute, the first minute. The file of
     /// an earlier run is replaced.
-    #[arg(long, value_name = "WAV")]
+    #[arg(long, value_name = "WAV", help_heading = heading::RESULTS)]
     pub keep_drive: Option<PathBuf>,
 }
 
@@ -57,28 +58,28 @@ pub struct PlayOptions {
 #[derive(Debug, Args)]
 pub struct TouchOptions {
     /// Number of simulated fingers that tap and slide; 2 if there is no other source of touches.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", help_heading = heading::TOUCHES)]
     pub fingers: Option<usize>,
     /// Seed of the simulated fingers.
-    #[arg(long, value_name = "SEED", default_value_t = 1)]
+    #[arg(long, value_name = "SEED", default_value_t = 1, help_heading = heading::TOUCHES)]
     pub seed: u64,
     /// Receive TUIO 1.1, TUIO 2.0 and OSC at this UDP port; the usual one is 3333.
-    #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "3333")]
+    #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "3333", help_heading = heading::TOUCHES)]
     pub tuio: Option<u16>,
     /// Accept WebSocket clients at this port.
-    #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "8765")]
+    #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "8765", help_heading = heading::TOUCHES)]
     pub websocket: Option<u16>,
     /// Address to listen at; by default only this machine can connect.
-    #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1")]
+    #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1", help_heading = heading::TOUCHES)]
     pub listen: IpAddr,
     /// A multi-touch screen, such as /dev/input/event5. Repeatable.
-    #[arg(long, value_name = "DEVICE")]
+    #[arg(long, value_name = "DEVICE", help_heading = heading::TOUCHES)]
     pub screen: Vec<PathBuf>,
     /// Replay the touches of a recorded session.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = heading::TOUCHES)]
     pub session: Option<PathBuf>,
     /// Record all touches to a new file, for --session.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = heading::TOUCHES)]
     pub record: Option<PathBuf>,
 }
 
@@ -100,6 +101,7 @@ impl TouchOptions {
 
 /// Options of `doctor`.
 #[derive(Debug, Args)]
+#[command(after_help = examples::DOCTOR)]
 pub struct DoctorOptions {
     /// A surface file, or the name of a built-in surface.
     #[arg(default_value = "hudin-2012")]

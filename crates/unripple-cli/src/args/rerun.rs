@@ -1,10 +1,12 @@
 //! Options of `unripple rerun`.
 
+use super::examples;
 use clap::Args;
 use std::path::PathBuf;
 
 /// Options of `rerun`.
 #[derive(Debug, Args)]
+#[command(after_help = examples::RERUN)]
 pub struct RerunOptions {
     /// A report.json of an earlier run, or what --json printed.
     pub report: PathBuf,

@@ -1,11 +1,13 @@
 //! Options of `completions` and `man`.
 
+use super::examples;
 use clap::Args;
 use clap_complete::Shell;
 use std::path::PathBuf;
 
 /// Options of `completions`.
 #[derive(Debug, Args)]
+#[command(after_help = examples::COMPLETIONS)]
 pub struct CompletionsOptions {
     /// The shell that the completions are for.
     #[arg(value_enum)]
@@ -14,6 +16,7 @@ pub struct CompletionsOptions {
 
 /// Options of `man`.
 #[derive(Debug, Args)]
+#[command(after_help = examples::MAN)]
 pub struct ManOptions {
     /// Folder for the pages, one for each command. The folder of an earlier run is replaced, unless it holds anything else.
     #[arg(short, long, value_name = "DIR")]

@@ -1,12 +1,13 @@
 //! Options of `unripple view`.
 
-use super::{DeviceOptions, MethodName};
+use super::{DeviceOptions, MethodName, examples, heading};
 use clap::Args;
 use std::net::IpAddr;
 use std::path::PathBuf;
 
 /// Options of `view`.
 #[derive(Debug, Args)]
+#[command(after_help = examples::VIEW)]
 pub struct ViewOptions {
     /// A surface file, the name of a built-in surface, or a library of responses.
     #[arg(value_name = "SURFACE|LIBRARY", default_value = "hudin-2012")]
@@ -21,17 +22,17 @@ pub struct ViewOptions {
     #[arg(long)]
     pub follow_tension: bool,
     /// TCP port; 0 for any free one.
-    #[arg(long, value_name = "PORT", default_value_t = 8417)]
+    #[arg(long, value_name = "PORT", default_value_t = 8417, help_heading = heading::NETWORK)]
     pub port: u16,
     /// Address to listen at, such as 0.0.0.0, so that other machines can see and touch the surface. The printed address then
     /// holds a token.
-    #[arg(long, value_name = "ADDRESS")]
+    #[arg(long, value_name = "ADDRESS", help_heading = heading::NETWORK)]
     pub listen: Option<IpAddr>,
     /// The token, 8 to 64 letters and digits; by default a new one each time.
-    #[arg(long, value_name = "TOKEN")]
+    #[arg(long, value_name = "TOKEN", help_heading = heading::NETWORK)]
     pub token: Option<String>,
     /// Do not open a browser.
-    #[arg(long)]
+    #[arg(long, help_heading = heading::NETWORK)]
     pub no_browser: bool,
     /// Folder for libraries that are calibrated from the page.
     #[arg(long, value_name = "DIR", default_value = ".")]

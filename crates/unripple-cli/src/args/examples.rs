@@ -1,0 +1,135 @@
+//! Examples at the end of each command's help.
+
+pub const CHECK: &str = "Examples:
+  unripple check my-surface.toml";
+
+pub const DESIGN: &str = "Examples:
+  unripple design hudin-2012
+  unripple design hudin-2012 --set sheet.tension_n_per_m=300 --json";
+
+pub const MODES: &str = "Examples:
+  unripple modes hudin-2012
+  unripple modes my-surface.toml --max-hz 1000 --accuracy 1e-4";
+
+pub const RESPOND: &str = "Examples:
+  unripple respond hudin-2012 --grid-mm 5 -o film.zarr";
+
+pub const FOCUS: &str = "Examples:
+  A focus at one place:
+    unripple focus hudin-2012 --at 62,90 -o out
+  Two at once, the second half as strong, with the most contrast:
+    unripple focus hudin-2012 --at 40,60 --at 90,120,0.5 --method concentrate -o out
+  A focus repeated 50 times a second, as it is under a finger:
+    unripple focus hudin-2012 --at 62,90,1,50 --finger 62,90 -o out
+  The outline of a triangle:
+    unripple focus hudin-2012 --shape triangle:66,93,40 -o out
+  A burst at one place while another stays still:
+    unripple focus hudin-2012 --waveform 62,90,burst:250,5 --silent 100,60 -o out";
+
+pub const COMPARE: &str = "Examples:
+  unripple compare hudin-2012 --at 62,90
+  unripple compare my-surface.toml --at 62,90 --peak-um 5 -o out";
+
+pub const FIELD: &str = "Examples:
+  unripple field hudin-2012 --drive out/drive.wav
+  unripple field hudin-2012 --drive out/drive.wav --at 62,90 --finger 62,90 -o out-field";
+
+pub const CALIBRATE: &str = "Examples:
+  Without hardware, on a surface that differs from its file:
+    unripple calibrate hudin-2012 --unknowns 1 --grid-mm 20 -o rig.zarr
+  With a probe, through a sound server:
+    unripple calibrate my-surface.toml --device jack --grid-mm 10 -o rig.zarr
+  Levels alone, before the long run:
+    unripple calibrate my-surface.toml --device jack --grid-mm 10 --check-levels -o rig.zarr
+  With a finger that taps in place of a probe:
+    unripple calibrate my-surface.toml --device jack --by tap --repeats 5 --at 62,90 -o rig.zarr
+  From recordings made elsewhere; the first run writes the file to play:
+    unripple calibrate my-surface.toml --device tape --tape takes --grid-mm 10 -o rig.zarr";
+
+pub const EXPORT: &str = "Examples:
+  unripple export rig.zarr -o rig-wav
+  unripple export rig.zarr -o rig.sofa --author 'Ada, ada@lab.example'";
+
+pub const PLAY: &str = "Examples:
+  Simulated fingers on a simulated surface:
+    unripple play hudin-2012 --seconds 10
+  Fingers of a tracker on a real one:
+    unripple play rig.zarr --device jack --tuio --effect click-button
+  A session recorded, and played again:
+    unripple play hudin-2012 --tuio --record session.jsonl
+    unripple play hudin-2012 --session session.jsonl --keep-drive drive.wav";
+
+pub const DRIFT: &str = "Examples:
+  unripple drift hudin-2012 --changed-percent 2
+  unripple drift rig.zarr --device jack";
+
+pub const VIEW: &str = "Examples:
+  unripple view
+  unripple view my-surface.toml --listen 0.0.0.0 --no-browser";
+
+pub const FIT: &str = "Examples:
+  unripple fit rig.zarr
+  unripple fit rig.zarr --grid-mm 5 -o fitted.zarr";
+
+pub const DOCTOR: &str = "Examples:
+  unripple doctor
+  unripple doctor my-surface.toml --device jack";
+
+pub const REPRODUCE: &str = "Examples:
+  unripple reproduce -o paper";
+
+pub const RERUN: &str = "Examples:
+  unripple rerun out/report.json -o again";
+
+pub const COMPLETIONS: &str = "Examples:
+  unripple completions bash > ~/.local/share/bash-completion/completions/unripple";
+
+pub const MAN: &str = "Examples:
+  unripple man -o man";
+
+#[cfg(test)]
+mod tests {
+    use crate::args::Arguments;
+    use clap::{CommandFactory, Parser};
+
+    /// The words of a line for a shell, which has single quotes at most.
+    fn words(line: &str) -> Vec<String> {
+        let line = line.split(" > ").next().unwrap();
+        let quoted = line.split('\'').enumerate();
+        quoted
+            .flat_map(|(n, part)| match n % 2 {
+                0 => part.split_whitespace().map(str::to_owned).collect(),
+                _ => vec![part.to_owned()],
+            })
+            .collect()
+    }
+
+    #[test]
+    fn every_command_has_examples_and_all_are_understood() {
+        for command in Arguments::command().get_subcommands() {
+            let name = command.get_name();
+            if ["help", "devices"].contains(&name) {
+                continue;
+            }
+            let help =
+                command.get_after_help().unwrap_or_else(|| panic!("{name} has no examples")).to_string();
+            let lines: Vec<&str> = help.lines().filter(|line| line.trim().starts_with("unripple ")).collect();
+            assert!(!lines.is_empty(), "{name}");
+            for line in lines {
+                assert_eq!(words(line)[1], name);
+                if let Err(error) = Arguments::try_parse_from(words(line)) {
+                    panic!("{line}: {error}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn every_option_stands_under_a_heading_where_there_are_many() {
+        for command in Arguments::command().get_subcommands() {
+            let bare = command.get_opts().filter(|option| option.get_help_heading().is_none());
+            let bare: Vec<_> = bare.filter_map(|option| option.get_long()).collect();
+            assert!(bare.len() <= 5, "{}: {bare:?}", command.get_name());
+        }
+    }
+}
