@@ -13,6 +13,7 @@ mod calibrate;
 mod check;
 mod common;
 mod compare;
+mod config;
 mod design;
 mod devices;
 mod doctor;
@@ -38,7 +39,6 @@ mod view;
 mod waveforms;
 
 use args::{Arguments, Command};
-use clap::Parser;
 use common::Common;
 use error::CliError;
 use lines::Talk;
@@ -46,12 +46,18 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     unripple_tasks::record::built_from(env!("UNRIPPLE_COMMIT"));
-    let arguments = Arguments::parse();
+    let (arguments, added) = match config::arguments() {
+        Ok(found) => found,
+        Err(error) => return error.report(),
+    };
     lines::settle(match (arguments.verbose, arguments.quiet) {
         (true, _) => Talk::Verbose,
         (_, true) => Talk::Quiet,
         _ => Talk::Usual,
     });
+    if let Some(added) = added.filter(|_| arguments.verbose) {
+        eprintln!("{added}");
+    }
     match interrupt::watch().and_then(|()| run(&arguments)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => error.report(),

@@ -48,9 +48,10 @@ pub struct Arguments {
     pub command: Command,
 }
 
-/// What exit codes mean, at the end of the help.
+/// The configuration file and the exit codes, at the end of the help.
 const EXITS: &str =
-    "Exit codes: 0 the work is done; 1 it failed, or its result is doubtful; 2 bad usage or bad input.";
+    "Options that are not given are taken from ~/.config/unripple/config.toml, if it is there, or from the file that UNRIPPLE_CONFIG names.
+Exit codes: 0 the work is done; 1 it failed, or its result is doubtful; 2 bad usage or bad input.";
 
 /// The version, with the commit that the program was built from where that is known.
 fn version() -> &'static str {

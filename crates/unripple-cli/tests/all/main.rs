@@ -7,6 +7,7 @@ mod calibrate_bands;
 #[path = "../common/mod.rs"]
 mod common;
 mod compare;
+mod config;
 mod design_and_modes;
 mod doubtful;
 #[path = "../common/elsewhere.rs"]

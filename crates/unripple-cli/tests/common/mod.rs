@@ -48,7 +48,7 @@ impl Drop for Scratch {
 }
 
 pub fn run(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_unripple")).args(arguments).output().unwrap()
+    Command::new(env!("CARGO_BIN_EXE_unripple")).args(arguments).env("UNRIPPLE_CONFIG", "").output().unwrap()
 }
 
 /// Standard output of a run that must succeed, as JSON.

@@ -1,0 +1,230 @@
+//! The configuration file: options that commands have where the command line gives none.
+
+use crate::args::Arguments;
+use crate::error::CliError;
+use clap::error::{ContextKind, ErrorKind};
+use clap::{Arg, ArgAction, CommandFactory, Parser};
+use std::ffi::{OsStr, OsString};
+use std::path::PathBuf;
+use toml::{Table, Value};
+
+/// The variable that names another file than the usual one; empty for none.
+const VARIABLE: &str = "UNRIPPLE_CONFIG";
+
+/// The arguments of the command line, completed by the configuration file; with what was added, in words. A request for help, and usage
+/// that is wrong by itself, end the program here.
+///
+/// # Errors
+/// [`CliError::Input`] of a file that cannot be read, or of what it says.
+pub fn arguments() -> Result<(Arguments, Option<String>), CliError> {
+    let given: Vec<OsString> = std::env::args_os().collect();
+    let path = match Arguments::try_parse_from(&given) {
+        // Help is to be had whatever the file says.
+        Err(error) if asks_for_help(&error) => error.exit(),
+        _ => place()?,
+    };
+    let Some(path) = path else { return Ok((Arguments::parse_from(given), None)) };
+    let shown = path.display().to_string();
+    let refused = |what: String| CliError::Input(format!("{shown}: {what}"));
+    let text = std::fs::read_to_string(&path).map_err(|error| refused(error.to_string()))?;
+    let table: Table = text.parse().map_err(|error: toml::de::Error| refused(error.to_string()))?;
+    let added = added(&given, &table).map_err(refused)?;
+    match Arguments::try_parse_from(added.beside(&given)) {
+        Ok(arguments) => {
+            let told = format!("{shown}: {}", added.options.join(" "));
+            Ok((arguments, Some(told).filter(|_| !added.options.is_empty())))
+        }
+        Err(error) if added.is_at_fault(&error) => {
+            let text = error.to_string();
+            let first = text.lines().next().unwrap_or_default();
+            Err(refused(first.trim_start_matches("error: ").to_owned()))
+        }
+        Err(error) => error.exit(),
+    }
+}
+
+fn asks_for_help(error: &clap::Error) -> bool {
+    let help = ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand;
+    matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) || error.kind() == help
+}
+
+/// The file, if there is one: the one that the variable names, or the one in the user's folder of configurations.
+fn place() -> Result<Option<PathBuf>, CliError> {
+    let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
+    if let Some(named) = std::env::var_os(VARIABLE) {
+        let path = PathBuf::from(named);
+        return match path.as_os_str().is_empty() {
+            true => Ok(None),
+            false if path.is_file() => Ok(Some(path)),
+            false => Err(CliError::Input(format!("{VARIABLE}: expected a file, found {}", path.display()))),
+        };
+    }
+    let folder = match cfg!(windows) {
+        true => set("APPDATA").map(PathBuf::from),
+        false => set("XDG_CONFIG_HOME")
+            .map(PathBuf::from)
+            .or_else(|| set("HOME").map(|home| PathBuf::from(home).join(".config"))),
+    };
+    Ok(folder.map(|folder| folder.join("unripple").join("config.toml")).filter(|path| path.is_file()))
+}
+
+/// Options that the file adds to a command line, and behind which argument they come.
+#[derive(Debug, PartialEq)]
+struct Added {
+    options: Vec<String>,
+    behind: usize,
+}
+
+impl Added {
+    /// Whether an error is about one of these options.
+    fn is_at_fault(&self, error: &clap::Error) -> bool {
+        let about = error.get(ContextKind::InvalidArg).map(ToString::to_string).unwrap_or_default();
+        let name = |text: &str| text.split(['=', ' ']).next().map(str::to_owned);
+        self.options.iter().any(|option| name(option) == name(&about))
+    }
+
+    fn beside(&self, given: &[OsString]) -> Vec<OsString> {
+        let (before, after) = given.split_at(self.behind + 1);
+        let options = self.options.iter().map(OsString::from);
+        before.iter().cloned().chain(options).chain(after.iter().cloned()).collect()
+    }
+}
+
+/// The options in the file that a command line does not give, nor excludes.
+fn added(given: &[OsString], table: &Table) -> Result<Added, String> {
+    let mut program = Arguments::command();
+    program.build();
+    let known = |name: &str| program.find_subcommand(name);
+    for (key, value) in table {
+        if value.is_table() && known(key).is_none() {
+            return Err(format!("expected the name of a command in [{key}]; `unripple --help` lists them"));
+        }
+    }
+    let words: Vec<&str> = given.iter().map(|word| word.to_str().unwrap_or_default()).collect();
+    let place = (1..words.len()).find(|at| known(words[*at]).is_some() && words[at - 1] != "--set");
+    let Some((behind, command)) = place.and_then(|at| Some((at, known(words[at])?))) else {
+        return Ok(Added { options: Vec::new(), behind: 0 });
+    };
+    let general = table.iter().filter(|(_, value)| !value.is_table());
+    let own = table.get(command.get_name()).and_then(Value::as_table);
+    let mut options = Vec::new();
+    for (key, value) in general.chain(own.into_iter().flatten()) {
+        let option = command.get_arguments().find(|option| option.get_long() == Some(key.as_str()));
+        let Some(option) = option.filter(|option| !["help", "version"].contains(&option.get_id().as_str()))
+        else {
+            let name = command.get_name();
+            return Err(format!("`{name}` has no option --{key}; `unripple {name} --help` lists them"));
+        };
+        let excluded = command.get_arg_conflicts_with(option);
+        let conflicts = command.get_arguments().filter(|other| {
+            excluded.contains(other) || command.get_arg_conflicts_with(other).contains(&option)
+        });
+        if !is_given(option, given) && !conflicts.into_iter().any(|other| is_given(other, given)) {
+            options.extend(spelled(key, value, option)?);
+        }
+    }
+    Ok(Added { options, behind })
+}
+
+/// Whether a command line gives an option, by its long or its short name.
+fn is_given(option: &Arg, given: &[OsString]) -> bool {
+    given.iter().filter_map(|word| OsStr::to_str(word)).take_while(|word| *word != "--").any(|word| {
+        match word.strip_prefix("--") {
+            Some(long) => option.get_long() == long.split('=').next(),
+            // Short names may stand together, as in -qo.
+            None => word.strip_prefix('-').is_some_and(|short| {
+                option.get_short().is_some_and(|name| short.chars().take(2).any(|letter| letter == name))
+            }),
+        }
+    })
+}
+
+/// An entry of the file as words of a command line.
+fn spelled(key: &str, value: &Value, option: &Arg) -> Result<Vec<String>, String> {
+    let is_flag = matches!(option.get_action(), ArgAction::SetTrue);
+    let one = |value: &Value| match value {
+        Value::String(text) => Some(text.clone()),
+        Value::Integer(number) => Some(number.to_string()),
+        Value::Float(number) => Some(number.to_string()),
+        _ => None,
+    };
+    match value {
+        Value::Boolean(on) if is_flag => Ok(on.then(|| format!("--{key}")).into_iter().collect()),
+        _ if is_flag => Err(format!("{key}: expected true or false, found {value}")),
+        Value::Array(values) if matches!(option.get_action(), ArgAction::Append) => {
+            let all: Option<Vec<_>> =
+                values.iter().map(|value| Some(format!("--{key}={}", one(value)?))).collect();
+            all.ok_or_else(|| format!("{key}: expected a list of texts or numbers, found {value}"))
+        }
+        _ => match one(value) {
+            Some(text) => Ok(vec![format!("--{key}={text}")]),
+            None => Err(format!("{key}: expected a text or a number, found {value}")),
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn words(line: &str) -> Vec<OsString> {
+        line.split_whitespace().map(OsString::from).collect()
+    }
+
+    /// The command line that a file makes of another.
+    fn completed(line: &str, file: &str) -> Result<String, String> {
+        let given = words(line);
+        let all = added(&given, &file.parse().unwrap())?.beside(&given);
+        assert!(Arguments::try_parse_from(&all).is_ok(), "{all:?}");
+        Ok(all.join(OsStr::new(" ")).into_string().unwrap())
+    }
+
+    #[test]
+    fn options_of_the_file_stand_where_none_are_given() {
+        let file = "quiet = true\n[play]\ndevice = 'jack'\nblock = 128\n[focus]\nat = ['62,90', '40,60']\nwindow-ms = 22.5";
+        let cases = [
+            ("unripple play film.toml", "unripple play --quiet --block=128 --device=jack film.toml"),
+            (
+                "unripple play film.toml --device virtual -v",
+                "unripple play --block=128 film.toml --device virtual -v",
+            ),
+            ("unripple -q play film.toml --block=64", "unripple -q play --device=jack film.toml --block=64"),
+            ("unripple design film.toml", "unripple design --quiet film.toml"),
+            (
+                "unripple focus film.toml -o out",
+                "unripple focus --quiet --at=62,90 --at=40,60 --window-ms=22.5 film.toml -o out",
+            ),
+        ];
+        for (line, wanted) in cases {
+            assert_eq!(completed(line, file).unwrap(), wanted);
+        }
+    }
+
+    #[test]
+    fn what_the_command_line_excludes_is_left_out() {
+        let file = "[focus]\npeak-um = 4\noutput = 'out'\nno-figures = false";
+        let wanted = "unripple focus --output=out film.toml --at 62,90 --felt-db 20";
+        assert_eq!(completed("unripple focus film.toml --at 62,90 --felt-db 20", file).unwrap(), wanted);
+    }
+
+    #[test]
+    fn what_no_command_knows_is_refused() {
+        let cases = [
+            ("[plai]\nblock = 1", "[plai]"),
+            ("[play]\nblok = 1", "no option --blok"),
+            ("block = 64", "`focus` has no option --block"),
+            ("quiet = 1", "quiet: expected true or false, found 1"),
+            ("[focus]\nat = [[62, 90]]", "at: expected a list of texts or numbers"),
+            ("[focus]\nmethod = ['felt']", "method: expected a text or a number"),
+        ];
+        for (file, wanted) in cases {
+            let line = if file.contains("play") {
+                "unripple play film.toml"
+            } else {
+                "unripple focus film.toml -o out"
+            };
+            let refused = added(&words(line), &file.parse().unwrap()).unwrap_err();
+            assert!(refused.contains(wanted), "{refused}");
+        }
+    }
+}
