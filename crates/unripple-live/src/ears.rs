@@ -83,8 +83,8 @@ impl Ears {
         }
     }
 
-    /// Waits for the time at which sources want to be polled, where files cannot be waited for; `now` is the time in
-    /// s of the device's clock.
+    /// Sleeps until a source is due to be polled, but for 2 ms at most, on systems that cannot wait for files; `now` is
+    /// the time in s of the device's clock.
     #[cfg(not(unix))]
     pub fn wait(&self, now: f64) {
         std::thread::sleep(self.patience(now).min(2 * SHORTEST));

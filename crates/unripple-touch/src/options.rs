@@ -9,7 +9,7 @@ use unripple_core::{Outline, require};
 pub struct Options {
     /// The surface; a place that is not on it is refused.
     pub surface: Outline,
-    /// Place on the surface of a sensor whose coordinates go from 0 to 1.
+    /// Where the sensor's area lies on the surface. The sensor's coordinates go from 0 to 1.
     pub mapping: Mapping,
     /// Time-out of a finger, in s: without a message for that long it is lifted. TUIO trackers repeat a resting
     /// finger once a second.

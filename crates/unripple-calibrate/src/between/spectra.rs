@@ -54,8 +54,8 @@ impl Cosines {
         bins.iter_mut().zip(spectrum).for_each(|(bin, x)| *bin = x.re);
     }
 
-    /// Inverse transform: writes to `response` the samples of the response whose even part has these first bins; all others
-    /// count as 0.
+    /// Inverse transform: writes to `response` the samples of the response whose even part has the spectrum `bins`, from 0 Hz on.
+    /// Bins beyond these count as 0.
     pub fn response(&self, bins: impl Iterator<Item = f64>, response: &mut [f32]) {
         let mut spectrum = self.inverse.make_input_vec();
         spectrum.iter_mut().zip(bins).for_each(|(x, bin)| *x = Complex::new(bin, 0.0));

@@ -59,7 +59,7 @@ pub enum Listen {
 pub(super) struct Take {
     /// The recordings, `[input][sample]`.
     pub lines: Vec<Vec<f64>>,
-    /// Account of the recording, and its corrections.
+    /// What was found about the recording, and the corrections that it calls for.
     pub verdict: Verdict,
 }
 

@@ -97,12 +97,13 @@ impl Transform {
         debug_assert!(done.is_ok(), "sizes come from the plan itself");
     }
 
-    /// Inverse transform of `work.lines` into `work.signal`, `size` times as large.
+    /// Inverse transform of `work.lines` into `work.signal`, without the factor 1/`size`.
     pub fn inverse(&self, work: &mut Work) {
         self.inverse_in(&mut work.lines, &mut work.signal, &mut work.scratch);
     }
 
-    /// Inverse transform of `lines` into the `size` samples of `signal`, `size` times as large; `lines` are overwritten.
+    /// Inverse transform of `lines` into the `size` samples of `signal`, without the factor 1/`size`: after a forward transform, `size`
+    /// times the original signal. `lines` are overwritten.
     pub fn inverse_in(&self, lines: &mut [Complex<f64>], signal: &mut [f64], scratch: &mut [Complex<f64>]) {
         // The lines at 0 and at half the rate are their own mirror images: real.
         if let Some(first) = lines.first_mut() {

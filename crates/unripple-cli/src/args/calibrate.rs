@@ -126,7 +126,7 @@ pub struct CalibrateOptions {
     #[arg(long, help_heading = heading::WIRING)]
     pub any_wiring: bool,
     /// Folder for a picture, SVG and PNG: signal-to-noise ratio and coherence over frequency, and which point is bad in which
-    /// band. The folder of an earlier run is replaced, unless it holds anything else.
+    /// band. An existing folder is replaced only if it holds nothing but the unchanged files of an earlier run.
     #[arg(long, value_name = "DIR", conflicts_with = "check_levels", help_heading = heading::RESULTS)]
     pub figure: Option<PathBuf>,
     /// The library: a new folder, or that of an unfinished run with the same options.

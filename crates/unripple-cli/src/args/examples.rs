@@ -92,7 +92,7 @@ mod tests {
     use crate::args::Arguments;
     use clap::{CommandFactory, Parser};
 
-    /// The words of a line for a shell, which has single quotes at most.
+    /// The words of a command line as a shell would split it, without a redirection; of quotes only single ones are handled.
     fn words(line: &str) -> Vec<String> {
         let line = line.split(" > ").next().unwrap();
         let quoted = line.split('\'').enumerate();

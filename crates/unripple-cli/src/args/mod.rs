@@ -262,8 +262,8 @@ pub struct FocusOptions {
     /// Write no pictures.
     #[arg(long, help_heading = heading::RESULTS)]
     pub no_figures: bool,
-    /// Folder for drive.wav, report.json, report.md and pictures. The folder of an earlier run is replaced, unless it holds
-    /// anything else.
+    /// Folder for drive.wav, report.json, report.md and pictures. An existing folder is replaced only if it holds nothing but
+    /// the unchanged files of an earlier run.
     #[arg(short, long, value_name = "DIR", help_heading = heading::RESULTS)]
     pub output: PathBuf,
 }
@@ -337,7 +337,8 @@ pub struct FieldOptions {
 #[derive(Debug, Args)]
 #[command(after_help = examples::REPRODUCE)]
 pub struct ReproduceOptions {
-    /// Folder for the page and its pictures. The folder of an earlier run is replaced, unless it holds anything else.
+    /// Folder for the page and its pictures. An existing folder is replaced only if it holds nothing but the unchanged files of
+    /// an earlier run.
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
     /// Random placements of the actuators to average for the statistics of contrast.

@@ -18,7 +18,8 @@ pub struct CompletionsOptions {
 #[derive(Debug, Args)]
 #[command(after_help = examples::MAN)]
 pub struct ManOptions {
-    /// Folder for the pages, one for each command. The folder of an earlier run is replaced, unless it holds anything else.
+    /// Folder for the pages, one for each command. An existing folder is replaced only if it holds nothing but the unchanged
+    /// files of an earlier run.
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
 }

@@ -133,7 +133,7 @@ fn what_a_method_does_at_its_limit_is_void_below_it_and_said_to_be() {
     let hard = focus(&["--method", "one-bit"]);
     let soft = focus(&[]);
     let said = hard["notes"][0]["text"].as_str().unwrap();
-    assert!(said.contains("which is not reached at this level"), "{said}");
+    assert!(said.contains("but this level needs less"), "{said}");
     let price = |r: &Value| number(r, "/drive/energy") / number(r, "/targets/0/peak_velocity_m_s").powi(2);
     assert!(said.contains(&format!("for {:.2} times the energy", price(&soft) / price(&hard))), "{said}");
     assert_eq!(topics(&hard), ["method"]);

@@ -57,7 +57,7 @@ impl Default for WiringOptions {
 }
 
 impl WiringOptions {
-    /// Options for a band (Hz): bursts at a fifth of it.
+    /// Options for a band (its lower and upper limit, in Hz): the frequency of bursts lies a fifth of the way from the lower to the upper.
     pub fn for_band(band: [f64; 2]) -> Self {
         Self { frequency: band[0] + 0.2 * (band[1] - band[0]), ..Self::default() }
     }

@@ -75,7 +75,8 @@ impl Watch {
         Self { times, apart, splines, input: actuation.input.clone(), motion, rows }
     }
 
-    /// What is felt at chosen points for drives with these coefficients: times x points. `shapes` as modes x points.
+    /// Displacement at chosen points, weighted by the threshold of touch and in its units, for the drive with these spline
+    /// coefficients, `[actuator][spline]`: times x points. `shapes` are the mode shapes at the points, modes x points.
     pub fn field(&self, coefficients: &[f64], shapes: &Mat<f32>) -> Mat<f32> {
         let times = self.times.len();
         let mut motion = Mat::<f32>::zeros(times, self.input.ncols());

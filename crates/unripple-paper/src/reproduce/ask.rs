@@ -8,8 +8,8 @@ use unripple_tasks::record::Request;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
-    /// Folder for the page and its figures; without it only the numbers are computed. The folder of an earlier run is
-    /// replaced as a whole, unless something else is in it.
+    /// Folder for the page and its figures; without it only the numbers are computed. An existing folder is
+    /// replaced as a whole, but only if it holds nothing but the unchanged files of an earlier run.
     pub output: Option<PathBuf>,
     /// Number of placements averaged in the statistics of contrast, 2 or more.
     pub placements: usize,

@@ -66,8 +66,8 @@ pub struct Ask {
     pub check_levels: bool,
     /// Continue although the wiring test finds a fault.
     pub any_wiring: bool,
-    /// Folder for a figure: signal to noise and coherence over frequency, and which point is bad in which band. An earlier run's folder is
-    /// replaced whole, unless something else is in it.
+    /// Folder for a figure: signal to noise and coherence over frequency, and which point is bad in which band. An existing folder is
+    /// replaced only if it holds nothing but the unchanged files of an earlier run.
     pub figure: Option<PathBuf>,
     /// Folder of the library: a new one, or that of an unfinished run with the same options.
     pub output: PathBuf,

@@ -71,7 +71,8 @@ pub struct Ask {
     pub on: Option<SurfaceAsk>,
     /// Evaluate the drive with modes up to this frequency, in Hz; by default those of the band.
     pub judge_hz: Option<f64>,
-    /// Folder for drive.wav, report.json, report.md and figures. An earlier run's folder is replaced whole, unless something else is in it.
+    /// Folder for drive.wav, report.json, report.md and figures. An existing folder is replaced only if it
+    /// holds nothing but the unchanged files of an earlier run.
     pub output: Option<PathBuf>,
     /// Write no figures.
     pub no_figures: bool,

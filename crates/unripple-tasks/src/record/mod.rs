@@ -59,7 +59,7 @@ pub struct SurfaceRead {
     pub asked: SurfaceAsk,
     /// Name of the surface, from its file.
     pub name: String,
-    /// SHA-256 of its text, which stands in the ask, in hexadecimal digits.
+    /// SHA-256, in hexadecimal digits, of its text (TOML), which stands in the recorded options of the task.
     pub sha256: String,
 }
 

@@ -139,7 +139,7 @@ fn one_bit(
         Ok((sum / traces.len().max(1) as f64).abs())
     };
     let share = peak(drive)? / peak(&reversed)?;
-    let said = "one-bit is for the highest peak at the limit, which is not reached at this level";
+    let said = "one-bit gives the highest peak for a drive at the limit, but this level needs less";
     if share.is_nan() || share > 1.0 {
         return Ok(format!(
             "{said}: its drive is scaled down as a whole, but time reversal would exceed the limit for the same peak"

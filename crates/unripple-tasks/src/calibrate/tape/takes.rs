@@ -75,8 +75,8 @@ impl Takes {
         self.wires.reference.map_or_else(|| self.wires.sensors.clone(), |reference| vec![reference])
     }
 
-    /// Learns from the recording of the actuators how to align all others: its loudest channels that record the drive are kept, moved by
-    /// whole samples to a little after where the sweeps begin.
+    /// Learns from the recording of the actuators how to align all others. The signals of its loudest channels that record the drive are
+    /// kept, shifted by whole samples so that playing begins a little after their first sample.
     pub fn learn(&mut self, wanted: &Wanted) -> Result<(), Fault> {
         let lines = self.lines(wanted)?;
         let telling = loudest(&lines, self.telling());
@@ -140,7 +140,7 @@ impl Takes {
         if left < samples as f64 - SHORT * self.rate() {
             let seconds = |count: f64| format!("{:.2} s", count.max(0.0) / self.rate());
             let why = format!(
-                "expected {} from where play.wav begins, found {}",
+                "expected {} of recording after the start of play.wav, found {}",
                 seconds(samples as f64),
                 seconds(left)
             );
