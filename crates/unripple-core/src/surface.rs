@@ -1,6 +1,6 @@
 //! The whole surface: sheet, outline, actuators, frequency band, finger.
 
-use crate::{Outline, Point, Uneven};
+use crate::{Outline, Patch, Point, Uneven};
 
 /// A whole surface: sheet, outline, actuators, frequency band and finger. Holds the contents of a surface file, in SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -150,10 +150,10 @@ pub enum ActuatorKind {
         /// Whether the amplifier sets the current or the voltage.
         driven_by: CoilDrive,
     },
-    /// A round piezo patch, which bends the sheet by a moment along its rim; its drive is in V.
+    /// A piezo patch, which bends the sheet by a moment along its rim; its drive is in V.
     Piezo {
-        /// Radius of the patch, in metres.
-        radius: f64,
+        /// Outline of the patch.
+        patch: Patch,
         /// Bending moment per length of the patch's rim and per volt, in N·m/(m·V) = N/V.
         moment: f64,
         /// Mass of the patch, in kg.

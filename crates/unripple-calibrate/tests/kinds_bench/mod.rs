@@ -11,8 +11,8 @@ use unripple_calibrate::CalibrateError;
 use unripple_calibrate::measure::{Listen, MeasureOptions, Rig, Session, Wires};
 use unripple_calibrate::signals::Reciprocity;
 use unripple_core::{
-    Actuator, ActuatorKind, CoilDrive, Decay, Device, Edge, Edges, Emission, ModalResponses, Outline, Point,
-    Responses, SampledResponses, Shape, Surface,
+    Actuator, ActuatorKind, CoilDrive, Decay, Device, Edge, Edges, Emission, ModalResponses, Outline, Patch,
+    Point, Responses, SampledResponses, Shape, Surface,
 };
 use unripple_devices::{
     Expected, Handle, Perturbation, Truth, Virtual, VirtualOptions, WiringOptions, check_wiring,
@@ -61,7 +61,7 @@ pub fn glass(top: f64, mass: f64) -> Surface {
         Outline::new(Shape::Rectangle { width: 0.16, height: 0.1 }).with_edges(Edges::All(Edge::Supported));
     glass.emission = Emission { band: [0.0, top], ..glass.emission };
     let places = [(22.0, 18.0), (71.0, 14.0), (131.0, 25.0), (143.0, 66.0), (104.0, 84.0), (35.0, 79.0)];
-    let patch = ActuatorKind::Piezo { radius: 6e-3, moment: 0.02, mass };
+    let patch = ActuatorKind::Piezo { patch: Patch::Round { radius: 6e-3 }, moment: 0.02, mass };
     let actuator = |(i, (x, y)): (usize, &(f64, f64))| Actuator {
         name: format!("p{}", i + 1),
         at: Point::from_mm(*x, *y),

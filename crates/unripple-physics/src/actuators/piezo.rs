@@ -1,40 +1,52 @@
-//! A round piezoelectric patch: a bending moment along its rim.
+//! A piezoelectric patch: a bending moment along its rim.
 
 use super::{Entry, Transducer, place};
 use crate::{Footprint, Load, PhysicsError};
-use unripple_core::{Actuator, ActuatorKind, Outline, require};
+use unripple_core::{Actuator, ActuatorKind, Outline, Patch, require};
 
-/// A round piezo patch, thin compared with the sheet: a bending moment along its rim, in N per volt, which does the work
+/// A piezo patch, thin compared with the sheet: a bending moment along its rim, in N per volt, which does the work
 /// moment·∮ ∂u/∂n ds = moment·∫ ∇²u dA (Dimitriadis, Fuller and Rogers, *J. Vib. Acoust.* 113, 100, 1991). Its mass is spread
-/// evenly over the disc; its stiffness is neglected.
+/// evenly over it; its stiffness is neglected.
 ///
 /// As a sensor, a patch turns the same integral of the sheet's displacement into charge, and that of its velocity into the
 /// current of its signal ([`Sensor`](super::Sensor)).
 pub(super) fn transducer(actuator: &Actuator, outline: &Outline) -> Result<Transducer, PhysicsError> {
-    let ActuatorKind::Piezo { radius, moment, mass } = actuator.kind else {
+    let ActuatorKind::Piezo { patch, moment, mass } = actuator.kind else {
         return Ok(super::force::transducer(actuator, outline));
     };
-    require("radius of a piezo patch in m", radius > 0.0, "a positive finite number", radius)?;
-    if !outline.holds_disc(actuator.at, radius) {
-        let to_rim = outline.to_rim(actuator.at);
+    let size = match patch {
+        Patch::Round { radius } => radius,
+        Patch::Rectangular { sides: [width, height], .. } => width.min(height),
+    };
+    require("size of a piezo patch in m", size > 0.0, "a positive finite number", size)?;
+    if !patch.lies_on(outline, actuator.at) {
         return Err(PhysicsError::Unsupported {
             what: "place of a piezo patch",
-            expected: "a disc inside the outline",
-            found: format!(
-                "a radius of {:.2} mm, {:.2} mm from the rim, at {}",
-                radius * 1e3,
-                to_rim * 1e3,
-                place(actuator, outline)
-            ),
+            expected: "a patch inside the outline",
+            found: format!("{}, at {}", told(patch, outline.to_rim(actuator.at)), place(actuator, outline)),
         });
     }
-    let load = (mass != 0.0).then(|| Load {
-        footprint: Footprint::disc(actuator.at, radius, outline),
-        mass,
-        damping: 0.0,
-        stiffness: 0.0,
-        circuit: None,
-    });
-    let footprint = Footprint::rim_slope(actuator.at, radius);
+    let (area, footprint) = match patch {
+        Patch::Round { radius } => {
+            (Footprint::disc(actuator.at, radius, outline), Footprint::rim_slope(actuator.at, radius))
+        }
+        Patch::Rectangular { sides, angle } => (
+            Footprint::rectangle(actuator.at, sides, angle),
+            Footprint::rectangle_slope(actuator.at, sides, angle),
+        ),
+    };
+    let load =
+        (mass != 0.0).then_some(Load { footprint: area, mass, damping: 0.0, stiffness: 0.0, circuit: None });
     Ok(Transducer { footprint, gain: moment, entry: Entry::Force, load, unit: "V" })
+}
+
+/// A patch and the distance (m) of its centre from the rim, for messages.
+fn told(patch: Patch, to_rim: f64) -> String {
+    let to_rim = to_rim * 1e3;
+    match patch {
+        Patch::Round { radius } => format!("a radius of {:.2} mm, {to_rim:.2} mm from the rim", radius * 1e3),
+        Patch::Rectangular { sides: [width, height], .. } => {
+            format!("{:.2} x {:.2} mm, its centre {to_rim:.2} mm from the rim", width * 1e3, height * 1e3)
+        }
+    }
 }

@@ -135,7 +135,7 @@ pub fn sensed(sensors: &[Sensor], responses: &ModalResponses) -> Mat<f64> {
 mod tests {
     use super::*;
     use std::f64::consts::TAU;
-    use unripple_core::{Actuator, CoilDrive, Outline, Point, Shape};
+    use unripple_core::{Actuator, CoilDrive, Outline, Patch, Point, Shape};
 
     fn sensor(kind: ActuatorKind) -> Sensor {
         let outline = Outline::new(Shape::Rectangle { width: 0.1, height: 0.1 });
@@ -156,7 +156,8 @@ mod tests {
 
     #[test]
     fn each_kind_hears_in_the_unit_that_its_drive_makes_power_with() {
-        let patch = sensor(ActuatorKind::Piezo { radius: 0.01, moment: 0.02, mass: 0.0 });
+        let patch =
+            sensor(ActuatorKind::Piezo { patch: Patch::Round { radius: 0.01 }, moment: 0.02, mass: 0.0 });
         let found = [
             sensor(ActuatorKind::Force),
             coil(2e-3, CoilDrive::Current),

@@ -100,8 +100,11 @@ fn refuses_what_it_cannot_drive() {
         change(&mut surface);
         responses(&surface, &ResponseOptions::default()).unwrap_err()
     };
-    let patch = |radius, mass| ActuatorKind::Piezo { radius, moment: 1.0, mass };
-    let wide = fails(|s| s.actuators[0].kind = ActuatorKind::Piezo { radius: 0.02, moment: 1.0, mass: 0.0 });
+    let patch = |radius, mass| ActuatorKind::Piezo { patch: Patch::Round { radius }, moment: 1.0, mass };
+    let wide = fails(|s| {
+        s.actuators[0].kind =
+            ActuatorKind::Piezo { patch: Patch::Round { radius: 0.02 }, moment: 1.0, mass: 0.0 }
+    });
     assert!(matches!(&wide, PhysicsError::Unsupported { .. }));
     assert!(
         wide.to_string().contains("12.00 mm from the rim") && wide.to_string().contains("actuator 0, `a1`")

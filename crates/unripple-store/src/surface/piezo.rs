@@ -2,12 +2,13 @@
 
 use super::range::of;
 use super::reader::{Entry, Faults, Section};
-use std::f64::consts::PI;
-use unripple_core::{ActuatorKind, Outline, Point};
+use unripple_core::{ActuatorKind, Outline, Patch, Point};
 
 /// All keys that a piezo patch may have.
-pub(super) const PIEZO_KEYS: [&str; 7] = [
+pub(super) const PIEZO_KEYS: [&str; 9] = [
     "radius_mm",
+    "rectangle_mm",
+    "angle_deg",
     "moment_n_per_v",
     "d31_pm_per_v",
     "patch_young_gpa",
@@ -31,39 +32,62 @@ pub(super) struct Spot<'a> {
 
 /// Reads a piezo patch, with all its keys.
 pub(super) fn read(section: &Section, spot: &Spot<'_>, faults: &mut Faults) -> Option<ActuatorKind> {
-    let radius = section.number(PIEZO_KEYS[0], &of::PATCH_RADIUS, faults);
-    let fits = radius.is_none() || within(section, radius, spot.place, faults);
+    let patch = patch(section, faults);
+    let fits = patch.is_none_or(|patch| within(section, patch, spot.place, faults));
     let patch_thickness = match section.get("patch_thickness_mm") {
         Some(entry) => entry.number(&of::PATCH_THICKNESS, faults).map(Some),
         None => Some(None),
     };
     let moment = moment(section, spot.thickness, patch_thickness, faults);
-    let mass = mass(section, radius, patch_thickness, faults);
-    fits.then_some(ActuatorKind::Piezo { radius: radius?, moment: moment?, mass: mass? })
+    let mass = mass(section, patch, patch_thickness, faults);
+    fits.then_some(ActuatorKind::Piezo { patch: patch?, moment: moment?, mass: mass? })
+}
+
+/// The outline of a patch: a disc or a rectangle.
+fn patch(section: &Section, faults: &mut Faults) -> Option<Patch> {
+    let Some(rectangle) = section.get("rectangle_mm") else {
+        if let Some(angle) = section.get("angle_deg") {
+            faults.add(&angle.key, angle.span, "angle_deg without rectangle_mm", "both or neither", None);
+            return None;
+        }
+        let expected = format!("{}, or rectangle_mm = [width, height] instead", of::PATCH_RADIUS.expected());
+        let radius = section.require("radius_mm", &expected, faults)?.number(&of::PATCH_RADIUS, faults)?;
+        return Some(Patch::Round { radius });
+    };
+    let sides = rectangle.numbers(&of::PATCH_SIDE, "[width, height] in mm", faults);
+    let angle = section.number_or("angle_deg", 0.0, &of::DIRECTION, faults);
+    if section.get("radius_mm").is_some() {
+        let found = "radius_mm and rectangle_mm";
+        faults.add(&rectangle.key, rectangle.span, found, "one of them", None);
+        return None;
+    }
+    Some(Patch::Rectangular { sides: sides?, angle: angle? })
 }
 
 /// Whether a patch keeps within the rims, or a fault: its moment acts along the whole of its own rim.
-fn within(
-    section: &Section,
-    radius: Option<f64>,
-    place: Option<(&Outline, Point)>,
-    faults: &mut Faults,
-) -> bool {
-    let (Some(radius), Some((outline, at))) = (radius, place) else { return true };
-    if outline.holds_disc(at, radius) {
+fn within(section: &Section, patch: Patch, place: Option<(&Outline, Point)>, faults: &mut Faults) -> bool {
+    let Some((outline, at)) = place else { return true };
+    if patch.lies_on(outline, at) {
         return true;
     }
-    let Some(entry) = section.get(PIEZO_KEYS[0]) else { return false };
     let most = (outline.to_rim(at) * 1e7).floor() / 1e4;
-    let found = format!("{} mm, which reaches beyond the rim", radius * 1e3);
-    let near = (most >= of::PATCH_RADIUS.least).then(|| most.to_string());
-    faults.add(
-        &entry.key,
-        entry.span,
-        found,
-        format!("at most {most} mm, the distance from the nearest rim"),
-        near,
-    );
+    let (key, found, expected, near) = match patch {
+        Patch::Round { radius } => (
+            "radius_mm",
+            format!("{} mm, which reaches beyond the rim", radius * 1e3),
+            format!("at most {most} mm, the distance from the nearest rim"),
+            (most >= of::PATCH_RADIUS.least).then(|| most.to_string()),
+        ),
+        Patch::Rectangular { sides: [width, height], .. } => (
+            "rectangle_mm",
+            format!("{} x {} mm, which reaches beyond the rim", width * 1e3, height * 1e3),
+            format!("a rectangle on the sheet: the nearest rim is {most} mm from its centre"),
+            None,
+        ),
+    };
+    if let Some(entry) = section.get(key) {
+        faults.add(&entry.key, entry.span, found, expected, near);
+    }
     false
 }
 
@@ -105,7 +129,7 @@ fn moment(
 
 fn mass(
     section: &Section,
-    radius: Option<f64>,
+    patch: Option<Patch>,
     patch_thickness: Option<Option<f64>>,
     faults: &mut Faults,
 ) -> Option<f64> {
@@ -123,5 +147,5 @@ fn mass(
         faults.add(&density.key, density.span, "patch_density_kg_m3 alone", expected, None);
         return None;
     }
-    Some(PI * radius?.powi(2) * patch_thickness?? * value?)
+    Some(patch?.area() * patch_thickness?? * value?)
 }

@@ -99,6 +99,7 @@ pub(crate) mod of {
     pub(crate) const MOVING_MASS: Limits = Limits::new("mg", -6, 0.0, 1e6);
     pub(crate) const PAD_RADIUS: Limits = Limits::new("mm", -3, 0.0, 100.0);
     pub(crate) const PATCH_RADIUS: Limits = Limits::new("mm", -3, 0.1, 100.0);
+    pub(crate) const PATCH_SIDE: Limits = Limits::new("mm", -3, 0.1, 1000.0);
     pub(crate) const PATCH_MOMENT: Limits = Limits::new("N/V", 0, -1e5, 1e5);
     pub(crate) const PATCH_MASS: Limits = Limits::new("mg", -6, 0.0, 1e7);
     pub(crate) const PATCH_YOUNG: Limits = Limits::new("GPa", 9, 0.001, 2000.0);

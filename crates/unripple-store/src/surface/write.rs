@@ -6,10 +6,11 @@ use super::actuator::COIL_DRIVES;
 use super::range::of;
 use super::sheet::AIRS;
 use crate::decimal::text;
+use crate::degrees;
 use crate::lines::{Lines, list, named, point, quoted};
 use unripple_core::{
-    Actuator, ActuatorKind, Decay, Emission, Finger, Profile, Scatterer, ScattererKind, Sheet, Surface,
-    Uneven,
+    Actuator, ActuatorKind, Decay, Emission, Finger, Patch, Profile, Scatterer, ScattererKind, Sheet,
+    Surface, Uneven,
 };
 
 /// A surface as a file in format 1. [`crate::parse_surface`] makes the same surface of it, bit for bit, provided the
@@ -132,8 +133,16 @@ fn actuator(actuator: &Actuator, out: &mut Lines) {
             out.line("moving_mass_mg", &text(*moving_mass, 6));
             out.line("driven_by", &named(&COIL_DRIVES, driven_by));
         }
-        ActuatorKind::Piezo { radius, moment, mass } => {
-            out.line("radius_mm", &text(*radius, 3));
+        ActuatorKind::Piezo { patch, moment, mass } => {
+            match patch {
+                Patch::Round { radius } => out.line("radius_mm", &text(*radius, 3)),
+                Patch::Rectangular { sides: [width, height], angle } => {
+                    out.line("rectangle_mm", &format!("[{}, {}]", text(*width, 3), text(*height, 3)));
+                    if *angle != 0.0 {
+                        out.line("angle_deg", &degrees::text(*angle));
+                    }
+                }
+            }
             out.line("moment_n_per_v", &text(*moment, 0));
             out.line("patch_mass_mg", &text(*mass, 6));
         }

@@ -181,12 +181,37 @@ fn sheet() -> impl Strategy<Value = Sheet> {
     )
 }
 
+fn patch() -> impl Strategy<Value = Patch> {
+    prop_oneof![
+        (1e-4..0.1_f64).prop_map(|radius| Patch::Round { radius }),
+        (1e-4..1.0_f64, 1e-4..1.0_f64, -12.0..12.0_f64)
+            .prop_map(|(width, height, angle)| Patch::Rectangular { sides: [width, height], angle }),
+    ]
+}
+
+/// The patch, made smaller so that it keeps within a disc, if it is then large enough for a file.
+fn within(patch: Patch, room: f64) -> Option<Patch> {
+    match patch {
+        Patch::Round { radius } => {
+            Some(radius.min(room)).filter(|radius| *radius >= 1e-4).map(|radius| Patch::Round { radius })
+        }
+        Patch::Rectangular { sides, angle } => {
+            let scale = (2.0 * room / sides[0].hypot(sides[1])).min(1.0);
+            let sides = sides.map(|side| scale * side);
+            (sides[0].min(sides[1]) >= 1e-4).then_some(Patch::Rectangular { sides, angle })
+        }
+    }
+}
+
 fn kind() -> impl Strategy<Value = ActuatorKind> {
     let driven_by = prop_oneof![Just(CoilDrive::Current), Just(CoilDrive::Voltage)];
     prop_oneof![
         Just(ActuatorKind::Force),
-        (1e-4..0.1_f64, -1e5..1e5_f64, 0.0..10.0_f64)
-            .prop_map(|(radius, moment, mass)| ActuatorKind::Piezo { radius, moment, mass }),
+        (patch(), -1e5..1e5_f64, 0.0..10.0_f64).prop_map(|(patch, moment, mass)| ActuatorKind::Piezo {
+            patch,
+            moment,
+            mass
+        }),
         (1e-3..1e3_f64, 1e-3..1e6_f64, 0.0..1.0_f64, 0.0..1.0_f64, driven_by).prop_map(
             |(force_constant, resistance, inductance, moving_mass, driven_by)| ActuatorKind::MovingMagnet {
                 force_constant,
@@ -220,9 +245,9 @@ prop_compose! {
             let at = place(x, y);
             // A patch lies on the sheet whole; where there is no room for one, a force acts.
             let kind = match kind {
-                ActuatorKind::Piezo { radius, moment, mass } => match radius.min(0.99 * outline.to_rim(at)) {
-                    radius if radius >= 1e-4 => ActuatorKind::Piezo { radius, moment, mass },
-                    _ => ActuatorKind::Force,
+                ActuatorKind::Piezo { patch, moment, mass } => match within(patch, 0.99 * outline.to_rim(at)) {
+                    Some(patch) => ActuatorKind::Piezo { patch, moment, mass },
+                    None => ActuatorKind::Force,
                 },
                 kind => kind,
             };

@@ -1,7 +1,7 @@
 //! Actuators in rows, rings and grids, what they have in common said once, and edges on a strip of adhesive.
 
 use crate::good::{GOOD, faults};
-use unripple_core::{ActuatorKind, Edge, Edges, Point, Surface};
+use unripple_core::{ActuatorKind, Edge, Edges, Patch, Point, Surface};
 use unripple_store::{parse_surface, to_toml};
 
 /// The good file with these tables in place of its actuator.
@@ -84,7 +84,7 @@ kind = "force"
 "#,
     );
     let radius = |i: usize| match surface.actuators[i].kind {
-        ActuatorKind::Piezo { radius, moment: 0.002, .. } => radius,
+        ActuatorKind::Piezo { patch: Patch::Round { radius }, moment: 0.002, .. } => radius,
         kind => panic!("{kind:?}"),
     };
     assert_eq!([0, 1, 2, 3].map(radius), [4e-3, 4e-3, 4e-3, 9e-3]);

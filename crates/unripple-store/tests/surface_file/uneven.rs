@@ -2,7 +2,7 @@
 
 use crate::good::GOOD;
 use std::f64::consts::{FRAC_PI_6, PI};
-use unripple_core::{ActuatorKind, Grain, Point, Profile, Scatterer, ScattererKind, Surface};
+use unripple_core::{ActuatorKind, Grain, Patch, Point, Profile, Scatterer, ScattererKind, Surface};
 use unripple_store::{parse_surface, to_toml};
 
 /// The good film with other lines; it comes back from its own file.
@@ -82,7 +82,10 @@ fn patches_and_discs() {
         let text = text.replace("kind = \"force\"", &format!("kind = \"piezo\"\nradius_mm = 5\n{lines}"));
         let surface = parse_surface(&text, "film.toml").unwrap_or_else(|faults| panic!("{faults:#}"));
         assert_eq!(parse_surface(&to_toml(&surface), "copy.toml").unwrap(), surface);
-        let ActuatorKind::Piezo { radius, moment, mass } = surface.actuators[0].kind else { panic!() };
+        let ActuatorKind::Piezo { patch: Patch::Round { radius }, moment, mass } = surface.actuators[0].kind
+        else {
+            panic!()
+        };
         assert_eq!((radius, surface.actuators[0].contact_radius), (0.005, 0.0));
         (moment, mass)
     };
@@ -95,4 +98,41 @@ fn patches_and_discs() {
     assert!((mass / (PI * 25e-6 * 0.2e-3 * 7800.0) - 1.0).abs() < 1e-14);
     let (thicker, none) = patch(made, "thickness_profile = [[2.0]]");
     assert!((thicker / (190e-12 * 62e9 * 0.45e-3 / 2.0 / 0.7) - 1.0).abs() < 1e-14 && none == 0.0);
+}
+
+#[test]
+fn patches_are_rectangles_too() {
+    let read = |lines: &str| {
+        let lines = format!("kind = \"piezo\"\nmoment_n_per_v = 0.01\n{lines}");
+        parse_surface(&GOOD.replace("kind = \"force\"", &lines), "film.toml")
+    };
+    let good = |lines: &str| {
+        let surface = read(lines).unwrap_or_else(|faults| panic!("{faults:#}"));
+        assert_eq!(parse_surface(&to_toml(&surface), "copy.toml").unwrap(), surface);
+        surface.actuators[0].kind
+    };
+    let of = |sides, angle, mass| ActuatorKind::Piezo {
+        patch: Patch::Rectangular { sides, angle },
+        moment: 0.01,
+        mass,
+    };
+    assert_eq!(good("rectangle_mm = [6, 4]"), of([0.006, 0.004], 0.0, 0.0));
+    assert_eq!(good("rectangle_mm = [6, 4]\nangle_deg = 30"), of([0.006, 0.004], FRAC_PI_6, 0.0));
+    let ActuatorKind::Piezo { mass, .. } =
+        good("rectangle_mm = [6, 4]\npatch_thickness_mm = 0.2\npatch_density_kg_m3 = 7800")
+    else {
+        panic!()
+    };
+    assert!((mass / (24e-6 * 0.2e-3 * 7800.0) - 1.0).abs() < 1e-14);
+    for (lines, wanted) in [
+        ("rectangle_mm = [6, 4]\nradius_mm = 3", "expected one of them"),
+        ("radius_mm = 3\nangle_deg = 5", "angle_deg without rectangle_mm"),
+        ("rectangle_mm = [600, 4]", "which reaches beyond the rim"),
+        ("rectangle_mm = [6]", "[width, height] in mm"),
+        ("angle_deg = 5\nrectangle_mm = 6", "[width, height] in mm"),
+        ("patch_mass_mg = 1", "or rectangle_mm"),
+    ] {
+        let faults = format!("{:#}", read(lines).unwrap_err());
+        assert!(faults.contains(wanted), "{lines}: {faults}");
+    }
 }
