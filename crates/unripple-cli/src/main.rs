@@ -25,6 +25,7 @@ mod fit;
 mod focus;
 mod interrupt;
 mod lines;
+mod materials;
 mod modes;
 mod options;
 mod output;
@@ -79,6 +80,7 @@ fn run(arguments: &Arguments) -> Result<(), CliError> {
         Command::Field(options) => field::run(options, common),
         Command::Play(options) => play::run(options, common),
         Command::View(options) => view::run(options, common),
+        Command::Materials(options) => materials::run(options, common),
         Command::Devices(options) => devices::run(options, common),
         Command::Doctor(options) => doctor::run(options, common),
         Command::Drift(options) => drift::run(options, common),

@@ -9,6 +9,7 @@ const OTHERWISE: &[(&str, &str)] = &[
     ("window_s", "--window-ms"),
     ("length_s", "--length-ms"),
     ("output", "-o"),
+    ("name", "NAME"),
     ("format", "--format"),
     ("points, shapes", "targets"),
     ("points", "--at"),

@@ -37,6 +37,7 @@ pub mod folder;
 pub mod grid;
 pub mod judge;
 pub mod late;
+pub mod materials;
 pub mod modes;
 mod names;
 mod numbers;

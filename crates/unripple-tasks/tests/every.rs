@@ -35,6 +35,7 @@ fn asks_go_through_json() {
     through_json(&modes::Ask { top_hz: Some(500.5), ..modes::Ask::default() });
     through_json(&respond::Ask { pitch_m: 0.0075, ..respond::Ask::default() });
     through_json(&export::Ask { format: Some(export::Format::Sofa), ..export::Ask::default() });
+    through_json(&materials::Ask { name: Some("glass".into()) });
     through_json(&devices::Ask::default());
     through_json(&doctor::Ask::default());
     through_json(&drift::Ask { changed: 0.005, ..drift::Ask::default() });
@@ -80,6 +81,7 @@ fn a_cancelled_task_leaves_nothing() {
     does_nothing(&check::Ask::default(), check::run);
     does_nothing(&design::Ask::default(), design::run);
     does_nothing(&modes::Ask::default(), modes::run);
+    does_nothing(&materials::Ask::default(), materials::run);
     does_nothing(&devices::Ask::default(), devices::run);
     does_nothing(&doctor::Ask::default(), doctor::run);
     does_nothing(&drift::Ask::default(), drift::run);

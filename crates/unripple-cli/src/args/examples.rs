@@ -3,6 +3,10 @@
 pub const CHECK: &str = "Examples:
   unripple check my-surface.toml";
 
+pub const MATERIALS: &str = "Examples:
+  unripple materials
+  unripple materials 'soda-lime glass'";
+
 pub const DESIGN: &str = "Examples:
   unripple design hudin-2012
   unripple design hudin-2012 --set sheet.tension_n_per_m=300 --json";

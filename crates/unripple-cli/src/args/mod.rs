@@ -90,6 +90,8 @@ pub enum Command {
     Fit(FitOptions),
     /// List all errors of a surface file.
     Check(CheckOptions),
+    /// List the materials that surface files may name, with the sources of their values.
+    Materials(MaterialsOptions),
     /// List devices that can play a drive: virtual surface, files, sound server, cards.
     Devices(DevicesOptions),
     /// Check each stage from touch to fingertip, and say why nothing may be felt.
@@ -110,6 +112,14 @@ pub enum Command {
 pub struct CheckOptions {
     /// A surface file, or the name of a built-in surface.
     pub surface: String,
+}
+
+/// Options of `materials`.
+#[derive(Debug, Args)]
+#[command(after_help = examples::MATERIALS)]
+pub struct MaterialsOptions {
+    /// Name of one material; by default all are listed.
+    pub name: Option<String>,
 }
 
 /// Options of `devices`.

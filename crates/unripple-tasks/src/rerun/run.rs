@@ -4,8 +4,8 @@ use super::{Ask, Report};
 use crate::record::{Record, Request};
 use crate::{Progress, TaskError, go_on};
 use crate::{
-    calibrate, check, compare, design, devices, doctor, drift, export, field, fit, focus, modes, play,
-    respond, stroke, waveform,
+    calibrate, check, compare, design, devices, doctor, drift, export, field, fit, focus, materials, modes,
+    play, respond, stroke, waveform,
 };
 use serde::Deserialize;
 use std::path::PathBuf;
@@ -52,6 +52,7 @@ pub fn repeat(
         check::Ask::COMMAND => again(record, to, check::run, progress),
         design::Ask::COMMAND => again(record, to, design::run, progress),
         modes::Ask::COMMAND => again(record, to, modes::run, progress),
+        materials::Ask::COMMAND => again(record, to, materials::run, progress),
         focus::Ask::COMMAND => again(record, to, focus::run, progress),
         waveform::Ask::COMMAND => again(record, to, waveform::run, progress),
         stroke::Ask::COMMAND => again(record, to, stroke::run, progress),

@@ -1,0 +1,79 @@
+//! Report of the task `materials`.
+
+use serde::Serialize;
+use std::fmt::Write;
+use unripple::core::Material;
+
+/// Materials that surface files may name.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// The materials, in the order of the guide.
+    pub materials: Vec<MaterialRow>,
+}
+
+/// A material, with the source of its constants.
+#[derive(Clone, Debug, Serialize)]
+pub struct MaterialRow {
+    /// Its name in surface files.
+    pub name: &'static str,
+    /// Young's modulus, in Pa.
+    pub young_pa: f64,
+    /// Density, in kg/m³.
+    pub density_kg_m3: f64,
+    /// Poisson's ratio.
+    pub poisson_ratio: f64,
+    /// Stress at yield, or at fracture if brittle, in Pa.
+    pub strength_pa: f64,
+    /// Where the values are from, and by how much that source differs from them.
+    pub source: &'static str,
+}
+
+/// Columns of a terminal that the text fills.
+const WIDTH: usize = 100;
+
+impl Report {
+    pub(super) fn of(materials: impl IntoIterator<Item = &'static Material>) -> Self {
+        let row = |material: &Material| MaterialRow {
+            name: material.name,
+            young_pa: material.young,
+            density_kg_m3: material.density,
+            poisson_ratio: material.poisson,
+            strength_pa: material.strength,
+            source: material.source,
+        };
+        Self { materials: materials.into_iter().map(row).collect() }
+    }
+}
+
+impl crate::Report for Report {
+    fn text(&self) -> String {
+        let mut text = String::from("material              GPa   kg/m³  Poisson    MPa\n");
+        for row in &self.materials {
+            let (young, strength) = (row.young_pa / 1e9, row.strength_pa / 1e6);
+            let (density, poisson) = (row.density_kg_m3, row.poisson_ratio);
+            let _ = writeln!(text, "{:<18} {young:>6} {density:>7} {poisson:>8} {strength:>6}", row.name);
+            for line in wrapped(row.source, WIDTH - 4) {
+                let _ = writeln!(text, "    {line}");
+            }
+        }
+        text
+    }
+}
+
+/// A text as lines of at most so many characters, broken between words.
+fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split(' ') {
+        let last = lines.len() - 1;
+        let line = &mut lines[last];
+        if line.is_empty() {
+            line.push_str(word);
+        } else if line.chars().count() + 1 + word.chars().count() <= width {
+            line.push(' ');
+            line.push_str(word);
+        } else {
+            lines.push(word.to_owned());
+        }
+    }
+    lines
+}
