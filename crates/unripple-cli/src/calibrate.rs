@@ -22,7 +22,9 @@ pub fn run(options: &CalibrateOptions, common: &Common) -> Result<(), CliError> 
 fn ask(common: &Common, options: &CalibrateOptions) -> Result<Ask, CliError> {
     let pitch = options.grid_mm.map(|mm| positive(mm, "--grid-mm", "mm")).transpose()?;
     if let Some(delay) = options.probe_delay_ms.filter(|delay| !delay.is_finite()) {
-        return Err(CliError::Input(format!("--probe-delay-ms: expected a number of ms, found {delay}")));
+        return Err(CliError::Input(format!(
+            "--probe-delay-ms: expected a finite time in ms, found {delay}"
+        )));
     }
     Ok(Ask {
         surface: common.surface(&options.surface),

@@ -32,8 +32,8 @@ impl Pole {
         Self { omega, sigma, onset: Onset::Velocity }
     }
 
-    /// An oscillation of angular frequency `omega` (rad/s) and decay rate `sigma` (1/s) that starts with
-    /// displacement 1/ω, at rest, after a unit impulse ([`Onset::Displacement`]).
+    /// An oscillation of angular frequency `omega` (rad/s) and decay rate `sigma` (1/s) that a unit
+    /// impulse starts with displacement 1/ω and velocity 0 ([`Onset::Displacement`]).
     pub fn moved(omega: f64, sigma: f64) -> Self {
         Self { omega, sigma, onset: Onset::Displacement }
     }

@@ -46,7 +46,7 @@ pub const MOST_EFFECTS: usize = 64;
 pub const MOST_POINTS: usize = 16_384;
 /// Most corners of a region or of a shape: each is tested at every touch. Doubled, touches take up to twice as long.
 pub const MOST_CORNERS: usize = 1024;
-/// Most events of a score: as many as one call gives cues, [`MOST_CUES`].
+/// Most events of a score: the same number as [`MOST_CUES`], the most cues of one call.
 pub const MOST_EVENTS: usize = 4096;
 /// Most points of a shape that is played on all points at once: the focus uses the responses of each. Doubled, such a
 /// focus takes twice as long to compute.

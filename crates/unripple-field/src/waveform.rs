@@ -30,7 +30,7 @@ pub struct WaveformFigures {
     /// the whole time evaluated.
     pub error_db: f64,
     /// Crosstalk: the strongest of the other targets' waveforms, at any delay, in what remains of the target's motion after `gain`
-    /// times its own waveform is subtracted, in dB over that other waveform itself; `None` for a single target.
+    /// times its own waveform is subtracted, in dB relative to that other waveform; `None` for a single target.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crosstalk_db: Option<f64>,
     /// Largest magnitude of the motion, in metres or m/s.

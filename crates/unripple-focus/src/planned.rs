@@ -131,7 +131,7 @@ fn plants<'r>(
 /// One plant, its frequencies times `stretch`.
 fn plant(responses: &Responses, length: usize, stretch: f64, again: bool) -> Result<Plant<'_>, FocusError> {
     match responses {
-        // Under loads, oscillations share shapes.
+        // Under loads, the shapes of the oscillations are linearly dependent.
         Responses::Modal(modal) if modal.poles.iter().any(|pole| pole.onset == Onset::Displacement) => {
             Ok(Plant::Reduced(Box::new(ReducedPlant::new(modal, length, stretch, again)?)))
         }

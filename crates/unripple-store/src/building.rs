@@ -76,7 +76,7 @@ impl Building {
         self.held(|_| File::options().read(true).write(true).create_new(true).open(self.path.join(name)))
     }
 
-    /// Moves the folder to its destination, where nothing or an empty folder must be.
+    /// Moves the folder to its destination, which must not exist yet or be an empty folder.
     pub fn put(self, place: &Path) -> io::Result<()> {
         self.held(|entry| {
             // Unlike on other systems, a folder cannot be renamed onto an empty one everywhere.

@@ -115,7 +115,7 @@ pub(crate) fn guests(folder: &Path, files: &BTreeMap<String, Print>) -> io::Resu
         };
         match listed {
             Some(known) if kind.is_file() && same(known)? => {}
-            Some(_) if kind.is_file() => guests.push(format!("`{name}`, which was changed since")),
+            Some(_) if kind.is_file() => guests.push(format!("`{name}` (changed since it was written)")),
             _ if kind.is_dir() => guests.push(format!("the folder `{name}`")),
             _ => guests.push(format!("`{name}`")),
         }

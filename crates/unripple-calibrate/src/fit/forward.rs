@@ -56,8 +56,8 @@ impl Look {
 }
 
 impl System {
-    /// For each complex frequency (1/s), the admittances at candidate places of a point mass, and between them and the places of
-    /// actuators and taps.
+    /// For each of the complex `frequencies` (1/s): the driving-point admittance at each candidate place for a point mass, and the
+    /// transfer admittances between the candidates and the places of actuators and taps.
     pub fn looks(
         &self,
         basis: &Basis,

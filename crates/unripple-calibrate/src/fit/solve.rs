@@ -186,7 +186,7 @@ fn singular() -> CalibrateError {
     CalibrateError::Unsolvable {
         what: "normal equations of the fit",
         expected: "a positive definite matrix",
-        found: "one that is not: a signal without meaning".into(),
+        found: "one that is not: responses may hold values that are not finite".into(),
     }
 }
 

@@ -167,7 +167,7 @@ impl Session {
             (Listen::Probe, None) => {
                 return Err(CalibrateError::Recording {
                     what: "inputs of the device".into(),
-                    expected: format!("one that hears the probe, under the name `{}`", PROBE),
+                    expected: format!("one named `{}`, which records the probe", PROBE),
                     found: "none".into(),
                 });
             }

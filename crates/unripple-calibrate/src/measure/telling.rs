@@ -67,7 +67,8 @@ impl Telling<'_> {
     }
 
     /// Delay and change of tension of each sweep relative to the others, for actuators whose sensors are recorded, by reciprocity:
-    /// the response of sensor a to actuator b equals that of b to a, at another time. A part common to all sweeps cannot be found.
+    /// the response of sensor a to the sweep of actuator b equals that of b to the sweep of a, which is played at another time. A part
+    /// common to all sweeps cannot be found.
     pub fn beside_each_other(&self, length: usize, still: bool) -> Vec<Option<Apart>> {
         let count = self.sensors.len();
         let mut pairs: Vec<(usize, usize, Apart)> = Vec::new();

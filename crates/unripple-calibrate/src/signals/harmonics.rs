@@ -132,9 +132,9 @@ impl Harmonics {
     }
 
     /// Amplitude of each harmonic of the drive, from the second, relative to the drive, if the drive alone is nonlinear: its
-    /// harmonics then have the linear response at their own frequencies. `None` where a harmonic does not stand out of the noise, of
-    /// which `noise` holds samples in the deconvolution (any length), and of earlier ringing, which decays with the amplitude decay
-    /// time `decay` (s).
+    /// harmonics then have the linear response at their own frequencies. `None` for a harmonic that does not exceed noise and earlier
+    /// ringing. `noise` is a stretch of any length of the deconvolved recording without any response; `decay` is the amplitude decay
+    /// time of the ringing, in s.
     pub fn of_drive(
         &self,
         deconvolved: &[f64],

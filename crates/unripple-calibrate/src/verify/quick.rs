@@ -195,7 +195,7 @@ fn chosen(surface: &Surface, measured: &Measured, options: &VerifyOptions) -> Re
     };
     let mut left: Vec<usize> = (0..all).filter(works).collect();
     if left.len() < FEWEST {
-        return Err(format!("{} actuators hear each other, {FEWEST} are needed", left.len()));
+        return Err(format!("{} actuators work as drive and sensor, {FEWEST} are needed", left.len()));
     }
     if left.len() <= ENOUGH {
         return Ok(left);

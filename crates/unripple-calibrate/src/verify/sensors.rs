@@ -32,11 +32,11 @@ pub(super) fn doubts(bench: &Bench) -> Vec<Doubted> {
             Some(spot) if spot.found.unexplained() < bench.limit() => {
                 let near = (0..heard.len()).find(|m| port(*m).distance(spot.at) < 0.2 * bench.wave);
                 match near {
-                    Some(other) => format!("hears the place of `{}`: are two sensors swapped?", name(other)),
-                    None => format!("hears {}, not its own place: is it wired to its own channel?", spot.at),
+                    Some(other) => format!("records motion at `{}`: are two sensors swapped?", name(other)),
+                    None => format!("records motion at {}: is it wired to its own channel?", spot.at),
                 }
             }
-            _ => "hears what no model explains: is it wired to its own channel?".to_owned(),
+            _ => "records what the model explains nowhere: is it wired to its own channel?".to_owned(),
         };
         doubts.push(Doubted { what: format!("sensor of `{}` {why}", name(n)), points: Vec::new() });
     }

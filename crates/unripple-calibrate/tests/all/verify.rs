@@ -210,7 +210,7 @@ fn sensors_on_wrong_channels_are_named() {
     };
     let cases: [(&Change, &[&str]); 2] = [
         (&reversed, &["sensor of `a4` is reversed"]),
-        (&swapped, &["sensor of `a2` hears the place of `a6`", "sensor of `a6` hears the place of `a2`"]),
+        (&swapped, &["sensor of `a2` records motion at `a6`", "sensor of `a6` records motion at `a2`"]),
     ];
     for (change, words) in cases {
         let mut truth = Truth::of(surface.clone());

@@ -28,7 +28,7 @@ pub const VIRTUAL: &str = "Device: virtual surface";
 pub const POINTS: &str = "Points to measure";
 /// What a calibration plays.
 pub const SWEEPS: &str = "Sweeps";
-/// What is connected to which channel, and what full scale is there.
+/// Which channel each actuator, sensor and the probe is connected to, and which physical value full scale stands for.
 pub const WIRING: &str = "Wiring and scales";
 /// What the surface is compared with.
 pub const MODEL: &str = "Model";

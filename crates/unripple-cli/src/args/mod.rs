@@ -158,7 +158,8 @@ pub struct ModesOptions {
 pub struct RespondOptions {
     /// A surface file, or the name of a built-in surface.
     pub surface: String,
-    /// Spacing of the points, in mm. They lie at its multiples, without those near the edge.
+    /// Spacing of the points, in mm. They lie at multiples of it along both axes; those within a quarter of it from the edge are
+    /// left out.
     #[arg(long, value_name = "P", allow_negative_numbers = true)]
     pub grid_mm: f64,
     /// Length of the responses in ms; by default twice the window that `design` recommends.

@@ -35,8 +35,8 @@ pub struct PlayOptions {
     /// Seconds to play; by default until interrupted, or until the recorded session ends.
     #[arg(long, value_name = "S", allow_negative_numbers = true, help_heading = heading::TIME)]
     pub seconds: Option<f64>,
-    /// Let a gain of 1 be the surface's drive limit, however far that moves the sheet. By default a gain of 1 has the felt level
-    /// of a pulse that moves the sheet by half its thickness.
+    /// Let a gain of 1 be the surface's drive limit, however far that moves the sheet. By default a gain of 1 stands for the same
+    /// level above the threshold of touch as a pulse that moves the sheet by about half its thickness.
     #[arg(long, help_heading = heading::LEVEL)]
     pub full_limit: bool,
     /// Follow the tension of the sheet while playing, from the sensor signals of the actuators.

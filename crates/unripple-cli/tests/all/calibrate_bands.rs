@@ -35,7 +35,7 @@ fn noise(samples: usize, seed: u64) -> Vec<f64> {
     (0..samples).map(sample).collect()
 }
 
-/// What is kept of a point, `[actuator][band]`, and the middles of the bands.
+/// What is kept of a point, `[actuator][band]`, and the centre frequencies of the bands.
 fn kept(library: &str, point: usize) -> (Vec<f64>, Vec<Vec<BandQuality>>) {
     let library = Library::open(library).unwrap();
     (library.bands().unwrap().to_vec(), library.band_quality(point).unwrap().unwrap())

@@ -19,7 +19,7 @@ const DEEPEST: u32 = 24;
 pub struct Piece {
     /// Index of its side, numbered through all rims.
     pub side: usize,
-    /// Parameters of the side at both ends, 0 to 1.
+    /// Curve parameters of the side at the start and the end of the piece, each 0 to 1.
     pub span: [f64; 2],
     /// Start and end points, in metres.
     pub ends: [Point; 2],

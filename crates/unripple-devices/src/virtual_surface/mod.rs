@@ -32,8 +32,8 @@ pub struct VirtualOptions {
     pub interface: Interface,
     /// Place of the probe at first, in m; in the middle of the outline's bounding box where `None`.
     pub probe: Option<Point>,
-    /// Top frequency of the modes, in Hz. Where `None` the band's, and half as much again where coils or masses load the surface,
-    /// since they couple to modes above the band.
+    /// Highest frequency of the modes, in Hz. `None` stands for the top of the band, or for 1.5 times that (up to 0.45 of the sample
+    /// rate) where coils or masses load the surface, since they couple to modes above the band.
     pub max_hz: Option<f64>,
     /// Relative accuracy of the modes' natural frequencies.
     pub accuracy: f64,

@@ -7,7 +7,7 @@ use crate::{EffectsError, limits};
 use std::sync::Arc;
 use unripple_core::Point;
 
-/// A shape: a path of straight lines drawn by pulses on a resting finger or palm, repeatedly as long as it is in the region.
+/// A shape: a path of straight lines that pulses draw on a resting finger or palm, again and again while the finger is in the region.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traced {
     /// The corners of the path, in m from the anchor.

@@ -94,8 +94,8 @@ impl Control {
         self.pitch * COARSE as f64
     }
 
-    /// Indices of the points farther than `radius` (m) from all of `targets`: those of the coarse lattice,
-    /// and all that are hardly farther.
+    /// Indices of the points farther than `radius` (m) from all of `targets`: those of the coarse lattice, and of the
+    /// fine lattice all that are farther by at most its pitch.
     pub fn outside(&self, targets: &[Point], radius: f64) -> Vec<usize> {
         let nearest = |p: &Point| targets.iter().map(|t| t.distance(*p)).fold(f64::INFINITY, f64::min);
         let apart = |i: &usize| {

@@ -26,7 +26,7 @@ const MOST_COORDINATES: usize = 4000;
 pub(crate) enum Plant<'r> {
     /// A state of the velocities of modes.
     Modal(Box<ModalPlant<'r>>),
-    /// A state of the velocities of independent shapes, where modes share shapes.
+    /// A state of the velocities of independent shapes, where the modes' own shapes are linearly dependent.
     Reduced(Box<ReducedPlant<'r>>),
     /// A state of the velocities at stored points, of sampled responses.
     Sampled(SampledPlant<'r>),

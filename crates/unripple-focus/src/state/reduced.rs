@@ -1,4 +1,4 @@
-//! States of modes that share shapes, with as many coordinates as are independent.
+//! States of modes whose shapes are linearly dependent, with as many coordinates as there are independent shapes.
 
 use super::modal::{lattice, ringing, steady};
 use crate::FocusError;
@@ -9,7 +9,8 @@ use unripple_linalg::{Accum, Mat, MatRef, Par, multiply, product, symmetric};
 /// Larger, independent shapes would be lost; smaller, rounding would count as a shape.
 const ALIKE: f64 = 1e-12;
 
-/// Oscillations that share shapes under a drive of one window: the velocities of as many independent shapes as there are.
+/// Oscillations with linearly dependent shapes, under a drive of one window: a state whose coordinates are the velocities of
+/// independent shapes.
 ///
 /// Under loads, responses are sums of oscillations whose large parts cancel. With Φ their shapes over the surface and
 /// `ΦᵀΦ = R Σ² Rᵀ`, every readout lies in the span of R, and `Rᵀ c` is small where c is not.
@@ -56,7 +57,7 @@ impl<'r> ReducedPlant<'r> {
         Ok(Self { responses, basis, map })
     }
 
-    /// Number of independent shapes.
+    /// Number of linearly independent mode shapes, which is the number of the state's coordinates.
     pub fn shapes(&self) -> usize {
         self.basis.ncols()
     }

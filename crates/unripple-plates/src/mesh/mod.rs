@@ -58,9 +58,9 @@ pub(crate) struct MeshEdge {
 pub(crate) struct Span {
     /// Index of the side among [`Mesh::sides`].
     pub(crate) side: usize,
-    /// Parameter at the edge's first end.
+    /// Curve parameter of the side at the edge's first end.
     pub(crate) from: f64,
-    /// Parameter at the edge's second end.
+    /// Curve parameter of the side at the edge's second end.
     pub(crate) to: f64,
 }
 

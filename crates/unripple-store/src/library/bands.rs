@@ -32,12 +32,12 @@ const CHECK: &str = "crc32c";
 /// Most bands: thirds of an octave over more than twenty octaves.
 const MOST: usize = 64;
 
-/// The array, and the middles of its bands in Hz, ascending.
+/// The array, and the centre frequencies of its bands in Hz, ascending.
 #[derive(Clone, Debug)]
 pub(crate) struct Bands {
     /// The Zarr array, `[point][actuator][band][figure]`.
     pub array: Array,
-    /// Middles of the bands in Hz, ascending.
+    /// Centre frequencies of the bands in Hz, ascending.
     pub middles: Vec<f64>,
 }
 
@@ -86,14 +86,14 @@ pub(crate) fn path(root: &Path) -> PathBuf {
     manifest::path(&root.join(Array::BANDS))
 }
 
-/// Refuses what are no middles of bands.
+/// Refuses what are no centre frequencies of bands.
 fn check(middles: &[f64], file: &str) -> Result<(), StoreError> {
     let ascending = middles.windows(2).all(|pair| pair[0] < pair[1]);
     let positive = middles.iter().all(|hz| hz.is_finite() && *hz > 0.0);
     if (1..=MOST).contains(&middles.len()) && ascending && positive {
         return Ok(());
     }
-    let expected = format!("middles of 1 to {MOST} bands in Hz, ascending");
+    let expected = format!("centre frequencies of 1 to {MOST} bands in Hz, positive and ascending");
     Err(StoreError::content(file, expected, told(middles)))
 }
 
@@ -113,11 +113,11 @@ impl Library {
         self.arrays.bands.as_ref().map(|bands| bands.middles.as_slice())
     }
 
-    /// Makes room for the quality of responses in frequency bands with these middles, in Hz and ascending. It is unknown until a
+    /// Makes room for the quality of responses in bands with these centre frequencies, in Hz and ascending. It is unknown until a
     /// [`Take`] gives it. Does nothing if the library has these bands already.
     ///
     /// # Errors
-    /// [`StoreError::Content`] if these are no valid middles, if the library has other bands, or if the metadata of
+    /// [`StoreError::Content`] if these are no valid centre frequencies, if the library has other bands, or if the metadata of
     /// its bands are damaged; [`StoreError::Write`]; [`StoreError::Occupied`] if another process writes.
     pub fn hold_bands(&mut self, middles: &[f64]) -> Result<(), StoreError> {
         let name = path(&self.root).display().to_string();

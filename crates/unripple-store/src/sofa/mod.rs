@@ -199,7 +199,7 @@ fn occupied(path: &Path) -> Result<bool, StoreError> {
     };
     match looked().map_err(StoreError::write(path))? {
         (true, Some(true)) => Ok(true),
-        (true, _) => Err(occupied("one that was changed since, or that an earlier version wrote")),
+        (true, _) => Err(occupied("one changed since it was written, or written by an earlier version")),
         (false, _) => Err(occupied("another file")),
     }
 }

@@ -107,7 +107,7 @@ fn settings(ask: &Ask, surface: &Surface, model: &ModalResponses) -> Result<Meas
         return Err(TaskError::Input("`repeats`: expected 1 or more, found 0".into()));
     }
     if let Some(delay) = ask.probe_delay_s.filter(|delay| !delay.is_finite()) {
-        return Err(TaskError::Input(format!("`probe_delay_s`: expected a number of s, found {delay}")));
+        return Err(TaskError::Input(format!("`probe_delay_s`: expected a finite time in s, found {delay}")));
     }
     Ok(MeasureOptions {
         sweep: length(ask.sweep_s, usual.sweep, "sweep_s")?,

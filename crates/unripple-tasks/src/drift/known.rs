@@ -160,8 +160,8 @@ impl Known {
         match then.observe(ping, &sounded(ping, heard))? {
             Drift::Followed { tension, .. } => Ok(fresh.with_zero(tension)?),
             Drift::Unexplained { excess, limit, .. } => Err(TaskError::Work(format!(
-                "{name}: expected a model that predicts a ping as the measured responses do, found a residual of {excess:.1} times what \
-                 noise and the model's error explain, at most {limit:.0} times is accepted"
+                "{name}: expected a model whose sensor signals after a ping agree with those of the measured responses within {limit:.0} \
+                 times what noise and the model's error explain, found a residual of {excess:.1} times that"
             ))),
         }
     }

@@ -79,8 +79,8 @@ pub struct Ask {
     pub block: usize,
     /// Seconds to play; without it until cancelled, or until a recorded session is over.
     pub seconds: Option<f64>,
-    /// Let a gain of 1 be the surface's drive limit, however far that moves the sheet. By default a gain of 1 has the felt level of a pulse
-    /// that moves the sheet by half its thickness.
+    /// Let a gain of 1 be the surface's drive limit, however far that moves the sheet. By default a gain of 1 stands for the same
+    /// level above the threshold of touch as a pulse that moves the sheet by about half its thickness.
     pub full_limit: bool,
     /// Follow the tension of the sheet while playing, from the signals of the actuators' sensors.
     pub follow_tension: bool,

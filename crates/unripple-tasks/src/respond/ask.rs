@@ -11,7 +11,8 @@ use std::path::PathBuf;
 pub struct Ask {
     /// A surface file, or the name of a built-in surface.
     pub surface: SurfaceAsk,
-    /// Spacing of the points, in m. They lie at its multiples, without those near the rim.
+    /// Spacing of the points, in m. They lie at multiples of it along both axes; those within a quarter of it from the rim are
+    /// left out.
     pub pitch_m: f64,
     /// Length of the responses in s; by default twice the window that `design` recommends.
     pub length_s: Option<f64>,

@@ -18,8 +18,8 @@ pub struct Aware {
 }
 
 impl Aware {
-    /// Computes the responses of the surface with the fingers `known`, if there are any. The other states are the
-    /// tension lower and higher by the share `tension`, and each of the fingers `more` added in turn.
+    /// Computes the responses of the surface with the fingers `known`, if there are any, and in the other states: with
+    /// its tension reduced and raised by the fraction `tension`, and with each of the fingers `more` added in turn.
     ///
     /// # Errors
     /// Those of [`model`]; [`ActError::Range`] for a share not between 0 and 0.5.

@@ -28,10 +28,10 @@ pub struct Stroked {
     pub start_s: f64,
     /// Velocity prescribed for every pulse, after scaling to the limits, in m/s.
     pub asked_m_s: f64,
-    /// Least and greatest velocity along the path, in dB over `asked_m_s`. The velocity at each point of the path is
-    /// taken at the pulse nearest to the time at which the focus passes it.
+    /// Least and greatest velocity along the path, in dB relative to `asked_m_s`. The velocity at each point of the path is
+    /// taken at the instant of the pulse nearest to the time at which the focus passes it.
     pub level_range_db: [f64; 2],
-    /// Least and greatest peak velocity along the path, in dB over `asked_m_s`. The peak at each point is the largest
+    /// Least and greatest peak velocity along the path, in dB relative to `asked_m_s`. The peak at each point is the largest
     /// velocity within half a pulse interval of the time at which the focus passes it.
     pub peak_range_db: [f64; 2],
 }
