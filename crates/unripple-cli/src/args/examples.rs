@@ -1,23 +1,29 @@
 //! Examples at the end of each command's help.
 
+/// For `check`: a file of one's own, since built-in ones have no faults.
 pub const CHECK: &str = "Examples:
   unripple check my-surface.toml";
 
+/// For `materials`: all, and one whose name has a space.
 pub const MATERIALS: &str = "Examples:
   unripple materials
   unripple materials 'soda-lime glass'";
 
+/// For `design`: a built-in surface, and a change to it.
 pub const DESIGN: &str = "Examples:
   unripple design hudin-2012
   unripple design hudin-2012 --set sheet.tension_n_per_m=300 --json";
 
+/// For `modes`: a band and an accuracy.
 pub const MODES: &str = "Examples:
   unripple modes hudin-2012
   unripple modes my-surface.toml --max-hz 1000 --accuracy 1e-4";
 
+/// For `respond`: the spacing of the guide.
 pub const RESPOND: &str = "Examples:
   unripple respond hudin-2012 --grid-mm 5 -o film.zarr";
 
+/// For `focus`: a line for each kind of target.
 pub const FOCUS: &str = "Examples:
   A focus at one place:
     unripple focus hudin-2012 --at 62,90 -o out
@@ -30,14 +36,17 @@ pub const FOCUS: &str = "Examples:
   A burst at one place while another stays still:
     unripple focus hudin-2012 --waveform 62,90,burst:250,5 --silent 100,60 -o out";
 
+/// For `compare`: the table alone, and files at a level.
 pub const COMPARE: &str = "Examples:
   unripple compare hudin-2012 --at 62,90
   unripple compare my-surface.toml --at 62,90 --peak-um 5 -o out";
 
+/// For `field`: the drive that `focus` wrote.
 pub const FIELD: &str = "Examples:
   unripple field hudin-2012 --drive out/drive.wav
   unripple field hudin-2012 --drive out/drive.wav --at 62,90 --finger 62,90 -o out-field";
 
+/// For `calibrate`: a line for each way to a library.
 pub const CALIBRATE: &str = "Examples:
   Without hardware, on a surface that differs from its file:
     unripple calibrate hudin-2012 --unknowns 1 --grid-mm 20 -o rig.zarr
@@ -50,10 +59,12 @@ pub const CALIBRATE: &str = "Examples:
   From recordings made elsewhere; the first run writes the file to play:
     unripple calibrate my-surface.toml --device tape --tape takes --grid-mm 10 -o rig.zarr";
 
+/// For `export`: both formats.
 pub const EXPORT: &str = "Examples:
   unripple export rig.zarr -o rig-wav
   unripple export rig.zarr -o rig.sofa --author 'Ada, ada@lab.example'";
 
+/// For `play`: where touches come from and go to.
 pub const PLAY: &str = "Examples:
   Simulated fingers on a simulated surface:
     unripple play hudin-2012 --seconds 10
@@ -63,31 +74,39 @@ pub const PLAY: &str = "Examples:
     unripple play hudin-2012 --tuio --record session.jsonl
     unripple play hudin-2012 --session session.jsonl --keep-drive drive.wav";
 
+/// For `drift`: simulated and real.
 pub const DRIFT: &str = "Examples:
   unripple drift hudin-2012 --changed-percent 2
   unripple drift rig.zarr --device jack";
 
+/// For `view`: alone, and for other machines.
 pub const VIEW: &str = "Examples:
   unripple view
   unripple view my-surface.toml --listen 0.0.0.0 --no-browser";
 
+/// For `fit`: the model alone, and a library of it.
 pub const FIT: &str = "Examples:
   unripple fit rig.zarr
   unripple fit rig.zarr --grid-mm 5 -o fitted.zarr";
 
+/// For `doctor`: without hardware, and with it.
 pub const DOCTOR: &str = "Examples:
   unripple doctor
   unripple doctor my-surface.toml --device jack";
 
+/// For `reproduce`: it has no other options that most people need.
 pub const REPRODUCE: &str = "Examples:
   unripple reproduce -o paper";
 
+/// For `rerun`: the folder of the run itself stays.
 pub const RERUN: &str = "Examples:
   unripple rerun out/report.json -o again";
 
+/// For `completions`: where bash looks for them.
 pub const COMPLETIONS: &str = "Examples:
   unripple completions bash > ~/.local/share/bash-completion/completions/unripple";
 
+/// For `man`: a folder of its own.
 pub const MAN: &str = "Examples:
   unripple man -o man";
 

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use unripple_core::{
     Actuator, ActuatorKind, Air, CoilDrive, Decay, Edge, Edges, Emission, Finger, Grain, Hole, Outline,
-    Point, Profile, Scatterer, ScattererKind, Shape, Sheet, Side, Surface, Uneven,
+    Patch, Point, Profile, Scatterer, ScattererKind, Shape, Sheet, Side, Surface, Uneven,
 };
 use unripple_store::{BUILTINS, Drawing, parse_surface, parse_surface_with, read_curves, to_toml};
 

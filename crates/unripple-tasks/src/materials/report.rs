@@ -20,7 +20,7 @@ pub struct MaterialRow {
     pub young_pa: f64,
     /// Density, in kg/m³.
     pub density_kg_m3: f64,
-    /// Poisson's ratio.
+    /// Poisson's ratio, without unit.
     pub poisson_ratio: f64,
     /// Stress at yield, or at fracture if brittle, in Pa.
     pub strength_pa: f64,
