@@ -19,7 +19,7 @@ mod uncancelled;
 
 use super::events::{Events, Side};
 use crate::DevicesError;
-use api::{Api, Arg, LatencyRange, RawClient, RawPort, api};
+use api::{Api, Arg, CAPTURE_LATENCY, LatencyRange, PLAYBACK_LATENCY, RawClient, RawPort, api};
 use closing::Closing;
 pub(super) use door::shut;
 use joining::join;
@@ -31,14 +31,12 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 use uncancelled::uncancelled;
 
-/// Of `jack/types.h`: start no server, a server's name follows, what a port is, and ways of asking for latencies.
+/// Of `jack/types.h`: start no server, a server's name follows, and what a port is.
 const NO_START_SERVER: c_uint = 0x01;
 const SERVER_NAME: c_uint = 0x04;
 const PORT_IS_INPUT: c_ulong = 0x1;
 const PORT_IS_OUTPUT: c_ulong = 0x2;
 const PORT_IS_PHYSICAL: c_ulong = 0x4;
-const CAPTURE_LATENCY: c_uint = 0;
-const PLAYBACK_LATENCY: c_uint = 1;
 /// What `jack_connect` returns for a connection that is there already: `EEXIST`.
 const EXISTS: c_int = 17;
 

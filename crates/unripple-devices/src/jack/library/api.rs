@@ -11,6 +11,10 @@ use std::sync::OnceLock;
 pub(super) enum RawClient {}
 pub(super) enum RawPort {}
 
+/// Of `jack/types.h`: latency of what is recorded, and of what is played.
+pub(super) const CAPTURE_LATENCY: c_uint = 0;
+pub(super) const PLAYBACK_LATENCY: c_uint = 1;
+
 /// Least and largest latency in samples, of all paths to or from a port.
 #[repr(C)]
 #[derive(Clone, Copy, Default)]

@@ -4,12 +4,16 @@
 //! Then it deletes what the thread is to work on, but not the thread: the one that writes messages (`JackMessageBuffer::Create`) and the
 //! one that calls in each cycle (`JackClient::Activate`) begin later within memory that is free, and the program crashes. On a machine
 //! with more work than processors a thread may well wait that long. So threads are created here, where nobody counts the time that they
-//! need to begin.
+//! need until they run. After that a thread has some instructions to go until JACK knows it, for which it is left the processor.
+//!
+//! Only JACK 2 is given this function: PipeWire's library does not count, and looks after its threads' priorities by functions of its own,
+//! which another creator would bypass.
 
 use super::api::Arg;
 use libloading::Library;
-use std::ffi::c_int;
-use std::sync::mpsc::{Sender, channel};
+use std::ffi::{CStr, c_char, c_int};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::time::Duration;
 
 /// What a thread runs. It may end within it, cancelled by JACK.
 type Routine = unsafe extern "C-unwind" fn(Arg) -> Arg;
@@ -28,8 +32,32 @@ struct Start {
     tell: Sender<()>,
 }
 
-/// Has the library create its threads here, if it lets others create them.
+/// How long a thread is waited for without a look at the time: whoever judges by the waiting thread whether the library makes progress, as
+/// [`shut`](super::shut) does, sees it run.
+const LOOK: Duration = Duration::from_millis(10);
+
+/// How long the processor is left to a thread that has begun, so that JACK knows it before the time is counted.
+const HEADSTART: Duration = Duration::from_millis(2);
+
+/// How the versions of JACK 2 begin.
+const JACK_2: &str = "1.9.";
+
+/// Has the library create its threads here, if it is JACK 2.
 pub(super) fn lead(library: &'static Library) {
+    // SAFETY: the type is that which jack.h declares for this name.
+    let version =
+        unsafe { library.get::<unsafe extern "C" fn() -> *const c_char>(b"jack_get_version_string\0") };
+    let is_jack_2 = version.is_ok_and(|version| {
+        // SAFETY: the text is a constant of the library.
+        let text = unsafe {
+            let text = version();
+            if text.is_null() { c"" } else { CStr::from_ptr(text) }
+        };
+        text.to_bytes().starts_with(JACK_2.as_bytes())
+    });
+    if !is_jack_2 {
+        return;
+    }
     // SAFETY: the type is that which jack.h declares for this name.
     let set = unsafe { library.get::<unsafe extern "C" fn(Create)>(b"jack_set_thread_creator\0") };
     if let Ok(set) = set {
@@ -54,7 +82,8 @@ fn with(routine: Routine, arg: Arg, spawn: impl FnOnce(Routine, Arg) -> c_int) -
         drop(unsafe { Box::from_raw(start) });
     } else {
         // Without an answer the thread has ended, and so has begun.
-        let _ = told.recv();
+        while told.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {}
+        std::thread::sleep(HEADSTART);
     }
     failed
 }
