@@ -6,12 +6,12 @@ use std::f64::consts::PI;
 /// The outline of a piezo patch about its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Patch {
-    /// A disc.
+    /// A disc about the centre.
     Round {
         /// Its radius, in metres.
         radius: f64,
     },
-    /// A rectangle.
+    /// A rectangle about the centre.
     Rectangular {
         /// Its width and height, in metres.
         sides: [f64; 2],
@@ -20,12 +20,15 @@ pub enum Patch {
     },
 }
 
-/// Number of intervals in which a side of a boundary is searched for its deepest place in a rectangle. Doubled, notches half as wide
-/// are found.
+/// Number of intervals in which a curved side of a boundary is searched for its deepest places in a rectangle. Doubled, notches half as
+/// wide are found.
 const LATTICE: usize = 64;
 
-/// Steps of golden-section search within such an interval: it ends at 1e-9 of the side.
+/// Steps of golden-section search around such a place: it ends at 1e-9 of the side.
 const STEPS: usize = 44;
+
+/// Share of an interval at which golden-section search looks.
+const GOLDEN: f64 = 0.618_033_988_749_895;
 
 impl Patch {
     /// Area of the patch, in m².
@@ -65,22 +68,39 @@ impl Patch {
 /// Size of the largest rectangle of the same proportions that a side of a boundary does not enter, as a share of the rectangle.
 fn depth(side: &Side, centre: Point, [width, height]: [f64; 2], angle: f64) -> f64 {
     let (sin, cos) = angle.sin_cos();
-    let share = |t: f64| {
+    // A point of the side in the rectangle's axes, with half its sides as units.
+    let place = |t: f64| {
         let p = side.at(t);
         let (x, y) = (p.x - centre.x, p.y - centre.y);
-        let (along, across) = (x * cos + y * sin, y * cos - x * sin);
-        (2.0 * along / width).abs().max((2.0 * across / height).abs())
+        [2.0 * (x * cos + y * sin) / width, 2.0 * (y * cos - x * sin) / height]
     };
+    let share = |t: f64| place(t).map(f64::abs).into_iter().fold(0.0, f64::max);
+    let least = |places: &mut dyn Iterator<Item = f64>| places.map(share).fold(f64::INFINITY, f64::min);
+    if side.is_straight() {
+        // The larger of two distances from a line is least at an end, or where one of them is 0, or where both are equal.
+        let ([x0, y0], [x1, y1]) = (place(0.0), place(1.0));
+        let zero = |from: f64, to: f64| from / (from - to);
+        let turns = [zero(x0, x1), zero(y0, y1), zero(x0 - y0, x1 - y1), zero(x0 + y0, x1 + y1)];
+        let within = turns.into_iter().filter(|t| (0.0..=1.0).contains(t));
+        return least(&mut within.chain([0.0, 1.0]));
+    }
+    // Around each least place of the lattice: a curve may enter a thin rectangle anywhere.
     let at = |i: usize| i as f64 / LATTICE as f64;
-    let least = (0..=LATTICE).min_by(|a, b| share(at(*a)).total_cmp(&share(at(*b)))).unwrap_or(0);
-    let (mut low, mut high) = (at(least.saturating_sub(1)), at((least + 1).min(LATTICE)));
-    // Along a line the share is convex, so that its least value is between the neighbours of the lattice's least.
-    const GOLDEN: f64 = 0.618_033_988_749_895;
+    let shares: Vec<f64> = (0..=LATTICE).map(|i| share(at(i))).collect();
+    let lowest = (0..=LATTICE).filter(|i| {
+        let around = i.saturating_sub(1)..=(i + 1).min(LATTICE);
+        around.into_iter().all(|j| shares[*i] <= shares[j])
+    });
+    least(&mut lowest.map(|i| deepest(&share, at(i.saturating_sub(1)), at((i + 1).min(LATTICE)))))
+}
+
+/// Where a function is least between two places, by golden-section search.
+fn deepest(share: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     for _ in 0..STEPS {
         let (left, right) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
         if share(left) < share(right) { high = right } else { low = left }
     }
-    share(0.5 * (low + high)).min(share(at(least)))
+    0.5 * (low + high)
 }
 
 #[cfg(test)]

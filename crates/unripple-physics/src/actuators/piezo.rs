@@ -14,11 +14,13 @@ pub(super) fn transducer(actuator: &Actuator, outline: &Outline) -> Result<Trans
     let ActuatorKind::Piezo { patch, moment, mass } = actuator.kind else {
         return Ok(super::force::transducer(actuator, outline));
     };
-    let size = match patch {
-        Patch::Round { radius } => radius,
-        Patch::Rectangular { sides: [width, height], .. } => width.min(height),
+    let sizes = match patch {
+        Patch::Round { radius } => [radius; 2],
+        Patch::Rectangular { sides, .. } => sides,
     };
-    require("size of a piezo patch in m", size > 0.0, "a positive finite number", size)?;
+    for size in sizes {
+        require("size of a piezo patch in m", size > 0.0, "a positive finite number", size)?;
+    }
     if !patch.lies_on(outline, actuator.at) {
         return Err(PhysicsError::Unsupported {
             what: "place of a piezo patch",
