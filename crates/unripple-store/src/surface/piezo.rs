@@ -45,8 +45,11 @@ pub(super) fn read(section: &Section, spot: &Spot<'_>, faults: &mut Faults) -> O
 
 /// The outline of a patch: a disc or a rectangle.
 fn patch(section: &Section, faults: &mut Faults) -> Option<Patch> {
-    let Some(rectangle) = section.get("rectangle_mm") else {
-        if let Some(angle) = section.get("angle_deg") {
+    // A table that gives one form needs nothing of the other, whichever the defaults give.
+    let own = |key: &str, other: &str| section.gives(key) && !section.gives(other);
+    let (round, angular) = (own("radius_mm", "rectangle_mm"), own("rectangle_mm", "radius_mm"));
+    let Some(rectangle) = section.get("rectangle_mm").filter(|_| !round) else {
+        if let Some(angle) = section.get("angle_deg").filter(|_| !round || section.gives("angle_deg")) {
             faults.add(&angle.key, angle.span, "angle_deg without rectangle_mm", "both or neither", None);
             return None;
         }
@@ -56,7 +59,7 @@ fn patch(section: &Section, faults: &mut Faults) -> Option<Patch> {
     };
     let sides = rectangle.numbers(&of::PATCH_SIDE, "[width, height] in mm", faults);
     let angle = section.number_or("angle_deg", 0.0, &of::DIRECTION, faults);
-    if section.get("radius_mm").is_some() {
+    if section.get("radius_mm").is_some() && !angular {
         let found = "radius_mm and rectangle_mm";
         faults.add(&rectangle.key, rectangle.span, found, "one of them", None);
         return None;

@@ -254,6 +254,11 @@ impl<'a> Section<'a> {
         own.or_else(|| self.defaults?.get(key))
     }
 
+    /// Whether the table itself gives a key, whatever the defaults give.
+    pub fn gives(&self, key: &str) -> bool {
+        self.table.contains_key(key)
+    }
+
     /// The value of a key that must be there.
     pub fn require(&self, key: &str, expected: &str, faults: &mut Faults) -> Option<Entry<'a>> {
         let entry = self.get(key);

@@ -124,6 +124,19 @@ fn patches_are_rectangles_too() {
         panic!()
     };
     assert!((mass / (24e-6 * 0.2e-3 * 7800.0) - 1.0).abs() < 1e-14);
+    // An actuator's own form goes before that of the defaults.
+    let with = |defaults: &str, lines: &str| {
+        let text = GOOD.replace("kind = \"force\"", &format!("kind = \"piezo\"\n{lines}"));
+        let defaults = format!("[actuator_defaults]\nmoment_n_per_v = 0.01\n{defaults}\n[[actuator]]");
+        parse_surface(&text.replacen("[[actuator]]", &defaults, 1), "film.toml")
+            .unwrap_or_else(|faults| panic!("{faults:#}"))
+            .actuators[0]
+            .kind
+    };
+    assert_eq!(with("radius_mm = 3", "rectangle_mm = [6, 4]"), of([0.006, 0.004], 0.0, 0.0));
+    let round = ActuatorKind::Piezo { patch: Patch::Round { radius: 0.003 }, moment: 0.01, mass: 0.0 };
+    assert_eq!(with("rectangle_mm = [6, 4]\nangle_deg = 30", "radius_mm = 3"), round);
+    assert_eq!(with("rectangle_mm = [6, 4]\nangle_deg = 30", ""), of([0.006, 0.004], FRAC_PI_6, 0.0));
     for (lines, wanted) in [
         ("rectangle_mm = [6, 4]\nradius_mm = 3", "expected one of them"),
         ("radius_mm = 3\nangle_deg = 5", "angle_deg without rectangle_mm"),
