@@ -90,7 +90,7 @@ pub const MATERIALS: &[Material] = &[
         density: 7900.0,
         poisson: 0.29,
         strength: 250e6,
-        source: "austenitic stainless steel 1.4301 (EN 10088-1: 200 GPa, 7900 kg/m³); its 0.2 % proof stress is from 190 MPa (bars) to above 250 MPa (cold-rolled strip)",
+        source: "austenitic stainless steel 1.4301 (EN 10088-1: 200 GPa, 7900 kg/m³), of which bars have a 0.2 % proof stress of at least 190 MPa (EN 10088-3), strip more; Poisson's ratio typical, no single source",
     },
 ];
 
