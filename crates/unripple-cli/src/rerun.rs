@@ -22,7 +22,7 @@ pub fn run(options: &RerunOptions, common: &Common) -> Result<(), CliError> {
     };
     let done = match record.command.as_str() {
         reproduce::Ask::COMMAND => rerun::again(&record, ask.output, reproduce::run, &mut terminal),
-        _ => rerun::repeat(&record, ask.output, &mut terminal),
+        _ => rerun::repeat(&record, &ask, &mut terminal),
     };
     drop(terminal);
     output::report(common.json, &done?)

@@ -36,18 +36,15 @@ struct Recorded {
 /// [`TaskError::Input`] of a file without a record, of one that the run read and that is gone or has changed; those of the command.
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     go_on(progress)?;
-    repeat(&record(ask)?, ask.output.clone(), progress)
+    repeat(&record(ask)?, ask, progress)
 }
 
-/// Does what a record holds once more, with its results sent to another place.
+/// Does what a record holds once more; `ask` says which report it is from, and where results go.
 ///
 /// # Errors
 /// [`TaskError::Input`] of a command that is no task; those of [`again`].
-pub fn repeat(
-    record: &Record,
-    to: Option<PathBuf>,
-    progress: &mut dyn Progress,
-) -> Result<Report, TaskError> {
+pub fn repeat(record: &Record, ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    let to = ask.output.clone();
     match record.command.as_str() {
         check::Ask::COMMAND => again(record, to, check::run, progress),
         design::Ask::COMMAND => again(record, to, design::run, progress),
@@ -67,7 +64,8 @@ pub fn repeat(
         devices::Ask::COMMAND => again(record, to, devices::run, progress),
         play::Ask::COMMAND => again(record, to, play::run, progress),
         other => Err(TaskError::Input(format!(
-            "expected the record of a command that can be repeated, found that of `{other}`"
+            "{}: expected a command that can be repeated, found `{other}`",
+            ask.report.display()
         ))),
     }
 }

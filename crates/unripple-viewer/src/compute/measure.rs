@@ -61,7 +61,8 @@ impl ComputeWorker {
         // A library that cannot be read any more, of which all is in memory, leaves the report without a record.
         let json = match Record::of(&ask) {
             Ok(record) => record.json(&report),
-            Err(_) => folder::json(&report),
+            Err(_) if Library::is_at(self.source(of)) => folder::json(&report),
+            Err(error) => Err(error),
         };
         let json = json.map_err(|error| error.to_string())?;
         let wav = encode_wav(&acted.drive).map_err(|error| error.to_string())?;
