@@ -3,8 +3,8 @@
 use crate::args::Arguments;
 use crate::error::CliError;
 use clap::error::{ContextKind, ErrorKind};
-use clap::{Arg, ArgAction, CommandFactory, Parser};
-use std::ffi::{OsStr, OsString};
+use clap::{Arg, ArgAction, Command, CommandFactory, Parser};
+use std::ffi::OsString;
 use std::path::PathBuf;
 use toml::{Table, Value};
 
@@ -29,18 +29,22 @@ pub fn arguments() -> Result<(Arguments, Option<String>), CliError> {
     let text = std::fs::read_to_string(&path).map_err(|error| refused(error.to_string()))?;
     let table: Table = text.parse().map_err(|error: toml::de::Error| refused(error.to_string()))?;
     let added = added(&given, &table).map_err(refused)?;
+    let told = |added: &Added| {
+        Some(format!("{shown}: {}", added.options.join(" "))).filter(|_| !added.options.is_empty())
+    };
     match Arguments::try_parse_from(added.beside(&given)) {
-        Ok(arguments) => {
-            let told = format!("{shown}: {}", added.options.join(" "));
-            Ok((arguments, Some(told).filter(|_| !added.options.is_empty())))
-        }
-        Err(error) if added.is_at_fault(&error) => {
-            let text = error.to_string();
-            let first = text.lines().next().unwrap_or_default();
-            Err(refused(first.trim_start_matches("error: ").to_owned()))
-        }
-        Err(error) => error.exit(),
+        Ok(arguments) => Ok((arguments, told(&added))),
+        Err(error) if added.is_at_fault(&error) => Err(refused(first_line(&error))),
+        Err(error) => match added.usable(&given).map_err(|error| refused(first_line(&error)))? {
+            Some((arguments, added)) => Ok((arguments, told(&added))),
+            None => error.exit(),
+        },
     }
+}
+
+fn first_line(error: &clap::Error) -> String {
+    let text = error.to_string();
+    text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_owned()
 }
 
 fn asks_for_help(error: &clap::Error) -> bool {
@@ -55,7 +59,8 @@ fn place() -> Result<Option<PathBuf>, CliError> {
         let path = PathBuf::from(named);
         return match path.as_os_str().is_empty() {
             true => Ok(None),
-            false if path.is_file() => Ok(Some(path)),
+            // A pipe is as good as a file.
+            false if path.exists() && !path.is_dir() => Ok(Some(path)),
             false => Err(CliError::Input(format!("{VARIABLE}: expected a file, found {}", path.display()))),
         };
     }
@@ -83,6 +88,38 @@ impl Added {
         self.options.iter().any(|option| name(option) == name(&about))
     }
 
+    /// For a command line that is good by itself: with as many of these options as go with it, without those that need others which nobody
+    /// gives.
+    ///
+    /// # Errors
+    /// That of an option which is wrong itself.
+    fn usable(&self, given: &[OsString]) -> Result<Option<(Arguments, Self)>, clap::Error> {
+        let Ok(mut arguments) = Arguments::try_parse_from(given) else { return Ok(None) };
+        let (mut taken, mut left) = (Self { options: Vec::new(), behind: self.behind }, self.options.clone());
+        // What one needs may come later.
+        loop {
+            let before = left.len();
+            let mut others = Vec::new();
+            for option in left {
+                taken.options.push(option);
+                match Arguments::try_parse_from(taken.beside(given)) {
+                    Ok(found) => arguments = found,
+                    Err(error) => {
+                        others.extend(taken.options.pop());
+                        let needs = [ErrorKind::MissingRequiredArgument, ErrorKind::ArgumentConflict];
+                        if !needs.contains(&error.kind()) {
+                            return Err(error);
+                        }
+                    }
+                }
+            }
+            if others.is_empty() || others.len() == before {
+                return Ok(Some((arguments, taken)));
+            }
+            left = others;
+        }
+    }
+
     fn beside(&self, given: &[OsString]) -> Vec<OsString> {
         let (before, after) = given.split_at(self.behind + 1);
         let options = self.options.iter().map(OsString::from);
@@ -105,21 +142,33 @@ fn added(given: &[OsString], table: &Table) -> Result<Added, String> {
     let Some((behind, command)) = place.and_then(|at| Some((at, known(words[at])?))) else {
         return Ok(Added { options: Vec::new(), behind: 0 });
     };
-    let general = table.iter().filter(|(_, value)| !value.is_table());
     let own = table.get(command.get_name()).and_then(Value::as_table);
-    let mut options = Vec::new();
-    for (key, value) in general.chain(own.into_iter().flatten()) {
-        let option = command.get_arguments().find(|option| option.get_long() == Some(key.as_str()));
-        let Some(option) = option.filter(|option| !["help", "version"].contains(&option.get_id().as_str()))
-        else {
+    let has_surface = command.get_positionals().any(|argument| argument.get_id() == "surface");
+    // What a command's own table says goes before what is said for all; and surfaces are changed where there is one.
+    let general = table.iter().filter(|(key, value)| {
+        !value.is_table() && !own.is_some_and(|own| own.contains_key(*key)) && (has_surface || *key != "set")
+    });
+    let own: Vec<_> = own.into_iter().flatten().map(|(key, value)| (key, value, true)).collect();
+    let find = |key: &str| {
+        let option = command.get_arguments().find(|option| option.get_long() == Some(key));
+        option.filter(|option| !["help", "version"].contains(&option.get_id().as_str())).ok_or_else(|| {
             let name = command.get_name();
-            return Err(format!("`{name}` has no option --{key}; `unripple {name} --help` lists them"));
-        };
-        let excluded = command.get_arg_conflicts_with(option);
-        let conflicts = command.get_arguments().filter(|other| {
-            excluded.contains(other) || command.get_arg_conflicts_with(other).contains(&option)
-        });
-        if !is_given(option, given) && !conflicts.into_iter().any(|other| is_given(other, given)) {
+            format!("`{name}` has no option --{key}; `unripple {name} --help` lists them")
+        })
+    };
+    let excludes = |one: &Arg, other: &Arg| {
+        command.get_arg_conflicts_with(one).contains(&other)
+            || command.get_arg_conflicts_with(other).contains(&one)
+    };
+    let mut options = Vec::new();
+    for (key, value, is_own) in general.map(|(key, value)| (key, value, false)).chain(own.iter().copied()) {
+        let option = find(key)?;
+        let given_otherwise = command
+            .get_arguments()
+            .any(|other| (other == option || excludes(option, other)) && is_given(other, command, given));
+        let by_own =
+            |(other, _, _): &(&String, &Value, bool)| find(other).is_ok_and(|other| excludes(option, other));
+        if !given_otherwise && (is_own || !own.iter().any(by_own)) {
             options.extend(spelled(key, value, option)?);
         }
     }
@@ -127,15 +176,23 @@ fn added(given: &[OsString], table: &Table) -> Result<Added, String> {
 }
 
 /// Whether a command line gives an option, by its long or its short name.
-fn is_given(option: &Arg, given: &[OsString]) -> bool {
-    given.iter().filter_map(|word| OsStr::to_str(word)).take_while(|word| *word != "--").any(|word| {
-        match word.strip_prefix("--") {
-            Some(long) => option.get_long() == long.split('=').next(),
-            // Short names may stand together, as in -qo.
-            None => word.strip_prefix('-').is_some_and(|short| {
-                option.get_short().is_some_and(|name| short.chars().take(2).any(|letter| letter == name))
-            }),
+fn is_given(option: &Arg, command: &Command, given: &[OsString]) -> bool {
+    given.iter().map(|word| word.to_string_lossy()).take_while(|word| word != "--").any(|word| {
+        if let Some(long) = word.strip_prefix("--") {
+            return option.get_long() == long.split('=').next();
         }
+        // Short names may stand together, as in -qo; the rest of a word is the value of the first that takes one.
+        let named = |letter| command.get_arguments().find(|other| other.get_short() == Some(letter));
+        let letters = word.strip_prefix('-').unwrap_or_default().chars();
+        for other in letters.map_while(named) {
+            if other == option {
+                return true;
+            }
+            if other.get_action().takes_values() {
+                break;
+            }
+        }
+        false
     })
 }
 
@@ -176,7 +233,7 @@ mod tests {
         let given = words(line);
         let all = added(&given, &file.parse().unwrap())?.beside(&given);
         assert!(Arguments::try_parse_from(&all).is_ok(), "{all:?}");
-        Ok(all.join(OsStr::new(" ")).into_string().unwrap())
+        Ok(all.join(std::ffi::OsStr::new(" ")).into_string().unwrap())
     }
 
     #[test]
@@ -205,6 +262,45 @@ mod tests {
         let file = "[focus]\npeak-um = 4\noutput = 'out'\nno-figures = false";
         let wanted = "unripple focus --output=out film.toml --at 62,90 --felt-db 20";
         assert_eq!(completed("unripple focus film.toml --at 62,90 --felt-db 20", file).unwrap(), wanted);
+    }
+
+    #[test]
+    fn what_a_command_says_goes_before_what_is_said_for_all() {
+        let file = "quiet = true\nset = ['sheet.tension_n_per_m=220']\n[play]\nquiet = false\n[focus]\nverbose = true\n[modes]\nquiet = true";
+        let cases = [
+            ("unripple play film.toml", "unripple play --set=sheet.tension_n_per_m=220 film.toml"),
+            (
+                "unripple focus film.toml -oquick",
+                "unripple focus --set=sheet.tension_n_per_m=220 --verbose film.toml -oquick",
+            ),
+            ("unripple modes film.toml", "unripple modes --set=sheet.tension_n_per_m=220 --quiet film.toml"),
+            ("unripple materials", "unripple materials --quiet"),
+        ];
+        for (line, wanted) in cases {
+            assert_eq!(completed(line, file).unwrap(), wanted);
+        }
+    }
+
+    #[test]
+    fn options_that_need_others_come_with_them_alone() {
+        let file = "[fit]\ngrid-mm = 5\n[play]\nsnr-db = 40\nunknowns = 1".parse().unwrap();
+        for (line, wanted) in [
+            ("unripple fit rig.zarr", vec![]),
+            ("unripple fit rig.zarr -o fitted.zarr", vec!["--grid-mm=5"]),
+            ("unripple play film.toml", vec!["--unknowns=1", "--snr-db=40"]),
+        ] {
+            let given = words(line);
+            let mut options = added(&given, &file).unwrap().usable(&given).unwrap().unwrap().1.options;
+            options.sort_unstable_by(|a, b| b.cmp(a));
+            assert_eq!(options, wanted, "{line}");
+        }
+        let wrong = "[fit]\nstrays = 'many'".parse().unwrap();
+        assert!(
+            added(&words("unripple fit rig.zarr"), &wrong)
+                .unwrap()
+                .usable(&words("unripple fit rig.zarr"))
+                .is_err()
+        );
     }
 
     #[test]

@@ -12,10 +12,10 @@ pub struct FitOptions {
     #[arg(value_name = "LIBRARY")]
     pub library: String,
     /// Spacing of a square grid of points for the responses of the fitted model, in mm.
-    #[arg(long, value_name = "P", allow_negative_numbers = true, requires = "output", help_heading = heading::POINTS)]
+    #[arg(long, value_name = "P", allow_negative_numbers = true, requires = "output", help_heading = heading::RESULTS)]
     pub grid_mm: Option<f64>,
     /// A point for the responses of the fitted model, in mm. Repeatable.
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, requires = "output", help_heading = heading::POINTS)]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, requires = "output", help_heading = heading::RESULTS)]
     pub at: Vec<String>,
     /// Largest number of unknown point masses to fit.
     #[arg(long, value_name = "N", default_value_t = 3, help_heading = heading::MODEL)]

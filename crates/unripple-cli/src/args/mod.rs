@@ -50,7 +50,8 @@ pub struct Arguments {
 
 /// The configuration file and the exit codes, at the end of the help.
 const EXITS: &str =
-    "Options that are not given are taken from ~/.config/unripple/config.toml, if it is there, or from the file that UNRIPPLE_CONFIG names.
+    "Options that are not given are taken from unripple/config.toml in the user's folder of
+configurations ($XDG_CONFIG_HOME or ~/.config; %APPDATA% on Windows), if it is there, or from the file that UNRIPPLE_CONFIG names.
 Exit codes: 0 the work is done; 1 it failed, or its result is doubtful; 2 bad usage or bad input.";
 
 /// The version, with the commit that the program was built from where that is known.
@@ -124,6 +125,7 @@ pub struct MaterialsOptions {
 
 /// Options of `devices`.
 #[derive(Debug, Args)]
+#[command(after_help = examples::DEVICES)]
 pub struct DevicesOptions {
     /// Name of the JACK server to query; by default JACK's default server.
     #[arg(long, value_name = "NAME")]
