@@ -95,6 +95,11 @@ pub const MATERIALS: &[Material] = &[
 ];
 
 impl Material {
+    /// Names of all built-in materials.
+    pub fn names() -> Vec<&'static str> {
+        MATERIALS.iter().map(|material| material.name).collect()
+    }
+
     /// The built-in material of that name, whatever the case of its letters; `None` if there is none.
     pub fn named(name: &str) -> Option<&'static Self> {
         MATERIALS.iter().find(|m| m.name.eq_ignore_ascii_case(name))

@@ -6,7 +6,8 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 use unripple::core::{
-    Actuator, ActuatorKind, Decay, Edge, Edges, FOCAL_RADIUS, MATERIALS, Outline, Point, Shape, Surface,
+    Actuator, ActuatorKind, Decay, Edge, Edges, FOCAL_RADIUS, MATERIALS, Material, Outline, Point, Shape,
+    Surface,
 };
 use unripple::focus::Method;
 use unripple::physics::Medium;
@@ -49,7 +50,7 @@ pub fn surface(edition: &Edition, (undo, redo): (bool, bool), source: &str, libr
         "lambda_min_mm": lambda * 1e3,
         "focal_radius_mm": FOCAL_RADIUS * lambda * 1e3,
         "values": values(surface),
-        "materials": MATERIALS.iter().map(|material| material.name).collect::<Vec<_>>(),
+        "materials": Material::names(),
         "can_undo": undo,
         "can_redo": redo,
     })

@@ -3,7 +3,7 @@
 use super::range::of;
 use super::reader::{Entry, Faults, Section};
 use crate::names::nearest;
-use unripple_core::{MATERIALS, Material};
+use unripple_core::Material;
 
 /// The keys of a table that say what something is made of; a table may know fewer.
 pub(super) const MATERIAL_KEYS: [&str; 5] =
@@ -60,7 +60,7 @@ pub(super) fn read(section: &Section, faults: &mut Faults) -> Option<MaterialPro
 }
 
 fn refuse(entry: &Entry, name: &str, faults: &mut Faults) {
-    let names: Vec<&str> = MATERIALS.iter().map(|m| m.name).collect();
+    let names = Material::names();
     let near = nearest(name, names.iter().copied()).map(|n| format!("\"{n}\""));
     let expected = format!(
         "one of {}, or young_gpa, density_kg_m3 and poisson_ratio beside a name of your own",

@@ -24,10 +24,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
         None => Ok(Report::of(MATERIALS.iter())),
         Some(name) => match Material::named(name) {
             Some(material) => Ok(Report::of([material])),
-            None => {
-                let names: Vec<&str> = MATERIALS.iter().map(|material| material.name).collect();
-                Err(TaskError::ask("name", format!("one of {}", names.join(", ")), name))
-            }
+            None => Err(TaskError::ask("name", format!("one of {}", Material::names().join(", ")), name)),
         },
     }
 }

@@ -8,7 +8,7 @@ pub use apply::apply;
 use crate::ViewError;
 use crate::wire::Edit;
 use apply::edge;
-use unripple::core::{MATERIALS, Material, Surface};
+use unripple::core::{Material, Surface};
 use unripple_store::{parse_surface, to_toml};
 
 /// Shortest length of an outline that is drawn at all, in mm; other limits are those of the surface file.
@@ -109,8 +109,7 @@ fn known(edit: &Edit, actuators: usize) -> Result<(), ViewError> {
     let refuse =
         |what, expected: String, found: &str| Err(ViewError::Range { what, expected, found: found.into() });
     if let Some(name) = edit.material.as_deref().filter(|name| Material::named(name).is_none()) {
-        let names = MATERIALS.iter().map(|material| material.name).collect::<Vec<_>>();
-        return refuse("material", names.join(", "), name);
+        return refuse("material", Material::names().join(", "), name);
     }
     if let Some(name) = edit.edge.as_deref().filter(|name| edge(name).is_none()) {
         return refuse("edge", "clamped, supported or free".into(), name);
