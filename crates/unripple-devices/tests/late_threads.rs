@@ -5,43 +5,28 @@
 #![cfg(target_os = "linux")]
 
 mod common;
+#[path = "../../unripple-core/tests/shared/nowhere.rs"]
+mod nowhere;
 #[path = "../../unripple-core/tests/shared/skip.rs"]
 mod skip;
 
 use common::server::{NONE, Server};
+use nowhere::Nowhere;
 use skip::skip;
 use std::process::Command;
-use unripple_core::{Device, DeviceError, Layout, Status};
+use unripple_core::{Device, Layout};
 use unripple_devices::Bridge;
 
 /// Names the server that is to be joined by a program whose threads begin late.
 const ROLE: &str = "UNRIPPLE_LATE_THREADS";
 const PERIOD: usize = 256;
 
-/// A device that hears nothing.
-struct Deaf(Layout);
-
-impl Device for Deaf {
-    fn layout(&self) -> &Layout {
-        &self.0
-    }
-
-    fn status(&self) -> Status {
-        Status::default()
-    }
-
-    fn exchange(&mut self, _: &[f32], heard: &mut [f32]) -> Result<(), DeviceError> {
-        heard.fill(0.0);
-        Ok(())
-    }
-}
-
-fn deaf() -> Box<dyn Device> {
+fn nowhere() -> Box<dyn Device> {
     let ports = vec!["one".to_owned()];
     let (outputs, inputs) = (ports.clone(), ports);
     let layout =
-        Layout { device: "deaf".into(), rate: 48e3, block: PERIOD, outputs, inputs, full_scale: 1.0 };
-    Box::new(Deaf(layout))
+        Layout { device: "nowhere".into(), rate: 48e3, block: PERIOD, outputs, inputs, full_scale: 1.0 };
+    Box::new(Nowhere(layout))
 }
 
 /// Does nothing by itself: the other test runs it in a process of its own.
@@ -49,7 +34,7 @@ fn deaf() -> Box<dyn Device> {
 fn joiner() {
     let Ok(server) = std::env::var(ROLE) else { return };
     for time in 0..2 {
-        let joined = Bridge::start(deaf(), "late", Some(&server));
+        let joined = Bridge::start(nowhere(), "late", Some(&server));
         println!("join {time}: {:?}", joined.as_ref().err());
         drop(joined.unwrap());
     }
@@ -61,7 +46,7 @@ fn a_client_whose_threads_begin_late_joins_and_leaves() {
         return skip(NONE);
     };
     // The server answers from here on.
-    drop(server.bridge("early", deaf).unwrap());
+    drop(server.bridge("early", nowhere).unwrap());
     let folder = std::env::temp_dir().join(format!("unripple-late-threads-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let (source, shim) =

@@ -2,9 +2,12 @@
 //! nothing is lost. A minute of played time; `UNRIPPLE_MINUTES` says how many instead.
 
 mod common;
+#[path = "../../unripple-core/tests/shared/nowhere.rs"]
+mod nowhere;
 
 use common::*;
-use unripple_core::{Device, DeviceError, Layout, Phase, Point, Random, Status, Surface, Touch};
+use nowhere::Nowhere;
+use unripple_core::{Layout, Phase, Point, Random, Surface, Touch};
 use unripple_effects::{
     Curve, Effect, EffectSet, Envelope, Event, Hum, Kind, Level, Region, Score, Sound, Start, Texture, Tone,
     Train,
@@ -19,22 +22,6 @@ const SITTING: f64 = 10.0;
 /// Running rms that an actuator may reach, as a share of its peak limit, and over which time.
 const RMS: f64 = 0.2;
 const OVER: f64 = 1.0;
-
-/// Outputs that lead nowhere, so that hours pass in minutes.
-struct Nowhere(Layout);
-
-impl Device for Nowhere {
-    fn layout(&self) -> &Layout {
-        &self.0
-    }
-    fn status(&self) -> Status {
-        Status::default()
-    }
-    fn exchange(&mut self, _: &[f32], heard: &mut [f32]) -> Result<(), DeviceError> {
-        heard.fill(0.0);
-        Ok(())
-    }
-}
 
 fn film() -> Surface {
     let mut film = FILM.clone();
