@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 use std::fmt::Write;
+use textwrap::{Options, WordSplitter};
 use unripple::core::Material;
 
 /// Materials that surface files may name.
@@ -31,6 +32,9 @@ pub struct MaterialRow {
 /// Columns of a terminal that the text fills.
 const WIDTH: usize = 100;
 
+/// What stands before each line of a source, which the material's own line does not have.
+const INDENT: &str = "    ";
+
 impl Report {
     pub(super) fn of(materials: impl IntoIterator<Item = &'static Material>) -> Self {
         let row = |material: &Material| MaterialRow {
@@ -48,32 +52,14 @@ impl Report {
 impl crate::Report for Report {
     fn text(&self) -> String {
         let mut text = String::from("material              GPa   kg/m³  Poisson    MPa\n");
+        let within = Options::new(WIDTH).initial_indent(INDENT).subsequent_indent(INDENT);
+        let within = within.word_splitter(WordSplitter::NoHyphenation);
         for row in &self.materials {
             let (young, strength) = (row.young_pa / 1e9, row.strength_pa / 1e6);
             let (density, poisson) = (row.density_kg_m3, row.poisson_ratio);
             let _ = writeln!(text, "{:<18} {young:>6} {density:>7} {poisson:>8} {strength:>6}", row.name);
-            for line in wrapped(row.source, WIDTH - 4) {
-                let _ = writeln!(text, "    {line}");
-            }
+            let _ = writeln!(text, "{}", textwrap::fill(row.source, &within));
         }
         text
     }
-}
-
-/// A text as lines of at most so many characters, broken between words.
-fn wrapped(text: &str, width: usize) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    for word in text.split(' ') {
-        let last = lines.len() - 1;
-        let line = &mut lines[last];
-        if line.is_empty() {
-            line.push_str(word);
-        } else if line.chars().count() + 1 + word.chars().count() <= width {
-            line.push(' ');
-            line.push_str(word);
-        } else {
-            lines.push(word.to_owned());
-        }
-    }
-    lines
 }
