@@ -18,12 +18,12 @@ const VARIABLE: &str = "UNRIPPLE_CONFIG";
 /// [`CliError::Input`] of a file that cannot be read, or of what it says.
 pub fn arguments() -> Result<(Arguments, Option<String>), CliError> {
     let given: Vec<OsString> = std::env::args_os().collect();
-    let path = match Arguments::try_parse_from(&given) {
-        // Help is to be had whatever the file says.
-        Err(error) if asks_for_help(&error) => error.exit(),
-        _ => place()?,
+    let alone = Arguments::try_parse_from(&given);
+    // Help is to be had whatever the file says.
+    let alone = alone.map_err(|error| if asks_for_help(&error) { error.exit() } else { error });
+    let Some(path) = place()? else {
+        return Ok((alone.unwrap_or_else(|error| error.exit()), None));
     };
-    let Some(path) = path else { return Ok((Arguments::parse_from(given), None)) };
     let shown = path.display().to_string();
     let refused = |what: String| CliError::Input(format!("{shown}: {what}"));
     let text = std::fs::read_to_string(&path).map_err(|error| refused(error.to_string()))?;
@@ -35,10 +35,11 @@ pub fn arguments() -> Result<(Arguments, Option<String>), CliError> {
     match Arguments::try_parse_from(added.beside(&given)) {
         Ok(arguments) => Ok((arguments, told(&added))),
         Err(error) if added.is_at_fault(&error) => Err(refused(first_line(&error))),
-        Err(error) => match added.usable(&given).map_err(|error| refused(first_line(&error)))? {
-            Some((arguments, added)) => Ok((arguments, told(&added))),
-            None => error.exit(),
-        },
+        Err(error) => {
+            let alone = alone.unwrap_or_else(|_| error.exit());
+            let usable = added.usable(&given, alone).map_err(|error| refused(first_line(&error)))?;
+            Ok((usable.0, told(&usable.1)))
+        }
     }
 }
 
@@ -88,13 +89,13 @@ impl Added {
         self.options.iter().any(|option| name(option) == name(&about))
     }
 
-    /// For a command line that is good by itself: with as many of these options as go with it, without those that need others which nobody
-    /// gives.
+    /// A command line that is good by itself, and was read as `alone`, with as many of these options as go with it: without those that need
+    /// others which nobody gives.
     ///
     /// # Errors
     /// That of an option which is wrong itself.
-    fn usable(&self, given: &[OsString]) -> Result<Option<(Arguments, Self)>, clap::Error> {
-        let Ok(mut arguments) = Arguments::try_parse_from(given) else { return Ok(None) };
+    fn usable(&self, given: &[OsString], alone: Arguments) -> Result<(Arguments, Self), clap::Error> {
+        let mut arguments = alone;
         let (mut taken, mut left) = (Self { options: Vec::new(), behind: self.behind }, self.options.clone());
         // What one needs may come later.
         loop {
@@ -114,7 +115,7 @@ impl Added {
                 }
             }
             if others.is_empty() || others.len() == before {
-                return Ok(Some((arguments, taken)));
+                return Ok((arguments, taken));
             }
             left = others;
         }
@@ -138,8 +139,8 @@ fn added(given: &[OsString], table: &Table) -> Result<Added, String> {
         }
     }
     let words: Vec<&str> = given.iter().map(|word| word.to_str().unwrap_or_default()).collect();
-    let place = (1..words.len()).find(|at| known(words[*at]).is_some() && words[at - 1] != "--set");
-    let Some((behind, command)) = place.and_then(|at| Some((at, known(words[at])?))) else {
+    let mut commands = (1..words.len()).filter(|at| words[at - 1] != "--set");
+    let Some((behind, command)) = commands.find_map(|at| Some((at, known(words[at])?))) else {
         return Ok(Added { options: Vec::new(), behind: 0 });
     };
     let own = table.get(command.get_name()).and_then(Value::as_table);
@@ -236,6 +237,13 @@ mod tests {
         Ok(all.join(std::ffi::OsStr::new(" ")).into_string().unwrap())
     }
 
+    /// The options of a file that go with a command line which is good by itself.
+    fn usable(line: &str, file: &Table) -> Result<Vec<String>, clap::Error> {
+        let given = words(line);
+        let alone = Arguments::try_parse_from(&given).unwrap();
+        Ok(added(&given, file).unwrap().usable(&given, alone)?.1.options)
+    }
+
     #[test]
     fn options_of_the_file_stand_where_none_are_given() {
         let file = "quiet = true\n[play]\ndevice = 'jack'\nblock = 128\n[focus]\nat = ['62,90', '40,60']\nwindow-ms = 22.5";
@@ -289,18 +297,12 @@ mod tests {
             ("unripple fit rig.zarr -o fitted.zarr", vec!["--grid-mm=5"]),
             ("unripple play film.toml", vec!["--unknowns=1", "--snr-db=40"]),
         ] {
-            let given = words(line);
-            let mut options = added(&given, &file).unwrap().usable(&given).unwrap().unwrap().1.options;
+            let mut options = usable(line, &file).unwrap();
             options.sort_unstable_by(|a, b| b.cmp(a));
             assert_eq!(options, wanted, "{line}");
         }
         let wrong = "[fit]\nstrays = 'many'".parse().unwrap();
-        assert!(
-            added(&words("unripple fit rig.zarr"), &wrong)
-                .unwrap()
-                .usable(&words("unripple fit rig.zarr"))
-                .is_err()
-        );
+        assert!(usable("unripple fit rig.zarr", &wrong).is_err());
     }
 
     #[test]
