@@ -25,7 +25,7 @@ const TARGETS: [[f64; 2]; 3] = [[62.0, 90.0], [101.0, 47.0], [33.0, 118.0]];
 /// Runs a command until it is through, killed at so many random moments before.
 fn killed(run: &[&str], times: usize, random: &mut Random) -> Value {
     for _ in 0..times {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_unripple"));
+        let mut child = common::program();
         let mut child = child.args(run).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
         std::thread::sleep(Duration::from_secs_f64(random.between(3.0, 15.0)));
         child.kill().unwrap();

@@ -133,7 +133,7 @@ fn folder() -> Scratch {
 
 /// Runs a command in a folder and sends it a signal after a while, unless it has ended by then.
 fn interrupted(folder: &Path, arguments: &str, signal: &str, after: Duration) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_unripple"));
+    let mut command = common::program();
     command.args(arguments.split(' ')).current_dir(folder);
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
     let (mut child, began) = (command.spawn().unwrap(), Instant::now());
@@ -268,11 +268,7 @@ fn nothing_is_left_of_what_was_interrupted() {
 
 /// A library that was being filled is filled by the same command, and is a whole one then.
 fn taken_up(scratch: &Scratch, arguments: &str) {
-    let output = Command::new(env!("CARGO_BIN_EXE_unripple"))
-        .args(arguments.split(' '))
-        .current_dir(scratch.path())
-        .output()
-        .unwrap();
+    let output = common::program().args(arguments.split(' ')).current_dir(scratch.path()).output().unwrap();
     assert!(output.status.success(), "{arguments}: {}", String::from_utf8_lossy(&output.stderr));
     let library = Library::open(scratch.path().join("new-lib")).unwrap();
     assert_eq!(library.verify(), []);
@@ -305,7 +301,7 @@ fn a_second_ctrl_c_does_not_wait() {
     let film = scratch.file("film.toml", FILM);
     let [taps, kept] = ["taps.jsonl", "kept.wav"].map(|name| scratch.join(name));
     let (full, _nobody) = blocked();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_unripple"));
+    let mut command = common::program();
     command.args(["play", &film, "--record", &taps, "--keep-drive", &kept]);
     let mut child = command.stdout(full).stderr(Stdio::piped()).spawn().unwrap();
     let mut told = BufReader::new(child.stderr.take().unwrap()).lines().map_while(Result::ok);

@@ -38,7 +38,7 @@ fn joining(scratch: &Scratch, joins_ms: u32) -> Child {
     let built = Command::new("cc").args(["-shared", "-fPIC", "-o", &library, &source]).status();
     assert!(built.expect("cc").success());
     let lock = scratch.join("lock");
-    let child = Command::new(env!("CARGO_BIN_EXE_unripple"))
+    let child = common::program()
         .arg("devices")
         .env("LD_LIBRARY_PATH", scratch.path())
         .env("LOCK", &lock)

@@ -4,7 +4,7 @@ use crate::common;
 
 use common::{Scratch, json, number, refused};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 use std::time::Duration;
 use unripple_store::{Library, LibraryPlan, load_surface, to_toml};
 
@@ -29,7 +29,7 @@ fn killed_and_taken_up_again_is_the_same_library() {
 
     // Killed as soon as the first point is there, and again at the third, whatever it is doing.
     for point in [0, 2] {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_unripple"))
+        let mut child = crate::common::program()
             .args(calibration(&torn))
             .stdout(Stdio::null())
             .stderr(Stdio::null())

@@ -2,14 +2,10 @@
 
 use crate::common::Scratch;
 use serde_json::Value;
-use std::process::{Command, Output};
+use std::process::Output;
 
 fn run(arguments: &[&str], config: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_unripple"))
-        .args(arguments)
-        .env("UNRIPPLE_CONFIG", config)
-        .output()
-        .unwrap()
+    crate::common::program().args(arguments).env("UNRIPPLE_CONFIG", config).output().unwrap()
 }
 
 #[test]
@@ -35,7 +31,7 @@ fn the_usual_file_is_the_one_of_the_user() {
     std::fs::create_dir(scratch.path().join("unripple")).unwrap();
     scratch.file("unripple/config.toml", "[modes]\nmax-hz = 'high'\n");
     let modes = || {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_unripple"));
+        let mut command = crate::common::program();
         command.args(["modes", "hudin-2012"]).env_remove("UNRIPPLE_CONFIG");
         command.env("XDG_CONFIG_HOME", scratch.path()).env("APPDATA", scratch.path());
         command

@@ -20,7 +20,10 @@ fn folder() -> PathBuf {
 /// What the bench says of rows, one object for each, told as they come.
 fn rows(python: &Path, arguments: &[&str]) -> Vec<Value> {
     let mut bench = Command::new(python);
-    bench.arg(folder().join("run.py")).args(["--program", env!("CARGO_BIN_EXE_unripple"), "--json"]);
+    bench
+        .arg(folder().join("run.py"))
+        .args(["--program", env!("CARGO_BIN_EXE_unripple"), "--json"])
+        .env("UNRIPPLE_CONFIG", "");
     let mut bench = bench.args(arguments).stdout(Stdio::piped()).spawn().unwrap();
     let lines = BufReader::new(bench.stdout.take().unwrap()).lines();
     let rows: Vec<Value> = lines

@@ -5,7 +5,6 @@ use crate::common;
 use common::{Scratch, json, refused};
 use serde_json::Value;
 use std::path::Path;
-use std::process::Command;
 
 /// A film whose every command takes about a second.
 const FILM: &str = r#"format = 1
@@ -71,7 +70,7 @@ fn figures(mut report: Value, folder: &Path) -> Value {
 
 /// Runs the program in a folder, on so many threads.
 fn run_in(folder: &Path, threads: &str, arguments: &[&str]) -> Value {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_unripple"));
+    let mut command = crate::common::program();
     let output = command
         .args(arguments)
         .arg("--json")

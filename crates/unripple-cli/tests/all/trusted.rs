@@ -9,7 +9,7 @@ use common::{Scratch, json, number, refused, run};
 use elsewhere::{Elsewhere, apart, bring, response};
 use serde_json::Value;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 use std::time::Duration;
 use unripple::core::Point;
 use unripple_store::{Library, parse_surface, read_wav};
@@ -265,7 +265,7 @@ fn whoever_is_stopped_leaves_a_library_that_says_so() {
     let places =
         ["--at=52,47", "--at=70,38", "--at=35,55", "--at=60,60", "--at=30,30", "--at=80,50", "--at=45,70"];
     let with = |more: &[&'static str]| [&start[..], &places, more].concat();
-    let mut child = Command::new(env!("CARGO_BIN_EXE_unripple"))
+    let mut child = crate::common::program()
         .args(with(&["--without", "a3"]))
         .stdout(Stdio::null())
         .stderr(Stdio::null())

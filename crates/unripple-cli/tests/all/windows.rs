@@ -9,7 +9,7 @@ use common::{Scratch, json, number};
 use serde_json::Value;
 use std::io::{BufRead, BufReader};
 use std::net::TcpStream;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Stdio};
 use std::time::Duration;
 use tungstenite::Message;
 use tungstenite::client::IntoClientRequest;
@@ -30,7 +30,7 @@ impl Drop for Viewer {
 
 /// The window of the design that a page is shown, in s.
 fn shown(file: &str) -> f64 {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_unripple"));
+    let mut command = crate::common::program();
     command.args(["view", file, "--port", "0", "--no-browser"]).stdout(Stdio::piped()).stderr(Stdio::null());
     let mut viewer = Viewer(command.spawn().unwrap());
     let mut url = String::new();

@@ -47,8 +47,15 @@ impl Drop for Scratch {
     }
 }
 
+/// The program, without the configuration file of whoever runs the tests.
+pub fn program() -> Command {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_unripple"));
+    program.env("UNRIPPLE_CONFIG", "");
+    program
+}
+
 pub fn run(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_unripple")).args(arguments).env("UNRIPPLE_CONFIG", "").output().unwrap()
+    program().args(arguments).output().unwrap()
 }
 
 /// Standard output of a run that must succeed, as JSON.
