@@ -48,7 +48,8 @@ pub fn read(text: &str, module: &Module) -> BTreeMap<Module, Names> {
                 i = if is_test(&tokens[i..end]) { end + item(&tokens[end..]) } else { end };
                 continue;
             }
-            "use" => {
+            // `use<'a>` in a type says what it captures.
+            "use" if at(1) != "<" => {
                 let end = tokens[i..].iter().position(|t| t == ";").map_or(tokens.len(), |n| i + n);
                 let public = i > 0 && (tokens[i - 1] == "pub" || tokens[i - 1] == ")");
                 tree(&tokens[i + 1..end], &[], public, found.entry(here.clone()).or_default());
@@ -104,13 +105,15 @@ fn is_test(attribute: &[String]) -> bool {
     has("cfg") && has("test") && !has("not")
 }
 
-/// Tokens of the item that begins here, up to its closing brace or semicolon; attributes before it are part of it.
+/// Tokens of the item that begins here, up to its closing brace or semicolon; attributes before it are part of it. A field or a variant
+/// that is its parent's last ends before its parent's closing brace.
 fn item(tokens: &[String]) -> usize {
     let mut i = 0;
     while i < tokens.len() {
         match tokens[i].as_str() {
             "{" => return i + balanced(&tokens[i..]),
             ";" => return i + 1,
+            "}" => return i,
             "(" | "[" => i += balanced(&tokens[i..]),
             _ => i += 1,
         }
@@ -197,6 +200,26 @@ fn commas(tokens: &[String]) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_only_tests_have_ends_with_what_holds_it() {
+        let text = "struct A { b: u8, #[cfg(test)] c: u8 }\nmod d { fn e() {} }\nfn f() {}";
+        let found = read(text, &Vec::new());
+        let defined = |module: &[&str]| -> Vec<String> {
+            let module: Module = module.iter().map(|name| (*name).to_owned()).collect();
+            found[&module].defined.iter().cloned().collect()
+        };
+        assert_eq!(defined(&[]), ["A", "f"]);
+        assert_eq!(defined(&["d"]), ["e"]);
+    }
+
+    #[test]
+    fn what_a_type_captures_is_no_import() {
+        let found = read("fn a() -> impl B + use<> { c; }\nfn d() {}", &Vec::new());
+        let file = &found[&Vec::new()];
+        assert_eq!(file.defined.iter().collect::<Vec<_>>(), ["a", "d"]);
+        assert!(file.imported.is_empty());
+    }
 
     #[test]
     fn imports_and_paths_are_seen_and_tests_are_not() {
