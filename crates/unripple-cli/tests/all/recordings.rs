@@ -1,6 +1,6 @@
 //! Recordings made by a simulator that shares nothing with the program, with the faults of real benches: what is wrong is named, what can be survived, survived.
 //!
-//! A few rows at each run; all of them, on three sheets in three strengths, by `./soak 1 recordings`, which takes an hour or so.
+//! A few rows at each run; all of them, on three sheets in three strengths, by `./soak 1 recordings`, which takes hours and goes on where it was stopped.
 
 use crate::python;
 use crate::skip;
@@ -65,7 +65,9 @@ fn what_is_wrong_is_named_and_what_can_be_is_survived() {
     let quick = folder().join("quick.txt").display().to_string();
     let all = std::env::var_os("UNRIPPLE_ALL_RECORDINGS").is_some();
     let jobs = std::thread::available_parallelism().map_or(1, usize::from).to_string();
-    let wanted = if all { vec!["--jobs", &jobs] } else { vec!["--rows", &quick] };
+    // Hours of rows are taken up again where they were stopped.
+    let kept = concat!(env!("CARGO_TARGET_TMPDIR"), "/recordings.jsonl");
+    let wanted = if all { vec!["--jobs", &jobs, "--kept", kept] } else { vec!["--rows", &quick] };
     let rows = rows(&python, &wanted);
     let wrong: Vec<String> = rows.iter().filter(|row| row["as_expected"] != true).map(told).collect();
     println!("{} rows", rows.len());

@@ -11,7 +11,7 @@ import atexit
 import json
 import os
 import sys
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, as_completed
 
 sys.dont_write_bytecode = True
 # One process is to be one processor, unless somebody wants it otherwise.
@@ -20,6 +20,7 @@ for library in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
 
 import bench as benches  # noqa: E402
 import faults  # noqa: E402
+import kept  # noqa: E402
 import verdict  # noqa: E402
 from sheet import SHEETS  # noqa: E402
 
@@ -39,7 +40,20 @@ def work(row):
     name, fault, strength = row
     strength = int(strength) if strength == int(strength) else strength
     found = BENCH[0].work(faults.made(fault, strength, SHEETS[name]))
-    return verdict.judged({"surface": name, "fault": fault, "strength": strength, **found})
+    return {"surface": name, "fault": fault, "strength": strength, **found}
+
+
+def made(asked, given):
+    """Rows as they come, in any order: those kept from before, then the others."""
+    before = kept.Kept(given.kept, given.program) if given.kept else None
+    known = [before.take(row) if before else None for row in asked]
+    yield from filter(None, known)
+    left = [row for row, found in zip(asked, known) if found is None]
+    with ProcessPoolExecutor(given.jobs, initializer=begin, initargs=(given.program, given.keep)) as pool:
+        for future in as_completed([pool.submit(work, row) for row in left]):
+            if before:
+                before.keep(future.result())
+            yield future.result()
 
 
 def asked(given):
@@ -66,16 +80,18 @@ def main():
     ask.add_argument("--text", action="store_true", help="all that the program said, after each row")
     ask.add_argument("--keep", metavar="DIR", help="leave the files of the last case there")
     ask.add_argument("--jobs", type=int, default=1, help="rows at once")
+    ask.add_argument("--kept", metavar="FILE", help="rows made before by the same program are taken from there, and new ones put there")
     given = ask.parse_args()
     if not given.json:
         print(verdict.HEAD)
     wrong = rows = 0
-    with ProcessPoolExecutor(given.jobs, initializer=begin, initargs=(given.program, given.keep)) as pool:
-        for row in pool.map(work, asked(given)):
-            rows, wrong = rows + 1, wrong + (not row["as_expected"])
-            print(json.dumps(row) if given.json else verdict.line(row), flush=True)
-            if given.text:
-                print(row["text"], *row.get("focus", []), sep="\n", flush=True)
+    for row in made(asked(given), given):
+        # Judged anew each time: what is wanted may have changed since the row was made.
+        row = verdict.judged(row)
+        rows, wrong = rows + 1, wrong + (not row["as_expected"])
+        print(json.dumps(row) if given.json else verdict.line(row), flush=True)
+        if given.text:
+            print(row["text"], *row.get("focus", []), sep="\n", flush=True)
     if not given.json:
         print(f"{rows} rows, {wrong} otherwise than wanted")
     return 1 if wrong else 0
