@@ -15,6 +15,8 @@ pub enum CliError {
     Faults(Box<dyn Diagnostic + Send + Sync>),
     /// The work failed: exit status 1.
     Work(String),
+    /// The task was cancelled before there was a result: the program ends as the signal that cancelled it would have ended it.
+    Cancelled,
 }
 
 impl From<ActError> for CliError {
@@ -43,7 +45,7 @@ impl From<TaskError> for CliError {
             TaskError::Input(text) => Self::Input(options::spoken(&text)),
             TaskError::Faults(faults) => Self::Faults(faults),
             TaskError::Work(text) => Self::Work(options::spoken(&text)),
-            TaskError::Cancelled => Self::Work("stopped before it was done".into()),
+            TaskError::Cancelled => Self::Cancelled,
         }
     }
 }
@@ -53,6 +55,7 @@ impl std::fmt::Display for CliError {
         match self {
             Self::Input(text) | Self::Work(text) => f.write_str(text),
             Self::Faults(faults) => write!(f, "{faults:#}"),
+            Self::Cancelled => f.write_str("stopped before it was done"),
         }
     }
 }
@@ -71,10 +74,10 @@ impl CliError {
     /// Prints the error on standard error and returns the exit status.
     pub fn report(&self) -> ExitCode {
         match self {
-            Self::Input(text) | Self::Work(text) => eprintln!("error: {text}"),
+            Self::Input(_) | Self::Work(_) | Self::Cancelled => eprintln!("error: {self}"),
             Self::Faults(faults) => eprintln!("{}", rendered(faults.as_ref()).trim_end_matches('\n')),
         }
-        ExitCode::from(if matches!(self, Self::Work(_)) { 1 } else { 2 })
+        ExitCode::from(if matches!(self, Self::Work(_) | Self::Cancelled) { 1 } else { 2 })
     }
 }
 

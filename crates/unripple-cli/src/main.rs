@@ -61,7 +61,12 @@ fn main() -> ExitCode {
     }
     match interrupt::watch().and_then(|()| run(&arguments)) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(error) => error.report(),
+        Err(error) => {
+            if matches!(error, CliError::Cancelled) {
+                interrupt::end_as_wished();
+            }
+            error.report()
+        }
     }
 }
 

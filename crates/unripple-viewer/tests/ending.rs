@@ -3,10 +3,26 @@
 mod common;
 
 use common::{Served, until};
+use std::cell::Cell;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use tungstenite::Message;
 use unripple_store::{Library, PointState};
+use unripple_tasks::{Progress, TaskError};
+use unripple_viewer::task::{Ask, run};
+
+/// Cancels a task when it has been asked so often whether to go on.
+struct Asked {
+    most: usize,
+    count: Cell<usize>,
+}
+
+impl Progress for Asked {
+    fn cancelled(&self) -> bool {
+        self.count.set(self.count.get() + 1);
+        self.count.get() >= self.most
+    }
+}
 
 /// A folder that is gone when it is dropped.
 struct Folder(PathBuf);
@@ -69,4 +85,18 @@ fn a_calibration_that_is_stopped_says_so_before_it_measures_on() {
     while until(&mut page, "job")["state"] != "stopped" {}
     // Even where much else is at work.
     assert!(began.elapsed() < Duration::from_secs(2), "{:?}", began.elapsed());
+}
+
+#[test]
+fn a_surface_that_is_still_computed_can_be_given_up() {
+    // The modes of this outline need a mesh and take seconds: long enough to be asked ten times whether to go on.
+    let ask = Ask { surface: "stadium-film".into(), port: 0, ..Ask::default() };
+    let mut opened = false;
+    let progress = &mut Asked { most: 10, count: Cell::default() };
+    let ended = run(&ask, progress, &mut |_| {
+        opened = true;
+        Err(TaskError::Cancelled)
+    });
+    assert!(matches!(ended, Err(TaskError::Cancelled)));
+    assert!(!opened && progress.count.get() == 10, "asked {} times", progress.count.get());
 }

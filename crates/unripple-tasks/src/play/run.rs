@@ -7,10 +7,11 @@ use super::{Ask, outputs};
 use crate::numbers::above_zero;
 use crate::record::Request;
 use crate::window::of_window;
-use crate::{Progress, TaskError, judge, source};
+use crate::{Progress, TaskError, apart, judge, source};
 use std::sync::Arc;
-use unripple::act::lasting;
+use unripple::act::{Note, lasting};
 use unripple::core::{Drive, Responses, Surface};
+use unripple::effects::EffectSet;
 use unripple::physics::Medium;
 use unripple_calibrate::{Ping, PingOptions};
 use unripple_live::{Engine, FocusWorker, Follower, Level, LiveOptions, Pulse, Stage, Window};
@@ -25,12 +26,21 @@ const FOLLOWED: f64 = 0.4;
 /// How often fingers are reported, in s of played time. As fast as figures can be read.
 const TELL: f64 = 0.2;
 
-/// Plays a surface in answer to touches until the session is over or cancelled. Cancelling is no error: the report covers what was played
-/// until then.
-///
-/// # Errors
-/// [`TaskError::Ask`] of options that make no sense; those of surfaces, effects, devices, touches and files.
-pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+/// What is computed before anything plays: seconds for a surface whose modes need a mesh.
+struct Prepared {
+    surface: Surface,
+    responses: Arc<Responses>,
+    set: EffectSet,
+    maker: FocusWorker,
+    settings: LiveOptions,
+    window: Window,
+    level: Level,
+    without_scale: bool,
+    notes: Vec<Note>,
+}
+
+/// Computes responses, window and level, and checks the files that are to be written.
+fn prepare(ask: &Ask, progress: &mut dyn Progress) -> Result<Prepared, TaskError> {
     let source = source::open(&ask.surface, progress)?;
     let (surface, without_scale) = (source.surface.clone(), source.without_scale().is_some());
     let notes = source.stored.as_ref().map_or_else(Vec::new, |stored| stored.notes.clone());
@@ -50,8 +60,23 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
         false => Level::of(&surface, &maker, ask.full_limit)?,
     };
     settings.full = level.full;
+    Ok(Prepared { surface, responses, set, maker, settings, window, level, without_scale, notes })
+}
+
+/// Plays a surface in answer to touches until the session is over or cancelled. Cancelling is no error once it plays: the report covers what
+/// was played until then.
+///
+/// # Errors
+/// [`TaskError::Ask`] of options that make no sense; those of surfaces, effects, devices, touches and files; [`TaskError::Cancelled`]
+/// within 0.2 s if it is cancelled before it plays.
+pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    let prepared = apart(ask.clone(), prepare, progress)?;
+    let Prepared { surface, responses, set, maker, settings, window, level, without_scale, notes } = prepared;
     let (touches, sources) = Touches::open(&ask.touch, &surface)?;
-    let Opened { device, feeler, latency } = open::open(ask, &surface)?;
+    // A virtual surface computes its own modes.
+    let asked = (ask.clone(), surface.clone());
+    let Opened { device, feeler, latency } =
+        apart(asked, |(ask, surface), _| open::open(ask, surface), progress)?;
     let engine = Engine::new(&surface, maker, &set, sources, device, &settings)?;
     let mut engine = match feeler {
         Some(feeler) => engine.with_feeler(feeler),

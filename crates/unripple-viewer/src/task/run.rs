@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use unripple_calibrate::Interpolation;
 use unripple_tasks::play::{Opener, follower, late, opener};
-use unripple_tasks::{Progress, Source, SurfaceAsk, TaskError, go_on, judge, source};
+use unripple_tasks::{Progress, Source, SurfaceAsk, TaskError, apart, go_on, judge, source};
 
 /// Bytes of a token that is made here, before they are letters. 128 bits cannot be guessed.
 const TOKEN: usize = 16;
@@ -34,7 +34,7 @@ impl From<ViewError> for TaskError {
 }
 
 /// Shows a surface until the task is cancelled or the time asked for is over. `opened` is called with the page's
-/// addresses as soon as a page can be opened.
+/// addresses as soon as a page can be opened. A task that is cancelled before that returns within 0.2 s.
 ///
 /// ```
 /// use unripple_tasks::Silent;
@@ -52,7 +52,8 @@ impl From<ViewError> for TaskError {
 /// ```
 ///
 /// # Errors
-/// Those of [`View::open`], [`Viewer::serve`] and `opened`; [`TaskError::Ask`] that names the field.
+/// Those of [`View::open`], [`Viewer::serve`] and `opened`; [`TaskError::Ask`] that names the field; [`TaskError::Cancelled`] before the
+/// first page can be opened.
 pub fn run(
     ask: &Ask,
     progress: &mut dyn Progress,
@@ -61,7 +62,8 @@ pub fn run(
     if let Some(seconds) = ask.seconds.filter(|s| !s.is_finite() || *s <= 0.0) {
         return Err(TaskError::ask("seconds", "a number above 0 s", seconds));
     }
-    let viewer = open(ask, progress)?;
+    // The modes of a surface that needs a mesh take seconds, in which nothing asks whether to go on.
+    let viewer = apart(ask.clone(), open, progress)?;
     go_on(progress)?;
     let report = Report { url: viewer.url(), elsewhere: viewer.elsewhere() };
     opened(&report)?;
