@@ -1,5 +1,8 @@
 //! Core types: points, surfaces, impulse responses, drives and audio devices, and the conventions they share.
 //!
+//! The types hold descriptions and data, and the geometry of outlines is checked here for all crates. Nothing here
+//! computes waves, reads a file or opens a device: the crates that do so exchange these types.
+//!
 //! # Conventions
 //!
 //! - SI units and `f64` for all values. Files, the command line and messages use millimetres and milliseconds.

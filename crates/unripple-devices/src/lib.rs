@@ -1,9 +1,43 @@
 //! Virtual surfaces, sound servers and files as one kind of device.
 //!
-//! [`Virtual`] is a simulated surface as a [`Device`](unripple_core::Device); a [`Perturbation`] makes it differ from
-//! its model. [`Tape`] keeps a drive and plays recordings to its inputs; [`Jack`] is a sound server; with the feature
-//! `cards`, `cards::Card` is a sound card. [`check_wiring`] finds channels that are silent, swapped or reversed,
-//! [`check_responses`] and [`reciprocal`] find them in recordings; [`list`] lists the devices that are available.
+//! A device exchanges blocks of drive samples for blocks of recorded samples, through the trait
+//! [`Device`](unripple_core::Device) of `unripple-core`. What is to be played is computed elsewhere, and recordings are
+//! turned into responses by `unripple-calibrate`.
+//!
+//! # In reading order
+//!
+//! [`Virtual`] is a simulated surface as a device; its [`Handle`] moves a probe, taps, and puts fingers down, and a
+//! [`Perturbation`] makes the surface differ from its model. A [`Feeler`] computes what the fingers feel. [`Tape`] keeps
+//! a drive and plays recordings to its inputs; [`Jack`] is a sound server; with the feature `cards`, `cards::Card` is a
+//! sound card. [`check_wiring`] finds channels that are silent, swapped or reversed, [`check_responses`] and
+//! [`reciprocal`] find them in recordings; [`list`] lists the devices that are available.
+//!
+//! ```
+//! use unripple_core::Device;
+//! use unripple_devices::{DevicesError, Virtual, VirtualOptions};
+//! use unripple_physics::design::papers_surface;
+//!
+//! let mut film = papers_surface();
+//! film.emission.band = [0.0, 1000.0];
+//! let mut device = Virtual::new(&film, &VirtualOptions { block: 256, ..VirtualOptions::default() })?;
+//! assert_eq!((device.layout().outputs.len(), device.layout().inputs.len()), (8, 9)); // The last input is a probe.
+//!
+//! // An impulse to one actuator, as the sensor of another records it.
+//! let handle = device.handle();
+//! let mut record = |from: usize, to: usize| {
+//!     handle.rest(1);
+//!     let (mut drive, mut heard) = (vec![0.0; 8 * 256], vec![0.0; 9 * 256]);
+//!     drive[from * 256] = 1.0;
+//!     device.exchange(&drive, &mut heard)?;
+//!     Ok::<_, DevicesError>(heard[to * 256..][..256].to_vec())
+//! };
+//! let (there, back) = (record(0, 1)?, record(1, 0)?);
+//! // Reciprocity: both directions give the same signal.
+//! let largest = there.iter().fold(0.0, |most: f32, v| most.max(v.abs()));
+//! assert!(largest > 0.0);
+//! assert!(there.iter().zip(&back).all(|(v, w)| (v - w).abs() < 1e-5 * largest));
+//! # Ok::<(), DevicesError>(())
+//! ```
 
 #[cfg(feature = "cards")]
 pub mod cards;

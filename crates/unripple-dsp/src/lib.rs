@@ -1,4 +1,34 @@
 //! Signal processing: synthesis of modal responses, spectra, convolution, resampling, the vibrotactile detection threshold.
+//!
+//! Signals are slices of samples and modes are poles; surfaces, targets and devices are not known here. What only
+//! measurements need (sweeps, deconvolution, quality of responses) is in `unripple-calibrate`, what runs in real time in
+//! `unripple-player`.
+//!
+//! # In reading order
+//!
+//! [`ModalSynth`] computes impulse responses from the poles of modes. A [`Convolver`] keeps the Fourier transforms of
+//! signals that are convolved several times, [`convolve()`] does one convolution, [`resample()`] changes the sample rate. A
+//! [`Threshold`] is the displacement that a fingertip just feels, against frequency, and a [`Weighting`] is the filter
+//! that expresses a displacement in multiples of it. [`Complex`] is the type of spectra; the other functions are small.
+//!
+//! ```
+//! use unripple_core::Pole;
+//! use unripple_dsp::{ModalSynth, convolve};
+//! use unripple_linalg::mat;
+//!
+//! // The impulse response of three modes, 50 ms of it.
+//! let poles = [Pole::new(1000.0, 14.0), Pole::new(2300.0, 14.0), Pole::new(3700.0, 14.0)];
+//! let synth = ModalSynth::new(&poles, 8000.0, 401, 1e-6);
+//! let mut response = vec![0.0; 401];
+//! synth.respond(mat![[1.0, -0.6, 0.4]].as_ref(), &mut response)?;
+//! // Time reversal: played backwards into the same system, it gives its largest output, its energy, at its last sample.
+//! let reversed: Vec<f64> = response.iter().rev().copied().collect();
+//! let output = convolve(&reversed, &response);
+//! let energy: f64 = response.iter().map(|h| h * h).sum();
+//! assert!((output[400] - energy).abs() < 1e-9 * energy);
+//! assert!(output.iter().enumerate().all(|(i, v)| i == 400 || v.abs() < output[400]));
+//! # Ok::<(), unripple_dsp::DspError>(())
+//! ```
 
 mod convolve;
 mod error;

@@ -11,6 +11,12 @@
 //! run on one thread; a caller that has many of them can run several at a time. The exception is [`multiply`] with several threads, where
 //! faer splits large products with a single row or column.
 //!
+//! # In reading order
+//!
+//! [`Mat`] and its view [`MatRef`] are the matrices, [`product()`] multiplies two of them, and [`multiply()`] does so into a third with a
+//! choice of threads. [`Cholesky`] and [`Lu`] solve linear systems, [`symmetric()`] and [`general()`] eigenvalue problems, [`singular()`]
+//! gives singular values and vectors. [`sparse`] factors large symmetric matrices most of whose entries are zero.
+//!
 //! ```
 //! use unripple_linalg::{Mat, mat, norm, product, symmetric};
 //!

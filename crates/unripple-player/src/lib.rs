@@ -1,8 +1,13 @@
 //! A real-time player: mixes drives and waveforms into blocks of samples, within the limits of each actuator.
 //!
+//! Drives and responses come ready-made to the player, and its blocks go to whatever calls it: it computes no focus, knows
+//! no surface and opens no device.
+//!
+//! # In reading order
+//!
 //! [`player`] makes two ends. The [`Player`] runs on the audio thread and computes blocks; the [`Desk`] runs on any
-//! other thread, sends commands, receives reports, and frees the memory of what is no longer played. They are connected
-//! by lock-free ring buffers.
+//! other thread, sends [`Command`]s, receives [`Report`]s, and frees the memory of what is no longer played. They are
+//! connected by lock-free ring buffers.
 //!
 //! - **Start.** A command for [`At::Now`] that was sent before a block begins acts at that block's first sample; one
 //!   for a sample acts exactly at that sample. The same commands for the same samples give the same bits, however early
@@ -21,6 +26,27 @@
 //!   gain for all of them, which changes smoothly and is computed a block ahead.
 //! - **Work** in a block is bounded by [`Options`]: commands, copies, and the samples of drives that are compared with
 //!   the limits in one block. Starts beyond the bound begin with a later block, and are reported late.
+//!
+//! ```
+//! use std::sync::Arc;
+//! use unripple_core::Drive;
+//! use unripple_player::{At, Command, Options, Prepared, Report, Voice, player};
+//!
+//! let (mut player, mut desk) = player(&Options { outputs: 1, ..Options::default() })?;
+//! let drive = Drive::new(48e3, vec!["a1".into()], vec![vec![0.5, 1.0, -0.5]])?;
+//! let drive = Arc::new(Prepared::from_drive(&drive)?);
+//! for voice in [Voice(1), Voice(2)] {
+//!     let (drive, at) = (drive.clone(), At::Sample(10));
+//!     assert!(desk.send(Command::Start { voice, drive, at, gain: 0.75, period: None }).is_ok());
+//! }
+//! let mut block = [0.0; 64];
+//! player.process(&mut block);
+//! // Together they would reach 1.5: the second is scaled down as a whole, and nothing is clipped.
+//! assert!((block[11] - 1.0).abs() < 1e-5 && (block[10] - 0.5).abs() < 1e-5);
+//! let mut reports = std::iter::from_fn(|| desk.report());
+//! assert!(reports.any(|report| matches!(report, Report::Limited { voice: Voice(2), .. })));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod clicks;
 mod command;

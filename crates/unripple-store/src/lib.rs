@@ -1,7 +1,10 @@
 //! Files: surfaces as TOML, drives as WAV, shapes as SVG, and folders of results.
 //!
-//! Only this crate knows file formats. Files use millimetres, milliseconds and gigapascals, in keys that carry their
-//! unit; the types of this crate are in SI units. Whatever is written appears completely or not at all.
+//! Only this crate knows file formats, except for recorded touches, which are read in `unripple-touch`. Files use
+//! millimetres, milliseconds and gigapascals, in keys that carry their unit; the types of this crate are in SI units.
+//! Whatever is written appears completely or not at all. What the files describe is computed elsewhere.
+//!
+//! # In reading order
 //!
 //! - [`load_surface`] reads a built-in surface or a surface file, and reports all faults of a file at once;
 //!   [`to_toml`] writes one.
@@ -12,7 +15,6 @@
 //! - [`load_effects`] reads built-in effects, a file of effects, or one for phones; [`effects_to_toml`] writes one.
 //! - [`OutputDir`] collects what a run writes and puts it in place in one step, replacing only the output of an
 //!   earlier run; [`abandon_all`] removes what is under construction before a program ends early.
-//!
 //!
 //! ```
 //! let surface = unripple_store::load_surface("hudin-2012")?;

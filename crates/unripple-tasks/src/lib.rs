@@ -3,7 +3,15 @@
 //! There is a module for each task. In each, `Ask` is a plain struct of options in SI units, with defaults and serde;
 //! `run` does the work, reports to a [`Progress`] how far it is, and asks it whether the task has been cancelled;
 //! `Report` holds the results, with serde and as text. The command line, the page and other languages call the same
-//! functions, and `--json` prints the report.
+//! functions, and `--json` prints the report. No task prints or reads arguments, and none computes waves: they join the
+//! crates below to what a user asks for, and put results in files.
+//!
+//! # In reading order
+//!
+//! [`modes`] is the shortest task, [`focus`] the one that most others resemble. [`SurfaceAsk`] is a surface by its
+//! name, its file or its text, and [`source`] opens it, or a library of responses. [`Progress`] connects a running task
+//! with its caller, [`Report`] is what all reports have in common, a [`Record`] says how a report was made, and
+//! [`folder`] puts results in their place. [`TaskError`] is the error of all tasks.
 //!
 //! ```
 //! use unripple_tasks::{Report, Silent, modes};

@@ -66,10 +66,14 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`core`] holds the conventions (axes, signs, units, samples) that all modules keep to. The modules, from the lowest
-//! layer up: [`dsp`]; [`physics`], [`focus`], [`field`], [`player`], [`effects`]; [`store`], [`plot`], [`devices`],
-//! [`calibrate`], [`mod@touch`]; and those of this crate, [`act`], [`drafting`] and [`contrast_map`]. Playing a surface
-//! live is in the crate `unripple-live`, whole tasks with files and figures are in `unripple-tasks`.
+//! # In reading order
+//!
+//! [`core`] holds the types and the conventions (axes, signs, units, samples) that all modules keep to. [`physics`],
+//! [`focus`] and [`field`] are the three steps of the first example; [`act`] joins them and [`store`] reads and writes
+//! files, as in the second. Read the others as you need them: [`drafting`] and [`contrast_map`] to design a surface,
+//! [`calibrate`] to measure one, [`devices`] and [`player`] to play drives, [`mod@touch`] and [`effects`] to answer
+//! fingers, [`plot`] for figures; beneath them are [`plates`], [`dsp`] and [`linalg`]. Playing a surface live is in the
+//! crate `unripple-live`, whole tasks with files and figures are in `unripple-tasks`.
 
 pub use unripple_calibrate as calibrate;
 pub use unripple_core as core;
