@@ -28,9 +28,27 @@ impl Outline {
     }
 }
 
+impl Rims {
+    /// The rims of an outline, after a check that they enclose a sheet.
+    ///
+    /// # Errors
+    /// All faults found. If sides are invalid or rims are not closed, only these faults are listed.
+    pub fn new(outline: &Outline) -> Result<Self, Vec<OutlineFault>> {
+        let (mut all, mut loops) = (Vec::new(), Vec::new());
+        for rim in outline.loops() {
+            loops.push(all.len()..all.len() + rim.sides.len());
+            all.extend(rim.sides);
+        }
+        sides(&all, &loops)?;
+        let found = Self::of(all, loops);
+        rims(&found)?;
+        Ok(found)
+    }
+}
+
 /// Checks that each rim has sides, and that all sides have finite coordinates and a length. `loops` holds
 /// the index range of each rim's sides.
-pub(super) fn sides(sides: &[(Side, Edge)], loops: &[Range<usize>]) -> Result<(), Vec<OutlineFault>> {
+fn sides(sides: &[(Side, Edge)], loops: &[Range<usize>]) -> Result<(), Vec<OutlineFault>> {
     let mut faults = Vec::new();
     for (rim, range) in loops.iter().enumerate() {
         if range.is_empty() {
@@ -63,7 +81,7 @@ fn is_whole(side: &Side) -> bool {
 }
 
 /// Checks that rims are closed, do not meet, enclose an area anticlockwise, and that holes lie inside.
-pub(super) fn rims(rims: &Rims) -> Result<(), Vec<OutlineFault>> {
+fn rims(rims: &Rims) -> Result<(), Vec<OutlineFault>> {
     open(rims)?;
     let met = meetings(rims).map_err(|Endless| vec![OutlineFault::TooMany])?;
     let local = |side: usize| side - rims.loops[rims.rim_of(side)].start;

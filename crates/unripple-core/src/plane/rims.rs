@@ -1,10 +1,9 @@
 //! The boundary curves of an outline cut into short pieces, and distances across the sheet.
 
-use super::faults::OutlineFault;
 use super::piece::Piece;
 use super::tree::{Bounds, Node, Tree};
 use super::vector::{along, angle, cross, minus, norm};
-use crate::{Edge, Outline, Point, Side};
+use crate::{Edge, Point, Side};
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -32,22 +31,6 @@ pub struct Rims {
 }
 
 impl Rims {
-    /// The rims of an outline, after a check that they enclose a sheet.
-    ///
-    /// # Errors
-    /// All faults found. If sides are invalid or rims are not closed, only these faults are listed.
-    pub fn new(outline: &Outline) -> Result<Self, Vec<OutlineFault>> {
-        let (mut sides, mut loops) = (Vec::new(), Vec::new());
-        for rim in outline.loops() {
-            loops.push(sides.len()..sides.len() + rim.sides.len());
-            sides.extend(rim.sides);
-        }
-        super::check::sides(&sides, &loops)?;
-        let rims = Self::of(sides, loops);
-        super::check::rims(&rims)?;
-        Ok(rims)
-    }
-
     /// Rims of valid sides, without the check that they enclose a sheet; `loops` holds the index range of each rim's
     /// sides.
     pub(super) fn of(sides: Vec<(Side, Edge)>, loops: Vec<Range<usize>>) -> Self {
