@@ -39,6 +39,7 @@
 //! # Ok::<(), DevicesError>(())
 //! ```
 
+mod bandwidth;
 #[cfg(feature = "cards")]
 pub mod cards;
 mod delay;

@@ -246,7 +246,7 @@ impl Truth {
     /// # Errors
     /// Those of [`Modes::solve`].
     pub fn modes(&self, max_hz: Option<f64>) -> Result<Arc<Modes>, DevicesError> {
-        let top = crate::virtual_surface::top(&self.surface, max_hz)?;
+        let top = crate::bandwidth::top(&self.surface, max_hz)?;
         Ok(Arc::new(Modes::solve(&self.surface, top, Self::ACCURACY)?))
     }
 

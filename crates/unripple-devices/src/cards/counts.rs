@@ -1,6 +1,6 @@
 //! Frame counters of the two sides of a card, and whether both run on one clock.
 
-use super::streams::Side;
+use super::side::Side;
 use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU32, Ordering};
 
 /// Largest lag of a side behind the other on one clock, in largest chunks of both: a card holds two of each, and the

@@ -2,7 +2,7 @@
 
 use super::bell::Bell;
 use super::counts::Counts;
-use super::streams::Side;
+use super::side::Side;
 use rtrb::{Consumer, Producer, RingBuffer};
 use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex};

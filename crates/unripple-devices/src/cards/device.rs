@@ -2,7 +2,9 @@
 
 use super::crossing::{Events, crossing};
 use super::ferry::{Ferry, Manners};
-use super::streams::{self, Running, Side};
+use super::found::name;
+use super::side::Side;
+use super::streams::{self, Running};
 use crate::DevicesError;
 use crate::error::same;
 use cpal::traits::StreamTrait;
@@ -124,7 +126,7 @@ impl Card {
         let (player, recorder, shore) = crossing(outputs, inputs, room, &events);
         let playback = streams::find(options.playback.as_deref(), Side::Playback)?;
         let play = streams::config(&playback, Side::Playback, outputs, rate as u32, options.block)?;
-        let name = streams::name(&playback);
+        let name = name(&playback);
         let mut opened = Vec::new();
         if inputs > 0 {
             let named = options.capture.as_deref().or(options.playback.as_deref());

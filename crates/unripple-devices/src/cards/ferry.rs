@@ -1,7 +1,8 @@
 //! The program's side of a card: blocks exchanged with the threads that play and record, or with a stand-in for them.
 
 use super::crossing::{Events, Shore};
-use super::streams::{Side, Streams};
+use super::side::Side;
+use super::streams::Streams;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Duration;

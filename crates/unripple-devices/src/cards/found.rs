@@ -1,6 +1,6 @@
 //! Sound cards that are there, and what they offer.
 
-use super::streams::{Side, name};
+use super::side::Side;
 use cpal::traits::{DeviceTrait, HostTrait};
 
 /// A device of the sound system.
@@ -43,6 +43,11 @@ pub fn found() -> Vec<CardFound> {
         CardFound { name: told.unwrap_or_else(|_| id.clone()), id, playback, capture }
     };
     devices.map(card).filter(|card| card.playback.is_some() || card.capture.is_some()).collect()
+}
+
+/// The name of a sound card.
+pub(super) fn name(device: &cpal::Device) -> String {
+    device.id().map_or_else(|_| "card".into(), |id| id.id().to_owned())
 }
 
 fn offer(side: Side, device: &cpal::Device) -> Option<Offer> {

@@ -9,6 +9,7 @@ mod crossing;
 mod device;
 mod ferry;
 mod found;
+mod side;
 #[cfg(test)]
 mod stand_in;
 mod streams;

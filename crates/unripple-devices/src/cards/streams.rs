@@ -1,6 +1,8 @@
 //! A card's two streams, one that plays and one that records, opened through `cpal`.
 
 use super::crossing::{Events, Player, Recorder};
+use super::found::name;
+use super::side::Side;
 use crate::DevicesError;
 use cpal::traits::{DeviceTrait, HostTrait, StreamTrait};
 use cpal::{BufferSize, Error, ErrorKind, FromSample, Sample, SampleFormat, SizedSample, StreamConfig};
@@ -43,52 +45,6 @@ impl Streams for Running {
 
 /// Formats of samples that are understood, the best first.
 const FORMATS: [SampleFormat; 3] = [SampleFormat::F32, SampleFormat::I32, SampleFormat::I16];
-
-/// The direction of a stream: playing or recording.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
-    Playback,
-    Capture,
-}
-
-impl Side {
-    /// The opposite direction.
-    pub(super) fn other(self) -> Self {
-        match self {
-            Self::Playback => Self::Capture,
-            Self::Capture => Self::Playback,
-        }
-    }
-
-    /// The verb for messages: played or recorded.
-    pub(super) fn did(self) -> &'static str {
-        match self {
-            Self::Playback => "played",
-            Self::Capture => "recorded",
-        }
-    }
-
-    fn channels(self) -> &'static str {
-        match self {
-            Self::Playback => "output channels",
-            Self::Capture => "input channels",
-        }
-    }
-
-    /// The stream formats that a device offers in this direction.
-    pub(super) fn offers(self, device: &cpal::Device) -> Vec<cpal::SupportedStreamConfigRange> {
-        match self {
-            Self::Playback => device.supported_output_configs().map(Iterator::collect),
-            Self::Capture => device.supported_input_configs().map(Iterator::collect),
-        }
-        .unwrap_or_default()
-    }
-}
-
-/// The name of a sound card.
-pub(super) fn name(device: &cpal::Device) -> String {
-    device.id().map_or_else(|_| "card".into(), |id| id.id().to_owned())
-}
 
 /// The device of a name, with or without the name of its sound system before it; the system's default for `None`.
 pub(super) fn find(named: Option<&str>, side: Side) -> Result<cpal::Device, DevicesError> {

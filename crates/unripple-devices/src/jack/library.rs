@@ -15,28 +15,27 @@ mod joining;
 mod roll;
 #[cfg(unix)]
 mod starting;
+mod types;
 mod uncancelled;
 
 use super::events::{Events, Side};
 use crate::DevicesError;
-use api::{Api, Arg, CAPTURE_LATENCY, LatencyRange, PLAYBACK_LATENCY, RawClient, RawPort, api};
+use api::{Api, api};
 use closing::Closing;
 pub(super) use door::shut;
 use joining::join;
-use std::ffi::{CStr, CString, c_int, c_uint, c_ulong, c_void};
+use std::ffi::{CStr, CString, c_int, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
+use types::{
+    Arg, CAPTURE_LATENCY, LatencyRange, NO_START_SERVER, PLAYBACK_LATENCY, PORT_IS_INPUT, PORT_IS_OUTPUT,
+    PORT_IS_PHYSICAL, RawClient, RawPort, SERVER_NAME,
+};
 use uncancelled::uncancelled;
 
-/// Of `jack/types.h`: start no server, a server's name follows, and what a port is.
-const NO_START_SERVER: c_uint = 0x01;
-const SERVER_NAME: c_uint = 0x04;
-const PORT_IS_INPUT: c_ulong = 0x1;
-const PORT_IS_OUTPUT: c_ulong = 0x2;
-const PORT_IS_PHYSICAL: c_ulong = 0x4;
 /// What `jack_connect` returns for a connection that is there already: `EEXIST`.
 const EXISTS: c_int = 17;
 

@@ -6,11 +6,14 @@ mod device;
 mod events;
 mod library;
 mod links;
+mod options;
 mod watch;
+mod wires;
 
 pub use bridge::Bridge;
-pub use device::{Jack, JackOptions};
+pub use device::Jack;
 pub use links::Links;
+pub use options::JackOptions;
 
 use events::Side;
 use library::Client;

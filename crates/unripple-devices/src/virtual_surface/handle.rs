@@ -1,7 +1,6 @@
 //! A handle on a virtual surface: moves the probe, taps, puts fingers down.
 
-use super::lock;
-use super::workings::Workings;
+use super::workings::{Workings, lock};
 use crate::{DevicesError, Tap};
 use std::sync::{Arc, Mutex};
 use unripple_core::{Contact, Point, require};

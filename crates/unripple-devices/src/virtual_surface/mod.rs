@@ -8,16 +8,17 @@ mod workings;
 pub use feeler::{Feeler, Feeling};
 pub use handle::Handle;
 
+use crate::bandwidth::top;
 use crate::interface::Converter;
 use crate::{DevicesError, Interface, Truth};
-use std::sync::{Arc, Mutex, MutexGuard};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 use unripple_core::{Device, DeviceError, Layout, PROBE, Point, State, Status, Surface, require};
 use unripple_physics::stepper::{
     Channel, InjectedFaults, Misbehaving, Plant, Reading, StepperOptions, VirtualSurface,
 };
 use unripple_physics::{Footprint, Modes, stepped_hz};
-use workings::Workings;
+use workings::{Workings, lock};
 
 /// Options of a virtual device: blocks, faults, probe, accuracy.
 #[derive(Clone, Debug, PartialEq)]
@@ -227,20 +228,4 @@ impl Device for Virtual {
         self.status.lost = lock(&self.workings).lost();
         Ok(())
     }
-}
-
-/// Top frequency of a surface's modes, in Hz: `asked`, or what the surface's band needs.
-///
-/// # Errors
-/// [`DevicesError::Physics`] for actuators that are not valid.
-pub(crate) fn top(surface: &Surface, asked: Option<f64>) -> Result<f64, DevicesError> {
-    match asked {
-        Some(top) => Ok(top),
-        None => Ok(stepped_hz(surface, surface.emission.band[1])?),
-    }
-}
-
-/// The surface behind its lock, even if another thread panicked while it held it.
-fn lock(workings: &Mutex<Workings>) -> MutexGuard<'_, Workings> {
-    workings.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
 }

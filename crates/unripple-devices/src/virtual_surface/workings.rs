@@ -3,6 +3,7 @@
 use super::watch::{self, Watch};
 use crate::DevicesError;
 use crate::interface::Converter;
+use std::sync::{Mutex, MutexGuard};
 use unripple_core::{Layout, Point};
 use unripple_physics::stepper::{Footing, Misbehaving};
 
@@ -182,4 +183,9 @@ impl Workings {
         slot.strikes.sort_by_key(|strike| strike.start);
         Ok(())
     }
+}
+
+/// The surface behind its lock, even if another thread panicked while it held it.
+pub(super) fn lock(workings: &Mutex<Workings>) -> MutexGuard<'_, Workings> {
+    workings.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
 }

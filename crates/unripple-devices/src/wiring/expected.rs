@@ -1,26 +1,9 @@
 //! Responses from each output to each input, as a model predicts them.
 
-use super::WiringOptions;
 use crate::DevicesError;
 use crate::error::same;
 use unripple_core::{ModalResponses, Point, Surface, require};
 use unripple_physics::{Sensor, sensed, sensors};
-
-/// Decay times from burst to burst, (`LOW`) the share of a burst's frequency whose decay counts, and (`LONGEST`) the longest pause,
-/// in s. After five decay times an amplitude is at 0.7 %; half as many leave 8 % of one burst in the next.
-const PAUSE: f64 = 5.0;
-const LOW: f64 = 0.3;
-const LONGEST: f64 = 10.0;
-
-impl WiringOptions {
-    /// Options for a surface: bursts at a fifth of its band, each when the one before has died away to less than a
-    /// hundredth.
-    pub fn for_surface(surface: &Surface) -> Self {
-        let usual = Self::for_band(surface.emission.band);
-        let decay = crate::perturbation::nominal_decay(surface, LOW * usual.frequency);
-        Self { pause: (PAUSE * decay).min(LONGEST).max(usual.pause), ..usual }
-    }
-}
 
 /// The impulse response that a model gives from each output to each input.
 ///

@@ -2,28 +2,11 @@
 
 #[cfg(unix)]
 use super::starting;
+use super::types::{Arg, LatencyRange, RawClient, RawPort};
 use crate::DevicesError;
 use libloading::Library;
 use std::ffi::{c_char, c_int, c_uint, c_ulong, c_void};
 use std::sync::OnceLock;
-
-/// A client and a port, as the library knows them.
-pub(super) enum RawClient {}
-pub(super) enum RawPort {}
-
-/// Of `jack/types.h`: latency of what is recorded, and of what is played.
-pub(super) const CAPTURE_LATENCY: c_uint = 0;
-pub(super) const PLAYBACK_LATENCY: c_uint = 1;
-
-/// Least and largest latency in samples, of all paths to or from a port.
-#[repr(C)]
-#[derive(Clone, Copy, Default)]
-pub(super) struct LatencyRange {
-    pub(super) min: u32,
-    pub(super) max: u32,
-}
-
-pub(super) type Arg = *mut c_void;
 
 /// The functions used, by their C names without `jack_`.
 macro_rules! functions {

@@ -1,9 +1,10 @@
 //! How a client leaves its server: on a thread of its own, since a server that stands still answers nobody.
 
 use super::Context;
-use super::api::{Api, RawClient};
+use super::api::Api;
 use super::door::{PATIENCE, Passage};
 use super::roll;
+use super::types::RawClient;
 use crate::jack::events::Events;
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, mpsc};

@@ -1,9 +1,10 @@
 //! How a client joins a server: on a thread of its own, since a library that waits for a lock, or for a server that stands still, never
 //! returns.
 
-use super::api::{Api, RawClient};
+use super::api::Api;
 use super::door::{PATIENCE, Passage, door};
 use super::roll;
+use super::types::RawClient;
 use crate::DevicesError;
 use std::sync::mpsc;
 use std::time::{Duration, Instant};

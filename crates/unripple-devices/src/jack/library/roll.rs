@@ -3,7 +3,7 @@
 //! Once a server is gone, JACK 2 deletes all clients of the program when another joins (`JackLibGlobals::Init` in its sources); closing one
 //! of them later crashes. So no client may join then before all others have left.
 
-use super::api::RawClient;
+use super::types::RawClient;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
