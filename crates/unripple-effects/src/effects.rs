@@ -60,7 +60,7 @@ impl Effects {
                 Kind::Score(score) => score.start,
                 _ => Start::Touch,
             };
-            let maker = effect.kind.maker(effect, rate)?;
+            let maker = effect.kind.maker(&effect.region, rate)?;
             Ok(Ready {
                 name: effect.name.clone(),
                 region: effect.region.clone(),

@@ -19,7 +19,7 @@ pub use texture::Texture;
 pub use train::Train;
 
 use crate::play::Maker;
-use crate::{Effect, EffectsError};
+use crate::{EffectsError, Region};
 
 /// The kinds of effects, each with its parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,12 +80,12 @@ impl Kind {
         }
     }
 
-    /// The function that starts this effect under a contact, with waveforms at `rate` samples per second.
-    pub(crate) fn maker(&self, effect: &Effect, rate: f64) -> Result<Maker, EffectsError> {
+    /// The function that starts an effect of this kind in a region, under a contact, with waveforms at `rate` samples per second.
+    pub(crate) fn maker(&self, region: &Region, rate: f64) -> Result<Maker, EffectsError> {
         Ok(match self {
             Self::Button(button) => button.maker(),
             Self::Texture(texture) => texture.maker(),
-            Self::Edge(edge) => edge.maker(effect.region.clone()),
+            Self::Edge(edge) => edge.maker(region.clone()),
             Self::Notch(notch) => notch.maker(),
             Self::Train(train) => train.maker(),
             Self::Shape(shape) => shape.maker(),
