@@ -57,6 +57,7 @@ mod modal;
 mod motion;
 mod pulse;
 mod reach;
+mod reading;
 mod readout;
 mod sampled;
 mod source;

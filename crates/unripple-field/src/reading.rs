@@ -1,0 +1,137 @@
+//! What is read from the field of a modal system: traces, surveys, felt levels, spots.
+
+use crate::feeling::Feeling;
+use crate::modal::{ModalField, POINTS, State, add_to};
+use crate::motion::Motion;
+use crate::source::{Passage, Quantity, Source, Survey, Tally, Trace, Weighed};
+use crate::spot::{Around, Spot};
+use crate::{FieldError, spot};
+use rayon::prelude::*;
+use std::ops::Range;
+use unripple_core::Point;
+use unripple_linalg::{Mat, Number, product};
+
+/// Most samples from the start of a drive: 7 minutes at 48 kHz. Doubled, twice as long.
+const MOST_SAMPLES: usize = 20_000_000;
+
+impl Source for ModalField<'_> {
+    fn points(&self) -> &[Point] {
+        &self.kept.points
+    }
+
+    fn locate(&self, place: Point) -> Result<Point, FieldError> {
+        let outline = &self.responses.conditions.outline;
+        if outline.contains(place) {
+            return Ok(place);
+        }
+        Err(FieldError::Outside { at: place, nearest: outline.nearest(place) })
+    }
+
+    fn known(&self) -> usize {
+        MOST_SAMPLES
+    }
+
+    fn traces(&self, sets: &[Vec<Point>], range: Range<usize>) -> Vec<Trace> {
+        let mut weights = Mat::<f64>::zeros(sets.len(), self.modes());
+        for (row, set) in sets.iter().enumerate() {
+            let all = self.responses.shapes.at_all(set);
+            for m in 0..self.modes() {
+                weights[(row, m)] =
+                    (0..set.len()).map(|p| all[(p, m)]).sum::<f64>() / set.len().max(1) as f64;
+            }
+        }
+        let mut traces = vec![Trace::default(); sets.len()];
+        let mut motion = Motion::new(self.responses, self.drive);
+        motion.skip_to(range.start, self.samples_at_once());
+        while motion.next() < range.end {
+            let count = (range.end - motion.next()).min(self.samples_at_once());
+            let [velocity, displacement] = states::<f64>(&mut motion, count, self.modes(), |x| x);
+            let [velocity, displacement] =
+                [velocity, displacement].map(|states| product(weights.as_ref(), states.as_ref()));
+            for (row, trace) in traces.iter_mut().enumerate() {
+                trace.velocity.extend((0..count).map(|i| velocity[(row, i)]));
+                trace.displacement.extend((0..count).map(|i| displacement[(row, i)]));
+            }
+        }
+        traces
+    }
+
+    fn survey(&self, segments: &[Range<usize>], instants: &[usize]) -> Survey {
+        let chunk =
+            |points: &[Point]| vec![[Tally::zeros(points.len()), Tally::zeros(points.len())]; segments.len()];
+        let mut tallies: Vec<Vec<[Tally; 2]>> = self.points().chunks(POINTS).map(chunk).collect();
+        let mut motion = Motion::new(self.responses, self.drive);
+        for (segment, range) in segments.iter().enumerate() {
+            motion.skip_to(range.start, self.samples_at_once());
+            while motion.next() < range.end {
+                let count = (range.end - motion.next()).min(self.samples_at_once());
+                let both = states::<f32>(&mut motion, count, self.modes(), |x| x as f32);
+                self.for_chunks(&mut tallies, |weights, own| {
+                    for (states, tally) in both.iter().zip(&mut own[segment]) {
+                        add_to(tally, weights.as_ref(), states.as_ref());
+                    }
+                });
+            }
+        }
+        Survey { tallies: joined(tallies, segments.len()), snapshots: self.snapshots(instants) }
+    }
+
+    fn weighed(&self, passage: &Passage) -> Weighed {
+        Feeling::of(self, passage).weighed()
+    }
+
+    fn spots(&self, requests: &[(Point, usize, Quantity)]) -> Vec<Spot> {
+        let instants: Vec<usize> = requests.iter().map(|(_, sample, _)| *sample).collect();
+        let states = self.states(&instants);
+        let conditions = &self.responses.conditions;
+        let measure = |((at, _, quantity), state): (&(Point, usize, Quantity), &State)| {
+            let state = state.of(*quantity);
+            let field = |points: &[Point]| {
+                let weights = self.responses.shapes.at_all(points);
+                let value = |p| (0..state.len()).map(|m| weights[(p, m)] * state[m]).sum();
+                (0..points.len()).map(value).collect::<Vec<f64>>()
+            };
+            spot::spot(
+                &Around { at: *at, outline: &conditions.outline, wavelength: conditions.lambda_min },
+                field,
+            )
+        };
+        requests.par_iter().zip(&states).map(measure).collect()
+    }
+}
+
+/// States over the next `count` samples, modes x samples: velocity and displacement.
+fn states<T: Number>(
+    motion: &mut Motion<'_>,
+    count: usize,
+    modes: usize,
+    convert: impl Fn(f64) -> T,
+) -> [Mat<T>; 2] {
+    let mut both = [Mat::zeros(modes, count), Mat::zeros(modes, count)];
+    let mut column = 0;
+    motion.advance(count, |displacement, velocity| {
+        let [to_velocity, to_displacement] = &mut both;
+        to_velocity.col_as_slice_mut(column).iter_mut().zip(velocity).for_each(|(to, v)| *to = convert(*v));
+        to_displacement
+            .col_as_slice_mut(column)
+            .iter_mut()
+            .zip(displacement)
+            .for_each(|(to, u)| *to = convert(*u));
+        column += 1;
+    });
+    both
+}
+
+/// From `[chunk][segment]` to one tally per segment over all points.
+fn joined(chunks: Vec<Vec<[Tally; 2]>>, segments: usize) -> Vec<[Tally; 2]> {
+    let mut whole = vec![<[Tally; 2]>::default(); segments];
+    for chunk in chunks {
+        for (to, from) in whole.iter_mut().zip(chunk) {
+            for (to, from) in to.iter_mut().zip(from) {
+                to.peak.extend(from.peak);
+                to.squares.extend(from.squares);
+            }
+        }
+    }
+    whole
+}
