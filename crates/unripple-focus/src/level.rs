@@ -1,6 +1,6 @@
 //! Drives scaled to their peak and rms limits.
 
-use crate::recording::{energy, peak};
+use crate::magnitude::{energy, peak};
 
 /// Scales channels (actuators x samples) down as a whole to a largest magnitude and a largest rms per
 /// channel, in the drive's unit, and says by which factor: 1 where neither was reached.

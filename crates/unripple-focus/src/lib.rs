@@ -45,10 +45,12 @@
 
 mod error;
 mod felt;
+mod focused;
 mod focuser;
 mod gains;
 mod level;
 mod limited;
+mod magnitude;
 mod modal;
 mod objective;
 mod options;
@@ -65,7 +67,8 @@ pub mod waveform;
 
 pub use error::FocusError;
 pub use felt::{FeltOptions, FeltPlan};
-pub use focuser::{Focused, Focuser, focus};
+pub use focused::Focused;
+pub use focuser::{Focuser, focus};
 pub use options::{LossCorrection, Method, Options};
 pub use pattern::{Line, Pattern};
 pub use pulses::{Pulse, PulseOptions, Struck, strike};

@@ -1,6 +1,6 @@
 //! Recordings for time reversal, synthesised from modes.
 
-use crate::recording::energy;
+use crate::magnitude::energy;
 use crate::{FocusError, LossCorrection, Options};
 use unripple_core::{ModalResponses, Onset, Point, Pole};
 use unripple_dsp::ModalSynth;

@@ -8,7 +8,7 @@ use super::reduced::Reduced;
 use super::solve::{Held, Programme};
 use super::splines::Splines;
 use super::watch::Watch;
-use crate::recording::{energy, peak};
+use crate::magnitude::{energy, peak};
 use crate::schedule::MOST_SAMPLES;
 use crate::{FocusError, Focused, Method, Target, Timing, target};
 use std::f64::consts::{PI, TAU};

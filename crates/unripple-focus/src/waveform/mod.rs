@@ -1,105 +1,22 @@
 //! Drives that impose a waveform at each of several targets and silence at others (crosstalk cancellation).
 
 mod asked;
+mod motion;
+mod options;
 mod plan;
 mod signal;
 mod solve;
 mod transfer;
 
 use crate::{FocusError, Target, level, target};
+pub use motion::{Quantity, Waveform};
+pub use options::PlayOptions;
 pub use signal::{burst, click, resampled, sine};
 
 use asked::Asked;
 use plan::Plan;
 use transfer::Transfer;
 use unripple_core::{Drive, Point, Responses, require};
-
-/// A target, and the waveform that its motion is to follow.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Waveform {
-    /// Where, in metres: a point, or a set of points that are all to move alike.
-    pub points: Vec<Point>,
-    /// Samples of the motion, at the sample rate of the responses: metres, or m/s where velocity is asked for.
-    pub samples: Vec<f64>,
-    /// Seconds from the start of the first waveform to the start of this one; rounded to a sample.
-    pub delay: f64,
-}
-
-impl Waveform {
-    /// A waveform at one point (m), without delay, with samples in m or m/s.
-    pub fn at(point: Point, samples: Vec<f64>) -> Self {
-        Self { points: vec![point], samples, delay: 0.0 }
-    }
-
-    /// The same waveform, later by `delay` seconds.
-    pub fn delayed(self, delay: f64) -> Self {
-        Self { delay, ..self }
-    }
-}
-
-/// Physical quantity of the samples of a waveform.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Quantity {
-    /// Displacement, in metres.
-    #[default]
-    Displacement,
-    /// Velocity, in m/s.
-    Velocity,
-}
-
-/// Options of [`play`]: quantity, band, regularisation and limits.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PlayOptions {
-    /// Quantity of the samples: displacement or velocity.
-    pub quantity: Quantity,
-    /// Lowest and highest frequency that is played, in Hz; the responses' band where `None`. The highest tenth fades out.
-    pub band: Option<[f64; 2]>,
-    /// Weight λ of the drive's energy against the error, dimensionless; see [`play`]. A single target whose response
-    /// has the mean strength g is followed at 1/(1 + λ) of its amplitude: half at 1, practically all at 1e-5.
-    pub energy_weight: f64,
-    /// Time that the drive may begin before the first waveform and end after the last, in seconds.
-    pub lead: [f64; 2],
-    /// Largest drive per actuator, in the drive's unit. A drive above it is scaled down as a whole.
-    pub limit: f64,
-    /// Largest rms per actuator over the whole drive, in the drive's unit. A drive above it is scaled down as a whole.
-    pub rms_limit: Option<f64>,
-    /// The iteration ends when the residual of the dual equations is at most this share of their right-hand side
-    /// (Euclidean norms); see [`play`].
-    pub tolerance: f64,
-    /// Largest number of iterations of the conjugate gradients.
-    pub passes: usize,
-}
-
-impl Default for PlayOptions {
-    /// Displacement over the whole band, 30 ms before and after, at a limit of 1.
-    fn default() -> Self {
-        Self {
-            quantity: Quantity::Displacement,
-            band: None,
-            energy_weight: 1e-5,
-            lead: [30e-3; 2],
-            limit: 1.0,
-            rms_limit: None,
-            tolerance: 1e-3,
-            passes: 100,
-        }
-    }
-}
-
-impl PlayOptions {
-    fn check(&self) -> Result<(), FocusError> {
-        let positive = |x: f64| x.is_finite() && x > 0.0;
-        for (what, x) in [("limit", self.limit), ("rms limit", self.rms_limit.unwrap_or(1.0))] {
-            require(what, positive(x), "a positive number", x)?;
-        }
-        for (what, x) in [("energy weight", self.energy_weight), ("tolerance", self.tolerance)] {
-            require(what, (1e-12..=1e12).contains(&x), "1e-12 to 1e12", x)?;
-        }
-        self.lead.iter().try_for_each(|lead| {
-            Ok(require("lead of a waveform (s)", lead.is_finite() && *lead >= 0.0, "0 or more", *lead)?)
-        })
-    }
-}
 
 /// A drive that plays waveforms, and the motion that it was computed for.
 #[derive(Clone, Debug, PartialEq)]
