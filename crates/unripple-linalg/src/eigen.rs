@@ -1,6 +1,6 @@
 //! Eigenvalues and eigenvectors of dense matrices.
 
-use crate::Entry;
+use crate::{Entry, General};
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{
@@ -42,15 +42,6 @@ fn decomposed<T: ComplexField<Real = f64>>(
     let (to, stack) = (Some(vectors.as_mut()), MemStack::new(&mut buffer));
     self_adjoint_evd(matrix, values.as_mut(), to, Par::Seq, stack, params.into()).ok()?;
     Some((values.column_vector().iter().map(T::real_part_impl).collect(), vectors))
-}
-
-/// Eigenvalues and right eigenvectors of a general (not necessarily symmetric) n x n matrix.
-#[derive(Clone, Debug)]
-pub struct General {
-    /// The n eigenvalues, in no particular order.
-    pub values: Vec<c64>,
-    /// The right eigenvectors in the columns of an n x n matrix, in the order of the eigenvalues.
-    pub vectors: Mat<c64>,
 }
 
 /// The eigenvalues and right eigenvectors of a general n x n matrix; `None` if the iteration does not converge, as when entries are not

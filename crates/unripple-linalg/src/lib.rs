@@ -30,6 +30,8 @@
 
 mod cholesky;
 mod eigen;
+mod eigenpairs;
+mod instances;
 mod lu;
 mod number;
 mod product;
@@ -37,7 +39,8 @@ mod singular;
 pub mod sparse;
 
 pub use cholesky::{Cholesky, CholeskyInPlace, solve_lower, solve_lower_alone, solve_upper_alone};
-pub use eigen::{General, exact_symmetric, general, symmetric};
+pub use eigen::{exact_symmetric, general, symmetric};
+pub use eigenpairs::General;
 pub use faer::{Accum, Col, ColMut, ColRef, Mat, MatMut, MatRef, Par, RowRef, Scale, c64, mat};
 pub use lu::Lu;
 pub use number::{Entry, Number};

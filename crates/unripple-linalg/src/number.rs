@@ -1,9 +1,9 @@
-//! The number types of matrices, and the functions that are compiled once for each.
+//! The number types of matrices, and the functions that each must have.
 
 use crate::General;
 use faer::linalg::solvers::PartialPivLu;
 use faer::traits::ComplexField;
-use faer::{Accum, Mat, MatMut, MatRef, Par, c64};
+use faer::{Accum, Mat, MatMut, MatRef, Par};
 
 /// Number types whose matrices can be multiplied: f32, f64 and c64.
 pub trait Number: sealed::Products {}
@@ -37,59 +37,3 @@ pub(crate) mod sealed {
         fn inverse(factors: &PartialPivLu<Self>) -> Mat<Self>;
     }
 }
-
-macro_rules! numbers {
-    ($($number:ty),*) => {$(
-        impl Number for $number {}
-
-        impl sealed::Products for $number {
-            #[inline(never)]
-            fn multiply(
-                out: MatMut<'_, Self>,
-                accum: Accum,
-                left: MatRef<'_, Self>,
-                right: MatRef<'_, Self>,
-                factor: Self,
-                par: Par,
-            ) {
-                faer::linalg::matmul::matmul(out, accum, left, right, factor, par);
-            }
-        }
-    )*};
-}
-
-macro_rules! entries {
-    ($($number:ty: $general:path),*) => {$(
-        impl Entry for $number {}
-
-        impl sealed::Decompositions for $number {
-            #[inline(never)]
-            fn symmetric(matrix: MatRef<'_, Self>) -> Option<(Vec<f64>, Mat<Self>)> {
-                crate::eigen::divided(matrix)
-            }
-
-            #[inline(never)]
-            fn general(matrix: MatRef<'_, Self>) -> Option<General> {
-                $general(matrix)
-            }
-
-            #[inline(never)]
-            fn lu(matrix: MatRef<'_, Self>) -> PartialPivLu<Self> {
-                PartialPivLu::new(matrix)
-            }
-
-            #[inline(never)]
-            fn solve_lu(factors: &PartialPivLu<Self>, right: MatMut<'_, Self>) {
-                crate::lu::solve(factors, right);
-            }
-
-            #[inline(never)]
-            fn inverse(factors: &PartialPivLu<Self>) -> Mat<Self> {
-                faer::linalg::solvers::DenseSolveCore::inverse(factors)
-            }
-        }
-    )*};
-}
-
-numbers!(f32, f64, c64);
-entries!(f64: crate::eigen::general_real, c64: crate::eigen::general_complex);
