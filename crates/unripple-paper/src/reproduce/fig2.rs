@@ -1,16 +1,22 @@
 //! Fig. 2: one actuator in a reverberant cavity, and a triangle.
 
+mod focus;
+mod ratio;
 mod triangle;
 
 pub use triangle::triangle;
 
+use self::focus::focused;
+use self::ratio::ratio;
 use super::bed::Bed;
-use super::fig1::{FORCE, actuator, cells, driven_at, first, modal, place};
+use super::fields::{cells, first};
+use super::modes::{FORCE, actuator, driven_at, modal};
+use super::places::place;
 use super::section::{Compared, Picture, Section};
 use serde_json::{Value, json};
-use unripple::core::{ModalResponses, Pole, Responses, window_samples};
+use unripple::core::{ModalResponses, Pole, window_samples};
 use unripple::field::{self, Aim, Field, Snapshot, TargetFigures};
-use unripple::focus::{Focused, Options, Target, focus};
+use unripple::focus::Target;
 use unripple::physics::design::closed;
 use unripple_plot::{Along, Axis, Colours, Figure, Ink, Legend, Line, Plot, Rule, Traces, prefixed};
 use unripple_tasks::TaskError;
@@ -93,11 +99,6 @@ fn snapshot(shots: &mut Vec<Snapshot>) -> Result<Snapshot, TaskError> {
         return Err(TaskError::Work("no field was measured at the focus".into()));
     }
     Ok(shots.swap_remove(0))
-}
-
-fn focused(bed: &Bed, responses: &Responses, target: Target) -> Result<Focused, TaskError> {
-    let options = Options { window: bed.window, limit: FORCE, ..Options::default() };
-    focus(responses, &[target], &options).map_err(TaskError::work)
 }
 
 /// Fig. 2a: one actuator gives a good focus with a short window, followed by a long tail of noise.
@@ -192,10 +193,6 @@ fn decay(bed: &Bed, films: [&Alone; 2]) -> Figure {
 
 fn shown(time: Option<f64>) -> String {
     time.map_or_else(|| format!("more than {:.0} ms", FOLLOWED * 1e3), |t| format!("{:.0} ms", t * 1e3))
-}
-
-fn ratio(value: Option<f64>) -> String {
-    value.map_or("-".into(), |value| format!("{value:.1}"))
 }
 
 fn alone_caption(

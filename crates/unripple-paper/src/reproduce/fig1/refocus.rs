@@ -1,8 +1,12 @@
 //! The reversed recording of Fig. 1, played by the actuator.
 
-use super::{C, FORCE, IMPULSE, Recording, cells, curve, driven_at, first, largest, place, strip};
+use super::panels::{curve, strip};
+use super::recording::{IMPULSE, Recording};
 use crate::reproduce::Bed;
-use unripple::core::{Drive, ModalResponses, Port, window_samples};
+use crate::reproduce::fields::{cells, first, largest};
+use crate::reproduce::modes::{FORCE, driven_at};
+use crate::reproduce::places::place;
+use unripple::core::{Drive, ModalResponses, Point, Port, window_samples};
 use unripple::field::{self, Aim, Field, Snapshot, TargetFigures, Trace};
 use unripple::focus::{Options, Target, focus};
 use unripple_dsp::rms;
@@ -10,6 +14,9 @@ use unripple_plot::{Axis, Figure, Ink, Rule, Traces, prefixed};
 use unripple_tasks::TaskError;
 use unripple_tasks::figures::Scene;
 use unripple_tasks::judge::CELLS;
+
+/// A point that is not aimed at, where the noise is read.
+pub(super) const C: Point = Point::new(0.110, 0.055);
 
 /// Share of the peak at which the colours of the converging wave saturate.
 const SATURATED: f64 = 0.6;

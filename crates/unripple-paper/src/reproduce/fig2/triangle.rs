@@ -1,7 +1,9 @@
 //! Fig. 2b: a triangle.
 
-use super::{focused, ratio};
-use crate::reproduce::fig1::{FORCE, cells, first, largest};
+use super::focus::focused;
+use super::ratio::ratio;
+use crate::reproduce::fields::{cells, first, largest};
+use crate::reproduce::modes::FORCE;
 use crate::reproduce::{Bed, Compared, Picture, Section};
 use serde_json::json;
 use unripple::core::Point;

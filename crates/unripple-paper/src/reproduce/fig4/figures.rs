@@ -1,8 +1,8 @@
 //! Figures of two repeated foci.
 
-use super::{AMPLITUDE, LASTS, RATES, Repeated, STEADY, Tracked, steady};
+use super::repeated::{AMPLITUDE, LASTS, RATES, Repeated, STEADY, Tracked, steady};
 use crate::reproduce::Bed;
-use crate::reproduce::fig1::{named, place};
+use crate::reproduce::places::{named, place};
 use unripple::core::window_samples;
 use unripple_plot::{
     Axis, Colours, Dash, Figure, Grid, Ink, Layer, Legend, Line, Plot, Rgb, Rule, Traces, prefixed,

@@ -1,0 +1,82 @@
+//! The blow of Fig. 1 at A, as it is recorded at B.
+
+use super::panels::{curve, strip};
+use crate::reproduce::Bed;
+use crate::reproduce::fields::cells;
+use crate::reproduce::modes::driven_at;
+use crate::reproduce::places::place;
+use unripple::core::{Drive, ModalResponses, Point, Port, window_samples};
+use unripple::field::{self, Field, Snapshot};
+use unripple_plot::{Figure, Ink, Rule, Span};
+use unripple_tasks::TaskError;
+use unripple_tasks::figures::Scene;
+use unripple_tasks::judge::CELLS;
+
+/// The impulse at A, in N·s. All is linear, so that it sets nothing but the scale of what is recorded.
+pub(super) const IMPULSE: f64 = 1e-6;
+
+/// How long is recorded, in windows T: the first is reversed, the rest shows how the motion dies away.
+const RECORDED: f64 = 2.5;
+
+/// Instants of the spreading wave, in seconds after the impulse.
+const SPREADING: [f64; 6] = [0.3e-3, 0.7e-3, 1.2e-3, 2.0e-3, 6.0e-3, 30.0e-3];
+
+/// The field of a blow at A, and its signal at B.
+pub(super) struct Recording {
+    cells: field::Grid,
+    shots: Vec<Snapshot>,
+    at_b: Vec<f64>,
+}
+
+impl Recording {
+    /// Strikes A and records at B.
+    pub(super) fn make(bed: &Bed, modal: &ModalResponses, b: Point) -> Result<Self, TaskError> {
+        let name = "A";
+        let struck = driven_at(modal, Port { name: name.into(), at: bed.target });
+        let blow = Drive::new(bed.rate, vec![name.into()], vec![vec![IMPULSE * bed.rate]])
+            .map_err(TaskError::work)?;
+        let field = Field::new(&struck, &blow, CELLS).map_err(TaskError::work)?;
+        let shots = field.snapshots(&SPREADING).map_err(TaskError::work)?;
+        let traces = field.traces(&[b], RECORDED * bed.window).map_err(TaskError::work)?;
+        let at_b = traces.into_iter().next().map(|trace| trace.velocity).unwrap_or_default();
+        Ok(Self { cells: cells(&field)?, shots, at_b })
+    }
+
+    /// The first T of it.
+    pub(super) fn cropped(&self, bed: &Bed) -> &[f64] {
+        &self.at_b[..(window_samples(bed.window, bed.rate) + 1).min(self.at_b.len())]
+    }
+
+    /// Strip of fields, and velocity at B with the part that is kept.
+    pub(super) fn figure(&self, bed: &Bed, scene: &Scene) -> Figure {
+        let high = self.shots.get(2).map_or(0.0, |s| s.velocity.iter().fold(0.0, |m: f32, v| m.max(v.abs())));
+        let strip = strip(scene, &self.cells, &self.shots, 0.7 * f64::from(high), |t| {
+            format!("t = {:.1} ms", t * 1e3)
+        });
+        let mut heard = curve(&self.at_b, bed.rate, "m/s", "Velocity at B");
+        let kept = Span { from: 0.0, to: bed.window, ink: Ink::Palette(5), ..Span::default() };
+        heard.layers.insert(0, kept.into());
+        heard.layers.push(Rule { at: bed.window, label: "T".into(), ..Rule::default() }.into());
+        Figure {
+            width_mm: 178.0,
+            panels: vec![strip.into(), heard.into()],
+            letters: false,
+            description: "Waves spreading from a blow at A, and the velocity recorded at B".into(),
+            ..Figure::default()
+        }
+    }
+
+    /// What the figure shows.
+    pub(super) fn caption(&self, bed: &Bed, b: &Port) -> String {
+        format!(
+            "Fig. 1a. Record and crop. A blow of {:.0} µN·s at A, {}, spreads and reverberates; its velocity is recorded at B, \
+             {} of the actuators, at {}, and the first T = {:.0} ms (shaded) are kept. The circle is the focal disc of A. \
+             Colours saturate near the blow at first; the ripple ahead of the front is that of a band with a sharp end.",
+            IMPULSE * 1e6,
+            place(bed.target),
+            b.name,
+            place(b.at),
+            bed.window * 1e3
+        )
+    }
+}

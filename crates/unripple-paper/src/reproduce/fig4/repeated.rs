@@ -1,0 +1,259 @@
+//! Two foci repeated at rates of their own: the drive, and how five points move.
+
+use crate::reproduce::Bed;
+use crate::reproduce::fields::cells;
+use serde::Serialize;
+use unripple::core::{Drive, Point, window_samples};
+use unripple::field::{self, Field, Snapshot, Trace};
+use unripple::focus::{Focused, Focuser, Options, Target};
+use unripple_dsp::rms;
+use unripple_tasks::TaskError;
+use unripple_tasks::judge::CELLS;
+
+/// Repetition rates at E and D, in Hz.
+pub(super) const RATES: [f64; 2] = [5.0, 2.0];
+
+/// Where a second focus goes, and three points that are not aimed at.
+const D: Point = Point::new(0.100, 0.048);
+const OTHERS: [(&str, Point); 3] =
+    [("A", Point::new(0.034, 0.038)), ("B", Point::new(0.078, 0.124)), ("C", Point::new(0.122, 0.084))];
+
+/// Amplitude of the pulses in the paper, in metres.
+pub(super) const AMPLITUDE: f64 = 40e-6;
+
+/// Rounds in which the pulses are made equal, and how equal they must be.
+const ROUNDS: usize = 6;
+const EQUAL: f64 = 1e-4;
+
+/// Length of the drive after its first common focus, in seconds. It holds two common periods, and what is drawn
+/// begins late in the first.
+pub(super) const LASTS: f64 = 2.35;
+
+/// What is drawn and measured: from so long after the first common focus, in seconds.
+pub(super) const STEADY: f64 = 0.9;
+
+/// How long a pulse is left out of the noise, in seconds on either side of its focus. Twice as long would leave out
+/// noise, half as long would count the pulse itself.
+const PULSE: f64 = 2e-3;
+
+/// Two foci repeated, and what they do at five points.
+pub(super) struct Repeated {
+    pub(super) drive: Drive,
+    /// After which everything repeats, in seconds.
+    pub(super) period: f64,
+    pub(super) cells: field::Grid,
+    /// The film at the extreme of E's pulse when D is in focus too.
+    pub(super) shot: Snapshot,
+    pub(super) points: Vec<Tracked>,
+    pub(super) pulses: Vec<Pulse>,
+    pub(super) rounds: usize,
+}
+
+/// How one pulse stands out.
+#[derive(Serialize)]
+pub(super) struct Pulse {
+    pub(super) name: &'static str,
+    /// Whether the other focus falls on the same instant.
+    pub(super) together: bool,
+    /// Velocity at the focal instant over the rms outside every focal disc.
+    pub(super) contrast: f64,
+    /// Displacement at its extreme over the rms there.
+    pub(super) displacement_contrast: f64,
+}
+
+/// A point and how it moves.
+pub(super) struct Tracked {
+    pub(super) name: &'static str,
+    pub(super) at: Point,
+    /// Rate at which it is a focus, in Hz; `None` if it is not.
+    pub(super) hz: Option<f64>,
+    velocity: Vec<f64>,
+    pub(super) displacement: Vec<f64>,
+}
+
+impl Tracked {
+    /// Sample within [`PULSE`] of a focus at which the displacement is largest.
+    fn extreme(&self, bed: &Bed, focus: usize) -> usize {
+        let reach = window_samples(PULSE, bed.rate);
+        let larger = |best: usize, i: usize| {
+            if self.displacement[i].abs() > self.displacement[best].abs() { i } else { best }
+        };
+        (focus.saturating_sub(reach)..(focus + reach + 1).min(self.displacement.len())).fold(focus, larger)
+    }
+
+    /// Samples from `first` on at which it is in focus, the first common focus being sample `origin`.
+    fn foci(&self, origin: usize, first: usize, rate: f64) -> Vec<usize> {
+        let Some(hz) = self.hz else { return Vec::new() };
+        let period = (rate / hz).round() as usize;
+        (origin..self.displacement.len()).step_by(period.max(1)).filter(|i| *i >= first).collect()
+    }
+
+    /// Height of each pulse: the largest magnitude within [`PULSE`] of each focus, in metres.
+    pub(super) fn pulses(&self, bed: &Bed) -> Vec<f64> {
+        let foci = self.foci(window_samples(bed.window, bed.rate), steady(bed), bed.rate);
+        foci.into_iter().map(|focus| self.displacement[self.extreme(bed, focus)].abs()).collect()
+    }
+
+    /// What is left when its own pulses are left out, while the motion is steady.
+    pub(super) fn noise(&self, bed: &Bed) -> Vec<f64> {
+        let (origin, reach) = (window_samples(bed.window, bed.rate), window_samples(PULSE, bed.rate));
+        let (from, foci) = (steady(bed), self.foci(origin, origin, bed.rate));
+        let free = |i: &usize| foci.iter().all(|f| f.abs_diff(*i) > reach);
+        (from..self.displacement.len()).filter(free).map(|i| self.displacement[i]).collect()
+    }
+}
+
+/// First sample of what counts as steady.
+pub(super) fn steady(bed: &Bed) -> usize {
+    window_samples(bed.window + STEADY, bed.rate)
+}
+
+/// The mean of some values; 0 without any.
+pub(super) fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len().max(1) as f64
+}
+
+impl Repeated {
+    /// Finds the drive and follows all points.
+    pub(super) fn make(bed: &Bed) -> Result<Self, TaskError> {
+        let options = Options {
+            window: bed.window,
+            limit: bed.surface.emission.limit,
+            duration: Some(bed.window + LASTS),
+            ..Options::default()
+        };
+        let focuser = Focuser::new(&bed.responses, &options).map_err(TaskError::work)?;
+        let (focused, rounds) = levelled(bed, &focuser)?;
+        let period = focused.period.map_or(f64::NAN, |samples| samples as f64 / bed.rate);
+        let drive = focused.drive;
+        let field = Field::new(&bed.responses, &drive, CELLS).map_err(TaskError::work)?;
+        let points = tracked(bed, &field)?;
+        let (pulses, shot) = pulses(bed, &field, &points, period)?;
+        let cells = cells(&field)?;
+        drop(field);
+        Ok(Self { drive, period, cells, shot, points, pulses, rounds })
+    }
+
+    /// The points that are foci.
+    pub(super) fn foci(&self) -> impl Iterator<Item = &Tracked> {
+        self.points.iter().filter(|point| point.hz.is_some())
+    }
+
+    /// The points that are none.
+    pub(super) fn others(&self) -> impl Iterator<Item = &Tracked> {
+        self.points.iter().filter(|point| point.hz.is_none())
+    }
+}
+
+/// Where everything is, foci first.
+fn places(bed: &Bed) -> Vec<(&'static str, Point, Option<f64>)> {
+    let foci = [("E", bed.target, Some(RATES[0])), ("D", D, Some(RATES[1]))];
+    foci.into_iter().chain(OTHERS.map(|(name, at)| (name, at, None))).collect()
+}
+
+fn tracked(bed: &Bed, field: &Field) -> Result<Vec<Tracked>, TaskError> {
+    let places = places(bed);
+    let points: Vec<Point> = places.iter().map(|(_, at, _)| *at).collect();
+    let traces: Vec<Trace> = field.traces(&points, bed.window + LASTS).map_err(TaskError::work)?;
+    let pairs = places.into_iter().zip(traces);
+    Ok(pairs
+        .map(|((name, at, hz), trace)| Tracked {
+            name,
+            at,
+            hz,
+            velocity: trace.velocity,
+            displacement: trace.displacement,
+        })
+        .collect())
+}
+
+/// Pulses of E and of D, alone and together, after the first period; and the film at the extreme of E's when together.
+fn pulses(
+    bed: &Bed,
+    field: &Field,
+    points: &[Tracked],
+    period: f64,
+) -> Result<(Vec<Pulse>, Snapshot), TaskError> {
+    let [e, d, ..] = points else { return Err(TaskError::Work("expected two foci".into())) };
+    let common = window_samples(bed.window + period, bed.rate);
+    let after = |hz: f64| common + window_samples(1.0 / hz, bed.rate);
+    let asked =
+        [(e, common, true), (d, common, true), (e, after(RATES[0]), false), (d, after(RATES[1]), false)];
+    let extremes = asked.map(|(point, focus, _)| point.extreme(bed, focus));
+    let instants: Vec<f64> = asked
+        .iter()
+        .map(|(_, focus, _)| *focus)
+        .chain(extremes)
+        .map(|sample| sample as f64 / bed.rate)
+        .collect();
+    let mut shots = field.snapshots(&instants).map_err(TaskError::work)?;
+    let radius = bed.responses.conditions().focal_radius();
+    let outside: Vec<bool> =
+        field.points().iter().map(|p| [e, d].iter().all(|focus| focus.at.distance(*p) > radius)).collect();
+    let noise = |values: &[f32]| {
+        let beyond = values.iter().zip(&outside).filter(|(_, outside)| **outside);
+        rms(&beyond.map(|(v, _)| f64::from(*v)).collect::<Vec<_>>())
+    };
+    let pulse = |(i, (point, focus, together)): (usize, &(&Tracked, usize, bool))| Pulse {
+        name: point.name,
+        together: *together,
+        contrast: point.velocity[*focus].abs() / noise(&shots[i].velocity),
+        displacement_contrast: point.displacement[extremes[i]].abs()
+            / noise(&shots[i + asked.len()].displacement),
+    };
+    let pulses = asked.iter().enumerate().map(pulse).collect();
+    Ok((pulses, shots.swap_remove(asked.len())))
+}
+
+/// The drive whose pulses at both foci have the paper's height on average: gain and level found from the emitted drive.
+fn levelled(bed: &Bed, focuser: &Focuser) -> Result<(Focused, usize), TaskError> {
+    let (mut gain, mut round) = (1.0, 0);
+    loop {
+        round += 1;
+        let targets =
+            [Target::at(bed.target).repeated(RATES[0]), Target::at(D).with_gain(gain).repeated(RATES[1])];
+        let mut focused = focuser.focus(&targets).map_err(TaskError::work)?;
+        let heights = |drive: &Drive| -> Result<Vec<f64>, TaskError> {
+            let field = Field::new(&bed.responses, drive, CELLS).map_err(TaskError::work)?;
+            let points = tracked(bed, &field)?;
+            Ok(points.iter().filter(|p| p.hz.is_some()).map(|p| mean(&p.pulses(bed))).collect())
+        };
+        let unscaled = heights(&focused.drive)?;
+        focused.drive = focused.drive.scaled(AMPLITUDE / unscaled[0]).as_emitted();
+        if (unscaled[1] / unscaled[0] - 1.0).abs() < EQUAL || round == ROUNDS {
+            return Ok((focused, round));
+        }
+        gain *= unscaled[0] / unscaled[1];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::reproduce::fields::largest;
+
+    #[test]
+    fn pulses_are_equal_and_on_time() {
+        let bed = Bed::new().unwrap();
+        let repeated = Repeated::make(&bed).unwrap();
+        assert_eq!(repeated.period, 1.0);
+        for (point, hz) in repeated.foci().zip(RATES) {
+            let pulses = point.pulses(&bed);
+            assert_eq!(pulses.len(), ((LASTS * hz).floor() - (STEADY * hz).ceil()) as usize + 1);
+            assert!((mean(&pulses) / AMPLITUDE - 1.0).abs() < 1e-3, "{}: {pulses:?}", point.name);
+            assert!(largest(&point.noise(&bed)) < AMPLITUDE / 2.0);
+        }
+        let of = |together: bool| {
+            mean(
+                &repeated
+                    .pulses
+                    .iter()
+                    .filter(|p| p.together == together)
+                    .map(|p| p.contrast)
+                    .collect::<Vec<_>>(),
+            )
+        };
+        let gain = of(false) / of(true);
+        assert!((gain / 2.0_f64.sqrt() - 1.0).abs() < 0.15, "two foci cost {gain}");
+    }
+}
