@@ -1,6 +1,7 @@
 //! A piezoelectric patch: a bending moment along its rim.
 
-use super::{Entry, Transducer, place};
+use super::place::place;
+use super::{Entry, Transducer};
 use crate::{Footprint, Load, PhysicsError};
 use unripple_core::{Actuator, ActuatorKind, Outline, Patch, require};
 

@@ -257,6 +257,12 @@ pub(super) fn modes_below(outline: &Outline, k: f64) -> f64 {
     (outline.area() * k - signed_perimeter(outline)) * k / (4.0 * PI)
 }
 
+/// The wavenumber below which Weyl's law counts one mode, in rad/m.
+pub(super) fn first_wavenumber(surface: &Surface) -> f64 {
+    let (area, rim) = (surface.outline.area(), signed_perimeter(&surface.outline));
+    (rim + (rim * rim + 16.0 * PI * area).sqrt()) / (2.0 * area)
+}
+
 /// ∫_0^T e^{-rate·t} dt, also for no decay.
 fn ring(rate: f64, window: f64) -> f64 {
     // For smaller values the quotient loses digits, and the integral is the window.

@@ -1,10 +1,10 @@
 //! Mode counts and wave properties from which the figures of a design are computed.
 
-use super::cavity::{modes_below, modes_per_wavenumber, signed_perimeter};
+use super::cavity::{first_wavenumber, modes_below, modes_per_wavenumber};
 use super::paper::WAVELENGTH;
 use super::{Cavity, Recommended, Windows};
 use crate::{Medium, Modes, PhysicsError};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 use unripple_core::{OutOfRange, Surface};
 
 /// Relative accuracy of the frequencies that are counted: 0.3 Hz at 3 kHz, so that a count is wrong by one at
@@ -137,10 +137,4 @@ pub(super) fn counted(surface: &Surface, modes: &Modes) -> (usize, Option<f64>) 
     let frequencies = modes.frequencies_hz();
     let inside = frequencies.iter().filter(|hz| (low..=top).contains(*hz)).count();
     (inside, frequencies.iter().copied().find(|hz| *hz > 0.0))
-}
-
-/// The wavenumber below which Weyl's law counts one mode, in rad/m.
-pub(super) fn first_wavenumber(surface: &Surface) -> f64 {
-    let (area, rim) = (surface.outline.area(), signed_perimeter(&surface.outline));
-    (rim + (rim * rim + 16.0 * PI * area).sqrt()) / (2.0 * area)
 }

@@ -1,18 +1,7 @@
 //! Errors in the paper (Hudin et al. 2012) and the right values, for readers who compare.
 
-use super::Design;
+use super::{Design, Note};
 use unripple_core::Surface;
-
-/// An error in the paper (Hudin et al. 2012), and the right value.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct Note {
-    /// What the error concerns.
-    pub topic: String,
-    /// The statement of the paper.
-    pub paper: String,
-    /// The right value, for this surface.
-    pub here: String,
-}
 
 fn note(topic: &str, paper: &str, here: String) -> Note {
     Note { topic: topic.into(), paper: paper.into(), here }

@@ -37,6 +37,7 @@ mod field;
 mod history;
 mod lanes;
 mod lead;
+mod options;
 mod plant;
 mod run;
 mod small;
@@ -45,5 +46,6 @@ mod touch;
 
 pub use faults::{InjectedFaults, Misbehaving};
 pub use history::History;
+pub use options::StepperOptions;
 pub use plant::{Channel, Footing, Plant};
-pub use surface::{FingerMotion, Reading, Snapshot, StepperOptions, VirtualSurface};
+pub use surface::{FingerMotion, Reading, Snapshot, VirtualSurface};

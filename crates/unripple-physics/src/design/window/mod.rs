@@ -4,8 +4,7 @@ mod modal;
 mod places;
 
 use super::Cavity;
-use super::cavity::modes_below;
-use super::ground::first_wavenumber;
+use super::cavity::{first_wavenumber, modes_below};
 use crate::{Medium, ResponseOptions, responses};
 use modal::Modal;
 use rayon::prelude::*;
