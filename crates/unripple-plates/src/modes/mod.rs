@@ -2,8 +2,10 @@
 
 mod bounds;
 pub(crate) mod eigen;
+mod found;
 mod general;
 mod legendre;
+mod memory;
 mod rectangle;
 
 use crate::PhysicsError;
@@ -15,12 +17,6 @@ use unripple_linalg::Mat;
 
 pub use legendre::gauss;
 
-/// Memory that a solution may take, in bytes. Doubled, top frequencies may be about 1.4 times as high before
-/// they are refused.
-const MEMORY: f64 = 4.0 * GIB;
-/// Bytes of a GiB, 2³⁰ by definition.
-const GIB: f64 = (1u64 << 30) as f64;
-
 /// The normal modes of a surface without the loads of actuators and fingers: frequencies, decay rates and mass-normalised shapes.
 ///
 /// Shapes φ satisfy ∫ρ φ_m φ_n dS = δ_mn, with ρ the mass per area including the added mass of air. They can be evaluated at any
@@ -31,14 +27,6 @@ const GIB: f64 = (1u64 << 30) as f64;
 #[derive(Debug)]
 pub struct Modes {
     poles: Vec<Pole>,
-    bending_shares: Vec<f64>,
-    shapes: Box<dyn Shapes>,
-    error: f64,
-}
-
-/// The result of each method of solution, modes in order of ascending frequency.
-struct Found {
-    omegas: Vec<f64>,
     bending_shares: Vec<f64>,
     shapes: Box<dyn Shapes>,
     error: f64,

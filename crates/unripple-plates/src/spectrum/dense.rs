@@ -1,9 +1,9 @@
 //! Dense generalised eigenvalue problem, for small meshes.
 
-use super::SpectrumError;
 use super::block::EigenBlock;
+use super::error::{SpectrumError, indefinite};
 use super::panel::LANES;
-use super::pencil::{Pencil, indefinite};
+use super::pencil::Pencil;
 use super::plan::{STEP, factor_near};
 use crate::modes::eigen::{Method, product, symmetric};
 use unripple_linalg::{Cholesky, Mat, Par, Scale, norm, solve_lower_alone, solve_upper_alone};

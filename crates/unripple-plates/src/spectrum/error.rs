@@ -30,3 +30,12 @@ pub(crate) enum SpectrumError {
         found: usize,
     },
 }
+
+/// The error for a mass matrix that is not positive definite, with the value found for some xᵀMx.
+pub(super) fn indefinite(found: f64) -> SpectrumError {
+    SpectrumError::Matrices {
+        what: "square of a norm in M",
+        expected: "a positive number".to_owned(),
+        found: format!("{found:e}"),
+    }
+}

@@ -2,9 +2,9 @@
 
 use super::SpectrumError;
 use super::factor::Factor;
-use super::panel::{LANES, NONE, Panel, Row, project, subtract, transform};
+use super::panel::{LANES, NONE, Panel, Row, Square, project, subtract, transform};
 use super::pencil::Pencil;
-use super::small::{Square, Triangle, identity, product, transposed};
+use super::small::{Triangle, identity, product, transposed};
 use super::solve::solve;
 use crate::modes::eigen::{Method, symmetric};
 use unripple_core::Random;

@@ -1,6 +1,5 @@
 //! Panels of [`LANES`] vectors kept row by row, so that one entry of a matrix acts on all of them at once.
 
-use super::small::Square;
 use pulp::{Arch, NullaryFnOnce};
 
 /// Number of vectors of a panel: a 512-bit register holds as many f64. Doubled, a matrix is read half as often, and bases
@@ -12,6 +11,9 @@ pub(super) type Row = [f64; LANES];
 
 /// A block of [`LANES`] vectors, row by row.
 pub(super) type Panel = Vec<Row>;
+
+/// A small matrix between two panels, row by row.
+pub(super) type Square = [Row; LANES];
 
 /// A row of zeros, where sums start.
 pub(super) const NONE: Row = [0.0; LANES];

@@ -1,6 +1,6 @@
 //! The matrix pencil K x = λ M x, scaled and ordered for factorisation.
 
-use super::SpectrumError;
+use super::error::{SpectrumError, indefinite};
 use super::panel::{NONE, Row, add};
 use pulp::{Arch, NullaryFnOnce};
 use unripple_linalg::sparse::{
@@ -213,15 +213,6 @@ fn check(
         }
     }
     if n >= u32::MAX as usize { Err(too_large(n)) } else { Ok(()) }
-}
-
-/// The error for a mass matrix that is not positive definite, with the value found for some xᵀMx.
-pub(super) fn indefinite(found: f64) -> SpectrumError {
-    SpectrumError::Matrices {
-        what: "square of a norm in M",
-        expected: "a positive number".to_owned(),
-        found: format!("{found:e}"),
-    }
 }
 
 fn too_large(n: usize) -> SpectrumError {

@@ -1,11 +1,7 @@
 //! Small Gram matrices between blocks of vectors, and their Cholesky factors.
 
-use super::SpectrumError;
-use super::panel::{LANES, NONE, Row};
-use super::pencil::indefinite;
-
-/// A small matrix between two panels, row by row.
-pub(super) type Square = [Row; LANES];
+use super::error::{SpectrumError, indefinite};
+use super::panel::{LANES, NONE, Square};
 
 /// Least pivot of a Gram matrix with ones on its diagonal that is above rounding errors: smaller ones are raised to
 /// it, so that R has an inverse.

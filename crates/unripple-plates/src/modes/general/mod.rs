@@ -3,7 +3,8 @@
 mod sizing;
 
 use super::bounds::Bounds;
-use super::{Found, GIB, MEMORY};
+use super::found::Found;
+use super::memory::{GIB, MEMORY};
 use crate::PhysicsError;
 use crate::elements::{MeshShapes, Space};
 use crate::fabric::Fabric;

@@ -11,7 +11,7 @@ mod readout;
 mod ritz;
 mod separable;
 
-use super::{Found, GIB, MEMORY};
+use super::found::Found;
 use crate::{Medium, PhysicsError};
 use readout::Readout;
 use separable::{Separable, Wave};

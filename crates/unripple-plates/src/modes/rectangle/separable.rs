@@ -2,8 +2,8 @@
 
 use super::line::sines;
 use super::problem::Problem;
-use super::{GIB, MEMORY};
 use crate::PhysicsError;
+use crate::modes::memory::{GIB, MEMORY};
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 use unripple_core::{Edge, Point};

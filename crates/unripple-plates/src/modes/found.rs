@@ -1,0 +1,15 @@
+//! The modes that a method of solution finds.
+
+use unripple_core::Shapes;
+
+/// The result of each method of solution, modes in order of ascending frequency.
+pub(super) struct Found {
+    /// Natural frequencies ω, in rad/s.
+    pub(super) omegas: Vec<f64>,
+    /// Share of bending in each mode's elastic energy, 0 to 1.
+    pub(super) bending_shares: Vec<f64>,
+    /// The mass-normalised shapes.
+    pub(super) shapes: Box<dyn Shapes>,
+    /// Estimated largest relative error of a frequency.
+    pub(super) error: f64,
+}
