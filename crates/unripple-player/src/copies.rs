@@ -1,6 +1,6 @@
 //! Drives that sound now, and their fades.
 
-use crate::events::Whose;
+use crate::origin::Whose;
 use crate::shelf::Shelf;
 use crate::{Prepared, kernels};
 

@@ -3,6 +3,7 @@
 use crate::copies::{Fade, Sounding};
 use crate::kernels::Wide;
 use crate::ledger::Ledger;
+use crate::origin::Whose;
 use crate::outlet::Outlet;
 use crate::shelf::{Garbage, Shelf};
 use crate::{Count, Options, Prepared, Report, Voice, Why};
@@ -30,15 +31,6 @@ pub(crate) struct Events {
     left: usize,
     options: Options,
     arch: Arch,
-}
-
-/// Name of a voice, and the number of the command that began it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Whose {
-    /// Name of the voice.
-    pub(crate) voice: Voice,
-    /// Number of the command.
-    pub(crate) id: u64,
 }
 
 struct Repeating {

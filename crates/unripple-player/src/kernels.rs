@@ -1,6 +1,5 @@
 //! Loops over samples of one actuator, vectorised by the compiler (SIMD).
 
-use crate::power::Energies;
 use pulp::NullaryFnOnce;
 
 /// Samples worked on at once: the float32 numbers of a 512-bit register. Doubled, results of sums differ by
@@ -79,6 +78,15 @@ pub(crate) fn bound_energy(positive: &[f32], negative: &[f32]) -> f64 {
         },
         |a, b| a + b,
     ))
+}
+
+/// Energy of a signal, and the sum of the products of its magnitudes with those of what has been started already.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Energies {
+    /// Sum of its own squares.
+    pub(crate) own: f64,
+    /// Sum of its products with what is there.
+    pub(crate) cross: f64,
 }
 
 /// Energy of a drive (a sum of squares over samples), and the sum of its magnitudes times the larger of the

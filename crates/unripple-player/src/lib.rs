@@ -61,6 +61,7 @@ mod leases;
 mod ledger;
 mod meters;
 mod options;
+mod origin;
 mod outlet;
 mod player;
 mod power;

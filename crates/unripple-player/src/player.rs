@@ -2,9 +2,10 @@
 
 use crate::copies::Fade;
 use crate::desk::Sent;
-use crate::events::{Events, Whose};
+use crate::events::Events;
 use crate::hold::Held;
 use crate::leases::{Leases, LetGo};
+use crate::origin::Whose;
 use crate::outlet::Outlet;
 use crate::schedule::Schedule;
 use crate::shelf::Garbage;

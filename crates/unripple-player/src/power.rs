@@ -1,6 +1,6 @@
 //! Running rms of each actuator, kept below its limit: peak, short-term and thermal.
 
-use crate::kernels;
+use crate::kernels::{self, Energies};
 use crate::{Options, Which};
 use std::ops::Range;
 
@@ -154,15 +154,6 @@ pub(crate) struct WaveEnergies {
     pub(crate) rising: Energies,
     /// Energies of what the next block may emit, beside what is committed.
     pub(crate) falling: Energies,
-}
-
-/// Energy of a signal, and the sum of the products of its magnitudes with those of what has been started already.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Energies {
-    /// Sum of its own squares.
-    pub(crate) own: f64,
-    /// Sum of its products with what is there.
-    pub(crate) cross: f64,
 }
 
 /// Running power of what has been started plus g times a new signal, from block to block: held + 2 g cross + g² own.

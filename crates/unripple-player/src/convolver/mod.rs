@@ -11,6 +11,7 @@
 
 mod filters;
 mod history;
+mod input;
 mod product;
 mod resample;
 
@@ -22,6 +23,7 @@ use crate::kernels::Wide;
 use crate::shelf::Garbage;
 use filters::{LANES, OUTPUTS};
 use history::History;
+use input::Input;
 use product::Product;
 use pulp::Arch;
 use realfft::num_complex::Complex;
@@ -56,11 +58,6 @@ pub struct Convolver {
     spectrum: Vec<Complex<f32>>,
     signal: Vec<f32>,
     scratch: Vec<Complex<f32>>,
-}
-
-struct Input {
-    decimator: Decimator,
-    history: History,
 }
 
 struct Output {

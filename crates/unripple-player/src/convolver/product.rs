@@ -1,7 +1,7 @@
 //! Complex multiply-accumulate over inputs and partitions, in SIMD lanes.
 
-use super::Input;
 use super::filters::{LANES, OUTPUTS};
+use super::input::Input;
 use pulp::{Simd, WithSimd};
 
 /// Sums, over all inputs and partitions, products of spectra.

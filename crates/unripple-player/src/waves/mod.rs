@@ -4,9 +4,9 @@ mod level;
 
 use crate::copies::Fade;
 use crate::error::HUGE;
-use crate::events::Whose;
 use crate::kernels::Wide;
 use crate::ledger::Ledger;
+use crate::origin::Whose;
 use crate::outlet::Outlet;
 use crate::shelf::{Garbage, Shelf};
 use crate::{Convolver, Options, PlayerError, PreparedFilters, Report, WaveOptions, Why};

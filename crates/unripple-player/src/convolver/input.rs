@@ -1,0 +1,12 @@
+//! One input of a convolver, with what has entered it.
+
+use super::history::History;
+use super::resample::Decimator;
+
+/// The state of one input.
+pub(super) struct Input {
+    /// Brings samples to the lower rate.
+    pub(super) decimator: Decimator,
+    /// The last blocks, as spectra.
+    pub(super) history: History,
+}
