@@ -1,7 +1,7 @@
 //! A finished figure, as SVG, PDF and PNG.
 
 use crate::colour::Rgb;
-use crate::panel::Placed;
+use crate::placed::Placed;
 use crate::{PlotError, encode};
 use rayon::prelude::*;
 

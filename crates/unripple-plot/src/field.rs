@@ -4,7 +4,7 @@ use crate::canvas::{Anchor, Canvas, Rect, Rise, Stroke, Text, path};
 use crate::colour::Rgb;
 use crate::colours::Colours;
 use crate::grid::{Grid, Ring};
-use crate::panel::Placed;
+use crate::placed::Placed;
 use crate::raster::Raster;
 use crate::style::Style;
 use crate::{PlotError, encode, font};

@@ -2,7 +2,8 @@
 
 use crate::canvas::{Canvas, Rect, Text};
 use crate::drawing::Drawing;
-use crate::panel::{Margins, Placed, Prepared};
+use crate::placed::Placed;
+use crate::prepared::{Margins, Prepared};
 use crate::style::{Style, points};
 use crate::{Panel, PlotError};
 

@@ -3,7 +3,7 @@
 use crate::axis::Ruler;
 use crate::canvas::{Anchor, Canvas, Rise, Stroke, Text, path};
 use crate::colour::Rgb;
-use crate::panel::Placed;
+use crate::placed::Placed;
 use crate::style::{GAP, MINOR_TICK, Style, TICK};
 use crate::ticks::power_of_ten;
 

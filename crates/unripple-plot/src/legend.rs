@@ -5,7 +5,7 @@ use crate::colour::Rgb;
 use crate::font;
 use crate::layer::{Along, Layer};
 use crate::paint::{self, Look, PALE};
-use crate::panel::Placed;
+use crate::placed::Placed;
 use crate::style::Style;
 
 /// One line of a legend; layers of the same name share it.

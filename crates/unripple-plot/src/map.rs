@@ -5,7 +5,8 @@ use crate::canvas::{Anchor, Canvas, Rect, Text};
 use crate::colours::{Bar, Colours};
 use crate::field::{self, Marker};
 use crate::grid::{Grid, Ring};
-use crate::panel::{Margins, Placed, Prepared};
+use crate::placed::Placed;
+use crate::prepared::{Margins, Prepared};
 use crate::style::{GAP, Style, points};
 use crate::{PlotError, frame};
 

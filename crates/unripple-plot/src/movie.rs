@@ -8,7 +8,7 @@ use crate::field::{self, Marker};
 use crate::grid::Ring;
 use crate::inks::Inks;
 use crate::map;
-use crate::panel::Placed;
+use crate::placed::Placed;
 use crate::raster::Raster;
 use crate::strip::{Shot, draw_scale};
 use crate::style::{GAP, Style};

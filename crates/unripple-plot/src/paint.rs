@@ -4,7 +4,7 @@ use crate::axis::usable;
 use crate::canvas::{Anchor, Canvas, Rect, Rise, Stroke, Text, path, rectangle};
 use crate::colour::Rgb;
 use crate::layer::{Along, Band, Dash, Ink, Layer, Line, Mark, Note, Points, Rule, Span};
-use crate::panel::Placed;
+use crate::placed::Placed;
 use crate::style::Style;
 use crate::{font, thin};
 

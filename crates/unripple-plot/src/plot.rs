@@ -4,7 +4,8 @@ use crate::axis::{Axis, Direction, Padding, Ruler, Scale};
 use crate::canvas::{Anchor, Canvas, Rect, Text};
 use crate::error::{same_length, some_finite};
 use crate::layer::{Along, Layer, Note, Rule};
-use crate::panel::{Margins, Placed, Prepared};
+use crate::placed::Placed;
+use crate::prepared::{Margins, Prepared};
 use crate::style::{GAP, Style, points};
 use crate::{PlotError, frame, legend, paint};
 

@@ -7,7 +7,8 @@ use crate::colours::{Bar, Colours};
 use crate::field::{self, Marker};
 use crate::grid::{Grid, Ring};
 use crate::map;
-use crate::panel::{Margins, Placed, Prepared};
+use crate::placed::Placed;
+use crate::prepared::{Margins, Prepared};
 use crate::style::{GAP, Style};
 use crate::{PlotError, ticks};
 

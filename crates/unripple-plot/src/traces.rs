@@ -5,7 +5,8 @@ use crate::canvas::{Anchor, Canvas, Rect, Rise, Stroke, Text, rectangle};
 use crate::colour::Rgb;
 use crate::error::some_finite;
 use crate::layer::{Ink, Layer, Rule};
-use crate::panel::{Margins, Placed, Prepared};
+use crate::placed::Placed;
+use crate::prepared::{Margins, Prepared};
 use crate::style::{GAP, Style, points};
 use crate::{PlotError, font, frame, paint, ticks};
 
