@@ -1,8 +1,10 @@
 //! Global attributes of a SOFA file.
 
-use super::API;
 use crate::LibraryPlan;
 use unripple_core::{Outline, Shape};
+
+/// Name of this software in SOFA files, by which an earlier export is recognised.
+pub(super) const API: &str = "unripple";
 
 /// Metadata of a SOFA file beyond what a library knows.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

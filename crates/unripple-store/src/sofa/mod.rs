@@ -13,15 +13,13 @@ pub use about::{SofaAbout, date};
 use crate::building::sweep;
 use crate::file::write_beside;
 use crate::{Committed, Library, StoreError};
+use about::API;
 use message::{Kind, MOST_TEXT};
 use netcdf::{Counted, NetCdf, Variable};
 use std::fs::File;
 use std::io::{self, BufWriter, ErrorKind, Read, Write};
 use std::path::Path;
 use unripple_core::Point;
-
-/// Name of this software in SOFA files, by which an earlier export is recognised.
-const API: &str = "unripple";
 
 /// First bytes of an HDF5 file, by which readers know one.
 const SIGNATURE: &[u8] = b"\x89HDF\r\n\x1a\n";

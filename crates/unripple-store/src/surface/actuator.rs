@@ -2,15 +2,12 @@
 
 use super::piezo::{self, PIEZO_KEYS, Spot};
 use super::place::Ground;
-use super::places::{self, PLACE_KEYS, Places};
+use super::places::{self, MOST_ACTUATORS, PLACE_KEYS, Places};
 use super::range::of;
 use super::reader::{Faults, Section};
 use std::collections::HashMap;
 use std::ops::Range;
 use unripple_core::{Actuator, ActuatorKind, CoilDrive, Point};
-
-/// Most actuators of a surface: a bound on what a small file may cost. The model's memory grows with their number.
-pub(super) const MOST_ACTUATORS: usize = 4096;
 
 /// Name of the table with values for the keys that tables `[[actuator]]` leave out.
 pub(super) const DEFAULTS: &str = "actuator_defaults";

@@ -1,7 +1,7 @@
 //! Whether an outline with its holes bounds a sheet: what [`Outline::faults`] says, in the words and places of the file.
 
-use super::hole::{Cut, MOST_HOLES, count_expected};
-use super::outline::Rim;
+use super::hole::Cut;
+use super::outline::{MOST_HOLES, Rim, count_expected};
 use super::reader::Faults;
 use super::ring::place;
 use unripple_core::{Outline, OutlineFault, Shape};

@@ -1,16 +1,13 @@
 //! Holes in a surface file.
 
 use super::edge::{self, SidesListed};
-use super::outline::{Fetch, drawn_ring, only_shape, stadium};
+use super::outline::{Fetch, MOST_HOLES, count_expected, drawn_ring, only_shape, stadium};
 use super::range::of;
 use super::reader::{Entry, Faults, Section};
 use super::ring::{Ring, off_corner};
 use super::{path, polygon};
 use std::ops::Range;
 use unripple_core::{Edge, Edges, Hole, Point, Shape};
-
-/// Most holes of a surface: a bound on the pairs of rims that are compared.
-pub(super) const MOST_HOLES: usize = 256;
 
 /// Keys of the table `[[hole]]` that give a shape; exactly one of them is there.
 const SHAPES: [&str; 7] =
@@ -28,11 +25,6 @@ pub(super) struct Cut {
     pub key: String,
     /// The bytes of the file that give its shape.
     pub span: Range<usize>,
-}
-
-/// How many holes there may be, for messages.
-pub(super) fn count_expected() -> String {
-    format!("at most {MOST_HOLES} holes")
 }
 
 /// All tables `[[hole]]`, in the file's order: those without fault, and whether these are all.

@@ -1,7 +1,6 @@
 //! The table `[outline]`.
 
 use super::edge::{self, SidesListed};
-use super::hole::{MOST_HOLES, count_expected};
 use super::path;
 use super::polygon;
 use super::range::{Limits, of};
@@ -10,6 +9,9 @@ use super::ring::Ring;
 use crate::{Curve, StoreError, read_curves};
 use std::ops::Range;
 use unripple_core::{Edge, Edges, Hole, Outline, Point, Shape};
+
+/// Most holes of a surface: a bound on the pairs of rims that are compared.
+pub(super) const MOST_HOLES: usize = 256;
 
 /// Keys of the table `[outline]` that give a shape; exactly one of them is there.
 const SHAPES: [&str; 6] = ["rectangle_mm", "circle_mm", "stadium_mm", "polygon_mm", "path_mm", "svg"];
@@ -140,6 +142,11 @@ pub(super) fn drawn_ring(entry: &Entry, fetch: &Fetch, faults: &mut Faults) -> O
         return None;
     }
     rings.pop()
+}
+
+/// How many holes there may be, for messages.
+pub(super) fn count_expected() -> String {
+    format!("at most {MOST_HOLES} holes")
 }
 
 /// The curves of an SVG file, all of them closed and sound.

@@ -1,11 +1,13 @@
 //! Where the actuators of one table are: at a point, in a row, round a ring, on a grid.
 
-use super::actuator::MOST_ACTUATORS;
 use super::place::Ground;
 use super::range::of;
 use super::reader::{Entry, Faults, Section};
 use std::f64::consts::TAU;
 use unripple_core::Point;
+
+/// Most actuators of a surface: a bound on what a small file may cost. The model's memory grows with their number.
+pub(super) const MOST_ACTUATORS: usize = 4096;
 
 /// The keys that say where actuators are.
 pub(super) const PLACE_KEYS: [&str; 5] = ["at_mm", "row_mm", "ring", "grid_mm", "count"];

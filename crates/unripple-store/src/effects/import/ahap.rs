@@ -3,7 +3,8 @@
 //! Attack, decay and release of events are not followed, and sounds for the ear are left out.
 
 use super::node::Node;
-use super::{Notes, pitch};
+use super::notes::Notes;
+use super::pitch::pitch;
 use crate::StoreError;
 use unripple_effects::limits::{SHARE, TIME};
 

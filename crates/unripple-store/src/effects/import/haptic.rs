@@ -1,7 +1,8 @@
 //! `.haptic`, data model 1: one amplitude envelope with points that may be emphasised, one frequency envelope.
 
 use super::node::Node;
-use super::{Notes, pitch};
+use super::notes::Notes;
+use super::pitch::pitch;
 use crate::StoreError;
 use unripple_effects::limits::{SHARE, TIME};
 

@@ -3,8 +3,8 @@
 //! Vectorial waves and transients are read, wherever on the body they are meant for; wavelets and sampled curves are
 //! refused, and so are composite effects. If channel gains make the strongest more than full scale, all are scaled down.
 
-use super::Notes;
 use super::node::Node;
+use super::notes::Notes;
 use crate::StoreError;
 use std::collections::HashMap;
 use unripple_effects::limits::{FREQUENCY, TIME};
