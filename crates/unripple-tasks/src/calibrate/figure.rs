@@ -1,7 +1,7 @@
 //! The figure of a library's quality: signal-to-noise ratio and coherence over frequency, and which point is bad in which band.
 
-use super::Campaign;
 use super::ask::Ask;
+use super::campaign::Campaign;
 use crate::TaskError;
 use crate::{figures, folder, source};
 use unripple_plot::{

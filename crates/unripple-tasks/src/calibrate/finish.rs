@@ -1,6 +1,6 @@
 //! The record of a measurement in its library: settings before it begins, doubts when all points are there.
 
-use super::Campaign;
+use super::campaign::Campaign;
 use super::shelf::Shelf;
 use super::verify;
 use crate::{Record, TaskError, own};

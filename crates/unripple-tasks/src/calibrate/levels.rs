@@ -1,6 +1,7 @@
 //! Check of levels before the long run: what is too loud, what is too quiet, and what to do.
 
-use super::{Campaign, Report, middle};
+use super::campaign::Campaign;
+use super::points::middle;
 use crate::TaskError;
 use serde::Serialize;
 use std::fmt::Write;
@@ -176,7 +177,7 @@ pub(super) fn listen(
     rig: &mut dyn Rig,
     layout: &Layout,
     wires: &Wires,
-) -> Result<Report, TaskError> {
+) -> Result<Levels, TaskError> {
     let settings = MeasureOptions { repeats: 1, ..known.settings.clone() };
     let session = Session::new(known.surface, layout, wires.clone(), &settings)?;
     let (number, at) = (known.places.points.len(), middle(known.surface));
@@ -206,11 +207,11 @@ pub(super) fn listen(
     if let Some(probe) = wires.probe {
         judge(session.measure(rig, number, at, 5, Listen::Probe)?, vec![probe]);
     }
-    Report::of_levels(&Levels::of(levels))
+    Ok(Levels::of(levels))
 }
 
 /// Looks at the recordings that are there; in those of the actuators the probe may be silent.
-pub(super) fn look(files: &[(PathBuf, bool)], inputs: &[String]) -> Result<Report, TaskError> {
+pub(super) fn look(files: &[(PathBuf, bool)], inputs: &[String]) -> Result<Levels, TaskError> {
     let mut levels = Vec::new();
     for (file, of_actuators) in files {
         let wav = read_wav(file)?;
@@ -226,5 +227,5 @@ pub(super) fn look(files: &[(PathBuf, bool)], inputs: &[String]) -> Result<Repor
         let text = "`check_levels`: expected a recording in the folder, say actuators.wav, found none; record one while play.wav plays";
         return Err(TaskError::Work(text.into()));
     }
-    Report::of_levels(&Levels::of(levels))
+    Ok(Levels::of(levels))
 }

@@ -1,11 +1,13 @@
 //! Calibration through a device that plays and listens at once.
 
+use super::campaign::Campaign;
 use super::devices::{self, Opened};
 use super::finish::{ASKED, PROBE_DELAY, begin, finish, log_run};
-use super::report;
+use super::outcome::doubted;
+use super::points::{self, middle};
 use super::shelf::Shelf;
 use super::wires::{self, Asked, Found};
-use super::{By, Campaign, Hands, Report, before, doubted, figure, levels, middle, points};
+use super::{By, Hands, Report, before, figure, levels, report};
 use crate::{TaskError, go_on};
 use serde_json::Value;
 use std::ops::ControlFlow;
@@ -27,7 +29,7 @@ pub(super) fn run(mut known: Campaign<'_>, hands: Hands) -> Result<Report, TaskE
     let wires = Wires::by_name(&known.model.ports, &layout, &ask.wires)?;
     known.places = points::places(ask, surface, !wires.sensors.is_empty())?;
     if ask.check_levels {
-        return levels::listen(&known, rig.as_mut(), &layout, &wires);
+        return Report::of_levels(&levels::listen(&known, rig.as_mut(), &layout, &wires)?);
     }
     let mut library = Library::create(&ask.output, &known.plan())?;
     agree(&known, &library)?;

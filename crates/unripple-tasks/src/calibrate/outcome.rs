@@ -4,6 +4,7 @@ use super::{Levels, report};
 use crate::TaskError;
 use serde::Serialize;
 use serde_json::Value;
+use unripple_store::Library;
 
 /// Report of a calibration, whose content depends on what was asked.
 #[derive(Clone, Debug, Serialize)]
@@ -45,4 +46,13 @@ impl crate::Report for Report {
     fn failure(&self) -> Option<String> {
         self.failure.clone()
     }
+}
+
+/// Why a library is doubtful, if it is: all reasons.
+pub(super) fn doubted(library: &Library) -> Option<String> {
+    let doubts: Vec<String> = library.doubts().iter().map(|doubt| format!("  {doubt}")).collect();
+    if doubts.is_empty() {
+        return None;
+    }
+    Some(format!("{} is doubtful:\n{}", library.path().display(), doubts.join("\n")))
 }

@@ -28,3 +28,9 @@ pub fn places(ask: &Ask, surface: &Surface, sensing: bool) -> Result<Places, Tas
     }
     Ok(Places { points, probed })
 }
+
+/// The middle of the rectangle around a surface, in m.
+pub(crate) fn middle(surface: &Surface) -> Point {
+    let (width, height) = surface.outline.extent();
+    Point::new(width / 2.0, height / 2.0)
+}

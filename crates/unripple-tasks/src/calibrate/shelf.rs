@@ -1,7 +1,6 @@
 //! Measured points scaled, checked and stored in a library.
 
 use super::scale::Scales;
-use super::verify;
 use crate::TaskError;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
@@ -13,6 +12,9 @@ use unripple_store::{BandQuality, Library, PointState, Quality, StoreError, Take
 
 /// Key of a point's log entry for remarks on its recording.
 pub const SAID: &str = "said";
+
+/// Name of the check of responses against a model, and key of its log entries, for the library and for each point.
+pub const CHECK: &str = "model";
 
 /// A library that is being filled.
 pub struct Shelf {
@@ -129,13 +131,12 @@ impl Shelf {
     /// before: first, so that no log speaks of other responses than are there.
     fn note(&mut self, number: usize, channel: &Channel) -> Result<(), StoreError> {
         let said = channel.account.said();
-        let stale = |log: &Value| log.get(SAID).is_some() || log.get(verify::CHECK).is_some();
+        let stale = |log: &Value| log.get(SAID).is_some() || log.get(CHECK).is_some();
         if said.is_empty() && !self.library.logged_point(number).is_some_and(stale) {
             return Ok(());
         }
         let said = if said.is_empty() { Value::Null } else { json!(said) };
-        self.library
-            .log_points(BTreeMap::from([(number, json!({ SAID: said, (verify::CHECK): Value::Null }))]))
+        self.library.log_points(BTreeMap::from([(number, json!({ SAID: said, CHECK: Value::Null }))]))
     }
 
     /// A channel as it is kept.

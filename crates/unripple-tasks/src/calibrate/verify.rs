@@ -1,6 +1,6 @@
 //! Check of the measured points against a model that is fitted to what the sensors recorded.
 
-use super::shelf::Shelf;
+use super::shelf::{CHECK, Shelf};
 use crate::TaskError;
 use crate::late::comes;
 use serde_json::{Value, json};
@@ -12,9 +12,6 @@ use unripple_calibrate::measure::MeasureOptions;
 use unripple_calibrate::signals::{Band, shift};
 use unripple_calibrate::verify::{self, Checked, Doubted, Verified, VerifyOptions};
 use unripple_store::{Doubt, Library, PointState, Take};
-
-/// Name of the check of responses against a model, and key of its log entries, for the library and for each point.
-pub const CHECK: &str = "model";
 
 /// The check that finds responses which are those of another point: it needs no model.
 const COPIES: &str = "copies";

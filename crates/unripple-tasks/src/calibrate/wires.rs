@@ -1,6 +1,6 @@
 //! Evaluation of the wiring test of a device: which actuators are dead, which wires are wrong, and whether to continue.
 
-use super::Campaign;
+use super::campaign::Campaign;
 use crate::TaskError;
 use serde_json::{Value, json};
 use unripple_devices::WiringReport;

@@ -1,11 +1,12 @@
 //! Tradeoff curves of the focusing methods: contrast, energy and peak as a parameter of the method varies.
 
-use super::Failed;
+use super::failed::{Failed, survived};
+use super::ground::Ground;
 use super::row::{self, Row};
-use super::run::{Ground, survived};
+use super::trade::{Trade, traded};
 use crate::{Progress, TaskError, go_on};
 use serde::Serialize;
-use unripple::focus::{Focused, Focuser, Method, Options};
+use unripple::focus::{Focuser, Method, Options};
 
 /// Tradeoff curve of a focusing method: figures at each value of one of its parameters.
 #[derive(Clone, Debug, Serialize)]
@@ -32,9 +33,6 @@ const ROBUST: [f64; 4] = [0.0, 0.7, 0.95, 0.99];
 /// goes with it.
 const ECONOMIES: [[f64; 2]; 5] = [[0.01, 0.04], [0.06, 0.04], [0.2, 0.05], [0.5, 0.06], [1.5, 0.08]];
 const PUSHES: [f64; 6] = [0.1, 0.3, 0.5, 0.7, 0.85, 0.95];
-
-/// Contrast, energy per squared peak, peak.
-pub(super) type Trade = [f64; 3];
 
 /// The tradeoff curves of all methods that have a parameter, and the rows of what is felt elsewhere.
 pub(super) fn both(
@@ -138,15 +136,4 @@ fn trade(ground: &Ground<'_>, options: &Options) -> Result<Trade, TaskError> {
     let focuser = Focuser::new(ground.known, options).map_err(TaskError::input)?;
     let focused = focuser.focus(ground.targets).map_err(TaskError::input)?;
     traded(ground, &focused)
-}
-
-/// Contrast, energy per squared peak, and peak of a drive, at the first target and its focal instant.
-pub(super) fn traded(ground: &Ground<'_>, focused: &Focused) -> Result<Trade, TaskError> {
-    let drive = focused.drive.clone().as_emitted();
-    let field = ground.on.coarse()?.field(&drive).map_err(TaskError::input)?;
-    let places: Vec<_> = ground.targets.iter().flat_map(|target| target.points.iter().copied()).collect();
-    let found =
-        field.at_instant(focused.instant(), &ground.targets[0].points, &places).map_err(TaskError::input)?;
-    let peak = found.velocity.abs();
-    Ok([peak / found.rms_outside, drive.energy() / (peak * peak), peak])
 }

@@ -1,18 +1,9 @@
 //! Report of the task `compare`.
 
 use super::row::{Conditions, table};
-use super::{Front, Row};
+use super::{Failed, Front, Row};
 use serde::Serialize;
 use unripple::act::Level;
-
-/// A focusing method that failed, and why.
-#[derive(Clone, Debug, Serialize)]
-pub struct Failed {
-    /// Name of the method.
-    pub method: &'static str,
-    /// Reason in words; for a tradeoff curve it names the value of the method's parameter.
-    pub why: String,
-}
 
 /// Results of all methods, one row each, and the tradeoff curves of their parameters.
 #[derive(Clone, Debug, Serialize)]

@@ -1,7 +1,7 @@
 //! One method of a comparison, and the table of all.
 
-use super::front::{Trade, traded};
-use super::run::Ground;
+use super::ground::Ground;
+use super::trade::{Trade, traded};
 use crate::TaskError;
 use serde::Serialize;
 use std::fmt::Write;

@@ -1,32 +1,16 @@
 //! Comparison of all focusing methods on the same targets.
 
+use super::failed::survived;
+use super::ground::Ground;
 use super::row::{self, Row};
 use super::{Ask, Failed, Report, figure, front};
 use crate::numbers::above_zero;
 use crate::target::targets;
 use crate::window::{carries, of_window};
 use crate::{Progress, TaskError, figures, folder, go_on, judge};
-use unripple::act::{Level, Readouts, chosen_window};
-use unripple::core::{Responses, Surface};
-use unripple::focus::{Method, Options, Target};
-
-/// What the drives of all methods have in common.
-pub(super) struct Ground<'a> {
-    /// The surface in common.
-    pub surface: &'a Surface,
-    /// Responses that drives are made from.
-    pub known: &'a Responses,
-    /// Responses that drives are evaluated on.
-    pub plant: &'a Responses,
-    /// Readouts of `plant`, computed once for all methods.
-    pub on: &'a Readouts<'a>,
-    /// The targets in common.
-    pub targets: &'a [Target],
-    /// The options in common: window, level.
-    pub options: &'a Options,
-    /// How strongly each method drives.
-    pub level: Level,
-}
+use unripple::act::{Readouts, chosen_window};
+use unripple::core::Surface;
+use unripple::focus::{Method, Options};
 
 /// Options of all methods: the window (s) and the surface's limits.
 fn settings(surface: &Surface, window: f64) -> Options {
@@ -59,25 +43,6 @@ fn rows(
         }
     }
     Ok((rows, failed))
-}
-
-/// Result of a method; `None` if it failed, which is noted in `failed`.
-///
-/// # Errors
-/// [`TaskError::Cancelled`].
-pub(super) fn survived<T>(
-    found: Result<T, TaskError>,
-    method: Method,
-    failed: &mut Vec<Failed>,
-) -> Result<Option<T>, TaskError> {
-    match found {
-        Ok(found) => Ok(Some(found)),
-        Err(TaskError::Cancelled) => Err(TaskError::Cancelled),
-        Err(error) => {
-            failed.push(Failed { method: method.name(), why: error.to_string() });
-            Ok(None)
-        }
-    }
 }
 
 /// Computes and evaluates the drive of every method on the same targets, and the tradeoff curves of the methods' parameters.

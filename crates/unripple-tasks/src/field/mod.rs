@@ -1,10 +1,12 @@
 //! `field`: evaluates the motion of a surface under any drive.
 
 mod ask;
+mod made;
 mod report;
 mod run;
 mod write;
 
 pub use ask::{Ask, DriveAsk};
+pub use made::Made;
 pub use report::Report;
-pub use run::{Made, make, run};
+pub use run::{make, run};

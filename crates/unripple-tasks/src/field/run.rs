@@ -1,32 +1,13 @@
 //! The field of a drive, measured.
 
-use super::{Ask, DriveAsk, Report, write};
+use super::{Ask, DriveAsk, Made, Report, write};
 use crate::judge::{self, CELLS};
 use crate::numbers::above_zero;
 use crate::{Progress, TaskError, fingers, folder, go_on, point, source};
-use unripple::act::{self, Judged};
-use unripple::core::{Drive, Point, Responses, Surface};
+use unripple::act;
+use unripple::core::{Drive, Point, Surface};
 use unripple::field::{Aim, Field};
 use unripple_store::read_wav;
-
-/// The report on the field of a drive, together with all data from which it was made.
-#[derive(Debug)]
-pub struct Made {
-    /// The report, as `run` returns it.
-    pub report: Report,
-    /// The drive that was played.
-    pub drive: Drive,
-    /// Figures, traces and maps.
-    pub judged: Judged,
-    /// Places and instants at which it was measured.
-    pub aims: Vec<Aim>,
-    /// The surface that was driven.
-    pub surface: Surface,
-    /// The responses of the surface. A [`Field`] of these and the drive gives everything else.
-    pub responses: Responses,
-    /// Whether absolute lengths and velocities are known: not for a library without a scale.
-    pub scaled: bool,
-}
 
 /// Measures what a drive does to a surface, and writes that to a folder if one is given.
 ///

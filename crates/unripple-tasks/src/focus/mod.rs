@@ -1,10 +1,12 @@
 //! `focus`: a drive that focuses on points and shapes, its report and its figures.
 
 mod ask;
+mod made;
 mod report;
 mod run;
 mod write;
 
 pub use ask::{Ask, Losses};
+pub use made::Made;
 pub use report::Report;
-pub use run::{Made, make, run};
+pub use run::{make, run};

@@ -1,33 +1,14 @@
 //! Computes a drive that focuses, and evaluates it.
 
-use super::{Ask, Losses, Report, write};
+use super::{Ask, Losses, Made, Report, write};
 use crate::numbers::above_zero;
 use crate::target::targets;
 use crate::window::{carries, of_window};
 use crate::{Progress, TaskError, fingers, folder, go_on, judge, source};
-use unripple::act::{self, Act, Aware, Judged, Note, chosen_window};
-use unripple::core::{Decay, Drive, Responses, Surface};
-use unripple::focus::{Focused, LossCorrection, Method, Options};
+use unripple::act::{self, Act, Aware, Note, chosen_window};
+use unripple::core::{Decay, Surface};
+use unripple::focus::{LossCorrection, Method, Options};
 use unripple::physics::Medium;
-
-/// The report on a focus, together with all data from which it was made.
-#[derive(Debug)]
-pub struct Made {
-    /// The report, as `run` returns it.
-    pub report: Report,
-    /// The drive as it is emitted: float32 samples in the actuators' unit.
-    pub drive: Drive,
-    /// The field of the drive, measured, with traces at the targets and maps.
-    pub judged: Judged,
-    /// The drive before it was scaled to its level, with its timing.
-    pub focused: Focused,
-    /// The surface that the drive was evaluated on.
-    pub surface: Surface,
-    /// The responses that the drive was made from.
-    pub responses: Responses,
-    /// Whether absolute lengths and velocities are known: not for a library without a scale.
-    pub scaled: bool,
-}
 
 /// Computes a drive that focuses on points and shapes, evaluates it, and writes it to a folder if one is given.
 ///

@@ -2,7 +2,8 @@
 
 use super::{Bench, Outcome, Wanted, fault::Fault, plan::PLAY};
 use crate::TaskError;
-use crate::calibrate::{Report, doubted, report};
+use crate::calibrate::outcome::doubted;
+use crate::calibrate::{Report, report};
 use serde_json::{Value, json};
 use std::fmt::Write;
 

@@ -2,7 +2,7 @@
 
 use super::Bench;
 use crate::TaskError;
-use crate::calibrate::{Campaign, PROBED};
+use crate::calibrate::campaign::{Campaign, PROBED};
 use std::collections::BTreeMap;
 use unripple::core::Point;
 use unripple_store::{Library, LibraryPlan};

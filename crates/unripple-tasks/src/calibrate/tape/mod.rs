@@ -13,7 +13,9 @@ mod takes;
 mod wiring;
 
 use super::ask::{Ask, By};
-use super::{Campaign, Report, figure, levels, middle, points, report};
+use super::campaign::Campaign;
+use super::points::{self, middle};
+use super::{Report, figure, levels, report};
 
 use crate::TaskError;
 use asked::{Asked, Wanted};
@@ -88,7 +90,7 @@ pub(super) fn run(mut campaign: Campaign<'_>) -> Result<Report, TaskError> {
 
     let mut bench = Bench { campaign, wanted, takes, folder, good: Vec::new() };
     if ask.check_levels {
-        return levels::look(&bench.recordings(), &bench.takes.reader.layout.inputs);
+        return Report::of_levels(&levels::look(&bench.recordings(), &bench.takes.reader.layout.inputs)?);
     }
     let outcome = if bench.can_begin() { bench.measure(&session)? } else { Outcome::default() };
     let drawn = match &outcome.library {

@@ -1,0 +1,92 @@
+//! What a calibration knows before anything is measured, and the plan of its library.
+
+use super::ask::{Ask, By};
+use super::before;
+use super::points::Places;
+use super::scale::Scales;
+use crate::{Progress, TaskError, go_on};
+use serde_json::{Value, json};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use unripple::core::{ModalResponses, Surface};
+use unripple_calibrate::measure::MeasureOptions;
+use unripple_store::{LibraryPlan, OutputDir};
+
+/// The key of a plan's provenance that counts the points measured by a probe or by taps.
+pub(super) const PROBED: &str = "probed points";
+
+/// All that is known before anything is measured.
+pub(crate) struct Campaign<'a> {
+    /// The question that the task was asked.
+    pub ask: &'a Ask,
+    /// The surface as its file has it.
+    pub surface: &'a Surface,
+    /// Model of the surface, from its file.
+    pub model: &'a ModalResponses,
+    /// How responses are measured.
+    pub settings: MeasureOptions,
+    /// Values at full scale of inputs and outputs.
+    pub scales: Scales,
+    /// The places to be measured.
+    pub places: Places,
+    /// Where a figure is to be, if one is asked for.
+    pub figure: Option<OutputDir>,
+    /// The callback that reports progress.
+    pub(super) progress: RefCell<&'a mut dyn Progress>,
+}
+
+impl Campaign<'_> {
+    /// Shows people a line.
+    pub fn tell(&self, line: &str) {
+        self.progress.borrow_mut().tell(line);
+    }
+
+    /// Hands out the callback that reports progress.
+    pub fn with_progress<T>(&self, work: impl FnOnce(&mut dyn Progress) -> T) -> T {
+        work(*self.progress.borrow_mut())
+    }
+
+    /// Returns an error if the task has been cancelled.
+    ///
+    /// # Errors
+    /// [`TaskError::Cancelled`].
+    pub fn go_on(&self) -> Result<(), TaskError> {
+        self.with_progress(|progress| go_on(progress))
+    }
+
+    /// Says what is too short for the surface.
+    pub(super) fn warn(&self) {
+        self.settings
+            .warnings(self.model)
+            .iter()
+            .for_each(|warning| self.tell(&format!("warning: {warning}")));
+    }
+
+    /// What the library is to hold.
+    pub(super) fn plan(&self) -> LibraryPlan {
+        let (ask, settings, surface) = (self.ask, &self.settings, self.surface);
+        let by = format!("{:?}", ask.by).to_lowercase();
+        let provenance = BTreeMap::from([
+            ("software".to_owned(), format!("unripple {}", env!("CARGO_PKG_VERSION"))),
+            ("device".to_owned(), format!("{:?}", ask.device.device).to_lowercase()),
+            ("by".to_owned(), by),
+            (PROBED.to_owned(), self.places.probed.to_string()),
+            (before::SWEEP.to_owned(), settings.sweep.to_string()),
+            (before::SWEPT.to_owned(), settings.swept(surface).map(|hz| hz.to_string()).join(" ")),
+            ("repeats".to_owned(), settings.repeats.to_string()),
+            ("level".to_owned(), settings.level.to_string()),
+        ]);
+        let samples = settings.samples(surface.emission.rate);
+        let (ports, conditions) = (self.model.ports.clone(), self.model.conditions.clone());
+        let known = LibraryPlan::new(ports, self.places.points.clone(), conditions, samples);
+        LibraryPlan { surface: Some(surface.clone()), provenance, ..known }
+    }
+
+    /// Scales of the inputs and outputs, for the log. With taps the model tells their strength.
+    pub(super) fn scale_told(&self) -> Value {
+        match self.ask.by {
+            By::Probe => self.scales.told(),
+            By::Tap => json!({ "by": "the model, tap by tap" }),
+        }
+    }
+}
