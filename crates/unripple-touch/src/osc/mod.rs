@@ -4,6 +4,7 @@ mod frame;
 mod own;
 mod packet;
 mod port;
+mod profile;
 mod receiver;
 mod senders;
 mod sequence;

@@ -2,9 +2,9 @@
 
 use super::frame::Frame;
 use super::packet;
+use super::profile::Profile;
 use super::senders::{LISTS, Senders};
 use super::sequence::Verdict;
-use super::tuio::Profile;
 use crate::{Counts, Fingers, Heard, Key, Options, TouchError};
 use rosc::OscMessage;
 use std::net::SocketAddr;

@@ -1,6 +1,7 @@
 //! Multi-touch screens of Linux: evdev devices.
 
-use super::reader::{Axis, Contacts};
+use super::axis::Axis;
+use super::contacts::Contacts;
 use super::slots::Event;
 use crate::TouchError;
 use evdev::raw_stream::RawDevice;

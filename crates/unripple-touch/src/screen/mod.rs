@@ -1,9 +1,13 @@
 //! Multi-touch screens of Linux.
 
+mod axis;
+mod contacts;
 #[cfg(target_os = "linux")]
 mod linux;
 mod reader;
 mod slots;
 
-pub use reader::{Axis, Contacts, Screen};
+pub use axis::Axis;
+pub use contacts::Contacts;
+pub use reader::Screen;
 pub use slots::{Event, Report, Slots};

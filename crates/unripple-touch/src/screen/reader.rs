@@ -1,11 +1,11 @@
 //! A screen as a source: events read, lost devices reopened.
 
+use super::axis::Axis;
+use super::contacts::Contacts;
 use super::slots::{Event, Report, Slots};
 use crate::{Counts, Fingers, Heard, Key, Options, Source, TouchError};
-use std::io;
 #[cfg(unix)]
 use std::os::fd::BorrowedFd;
-use unripple_core::require;
 
 /// Batches of events read in one poll, so that a poll does bounded work: the rest is read by the next.
 const BATCHES: usize = 16;
@@ -15,47 +15,6 @@ const PACE: f64 = 0.002;
 /// How long to wait before a lost screen is opened again, in s. Opening a device that is not there costs little, so
 /// that a second is not missed.
 const RETRY: f64 = 1.0;
-
-/// The range of an axis, as the screen states it, in its own unit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Axis {
-    /// Least value of the axis.
-    pub minimum: i32,
-    /// Largest value of the axis.
-    pub maximum: i32,
-}
-
-impl Axis {
-    /// A value as a fraction of the range.
-    fn share(self, value: i32) -> f64 {
-        let (low, high) = (f64::from(self.minimum), f64::from(self.maximum));
-        (f64::from(value) - low) / (high - low)
-    }
-
-    fn check(self, what: &'static str) -> Result<(), TouchError> {
-        let span = f64::from(self.maximum) - f64::from(self.minimum);
-        Ok(require(what, span > 0.0, "more than 0", span)?)
-    }
-}
-
-/// The events of a screen, read from the kernel or from a list.
-pub trait Contacts: Send {
-    /// Appends the next events that are available, some tens at a time; never blocks. If it appends none, no more are
-    /// available.
-    fn read(&mut self, events: &mut Vec<Event>) -> io::Result<()>;
-
-    /// The slot that the next events belong to; called after events were lost.
-    fn slot(&mut self) -> io::Result<usize>;
-
-    /// File that becomes readable when there are events; without one, the screen is polled every 2 ms.
-    #[cfg(unix)]
-    fn file(&self) -> Option<BorrowedFd<'_>> {
-        None
-    }
-
-    /// Opens a screen again after a read error.
-    fn reopen(&mut self) -> io::Result<()>;
-}
 
 /// A multi-touch screen as a source of touches.
 ///
