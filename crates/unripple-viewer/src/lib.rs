@@ -56,6 +56,7 @@ mod simulation;
 mod spectrum;
 pub mod task;
 mod view;
+mod viewer;
 mod wire;
 
 pub use compute::Responder;
@@ -63,7 +64,8 @@ pub use draft::Draft;
 pub use error::ViewError;
 pub use simulation::Follow;
 pub use unripple_tasks::play::Opener;
-pub use view::{View, Viewer};
+pub use view::View;
+pub use viewer::Viewer;
 pub use wire::{Command, Edit, Job, Measure, Phase, Probe, Refused, Settings, Transport};
 
 /// Waits for some time by the machine's clock, for futures given to [`Viewer::serve`].

@@ -1,18 +1,10 @@
-//! Options of the viewer, and the server that runs it.
+//! Options of the viewer, and the instrument that they specify.
 
-use crate::ViewError;
 use crate::compute::Responder;
-use crate::door::listen;
-use crate::guard::Guard;
-use crate::host::SessionHost;
-use crate::server::{Desk, router};
 use crate::simulation::{Follow, PULSES, Spec};
-use std::future::Future;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::sync::Arc;
-use tokio::net::TcpListener;
-use tokio::runtime::Runtime;
 use unripple::core::{SampledResponses, Surface};
 use unripple::focus::Method;
 use unripple_tasks::play::Opener;
@@ -20,9 +12,6 @@ use unripple_tasks::play::Opener;
 /// Pulses a second under a resting finger, at first. Apart enough to be felt one by one, and often enough to be found
 /// at once.
 const RATE: f64 = 10.0;
-
-/// Threads that serve pages: one, so that serving never takes a core from the simulation.
-const THREADS: usize = 1;
 
 /// Options of the viewer: the surface to show, how it is played, and who may connect.
 pub struct View {
@@ -54,33 +43,7 @@ pub struct View {
     pub quiet: bool,
 }
 
-/// A viewer that listens for connections.
-pub struct Viewer {
-    listener: TcpListener,
-    desk: Desk,
-    runtime: Runtime,
-}
-
 impl View {
-    /// Builds the instrument of the surface, and listens for connections.
-    ///
-    /// # Errors
-    /// [`ViewError::Address`] if the server cannot listen at the address; those of the surface and the device.
-    pub fn open(self) -> Result<Viewer, ViewError> {
-        let refused = |why: &dyn std::fmt::Display| ViewError::Address {
-            address: self.address.to_string(),
-            why: why.to_string(),
-        };
-        let runtime =
-            tokio::runtime::Builder::new_multi_thread().worker_threads(THREADS).enable_all().build();
-        let runtime = runtime.map_err(|error| ViewError::Gone { why: error.to_string() })?;
-        let listener = runtime.block_on(TcpListener::bind(self.address)).map_err(|error| refused(&error))?;
-        let address = listener.local_addr().map_err(|error| refused(&error))?;
-        let guard = Guard::new(address, self.token.clone());
-        let host = SessionHost::open(&self, guard.elsewhere())?;
-        Ok(Viewer { listener, desk: Desk { host, guard }, runtime })
-    }
-
     /// Specification of the instrument to begin with.
     pub(crate) fn spec(&self) -> Spec {
         Spec {
@@ -95,35 +58,5 @@ impl View {
             device: self.device.clone(),
             follow: self.follow.clone(),
         }
-    }
-}
-
-impl Viewer {
-    /// URL to open in a browser on this machine, including the token.
-    pub fn url(&self) -> String {
-        self.desk.guard.url()
-    }
-
-    /// URL to open on another machine of the network; `None` if only this machine can connect.
-    pub fn elsewhere(&self) -> Option<String> {
-        self.desk.guard.elsewhere()
-    }
-
-    /// Serves pages until the future `stop` is ready. Then connections are cut, jobs stopped, and the device is closed.
-    ///
-    /// # Errors
-    /// [`ViewError::Gone`] if the thread that plays the surface failed before.
-    pub fn serve(self, stop: impl Future<Output = ()>) -> Result<(), ViewError> {
-        let Self { listener, desk, runtime } = self;
-        let host = desk.host.clone();
-        runtime.block_on(async move {
-            // Links last as long as pages do: what is open when it ends is cut.
-            tokio::select! {
-                () = listen(listener, router(desk)) => {}
-                () = stop => {}
-            }
-        });
-        runtime.shutdown_background();
-        host.close()
     }
 }
