@@ -6,10 +6,6 @@ use crate::core::{Point, Surface};
 use crate::field::{Aim, Field, Measured, Reach, Trace};
 use crate::physics::design::{Linearity, linearity};
 
-/// Cells per shortest wavelength of the grid on which metrics are computed. On 4, contrasts differ by 2 % rms; 16 take
-/// four times as long.
-pub const CELLS: f64 = 8.0;
-
 /// Evaluation of the field of a drive: metrics, traces, maps, warnings.
 #[derive(Clone, Debug)]
 pub struct Judged {

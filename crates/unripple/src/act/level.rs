@@ -1,9 +1,10 @@
 //! Level of a drive: by linear theory, by limit, by peak, as felt.
 
 use super::Readouts;
+use super::aimed::Aimed;
+use super::beyond::Beyond;
 use super::error::{ActError, LevelKind};
 use super::judge::{known, linear};
-use super::send::Aimed;
 use super::strength::DecidedBy;
 use crate::core::{Drive, Surface};
 use crate::field::Readout;
@@ -107,18 +108,6 @@ impl Level {
         };
         (step.factor > 1.0).then_some(found)
     }
-}
-
-/// A level asked for that the drive limit does not give.
-pub(super) struct Beyond {
-    /// The kind of level.
-    pub what: LevelKind,
-    /// Level that the limit gives, with its unit.
-    pub most: String,
-    /// Level that was asked for, as text.
-    pub wanted: String,
-    /// Unit of the value, as people write it.
-    pub unit: &'static str,
 }
 
 impl From<LinearLevel> for Step {

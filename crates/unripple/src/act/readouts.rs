@@ -1,9 +1,13 @@
 //! Grids on which levels and metrics of drives are evaluated, computed once for all drives.
 
-use super::{ActError, CELLS};
+use super::ActError;
 use crate::core::Responses;
 use crate::field::Readout;
 use std::sync::OnceLock;
+
+/// Cells per shortest wavelength of the grid on which metrics are computed. On 4, contrasts differ by 2 % rms; 16 take
+/// four times as long.
+pub const CELLS: f64 = 8.0;
 
 /// Cells of the coarse grid per shortest wavelength: enough for displacements and for curves of contrast, while slopes
 /// need as many as metrics.

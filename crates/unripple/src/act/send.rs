@@ -1,8 +1,9 @@
 //! A drive brought to the level asked for.
 
+use super::aimed::Aimed;
 use super::level::Step;
 use super::strength::{DecidedBy, Strength};
-use super::{Act, ActError, Level, Note, Readouts, note};
+use super::{Act, ActError, Level, Note, Readouts, loss, note};
 use crate::core::Drive;
 use crate::field::Aim;
 use crate::focus::{FocusError, Focused, Focuser, Method};
@@ -32,38 +33,6 @@ pub struct Sent {
     pub notes: Vec<Note>,
 }
 
-/// Places and instants at which a drive is evaluated.
-#[derive(Clone, Debug)]
-pub(super) struct Aimed {
-    /// Where and when the drive is evaluated.
-    pub aims: Vec<Aim>,
-    /// Period of a repeated drive, in samples.
-    pub period: Option<usize>,
-    /// End of the time that is evaluated, in seconds.
-    pub until: f64,
-    rate: f64,
-}
-
-impl Aimed {
-    fn of(act: &Act<'_>, focused: &Focused) -> Self {
-        let rate = focused.drive.rate();
-        let seconds = |samples: usize| samples as f64 / rate;
-        let timed = act.targets.iter().zip(focused.instants());
-        let aims = timed.map(|(target, instant)| Aim { points: target.points.clone(), instant }).collect();
-        let last = focused.timing.iter().map(|timing| timing.instant).max().unwrap_or(0);
-        let until = match focused.period {
-            Some(_) => seconds(focused.drive.samples().saturating_sub(1)),
-            None => 2.0 * seconds(last),
-        };
-        Self { aims, period: focused.period, until, rate }
-    }
-
-    /// The period, in seconds.
-    pub fn seconds(&self) -> Option<f64> {
-        self.period.map(|samples| samples as f64 / self.rate)
-    }
-}
-
 /// A drive on its way to a level.
 struct Levelled {
     focused: Focused,
@@ -83,7 +52,7 @@ impl Act<'_> {
     /// [`ActError::Level`] for levels that are not legal numbers or are above what the drive limit gives, and for a
     /// target that does not move; those of [`Focuser::focus_at`] and of the field.
     pub fn send(&self, focuser: &Focuser<'_>, focused: Focused, on: &Readouts<'_>) -> Result<Sent, ActError> {
-        let aimed = Aimed::of(self, &focused);
+        let aimed = Aimed::of(self.targets, &focused);
         let full = focused.drive.clone().as_emitted();
         let step = self.step(on, &full, &aimed)?;
         step.map_or(Ok(()), |step| self.level.within(step))?;
@@ -101,7 +70,7 @@ impl Act<'_> {
         focused: Focused,
         on: &Readouts<'_>,
     ) -> Result<Sent, ActError> {
-        let aimed = Aimed::of(self, &focused);
+        let aimed = Aimed::of(self.targets, &focused);
         let full = focused.drive.clone().as_emitted();
         let step = self.step(on, &full, &aimed)?;
         let Some(beyond) = step.and_then(|step| self.level.beyond(step)) else {
@@ -131,7 +100,7 @@ impl Act<'_> {
             notes.extend(note::unknown(self.surface, &levelled.drive));
         }
         if levelled.factor.is_some_and(|factor| factor < 1.0) {
-            notes.extend(note::idle(
+            notes.extend(loss::idle(
                 self,
                 (focuser, on),
                 &levelled.focused,

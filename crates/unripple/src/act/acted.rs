@@ -1,0 +1,65 @@
+//! The result of an act: the steps that compute it, and its report.
+
+use super::{Act, ActError, Judged, Readouts, Report, Sent, Strength, carries, judge};
+use crate::core::{Drive, Surface};
+use crate::focus::{Focused, Focuser, Options};
+
+/// Result of an [`Act`]: the drive, its level and its evaluation.
+#[derive(Clone, Debug)]
+pub struct Acted {
+    /// The focus as computed, before its drive is scaled to the level and rounded, with its timing.
+    pub focused: Focused,
+    /// The drive at the level asked for, as float32 samples.
+    pub drive: Drive,
+    /// Level of the drive relative to its limits, and what decided it.
+    pub strength: Strength,
+    /// Metrics, traces and maps of the field of the drive.
+    pub judged: Judged,
+}
+
+impl<'a> Act<'a> {
+    /// Grids on which the fields of the act's responses are evaluated, for [`Act::send`] and [`Act::judge`]; acts on
+    /// the same responses can share them.
+    pub fn readouts(&self) -> Readouts<'a> {
+        Readouts::of(self.responses)
+    }
+
+    /// Computes the drive, brings it to its level and evaluates it.
+    ///
+    /// # Errors
+    /// Those of [`carries`], [`Focuser`], [`Act::send`] and [`Act::judge`].
+    pub fn run(&self) -> Result<Acted, ActError> {
+        self.run_on(&self.readouts())
+    }
+
+    /// As [`Act::run`], with readouts that are shared with other acts on the same responses.
+    ///
+    /// # Errors
+    /// Those of [`Act::run`].
+    pub fn run_on(&self, on: &Readouts<'_>) -> Result<Acted, ActError> {
+        carries(self.responses.conditions(), self.options.window)?;
+        let focuser = Focuser::new(self.responses, self.options)?;
+        let sent = self.send(&focuser, focuser.focus(self.targets)?, on)?;
+        let judged = self.judge(&sent, on)?;
+        Ok(Acted { focused: sent.focused, drive: sent.drive, strength: sent.strength, judged })
+    }
+
+    /// Evaluates the field of a drive on the act's own responses.
+    ///
+    /// # Errors
+    /// Those of [`Readouts::fine`] and [`judge()`].
+    pub fn judge(&self, sent: &Sent, on: &Readouts<'_>) -> Result<Judged, ActError> {
+        let field = on.fine()?.field(&sent.drive)?;
+        let mut judged = judge(self.surface, &field, &sent.aims, sent.period, sent.until)?;
+        judged.notes.extend(sent.notes.iter().cloned());
+        Ok(judged)
+    }
+}
+
+impl Acted {
+    /// The report of `unripple focus` on `surface` with these options, without names of files.
+    pub fn report(&self, surface: &Surface, options: &Options) -> Report {
+        let report = Report::of_focus(surface, &self.focused, options.window, &self.drive, &self.judged);
+        Report { level: Some(self.strength.clone()), ..report }
+    }
+}
