@@ -3,6 +3,7 @@
 mod reading;
 mod tokens;
 
+use crate::sources;
 use reading::{Module, Names, read};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -34,14 +35,14 @@ impl std::fmt::Display for Circle {
 /// A file needs another if its code, tests left out, names or imports an item that is defined there. An item that is reached through
 /// re-exports counts as needed from the file that defines it; a re-export itself is no need.
 pub fn find(root: &Path) -> Vec<Circle> {
-    let mut manifests = crate::files(&root.join("crates"), &["Cargo.toml"]);
+    let mut manifests = sources::files(&root.join("crates"), &["Cargo.toml"]);
     manifests.push(root.join("xtask/Cargo.toml"));
     manifests.iter().filter_map(|manifest| manifest.parent()).flat_map(of_crate).collect()
 }
 
 fn of_crate(folder: &Path) -> Vec<Circle> {
     let source = folder.join("src");
-    let sources = crate::files(&source, &[".rs"]).into_iter().map(|path| {
+    let sources = sources::files(&source, &[".rs"]).into_iter().map(|path| {
         let text = std::fs::read_to_string(&path).unwrap_or_default();
         (path.strip_prefix(&source).unwrap_or(&path).to_path_buf(), text)
     });

@@ -1,11 +1,12 @@
 //! Constants and statics of a module are preceded by a comment, alone or as a group without an empty line.
 
 use crate::items::{self, declared};
+use crate::sources;
 use std::path::Path;
 
 /// Finds constants without a comment.
 pub fn check(root: &Path) -> Vec<String> {
-    crate::sources(root, &|text| {
+    sources::faults(root, &|text| {
         let lines: Vec<&str> = text.lines().collect();
         let unsaid = unexplained(items::code(&lines));
         unsaid.into_iter().map(|at| (at, "expected a comment that says why this value".to_owned())).collect()

@@ -1,6 +1,7 @@
 //! Public items, fields and variants each have a doc of three words or more.
 
 use crate::items::{self, declared, indent};
+use crate::sources;
 use std::path::Path;
 
 /// Words that a doc has at least: "The value." says nothing that the name does not.
@@ -8,7 +9,7 @@ const WORDS: usize = 3;
 
 /// Finds public items, fields and variants without a doc, or with one of too few words.
 pub fn check(root: &Path) -> Vec<String> {
-    crate::sources(root, &|text| {
+    sources::faults(root, &|text| {
         let lines: Vec<&str> = text.lines().collect();
         let lines = items::code(&lines);
         let thin = (0..lines.len()).filter(|at| is_public(lines, *at) && words(lines, *at) < WORDS);

@@ -1,5 +1,7 @@
 //! Runs every shell block of the README and the guides, as a reader would type them.
 
+use crate::profile::PROFILE;
+use crate::sources;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -17,7 +19,7 @@ pub fn run_all(root: &Path) -> Vec<String> {
     let mut faults = Vec::new();
     let mut count = 0;
     let mut pages = vec![root.join("README.md")];
-    pages.extend(crate::files(&root.join("docs"), &[".md"]));
+    pages.extend(sources::files(&root.join("docs"), &[".md"]));
     for page in pages {
         let text = std::fs::read_to_string(&page).unwrap_or_default();
         let folder =
@@ -62,7 +64,7 @@ fn search_path(scratch: &Path) -> Result<SearchPath, String> {
     let built = built.parent().ok_or("xtask is in no folder")?;
     let program = built.join(format!("unripple{}", std::env::consts::EXE_SUFFIX));
     if !program.is_file() {
-        return Err(format!("no {}: cargo build --profile {} makes it", program.display(), crate::PROFILE));
+        return Err(format!("no {}: cargo build --profile {PROFILE} makes it", program.display()));
     }
     let folder = scratch.join("path");
     std::fs::create_dir_all(&folder).map_err(said)?;

@@ -1,5 +1,6 @@
 //! Imports run strictly downward: a crate depends only on crates of lower floors.
 
+use crate::sources;
 use std::path::Path;
 
 /// The floor of each crate: imports go to lower numbers only.
@@ -33,7 +34,7 @@ fn floor(name: &str) -> Option<i8> {
 /// Finds dependencies that do not run downward, and crates without a floor.
 pub fn check(root: &Path) -> Vec<String> {
     let mut faults = Vec::new();
-    for manifest in crate::files(&root.join("crates"), &["Cargo.toml"]) {
+    for manifest in sources::files(&root.join("crates"), &["Cargo.toml"]) {
         let text = std::fs::read_to_string(&manifest).unwrap_or_default();
         let table: toml::Table = match text.parse() {
             Ok(table) => table,

@@ -1,5 +1,6 @@
 //! Linear algebra is called through `unripple-linalg`, which alone compiles the algorithms of the library behind it.
 
+use crate::sources;
 use std::path::Path;
 
 /// The crate that may depend on the library.
@@ -34,7 +35,7 @@ fn library() -> String {
 /// Finds dependencies on the library, paths into it and calls of its algorithms outside [`OWN`], line by line.
 pub fn check(root: &Path) -> Vec<String> {
     let (mut faults, path) = (Vec::new(), format!("{}::", library()));
-    for file in crate::files(&root.join("crates"), &[".rs", "Cargo.toml"]) {
+    for file in sources::files(&root.join("crates"), &[".rs", "Cargo.toml"]) {
         if file.components().any(|part| part.as_os_str() == OWN) {
             continue;
         }

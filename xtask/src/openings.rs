@@ -1,5 +1,6 @@
 //! Every source file opens with a line that says what it is.
 
+use crate::sources;
 use std::path::Path;
 
 /// Words that such a line has at least: a name alone says nothing.
@@ -7,7 +8,7 @@ const WORDS: usize = 2;
 
 /// Finds source files whose first line does not describe them.
 pub fn check(root: &Path) -> Vec<String> {
-    let files = crate::files(root, &[".rs"]).into_iter();
+    let files = sources::files(root, &[".rs"]).into_iter();
     let silent = files.filter(|path| !opens(&std::fs::read_to_string(path).unwrap_or_default()));
     silent.map(|path| format!("{}: expected a first line that says what it is", path.display())).collect()
 }

@@ -1,6 +1,7 @@
 //! Public functions of real numbers name a unit, a shape or a pure number in their docs.
 
 use crate::items::{self, declared};
+use crate::sources;
 use std::path::Path;
 
 /// Types that hold quantities.
@@ -20,7 +21,7 @@ const WORDS: &str = "second millisecond microsecond nanosecond metre millimetre 
 
 /// Finds public functions of quantities whose docs name no unit or shape.
 pub fn check(root: &Path) -> Vec<String> {
-    crate::sources(root, &|text| {
+    sources::faults(root, &|text| {
         let lines: Vec<&str> = text.lines().collect();
         let lines = items::code(&lines);
         let bare = (0..lines.len()).filter(|at| is_numeric(lines, *at) && !is_named(lines, *at));

@@ -1,16 +1,17 @@
 //! Seeds of random tests that failed once are kept in files where proptest looks for them.
 
+use crate::sources;
 use std::path::Path;
 
 /// Finds files of seeds that no test reads, and tests that keep no seeds.
 pub fn check(root: &Path) -> Vec<String> {
     let crates = root.join("crates");
-    let seeds = crate::files(&crates, &[".proptest-regressions", ".txt"]);
+    let seeds = sources::files(&crates, &[".proptest-regressions", ".txt"]);
     let lost = seeds.iter().filter(|path| !is_read(path));
     let mut faults: Vec<String> =
         lost.map(|path| format!("{}: proptest does not look for seeds there", path.display())).collect();
     let switched_off = ["failure_pers", "istence: None"].concat();
-    for path in crate::files(&crates, &[".rs"]) {
+    for path in sources::files(&crates, &[".rs"]) {
         if std::fs::read_to_string(&path).unwrap_or_default().contains(&switched_off) {
             faults.push(format!("{}: the seeds of its failures are not kept", path.display()));
         }

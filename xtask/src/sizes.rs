@@ -1,6 +1,7 @@
 //! Files of at most 400 lines, functions of at most 60.
 
 use crate::items::{self, declared, indent};
+use crate::sources;
 use std::path::Path;
 
 /// Most lines of a file and of a function: what a reader holds at once. Half as many would cut thoughts apart.
@@ -10,7 +11,7 @@ const FUNCTION_LINES: usize = 60;
 /// Finds files and functions that are too long.
 pub fn check(root: &Path) -> Vec<String> {
     let mut faults = Vec::new();
-    for path in crate::files(root, &[".rs", ".py", ".js", ".css", ".html"]) {
+    for path in sources::files(root, &[".rs", ".py", ".js", ".css", ".html"]) {
         let text = std::fs::read_to_string(&path).unwrap_or_default();
         let lines = text.lines().count();
         if lines > FILE_LINES {

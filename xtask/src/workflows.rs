@@ -1,5 +1,6 @@
 //! Tests that the workflow and the issue forms are valid YAML with the keys that they need.
 
+use crate::sources;
 use yaml_rust2::{Yaml, YamlLoader};
 
 fn read(path: &std::path::Path) -> Yaml {
@@ -19,7 +20,7 @@ fn keys(yaml: &Yaml, allowed: &[&str], needed: &[&str]) {
 
 #[test]
 fn each_job_runs_somewhere_and_does_something() {
-    let workflow = read(&crate::root().join(".github/workflows/check.yml"));
+    let workflow = read(&sources::root().join(".github/workflows/check.yml"));
     keys(&workflow, &["name", "on", "permissions", "jobs"], &["name", "on", "permissions", "jobs"]);
     let jobs = workflow["jobs"].as_hash().unwrap();
     assert!(!jobs.is_empty());
@@ -42,10 +43,10 @@ fn each_job_runs_somewhere_and_does_something() {
 
 #[test]
 fn the_oldest_rust_is_the_one_that_is_promised() {
-    let manifest = std::fs::read_to_string(crate::root().join("Cargo.toml")).unwrap();
+    let manifest = std::fs::read_to_string(sources::root().join("Cargo.toml")).unwrap();
     let manifest: toml::Table = manifest.parse().unwrap();
     let promised = manifest["workspace"]["package"]["rust-version"].as_str().unwrap();
-    let workflow = read(&crate::root().join(".github/workflows/check.yml"));
+    let workflow = read(&sources::root().join(".github/workflows/check.yml"));
     let steps = workflow["jobs"]["oldest-rust"]["steps"].as_vec().unwrap();
     let runs: Vec<&str> = steps.iter().filter_map(|step| step["run"].as_str()).collect();
     assert!(runs.iter().any(|run| run.contains(&format!("toolchain install {promised} "))), "{runs:?}");
@@ -54,7 +55,7 @@ fn the_oldest_rust_is_the_one_that_is_promised() {
 
 #[test]
 fn each_form_asks_something() {
-    let forms = crate::files(&crate::root().join(".github/ISSUE_TEMPLATE"), &["fault.yml", "wish.yml"]);
+    let forms = sources::files(&sources::root().join(".github/ISSUE_TEMPLATE"), &["fault.yml", "wish.yml"]);
     assert_eq!(forms.len(), 2);
     for form in forms.iter().map(|path| read(path)) {
         keys(&form, &["name", "description", "labels", "body"], &["name", "description", "body"]);

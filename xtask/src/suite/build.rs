@@ -1,5 +1,6 @@
 //! The test programs of the workspace, built by cargo.
 
+use crate::profile::PROFILE;
 use serde_json::Value;
 use std::collections::{BTreeMap, VecDeque};
 use std::path::{Path, PathBuf};
@@ -55,7 +56,7 @@ pub fn programs(root: &Path, arguments: &[String]) -> Result<Built, String> {
 /// Cargo's messages, a line each in JSON, of the programs that it built.
 fn build(root: &Path, chosen: &[String]) -> Result<String, String> {
     let output = cargo(root)
-        .args(["test", "--profile", crate::PROFILE, "--lib", "--bins", "--tests", "--no-run"])
+        .args(["test", "--profile", PROFILE, "--lib", "--bins", "--tests", "--no-run"])
         .arg("--message-format=json-render-diagnostics")
         .args(chosen)
         .stderr(Stdio::inherit())

@@ -74,6 +74,7 @@ fn is(program: &Program, package: &str, name: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sources;
     use std::path::PathBuf;
 
     fn program(package: &str, name: &str) -> Program {
@@ -92,7 +93,7 @@ mod tests {
 
     #[test]
     fn every_name_is_that_of_a_program() {
-        let crates = crate::root().join("crates");
+        let crates = sources::root().join("crates");
         let named = ALONE.iter().map(|(package, name, _)| (*package, *name)).chain(LONG.iter().copied());
         for (package, name) in named {
             let folder = crates.join(package);
