@@ -29,18 +29,18 @@ class Kept:
 
     def take(self, asked):
         """The row that was asked for, if it was made before."""
-        name, fault, strength = asked
-        return self.rows.get((name, fault, float(strength)))
+        return self.rows.get(asked)
 
     def keep(self, row):
-        """Appends a row, which is on disk when this returns."""
+        """Appends a row, which is in the file when this returns."""
         self.path.parent.mkdir(parents=True, exist_ok=True)
         with self.path.open("a", encoding="utf-8") as file:
             file.write(json.dumps({**row, "program": self.digest}) + "\n")
 
 
 def key(row):
-    return row["surface"], row["fault"], float(row["strength"])
+    """The row as it is asked for."""
+    return row["surface"], row["fault"], row["strength"]
 
 
 def whole(line):

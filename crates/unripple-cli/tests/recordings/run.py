@@ -51,9 +51,10 @@ def made(asked, given):
     left = [row for row, found in zip(asked, known) if found is None]
     with ProcessPoolExecutor(given.jobs, initializer=begin, initargs=(given.program, given.keep)) as pool:
         for future in as_completed([pool.submit(work, row) for row in left]):
+            row = future.result()
             if before:
-                before.keep(future.result())
-            yield future.result()
+                before.keep(row)
+            yield row
 
 
 def asked(given):
