@@ -19,6 +19,7 @@ fn main() -> Result<(), Failure> {
         ("five-points", five_points()),
         ("velocity", velocity()),
         ("peak", peak()),
+        ("scatter", scatter()),
         ("strip", strip()),
         ("grid", grid_of_four()),
         ("wide", wide()),
@@ -285,6 +286,27 @@ fn peak_map() -> Map {
 
 fn peak() -> Figure {
     Figure::of(peak_map())
+}
+
+/// The same at the points of a coarse grid.
+fn scatter() -> Figure {
+    let place = |i: i32| 0.015 * f64::from(i + 1);
+    let points: Vec<[f64; 2]> = (0..81).map(|i| [place(i % 9), place(i / 9)]).collect();
+    let values = points.iter().map(|[x, y]| 0.043 * wave(*x, *y, 0.0).abs()).collect();
+    let colours = Colours {
+        title: "Peak velocity (mm/s)".into(),
+        map: ColourMap::Sequential,
+        multiplier: 1e3,
+        ..Colours::default()
+    };
+    Figure::of(Scatter {
+        points,
+        values,
+        outline: square(),
+        markers: markers(),
+        colours,
+        ..Scatter::default()
+    })
 }
 
 fn shots(instants: &[f64]) -> Vec<Shot> {

@@ -2,6 +2,7 @@
 
 use crate::colour::Rgb;
 use crate::font;
+use crate::label::Label;
 use base64::Engine;
 use std::fmt::Write;
 
@@ -146,6 +147,8 @@ pub(crate) struct Canvas {
     body: String,
     definitions: String,
     clips: usize,
+    /// Every line of text so far, with its box.
+    pub labels: Vec<Label>,
 }
 
 impl Canvas {
@@ -249,16 +252,18 @@ impl Canvas {
                 Rise::Top => 1.0,
             };
         let [x, y] = text.at;
+        let [x, y] = if text.upwards { [x + drop, y] } else { [x, y + drop] };
         let place = if text.upwards {
-            format!("transform=\"translate({} {}) rotate(-90)\"", number(x + drop), number(y))
+            format!("transform=\"translate({} {}) rotate(-90)\"", number(x), number(y))
         } else {
-            format!("x=\"{}\" y=\"{}\"", number(x), number(y + drop))
+            format!("x=\"{}\" y=\"{}\"", number(x), number(y))
         };
-        let anchor = match text.anchor {
-            Anchor::Start => "start",
-            Anchor::Middle => "middle",
-            Anchor::End => "end",
+        let (anchor, before) = match text.anchor {
+            Anchor::Start => ("start", 0.0),
+            Anchor::Middle => ("middle", 0.5),
+            Anchor::End => ("end", 1.0),
         };
+        self.labels.push(Label::of(text.content, [x, y], before, text.size, text.upwards));
         let halo = if text.halo {
             format!(
                 " stroke=\"#ffffff\" stroke-width=\"{}\" paint-order=\"stroke\"",

@@ -1,15 +1,16 @@
 //! A table in colour: named rows over columns along an axis, each cell of one colour.
 
 use crate::axis::{Axis, Direction, Padding, Ruler};
-use crate::canvas::{Anchor, Canvas, Rect, Text};
+use crate::canvas::{Canvas, Rect};
 use crate::colours::{Bar, Colours};
 use crate::error::{same_length, some_finite};
 use crate::field::{DENSITY, LONGEST};
+use crate::frame::{self, Title};
 use crate::grid::Grid;
 use crate::placed::Placed;
 use crate::prepared::{Margins, Prepared};
 use crate::style::{GAP, Style, points};
-use crate::{PlotError, encode, frame};
+use crate::{PlotError, encode};
 use std::cmp::Ordering;
 
 /// Values in named rows, the first at the top, over columns along an axis. A cell is of one colour; one without a value is blank.
@@ -44,7 +45,7 @@ pub struct Cells {
     pub label: String,
     /// How values become colours.
     pub colours: Colours,
-    /// Text above the frame; none if empty.
+    /// Text above the frame, in as many lines as it takes; none if empty.
     pub title: String,
     /// Height of the frame in millimetres; if absent, 4 per row, but from 30 to 160.
     pub height_mm: Option<f64>,
@@ -91,6 +92,7 @@ pub(crate) struct PreparedCells<'a> {
     bar: Bar,
     x: Ruler,
     y: Ruler,
+    title: Title,
     height: f64,
 }
 
@@ -110,7 +112,8 @@ impl<'a> PreparedCells<'a> {
         let rows = Axis::new("").from(0.0).to(cells.rows.len() as f64);
         let mut y = Ruler::new(&rows, std::iter::empty(), none, Direction::Up, height, style.tick_pt)?;
         (y.major, y.minor, y.power) = (cells.named(height, style.tick_pt), Vec::new(), None);
-        Ok(Self { cells, style, colours, bar, x, y, height })
+        let title = Title::new(&cells.title, across, style);
+        Ok(Self { cells, style, colours, bar, x, y, title, height })
     }
 
     /// The picture of all cells, over the frame.
@@ -142,11 +145,10 @@ impl<'a> PreparedCells<'a> {
 
 impl Prepared for PreparedCells<'_> {
     fn margins(&self) -> Margins {
-        let title = if self.cells.title.is_empty() { 0.0 } else { 1.6 * self.style.label_pt };
         Margins {
             left: frame::room_left(&self.cells.label, &self.y, self.style),
             right: self.bar.room(self.style),
-            top: title + frame::room_above(&self.y, self.style),
+            top: self.title.room(self.style) + frame::room_above(&self.y, self.style),
             bottom: frame::room_below(&self.cells.x.label, self.style),
         }
     }
@@ -163,7 +165,7 @@ impl Prepared for PreparedCells<'_> {
         self.bar.draw(canvas, frame, self.style);
         let above = frame::room_above(&placed.y, self.style);
         let at = [frame.x + frame.width / 2.0, frame.y - above - GAP / 2.0];
-        canvas.text(Text::new(&self.cells.title, at, self.style.label_pt).anchor(Anchor::Middle));
+        self.title.draw(canvas, at, self.style);
         Ok(placed)
     }
 }

@@ -1,6 +1,7 @@
 //! A finished figure, as SVG, PDF and PNG.
 
 use crate::colour::Rgb;
+use crate::label::Label;
 use crate::placed::Placed;
 use crate::{PlotError, encode};
 use rayon::prelude::*;
@@ -12,6 +13,7 @@ pub struct Drawing {
     size: [f64; 2],
     description: String,
     placed: Vec<Placed>,
+    labels: Vec<Label>,
 }
 
 /// Resolution for print, in dots per inch. At half of it thin lines show steps; twice as many make files four times
@@ -22,8 +24,14 @@ pub const PRINT_DPI: f64 = 300.0;
 const MOST_PIXELS: f64 = 1e8;
 
 impl Drawing {
-    pub(crate) fn new(svg: String, size: [f64; 2], description: &str, placed: Vec<Placed>) -> Self {
-        Self { svg, size, description: description.to_owned(), placed }
+    pub(crate) fn new(
+        svg: String,
+        size: [f64; 2],
+        description: &str,
+        placed: Vec<Placed>,
+        labels: Vec<Label>,
+    ) -> Self {
+        Self { svg, size, description: description.to_owned(), placed, labels }
     }
 
     /// The SVG document.
@@ -69,6 +77,11 @@ impl Drawing {
     pub fn pixel(&self, panel: usize, at: [f64; 2], dpi: f64) -> Option<[f64; 2]> {
         let [x, y] = self.placed.get(panel)?.point(at[0], at[1])?;
         Some([x * dpi / 72.0, y * dpi / 72.0])
+    }
+
+    /// Every line of text in the drawing, with the box that the layout keeps for it.
+    pub fn labels(&self) -> &[Label] {
+        &self.labels
     }
 
     /// Labels of the major ticks on a panel's abscissae and ordinates.

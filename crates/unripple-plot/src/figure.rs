@@ -95,7 +95,7 @@ impl Figure {
         }
         let height = y - BETWEEN + EDGE;
         let svg = canvas.finish(width, height, &self.description);
-        Ok(Drawing::new(svg, [width, height], &self.description, placed))
+        Ok(Drawing::new(svg, [width, height], &self.description, placed, canvas.labels))
     }
 
     fn check(&self) -> Result<(), PlotError> {

@@ -9,6 +9,9 @@ pub(crate) const FAMILY: &str = "DejaVu Sans, Verdana, sans-serif";
 /// Height of a digit over the font size. The typeface's own measure.
 pub(crate) const DIGIT_HEIGHT: f64 = 0.729;
 
+/// Depth of letters such as g and p below their line, over the font size. The typeface's own measure.
+pub(crate) const DESCENT: f64 = 0.208;
+
 /// The embedded typeface, parsed once at its first use.
 static DATABASE: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
     let mut database = fontdb::Database::new();
@@ -46,6 +49,21 @@ pub(crate) fn width(text: &str, size: f64) -> f64 {
     text.chars().map(advance).sum::<f64>() * size / 1e3
 }
 
+/// A text broken at its spaces into lines at most `most` wide, in the unit of `size`; a wider word has a line of its own.
+pub(crate) fn broken(text: &str, most: f64, size: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split(' ').filter(|word| !word.is_empty()) {
+        match lines.last_mut() {
+            Some(line) if width(&format!("{line} {word}"), size) <= most => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -66,5 +84,14 @@ mod tests {
         assert!((width("Time (ms)", 16.0) - 2.0 * (a + b)).abs() < 1e-12);
         assert!(width("iii", 8.0) < width("mmm", 8.0));
         assert_eq!(width("", 8.0), 0.0);
+    }
+
+    #[test]
+    fn text_is_broken_at_spaces_where_it_is_too_wide() {
+        let most = width("at the focal", 8.0);
+        assert_eq!(broken("at the focal instant", most, 8.0), ["at the focal", "instant"]);
+        assert_eq!(broken("at the focal instant", 1.0, 8.0), ["at", "the", "focal", "instant"]);
+        assert_eq!(broken("at the  focal ", 1e3, 8.0), ["at the focal"]);
+        assert!(broken("", 1e3, 8.0).is_empty());
     }
 }

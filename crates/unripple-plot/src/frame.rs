@@ -1,8 +1,9 @@
-//! Axes: spines, ticks, tick labels and axis labels.
+//! What surrounds the frame of a panel: spines, ticks and their labels, labels of axes, the title.
 
 use crate::axis::Ruler;
 use crate::canvas::{Anchor, Canvas, Rise, Stroke, Text, path};
 use crate::colour::Rgb;
+use crate::font;
 use crate::placed::Placed;
 use crate::style::{GAP, MINOR_TICK, Style, TICK};
 use crate::ticks::power_of_ten;
@@ -26,7 +27,7 @@ pub(crate) fn room_above(ruler: &Ruler, style: &Style) -> f64 {
 
 /// Room to the right of the frame for the last tick label's half.
 pub(crate) fn room_right(ruler: &Ruler, style: &Style) -> f64 {
-    let last = ruler.major.last().map_or(0.0, |(_, label)| crate::font::width(label, style.tick_pt));
+    let last = ruler.major.last().map_or(0.0, |(_, label)| font::width(label, style.tick_pt));
     (last / 2.0).max(style.axis_pt) + 1.0
 }
 
@@ -81,4 +82,37 @@ pub(crate) fn draw_up(canvas: &mut Canvas, placed: &Placed, label: &str, drop: f
     let right = x - TICK - GAP - placed.y.label_width(style.tick_pt) - 1.5 * GAP;
     let at = [right - 0.15 * style.label_pt, frame.y + frame.height / 2.0];
     canvas.text(Text::new(label, at, style.label_pt).anchor(Anchor::Middle).upwards());
+}
+
+/// Height of a line of a title over its size of type: descenders of one line stay clear of the next.
+const LINE: f64 = 1.2;
+
+/// Room for the last line of a title over its size of type, the space below it included. Less, and it touches the ticks' labels.
+const LAST_LINE: f64 = 1.6;
+
+/// The title of a panel, above its frame, in as many lines as it takes.
+#[derive(Clone, Debug)]
+pub(crate) struct Title(Vec<String>);
+
+impl Title {
+    /// A title in lines at most `width` points wide; a wider word has a line of its own.
+    pub fn new(text: &str, width: f64, style: &Style) -> Self {
+        Self(font::broken(text, width, style.label_pt))
+    }
+
+    /// Vertical space that the title needs, in points; 0 if it is empty.
+    pub fn room(&self, style: &Style) -> f64 {
+        match self.0.len() {
+            0 => 0.0,
+            lines => (LAST_LINE + LINE * (lines - 1) as f64) * style.label_pt,
+        }
+    }
+
+    /// Draws it, the middle of its last line at a place, in points.
+    pub fn draw(&self, canvas: &mut Canvas, [x, y]: [f64; 2], style: &Style) {
+        for (above, line) in self.0.iter().rev().enumerate() {
+            let at = [x, y - LINE * above as f64 * style.label_pt];
+            canvas.text(Text::new(line, at, style.label_pt).anchor(Anchor::Middle));
+        }
+    }
 }

@@ -5,7 +5,8 @@
 //! # In reading order
 //!
 //! A [`Figure`] is a grid of [`Panel`]s: [`Plot`] (curves, points, bands and annotations on axes), [`Traces`] (one above the other,
-//! as on an oscilloscope), [`Map`] (a field over the surface), [`Strip`] (several fields, one colour bar) and [`Cells`] (a table in colour).
+//! as on an oscilloscope), [`Map`] (a field over the surface), [`Scatter`] (values at points of it), [`Strip`] (several fields, one colour
+//! bar) and [`Cells`] (a table in colour).
 //! A [`Movie`] makes an animated PNG of a field. Data stay in their own (SI) units; axes and colour bars multiply
 //! them for display. A value that is not finite is a gap, never an error, unless nothing else is left.
 //!
@@ -43,6 +44,7 @@ mod font;
 mod frame;
 mod grid;
 mod inks;
+mod label;
 mod layer;
 mod legend;
 mod map;
@@ -51,9 +53,11 @@ mod paint;
 mod panel;
 mod pdf;
 mod placed;
+mod plane;
 mod plot;
 mod prepared;
 mod raster;
+mod scatter;
 mod strip;
 mod style;
 mod table;
@@ -73,11 +77,13 @@ pub use error::PlotError;
 pub use field::{Marker, Symbol};
 pub use figure::Figure;
 pub use grid::{Grid, Ring};
+pub use label::Label;
 pub use layer::{Along, Band, Dash, Ink, Layer, Line, Mark, Note, Points, Rule, Span};
 pub use map::Map;
 pub use movie::Movie;
 pub use panel::Panel;
 pub use plot::{Legend, Plot};
+pub use scatter::Scatter;
 pub use strip::{Shot, Strip};
 pub use style::Style;
 pub use ticks::nice_ticks;

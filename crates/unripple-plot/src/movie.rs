@@ -7,8 +7,8 @@ use crate::encode::{self, image_error};
 use crate::field::{self, Marker};
 use crate::grid::Ring;
 use crate::inks::Inks;
-use crate::map;
 use crate::placed::Placed;
+use crate::plane;
 use crate::raster::Raster;
 use crate::strip::{Shot, draw_scale};
 use crate::style::{GAP, Style};
@@ -147,8 +147,8 @@ impl<'a> Stage<'a> {
     fn new(movie: &'a Movie) -> Result<Self, PlotError> {
         let first = movie.check()?;
         let style = Style::default();
-        let view = map::view(&first.grid, &movie.outline)?;
-        let aspect = map::aspect(view);
+        let view = plane::view(&first.grid, &movie.outline)?;
+        let aspect = plane::aspect(view);
         let colours = movie.colours.settle(movie.shots.iter().map(|shot| &shot.grid))?;
         let width = f64::from(movie.width_px) / DENSITY;
         let edge = 4.0;
@@ -158,7 +158,7 @@ impl<'a> Stage<'a> {
         let bar = Bar::new(&colours, across * aspect, &style)?;
         let top = edge + 1.4 * style.label_pt;
         let frame = Rect { x: edge, y: top, width: across, height: across * aspect };
-        let [x, y] = map::rulers(view, movie.multiplier, [frame.width, frame.height], &style)?;
+        let [x, y] = plane::rulers(view, movie.multiplier, [frame.width, frame.height], &style)?;
         let height = frame.bottom() + 2.0 * GAP + 0.6 * style.tick_pt + edge;
         let pixels = |points: f64| (points * DENSITY).round().max(0.0) as usize;
         // Half a line's width beyond the field, so that the whole outline is repainted.

@@ -163,7 +163,10 @@ fn rule_label(canvas: &mut Canvas, placed: &Placed, rule: &Rule, look: &Look, st
     let text = match rule.along {
         Along::Y => {
             let half = font::width(&rule.label, style.tick_pt) / 2.0;
-            let x = placed.across(rule.at).clamp(frame.x + half, (frame.right() - half).max(frame.x + half));
+            // A label wider than the frame reaches as far beyond it on both sides.
+            let middle = frame.x + frame.width / 2.0;
+            let [low, high] = [(frame.x + half).min(middle), (frame.right() - half).max(middle)];
+            let x = placed.across(rule.at).clamp(low, high);
             Text::new(&rule.label, [x, frame.y - 2.0], style.tick_pt).anchor(Anchor::Middle)
         }
         Along::X => {

@@ -2,7 +2,7 @@
 
 use crate::prepared::Prepared;
 use crate::style::Style;
-use crate::{Cells, Map, Plot, PlotError, Strip, Traces};
+use crate::{Cells, Map, Plot, PlotError, Scatter, Strip, Traces};
 
 /// One cell of a figure.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +13,8 @@ pub enum Panel {
     Traces(Traces),
     /// A field over the surface.
     Map(Map),
+    /// Values at points of the surface.
+    Scatter(Scatter),
     /// Several fields sharing one colour bar.
     Strip(Strip),
     /// A table in colour.
@@ -28,7 +30,7 @@ macro_rules! panels {
         }
     )*};
 }
-panels!(Plot, Traces, Map, Strip, Cells);
+panels!(Plot, Traces, Map, Scatter, Strip, Cells);
 
 impl Panel {
     /// Checks the data and fixes everything that determines the room needed, for a panel `width` points wide.
@@ -41,6 +43,7 @@ impl Panel {
             Self::Plot(plot) => Box::new(crate::plot::PreparedPlot::new(plot, width, style)?),
             Self::Traces(traces) => Box::new(crate::traces::PreparedTraces::new(traces, width, style)?),
             Self::Map(map) => Box::new(crate::map::PreparedMap::new(map, width, style)?),
+            Self::Scatter(scatter) => Box::new(crate::scatter::PreparedScatter::new(scatter, width, style)?),
             Self::Cells(cells) => Box::new(crate::cells::PreparedCells::new(cells, width, style)?),
             Self::Strip(strip) => Box::new(crate::strip::PreparedStrip::new(strip, width, style)?),
         })

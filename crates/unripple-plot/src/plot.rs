@@ -1,13 +1,14 @@
 //! Curves on a pair of axes.
 
 use crate::axis::{Axis, Direction, Padding, Ruler, Scale};
-use crate::canvas::{Anchor, Canvas, Rect, Text};
+use crate::canvas::{Canvas, Rect};
 use crate::error::{same_length, some_finite};
+use crate::frame::{self, Title};
 use crate::layer::{Along, Layer, Note, Rule};
 use crate::placed::Placed;
 use crate::prepared::{Margins, Prepared};
 use crate::style::{GAP, Style, points};
-use crate::{PlotError, frame, legend, paint};
+use crate::{PlotError, legend, paint};
 
 /// Curves, points, bands and annotations on a pair of axes.
 ///
@@ -34,7 +35,7 @@ pub struct Plot {
     pub layers: Vec<Layer>,
     /// Where the names of the layers are listed.
     pub legend: Legend,
-    /// Text above the frame; none if empty.
+    /// Text above the frame, in as many lines as it takes; none if empty.
     pub title: String,
     /// Height of the frame in millimetres; 0.68 of its width if absent.
     pub height_mm: Option<f64>,
@@ -60,6 +61,7 @@ pub(crate) struct PreparedPlot<'a> {
     y: Ruler,
     inside: Option<[f64; 2]>,
     above: legend::Rows,
+    title: Title,
     height: f64,
 }
 
@@ -86,7 +88,8 @@ impl<'a> PreparedPlot<'a> {
             (Legend::None, _) | (_, Some(_)) => legend::Rows::default(),
             _ => legend::Rows::new(&entries, across, style),
         };
-        Ok(Self { plot, style, entries, x, y, inside, above, height })
+        let title = Title::new(&plot.title, across, style);
+        Ok(Self { plot, style, entries, x, y, inside, above, title, height })
     }
 
     /// Heights of what is stacked on the frame: names of rules and the power of ten, legend, title.
@@ -95,8 +98,7 @@ impl<'a> PreparedPlot<'a> {
         let rules = self.plot.layers.iter().any(is_labelled_rule);
         let near = if rules { near.max(1.4 * self.style.tick_pt) } else { near };
         let rows = self.above.height(self.style);
-        let title = if self.plot.title.is_empty() { 0.0 } else { 1.5 * self.style.label_pt };
-        [near, rows, title]
+        [near, rows, self.title.room(self.style)]
     }
 }
 
@@ -135,7 +137,7 @@ impl Prepared for PreparedPlot<'_> {
             self.above.draw(canvas, &self.entries, [frame.x, frame.y - near - rows], self.style);
         }
         let at = [frame.x + frame.width / 2.0, frame.y - near - rows - GAP];
-        canvas.text(Text::new(&self.plot.title, at, self.style.label_pt).anchor(Anchor::Middle));
+        self.title.draw(canvas, at, self.style);
         Ok(placed)
     }
 }

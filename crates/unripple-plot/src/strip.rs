@@ -6,8 +6,8 @@ use crate::colour::Rgb;
 use crate::colours::{Bar, Colours};
 use crate::field::{self, Marker};
 use crate::grid::{Grid, Ring};
-use crate::map;
 use crate::placed::Placed;
+use crate::plane;
 use crate::prepared::{Margins, Prepared};
 use crate::style::{GAP, Style};
 use crate::{PlotError, ticks};
@@ -81,13 +81,13 @@ impl<'a> PreparedStrip<'a> {
         let count = strip.shots.len();
         let columns = if strip.columns == 0 { count } else { strip.columns.min(count) };
         let rows = count.div_ceil(columns);
-        let view = map::view(&first.grid, &strip.outline)?;
+        let view = plane::view(&first.grid, &strip.outline)?;
         let colours = strip.colours.settle(strip.shots.iter().map(|shot| &shot.grid))?;
         let across = ((width - 40.0) / columns as f64 - BETWEEN).max(10.0);
-        let up = across * map::aspect(view);
+        let up = across * plane::aspect(view);
         let caption = Self::caption(strip, style);
         let bar = Bar::new(&colours, (up + caption) * rows as f64 - caption, style)?;
-        let rulers = map::rulers(view, strip.multiplier, [across, up], style)?;
+        let rulers = plane::rulers(view, strip.multiplier, [across, up], style)?;
         Ok(Self { strip, style, colours, bar, view, rulers, columns, rows })
     }
 
@@ -100,7 +100,7 @@ impl<'a> PreparedStrip<'a> {
     fn cell(&self, width: f64) -> [f64; 2] {
         let columns = self.columns as f64;
         let across = ((width - (columns - 1.0) * BETWEEN) / columns).max(2.0);
-        [across, across * map::aspect(self.view)]
+        [across, across * plane::aspect(self.view)]
     }
 }
 

@@ -1,7 +1,7 @@
 //! The data of a figure as comma-separated values (RFC 4180), for whoever draws it again.
 
 use crate::grid::Grid;
-use crate::{Axis, Cells, Colours, Figure, Layer, Map, Panel, Plot, Strip, Traces};
+use crate::{Axis, Cells, Colours, Figure, Layer, Map, Panel, Plot, Scatter, Strip, Traces};
 use std::fmt::Write;
 
 /// Significant digits of a value: more than any picture shows, few enough that products with a power of ten read well.
@@ -9,7 +9,7 @@ const DIGITS: usize = 9;
 
 impl Figure {
     /// The data of each panel as comma-separated values (RFC 4180), in the units that the figure shows, with a heading line. A value that
-    /// is not finite is an empty field; cells of maps without a value are left out.
+    /// is not finite is an empty field; cells of maps and points of scatters without a value are left out.
     ///
     /// ```
     /// use unripple_plot::{Axis, Figure, Line, Plot};
@@ -29,6 +29,7 @@ impl Panel {
             Self::Plot(plot) => of_plot(plot),
             Self::Traces(traces) => of_traces(traces),
             Self::Map(map) => of_map(map),
+            Self::Scatter(scatter) => of_scatter(scatter),
             Self::Strip(strip) => of_strip(strip),
             Self::Cells(cells) => of_cells(cells),
         }
@@ -126,6 +127,17 @@ fn of_map(map: &Map) -> String {
     table.0
 }
 
+fn of_scatter(scatter: &Scatter) -> String {
+    let [x, y] = ["x", "y"].map(|axis| format!("{axis} ({})", scatter.unit));
+    let mut table = Table::new(&[&x, &y, heading(&scatter.colours.title, "value")]);
+    let known = scatter.points.iter().zip(&scatter.values).filter(|(_, value)| value.is_finite());
+    for ([x, y], value) in known {
+        let (unit, shown) = (scatter.multiplier, scatter.colours.multiplier);
+        table.line(&[x * unit, y * unit, value * shown].map(number));
+    }
+    table.0
+}
+
 fn of_strip(strip: &Strip) -> String {
     let [x, y] = ["x", "y"].map(|axis| format!("{axis} ({})", strip.unit));
     let mut table = Table::new(&["picture", &x, &y, heading(&strip.colours.title, "value")]);
@@ -192,6 +204,12 @@ mod tests {
         let grid =
             Grid { columns: 2, rows: 1, first: [0.0105, 0.0], pitch: [1e-3; 2], values: vec![f64::NAN, 3.0] };
         let map = Map { grid: grid.clone(), ..Map::default() };
+        let scatter = Scatter {
+            points: vec![[0.0105, 0.0], [0.02, 0.01]],
+            values: vec![3e-3, f64::NAN],
+            colours: Colours { title: "Velocity (mm/s)".into(), multiplier: 1e3, ..Colours::default() },
+            ..Scatter::default()
+        };
         let strip = Strip { shots: vec![Shot { grid, caption: "0.1 ms".into() }], ..Strip::default() };
         let cells = Cells {
             edges: vec![1.0, 2.0, 4.0],
@@ -200,13 +218,14 @@ mod tests {
             ..Cells::default()
         };
         let figure = Figure {
-            panels: vec![plot.into(), traces.into(), map.into(), strip.into(), cells.into()],
+            panels: vec![plot.into(), traces.into(), map.into(), scatter.into(), strip.into(), cells.into()],
             ..Figure::default()
         };
         let expected = [
             "series,x,y\r\n\"a, b\",1,2\r\n\"a, b (lower end)\",1,1.5\r\n\"a, b (upper end)\",1,3\r\nrange (lower end),0,-1\r\nrange (upper end),0,\r\n",
             "trace,x,value (N)\r\na1,0.5,1\r\na1,0.75,\r\n",
             "x (mm),y (mm),value\r\n11.5,0,3\r\n",
+            "x (mm),y (mm),Velocity (mm/s)\r\n10.5,0,3\r\n",
             "picture,x (mm),y (mm),value\r\n0.1 ms,11.5,0,3\r\n",
             "row,from x,to x,value\r\n7,1,2,5\r\n7,2,4,\r\n",
         ];

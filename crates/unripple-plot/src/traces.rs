@@ -4,11 +4,12 @@ use crate::axis::{Axis, Direction, LARGEST, Padding, Ruler, usable};
 use crate::canvas::{Anchor, Canvas, Rect, Rise, Stroke, Text, rectangle};
 use crate::colour::Rgb;
 use crate::error::some_finite;
+use crate::frame::{self, Title};
 use crate::layer::{Ink, Layer, Rule};
 use crate::placed::Placed;
 use crate::prepared::{Margins, Prepared};
 use crate::style::{GAP, Style, points};
-use crate::{PlotError, font, frame, paint, ticks};
+use crate::{PlotError, font, paint, ticks};
 
 /// Traces one above the other over one time axis, each with its name at the left, as on an oscilloscope.
 /// A bar at the right gives the scale.
@@ -32,7 +33,7 @@ pub struct Traces {
     pub rules: Vec<Rule>,
     /// Height of the lane of one trace in millimetres; chosen by the number of traces if absent.
     pub lane_mm: Option<f64>,
-    /// Text above the traces; none if empty.
+    /// Text above the traces, in as many lines as it takes; none if empty.
     pub title: String,
 }
 
@@ -82,6 +83,9 @@ pub(crate) struct PreparedTraces<'a> {
     ranges: Vec<[f64; 2]>,
     /// Length of each lane's scale bar in the unit shown; none for lanes that share another's.
     bars: Vec<Option<f64>>,
+    /// Room for the names on the left and for the scale bars on the right, in points.
+    beside: [f64; 2],
+    title: Title,
     lane: f64,
 }
 
@@ -91,9 +95,6 @@ impl<'a> PreparedTraces<'a> {
         traces.check()?;
         let longest = traces.traces.iter().map(|trace| trace.values.len()).max().unwrap_or(0);
         let ends = [traces.start, traces.start + traces.step * longest.saturating_sub(1) as f64];
-        let across = (width - 6.0 * style.label_pt).max(20.0);
-        let padding = Padding { share: 0.0, zero: false };
-        let x = Ruler::new(&traces.x, ends.into_iter(), padding, Direction::Across, across, style.tick_pt)?;
         let mut ranges: Vec<[f64; 2]> = traces.traces.iter().map(|trace| range(&trace.values)).collect();
         if !traces.own_scales {
             let shared = ranges.iter().fold([0.0f64, 0.0f64], |[l, h], r| [l.min(r[0]), h.max(r[1])]);
@@ -101,7 +102,7 @@ impl<'a> PreparedTraces<'a> {
         }
         ranges.iter_mut().filter(|[low, high]| high - low <= 0.0).for_each(|range| *range = [-1.0, 1.0]);
         let last = ranges.len() - 1;
-        let bars = ranges
+        let bars: Vec<Option<f64>> = ranges
             .iter()
             .enumerate()
             .map(|(i, [low, high])| {
@@ -109,13 +110,20 @@ impl<'a> PreparedTraces<'a> {
                 (traces.own_scales || i == last).then(|| ticks::round_below(0.75 * span))
             })
             .collect();
+        let beside = beside(traces, &bars, style);
+        let across = (width - beside[0] - beside[1]).max(20.0);
+        let padding = Padding { share: 0.0, zero: false };
+        let x = Ruler::new(&traces.x, ends.into_iter(), padding, Direction::Across, across, style.tick_pt)?;
+        let title = Title::new(&traces.title, across, style);
         let lane =
             traces.lane_mm.map_or((130.0 / ranges.len() as f64).clamp(17.0, 34.0), points).clamp(2.0, 1000.0);
-        Ok(Self { traces, style, x, ranges, bars, lane })
+        Ok(Self { traces, style, x, ranges, bars, beside, title, lane })
     }
 
-    fn bar_label(&self, bar: f64) -> String {
-        format!("{} {}", ticks::short(bar), self.traces.unit).trim_end().to_owned()
+    /// Room in points above the frame for the labels of rules.
+    fn above(&self) -> f64 {
+        let labelled = self.traces.rules.iter().any(|rule| !rule.label.is_empty());
+        if labelled { 1.4 * self.style.tick_pt } else { 1.0 }
     }
 
     fn lane(&self, frame: Rect, i: usize) -> Rect {
@@ -154,24 +162,18 @@ impl<'a> PreparedTraces<'a> {
         let (x, middle) = (frame.right() + BAR_GAP, lane.y + lane.height / 2.0);
         let stroke = Stroke::solid(Rgb::BLACK, 1.2);
         canvas.line([x, middle - length / 2.0], [x, middle + length / 2.0], stroke);
-        let label = self.bar_label(bar);
+        let label = bar_label(self.traces, bar);
         canvas.text(Text::new(&label, [x + GAP, middle], size).rise(Rise::Middle));
     }
 }
 
 impl Prepared for PreparedTraces<'_> {
     fn margins(&self) -> Margins {
-        let size = self.style.tick_pt;
-        let names =
-            self.traces.traces.iter().map(|trace| font::width(&trace.label, size)).fold(0.0, f64::max);
-        let bars = self.bars.iter().flatten().map(|bar| font::width(&self.bar_label(*bar), size));
-        let bars = bars.fold(0.0, f64::max) + BAR_GAP + GAP + 1.0;
-        let rules = self.traces.rules.iter().any(|rule| !rule.label.is_empty());
+        let [left, bars] = self.beside;
         Margins {
-            left: names + BAR_GAP + 1.0,
+            left,
             right: bars.max(frame::room_right(&self.x, self.style)),
-            top: if rules { 1.4 * size } else { 1.0 }
-                + if self.traces.title.is_empty() { 0.0 } else { 1.5 * self.style.label_pt },
+            top: self.above() + self.title.room(self.style),
             bottom: 2.0 + frame::room_below(&self.traces.x.label, self.style),
         }
     }
@@ -193,15 +195,23 @@ impl Prepared for PreparedTraces<'_> {
         paint::layers(canvas, &placed, &rules, self.style);
         (0..self.ranges.len()).for_each(|i| self.draw_beside(canvas, frame, i));
         frame::draw_across(canvas, &placed, &self.traces.x.label, 2.0, self.style);
-        let above = if self.traces.rules.iter().any(|rule| !rule.label.is_empty()) {
-            1.4 * self.style.tick_pt
-        } else {
-            1.0
-        };
-        let at = [frame.x + frame.width / 2.0, frame.y - above - GAP];
-        canvas.text(Text::new(&self.traces.title, at, self.style.label_pt).anchor(Anchor::Middle));
+        let at = [frame.x + frame.width / 2.0, frame.y - self.above() - GAP];
+        self.title.draw(canvas, at, self.style);
         Ok(placed)
     }
+}
+
+/// What a scale bar stands for, with its unit.
+fn bar_label(traces: &Traces, bar: f64) -> String {
+    format!("{} {}", ticks::short(bar), traces.unit).trim_end().to_owned()
+}
+
+/// Room in points for the names on the left, and for the scale bars with their labels on the right.
+fn beside(traces: &Traces, bars: &[Option<f64>], style: &Style) -> [f64; 2] {
+    let size = style.tick_pt;
+    let names = traces.traces.iter().map(|trace| font::width(&trace.label, size)).fold(0.0, f64::max);
+    let labels = bars.iter().flatten().map(|bar| font::width(&bar_label(traces, *bar), size));
+    [names + BAR_GAP + 1.0, labels.fold(0.0, f64::max) + BAR_GAP + GAP + 1.0]
 }
 
 /// Lowest and highest value, zero included.

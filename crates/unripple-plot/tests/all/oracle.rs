@@ -161,6 +161,31 @@ fn a_map_shows_each_value_in_its_colour_the_right_way_up() {
 }
 
 #[test]
+fn a_scatter_shows_each_value_in_its_colour_at_its_point() {
+    let places = [[1.0, 1.0], [0.3, 1.0], [1.7, 1.1], [1.0, 0.2], [0.9, 1.85], [1.6, 1.5]];
+    let value = |[x, y]: [f64; 2]| 0.8 * (x - 1.0) - 1.1 * (y - 1.0);
+    let empty = [0.5, 0.5];
+    for map in [ColourMap::Diverging, ColourMap::Sequential] {
+        let (_, outline) = disc(|_, _| 0.0);
+        let points = places.into_iter().chain([empty]).collect();
+        let values = places.into_iter().map(value).chain([f64::NAN]).collect();
+        let scatter = Scatter { points, values, outline, colours: colours(map), ..Scatter::default() };
+        let drawing = Figure::of(scatter).draw().unwrap();
+        let picture = Picture::of(&drawing);
+        for at in places {
+            let found = picture.at(drawing.pixel(0, at, DPI).unwrap());
+            let expected = map.colour((value(at) + 2.0) / 4.0);
+            assert!(off(found, expected) <= 6, "{at:?}: {found} for {expected}");
+        }
+        for at in [empty, [1.3, 0.7]] {
+            assert_eq!(picture.at(drawing.pixel(0, at, DPI).unwrap()), Rgb::WHITE, "{at:?}");
+        }
+        let rim = [1.0 + 0.6, 1.0 - 0.8];
+        assert!(picture.near(drawing.pixel(0, rim, DPI).unwrap(), Rgb::BLACK));
+    }
+}
+
+#[test]
 fn colour_reaches_the_rim_but_a_hole_in_the_data_stays_open() {
     let (mut grid, outline) = disc(|_, _| 1.0);
     for (column, row) in [(10, 10), (11, 10), (10, 11), (11, 11)] {

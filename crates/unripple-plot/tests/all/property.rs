@@ -83,6 +83,18 @@ proptest! {
     }
 
     #[test]
+    fn any_scatter_is_drawn_or_refused(
+        x in numbers(), y in numbers(), seed in prop::collection::vec(number(), 30), high in prop::option::of(number()),
+        ring in prop::collection::vec(any::<[f32; 2]>(), 0..5), title in ".{0,60}",
+    ) {
+        let points: Vec<[f64; 2]> = x.iter().zip(&y).map(|(x, y)| [*x, *y]).collect();
+        let values = seed[..points.len()].to_vec();
+        let colours = Colours { high, map: ColourMap::Sequential, ..Colours::default() };
+        let outline = vec![ring.iter().map(|p| p.map(f64::from)).collect()];
+        drawn(&Figure::of(Scatter { points, values, outline, colours, title, ..Scatter::default() }));
+    }
+
+    #[test]
     fn any_cells_are_drawn_or_refused(
         edges in numbers(), rows in 0usize..7, seed in prop::collection::vec(number(), 210), log in any::<bool>(),
         height in prop::option::of(number()), high in prop::option::of(number()), name in ".{0,12}",

@@ -16,6 +16,7 @@ fn nothing_to_draw_is_refused() {
     assert!(matches!(refusal(Plot::default()), PlotError::Empty { .. }));
     assert!(matches!(refusal(Traces::default()), PlotError::Empty { .. }));
     assert!(matches!(refusal(Map::default()), PlotError::Empty { .. }));
+    assert!(matches!(refusal(Scatter::default()), PlotError::Empty { .. }));
     assert!(matches!(refusal(Strip::default()), PlotError::Empty { .. }));
     assert!(matches!(refusal(Cells::default()), PlotError::Empty { .. }));
     let nan = refusal(plot(vec![0.0, 1.0], vec![f64::NAN, f64::INFINITY]));
@@ -31,6 +32,13 @@ fn lengths_that_disagree_are_refused() {
         refusal(Map { grid, ..Map::default() }),
         PlotError::Length { expected: 4, found: 3, .. }
     ));
+    let places =
+        |count: usize| Scatter { points: vec![[0.0; 2]; count], values: vec![1.0], ..Scatter::default() };
+    assert!(matches!(refusal(places(2)), PlotError::Length { expected: 2, found: 1, .. }));
+    // One point has no extent of its own; an outline gives it one.
+    assert!(matches!(refusal(places(1)), PlotError::Range { .. }));
+    let outline = vec![vec![[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0]]];
+    assert!(Figure::of(Scatter { outline, ..places(1) }).draw().is_ok());
     let table = |edges: [f64; 3]| Cells {
         edges: edges.to_vec(),
         rows: vec!["1".into(); 2],
