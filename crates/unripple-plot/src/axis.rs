@@ -32,11 +32,21 @@ pub struct Axis {
     pub low: Option<f64>,
     /// High end of the axis, in the data's unit; from the data if absent.
     pub high: Option<f64>,
+    /// Names of the values 0, 1, 2 and so on, for an axis of things, which is linear; none for one of numbers. Where there is no room for
+    /// all, every second, third and so on is written; a long one is written without its middle.
+    pub names: Vec<String>,
 }
 
 impl Default for Axis {
     fn default() -> Self {
-        Self { label: String::new(), scale: Scale::Linear, multiplier: 1.0, low: None, high: None }
+        Self {
+            label: String::new(),
+            scale: Scale::Linear,
+            multiplier: 1.0,
+            low: None,
+            high: None,
+            names: Vec::new(),
+        }
     }
 }
 
@@ -49,6 +59,16 @@ impl Axis {
     /// A logarithmic axis.
     pub fn log(label: impl Into<String>) -> Self {
         Self { label: label.into(), scale: Scale::Logarithmic, ..Self::default() }
+    }
+
+    /// An axis of things, the first at the value 0, the second at 1 and so on.
+    pub fn named(label: impl Into<String>, names: Vec<String>) -> Self {
+        Self { label: label.into(), names, ..Self::default() }
+    }
+
+    /// How values are spread, with names or without.
+    fn spread(&self) -> Scale {
+        if self.names.is_empty() { self.scale } else { Scale::Linear }
     }
 
     /// This axis with its data multiplied for display. `multiplier` is the factor from the data's unit to the unit
@@ -116,7 +136,7 @@ impl Ruler {
     ) -> Result<Self, PlotError> {
         let (low, high) = range(axis, data, padding)?;
         let mut ruler = Self {
-            scale: axis.scale,
+            scale: axis.spread(),
             multiplier: axis.multiplier,
             low,
             high,
@@ -124,6 +144,10 @@ impl Ruler {
             minor: Vec::new(),
             power: None,
         };
+        if !axis.names.is_empty() {
+            ruler.name(&axis.names, direction, length, size);
+            return Ok(ruler);
+        }
         let spacing = if direction == Direction::Up { 2.2 * size } else { 2.6 * size };
         let most = ((length / spacing) as usize).clamp(2, 9);
         for most in (2..=most).rev() {
@@ -149,6 +173,18 @@ impl Ruler {
                 let labels = ticks::log_labels(&places);
                 self.minor = minor;
                 self.major = places.into_iter().zip(labels).collect();
+            }
+        }
+    }
+
+    /// Ticks at the things that an axis names: at all of them, or at as many as have room.
+    fn name(&mut self, names: &[String], direction: Direction, length: f64, size: f64) {
+        let (low, high) = (self.low, self.high);
+        for step in 1..=names.len() {
+            let named = names.iter().enumerate().step_by(step).map(|(i, name)| (i as f64, shortened(name)));
+            self.major = named.filter(|(value, _)| (low..=high).contains(value)).collect();
+            if self.has_room(direction, length, size) {
+                break;
             }
         }
     }
@@ -201,6 +237,20 @@ impl Ruler {
     }
 }
 
+/// Longest name of a thing as it is written, in characters: some 40 mm at the usual size of type, half of a page's column.
+const LONGEST: usize = 28;
+
+/// A name as it is written: without its middle if it is too long, since names often begin alike and end alike.
+pub(crate) fn shortened(name: &str) -> String {
+    let letters: Vec<char> = name.chars().collect();
+    if letters.len() <= LONGEST {
+        return name.to_owned();
+    }
+    let half = LONGEST / 2;
+    let (start, end) = (&letters[..half], &letters[letters.len() - half + 1..]);
+    start.iter().chain(&['…']).chain(end).collect()
+}
+
 /// Largest magnitude drawn; anything beyond counts as a gap.
 pub(crate) const LARGEST: f64 = 1e100;
 
@@ -209,7 +259,7 @@ const SMALLEST: f64 = 1e-100;
 
 /// Both ends of the range, in the unit shown.
 fn range(axis: &Axis, data: impl Iterator<Item = f64>, padding: Padding) -> Result<(f64, f64), PlotError> {
-    let log = axis.scale == Scale::Logarithmic;
+    let log = axis.spread() == Scale::Logarithmic;
     let name = || if axis.label.is_empty() { "axis".to_owned() } else { format!("axis `{}`", axis.label) };
     check(&name, "a finite, non-zero multiplier", axis.multiplier, |m| usable(m) && m != 0.0)?;
     for end in [axis.low, axis.high].into_iter().flatten().map(|end| end * axis.multiplier) {
@@ -226,7 +276,12 @@ fn range(axis: &Axis, data: impl Iterator<Item = f64>, padding: Padding) -> Resu
         (least, most) = (least.min(value), most.max(value));
     }
     let (least, most) = if least <= most { (least, most) } else { (1.0, 1.0) };
-    let (low, high) = if log { log_range(least, most, padding) } else { linear_range(least, most, padding) };
+    let (low, high) = match axis.names.len() {
+        0 if log => log_range(least, most, padding),
+        0 => linear_range(least, most, padding),
+        // Half a step beyond the first and the last.
+        things => (-0.5, things as f64 - 0.5),
+    };
     let given = |end: Option<f64>| end.map(|end| end * axis.multiplier);
     let (low, high) = (given(axis.low).unwrap_or(low), given(axis.high).unwrap_or(high));
     check(&name, "a high end above the low one", high, |high| high > low)?;

@@ -1,6 +1,6 @@
 //! Curves on a pair of axes.
 
-use crate::axis::{Axis, Direction, Padding, Ruler, Scale};
+use crate::axis::{Axis, Direction, Padding, Ruler, Scale, shortened};
 use crate::canvas::{Canvas, Rect};
 use crate::error::{same_length, some_finite};
 use crate::frame::{self, Title};
@@ -8,7 +8,7 @@ use crate::layer::{Along, Layer, Note, Rule};
 use crate::placed::Placed;
 use crate::prepared::{Margins, Prepared};
 use crate::style::{GAP, Style, points};
-use crate::{PlotError, legend, paint};
+use crate::{PlotError, font, legend, paint};
 
 /// Curves, points, bands and annotations on a pair of axes.
 ///
@@ -69,7 +69,9 @@ impl<'a> PreparedPlot<'a> {
     /// Fixes axes and legend for a panel `width` points wide.
     pub fn new(plot: &'a Plot, width: f64, style: &'a Style) -> Result<Self, PlotError> {
         plot.check()?;
-        let across = (width - 6.0 * style.label_pt).max(20.0);
+        let names = plot.y.names.iter().map(|name| font::width(&shortened(name), style.tick_pt));
+        let names = names.fold(0.0, f64::max);
+        let across = (width - 6.0 * style.label_pt - names).max(20.0);
         let height = plot.height_mm.map_or(0.68 * across, points).clamp(10.0, 5000.0);
         let marks = plot.layers.iter().any(|layer| matches!(layer, Layer::Points(_)));
         let share = if marks { 0.04 } else { 0.0 };

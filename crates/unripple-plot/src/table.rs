@@ -72,6 +72,14 @@ fn number(value: f64) -> String {
     rounded.ok().filter(|value| value.is_finite()).map_or_else(String::new, |value| value.to_string())
 }
 
+/// A field that holds a value along an axis: a number, or the name of a thing.
+fn along(axis: &Axis, value: f64) -> String {
+    let shown = value * axis.multiplier;
+    let mut things = axis.names.iter().enumerate();
+    let named = things.find(|(place, _)| *place as f64 == shown);
+    named.map_or_else(|| number(shown), |(_, name)| text(name))
+}
+
 fn heading<'a>(label: &'a str, otherwise: &'a str) -> &'a str {
     if label.is_empty() { otherwise } else { label }
 }
@@ -80,7 +88,7 @@ fn of_plot(plot: &Plot) -> String {
     let mut table = Table::new(&["series", heading(&plot.x.label, "x"), heading(&plot.y.label, "y")]);
     let mut curve = |name: &str, x: &[f64], y: &[f64]| {
         let pairs = x.iter().zip(y);
-        pairs.for_each(|(x, y)| table.row(name, &[x * plot.x.multiplier, y * plot.y.multiplier]));
+        pairs.for_each(|(x, y)| table.line(&[text(name), along(&plot.x, *x), along(&plot.y, *y)]));
     };
     for layer in &plot.layers {
         match layer {
@@ -230,5 +238,14 @@ mod tests {
             "row,from x,to x,value\r\n7,1,2,5\r\n7,2,4,\r\n",
         ];
         assert_eq!(figure.tables(), expected);
+    }
+
+    #[test]
+    fn things_are_told_by_their_names() {
+        let points =
+            Points { x: vec![28.0, 125.0], y: vec![1.0, 0.0], label: "a".into(), ..Points::default() };
+        let y = Axis::named("Surface", vec!["glass, thick".into(), "film".into()]);
+        let figure = Figure::of(Plot { y, layers: vec![points.into()], ..Plot::default() });
+        assert_eq!(figure.tables(), ["series,x,Surface\r\na,28,film\r\na,125,\"glass, thick\"\r\n"]);
     }
 }

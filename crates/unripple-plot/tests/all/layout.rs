@@ -60,7 +60,17 @@ fn plot(label: &str, title: &str) -> Panel {
     Plot { x, y, layers, title: title.into(), ..Plot::default() }.into()
 }
 
-/// What tasks draw: two maps, two scatters, traces, curves.
+fn things(label: &str) -> Panel {
+    let names =
+        ["sheet.tension_n_per_m=400", "sheet.tension_n_per_m=200", "A film"].map(String::from).to_vec();
+    let marks = |label: &str, x: [f64; 3]| -> Layer {
+        Points { x: x.to_vec(), y: vec![0.0, 1.0, 2.0], label: label.into(), ..Points::default() }.into()
+    };
+    let layers = vec![marks("time-reversal", [28.0, 27.0, 31.0]), marks("concentrate", [125.0, 99.0, 110.0])];
+    Plot { x: Axis::log(label), y: Axis::named("", names), layers, ..Plot::default() }.into()
+}
+
+/// What tasks draw: two maps, two scatters, traces, curves, marks for each of several things.
 fn figures() -> Vec<Vec<Panel>> {
     let velocity = |map| colours("Velocity (mm/s)", map, 1e3);
     let displacement = |map| colours("Displacement (µm)", map, 1e3);
@@ -87,6 +97,7 @@ fn figures() -> Vec<Vec<Panel>> {
             plot("Peak at the drive limit, time reversal = 1", ""),
             plot("Ratio", "Contrast"),
         ],
+        vec![things("Contrast"), things("Energy, time reversal = 1")],
     ]
 }
 

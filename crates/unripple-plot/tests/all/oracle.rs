@@ -326,3 +326,28 @@ fn cells_are_one_colour_each_the_first_row_at_the_top() {
     let names = Figure::of(many).draw().unwrap().tick_labels(0).unwrap()[1].clone();
     assert_eq!(names[..3], ["5", "10", "15"], "{names:?}");
 }
+
+#[test]
+fn things_are_named_where_they_stand() {
+    let names = ["glass", "film", "steel"].map(String::from).to_vec();
+    let of = |names: Vec<String>| {
+        let places: Vec<f64> = (0..names.len()).map(|i| i as f64).collect();
+        let layers = vec![Points { x: vec![1.0; places.len()], y: places, ..Points::default() }.into()];
+        let y = Axis::named("Surface", names);
+        Figure::of(Plot { y, layers, height_mm: Some(30.0), ..Plot::default() }).draw().unwrap()
+    };
+    let drawing = of(names.clone());
+    assert_eq!(drawing.tick_labels(0).unwrap()[1], names);
+    for (place, name) in names.iter().enumerate() {
+        let [_, y] = drawing.pixel(0, [1.0, place as f64], 72.0).unwrap();
+        let label = drawing.labels().iter().find(|label| label.text == *name).unwrap();
+        assert!(label.upper_left[1] < y && y < label.lower_right[1], "{label:?} at {y}");
+    }
+    // Of many things some are named, the first among them.
+    let many: Vec<String> = (0..200).map(|i| i.to_string()).collect();
+    let told = of(many).tick_labels(0).unwrap()[1].clone();
+    assert!((2..20).contains(&told.len()) && told[0] == "0", "{told:?}");
+    // Of a long name both ends are written.
+    let long = vec!["a film of a long name, sheet.tension_n_per_m=200".to_owned()];
+    assert_eq!(of(long).tick_labels(0).unwrap()[1], ["a film of a lo…n_n_per_m=200"]);
+}

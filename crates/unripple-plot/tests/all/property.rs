@@ -41,7 +41,7 @@ proptest! {
         let scale = |log| if log { Scale::Logarithmic } else { Scale::Linear };
         let (low, high) = (ends.map(|e| e.0), ends.map(|e| e.1));
         let plot = Plot {
-            x: Axis { label: label.clone(), scale: scale(log[0]), multiplier, low, high },
+            x: Axis { label: label.clone(), scale: scale(log[0]), multiplier, low, high, ..Axis::default() },
             y: Axis { scale: scale(log[1]), ..Axis::new(label.clone()) },
             layers: vec![
                 Line { x: x.clone(), y: y.clone(), label: label.clone(), ..Line::default() }.into(),
