@@ -109,6 +109,9 @@ fn read(root: &Section, name: Option<String>, fetch: &Fetch, faults: &mut Faults
     let scatterers = scatterer::read(root, ground.as_ref(), faults);
     let thickness = |at: Point| Some(thickness_at(sheet.as_ref()?, ground.as_ref()?, at));
     let actuators = actuator::read(root, &Base { ground: ground.as_ref(), thickness: &thickness }, faults);
+    if let (Some(emission), Some(actuators)) = (&emission, &actuators) {
+        emission::carry(root, emission, actuators.len(), faults);
+    }
     let mut sheet = sheet?;
     sheet.uneven.scatterers = scatterers?;
     Some(Surface {

@@ -89,7 +89,7 @@ pub(crate) fn spec(path: &Path, drive: &Drive) -> Result<WavSpec, StoreError> {
     let channels = u16::try_from(count).ok().filter(|c| *c > 0);
     let channels = channels.ok_or_else(|| refuse("1 to 65535 channels", count.to_string()))?;
     let rate = drive.rate();
-    let most = f64::from(u32::MAX / 4 / u32::from(channels));
+    let most = most_rate(count);
     if rate.fract() != 0.0 || !(1.0..=most).contains(&rate) {
         return Err(refuse(&format!("a whole sample rate from 1 to {most} Hz"), format!("{rate} Hz")));
     }
@@ -106,6 +106,11 @@ pub(crate) fn spec(path: &Path, drive: &Drive) -> Result<WavSpec, StoreError> {
         bits_per_sample: 32,
         sample_format: SampleFormat::Float,
     })
+}
+
+/// Most samples per second of so many channels: the header counts the bytes of a second, four for a sample, in 32 bits.
+pub(crate) fn most_rate(channels: usize) -> f64 {
+    (u32::MAX as usize / 4 / channels.max(1)) as f64
 }
 
 pub(crate) fn into_io(error: hound::Error) -> std::io::Error {

@@ -42,7 +42,24 @@ fn files_with_faults_are_refused_with_their_place() {
     faulty(&FILM.replace("[12, 31]", "[12, 310]"), &["film.toml:14", "actuator[0].at_mm", "310"]);
     faulty(&FILM.replace("= 200", "= nan"), &["film.toml:8", "sheet.tension_n_per_m"]);
     faulty(&FILM.replace("[0, 1000]", "[0, 30000]"), &["film.toml:11", "24000"]);
+    faulty(&FILM.replace("[0, 1000]", "[0, 24000]"), &["film.toml:11:11", "drive.band_hz", "below 24000 Hz"]);
+    faulty(&FILM.replace("48000", "44100.5"), &["film.toml:12:18", "drive.sample_rate_hz", "a whole number"]);
     faulty(&FILM[..FILM.find("[[actuator]]").unwrap()], &["actuator"]);
+}
+
+#[test]
+fn rates_set_for_a_run_are_refused_as_those_of_a_file() {
+    let scratch = Scratch::new("set-rates");
+    let out = scratch.join("out");
+    for command in [vec!["check"], vec!["focus", "--at", "62,90", "-o", &out]] {
+        let set = ["hudin-2012", "--set", "drive.sample_rate_hz=44100.5"];
+        let errors = refused(&[&command[..], &set].concat(), 2);
+        assert!(
+            errors.contains("drive.sample_rate_hz") && errors.contains("a whole number of Hz"),
+            "{errors}"
+        );
+    }
+    assert!(scratch.names().is_empty());
 }
 
 #[test]

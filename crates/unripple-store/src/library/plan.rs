@@ -97,7 +97,9 @@ impl LibraryPlan {
             if legal { Ok(()) } else { Err(StoreError::content(file, expected, found)) }
         };
         let positive = |x: f64| x.is_finite() && x > 0.0;
-        require(positive(*rate), "a sample rate above 0 Hz", rate.to_string())?;
+        // That of a WAV file, as which drives are written.
+        let whole_rate = positive(*rate) && rate.fract() == 0.0;
+        require(whole_rate, "a whole sample rate above 0 Hz", rate.to_string())?;
         let band = *low >= 0.0 && low < high && high.is_finite();
         require(band, "a band from 0 Hz or more up to more", format!("{low} to {high} Hz"))?;
         require(positive(*lambda_min), "a shortest wavelength above 0 m", lambda_min.to_string())?;

@@ -1,8 +1,9 @@
 //! The tables `[drive]` and `[finger]`.
 
-use super::range::{Limits, of};
+use super::range::of;
 use super::reader::{Faults, Section};
 use crate::decimal;
+use crate::wav::most_rate;
 use unripple_core::{Emission, Finger};
 
 /// Samples per second where a file does not say. 48 kHz, which every sound card has.
@@ -11,7 +12,7 @@ const DEFAULT_RATE: f64 = 48_000.0;
 /// The table `[drive]`.
 pub(super) fn read(section: &Section, faults: &mut Faults) -> Option<Emission> {
     section.check_keys(&["band_hz", "sample_rate_hz", "limit", "rms_limit"], |_| None, faults);
-    let rate = section.number_or("sample_rate_hz", DEFAULT_RATE, &of::RATE, faults);
+    let rate = rate(section, faults);
     let limit = section.number_or("limit", 1.0, &of::DRIVE, faults);
     let rms_limit = match section.get("rms_limit") {
         Some(entry) => entry.number(&of::DRIVE, faults).map(Some),
@@ -19,6 +20,18 @@ pub(super) fn read(section: &Section, faults: &mut Faults) -> Option<Emission> {
     };
     let band = band(section, rate, faults);
     Some(Emission { band: band?, rate: rate?, limit: limit?, rms_limit: rms_limit? })
+}
+
+/// Samples per second, a whole number.
+fn rate(section: &Section, faults: &mut Faults) -> Option<f64> {
+    let Some(entry) = section.get("sample_rate_hz") else { return Some(DEFAULT_RATE) };
+    let rate = entry.number(&of::RATE, faults)?;
+    if rate.fract() == 0.0 {
+        return Some(rate);
+    }
+    let expected = "a whole number of Hz, since the header of a WAV file holds no other";
+    entry.refuse(expected, of::RATE.nearest(rate.round()), faults);
+    None
 }
 
 fn band(section: &Section, rate: Option<f64>, faults: &mut Faults) -> Option<[f64; 2]> {
@@ -31,18 +44,28 @@ fn band(section: &Section, rate: Option<f64>, faults: &mut Faults) -> Option<[f6
         entry.refuse(expected, (high < low).then_some(swapped), faults);
         return None;
     }
-    let top = Limits { greatest: rate? / 2.0, ..of::FREQUENCY };
-    if !top.allow(high) {
-        let nearest = decimal::text(top.greatest, 0);
-        let expected = format!("a band up to {nearest} Hz, half the sample rate");
-        entry.refuse(
-            expected,
-            Some(format!("[{}, {nearest}]", decimal::text(low.min(top.greatest), 0))),
-            faults,
-        );
-        return None;
+    let half = rate? / 2.0;
+    if high < half {
+        return Some([low, high]);
     }
-    Some([low, high])
+    let written = |hz: f64| decimal::text(hz, 0);
+    // The highest whole frequency below half the rate.
+    let most = half.ceil() - 1.0;
+    let nearest = (low < most).then(|| format!("[{}, {}]", written(low), written(most)));
+    entry.refuse(format!("a band below {} Hz, half the sample rate", written(half)), nearest, faults);
+    None
+}
+
+/// A fault if the header of a WAV file, which counts the bytes of a second, cannot hold the sample rate of a drive of so many actuators.
+pub(super) fn carry(root: &Section, emission: &Emission, actuators: usize, faults: &mut Faults) {
+    let most = most_rate(actuators);
+    let entry = root.get("drive").and_then(|drive| drive.section(faults)?.get("sample_rate_hz"));
+    if let Some(entry) = entry.filter(|_| emission.rate > most) {
+        let most = decimal::text(most, 0);
+        let expected =
+            format!("at most {most} Hz with {actuators} actuators, since a WAV file holds no more");
+        entry.refuse(expected, Some(most), faults);
+    }
 }
 
 /// The table `[finger]`: every key has the default finger's value.

@@ -156,7 +156,7 @@ fn leaves_what_is_not_its_own() {
 #[test]
 fn refuses_plans_and_responses_that_do_not_fit() {
     let folder = Folder::new("unfit");
-    let changes: [fn(&mut LibraryPlan); 12] = [
+    let changes: [fn(&mut LibraryPlan); 13] = [
         |p| p.ports.clear(),
         |p| p.points.clear(),
         |p| p.samples = 0,
@@ -165,6 +165,7 @@ fn refuses_plans_and_responses_that_do_not_fit() {
         |p| p.ports[1].name = "a1".into(),
         |p| p.points[0].x = f64::NAN,
         |p| p.conditions.rate = 0.0,
+        |p| p.conditions.rate = 44_100.5,
         |p| p.conditions.band = [3e3, 3e3],
         |p| p.conditions.lambda_min = f64::INFINITY,
         |p| p.onset = f64::NAN,

@@ -229,7 +229,7 @@ prop_compose! {
         outline in outline().prop_filter("corners that triangles can follow", |outline| outline.faults().is_empty()),
         sheet in sheet(),
         name in "[A-Za-z][a-z\"\\\\'é]{0,10}",
-        rate in 100.0..1e7_f64,
+        rate in (100_u32..10_000_000).prop_map(f64::from),
         band in (0.0..0.25_f64, 0.3..0.5_f64),
         limits in (1e-6..1e6_f64, proptest::option::of(1e-6..1e6_f64)),
         finger in (0.0..1.0_f64, 0.0..1e3_f64, 0.0..1e6_f64, 1e-4..0.1_f64),

@@ -142,13 +142,46 @@ fn decay() {
 fn bands() {
     assert_eq!(
         says("[0, 3000]", "[0, 30000]"),
-        "13:11: drive.band_hz: expected a band up to 24000 Hz, half the sample rate, found [0, 30000] \
-         (nearest: [0, 24000])"
+        "13:11: drive.band_hz: expected a band below 24000 Hz, half the sample rate, found [0, 30000] \
+         (nearest: [0, 23999])"
     );
+    // Samples cannot tell a wave at half their rate from none.
+    assert_eq!(
+        says("[0, 3000]", "[0, 24000]"),
+        "13:11: drive.band_hz: expected a band below 24000 Hz, half the sample rate, found [0, 24000] \
+         (nearest: [0, 23999])"
+    );
+    assert_eq!(fault("[0, 3000]", "[23999.5, 24000]").nearest, None);
+    assert_eq!(faults(&GOOD.replace("[0, 3000]", "[0, 23999.5]")), []);
     assert_eq!(fault("[0, 3000]", "[3000, 100]").nearest.as_deref(), Some("[100, 3000]"));
     assert_eq!(fault("[0, 3000]", "[3000, 3000]").nearest, None);
     assert_eq!(fault("[0, 3000]", "[0]").expected, "[lowest, highest] in Hz");
     assert_eq!(fault("band_hz = [0, 3000]\n", "").key, "drive.band_hz");
+}
+
+/// The header of a WAV file has a whole number of samples per second, and a number of bytes per second below 2^32.
+#[test]
+fn rates() {
+    let rate = "sample_rate_hz = 48000";
+    assert_eq!(
+        says(rate, "sample_rate_hz = 44100.5"),
+        "14:18: drive.sample_rate_hz: expected a whole number of Hz, since the header of a WAV file holds no other, found 44100.5 \
+         (nearest: 44101)"
+    );
+    assert_eq!(faults(&GOOD.replace(rate, "sample_rate_hz = 44.1e3")), []);
+    assert_eq!(fault(rate, "sample_rate_hz = 99.5").nearest.as_deref(), Some("100"));
+    let array = |rate: &str| {
+        let grid = GOOD.replace("at_mm = [12, 31]", "grid_mm = [[1, 1], [99, 99]]\ncount = [64, 64]");
+        faults(&grid.replace("48000", rate))
+    };
+    assert_eq!(array("262143"), []);
+    let list = array("262144");
+    assert_eq!((list.len(), list[0].line, list[0].column), (1, 14, 18));
+    assert_eq!(
+        list[0].to_string(),
+        "drive.sample_rate_hz: expected at most 262143 Hz with 4096 actuators, since a WAV file holds no more, found 262144 \
+         (nearest: 262143)"
+    );
 }
 
 #[test]
