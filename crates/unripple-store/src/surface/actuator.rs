@@ -4,7 +4,7 @@ use super::piezo::{self, PIEZO_KEYS, Spot};
 use super::place::Ground;
 use super::places::{self, MOST_ACTUATORS, PLACE_KEYS, Places};
 use super::range::of;
-use super::reader::{Faults, Section};
+use super::reader::{Faults, LONGEST_LINE, Section};
 use std::collections::HashMap;
 use std::ops::Range;
 use unripple_core::{Actuator, ActuatorKind, CoilDrive, Point};
@@ -111,6 +111,8 @@ fn table(
     let places = places::read(section, base.ground, faults);
     // Where the places are at fault, the rest is read once, for its own faults.
     let several = places.as_ref().is_some_and(Places::are_several);
+    let count = places.as_ref().map_or(1, |places| places.at.len());
+    let named = named.filter(|named| !several || named.leaves_room(count, faults));
     let at: Vec<Option<Point>> =
         places.map_or(vec![None], |places| places.at.into_iter().map(Some).collect());
     let made: Vec<Option<Actuator>> = at
@@ -191,6 +193,17 @@ impl Named {
             (Some(name), Some(which)) => format!("{name}-{}", which + 1),
             (None, which) => format!("a{}", self.numbers.channel + which.unwrap_or(0) + 1),
         }
+    }
+
+    /// Whether the names of so many actuators, numbered, are short enough for a file, or a fault.
+    fn leaves_room(&self, count: usize, faults: &mut Faults) -> bool {
+        let longest = self.of(Some(count.saturating_sub(1))).len();
+        if longest > LONGEST_LINE {
+            let expected =
+                format!("a name of at most {LONGEST_LINE} bytes with the numbers of its actuators");
+            faults.add(&self.key, self.span.clone(), format!("{longest} bytes"), expected, None);
+        }
+        longest <= LONGEST_LINE
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::range::of;
 use super::reader::{Entry, Faults, Section};
+use crate::decimal;
 use unripple_core::{Edge, Edges};
 
 /// The edge conditions that have names in files.
@@ -87,5 +88,17 @@ fn adhesive(strip: &Section, faults: &mut Faults) -> Option<Edge> {
     let thickness = strip.number(ADHESIVE_KEYS[2], &of::ADHESIVE_THICKNESS, faults);
     let (young, width, thickness) = (young?, width?, thickness?);
     let lift = young * width / thickness;
-    Some(Edge::Elastic { lift, tilt: lift * width * width / 12.0 })
+    let tilt = lift * width * width / 12.0;
+    if of::LIFT.hold(lift) && of::TILT.hold(tilt) {
+        return Some(Edge::Elastic { lift, tilt });
+    }
+    let written = |value: f64| decimal::plain(&format!("{value:.3e}"));
+    let found = format!("a strip whose springs are {} N/mm² and {} N", written(lift / 1e6), written(tilt));
+    let expected = format!(
+        "a strip whose springs are at most {} N/mm² against displacement and {} N against rotation",
+        written(of::LIFT.greatest),
+        written(of::TILT.greatest)
+    );
+    faults.add(&strip.key, strip.span.clone(), found, expected, Some("\"clamped\"".into()));
+    None
 }

@@ -1,8 +1,8 @@
 //! The tables `[[sheet.layer]]`: a laminate, reduced to one sheet that bends alike.
 
 use super::material::{self, MATERIAL_KEYS, MaterialProperties};
-use super::range::of;
-use super::reader::{Entry, Faults, Section};
+use super::range::{Limits, of};
+use super::reader::{Entry, Faults, LONGEST_LINE, Section};
 use unripple_core::{Laminate, Layer};
 
 /// The key of the list, and most layers in it: a display has about ten.
@@ -40,15 +40,31 @@ pub(super) fn read(entry: &Entry, sheet: &Section, faults: &mut Faults) -> Optio
         return None;
     };
     let Laminate { young, density, poisson, strength, thickness, .. } = whole;
-    // Means of what the format takes are within its limits; the sum of thicknesses may not be.
     if !of::THICKNESS.allow(thickness * 1e3) {
         let found = format!("{:.3} mm in all", thickness * 1e3);
         faults.add(&entry.key, entry.span.clone(), found, "layers of at most 100 mm together", None);
         return None;
     }
-    sound.then(|| {
-        (MaterialProperties { name: names.join(" + "), young, density, poisson, strength }, thickness)
-    })
+    let as_one: [(&str, Option<f64>, Limits); 4] = [
+        ("young_gpa", Some(young), of::YOUNG),
+        ("density_kg_m3", Some(density), of::DENSITY),
+        ("poisson_ratio", Some(poisson), of::POISSON),
+        ("strength_mpa", strength, of::STRENGTH),
+    ];
+    for (key, value, limits) in as_one {
+        if let Some(value) = value.filter(|value| !limits.hold(*value)) {
+            let expected = format!("layers whose {key} as one sheet is {}", limits.expected());
+            faults.add(&entry.key, entry.span.clone(), limits.text(value), expected, None);
+            sound = false;
+        }
+    }
+    sound.then(|| (MaterialProperties { name: named(&names), young, density, poisson, strength }, thickness))
+}
+
+/// What the sheet is made of: the names of its layers, or their number if a line of a file cannot hold the names.
+fn named(layers: &[String]) -> String {
+    let all = layers.join(" + ");
+    if all.len() <= LONGEST_LINE { all } else { format!("laminate of {} layers", layers.len()) }
 }
 
 /// One layer, with the name of its material.

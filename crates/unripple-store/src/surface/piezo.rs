@@ -2,6 +2,7 @@
 
 use super::range::of;
 use super::reader::{Entry, Faults, Section};
+use crate::decimal;
 use unripple_core::{ActuatorKind, Outline, Patch, Point};
 
 /// All keys that a piezo patch may have.
@@ -150,5 +151,14 @@ fn mass(
         faults.add(&density.key, density.span, "patch_density_kg_m3 alone", expected, None);
         return None;
     }
-    Some(patch?.area() * patch_thickness?? * value?)
+    let mass = patch?.area() * patch_thickness?? * value?;
+    if of::PATCH_MASS.hold(mass) {
+        return Some(mass);
+    }
+    let written = |mg: f64| decimal::plain(&format!("{mg:.3e}"));
+    let found = format!("one with which the patch has {} mg", written(mass * 1e6));
+    let expected =
+        format!("a density with which the patch has at most {} mg", written(of::PATCH_MASS.greatest));
+    faults.add(&density.key, density.span, found, expected, None);
+    None
 }

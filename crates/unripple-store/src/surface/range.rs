@@ -40,6 +40,11 @@ impl Limits {
         (self.least..=self.greatest).contains(&value)
     }
 
+    /// Whether a file can hold an SI value.
+    pub(crate) fn hold(&self, value: f64) -> bool {
+        self.text(value).parse::<f64>().is_ok_and(|written| self.allow(written))
+    }
+
     /// As a message says it.
     pub(crate) fn expected(&self) -> String {
         let range = format!("a number from {} to {}", decimal::text(self.least, 0), {
@@ -68,7 +73,7 @@ pub(crate) mod of {
     pub(crate) const SWEEP: Limits = Limits::degrees(-360.0, 360.0);
     pub(crate) const LIFT: Limits = Limits::new("N/mm²", 6, 0.0, 1e6);
     pub(crate) const TILT: Limits = Limits::new("N", 0, 0.0, 1e9);
-    // The softest foam to steel, and strips that keep springs within the limits above.
+    // The softest foam to steel. A strip whose springs are past the limits above is refused where they are computed.
     pub(crate) const ADHESIVE_YOUNG: Limits = Limits::new("MPa", 6, 0.001, 2e5);
     pub(crate) const ADHESIVE_WIDTH: Limits = Limits::new("mm", -3, 0.01, 1000.0);
     pub(crate) const ADHESIVE_THICKNESS: Limits = Limits::new("mm", -3, 0.01, 100.0);

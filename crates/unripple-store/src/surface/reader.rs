@@ -11,6 +11,9 @@ use toml::de::{DeTable, DeValue};
 /// Longest piece of a file quoted in a message, in characters. Longer ones are cut, so that a message stays a line.
 const LONGEST_QUOTE: usize = 40;
 
+/// Longest line of text in a file, such as a name, in bytes: reports and messages repeat names in full.
+pub(crate) const LONGEST_LINE: usize = 200;
+
 /// The faults found so far in one text.
 pub(crate) struct Faults<'t> {
     text: &'t str,
@@ -127,7 +130,7 @@ impl<'a> Entry<'a> {
     /// One line of text that is not blank.
     pub fn line(&self, expected: &str, faults: &mut Faults) -> Option<String> {
         let text = self.value.as_str().map(str::trim);
-        let fits = |t: &&str| !t.is_empty() && t.len() <= 200 && !t.chars().any(char::is_control);
+        let fits = |t: &&str| !t.is_empty() && t.len() <= LONGEST_LINE && !t.chars().any(char::is_control);
         let line = text.filter(fits).map(str::to_owned);
         if line.is_none() {
             self.refuse(format!("{expected}, as one line of text in quotes"), None, faults);

@@ -161,6 +161,11 @@ fn faults_of_places_and_defaults() {
     assert!(one(&many).contains("at most 4096 actuators in all"));
     let named = "[[actuator]]\nname = \"b-2\"\nat_mm = [1, 2]\n[[actuator]]\nname = \"b\"\nrow_mm = [[5, 5], [9, 9]]\ncount = 2\n";
     assert!(one(named).contains("\"b-2\", which is also the name of actuator[0]"));
+    let long = |bytes: usize| {
+        format!("[[actuator]]\nname = \"{}\"\nrow_mm = [[5, 5], [9, 9]]\ncount = 10\n", "n".repeat(bytes))
+    };
+    assert_eq!(faults(&with(&long(197))), []);
+    assert!(one(&long(198)).contains("at most 200 bytes with the numbers of its actuators, found 201 bytes"));
 }
 
 /// Springs of a strip, against the work of stretching it: a slice at y from its middle stretches by w + y φ.
@@ -180,6 +185,16 @@ fn a_strip_of_adhesive_is_springs() {
         "{lift} {tilt} {both:?}"
     );
     assert_eq!(parse_surface(&to_toml(&surface), "copy.toml").unwrap(), surface);
+    // Epoxy, a fifth as thick: past what a file takes as springs.
+    let epoxy =
+        text.replace("= 0.6", "= 3000").replace("width_mm = 3", "width_mm = 20").replace("0.25", "0.05");
+    let list = faults(&epoxy);
+    assert_eq!((list.len(), list[0].line, list[0].column), (1, 5, 8));
+    assert_eq!(
+        list[0].to_string(),
+        "outline.edge: expected a strip whose springs are at most 1000000 N/mm² against displacement and 1000000000 N \
+         against rotation, found a strip whose springs are 1200000 N/mm² and 40000000 N (nearest: \"clamped\")"
+    );
     let half = faults(&text.replace("adhesive_width_mm = 3, ", ""));
     assert_eq!(half[0].key, "outline.edge.adhesive_width_mm");
     let both = faults(&text.replace("adhesive_width_mm = 3", "tilt_n = 3"));

@@ -71,3 +71,36 @@ fn faults_of_layers_are_named_where_they_are() {
     let list = GOOD.replace("material = \"BoPET\"\nthickness_mm = 0.125\n", "layer = 3\n");
     assert!(only(&list).contains("headed [[sheet.layer]]"), "{}", only(&list));
 }
+
+/// What is written beside every result, and with every library, can be read again.
+#[test]
+fn many_layers_have_a_name_that_a_file_can_hold() {
+    let layer = "[[sheet.layer]]\nmaterial = \"soda-lime glass\"\nthickness_mm = 0.5\n";
+    let stack = |count: usize| {
+        let text = GOOD
+            .replace("material = \"BoPET\"\nthickness_mm = 0.125\n", "")
+            .replace("[drive]", &format!("{}[drive]", layer.repeat(count)));
+        let surface = parse_surface(&text, "stack.toml").unwrap();
+        assert_eq!(parse_surface(&to_toml(&surface), "again.toml").unwrap(), surface);
+        surface.sheet.material
+    };
+    assert_eq!(stack(2), "soda-lime glass + soda-lime glass");
+    assert_eq!(stack(13), "laminate of 13 layers");
+}
+
+#[test]
+fn layers_that_are_no_sheet_of_a_file_together() {
+    let layer = |young: f64, strength: f64, thickness: f64| {
+        format!(
+            "{{ young_gpa = {young}, density_kg_m3 = 1000, poisson_ratio = 0.3, strength_mpa = {strength}, thickness_mm = {thickness} }}"
+        )
+    };
+    // A brittle skin on something soft: the skin breaks long before the whole feels a stress.
+    let odd = format!("layer = [{}, {}]\n", layer(1000.0, 0.01, 0.001), layer(0.001, 5.0, 10.0));
+    let list = faults(&GOOD.replace("material = \"BoPET\"\nthickness_mm = 0.125\n", &odd));
+    assert_eq!((list.len(), list[0].key.as_str()), (1, "sheet.layer"), "{list:#?}");
+    assert_eq!(
+        list[0].expected,
+        "layers whose strength_mpa as one sheet is a number from 0.01 to 100000 MPa"
+    );
+}

@@ -192,3 +192,20 @@ fn patches_across_the_rim() {
         faults(&GOOD.replace("kind = \"force\"", &format!("kind = \"piezo\"\n{}", whole("12")))).is_empty()
     );
 }
+
+/// What a patch has from its material and size is within what a file can say itself.
+#[test]
+fn patches_that_are_too_heavy() {
+    let large = GOOD.replace("[150, 100]", "[2000, 2000]").replace("[12, 31]", "[1000, 1000]").replace(
+        "kind = \"force\"",
+        "kind = \"piezo\"\nrectangle_mm = [1000, 1000]\nmoment_n_per_v = 1\npatch_thickness_mm = 10",
+    );
+    assert_eq!(faults(&format!("{large}patch_density_kg_m3 = 1000\n")), []);
+    let list = faults(&format!("{large}patch_density_kg_m3 = 7800\n"));
+    assert_eq!(list.len(), 1, "{list:#?}");
+    assert_eq!(
+        list[0].to_string(),
+        "actuator[0].patch_density_kg_m3: expected a density with which the patch has at most 10000000 mg, found one with which the \
+         patch has 78000000 mg"
+    );
+}
