@@ -77,6 +77,13 @@ pub(super) fn read(root: &Section, base: &Base, faults: &mut Faults) -> Option<V
         whole &= made.is_some();
         actuators.extend(made.into_iter().flatten());
     }
+    let still = |actuator: &Actuator| matches!(actuator.kind, ActuatorKind::Piezo { moment: 0.0, .. });
+    if whole && actuators.iter().all(still) {
+        let span = entry.map_or(root.span.clone(), |e| e.span);
+        let found = "patches without a moment alone";
+        faults.add("actuator", span, found, "an actuator that moves the sheet", None);
+        return None;
+    }
     whole.then_some(actuators)
 }
 

@@ -37,6 +37,9 @@ pub(super) fn read(section: &Section, faults: &mut Faults) -> Option<Sheet> {
     if let (Some(stuff), Some(tension), Some(profile)) = (&made_of, tension, &tension_profile) {
         pulled_back(section, stuff, tension, profile.as_ref(), faults);
     }
+    if let Some(stuff) = &made_of {
+        damped(section, stuff, faults);
+    }
     let stuff = made_of?;
     Some(Sheet {
         material: stuff.name,
@@ -86,6 +89,16 @@ fn pulled_back(
         let expected =
             "positive factors of tension, or a positive young_gpa: nothing else pulls the sheet back there";
         faults.add(&entry.key, entry.span, "places with neither tension nor stiffness", expected, None);
+    }
+}
+
+/// A fault if a sheet without stiffness has a loss factor, which is that of bending.
+fn damped(section: &Section, stuff: &MaterialProperties, faults: &mut Faults) {
+    if let (Some(factor), None) = (section.get("loss_factor"), section.get("decay_time_ms"))
+        && stuff.young == 0.0
+    {
+        let expected = "decay_time_ms, or a positive young_gpa: a loss factor is that of bending, which is all that it damps";
+        factor.refuse(expected, None, faults);
     }
 }
 

@@ -94,6 +94,19 @@ fn nothing_pulls_back_in_places() {
 }
 
 #[test]
+fn a_loss_factor_needs_stiffness() {
+    let limp = GOOD.replace("air = \"none\"", "young_gpa = 0");
+    assert_eq!(faults(&limp), []);
+    let list = faults(&limp.replace("decay_time_ms = 70", "loss_factor = 0.01"));
+    assert_eq!((list.len(), list[0].line, list[0].column), (1, 10, 15));
+    assert_eq!(
+        list[0].to_string(),
+        "sheet.loss_factor: expected decay_time_ms, or a positive young_gpa: a loss factor is that of bending, which is all that \
+         it damps, found 0.01"
+    );
+}
+
+#[test]
 fn scatterers() {
     let at = "at_mm = [50, 50]";
     assert_eq!(
@@ -208,4 +221,16 @@ fn patches_that_are_too_heavy() {
         "actuator[0].patch_density_kg_m3: expected a density with which the patch has at most 10000000 mg, found one with which the \
          patch has 78000000 mg"
     );
+}
+
+#[test]
+fn patches_without_a_moment() {
+    let still = "radius_mm = 5\nmoment_n_per_v = 0";
+    let found = patch(still);
+    assert_eq!(
+        found,
+        "actuator: expected an actuator that moves the sheet, found patches without a moment alone"
+    );
+    let beside = format!("{GOOD}[[actuator]]\nat_mm = [50, 50]\nkind = \"piezo\"\n{still}\n");
+    assert_eq!(faults(&beside), [], "others move it");
 }
