@@ -62,6 +62,26 @@ fn rates_set_for_a_run_are_refused_as_those_of_a_file() {
     assert!(scratch.names().is_empty());
 }
 
+/// No mode below 164 Hz: known only when it is computed, and said alike by all that compute.
+#[test]
+fn a_band_without_modes_is_refused_by_name() {
+    let scratch = Scratch::new("empty-band");
+    let out = scratch.join("out");
+    for command in [
+        vec!["focus", "--at", "62,90", "-o", &out],
+        vec!["compare", "--at", "62,90", "-o", &out],
+        vec!["respond", "--grid-mm", "30", "-o", &out],
+        vec!["calibrate", "--grid-mm", "30", "-o", &out],
+    ] {
+        let set = ["hudin-2012", "--set", "drive.band_hz=[20, 40]"];
+        let errors = refused(&[&command[..], &set].concat(), 2);
+        let said =
+            "drive.band_hz: expected modes within 20 to 40 Hz, found none (the next mode is at 163.7 Hz)";
+        assert!(errors.contains(said), "{command:?}: {errors}");
+    }
+    assert!(scratch.names().is_empty());
+}
+
 #[test]
 fn outlines_that_cannot_be_are_refused() {
     let rim = "rectangle_mm = [150, 150]";

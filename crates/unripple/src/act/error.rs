@@ -44,12 +44,25 @@ pub enum ActError {
         /// The duration asked for, in seconds.
         found: f64,
     },
+    /// The band of the surface has no mode, so that nothing resonates in it.
+    #[error("drive.band_hz: expected modes within {} to {} Hz, found none{}", band[0], band[1], above(*next))]
+    Empty {
+        /// The band, lowest and highest frequency in Hz.
+        band: [f64; 2],
+        /// The lowest mode above the band, in Hz, if it is known.
+        next: Option<f64>,
+    },
     /// Modal responses are needed, and these are sampled.
     #[error("responses: expected modes, which {what} needs, found samples")]
     NeedsModes {
         /// What needs modal responses.
         what: &'static str,
     },
+}
+
+/// Where the next mode above a band is, for messages.
+fn above(next: Option<f64>) -> String {
+    next.map_or_else(String::new, |hz| format!(" (the next mode is at {hz:.1} Hz)"))
 }
 
 impl ActError {

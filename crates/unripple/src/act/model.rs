@@ -3,10 +3,15 @@
 use super::ActError;
 use crate::core::{Contact, Responses, Shape, Surface};
 use crate::physics::{ResponseOptions, responses};
+use std::f64::consts::TAU;
 
 /// Relative accuracy of natural frequencies that are computed on a mesh: a phase error of 0.06 rad at 3 kHz after 30
 /// ms, the same in the drive and in its evaluation.
 const MESHED: f64 = 1e-4;
+
+/// Frequencies up to which the next mode above an empty band is looked for, one after the other, as multiples of its top: near it
+/// first, since few modes are computed quickly.
+const FARTHER: [f64; 6] = [1.1, 1.3, 2.0, 4.0, 8.0, 16.0];
 
 /// Relative accuracy, a ratio, to which the natural frequencies of a surface are computed: the default of
 /// [`ResponseOptions`] for plain rectangles, 1e-4 where a mesh is needed.
@@ -20,9 +25,26 @@ pub fn accuracy(surface: &Surface) -> f64 {
 /// The responses of a surface with fingers at `contacts`, on modes up to `max_hz` (Hz), or those of its band.
 ///
 /// # Errors
-/// Those of [`responses`].
+/// [`ActError::Empty`] if no mode is within the band; those of [`responses`].
 pub fn model(surface: &Surface, max_hz: Option<f64>, contacts: &[Contact]) -> Result<Responses, ActError> {
     let accuracy = accuracy(surface);
     let contacts = contacts.to_vec();
-    Ok(responses(surface, &ResponseOptions { max_hz, accuracy, contacts, ..ResponseOptions::default() })?)
+    let options = ResponseOptions { max_hz, accuracy, contacts, ..ResponseOptions::default() };
+    let found = responses(surface, &options)?;
+    if let Responses::Modal(modal) = &found
+        && modal.poles.is_empty()
+    {
+        return Err(ActError::Empty { band: surface.emission.band, next: next(surface, &options) });
+    }
+    Ok(found)
+}
+
+/// The lowest mode above an empty band, in Hz, if it is within 16 times the top of the band.
+fn next(surface: &Surface, options: &ResponseOptions) -> Option<f64> {
+    let top = surface.emission.band[1];
+    FARTHER.iter().find_map(|factor| {
+        let farther = ResponseOptions { max_hz: Some(factor * top), ..options.clone() };
+        let Ok(Responses::Modal(modal)) = responses(surface, &farther) else { return None };
+        modal.poles.iter().map(|pole| pole.omega / TAU).reduce(f64::min)
+    })
 }

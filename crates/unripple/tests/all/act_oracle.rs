@@ -172,3 +172,21 @@ fn the_window_is_that_of_the_design_or_as_long_as_samples_last() {
     assert!(chosen.why.starts_with("the longest that the responses last"), "{}", chosen.why);
     assert!(chosen.contrast < 0.9 * chosen.largest, "{chosen:?}");
 }
+
+#[test]
+fn a_band_between_modes_is_refused_with_the_next_one() {
+    let mut film = papers_surface();
+    let modes = unripple::physics::Modes::solve(&film, 400.0, 1e-6).unwrap();
+    let [first, second] = [0, 1].map(|mode| modes.frequencies_hz()[mode]);
+    for (band, above) in [([20.0, 40.0], first), ([first + 1.0, second - 1.0], second)] {
+        film.emission.band = band;
+        let error = model(&film, None, &[]).unwrap_err();
+        let ActError::Empty { band: told, next: Some(next) } = error else { panic!("{error}") };
+        assert!(told == band && (next / above - 1.0).abs() < 1e-5, "{next} {above}");
+    }
+    // Far below any mode, none is looked for up to the first.
+    film.emission.band = [0.0, 1.0];
+    let error = model(&film, None, &[]).unwrap_err();
+    assert_eq!(error.to_string(), "drive.band_hz: expected modes within 0 to 1 Hz, found none");
+    assert!(!error.is_failed_work());
+}
