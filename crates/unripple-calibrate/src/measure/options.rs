@@ -73,6 +73,12 @@ const BELOW: f64 = 0.6;
 /// Lowest start of a sweep that is chosen automatically, in Hz: no exciter moves below.
 const LOWEST: f64 = 2.0;
 
+/// Highest start of a sweep, relative to its end: above 1 / 1.8, the soft edges of the band that is swept overlap.
+const BENEATH: f64 = 0.5;
+
+/// Highest end of a sweep, relative to the sample rate: a tenth of the range below half of it is left for the filters of converters.
+const HIGHEST: f64 = 0.45;
+
 /// Largest number of repeats that is advised. They bring 20 dB; where that is not enough, another probe is needed.
 const MOST_REPEATS: f64 = 99.0;
 
@@ -82,16 +88,17 @@ const MOST_KEPT: f64 = 60.0;
 impl MeasureOptions {
     /// Options for a surface that is expected to be like a model: sweep, settle time and response length in proportion to the slowest
     /// decay in the band, and those of [`MeasureOptions::default`] for decay times up to 70 ms. The sweep begins below the lowest
-    /// mode, at 60 Hz at the highest.
+    /// mode, at 60 Hz at the highest. Of a surface that rings for more than 42 s, a minute is kept.
     ///
     /// A response has decayed to e⁻⁵ when the next one begins. The second harmonic precedes the linear response by about 1.2 decay
     /// times, for a sweep from 60 Hz to 3.6 kHz. Both hold for slow and quick surfaces alike.
     pub fn for_model(model: &ModalResponses) -> Self {
         let usual = Self::default();
         let from = lowest(model).map_or(usual.start_hz, |hz| (BELOW * hz).clamp(LOWEST, usual.start_hz));
+        let from = from.min(BENEATH * usual.end(model.conditions.band[1], model.conditions.rate));
         let times = slowest_decay(model, from) / USUAL_DECAY;
         // Surfaces that differ only in the last digits get the same plan.
-        let times = if times > 1.001 { times } else { 1.0 };
+        let times = if times > 1.001 { times.min(MOST_KEPT / usual.response_length) } else { 1.0 };
         let [sweep, ringing, kept] =
             [usual.sweep, usual.settle_time, usual.response_length].map(|seconds| times * seconds);
         Self { sweep, start_hz: from, settle_time: ringing, response_length: kept, ..usual }
@@ -161,7 +168,12 @@ impl MeasureOptions {
 
     /// The lowest and the highest frequency swept on a surface, in Hz.
     pub fn swept(&self, surface: &Surface) -> [f64; 2] {
-        [self.start_hz, (self.stop_over_band * surface.emission.band[1]).min(0.45 * surface.emission.rate)]
+        [self.start_hz, self.end(surface.emission.band[1], surface.emission.rate)]
+    }
+
+    /// The highest frequency swept for a band up to `top` (Hz), at `rate` samples per second.
+    fn end(&self, top: f64, rate: f64) -> f64 {
+        (self.stop_over_band * top).min(HIGHEST * rate)
     }
 
     /// Why a channel is bad, in words: a knock, unrecognised sweeps or the first response below the limits; `None` if it is good.

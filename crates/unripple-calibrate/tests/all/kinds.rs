@@ -6,7 +6,8 @@ use crate::kinds_bench;
 
 use kinds_bench::*;
 use unripple_calibrate::measure::MeasureOptions;
-use unripple_core::{ActuatorKind, CoilDrive, Point, Surface};
+use unripple_calibrate::signals::Sweep;
+use unripple_core::{ActuatorKind, CoilDrive, Decay, Outline, Point, Shape, Surface};
 use unripple_devices::Perturbation;
 
 const AT: Point = Point::new(0.062, 0.090);
@@ -129,6 +130,19 @@ fn sweeps_begin_below_the_lowest_mode() {
         println!("lowest mode {lowest:.1} Hz, swept from {from:.1}");
         assert!(from <= 0.7 * lowest && from <= highest && (lowest < 100.0 || from == highest));
     }
+}
+
+/// A sheet that rings for minutes, its only mode in the band near 1 Hz: the sweep ends above where it begins, and is not too long.
+#[test]
+fn a_slow_sheet_gets_a_sweep_that_can_be_played() {
+    let mut slow = film(1.5, |_| ActuatorKind::Force);
+    slow.outline = Outline::new(Shape::Rectangle { width: 1.0, height: 1.0 });
+    (slow.sheet.tension, slow.sheet.decay, slow.emission.rate) = (0.35, Decay::Time(100.0), 100.0);
+    let options = MeasureOptions::for_model(&modal(&slow, None, 1e-4));
+    let [from, to] = options.swept(&slow);
+    let sweep = Sweep { rate: slow.emission.rate, from, to, seconds: options.sweep, ..Sweep::default() };
+    assert!(sweep.stimulus().is_ok(), "{sweep:?}");
+    assert!(options.response_length <= 60.0, "{options:?}");
 }
 
 /// Its lowest modes ring for a second: the wiring test waits for them, and so do sweeps, which begin below them.
