@@ -11,6 +11,9 @@ use unripple_linalg::{Mat, norm};
 /// difference of large terms. Larger, the sum would lose contrast that the optimisation has gained.
 const ACCURACY: f64 = 1e-9;
 
+/// Most points of targets: the equations for their levels are a matrix of half a GiB. Doubled, one four times as large.
+const MOST_POINTS: usize = 1 << 13;
+
 /// Drives optimised through the state at the focal instant, for one window or one period.
 #[derive(Debug)]
 pub(crate) struct Planned<'r> {
@@ -57,7 +60,8 @@ impl<'r> Planned<'r> {
     /// drive that reaches `share` of the level that the limits allow.
     ///
     /// # Errors
-    /// [`FocusError::Still`] and [`FocusError::Unknown`] for targets that cannot be reached.
+    /// [`FocusError::Still`] and [`FocusError::Unknown`] for targets that cannot be reached, [`FocusError::Count`] for too
+    /// many points.
     pub fn drive(&self, targets: &[(usize, &Target)], share: f64) -> Result<Sought, FocusError> {
         let (levels, points) = self.levels(targets)?;
         let state = self.objective.least(&levels)?;
@@ -79,6 +83,11 @@ impl<'r> Planned<'r> {
 
     /// The levels wanted at all points of some targets, and the points that stand for them.
     fn levels(&self, targets: &[(usize, &Target)]) -> Result<(Levels, Vec<Vec<Point>>), FocusError> {
+        let count: usize = targets.iter().map(|(_, target)| target.points.len()).sum();
+        if count > MOST_POINTS {
+            let expected = format!("at most {MOST_POINTS} for a drive that is optimised");
+            return Err(FocusError::Count { what: "points over all targets", expected, found: count });
+        }
         let mut used = Vec::with_capacity(targets.len());
         let mut parts = Vec::with_capacity(targets.len());
         let mut wanted = Vec::new();
@@ -122,7 +131,7 @@ fn plants<'r>(
         let Responses::Modal(modal) = responses else {
             return Err(FocusError::NeedsModes("displacements at rest"));
         };
-        let resting = ModalPlant::once(modal, length, 1.0, Keeps::Displacement, ACCURACY);
+        let resting = ModalPlant::once(modal, length, 1.0, Keeps::Displacement, ACCURACY)?;
         plants.push(Plant::Modal(Box::new(resting)));
     }
     Ok(plants)
@@ -139,7 +148,7 @@ fn plant(responses: &Responses, length: usize, stretch: f64, again: bool) -> Res
             Ok(Plant::Modal(Box::new(ModalPlant::again(modal, length, stretch)?)))
         }
         Responses::Modal(modal) => {
-            let once = ModalPlant::once(modal, length, stretch, Keeps::Velocity, ACCURACY);
+            let once = ModalPlant::once(modal, length, stretch, Keeps::Velocity, ACCURACY)?;
             Ok(Plant::Modal(Box::new(once)))
         }
         Responses::Sampled(_) if again => Err(FocusError::NeedsModes("a drive for a period")),

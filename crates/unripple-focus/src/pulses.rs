@@ -13,6 +13,9 @@ const FORGOTTEN: f64 = 9.2;
 /// Most samples of all recordings together, half a GiB of them. Doubled, a GiB.
 const MOST_VALUES: usize = 1 << 26;
 
+/// Most points of all pulses together, whose responses make a square matrix of half a GiB. Doubled, one four times as large.
+const MOST_POINTS: usize = 1 << 13;
+
 /// A focal pulse: where, when, and with which velocity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pulse {
@@ -78,7 +81,7 @@ pub struct Struck {
 /// # Errors
 /// [`FocusError::Outside`], [`FocusError::Unknown`] and [`FocusError::Still`] for points that cannot be reached,
 /// [`FocusError::Range`] for numbers out of range and for pulses too close to have levels of their own,
-/// [`FocusError::Count`] for too many samples in all.
+/// [`FocusError::Count`] for too many points or samples in all.
 pub fn strike(responses: &Responses, pulses: &[Pulse], options: &PulseOptions) -> Result<Struck, FocusError> {
     check(responses, pulses, options)?;
     let rate = responses.conditions().rate;
@@ -137,6 +140,11 @@ fn check(responses: &Responses, pulses: &[Pulse], options: &PulseOptions) -> Res
         require(what, positive(x), "a positive number", x)?;
     }
     require("ridge", (0.0..=1.0).contains(&options.ridge), "0 to 1", options.ridge)?;
+    let points: usize = pulses.iter().map(|p| p.points.len()).sum();
+    if points > MOST_POINTS {
+        let expected = format!("at most {MOST_POINTS}: fewer pulses or a shorter time");
+        return Err(FocusError::Count { what: "points over all pulses", expected, found: points });
+    }
     let of = |p: &Pulse| Target { points: p.points.clone(), gain: p.level, rate_hz: None };
     target::check(&pulses.iter().map(of).collect::<Vec<_>>(), &responses.conditions().outline)?;
     if responses.ports().is_empty() {

@@ -1,5 +1,6 @@
 //! A focus that moves along a path at one level.
 
+use crate::waveform::MOST_SAMPLES;
 use crate::{FocusError, Pattern, Pulse};
 use unripple_core::{Point, Responses, require};
 
@@ -38,7 +39,7 @@ impl Stroke {
 
     /// Duration of the stroke, in seconds: the length of its lines over its speed.
     pub fn duration(&self) -> f64 {
-        self.sides().map(|(a, b)| a.distance(b)).sum::<f64>() / self.speed
+        self.length() / self.speed
     }
 
     /// Position of the focus, in metres, at a time (s) after the start.
@@ -57,15 +58,12 @@ impl Stroke {
         end
     }
 
-    /// The pulses of the stroke, equally spaced in time from its start to its end, at most an eighth of the shortest
-    /// wavelength apart.
+    /// Refuses a stroke that no drive of `rate` samples per second holds.
     ///
     /// # Errors
-    /// [`FocusError::Range`] for a speed, rate or level that is not positive, a path without length, and a speed at
-    /// which pulses would follow one another within half a period of the highest frequency. Whether the path is filled
-    /// makes no difference.
-    pub fn pulses(&self, responses: &Responses) -> Result<Vec<Pulse>, FocusError> {
-        let conditions = responses.conditions();
+    /// [`FocusError::Range`] for a speed, rate or level that is not positive, a path without length, and a speed so low that the
+    /// stroke would last more than 2²⁴ samples.
+    pub fn check(&self, rate: f64) -> Result<(), FocusError> {
         for (what, x) in [
             ("speed of a stroke (m/s)", self.speed),
             ("pulses per second of a stroke", self.rate_hz),
@@ -73,9 +71,25 @@ impl Stroke {
         ] {
             require(what, x.is_finite() && x > 0.0, "a positive number", x)?;
         }
-        let duration = self.duration();
-        let length = duration * self.speed;
+        let length = self.length();
         require("length of the path of a stroke (m)", length.is_finite() && length > 0.0, "above 0", length)?;
+        let longest = MOST_SAMPLES as f64 / rate;
+        // A hundredth more, so that it is enough as rounded.
+        let least = 1.01 * length / longest;
+        let expected = format!("at least {least:.2e}, for a stroke of at most {longest:.0} s");
+        Ok(require("speed of a stroke (m/s)", self.duration() <= longest, expected, self.speed)?)
+    }
+
+    /// The pulses of the stroke, equally spaced in time from its start to its end, at most an eighth of the shortest
+    /// wavelength apart.
+    ///
+    /// # Errors
+    /// Those of [`Stroke::check`]; [`FocusError::Range`] for a speed at which pulses would follow one another within half a
+    /// period of the highest frequency. Whether the path is filled makes no difference.
+    pub fn pulses(&self, responses: &Responses) -> Result<Vec<Pulse>, FocusError> {
+        let conditions = responses.conditions();
+        self.check(conditions.rate)?;
+        let duration = self.duration();
         let most = conditions.band[1] * conditions.lambda_min / 4.0;
         require("speed of a stroke (m/s)", self.speed <= most, format!("at most {most:.3}"), self.speed)?;
         let rate = self.rate_hz.max(8.0 * self.speed / conditions.lambda_min);
@@ -100,6 +114,11 @@ impl Stroke {
     /// Whether it ends where it started.
     fn returns(&self) -> bool {
         matches!(&self.path.lines[..], [line] if line.closed)
+    }
+
+    /// Length of all lines together, in m.
+    fn length(&self) -> f64 {
+        self.sides().map(|(a, b)| a.distance(b)).sum()
     }
 
     /// Every side of every line, in order.

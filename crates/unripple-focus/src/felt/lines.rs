@@ -53,13 +53,18 @@ impl std::fmt::Debug for Lines {
 impl Lines {
     /// Lines fine enough for a window of `window` samples and for what decays with these poles.
     pub fn new(threshold: &Threshold, rate: f64, window: usize, poles: &[Pole], top: f64) -> Self {
-        let slowest = poles.iter().map(slowest_decay).fold(f64::INFINITY, f64::min);
-        let decay = (DIED_OUT * rate / slowest.max(f64::MIN_POSITIVE)).min(MOST_DECAY as f64) as usize;
-        let size = (4 * window + decay).next_power_of_two();
-        let count = ((top * size as f64 / rate) as usize + 1).min(size / 2);
+        let [size, count] = Self::sizes(rate, window, poles, top);
         let gains = (0..count).map(|k| 1.0 / threshold.at(k as f64 * rate / size as f64)).collect();
         let transform = RealFftPlanner::new().plan_fft_forward(size);
         Self { rate, size, gains, exact: 2 * window, transform }
+    }
+
+    /// Samples of the transform, and number of its lines from 0 Hz to the top, of [`Lines::new`] with the same arguments.
+    pub fn sizes(rate: f64, window: usize, poles: &[Pole], top: f64) -> [usize; 2] {
+        let slowest = poles.iter().map(slowest_decay).fold(f64::INFINITY, f64::min);
+        let decay = (DIED_OUT * rate / slowest.max(f64::MIN_POSITIVE)).min(MOST_DECAY as f64) as usize;
+        let size = (4 * window + decay).next_power_of_two();
+        [size, ((top * size as f64 / rate) as usize + 1).min(size / 2)]
     }
 
     /// Number of lines, from 0 Hz to the top.

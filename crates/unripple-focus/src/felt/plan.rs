@@ -240,10 +240,17 @@ fn sizes(responses: &ModalResponses, options: &FeltOptions) -> Result<Sizes, Foc
     let felt_length = (PI * conditions.outline.area() / below(top) as f64).sqrt();
     let lattice = Lattice::new(&conditions.outline, (felt_length / 4.0).max(conditions.lambda_min / 2.0));
     let times = Watch::times(conditions.rate, top).len();
-    for values in
-        [[times * coefficients, watched + responses.ports.len()], [lattice.count(), watched], [heard, heard]]
-    {
-        let found = values[0].saturating_mul(values[1]);
+    let ports = responses.ports.len();
+    // Each line has a real and an imaginary part.
+    let lines = 2 * Lines::sizes(conditions.rate, window, &responses.poles[..heard], top)[1];
+    for [rows, columns] in [
+        [times * coefficients, watched + ports],
+        [lattice.count(), watched],
+        [heard, heard],
+        [lines, splines.count() + heard],
+        [lines, ports * ports],
+    ] {
+        let found = rows.saturating_mul(columns);
         if found > MOST_VALUES {
             return count("values of the plan", &format!("at most {MOST_VALUES}"), found);
         }

@@ -2,6 +2,7 @@
 
 mod modal;
 mod reduced;
+mod room;
 mod sampled;
 
 pub(crate) use modal::{Keeps, ModalPlant};
@@ -9,6 +10,7 @@ pub(crate) use reduced::ReducedPlant;
 pub(crate) use sampled::SampledPlant;
 
 use crate::FocusError;
+use room::fits;
 use std::borrow::Cow;
 use unripple_core::{Point, require};
 use unripple_linalg::{Mat, MatRef, product, symmetric};
@@ -202,8 +204,9 @@ impl<'r> State<'r> {
     /// The matrix W, rank x samples of all channels.
     ///
     /// # Errors
-    /// As [`State::emit`].
+    /// [`FocusError::Count`] if it has too many values; those of [`State::emit`].
     pub fn map(&self) -> Result<Mat<f64>, FocusError> {
+        fits("samples of all channels times modes", self.channels * self.length, self.rank())?;
         let mut map = Mat::zeros(self.channels * self.length, self.rank());
         for i in 0..self.rank() {
             let unit = Mat::from_fn(self.rank(), 1, |row, _| f64::from(row == i));

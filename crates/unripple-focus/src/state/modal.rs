@@ -1,5 +1,6 @@
 //! Modal states at the focal instant as a linear function of the drive.
 
+use super::room::fits;
 use crate::FocusError;
 use unripple_core::{ModalResponses, Point, Pole};
 use unripple_dsp::ModalSynth;
@@ -29,15 +30,19 @@ pub(crate) struct ModalPlant<'r> {
 }
 
 impl<'r> ModalPlant<'r> {
-    /// Modes under drives of one window of `length` samples, the last of which is the focal instant; their
-    /// frequencies are multiplied by `stretch`.
+    /// Modes excited by drives that are played once and last one window of `length` samples; the last sample is the focal instant. The
+    /// natural frequencies of the modes are multiplied by `stretch`.
+    ///
+    /// # Errors
+    /// [`FocusError::Count`] for too many samples of too many modes.
     pub fn once(
         responses: &'r ModalResponses,
         length: usize,
         stretch: f64,
         keeps: Keeps,
         accuracy: f64,
-    ) -> Self {
+    ) -> Result<Self, FocusError> {
+        fits("samples of the window times modes", length, responses.poles.len())?;
         let rate = responses.conditions.rate;
         let poles = stretched(&responses.poles, stretch);
         let table = match keeps {
@@ -47,14 +52,14 @@ impl<'r> ModalPlant<'r> {
             }),
         };
         let synth = (keeps == Keeps::Velocity).then(|| ModalSynth::new(&poles, rate, length, accuracy));
-        Self { responses, table, synth }
+        Ok(Self { responses, table, synth })
     }
 
-    /// Modes under drives that come again every `length` samples for ever; the last sample of a period is the
-    /// focal instant.
+    /// Modes in the steady state under periodic drives with a period of `length` samples; the last sample of a period is the focal instant.
+    /// The natural frequencies of the modes are multiplied by `stretch`.
     ///
     /// # Errors
-    /// [`FocusError::Count`] if a mode never becomes steady.
+    /// [`FocusError::Count`] if a mode never becomes steady, and for too many samples of too many modes.
     pub fn again(responses: &'r ModalResponses, length: usize, stretch: f64) -> Result<Self, FocusError> {
         Ok(Self { responses, table: steady(responses, length, stretch)?, synth: None })
     }
@@ -140,12 +145,13 @@ pub(super) fn ringing(responses: &ModalResponses, length: usize, stretch: f64) -
 /// The state after the kicks of all periods is that after `(1 - A)⁻¹` times one kick, A the free motion over a period.
 ///
 /// # Errors
-/// [`FocusError::Count`] if a mode never becomes steady.
+/// [`FocusError::Count`] if a mode never becomes steady, and for too many samples of too many modes.
 pub(super) fn steady(
     responses: &ModalResponses,
     length: usize,
     stretch: f64,
 ) -> Result<Mat<f64>, FocusError> {
+    fits("samples of the period times modes", length, responses.poles.len())?;
     let (poles, rate) = (stretched(&responses.poles, stretch), responses.conditions.rate);
     let mut table = Mat::zeros(length, poles.len());
     for (m, pole) in poles.iter().enumerate() {

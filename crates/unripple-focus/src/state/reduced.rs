@@ -1,6 +1,7 @@
 //! States of modes whose shapes are linearly dependent, with as many coordinates as there are independent shapes.
 
 use super::modal::{lattice, ringing, steady};
+use super::room::fits;
 use crate::FocusError;
 use unripple_core::{ModalResponses, Point};
 use unripple_linalg::{Accum, Mat, MatRef, Par, multiply, product, symmetric};
@@ -28,25 +29,30 @@ impl<'r> ReducedPlant<'r> {
     /// with `again` of one period of `length` samples, repeated without end.
     ///
     /// # Errors
-    /// [`FocusError::Decomposition`]; [`FocusError::Count`] if an oscillation never becomes steady.
+    /// [`FocusError::Decomposition`]; [`FocusError::Count`] if an oscillation never becomes steady, and for too many samples or
+    /// too large a surface for the number of oscillations.
     pub fn new(
         responses: &'r ModalResponses,
         length: usize,
         stretch: f64,
         again: bool,
     ) -> Result<Self, FocusError> {
-        let shapes = responses.shapes.at_all(&lattice(responses));
+        let (cells, modes) = (lattice(responses), responses.poles.len());
+        fits("samples of the window or period times modes", length, modes)?;
+        fits("cells of the surface times modes", cells.len(), modes)?;
+        let shapes = responses.shapes.at_all(&cells);
         let gram = product(shapes.transpose(), shapes.as_ref());
         let (values, vectors) = symmetric(gram.as_ref()).ok_or(FocusError::Decomposition)?;
         let count = values.len();
         let most = values[count - 1];
         let first = (0..count).position(|i| values[i] > ALIKE * most).ok_or(FocusError::Decomposition)?;
         let basis = vectors.subcols(first, count - first).to_owned();
+        let channels = responses.ports.len();
+        fits("samples of all channels times modes", channels * length, basis.ncols())?;
         let ringing = match again {
             true => steady(responses, length, stretch)?,
             false => ringing(responses, length, stretch),
         };
-        let channels = responses.ports.len();
         let mut map = Mat::zeros(channels * length, basis.ncols());
         for a in 0..channels {
             let weighed =

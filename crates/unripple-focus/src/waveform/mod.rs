@@ -11,6 +11,7 @@ mod transfer;
 use crate::{FocusError, Target, level, target};
 pub use motion::{Quantity, Waveform};
 pub use options::PlayOptions;
+pub(crate) use plan::MOST_SAMPLES;
 pub use signal::{burst, click, resampled, sine};
 
 use asked::Asked;

@@ -16,8 +16,8 @@ const FORGOTTEN: f64 = 9.2;
 /// the size.
 const MOST_VALUES: usize = 1 << 27;
 
-/// Most samples of the transform: 349 s at 48 kHz. Doubled, drives of twice the length.
-const MOST_SAMPLES: usize = 1 << 24;
+/// Most samples of the transform, or of a stroke: 349 s at 48 kHz. Doubled, drives of twice the length.
+pub(crate) const MOST_SAMPLES: usize = 1 << 24;
 
 /// Periods of the highest frequency over which a drive rises at its start and falls at its end. Doubled,
 /// edges make less that lies outside the band, and drives follow later.
@@ -59,15 +59,15 @@ impl Plan {
             waveforms.iter().map(|w| at(options.lead[0]).saturating_add(at(w.delay))).collect();
         let ends = starts.iter().zip(waveforms).map(|(start, w)| start.saturating_add(w.samples.len()));
         let support = ends.max().unwrap_or(0).saturating_add(at(options.lead[1]));
-        let expected = || "responses that die out, or a shorter waveform".to_owned();
         let tail = settle(responses, FORGOTTEN).ok_or_else(|| FocusError::Count {
-            what: "samples until a mode without losses has died out",
-            expected: expected(),
+            what: "samples until all modes have died out",
+            expected: "a finite number, but a mode without losses never dies out".into(),
             found: usize::MAX,
         })?;
         let samples = support.saturating_add(tail);
         if samples > MOST_SAMPLES {
-            let expected = format!("at most {MOST_SAMPLES}: {}", expected());
+            let expected =
+                format!("at most {MOST_SAMPLES}: responses that die out sooner, or a shorter waveform");
             return Err(FocusError::Count {
                 what: "samples of a waveform and its decay",
                 expected,

@@ -312,3 +312,35 @@ fn refuses_what_cannot_be_done() {
     );
     assert_eq!("one-bit".parse(), Ok(Method::OneBit));
 }
+
+/// What would take gigabytes is refused before any of it is allocated.
+#[test]
+fn tables_that_no_memory_holds_are_refused() {
+    let membrane = Membrane::small();
+    let responses = membrane.responses();
+    let at = Point::new(0.033, 0.044);
+    let refused = |responses: &Responses, target: Target, options: &Options| {
+        focus(responses, &[target], options).unwrap_err().to_string()
+    };
+    let concentrate = Options { method: Method::Concentrate, ..options() };
+    let long = Options { window: 1200.0, ..concentrate.clone() };
+    let found = refused(&responses, Target::at(at), &long);
+    assert!(
+        found.starts_with("samples of the window times modes: expected at most 268435456, found"),
+        "{found}"
+    );
+    let found = refused(&responses, Target::at(at).repeated(1.5e-3), &concentrate);
+    assert!(
+        found.starts_with("samples of the period times modes: expected at most 268435456, found"),
+        "{found}"
+    );
+    let found = refused(&responses, Target::of(vec![at; 8193]), &concentrate);
+    assert_eq!(
+        found,
+        "points over all targets: expected at most 8192 for a drive that is optimised, found 8193"
+    );
+    let alone = Membrane { ports: membrane.ports[..1].to_vec(), ..membrane }.responses();
+    let felt = Options { method: Method::Felt, window: 2.6, ..options() };
+    let found = refused(&alone, Target::at(at), &felt);
+    assert!(found.starts_with("values of the plan: expected at most 134217728, found"), "{found}");
+}

@@ -228,6 +228,8 @@ fn strokes_are_pulses_at_even_steps() {
     for bad in [
         Stroke { speed: 0.0, ..circle.clone() },
         Stroke { speed: 1e3, ..circle.clone() },
+        Stroke { speed: 1e-9, ..circle.clone() },
+        Stroke { speed: 1e-300, ..circle.clone() },
         Stroke { rate_hz: f64::NAN, ..circle.clone() },
         Stroke { rate_hz: 1e6, ..circle.clone() },
         Stroke { level: -1.0, ..circle.clone() },
@@ -236,4 +238,14 @@ fn strokes_are_pulses_at_even_steps() {
     ] {
         assert!(matches!(bad.pulses(&responses), Err(FocusError::Range(_))), "{bad:?}");
     }
+}
+
+#[test]
+fn pulses_that_no_memory_holds_are_refused() {
+    let responses = Membrane::small().responses();
+    let many = strike(&responses, &vec![Pulse::at(A, 0.1); 8193], &PulseOptions::default()).unwrap_err();
+    assert_eq!(
+        many.to_string(),
+        "points over all pulses: expected at most 8192: fewer pulses or a shorter time, found 8193"
+    );
 }

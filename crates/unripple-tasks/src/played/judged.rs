@@ -49,18 +49,21 @@ pub(crate) struct Common<'a> {
     pub bands: [f64; 2],
 }
 
-/// Computes a drive by `play`, which gets the surface and the responses for planning and for evaluation; evaluates the
-/// drive, and writes it where a folder is given.
-pub(crate) fn judge(
+/// Computes a drive by `play`, which gets what `plan` made of the surface, the surface, and the responses for planning and
+/// for evaluation; evaluates the drive, and writes it where a folder is given. `plan` comes before all responses, so that it
+/// refuses what makes no sense at once.
+pub(crate) fn judge<T>(
     common: Common<'_>,
     progress: &mut dyn Progress,
-    play: impl FnOnce(&Surface, [&Responses; 2]) -> Result<Played, TaskError>,
+    plan: impl FnOnce(&Surface) -> Result<T, TaskError>,
+    play: impl FnOnce(T, &Surface, [&Responses; 2]) -> Result<Played, TaskError>,
 ) -> Result<(Report, Drive), TaskError> {
     let source = source::open(common.surface, progress)?;
     source.allows(&[(common.needs, true)])?;
     let surface = source.surface;
     let plant = common.on.map(|on| on.load()).transpose()?;
     let plant = plant.as_ref().unwrap_or(&surface);
+    let plan = plan(&surface)?;
     go_on(progress)?;
     progress.stage("responses");
     let [planned, judged] = common.bands;
@@ -69,7 +72,7 @@ pub(crate) fn judge(
     let judging = judge::model(plant, Some(judge_hz), &[])?;
     go_on(progress)?;
     progress.stage("drive");
-    let played = play(&surface, [&model, &judging])?;
+    let played = play(plan, &surface, [&model, &judging])?;
     crate::window::carries(model.conditions(), played.drive.duration(), "window_s")?;
     go_on(progress)?;
     let field = Field::new(&judging, &played.drive, CELLS).map_err(TaskError::input)?;

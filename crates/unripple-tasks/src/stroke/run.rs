@@ -8,7 +8,7 @@ use crate::{Progress, TaskError, folder};
 use unripple::act::Stroked;
 use unripple::core::{Drive, Point, Responses, Surface};
 use unripple::field::{Aim, Field};
-use unripple::focus::{Pattern, PulseOptions, Stroke, strike};
+use unripple::focus::{FocusError, Pattern, PulseOptions, Stroke, strike};
 
 /// Strokes are planned and evaluated on modes up to these multiples of the band, the second by default: pulses fill
 /// the whole band.
@@ -44,10 +44,23 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<(Report, Drive), T
         needs: "waveforms and path",
         bands: BANDS,
     };
-    judge(common, progress, |surface, models| {
+    let plan = |surface: &Surface| -> Result<Stroke, TaskError> {
         let path = Pattern { filled: false, ..ask.path.pattern("path")? };
-        stroked(ask, surface, &Stroke { level, ..Stroke::along(path, speed) }, models)
-    })
+        let stroke = Stroke { level, ..Stroke::along(path, speed) };
+        stroke.check(surface.emission.rate).map_err(refused)?;
+        Ok(stroke)
+    };
+    judge(common, progress, plan, |stroke, surface, models| stroked(ask, surface, &stroke, models))
+}
+
+/// The error about a stroke; if it is about its speed, with the field that gives it.
+fn refused(error: FocusError) -> TaskError {
+    match &error {
+        FocusError::Range(range) if range.what.starts_with("speed") => {
+            TaskError::Input(format!("`speed_m_s`: {error}"))
+        }
+        _ => TaskError::input(error),
+    }
 }
 
 fn stroked(
@@ -64,7 +77,7 @@ fn stroked(
         ..defaults
     };
     carries(model.conditions(), settings.window, "window_s")?;
-    let pulses = stroke.pulses(model).map_err(TaskError::input)?;
+    let pulses = stroke.pulses(model).map_err(refused)?;
     let struck = strike(model, &pulses, &settings).map_err(TaskError::input)?;
     let drive = struck.drive.as_emitted();
     let asked = stroke.level * struck.scale;

@@ -7,7 +7,7 @@ use crate::{Progress, TaskError, folder, point};
 use unripple::act::Followed;
 use unripple::core::{Drive, Responses, Surface};
 use unripple::field::{Aim, Field, Wanted};
-use unripple::focus::{PlayOptions, play};
+use unripple::focus::{PlayOptions, Waveform, play};
 
 /// Waveforms are planned and evaluated on modes up to these multiples of the band, the second by default: at low
 /// frequencies a sheet yields by modes far above.
@@ -40,13 +40,19 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<(Report, Drive), T
         needs: "waveforms and path",
         bands: BANDS,
     };
-    judge(common, progress, |surface, models| followed(ask, surface, models))
+    let plan = |surface: &Surface| -> Result<Vec<Waveform>, TaskError> {
+        ask.waveforms.iter().map(|waveform| sound::waveform(waveform, surface.emission.rate)).collect()
+    };
+    judge(common, progress, plan, |waves, surface, models| followed(ask, &waves, surface, models))
 }
 
-fn followed(ask: &Ask, surface: &Surface, [model, judging]: [&Responses; 2]) -> Result<Played, TaskError> {
+fn followed(
+    ask: &Ask,
+    waves: &[Waveform],
+    surface: &Surface,
+    [model, judging]: [&Responses; 2],
+) -> Result<Played, TaskError> {
     let emission = &surface.emission;
-    let waves = ask.waveforms.iter().map(|waveform| sound::waveform(waveform, emission.rate));
-    let waves = waves.collect::<Result<Vec<_>, _>>()?;
     let silent: Vec<_> = ask.silent_m.iter().map(point).collect();
     let window = ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
     let defaults = PlayOptions::default();
@@ -56,7 +62,7 @@ fn followed(ask: &Ask, surface: &Surface, [model, judging]: [&Responses; 2]) -> 
         rms_limit: emission.rms_limit,
         ..defaults
     };
-    let played = play(model, &waves, &silent, &settings).map_err(TaskError::input)?;
+    let played = play(model, waves, &silent, &settings).map_err(TaskError::input)?;
     let drive = played.drive.as_emitted();
     let rate = drive.rate();
     let targets = played.points.iter().zip(&played.asked);
