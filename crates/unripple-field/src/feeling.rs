@@ -1,6 +1,6 @@
 //! Felt levels of a modal field: modes filtered by the threshold of touch, then summed.
 
-use crate::modal::{ModalField, POINTS, STATES, add_to};
+use crate::modal::{ModalField, STATES, add_to};
 use crate::motion::Motion;
 use crate::source::{Passage, Tally, Weighed};
 use rayon::prelude::*;
@@ -31,7 +31,7 @@ struct Block {
 impl<'a> Feeling<'a> {
     /// Prepares what is felt of a field during a passage.
     pub fn of(field: &'a ModalField<'a>, passage: &'a Passage) -> Self {
-        let mut own = vec![Vec::new(); field.points().len().div_ceil(POINTS)];
+        let mut own = vec![Vec::new(); field.points().len().div_ceil(field.points_at_once())];
         field.for_chunks(&mut own, |weights, own| {
             let largest = |m: usize| weights.col_as_slice(m).iter().fold(0.0, |r: f32, w| r.max(w.abs()));
             *own = (0..weights.ncols()).map(largest).collect();
@@ -44,8 +44,8 @@ impl<'a> Feeling<'a> {
     pub fn weighed(&self) -> Weighed {
         let span = &self.passage.span;
         let stride = (HELD / self.field.modes().max(1)).max(1);
-        let mut tallies: Vec<Tally> =
-            self.field.points().chunks(POINTS).map(|points| Tally::zeros(points.len())).collect();
+        let chunks = self.field.points().chunks(self.field.points_at_once());
+        let mut tallies: Vec<Tally> = chunks.map(|points| Tally::zeros(points.len())).collect();
         let mut snapshots = vec![Vec::new(); self.passage.instants.len()];
         for start in span.clone().step_by(stride) {
             let part = start..span.end.min(start + stride);

@@ -158,7 +158,8 @@ impl<'a> Readout<'a> {
     }
 }
 
-fn bounded(what: &'static str, found: usize) -> Result<(), FieldError> {
+/// Refuses more values than memory is to hold.
+pub(crate) fn bounded(what: &'static str, found: usize) -> Result<(), FieldError> {
     if found <= MOST_VALUES {
         return Ok(());
     }

@@ -2,6 +2,7 @@
 
 use crate::aim::{Resolved, last_period, segments};
 use crate::felt::{AllFelt, decibels, felt};
+use crate::field::bounded;
 use crate::figures::{DriveFigures, Maps, Measured, TakenOn, TargetFigures};
 use crate::source::{Quantity, Survey, Trace};
 use crate::spot::Spot;
@@ -42,7 +43,7 @@ impl Field<'_> {
         let resolved =
             aims.iter().map(|aim| Resolved::of(aim, field, period)).collect::<Result<Vec<_>, _>>()?;
         let spans = spans(&resolved, field, period);
-        let traces = target_traces(&resolved, field, &spans, period);
+        let traces = target_traces(&resolved, field, &spans, period)?;
         let peaks: Vec<Peaks> =
             resolved.iter().zip(&traces).map(|(aim, (first, t))| Peaks::of(aim, *first, t)).collect();
         let radius = field.conditions.focal_radius();
@@ -104,12 +105,13 @@ pub(crate) fn target_traces(
     field: &Field<'_>,
     spans: &[Range<usize>],
     period: Option<usize>,
-) -> Vec<(usize, Trace)> {
+) -> Result<Vec<(usize, Trace)>, FieldError> {
     let margin = period.unwrap_or(0) / 2;
     let first = spans.iter().map(|span| span.start).min().unwrap_or(0).saturating_sub(margin);
     let end = spans.iter().map(|span| span.end).max().unwrap_or(0) + margin;
+    bounded("values of the traces", (end - first).saturating_mul(2 * aims.len()))?;
     let sets: Vec<Vec<Point>> = aims.iter().map(|aim| aim.points.clone()).collect();
-    field.source.traces(&sets, first..end).into_iter().map(|trace| (first, trace)).collect()
+    Ok(field.source.traces(&sets, first..end).into_iter().map(|trace| (first, trace)).collect())
 }
 
 /// Levels, instants and widths of the motion at a target.

@@ -10,12 +10,16 @@ use unripple_linalg::{Accum, Mat, MatRef, Par, multiply, product};
 
 /// Points of a block of the field: small enough to stay in cache, with [`SAMPLES`], while it is tallied.
 /// Doubled, blocks of 256 KiB may fall out of it.
-pub(crate) const POINTS: usize = 256;
+const POINTS: usize = 256;
 /// Samples of a block of the field; see [`POINTS`].
 const SAMPLES: usize = 128;
 
 /// Values of states (modes x samples) that are held at once, up to 32 MiB of them. Doubled, twice the memory.
 pub(crate) const STATES: usize = 1 << 22;
+
+/// Most readout weights of a block, 128 MiB of them in each thread: blocks of fewer points for more than 65 536 modes. Doubled,
+/// twice the memory.
+const READ: usize = 1 << 24;
 
 /// Most readout weights that are kept between surveys, half a GiB of them; if there are more, they are computed again
 /// for each block of time. Doubled, a GiB.
@@ -68,6 +72,11 @@ impl<'a> ModalField<'a> {
         (STATES / self.modes().max(1)).max(SAMPLES)
     }
 
+    /// Number of points whose weights are read at once.
+    pub(crate) fn points_at_once(&self) -> usize {
+        (READ / self.modes().max(1)).clamp(1, POINTS)
+    }
+
     /// Readout weights (points x modes) of one chunk of points, in single precision.
     fn weights(&self, points: &[Point]) -> Mat<f32> {
         let exact = self.responses.shapes.at_all(points);
@@ -78,10 +87,11 @@ impl<'a> ModalField<'a> {
     /// parallel.
     pub(crate) fn for_chunks<T: Send>(&self, owned: &mut [T], work: impl Fn(&Mat<f32>, &mut T) + Sync) {
         if self.points().len() * self.modes() > KEPT {
-            let chunks = self.points().par_chunks(POINTS);
+            let chunks = self.points().par_chunks(self.points_at_once());
             chunks.zip(owned.par_iter_mut()).for_each(|(points, own)| work(&self.weights(points), own));
         } else {
-            let weights = || self.points().par_chunks(POINTS).map(|p| self.weights(p)).collect();
+            let weights =
+                || self.points().par_chunks(self.points_at_once()).map(|p| self.weights(p)).collect();
             let kept = self.kept.weights.get_or_init(weights);
             kept.par_iter().zip(owned.par_iter_mut()).for_each(|(weights, own)| work(weights, own));
         }
@@ -109,7 +119,7 @@ impl<'a> ModalField<'a> {
             let state = &states[column / 2];
             if column % 2 == 0 { state.velocity[m] as f32 } else { state.displacement[m] as f32 }
         });
-        let mut read = vec![Mat::<f32>::zeros(0, 0); self.points().len().div_ceil(POINTS)];
+        let mut read = vec![Mat::<f32>::zeros(0, 0); self.points().len().div_ceil(self.points_at_once())];
         self.for_chunks(&mut read, |weights, own| *own = product(weights.as_ref(), both.as_ref()));
         let column = |c: usize| read.iter().flat_map(|chunk| chunk.col_as_slice(c)).copied().collect();
         (0..states.len()).map(|i| [column(2 * i), column(2 * i + 1)]).collect()

@@ -48,7 +48,7 @@ impl Field<'_> {
         let resolved =
             aims.iter().map(|aim| Resolved::of(aim, self, period)).collect::<Result<Vec<_>, _>>()?;
         let spans = spans(&resolved, self, period);
-        let traces = target_traces(&resolved, self, &spans, period);
+        let traces = target_traces(&resolved, self, &spans, period)?;
         let peaks: Vec<Peaks> =
             resolved.iter().zip(&traces).map(|(aim, (first, t))| Peaks::of(aim, *first, t)).collect();
         let instants: Vec<usize> = peaks.iter().map(|peaks| peaks.extreme).collect();

@@ -1,7 +1,7 @@
 //! What is read from the field of a modal system: traces, surveys, felt levels, spots.
 
 use crate::feeling::Feeling;
-use crate::modal::{ModalField, POINTS, State, add_to};
+use crate::modal::{ModalField, State, add_to};
 use crate::motion::Motion;
 use crate::source::{Passage, Quantity, Source, Survey, Tally, Trace, Weighed};
 use crate::spot::{Around, Spot};
@@ -59,7 +59,8 @@ impl Source for ModalField<'_> {
     fn survey(&self, segments: &[Range<usize>], instants: &[usize]) -> Survey {
         let chunk =
             |points: &[Point]| vec![[Tally::zeros(points.len()), Tally::zeros(points.len())]; segments.len()];
-        let mut tallies: Vec<Vec<[Tally; 2]>> = self.points().chunks(POINTS).map(chunk).collect();
+        let mut tallies: Vec<Vec<[Tally; 2]>> =
+            self.points().chunks(self.points_at_once()).map(chunk).collect();
         let mut motion = Motion::new(self.responses, self.drive);
         for (segment, range) in segments.iter().enumerate() {
             motion.skip_to(range.start, self.samples_at_once());

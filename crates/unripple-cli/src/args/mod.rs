@@ -338,7 +338,7 @@ pub struct FieldOptions {
     /// Start and end of the animation in ms; by default from 6 ms before the instant to 3 ms after it.
     #[arg(long, value_name = "FROM,TO", allow_hyphen_values = true, help_heading = heading::RESULTS)]
     pub movie_ms: Option<String>,
-    /// Frames of the animation; 0 for none.
+    /// Frames of the animation, at most 5000; 0 for none.
     #[arg(long, value_name = "N", default_value_t = 60, help_heading = heading::RESULTS)]
     pub frames: usize,
     /// How responses are interpolated for a place between the points of a library.

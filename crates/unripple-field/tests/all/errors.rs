@@ -61,6 +61,8 @@ fn aims_that_are_nowhere() {
     assert!(
         refused(&sent, &[Aim::at(Point::new(f64::NAN, 0.0), 0.0)], &options).to_string().contains("outside")
     );
+    let long = refused(&sent, &vec![Aim::at(at, 1000.0); 10], &options).to_string();
+    assert_eq!(long, "values of the traces: expected at most 100000000, found 320000020");
 }
 
 #[test]

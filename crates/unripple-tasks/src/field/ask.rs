@@ -52,7 +52,7 @@ pub struct Ask {
     pub no_figures: bool,
     /// Start and end of the animation in s; by default the last 6 ms before the instant and 3 ms after.
     pub movie_s: Option<[f64; 2]>,
-    /// Frames of the animation; 0 for none.
+    /// Frames of the animation, at most 5000; 0 for none.
     pub frames: usize,
     /// How responses are interpolated for a place between the points of a library.
     #[serde(with = "names::interpolation")]

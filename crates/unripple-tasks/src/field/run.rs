@@ -1,6 +1,7 @@
 //! The field of a drive, measured.
 
 use super::{Ask, DriveAsk, Made, Report, write};
+use crate::figures::{self, MOST_FRAMES};
 use crate::judge::{self, CELLS};
 use crate::numbers::above_zero;
 use crate::{Progress, TaskError, fingers, folder, go_on, point, source};
@@ -37,14 +38,7 @@ fn measured(
     animated: bool,
     progress: &mut dyn Progress,
 ) -> Result<(Made, Option<Vec<u8>>), TaskError> {
-    if let Some([from, to]) = ask.movie_s.filter(|[from, to]| !(*from >= 0.0 && to > from && to.is_finite()))
-    {
-        return Err(TaskError::ask(
-            "movie_s",
-            "a start from 0 and an end after it",
-            format!("{from} to {to}"),
-        ));
-    }
+    check(ask)?;
     let source = source::open(&ask.surface, progress)?;
     source.allows(&[("fingers_m", !ask.fingers_m.is_empty()), ("judge_hz", ask.judge_hz.is_some())])?;
     let drive = drive(&ask.drive, &source.surface)?;
@@ -64,6 +58,9 @@ fn measured(
     go_on(progress)?;
     progress.stage("field");
     let field = Field::new(&responses, &drive, CELLS).map_err(TaskError::input)?;
+    if animated {
+        figures::room(&field, ask.frames, ask.movie_s)?;
+    }
     let aims = aims(ask, places, &field, &drive, period)?;
     let last = aims.iter().map(|aim| aim.instant).fold(0.0, f64::max);
     let until = if period.is_some() { drive.duration() - 1.0 / drive.rate() } else { 2.0 * last };
@@ -88,6 +85,22 @@ fn measured(
         report = report.without_scale();
     }
     Ok((Made { report, drive, judged, aims, surface, responses, scaled: !unscaled }, movie))
+}
+
+/// Refuses an animation that makes no sense, before there is work to lose.
+fn check(ask: &Ask) -> Result<(), TaskError> {
+    if let Some([from, to]) = ask.movie_s.filter(|[from, to]| !(*from >= 0.0 && to > from && to.is_finite()))
+    {
+        return Err(TaskError::ask(
+            "movie_s",
+            "a start from 0 and an end after it",
+            format!("{from} to {to}"),
+        ));
+    }
+    if ask.frames > MOST_FRAMES {
+        return Err(TaskError::ask("frames", format!("at most {MOST_FRAMES}"), ask.frames));
+    }
+    Ok(())
 }
 
 fn drive(ask: &DriveAsk, surface: &Surface) -> Result<Drive, TaskError> {

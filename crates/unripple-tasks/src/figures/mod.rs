@@ -7,7 +7,7 @@ mod traces;
 
 pub use drive::channels;
 pub use maps::{Scene, drawn, felt, peaks, snapshots};
-pub use movie::movie;
+pub use movie::{MOST_FRAMES, movie, room};
 pub use traces::traces;
 
 use crate::TaskError;

@@ -3,8 +3,38 @@
 use super::Scene;
 use super::maps::{drawn, scale};
 use crate::TaskError;
+use unripple::act;
 use unripple::field::Field;
 use unripple_plot::{ColourMap, Movie, Shot};
+
+/// Most frames of an animation: it then lasts five and a half minutes. Doubled, files are twice as large.
+pub const MOST_FRAMES: usize = 5000;
+
+/// Most cells of all frames together, whose values take 400 MB. Doubled, twice the memory.
+const MOST_CELLS: usize = 50_000_000;
+
+/// Refuses an animation of a field before that is evaluated: more frames than memory holds at its cells, or a span (s) that ends after the
+/// field is known.
+///
+/// # Errors
+/// [`TaskError::Ask`] that names `frames` or `movie_s`.
+pub fn room(field: &Field, frames: usize, span: Option<[f64; 2]>) -> Result<(), TaskError> {
+    let Some(cells) = field.grid() else { return Ok(()) };
+    let each = cells.columns * cells.rows;
+    if frames.saturating_mul(each) > MOST_CELLS {
+        let expected = format!("at most {}, for a grid of {each} cells", MOST_CELLS / each);
+        return Err(TaskError::ask("frames", expected, frames));
+    }
+    let known = act::known(field);
+    match span.filter(|[_, to]| *to > known) {
+        Some([_, to]) => Err(TaskError::ask(
+            "movie_s",
+            format!("an end after {known:.0} s at the latest"),
+            format!("{to} s"),
+        )),
+        None => Ok(()),
+    }
+}
 
 /// An animated PNG of the displacement over the surface at `frames` instants from `from` to `to` seconds; `None`
 /// without a grid.
