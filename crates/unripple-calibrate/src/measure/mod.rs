@@ -27,7 +27,7 @@ pub use campaign::{Progress, Sink, Way, campaign};
 pub use channel::{BandQuality, Channel};
 pub use hearing::Hearing;
 pub use latency::latency;
-pub use options::{MeasureOptions, slowest_decay};
+pub use options::{MOST_KEPT, MOST_REPEATS, MeasureOptions, slowest_decay};
 pub use record::{SILENCE, record};
 pub use rig::Rig;
 pub use session::{Listen, Session};

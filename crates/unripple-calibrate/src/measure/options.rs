@@ -79,11 +79,11 @@ const BENEATH: f64 = 0.5;
 /// Highest end of a sweep, relative to the sample rate: a tenth of the range below half of it is left for the filters of converters.
 const HIGHEST: f64 = 0.45;
 
-/// Largest number of repeats that is advised. They bring 20 dB; where that is not enough, another probe is needed.
-const MOST_REPEATS: f64 = 99.0;
+/// Largest number of repeats. They bring 20 dB; where that is not enough, another probe is needed.
+pub const MOST_REPEATS: usize = 99;
 
 /// Longest response that is kept, in s: it bounds memory, and no sheet rings that long.
-const MOST_KEPT: f64 = 60.0;
+pub const MOST_KEPT: f64 = 60.0;
 
 impl MeasureOptions {
     /// Options for a surface that is expected to be like a model: sweep, settle time and response length in proportion to the slowest
@@ -148,7 +148,8 @@ impl MeasureOptions {
             "above 0, at most 60",
             self.response_length,
         )?;
-        require("repeats", self.repeats >= 1, "1 or more", self.repeats as f64)?;
+        let repeated = (1..=MOST_REPEATS).contains(&self.repeats);
+        require("repeats", repeated, format!("1 to {MOST_REPEATS}"), self.repeats as f64)?;
         require(
             "end of the sweep over the band's top",
             self.stop_over_band >= 1.0,
@@ -227,7 +228,7 @@ impl MeasureOptions {
     pub fn repeats_for(&self, channel: &Channel, wanted_db: f64) -> usize {
         let worst = channel.quality.iter().map(|quality| quality.snr_db).fold(f64::INFINITY, f64::min);
         let times = self.repeats as f64 * 10f64.powf((wanted_db - worst) / 10.0);
-        if times <= MOST_REPEATS { times.ceil().max(1.0) as usize } else { 0 }
+        if times <= MOST_REPEATS as f64 { times.ceil().max(1.0) as usize } else { 0 }
     }
 
     /// Distance between the responses of successive sweeps, in samples, at least as many as are kept of them.

@@ -19,6 +19,9 @@ pub(super) const LEAD: usize = 240;
 /// recognised.
 const CLEAR_DB: f64 = 15.0;
 
+/// Most samples of the drive of all actuators and of all recordings of a place, 4 GiB of them. Doubled, twice the memory.
+const MOST_VALUES: usize = 1 << 29;
+
 /// Largest number of sensors from which clock, gaps and tension are found: more give the same and take longer.
 const TELLING: usize = 8;
 
@@ -68,7 +71,8 @@ impl Session {
     ///
     /// # Errors
     /// [`CalibrateError::Recording`] for a device of another rate; [`CalibrateError::Range`] and [`CalibrateError::Dsp`] for
-    /// options out of range; [`CalibrateError::Wire`] without a probe and without sensors.
+    /// options out of range; [`CalibrateError::Count`] for more samples than memory is to hold; [`CalibrateError::Wire`] without a
+    /// probe and without sensors.
     pub fn new(
         surface: &Surface,
         layout: &Layout,
@@ -80,12 +84,20 @@ impl Session {
         let actuators = wires.drives.len();
         let schedule = Schedule::interleaved(&sweep, actuators, window, options.highest_order)?;
         let whole = schedule.samples();
+        let late = options.latency.max(LATEST * sweep.rate).ceil() as usize;
+        let heard = (whole + late).div_ceil(layout.block) * layout.block;
+        let lines = actuators + options.repeats * wires.sensors.len().max(1);
+        if heard.saturating_mul(lines) > MOST_VALUES {
+            return Err(CalibrateError::Count {
+                what: "samples that are played and recorded at a place",
+                expected: format!("at most {MOST_VALUES}: fewer repeats, shorter sweeps or responses"),
+                found: heard.saturating_mul(lines),
+            });
+        }
         let mut drive = vec![vec![0.0; whole]; actuators];
         for (actuator, signal) in drive.iter_mut().enumerate() {
             schedule.drive(actuator, signal)?;
         }
-        let late = options.latency.max(LATEST * sweep.rate).ceil() as usize;
-        let heard = (whole + late).div_ceil(layout.block) * layout.block;
         let band = Band::within(sweep.from, sweep.to);
         let inversion =
             Inversion { band: Some(band), latency: options.latency, lead: LEAD, ..Inversion::default() };

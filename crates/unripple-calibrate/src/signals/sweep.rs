@@ -111,11 +111,12 @@ impl Sweep {
         };
         within("begin of a sweep in Hz", self.from, 0.0, self.to)?;
         within("end of a sweep in Hz", self.to, self.from, self.rate / 2.0)?;
-        within("seconds of a sweep", self.sounding(), 0.0, MOST_SECONDS)?;
+        let longest = MOST_SECONDS.min(MOST_SAMPLES / self.rate);
+        within("seconds of a sweep", self.sounding(), 0.0, longest)?;
         for (what, found, most) in [
             ("seconds of a fade in", self.fade_in, self.sounding()),
             ("seconds of a fade out", self.fade_out, self.sounding() - self.fade_in),
-            ("seconds of silence", self.silence, MOST_SECONDS),
+            ("seconds of silence", self.silence, longest),
         ] {
             if !(found >= 0.0 && found <= most) {
                 return Err(DspError::Range(OutOfRange::new(what, format!("from 0 to {most}"), found)));
@@ -128,3 +129,6 @@ impl Sweep {
 /// Longest sweep and longest silence, in seconds: longer ones are taken for mistakes of unit, and would take
 /// gigabytes.
 const MOST_SECONDS: f64 = 600.0;
+
+/// Most samples of a sweep, and of a silence, half a GiB of them. Doubled, longer ones above 112 kHz.
+const MOST_SAMPLES: f64 = (1 << 26) as f64;

@@ -155,3 +155,22 @@ fn what_is_measured_is_what_is_true() {
     println!("measured responses are off by {:.2} %", share * 100.0);
     assert!(share < 0.02);
 }
+
+/// What would take gigabytes is refused before any of it is allocated.
+#[test]
+fn measurements_that_no_memory_holds_are_refused() {
+    let device = WORLD.device();
+    let layout = unripple_core::Device::layout(&device).clone();
+    let refused = |options: MeasureOptions| {
+        let wires = Wires::by_name(&WORLD.ports(), &layout, &[]).unwrap();
+        Session::new(&WORLD.surface, &layout, wires, &options).unwrap_err().to_string()
+    };
+    for repeats in [0, 100, usize::MAX] {
+        let found = refused(MeasureOptions { repeats, ..MeasureOptions::default() });
+        assert!(found.starts_with("repeats: expected 1 to 99, found"), "{found}");
+    }
+    let long = refused(MeasureOptions { repeats: 9, response_length: 60.0, ..MeasureOptions::default() });
+    let expected =
+        "samples that are played and recorded at a place: expected at most 536870912: fewer repeats";
+    assert!(long.starts_with(expected), "{long}");
+}

@@ -125,6 +125,7 @@ fn what_cannot_be_is_refused() {
         Sweep { from: 4000.0, ..ok },
         Sweep { seconds: f64::NAN, ..ok },
         Sweep { seconds: 1e9, ..ok },
+        Sweep { rate: 1e7, seconds: 100.0, ..ok },
         Sweep { fade_in: 2.0, ..ok },
         Sweep { fade_out: -1.0, ..ok },
         Sweep { silence: f64::INFINITY, ..ok },

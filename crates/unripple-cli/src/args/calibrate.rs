@@ -88,13 +88,13 @@ pub struct CalibrateOptions {
     /// How points are measured.
     #[arg(long, value_enum, default_value_t, help_heading = heading::POINTS)]
     pub by: WayName,
-    /// Number of recordings of each point, which are averaged, or number of taps.
+    /// Number of recordings of each point, which are averaged, or number of taps: 1 to 99.
     #[arg(long, value_name = "N", default_value_t = 1, help_heading = heading::POINTS)]
     pub repeats: usize,
     /// Length of an actuator's sweep, in ms; by default 500, or longer for a surface with a long decay time.
     #[arg(long, value_name = "MS", allow_negative_numbers = true, help_heading = heading::SWEEPS)]
     pub sweep_ms: Option<f64>,
-    /// Length of each stored response, in ms; by default 100, or longer for a surface with a long decay time.
+    /// Length of each stored response, in ms, at most 60 000; by default 100, or longer for a surface with a long decay time.
     #[arg(long, value_name = "MS", allow_negative_numbers = true, help_heading = heading::SWEEPS)]
     pub response_ms: Option<f64>,
     /// Level of the sweeps, as a fraction of the surface's drive limit.

@@ -42,11 +42,11 @@ pub struct Ask {
     pub points_m: Vec<Place>,
     /// How points are measured.
     pub by: By,
-    /// Number of recordings of each point, which are averaged, or number of taps.
+    /// Number of recordings of each point, which are averaged, or number of taps: 1 to 99.
     pub repeats: usize,
     /// Length of an actuator's sweep, in s; by default 0.5, or longer for a surface with a long decay time.
     pub sweep_s: Option<f64>,
-    /// Length of each stored response, in s; by default 0.1, or longer for a surface with a long decay time.
+    /// Length of each stored response, in s, at most 60; by default 0.1, or longer for a surface with a long decay time.
     pub response_s: Option<f64>,
     /// Level of the sweeps, as a share of the surface's drive limit.
     pub level: f64,

@@ -8,7 +8,7 @@ use crate::numbers::above_zero;
 use crate::{DeviceKind, Progress, TaskError, go_on, judge};
 use std::cell::RefCell;
 use unripple::core::{ModalResponses, Responses, Surface};
-use unripple_calibrate::measure::MeasureOptions;
+use unripple_calibrate::measure::{MOST_KEPT, MOST_REPEATS, MeasureOptions};
 use unripple_store::Library;
 
 /// Measures responses through a device and stores them in a library. With recordings made elsewhere (tape) it writes the file to play, then
@@ -48,6 +48,12 @@ pub fn run_with(ask: &Ask, hands: Hands, progress: &mut dyn Progress) -> Result<
 /// Refuses numbers that make no sense, before there is a model.
 fn check(ask: &Ask, surface: &Surface, scales: &Scales) -> Result<(), TaskError> {
     let level = above_zero(ask.level, "level", "of the limit")?;
+    if !(1..=MOST_REPEATS).contains(&ask.repeats) {
+        return Err(TaskError::ask("repeats", format!("1 to {MOST_REPEATS}"), ask.repeats));
+    }
+    if let Some(kept) = ask.response_s.filter(|kept| *kept > MOST_KEPT) {
+        return Err(TaskError::ask("response_s", format!("at most {MOST_KEPT} s"), format!("{kept} s")));
+    }
     within(level, scales, surface)?;
     without(ask, surface).map(drop)
 }
@@ -58,9 +64,6 @@ fn settings(ask: &Ask, surface: &Surface, model: &ModalResponses) -> Result<Meas
     let length = |value: Option<f64>, usual: f64, field: &'static str| {
         value.map_or(Ok(usual), |value| above_zero(value, field, "s"))
     };
-    if ask.repeats == 0 {
-        return Err(TaskError::Input("`repeats`: expected 1 or more, found 0".into()));
-    }
     if let Some(delay) = ask.probe_delay_s.filter(|delay| !delay.is_finite()) {
         return Err(TaskError::Input(format!("`probe_delay_s`: expected a finite time in s, found {delay}")));
     }

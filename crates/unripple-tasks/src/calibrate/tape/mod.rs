@@ -30,6 +30,9 @@ use unripple_store::Library;
 /// Samples of a block: nothing waits for it, so that it only sets the silence at the beginning.
 const BLOCK: usize = 256;
 
+/// Most recordings, all repeats of all points: nobody makes more by hand. Doubled, a plan of 20 MB.
+const MOST_RECORDINGS: usize = 100_000;
+
 pub(super) use plan::drive as sweeps;
 
 /// The calibration, its recordings, and what is known of them.
@@ -72,6 +75,7 @@ pub(super) fn run(mut campaign: Campaign<'_>) -> Result<Report, TaskError> {
     let layout = layout(ask, surface, campaign.scales.full_scale(surface))?;
     let wires = Wires::by_name(&campaign.model.ports, &layout, &ask.wires)?;
     campaign.places = points::places(ask, surface, !wires.sensors.is_empty())?;
+    few(campaign.places.probed, campaign.settings.repeats)?;
     if campaign.places.probed > 0 && wires.probe.is_none() {
         let found = layout.inputs.join(", ");
         return Err(TaskError::Input(format!(
@@ -98,6 +102,17 @@ pub(super) fn run(mut campaign: Campaign<'_>) -> Result<Report, TaskError> {
         None => Ok(()),
     };
     bench.answer(outcome, &told, drawn)
+}
+
+/// Refuses more recordings than anybody makes.
+fn few(points: usize, repeats: usize) -> Result<(), TaskError> {
+    let found = points.saturating_mul(repeats);
+    if found <= MOST_RECORDINGS {
+        return Ok(());
+    }
+    Err(TaskError::Input(format!(
+        "`tape`: expected at most {MOST_RECORDINGS} recordings, found {found} ({points} points times {repeats} `repeats`)"
+    )))
 }
 
 /// The channels that recordings are to have.
