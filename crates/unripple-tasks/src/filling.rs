@@ -4,8 +4,11 @@ use crate::{Progress, TaskError, go_on};
 use unripple::core::{Point, SampledResponses};
 use unripple_store::{Library, PointState, Quality, Take};
 
-/// Points computed and stored at once: some megabytes, and a fraction of a second.
+/// Most points computed and stored at once: some megabytes, and a fraction of a second.
 const BATCH: usize = 64;
+
+/// Most samples computed and stored at once, half a GiB of them: fewer points of long responses. Doubled, twice the memory.
+const MOST_SAMPLES: usize = 1 << 27;
 
 /// Computes and stores the responses of the library's missing points; those of `dead` actuators are zero. A library that was filled in part
 /// is completed.
@@ -21,8 +24,9 @@ pub(crate) fn fill(
     let missing = library.in_state(PointState::Missing);
     let (samples, ports) = (library.plan().samples, library.plan().ports.len());
     let quality = vec![Quality::UNKNOWN; ports];
+    let at_once = (MOST_SAMPLES / (ports * samples).max(1)).clamp(1, BATCH);
     progress.stage("points");
-    for (done, batch) in missing.chunks(BATCH).enumerate() {
+    for (done, batch) in missing.chunks(at_once).enumerate() {
         go_on(progress)?;
         let places: Vec<Point> = batch.iter().map(|point| library.points()[*point]).collect();
         let computed = compute(&places)?;
@@ -49,7 +53,7 @@ pub(crate) fn fill(
             })
             .collect();
         library.put_all(&takes)?;
-        progress.done(((done + 1) * BATCH).min(missing.len()) as f64 / missing.len() as f64);
+        progress.done(((done + 1) * at_once).min(missing.len()) as f64 / missing.len() as f64);
     }
     Ok(())
 }

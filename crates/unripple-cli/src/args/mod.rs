@@ -164,7 +164,7 @@ pub struct RespondOptions {
     /// left out.
     #[arg(long, value_name = "P", allow_negative_numbers = true)]
     pub grid_mm: f64,
-    /// Length of the responses in ms; by default twice the window that `design` recommends.
+    /// Length of the responses in ms, at most 60 000; by default twice the window that `design` recommends.
     #[arg(long, value_name = "MS", allow_negative_numbers = true)]
     pub length_ms: Option<f64>,
     /// Folder of the library. An unfinished library with the same options is continued.

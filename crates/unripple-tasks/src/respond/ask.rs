@@ -14,7 +14,7 @@ pub struct Ask {
     /// Spacing of the points, in m. They lie at multiples of it along both axes; those within a quarter of it from the rim are
     /// left out.
     pub pitch_m: f64,
-    /// Length of the responses in s; by default twice the window that `design` recommends.
+    /// Length of the responses in s, at most 60; by default twice the window that `design` recommends.
     pub length_s: Option<f64>,
     /// Folder of the library. An unfinished library of the same plan is continued.
     pub output: PathBuf,

@@ -7,7 +7,11 @@ use unripple::act::{carries, unit};
 use unripple::core::{ModalResponses, Responses, Surface, window_samples};
 use unripple::physics::design::Windows;
 use unripple::physics::sample;
+use unripple_calibrate::measure::MOST_KEPT;
 use unripple_store::{Library, LibraryPlan};
+
+/// Most samples of a response times modes: tables of them take up to 6 GiB. Doubled, twice the memory.
+const MOST_VALUES: usize = 1 << 29;
 
 /// Computes the responses of a surface at the points of a grid, and stores them in a library. A cancelled run can be continued.
 ///
@@ -28,6 +32,12 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     let surface = ask.surface.load()?;
     let record = Record::of(ask)?;
     above_zero(ask.pitch_m, "pitch_m", "m")?;
+    if let Some(length) = ask.length_s {
+        above_zero(length, "length_s", "s")?;
+        if length > MOST_KEPT {
+            return Err(TaskError::ask("length_s", format!("at most {MOST_KEPT} s"), format!("{length} s")));
+        }
+    }
     Library::may_be_at(&ask.output)?;
     go_on(progress)?;
     progress.stage("modes");
@@ -59,14 +69,17 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
 }
 
 fn plan(ask: &Ask, surface: &Surface, modal: &ModalResponses) -> Result<LibraryPlan, TaskError> {
-    let length = match ask.length_s {
-        Some(length) => above_zero(length, "length_s", "s")?,
-        None => 2.0 * Windows::of(surface).recommended().seconds,
-    };
+    let length = ask.length_s.unwrap_or_else(|| 2.0 * Windows::of(surface).recommended().seconds);
     carries(&modal.conditions, length).map_err(|error| TaskError::Work(format!("`length_s`: {error}")))?;
     let points = grid::points(&surface.outline, ask.pitch_m)?;
     let conditions = modal.conditions.clone();
     let samples = window_samples(length, conditions.rate) + 1;
+    let most = MOST_VALUES / modal.poles.len().max(1);
+    if samples > most {
+        let longest = most as f64 / conditions.rate;
+        let expected = format!("at most {longest:.3} s, for {} modes", modal.poles.len());
+        return Err(TaskError::ask("length_s", expected, format!("{length} s")));
+    }
     let about = [
         ("device", "model".to_owned()),
         ("stimulus", "impulse".to_owned()),
