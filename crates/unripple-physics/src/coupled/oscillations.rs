@@ -16,6 +16,19 @@ use unripple_linalg::{Mat, c64, product};
 /// at nodes of the others would be lost.
 const VANISHED: f64 = 1e-12;
 
+/// Number of bytes for each pair of coupled modes: the state matrix of twice as many rows, its decomposition, complex eigenvectors
+/// and their inverse. Doubled, 0.7 times as many modes are allowed.
+const BYTES_PER_PAIR: f64 = 320.0;
+
+/// Number of bytes for each pair of a mode that does not couple to the loads and any mode: its readout, twice.
+const BYTES_PER_READOUT: f64 = 16.0;
+
+/// Memory that coupled modes may take, in bytes, as much as the modes of the sheet. Doubled, 1.4 times as many modes are allowed.
+const MEMORY: f64 = 4.0 * GIB;
+
+/// Bytes of a GiB, 2³⁰ by definition.
+const GIB: f64 = (1u64 << 30) as f64;
+
 /// The decaying oscillations of a loaded sheet, with real input and readout weights, as modal responses need them.
 #[derive(Clone, Debug)]
 pub struct Oscillations {
@@ -55,9 +68,12 @@ impl Loaded {
     /// band are kept, since they do not oscillate.
     ///
     /// # Errors
-    /// [`PhysicsError::NotConverged`] if an eigenvalue problem fails.
+    /// [`PhysicsError::TooLarge`] if more than 4 GiB of memory would be needed; [`PhysicsError::NotConverged`] if an eigenvalue
+    /// problem fails.
     pub fn oscillations(&self, dynamic_hz: f64, band: [f64; 2]) -> Result<Oscillations, PhysicsError> {
         let (active, passive) = split(&self.poles, self.felt.as_ref());
+        let coupled = active.iter().filter(|shape| shape.pole.omega <= TAU * dynamic_hz).count();
+        guard(coupled, passive.len() * self.poles.len(), band[1])?;
         let mut parts = Parts::default();
         let [low, high] = band.map(|hz| TAU * hz);
         // A mode exactly at the top stays in, whatever the rounding.
@@ -100,6 +116,23 @@ impl Loaded {
         }
         Drives { forces, coils }
     }
+}
+
+/// Refuses loads on more modes than memory holds, before any of it is allocated: `coupled` modes, and `readouts` pairs of a mode
+/// that does not couple and any mode. `max_hz` (Hz) is the top of the band.
+fn guard(coupled: usize, readouts: usize, max_hz: f64) -> Result<(), PhysicsError> {
+    let needed = BYTES_PER_PAIR * (coupled as f64).powi(2) + BYTES_PER_READOUT * readouts as f64;
+    if needed <= MEMORY {
+        return Ok(());
+    }
+    Err(PhysicsError::TooLarge {
+        max_hz,
+        unknowns: 2 * coupled,
+        needed_gib: needed / GIB,
+        limit_gib: MEMORY / GIB,
+        // The number of modes grows at least in proportion to the frequency, so that this is not too much.
+        nearest_hz: max_hz * (MEMORY / needed).sqrt(),
+    })
 }
 
 impl Parts {

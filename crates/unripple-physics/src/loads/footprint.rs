@@ -19,6 +19,10 @@ const RAYS: usize = 24;
 /// Number of Gauss points along a side of a rectangle. Doubled, waves half as long are integrated as exactly.
 const ACROSS: usize = 10;
 
+/// Most values of shapes that are read at once, a GiB of them. Doubled, twice the memory, and fewer evaluations for thousands of
+/// footprints; results stay the same but for rounding.
+const AT_ONCE: usize = 1 << 27;
+
 /// A contact area on the sheet as quadrature points with weights. A force F over it excites mode m with the modal force
 /// `F Σ_i weight_i φ_m(x_i)`; the motion sensed there is the same weighted sum of the sheet's motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -143,28 +147,44 @@ impl Footprint {
         Self::all_weights(std::slice::from_ref(self), shapes).row(0).iter().copied().collect()
     }
 
-    /// The weights of several footprints as in [`Footprint::weights`], footprints x modes, with a single evaluation of the shapes.
+    /// The weights of several footprints as in [`Footprint::weights`], footprints x modes, with as few evaluations of the shapes as
+    /// memory allows: mostly one.
     pub fn all_weights(footprints: &[Self], shapes: &dyn Shapes) -> unripple_linalg::Mat<f64> {
-        let places: Vec<Point> = footprints.iter().flat_map(|f| f.points.iter().map(|(p, _)| *p)).collect();
-        let values = shapes.at_all(&places);
         let mut weights = unripple_linalg::Mat::zeros(footprints.len(), shapes.modes());
-        let mut first = 0;
-        for (row, footprint) in footprints.iter().enumerate() {
-            for m in 0..shapes.modes() {
-                weights[(row, m)] = match footprint.points[..] {
-                    [(_, 1.0)] => values[(first, m)],
-                    _ => footprint
-                        .points
-                        .iter()
-                        .enumerate()
-                        .map(|(i, (_, w))| w * values[(first + i, m)])
-                        .sum(),
-                };
+        let mut row = 0;
+        while row < footprints.len() {
+            let group = together(&footprints[row..], AT_ONCE / shapes.modes().max(1));
+            let places: Vec<Point> = group.iter().flat_map(|f| f.points.iter().map(|(p, _)| *p)).collect();
+            let values = shapes.at_all(&places);
+            let mut first = 0;
+            for footprint in group {
+                for m in 0..shapes.modes() {
+                    weights[(row, m)] = match footprint.points[..] {
+                        [(_, 1.0)] => values[(first, m)],
+                        _ => footprint
+                            .points
+                            .iter()
+                            .enumerate()
+                            .map(|(i, (_, w))| w * values[(first + i, m)])
+                            .sum(),
+                    };
+                }
+                first += footprint.points.len();
+                row += 1;
             }
-            first += footprint.points.len();
         }
         weights
     }
+}
+
+/// The first of some footprints, as many as have up to `most` points together, but at least one.
+fn together(footprints: &[Footprint], most: usize) -> &[Footprint] {
+    let mut points = 0;
+    let fit = footprints.iter().take_while(|footprint| {
+        points += footprint.points.len();
+        points <= most
+    });
+    &footprints[..fit.count().max(1)]
 }
 
 /// Chebyshev's nodes of (r/radius)² from 0 to 1, both ends among them.

@@ -25,6 +25,20 @@ impl Shapes for Piston {
     }
 }
 
+/// Shapes that move everything alike, any number of them.
+#[derive(Debug)]
+struct Alike(usize);
+
+impl Shapes for Alike {
+    fn modes(&self) -> usize {
+        self.0
+    }
+
+    fn at(&self, _: Point, row: &mut [f64]) {
+        row.fill(1.0);
+    }
+}
+
 fn somewhere() -> Footprint {
     Footprint::point(Point::new(0.0, 0.0))
 }
@@ -61,6 +75,16 @@ fn overdamped_on_one_mode() {
         assert!((sum(&|p| p.velocity(t)) - 4.0 * exact.velocity(t)).abs() < 1e-11);
         assert!((sum(&|p| p.displacement(t)) - 4.0 * exact.displacement(t)).abs() < 1e-14);
     }
+}
+
+#[test]
+fn a_load_on_more_modes_than_memory_holds_is_refused() {
+    let poles: Vec<Pole> = (1..=4000).map(|m| Pole::new(f64::from(m), 0.1)).collect();
+    let finger = load(somewhere(), 0.0, 1.0, 0.0);
+    let loaded = Loaded::new(Arc::new(Alike(poles.len())), &poles, &[], &[finger]).unwrap();
+    let error = loaded.oscillations(1e9, [0.0, 1e3]).unwrap_err();
+    let PhysicsError::TooLarge { needed_gib, limit_gib, nearest_hz, .. } = error else { panic!("{error}") };
+    assert!(needed_gib > limit_gib && (900.0..1e3).contains(&nearest_hz), "{needed_gib} {nearest_hz}");
 }
 
 /// A coil at rest on a mode: three poles, of (s² + 2σs + ω²)(R + Ls) + w²(bl)² s.

@@ -5,6 +5,10 @@ use crate::{Medium, PhysicsError};
 use std::f64::consts::TAU;
 use unripple_core::{Decay, Surface, require};
 
+/// Largest wavenumber at the top frequency, in rad/m: waves of 6 nm, shorter than the grains and molecules of any sheet. Doubled,
+/// numbers of modes still fit in a word.
+const LARGEST_WAVENUMBER: f64 = 1e9;
+
 /// The request for the modes of a sheet: up to what frequency, and how accurately.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
@@ -46,8 +50,8 @@ impl Bounds {
         let k_top = medium.wavenumber(TAU * max_hz);
         require(
             "top frequency in Hz",
-            k_top.is_finite() && k_top > 0.0,
-            "a frequency that waves can have",
+            k_top > 0.0 && k_top <= LARGEST_WAVENUMBER,
+            "a frequency whose waves are longer than 7 nm",
             max_hz,
         )?;
         Ok(Self { medium, poisson, max_hz, k_top, accuracy })

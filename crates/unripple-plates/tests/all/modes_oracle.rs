@@ -343,10 +343,24 @@ fn says_what_it_cannot_do() {
         }
         other => panic!("{other:?}"),
     }
-    for (max_hz, accuracy) in
-        [(f64::NAN, 1e-6), (-1.0, 1e-6), (f64::INFINITY, 1e-6), (100.0, 0.0), (100.0, f64::NAN)]
-    {
+    for (max_hz, accuracy) in [
+        (f64::NAN, 1e-6),
+        (-1.0, 1e-6),
+        (f64::INFINITY, 1e-6),
+        (1e100, 1e-6),
+        (1e300, 1e-6),
+        (100.0, 0.0),
+        (100.0, f64::NAN),
+    ] {
         assert!(matches!(Modes::solve(&surface, max_hz, accuracy), Err(PhysicsError::Range(_))));
+    }
+    let mut membrane = surface.clone();
+    membrane.sheet.young = 0.0;
+    match Modes::solve(&membrane, 300e3, 1e-6) {
+        Err(PhysicsError::TooLarge { needed_gib, limit_gib, nearest_hz, .. }) => {
+            assert!(needed_gib > limit_gib && nearest_hz > 100e3 && nearest_hz < 300e3);
+        }
+        other => panic!("{other:?}"),
     }
     let changes: [fn(&mut Sheet); 5] = [
         |s| s.tension = -1.0,

@@ -162,4 +162,5 @@ fn a_mesh_too_large_is_refused_beforehand_with_its_size() {
     let error = Modes::solve(&round(Edge::Clamped), 400e3, 1e-3).unwrap_err();
     let PhysicsError::TooLarge { needed_gib, limit_gib, nearest_hz, .. } = error else { panic!("{error}") };
     assert!(needed_gib > limit_gib && (3e3..400e3).contains(&nearest_hz), "{needed_gib} {nearest_hz}");
+    assert!(matches!(Modes::solve(&round(Edge::Clamped), 1e100, 1e-3), Err(PhysicsError::Range(_))));
 }

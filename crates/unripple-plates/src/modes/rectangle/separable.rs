@@ -9,9 +9,9 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 use unripple_core::{Edge, Point};
 use unripple_linalg::Mat;
 
-/// Approximate number of bytes for each mode, by which a problem too large for the allowed memory is refused.
-/// Doubled, half as many modes are allowed.
-const BYTES_PER_MODE: f64 = 80.0;
+/// Approximate number of bytes for each mode, by which a problem too large for the allowed memory is refused: mostly the values
+/// of its shape at the 256 points at which shapes are read at once. Doubled, half as many modes are allowed.
+const BYTES_PER_MODE: f64 = 2048.0;
 
 /// Number of points in one task. Doubled, there are half as many tasks to share among threads.
 const CHUNK: usize = 64;
