@@ -83,7 +83,7 @@ pub use follower::Follower;
 pub use heartbeat::Heartbeat;
 pub use level::Level;
 pub use log::Began;
-pub use options::{LiveOptions, Timing};
+pub use options::{LONGEST_WINDOW, LiveOptions, Timing};
 pub use percentiles::Percentiles;
 pub use play_stats::PlayStats;
 pub use priority::{Priorities, real_time};

@@ -8,6 +8,9 @@ use unripple_player::{Limit, Options as PlayerOptions, Running, WaveOptions};
 /// Longest ping that may be sent between effects, in s. A longer one would seldom fit between two touches.
 const LONGEST_PING: f64 = 0.15;
 
+/// Longest window of live play, in s: nobody waits that long for the answer to a touch. Doubled, filters of twice the memory.
+pub const LONGEST_WINDOW: f64 = 10.0;
+
 /// Options of live play: method, level, waveforms, limits, prediction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveOptions {
@@ -40,8 +43,8 @@ impl LiveOptions {
     pub(crate) fn player(&self, surface: &Surface, block: usize) -> Result<PlayerOptions, LiveError> {
         let emission = &surface.emission;
         let window = self.focus.window;
-        if !(window > 0.0 && window <= 10.0) {
-            let expected = "above 0, at most 10".into();
+        if !(window > 0.0 && window <= LONGEST_WINDOW) {
+            let expected = format!("above 0, at most {LONGEST_WINDOW}");
             return Err(LiveError::Range { what: "window in s", expected, found: window.to_string() });
         }
         let taps = (window * emission.rate).round() as usize + 1;

@@ -354,7 +354,7 @@ pub struct ReproduceOptions {
     /// an earlier run.
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
-    /// Random placements of the actuators to average for the statistics of contrast.
+    /// Random placements of the actuators to average for the statistics of contrast, 2 to 10 000.
     #[arg(long, value_name = "N", default_value_t = 20)]
     pub placements: usize,
 }

@@ -25,8 +25,8 @@ pub struct PlayOptions {
     /// Method of focusing.
     #[arg(long, value_enum, default_value = "time-reversal", help_heading = heading::METHOD)]
     pub method: MethodName,
-    /// Window T in ms, which is the delay from a touch to its focus; by default the shortest window that reaches three quarters of
-    /// the largest contrast.
+    /// Window T in ms, at most 10 000, which is the delay from a touch to its focus; by default the shortest window that reaches
+    /// three quarters of the largest contrast.
     #[arg(long, value_name = "MS", allow_negative_numbers = true, help_heading = heading::METHOD)]
     pub window_ms: Option<f64>,
     /// Samples per block.

@@ -11,7 +11,7 @@ pub struct Ask {
     /// Folder for the page and its figures; without it only the numbers are computed. An existing folder is
     /// replaced as a whole, but only if it holds nothing but the unchanged files of an earlier run.
     pub output: Option<PathBuf>,
-    /// Number of placements averaged in the statistics of contrast, 2 or more.
+    /// Number of placements averaged in the statistics of contrast, 2 to 10 000.
     pub placements: usize,
 }
 

@@ -72,8 +72,8 @@ pub struct Ask {
     /// Focusing method by which drives are computed.
     #[serde(with = "names::method")]
     pub method: Method,
-    /// Window T in s, which is the delay from a touch to its focus; by default the shortest window that reaches three quarters of the
-    /// largest contrast.
+    /// Window T in s, at most 10, which is the delay from a touch to its focus; by default the shortest window that reaches three quarters
+    /// of the largest contrast.
     pub window_s: Option<f64>,
     /// Samples per block.
     pub block: usize,

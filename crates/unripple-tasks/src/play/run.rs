@@ -14,7 +14,9 @@ use unripple::core::{Drive, Responses, Surface};
 use unripple::effects::EffectSet;
 use unripple::physics::Medium;
 use unripple_calibrate::{Ping, PingOptions};
-use unripple_live::{Engine, FocusWorker, Follower, Level, LiveOptions, Pulse, Stage, Window};
+use unripple_live::{
+    Engine, FocusWorker, Follower, LONGEST_WINDOW, Level, LiveOptions, Pulse, Stage, Window,
+};
 use unripple_store::{load_effects, write_kept_wav};
 
 /// Most of a drive that is kept, in s. 92 MB in float32 for eight channels at 48 kHz.
@@ -46,6 +48,9 @@ fn prepare(ask: &Ask, progress: &mut dyn Progress) -> Result<Prepared, TaskError
     let notes = source.stored.as_ref().map_or_else(Vec::new, |stored| stored.notes.clone());
     let set = load_effects(&ask.effect)?;
     outputs::check(ask)?;
+    if let Some(window) = ask.window_s.filter(|window| *window > LONGEST_WINDOW) {
+        return Err(TaskError::ask("window_s", format!("at most {LONGEST_WINDOW} s"), window));
+    }
     let responses = Arc::new(match source.stored {
         Some(stored) => Responses::Sampled(stored.responses),
         None => judge::model(&surface, None, &[])?,
