@@ -2,6 +2,7 @@
 
 #[path = "../common/bench.rs"]
 mod bench;
+mod bounds;
 mod calibrate;
 mod calibrate_bands;
 #[path = "../common/mod.rs"]
