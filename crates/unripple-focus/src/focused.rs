@@ -17,9 +17,24 @@ pub struct Focused {
     pub points: Vec<Vec<Point>>,
     /// The method by which the drive was computed.
     pub method: Method,
-    /// Whether limits changed the shape of the waveforms (one-bit, or samples held at a limit), beyond scaling the
-    /// whole drive.
-    pub shaped: bool,
+    /// What the limits did to the waveforms, beyond scaling the whole drive.
+    pub shaping: Shaping,
+}
+
+/// What the limits of a drive did to its waveforms, beyond scaling the whole drive.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Shaping {
+    /// Limits changed nothing: the waveforms are those that the method gives without them.
+    #[default]
+    Unshaped,
+    /// Limits changed the waveforms: one-bit, or samples held at a limit.
+    Shaped,
+    /// [`Method::Limited`] found no drive within the limits that gives several targets their levels together, above those that
+    /// unshaped waveforms reach: the waveforms are those that it gives without limits, scaled to them.
+    GaveUp {
+        /// How many levels were tried, each with half of the rise of the one before.
+        attempts: usize,
+    },
 }
 
 impl Focused {

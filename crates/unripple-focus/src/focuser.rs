@@ -5,7 +5,9 @@ use crate::planned::Planned;
 use crate::recording::{Recorder, Recording};
 use crate::schedule::{self, MOST_SAMPLES, Schedule};
 use crate::settle::settle;
-use crate::{FeltPlan, FocusError, Focused, LossCorrection, Method, Options, Target, Timing, target};
+use crate::{
+    FeltPlan, FocusError, Focused, LossCorrection, Method, Options, Shaping, Target, Timing, target,
+};
 use unripple_core::{Drive, Point, Responses, require, window_samples};
 
 /// Decay, in nepers, after which earlier periods no longer matter to a repeated drive: to 1/1000. Doubled, repeated
@@ -108,12 +110,15 @@ impl<'r> Focuser<'r> {
         target::check(targets, &self.responses.conditions().outline)?;
         let schedule = self.schedule(targets)?;
         let mut channels = vec![vec![0.0; schedule.length]; self.responses.ports().len()];
-        let mut shaped = self.options.method == Method::OneBit;
+        let mut shaping = match self.options.method {
+            Method::OneBit => Shaping::Shaped,
+            _ => Shaping::Unshaped,
+        };
         let points = match &self.maker {
             Maker::Reversal(recorder) => self.reverse(recorder, targets, &schedule, &mut channels)?,
             Maker::Planned(planned) => {
                 let sought = self.seek(planned, targets, &schedule, share, &mut channels)?;
-                shaped = sought.1;
+                shaping = sought.1;
                 sought.0
             }
             Maker::Felt(plan) => {
@@ -133,7 +138,7 @@ impl<'r> Focuser<'r> {
             period: schedule.period,
             points,
             method: self.options.method,
-            shaped,
+            shaping,
         })
     }
 
@@ -158,7 +163,7 @@ impl<'r> Focuser<'r> {
     }
 
     /// Superposes optimised drives: one for all targets that come once, and one for the targets of each period. Returns
-    /// the points of each target, and whether limits shaped any of the drives.
+    /// the points of each target, and the most that the limits did to any of the drives.
     fn seek(
         &self,
         once: &Planned<'_>,
@@ -166,9 +171,9 @@ impl<'r> Focuser<'r> {
         schedule: &Schedule,
         share: f64,
         channels: &mut [Vec<f64>],
-    ) -> Result<(Vec<Vec<Point>>, bool), FocusError> {
+    ) -> Result<(Vec<Vec<Point>>, Shaping), FocusError> {
         let mut points = vec![Vec::new(); targets.len()];
-        let mut shaped = false;
+        let mut shaping = Shaping::Unshaped;
         let mut timings: Vec<Timing> = Vec::new();
         for timing in &schedule.timing {
             if !timings.contains(timing) {
@@ -187,9 +192,9 @@ impl<'r> Focuser<'r> {
             };
             add(&sought.drive, timing, self.window, channels);
             group.iter().zip(sought.points).for_each(|((index, _), used)| points[*index] = used);
-            shaped |= sought.shaped;
+            shaping = shaping.max(sought.shaping);
         }
-        Ok((points, shaped))
+        Ok((points, shaping))
     }
 
     /// When each target is in focus.

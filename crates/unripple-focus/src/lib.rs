@@ -67,7 +67,7 @@ pub mod waveform;
 
 pub use error::FocusError;
 pub use felt::{FeltOptions, FeltPlan};
-pub use focused::Focused;
+pub use focused::{Focused, Shaping};
 pub use focuser::{Focuser, focus};
 pub use options::{LossCorrection, Method, Options};
 pub use pattern::{Line, Pattern};

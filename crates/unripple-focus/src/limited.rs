@@ -1,8 +1,8 @@
 //! The strongest focus within peak and rms limits: Newton's method on the dual problem.
 
-use crate::FocusError;
 use crate::objective::{Levels, read};
 use crate::state::State;
+use crate::{FocusError, Shaping};
 use unripple_linalg::{Lu, Mat, MatRef, Scale, product};
 
 /// Most steps of Newton's method. Doubled, a problem that does not converge takes twice as long to fail.
@@ -12,9 +12,9 @@ const STEPS: usize = 80;
 /// Smaller, it takes a step or two more.
 pub(crate) const GAP: f64 = 1e-6;
 
-/// Most halvings of the rise in level above that of the unlimited drive, where several targets cannot reach their
-/// levels together. Doubled, levels may come down to a 4000th of that rise instead of a 64th.
-const RETREATS: usize = 6;
+/// Most attempts at a rise in level above that of the unlimited drive, where several targets cannot reach their levels
+/// together: each is at half the rise of the one before. Doubled, the last is at a 2048th of that rise instead of a 32nd.
+const ATTEMPTS: usize = 6;
 
 /// Halvings of a step at most: a billionth of Newton's. Doubled, what does not descend takes longer to fail.
 const HALVINGS: usize = 30;
@@ -68,9 +68,9 @@ struct Program<'a> {
 }
 
 impl Limits {
-    /// The drive within the limits, channels one behind the other, and whether the limits shape it: below the level that the
-    /// unlimited drive reaches they do not. `matrix` is the objective's lower triangle, `energy` its share ε, `free` the state
-    /// that is best without limits.
+    /// The drive within the limits, channels one behind the other, and what the limits did to it: nothing below the level that
+    /// the unlimited drive reaches. Where several targets reach no level above that together, it is the unlimited drive at its
+    /// limit. `matrix` is the objective's lower triangle, `energy` its share ε, `free` the state that is best without limits.
     ///
     /// # Errors
     /// [`FocusError::Gap`] if the duality gap does not close.
@@ -81,7 +81,7 @@ impl Limits {
         energy: f64,
         levels: &Levels,
         free: &Mat<f64>,
-    ) -> Result<(Vec<f64>, bool), FocusError> {
+    ) -> Result<(Vec<f64>, Shaping), FocusError> {
         let unlimited = state.emit(free.as_ref())?;
         let lowest = self.scale(&unlimited);
         let map = state.map()?;
@@ -92,20 +92,23 @@ impl Limits {
             entry - if i == j { energy } else { 0.0 }
         });
         let mut program = Program { map, matrix: whole, energy, levels, wanted: Vec::new(), limits: self };
-        let mut rise = self.push * (highest - lowest);
-        for _ in 0..RETREATS {
+        let asked = self.push * (highest - lowest);
+        let (mut rise, mut attempts) = (asked, 0);
+        while attempts < ATTEMPTS {
             let level = self.share * (lowest + rise);
             if rise.is_nan() || rise <= 0.0 || level <= lowest {
                 break;
             }
+            attempts += 1;
             program.wanted = levels.wanted.iter().map(|wanted| wanted * level).collect();
             match program.solve(free * Scale(level)) {
                 Err(FocusError::Gap { .. }) if levels.wanted.len() > 1 => rise *= 0.5,
-                found => return Ok((found?, true)),
+                found => return Ok((found?, Shaping::Shaped)),
             }
         }
-        let level = (self.share * (lowest + rise.max(0.0))).min(lowest);
-        Ok((unlimited.iter().map(|d| d * level).collect(), false))
+        let level = (self.share * (lowest + asked.max(0.0))).min(lowest);
+        let shaping = if attempts > 0 { Shaping::GaveUp { attempts } } else { Shaping::Unshaped };
+        Ok((unlimited.iter().map(|d| d * level).collect(), shaping))
     }
 
     /// How many times a drive fits the limits.

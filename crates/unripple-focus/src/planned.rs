@@ -3,7 +3,7 @@
 use crate::limited::Limits;
 use crate::objective::{Levels, Objective};
 use crate::state::{Keeps, ModalPlant, Plant, ReducedPlant, SampledPlant, State};
-use crate::{FocusError, Method, Options, Target};
+use crate::{FocusError, Method, Options, Shaping, Target};
 use unripple_core::{Onset, Point, Responses, require};
 use unripple_linalg::{Mat, norm};
 
@@ -28,8 +28,8 @@ pub(crate) struct Sought {
     pub drive: Vec<f64>,
     /// The points of each target: those asked for, or the nearest ones whose responses are stored.
     pub points: Vec<Vec<Point>>,
-    /// Whether limits changed its shape.
-    pub shaped: bool,
+    /// What the limits did to its waveforms.
+    pub shaping: Shaping,
 }
 
 impl<'r> Planned<'r> {
@@ -66,7 +66,8 @@ impl<'r> Planned<'r> {
         let (levels, points) = self.levels(targets)?;
         let state = self.objective.least(&levels)?;
         if self.options.method != Method::Limited {
-            return Ok(Sought { drive: self.state.emit(state.as_ref())?, points, shaped: false });
+            let drive = self.state.emit(state.as_ref())?;
+            return Ok(Sought { drive, points, shaping: Shaping::Unshaped });
         }
         let limits = Limits {
             peak: self.options.limit,
@@ -77,8 +78,8 @@ impl<'r> Planned<'r> {
             samples: self.state.length(),
         };
         let matrix = self.objective.around(&levels.points);
-        let (drive, shaped) = limits.drive(&self.state, matrix, self.objective.energy, &levels, &state)?;
-        Ok(Sought { drive, points, shaped })
+        let (drive, shaping) = limits.drive(&self.state, matrix, self.objective.energy, &levels, &state)?;
+        Ok(Sought { drive, points, shaping })
     }
 
     /// The levels wanted at all points of some targets, and the points that stand for them.

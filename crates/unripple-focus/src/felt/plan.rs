@@ -10,7 +10,7 @@ use super::splines::Splines;
 use super::watch::Watch;
 use crate::magnitude::{energy, peak};
 use crate::schedule::MOST_SAMPLES;
-use crate::{FocusError, Focused, Method, Target, Timing, target};
+use crate::{FocusError, Focused, Method, Shaping, Target, Timing, target};
 use std::f64::consts::{PI, TAU};
 use unripple_core::{Drive, ModalResponses, OutOfRange, Point, Responses, require, window_samples};
 use unripple_linalg::{Cholesky, Mat, MatRef, product, solve_lower};
@@ -140,7 +140,7 @@ impl<'r> FeltPlan<'r> {
             period: None,
             points: targets.iter().map(|target| target.points.clone()).collect(),
             method: Method::Felt,
-            shaped: false,
+            shaping: Shaping::Unshaped,
         })
     }
 

@@ -5,7 +5,7 @@ use unripple_linalg::{Lu, Mat, MatRef, Scale, product};
 
 use common::Membrane;
 use unripple_core::{Drive, ModalResponses, Point, Pole};
-use unripple_focus::{Focuser, Method, Options, Target, focus};
+use unripple_focus::{Focuser, Method, Options, Shaping, Target, focus};
 
 const WINDOW: usize = 96;
 
@@ -188,19 +188,42 @@ fn limited_at_a_level_is_solved_for_it() {
     let (lowest, highest) =
         (Focuser::new(&responses, &lowest).unwrap(), Focuser::new(&responses, &highest).unwrap());
     let (free, full) = (lowest.focus(&targets).unwrap(), highest.focus(&targets).unwrap());
-    assert!(!free.shaped && full.shaped && full.drive.peak() <= 0.3);
+    assert_eq!((free.shaping, full.shaping), (Shaping::Unshaped, Shaping::Shaped));
+    assert!(full.drive.peak() <= 0.3);
     let share = level(&free.drive) / level(&full.drive);
     for part in [0.01, 0.5, 0.999] {
         let low = highest.focus_at(&targets, part * share).unwrap();
-        assert!(!low.shaped);
+        assert_eq!(low.shaping, Shaping::Unshaped);
         assert!((low.drive.peak() / (part * free.drive.peak()) - 1.0).abs() < 1e-9);
         agrees("below the limits", &unit_peak(&low.drive), &column(free.drive.channels().concat()));
     }
     let between = highest.focus_at(&targets, 0.5 * (1.0 + share)).unwrap();
     let pushed = focus(&responses, &targets, &with(0.4)).unwrap();
-    assert!(between.shaped);
+    assert_eq!(between.shaping, Shaping::Shaped);
     agrees("half way", &unit_peak(&between.drive), &column(pushed.drive.channels().concat()));
     assert!(highest.focus_at(&targets, -1.0).is_err());
+}
+
+/// Two places a fiftieth of a millimetre apart, one of which is to move a hundred times as much as the other. The sum of
+/// magnitudes of the difference of their responses bounds the difference of their velocities, far below the level that the
+/// push asks for: no drive within the limit reaches it.
+#[test]
+fn limited_says_when_targets_do_not_reach_their_levels_together() {
+    let responses = Membrane::small().responses();
+    let beside = Point::new(target().x + 2e-5, target().y);
+    let targets = [Target::at(target()), Target::at(beside).with_gain(0.01)];
+    let with = |push: f64| Options { push, limit: 0.3, ..options(Method::Limited, 0.95) };
+    let pushed = with(0.9);
+    let focuser = Focuser::new(&responses, &pushed).unwrap();
+    let (free, given_up) =
+        (focus(&responses, &targets, &with(0.0)).unwrap(), focuser.focus(&targets).unwrap());
+    assert_eq!((free.shaping, given_up.shaping), (Shaping::Unshaped, Shaping::GaveUp { attempts: 6 }));
+    let unit_peak = |drive: &Drive| drive.clone().scaled(1.0 / drive.peak());
+    agrees("given up", &unit_peak(&given_up.drive), &column(free.drive.channels().concat()));
+    assert!((given_up.drive.peak() / 0.3 - 1.0).abs() < 1e-9);
+    // A level that this drive reaches is no longer too much.
+    let low = focuser.focus_at(&targets, 1e-5).unwrap();
+    assert!(low.shaping == Shaping::Unshaped && low.drive.peak() < 0.3, "{:?}", low.shaping);
 }
 
 #[test]

@@ -59,6 +59,7 @@ pub fn with(ground: &Ground<'_>, options: &Options) -> Result<Row, TaskError> {
     let Ground { surface, plant: responses, on, targets, level, .. } = *ground;
     let act = Act { surface, responses, targets, options, level };
     let sent = act.send_at_most(&focuser, focused, on)?;
+    let notes = act.notes(&sent);
     let field = on.fine()?.field(&sent.drive).map_err(TaskError::input)?;
     let Measured { targets, drive, .. } = field.measure(&sent.aims, sent.period).map_err(TaskError::input)?;
     Ok(Row {
@@ -72,7 +73,7 @@ pub fn with(ground: &Ground<'_>, options: &Options) -> Result<Row, TaskError> {
         targets,
         drive,
         level: sent.strength,
-        notes: sent.notes,
+        notes,
         trade,
     })
 }

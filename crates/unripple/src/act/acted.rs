@@ -1,6 +1,6 @@
 //! The result of an act: the steps that compute it, and its report.
 
-use super::{Act, ActError, Judged, Readouts, Report, Sent, Strength, carries, judge};
+use super::{Act, ActError, Judged, Note, Readouts, Report, Sent, Strength, carries, judge, loss};
 use crate::core::{Drive, Surface};
 use crate::focus::{Focused, Focuser, Options};
 
@@ -44,6 +44,12 @@ impl<'a> Act<'a> {
         Ok(Acted { focused: sent.focused, drive: sent.drive, strength: sent.strength, judged })
     }
 
+    /// Notes on how level and limits affect the method: those of [`Act::send`], and one where limits could not shape the drive.
+    pub fn notes(&self, sent: &Sent) -> Vec<Note> {
+        let gave_up = loss::gave_up(self, &sent.focused, &sent.strength);
+        sent.notes.iter().cloned().chain(gave_up).collect()
+    }
+
     /// Evaluates the field of a drive on the act's own responses.
     ///
     /// # Errors
@@ -51,7 +57,7 @@ impl<'a> Act<'a> {
     pub fn judge(&self, sent: &Sent, on: &Readouts<'_>) -> Result<Judged, ActError> {
         let field = on.fine()?.field(&sent.drive)?;
         let mut judged = judge(self.surface, &field, &sent.aims, sent.period, sent.until)?;
-        judged.notes.extend(sent.notes.iter().cloned());
+        judged.notes.extend(self.notes(sent));
         Ok(judged)
     }
 }

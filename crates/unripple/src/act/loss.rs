@@ -1,9 +1,22 @@
-//! What a method loses below the limit of the drive, as a note.
+//! What a method loses below the limit of the drive, or does not reach at it, as notes.
 
-use super::{Act, ActError, Note, Readouts};
+use super::{Act, ActError, Note, Readouts, Strength};
 use crate::core::Drive;
 use crate::field::Aim;
-use crate::focus::{Focused, Focuser, Method, Options, focus};
+use crate::focus::{Focused, Focuser, Method, Options, Shaping, focus};
+
+/// A note that the limited method gave up, and the drive is at its limit without being shaped by it.
+pub(super) fn gave_up(act: &Act<'_>, focused: &Focused, strength: &Strength) -> Option<Note> {
+    let Shaping::GaveUp { attempts } = focused.shaping else { return None };
+    let text = || {
+        format!(
+            "push has no effect: no drive within the limits was found that gives the targets together the levels it asks for, nor \
+             lower ones in {attempts} attempts, each with half the rise of the one before; the drive is that of {}, at its limit",
+            unlimited(act, focused)
+        )
+    };
+    strength.at_limit().then(|| Note { topic: "method", text: text() })
+}
 
 /// A note on what a method loses below the limit of the drive.
 pub(super) fn idle(
@@ -15,18 +28,27 @@ pub(super) fn idle(
     scaled: bool,
 ) -> Result<Option<Note>, ActError> {
     let text = match focused.method {
-        Method::Limited if scaled => {
-            "no drive was found for this level: the drive is the one for the limit, scaled down".into()
-        }
-        Method::Limited if !focused.shaped => format!(
-            "the limit is not reached at this level: the drive is that of concentrate with a strength of {}, and push has no \
-             effect",
-            act.options.strength.unwrap_or(focused.method.strength())
-        ),
+        Method::Limited => match (focused.shaping, scaled) {
+            (Shaping::Shaped, true) => {
+                "no drive was found for this level: the drive is the one for the limit, scaled down".into()
+            }
+            // What is not shaped at the limit is not shaped below it.
+            (Shaping::Unshaped, _) | (Shaping::GaveUp { .. }, true) => format!(
+                "the limit is not reached at this level: the drive is that of {}, and push has no effect",
+                unlimited(act, focused)
+            ),
+            (Shaping::Shaped | Shaping::GaveUp { .. }, false) => return Ok(None),
+        },
         Method::OneBit => one_bit(act, (focuser, on), drive, aims)?,
         _ => return Ok(None),
     };
     Ok(Some(Note { topic: "method", text }))
+}
+
+/// The method and strength that give the drive of [`Method::Limited`] where no limit shapes it.
+fn unlimited(act: &Act<'_>, focused: &Focused) -> String {
+    let strength = act.options.strength.unwrap_or(focused.method.strength());
+    format!("{} with a strength of {strength}", Method::Concentrate)
 }
 
 /// One-bit below the limit, beside time reversal at the same peak.

@@ -4,6 +4,9 @@ use crate::core::Drive;
 use crate::focus::Options;
 use serde::Serialize;
 
+/// A drive nearer to its limit than this share is at it: rounding to float32 is smaller.
+const HELD: f64 = 1e-6;
+
 /// What decided the level of a drive: linear theory, a limit, or the level asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -31,7 +34,7 @@ pub struct Strength {
     pub decided_by: DecidedBy,
     /// Headroom of the drive below the limit that it is nearest to, in dB.
     pub below_limit_db: f64,
-    /// The same headroom as a factor by which the drive could grow.
+    /// The same headroom as a ratio: the factor by which the drive could grow until it reaches that limit.
     pub below_limit: f64,
     /// Each limit of the drive, and how much of it is used.
     pub limits: Vec<Headroom>,
@@ -75,6 +78,11 @@ impl Strength {
         let below_limit = limits.iter().map(|limit| limit.below).fold(f64::INFINITY, f64::min);
         let below_limit_db = 20.0 * below_limit.log10();
         Self { decided_by, below_limit_db, below_limit, limits, linear_theory_allows: None }
+    }
+
+    /// Whether the drive is at one of its limits.
+    pub(super) fn at_limit(&self) -> bool {
+        self.below_limit < 1.0 + HELD
     }
 
     /// Adds the factor that linear theory would allow.

@@ -3,7 +3,7 @@
 use unripple::act::{Act, ActError, DecidedBy, Level, LevelKind, chosen_window, model, recommended_window};
 use unripple::core::{Point, Responses, Surface};
 use unripple::field::{Aim, MeasureOptions, measure};
-use unripple::focus::{Focuser, Method, Options, Target, focus};
+use unripple::focus::{Focuser, Method, Options, Shaping, Target, focus};
 use unripple::physics::design::papers_surface;
 
 fn paper() -> (Surface, Responses) {
@@ -86,7 +86,7 @@ fn limited_is_solved_for_the_level_asked() {
     let figures = &pushed.judged.measured.targets[0];
     let asked = with(0.6, Level::Peak(figures.peak_displacement_m.abs()));
     let found = &asked.judged.measured.targets[0];
-    assert!(asked.focused.shaped && pushed.focused.shaped);
+    assert_eq!([asked.focused.shaping, pushed.focused.shaping], [Shaping::Shaped; 2]);
     assert!((found.peak_velocity_m_s / figures.peak_velocity_m_s - 1.0).abs() < 1e-5);
     assert!((found.contrast.unwrap() / figures.contrast.unwrap() - 1.0).abs() < 1e-3);
     // Scaled down from its own push it would have been worse.
@@ -95,7 +95,8 @@ fn limited_is_solved_for_the_level_asked() {
     assert!(asked.drive.peak() <= 1.0 && asked.judged.notes.iter().all(|note| note.topic != "method"));
     // Far below, the limit does not bind.
     let low = with(0.6, Level::default());
-    assert!(!low.focused.shaped && low.judged.notes.iter().any(|note| note.topic == "method"));
+    assert_eq!(low.focused.shaping, Shaping::Unshaped);
+    assert!(low.judged.notes.iter().any(|note| note.topic == "method"));
 }
 
 #[test]
