@@ -60,6 +60,11 @@ impl Threshold {
     /// extrapolated: skin decouples from a surface that vibrates so fast, and short pulses are felt in other ways.
     pub const MEASURED_TO_HZ: f64 = 1e3;
 
+    /// Time over which touch adds up vibration near its most sensitive frequency, in seconds: thresholds of shorter vibration are higher,
+    /// by some 12 dB at 10 ms (Verrillo 1965, J. Acoust. Soc. Am. 37, 843–846). Those of the published curve are of vibration that lasts
+    /// for a second.
+    pub const INTEGRATION_S: f64 = 0.2;
+
     /// Change of the threshold above 40 Hz for each doubling of the contact area, in dB (Verrillo 1963), by spatial
     /// summation in the Pacinian channel.
     pub const PER_DOUBLED_AREA_DB: f64 = -3.0;

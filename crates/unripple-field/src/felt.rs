@@ -1,11 +1,11 @@
 //! Metrics of what is felt: level, contrast and background in dB.
 
-use crate::Field;
 use crate::aim::Resolved;
 use crate::source::{Passage, Quantity, Tally};
+use crate::{Field, pulse};
 use std::ops::Range;
 use unripple_core::Point;
-use unripple_dsp::Weighting;
+use unripple_dsp::{Threshold, Weighting};
 
 /// Error allowed in what is felt elsewhere, as a share of the level at the target: 80 dB below it. Ten times more would
 /// leave out modes that worst spots 60 dB down consist of.
@@ -14,10 +14,14 @@ const SLACK: f64 = 1e-4;
 /// Metrics of what is felt at one target, in dB; `None` where there is nothing to compare with, or no motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Felt {
-    /// Largest magnitude at the target during the span, above the threshold.
+    /// Largest magnitude of the threshold-weighted displacement at the target during the time that is evaluated, in dB above the threshold of
+    /// touch.
     pub level_db: Option<f64>,
     /// The sample at which this magnitude is reached.
     pub extreme: usize,
+    /// For how many samples the motion goes on as felt around `extreme`, as [`pulse::lasting`] counts them with pauses of up to
+    /// [`Threshold::INTEGRATION_S`]; `None` if it never pauses.
+    pub lasting: Option<usize>,
     /// The level over the rms of what is felt at the outside points at the sample `extreme`.
     pub contrast_db: Option<f64>,
     /// The level over the rms of what is felt at the outside points during the span.
@@ -50,9 +54,11 @@ pub(crate) fn felt(
     let mut all =
         AllFelt { targets: vec![Felt::default(); aims.len()], peak: vec![0.0; field.points().len()] };
     for (mut passage, members) in passages(field, aims, spans, period) {
-        let own = own(field, members.iter().map(|i| &aims[*i]), &passage);
-        passage.slack = SLACK * own.iter().map(|own| own.1).reduce(f64::min).unwrap_or(0.0);
-        passage.instants = own.iter().map(|own| own.0).collect();
+        // A drive of a single period is one that comes once: before it there is rest.
+        let again = period.is_some() && passage.span.start > 0;
+        let own = own(field, members.iter().map(|i| &aims[*i]), &passage, again);
+        passage.slack = SLACK * own.iter().map(|own| own.level).reduce(f64::min).unwrap_or(0.0);
+        passage.instants = own.iter().map(|own| own.extreme).collect();
         let weighed = field.source.weighed(&passage);
         for ((i, own), snapshot) in members.iter().zip(own).zip(&weighed.snapshots) {
             all.targets[*i] = figures(own, snapshot, &weighed.tally, outside, passage.span.len());
@@ -90,25 +96,39 @@ fn passages(
     found
 }
 
-/// At each aim, the sample at which it is felt most and the magnitude then, in units of the threshold.
+/// What is felt at an aim.
+struct Own {
+    /// The sample at which it is felt most.
+    extreme: usize,
+    /// The magnitude then, in units of the threshold.
+    level: f64,
+    /// For how many samples it goes on around that sample.
+    lasting: Option<usize>,
+}
+
+/// What is felt at each aim, of a motion that comes once or, with `again`, is repeated.
 fn own<'a>(
     field: &Field<'_>,
     aims: impl Iterator<Item = &'a Resolved>,
     passage: &Passage,
-) -> Vec<(usize, f64)> {
+    again: bool,
+) -> Vec<Own> {
     let sets: Vec<Vec<Point>> = aims.map(|aim| aim.points.clone()).collect();
     let Passage { taken, span, weighting, .. } = passage;
     let traces = field.source.traces(&sets, taken.clone());
+    let pause = (Threshold::INTEGRATION_S * field.rate()) as usize;
     let largest = |felt: &[f64]| {
         let within = span.clone().map(|i| (i, felt[i - taken.start].abs()));
-        within.fold((span.start, 0.0), |best, own| if own.1 > best.1 { own } else { best })
+        let first = (span.start, 0.0);
+        let (extreme, level) = within.fold(first, |best, own| if own.1 > best.1 { own } else { best });
+        Own { extreme, level, lasting: pulse::lasting(felt, extreme - taken.start, pause, again) }
     };
     traces.iter().map(|trace| largest(&weighting.weigh(trace.of(Quantity::Displacement)))).collect()
 }
 
 /// One target's figures, from its own level and what is felt elsewhere.
 fn figures(
-    (extreme, level): (usize, f64),
+    Own { extreme, level, lasting }: Own,
     then: &[f32],
     tally: &Tally,
     outside: &[bool],
@@ -124,6 +144,7 @@ fn figures(
     Felt {
         level_db: over(1.0),
         extreme,
+        lasting,
         contrast_db: over(now),
         background_db: over(background),
         worst_spot_db: over(worst),

@@ -75,6 +75,11 @@ pub struct TargetFigures {
     pub worst_spot_at_m: Option<[f64; 2]>,
     /// Instant at which that largest velocity outside occurs, in seconds.
     pub worst_spot_time_s: Option<f64>,
+    /// Share of the energy of the velocity at the target during the span that lies above 1 kHz
+    /// ([`Threshold::MEASURED_TO_HZ`](crate::Threshold::MEASURED_TO_HZ)), from 0 to 1; 0 without motion.
+    pub share_above_1khz: f64,
+    /// The same share at the point of the largest velocity outside.
+    pub worst_spot_share_above_1khz: Option<f64>,
     /// Full width at half maximum of the velocity around the target at T, in metres.
     pub spot_diameter_m: Option<f64>,
     /// Area around the target in which the velocity at T is above half that at the target, in square metres; of a library that of a circle
@@ -108,6 +113,11 @@ pub struct TargetFigures {
     pub felt_level_db: Option<f64>,
     /// Instant of `felt_level_db`, in seconds.
     pub felt_peak_time_s: f64,
+    /// How long the motion goes on as felt, in seconds: around `felt_peak_time_s`, from the first to the last instant at which the
+    /// weighted displacement has at least half of its largest magnitude, without pauses longer than
+    /// [`Threshold::INTEGRATION_S`](crate::Threshold::INTEGRATION_S). `None` if it is repeated without such a pause, and without
+    /// motion.
+    pub felt_duration_s: Option<f64>,
     /// The magnitude of `felt_level_db` over the rms weighted displacement of the outside points at `felt_peak_time_s`,
     /// in dB.
     pub felt_contrast_db: Option<f64>,

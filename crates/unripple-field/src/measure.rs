@@ -10,6 +10,7 @@ use crate::{Aim, Field, FieldError, MeasureOptions, pulse};
 use rayon::prelude::*;
 use std::ops::Range;
 use unripple_core::{Drive, Point, Responses, require};
+use unripple_dsp::Threshold;
 
 /// Evaluates how well `drive` focuses on `aims` through `responses`: all metrics, in velocity, in displacement and as
 /// felt.
@@ -46,6 +47,10 @@ impl Field<'_> {
         let traces = target_traces(&resolved, field, &spans, period)?;
         let peaks: Vec<Peaks> =
             resolved.iter().zip(&traces).map(|(aim, (first, t))| Peaks::of(aim, *first, t)).collect();
+        let within = |(aim, (first, t)): (&Resolved, &(usize, Trace))| {
+            fast(&t.velocity[aim.span.start - first..aim.span.end - first], field.rate())
+        };
+        let fast: Vec<f64> = resolved.iter().zip(&traces).map(within).collect();
         let radius = field.conditions.focal_radius();
         let outside = outside(field.points(), &resolved, radius);
         let segments = segments(&spans);
@@ -59,6 +64,7 @@ impl Field<'_> {
             aims,
             resolved: &resolved,
             peaks: &peaks,
+            fast: &fast,
             survey: &survey,
             segments: &segments,
             outside: &outside,
@@ -172,6 +178,8 @@ struct Judge<'a> {
     aims: &'a [Aim],
     resolved: &'a [Resolved],
     peaks: &'a [Peaks],
+    /// Share of energy above 1 kHz of the velocity of each target.
+    fast: &'a [f64],
     survey: &'a Survey,
     segments: &'a [Range<usize>],
     outside: &'a [bool],
@@ -190,6 +198,17 @@ struct Surroundings {
     worst_point: Option<usize>,
 }
 
+/// The strongest motion outside the focal discs.
+#[derive(Clone, Copy)]
+struct Worst {
+    /// Where it is, in metres.
+    at: [f64; 2],
+    /// The sample at which the velocity there is largest.
+    sample: usize,
+    /// Share of energy above 1 kHz of the velocity there.
+    fast: f64,
+}
+
 impl Judge<'_> {
     /// The metrics of the target with this index.
     fn figures(&self, index: usize, spots: [Spot; 2]) -> TargetFigures {
@@ -197,6 +216,7 @@ impl Judge<'_> {
         let rate = self.field.drive.rate();
         let seconds = |sample: usize| sample as f64 / rate;
         let [velocity, displacement] = [0, 1].map(|q| self.surroundings(index, q));
+        let worst = velocity.worst_point.map(|point| self.worst(point, &resolved.span));
         let ranges = self.ranges(index);
         let felt = &self.felt.targets[index];
         let count = aim.points.len() as f64;
@@ -214,8 +234,10 @@ impl Judge<'_> {
             contrast: ratio(peaks.levels[0], velocity.then),
             background_contrast: ratio(peaks.levels[0], velocity.background),
             worst_spot: ratio(peaks.levels[0], velocity.worst),
-            worst_spot_at_m: velocity.worst_point.map(|point| self.place(point)),
-            worst_spot_time_s: velocity.worst_point.map(|point| seconds(self.fastest(point, &resolved.span))),
+            worst_spot_at_m: worst.map(|worst| worst.at),
+            worst_spot_time_s: worst.map(|worst| seconds(worst.sample)),
+            share_above_1khz: self.fast[index],
+            worst_spot_share_above_1khz: worst.map(|worst| worst.fast),
             spot_diameter_m: spots[0].diameter,
             spot_area_m2: spots[0].area,
             focus_offset_m: spots[0].offset,
@@ -230,6 +252,7 @@ impl Judge<'_> {
             displacement_pulse_duration_s: peaks.widths[1].map(|width| width / rate),
             felt_level_db: felt.level_db,
             felt_peak_time_s: seconds(felt.extreme),
+            felt_duration_s: felt.lasting.map(seconds),
             felt_contrast_db: felt.contrast_db,
             felt_background_db: felt.background_db,
             felt_worst_spot_db: felt.worst_spot_db,
@@ -261,17 +284,14 @@ impl Judge<'_> {
         Surroundings { then: (then / count).sqrt(), background, worst, worst_point }
     }
 
-    fn place(&self, point: usize) -> [f64; 2] {
+    /// The motion over a span at a point of the field, by its index.
+    fn worst(&self, point: usize, span: &Range<usize>) -> Worst {
         let at = self.field.points()[point];
-        [at.x, at.y]
-    }
-
-    /// The sample of a span at which the magnitude of the velocity at a point of the field is largest.
-    fn fastest(&self, point: usize, span: &Range<usize>) -> usize {
-        let traces = self.field.source.traces(&[vec![self.field.points()[point]]], span.clone());
+        let traces = self.field.source.traces(&[vec![at]], span.clone());
         let velocity = traces.first().map_or(&[][..], |trace| trace.of(Quantity::Velocity));
         let largest = velocity.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-        span.start + largest.map_or(0, |(i, _)| i)
+        let sample = span.start + largest.map_or(0, |(i, _)| i);
+        Worst { at: [at.x, at.y], sample, fast: fast(velocity, self.field.rate()) }
     }
 
     /// Least and greatest velocity at T and displacement at its extreme over a set of points.
@@ -288,6 +308,11 @@ impl Judge<'_> {
         };
         Some([range(resolved.instant, Quantity::Velocity), range(peaks.extreme, Quantity::Displacement)])
     }
+}
+
+/// Share of the energy of a velocity at `rate` samples per second that lies above what the threshold of touch was measured to.
+fn fast(velocity: &[f64], rate: f64) -> f64 {
+    unripple_dsp::share_above(&[velocity.to_vec()], rate, Threshold::MEASURED_TO_HZ)
 }
 
 fn ratio(level: f64, surroundings: f64) -> Option<f64> {

@@ -1,4 +1,4 @@
-//! Width of a pulse in time, at half maximum.
+//! Width of a pulse in time at half maximum, and how long a motion goes on.
 
 /// Full width at half maximum of a signal around the sample `centre`, in samples.
 ///
@@ -26,6 +26,37 @@ fn half(signal: impl Iterator<Item = f64>) -> Option<f64> {
     None
 }
 
+/// For how many samples a signal goes on around the sample `centre`: from the first to the last at which its magnitude is at least half
+/// that at `centre`, with no more than `pause` samples from one of these to the next. With `again`, the signal is a period that is
+/// repeated without end. `None` if it never pauses, or is zero there.
+pub(crate) fn lasting(signal: &[f64], centre: usize, pause: usize, again: bool) -> Option<usize> {
+    let enough = 0.5 * signal.get(centre)?.abs();
+    if enough == 0.0 {
+        return None;
+    }
+    let (earlier, later) = (&signal[..centre], &signal[centre + 1..]);
+    if !again {
+        return Some(reach(earlier.iter().rev(), enough, pause) + 1 + reach(later.iter(), enough, pause));
+    }
+    let after = reach(later.iter().chain(&signal[..=centre]), enough, pause);
+    let before = reach(earlier.iter().rev().chain(signal[centre..].iter().rev()), enough, pause);
+    (after < signal.len()).then_some(before + 1 + after)
+}
+
+/// Steps to the last value of at least `enough`, with no more than `pause` steps from one of these to the next.
+fn reach<'a>(signal: impl Iterator<Item = &'a f64>, enough: f64, pause: usize) -> usize {
+    let mut last = 0;
+    for (step, value) in (1..).zip(signal) {
+        if step - last > pause {
+            break;
+        }
+        if value.abs() >= enough {
+            last = step;
+        }
+    }
+    last
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -39,6 +70,34 @@ mod tests {
             (0..400).map(|i| (-((f64::from(i) - 200.0) / sigma).powi(2) / 2.0).exp()).collect();
         let exact = 2.0 * (2.0 * 2f64.ln()).sqrt() * sigma;
         assert!((width(&gauss, 200).unwrap() - exact).abs() < 1e-2);
+    }
+
+    #[test]
+    fn a_motion_goes_on_until_it_pauses() {
+        let mut signal = vec![0.0; 60];
+        for (at, value) in [(10, 1.0), (14, -0.6), (16, 0.4), (40, 0.9), (41, -0.5)] {
+            signal[at] = value;
+        }
+        for (pause, again, expected) in [
+            (3, false, Some(1)),
+            (4, false, Some(5)),
+            (25, false, Some(5)),
+            (26, false, Some(32)),
+            (60, false, Some(32)),
+            (4, true, Some(5)),
+            (28, true, Some(32)),
+            (29, true, None),
+            (60, true, None),
+        ] {
+            assert_eq!(lasting(&signal, 10, pause, again), expected, "{pause} {again}");
+        }
+        // The other end of the run is the same run; a period may begin within it.
+        assert_eq!(lasting(&signal, 40, 28, true), Some(32));
+        signal.rotate_left(12);
+        assert_eq!(lasting(&signal, 58, 28, true), Some(32));
+        assert_eq!(lasting(&signal, 58, 4, true), Some(5));
+        assert_eq!(lasting(&[0.0, 1.0], 0, 9, false), None);
+        assert_eq!(lasting(&[], 0, 9, true), None);
     }
 
     #[test]

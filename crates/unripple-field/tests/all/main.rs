@@ -2,6 +2,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod elsewhere;
 mod errors;
 mod felt;
 mod oracle;
