@@ -101,7 +101,7 @@ impl Level {
             },
             Self::Felt(wanted) => Beyond {
                 what: LevelKind::Felt,
-                most: format!("{:.2} dB above threshold", wanted - 20.0 * step.factor.log10()),
+                most: format!("{:.1} dB above threshold", below(wanted - 20.0 * step.factor.log10())),
                 wanted: wanted.to_string(),
                 unit: "dB",
             },
@@ -134,6 +134,11 @@ fn refuse(
 fn micrometres(metres: f64) -> String {
     let um = metres * 1e6;
     format!("{um:.12e}").parse::<f64>().unwrap_or(um).to_string()
+}
+
+/// A level in tenths of a dB, rounded down to one that is reached.
+fn below(db: f64) -> f64 {
+    (10.0 * db).floor() / 10.0
 }
 
 /// Sensation level at the first target, in dB above the threshold of touch.

@@ -2,10 +2,29 @@
 
 use super::beyond::Beyond;
 use crate::core::{Drive, Surface};
-use crate::field::Measured;
+use crate::field::{Measured, TakenOn, TargetFigures, Threshold};
 use crate::focus::{Focused, Target};
 use crate::physics::design::Linearity;
 use serde::Serialize;
+
+/// Topic of the note on why levels as felt do not hold, by which a report knows that they do not.
+pub(super) const FELT: &str = "felt";
+
+/// Share of energy above what the threshold of touch was measured to, from which on levels as felt do not hold. Doubled, motion
+/// of which two fifths of the amplitude (√0.2) are too fast would pass.
+const FAST: f64 = 0.1;
+
+/// Share of the time over which touch adds up vibration, below which a motion is too short for levels as felt: half as long, it must be
+/// 4 dB larger, 10 log10(1/(1 − e^{−1/2})). Doubled, 2 dB, a third of the spread between persons, would be remarked on.
+const SHORT: f64 = 0.5;
+
+/// Share of the surface outside the focal discs below which a note gives it. Larger, discs that leave most of the surface would
+/// be remarked on.
+const LITTLE: f64 = 0.5;
+
+/// Number of a library's points outside the focal discs below which a note gives it: an rms over fewer is off by more than a
+/// tenth by chance (1/√(2n)). Doubled, by more than 7 %.
+const FEW: usize = 50;
 
 /// A remark or warning that goes with the results.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -35,6 +54,13 @@ pub fn nearby(focused: &Focused, targets: &[Target]) -> Vec<Note> {
 /// Warnings that go with measured figures.
 pub(super) fn all(surface: &Surface, measured: &Measured, largest: f64, found: &Linearity) -> Vec<Note> {
     let mut notes = linear_theory(surface, largest, found);
+    if measured.taken_on == TakenOn::Library {
+        notes.push(Note {
+            topic: "linear theory",
+            text: "slopes, added tension and strain are not known between the points of a library: displacement at its points is all \
+                that linear theory is checked by".into(),
+        });
+    }
     if measured.targets.iter().any(|target| !target.span_complete) {
         notes.push(Note {
             topic: "span",
@@ -42,7 +68,71 @@ pub(super) fn all(surface: &Surface, measured: &Measured, largest: f64, found: &
                 part".into(),
         });
     }
+    notes.extend(outside(measured));
+    notes.extend(felt(measured));
     notes
+}
+
+/// A note on ratios that are not known, or taken over little, since hardly anything lies outside the focal discs.
+fn outside(measured: &Measured) -> Option<Note> {
+    let Measured { focal_radius_m, taken_on, outside_points, outside_share, .. } = *measured;
+    let discs = format!("the focal discs of radius {:.1} mm", focal_radius_m * 1e3);
+    let text = match taken_on {
+        TakenOn::Grid if outside_points == 0 => {
+            format!(
+                "no place lies outside {discs}, so that there is no contrast and no motion elsewhere to compare with"
+            )
+        }
+        TakenOn::Library if outside_points == 0 => {
+            format!(
+                "no point of the library lies outside {discs}, so that there is no contrast: it would take points farther away"
+            )
+        }
+        TakenOn::Grid if outside_share < LITTLE => format!(
+            "contrast and other ratios are taken over {:.1} % of the surface, all that lies outside {discs}",
+            100.0 * outside_share
+        ),
+        TakenOn::Library if outside_points < FEW => format!(
+            "contrast and other ratios are taken over {outside_points} of the library's points, all that lie outside {discs}: an \
+             rms over so few is uncertain by {:.0} %",
+            100.0 / (2.0 * outside_points as f64).sqrt()
+        ),
+        TakenOn::Grid | TakenOn::Library => return None,
+    };
+    Some(Note { topic: "outside", text })
+}
+
+/// A note on why levels as felt do not hold for a motion: it is too fast or too short for the threshold of touch.
+fn felt(measured: &Measured) -> Option<Note> {
+    let targets = &measured.targets;
+    let share = |of: fn(&TargetFigures) -> Option<f64>| targets.iter().filter_map(of).reduce(f64::max);
+    let here = share(|target| Some(target.share_above_1khz)).unwrap_or(0.0);
+    let elsewhere = share(|target| target.worst_spot_share_above_1khz);
+    let lasts = targets.iter().filter_map(|target| target.felt_duration_s).fold(f64::INFINITY, f64::min);
+    let at = if targets.len() > 1 { "a target" } else { "the target" };
+    let mut why = Vec::new();
+    if here.max(elsewhere.unwrap_or(0.0)) > FAST {
+        let there = elsewhere.map_or(String::new(), |share| {
+            format!(" and {:.0} % of that at the strongest place elsewhere", 100.0 * share)
+        });
+        why.push(format!(
+            "above {:.0} Hz lie {:.0} % of the energy of the velocity at {at}{there}; so fast a surface loses contact with the skin, \
+             and transients are felt in other ways (of waves above 20 kHz, pulses of 7 µm were felt that this threshold calls \
+             unfelt: Hudin, Lozada and Hayward 2015)",
+            Threshold::MEASURED_TO_HZ,
+            100.0 * here
+        ));
+    }
+    if lasts < SHORT * Threshold::INTEGRATION_S {
+        why.push(format!(
+            "what is felt at {at} lasts {:.0} ms: touch adds up vibration over some {:.0} ms, and so short a motion must be larger \
+             to be felt",
+            1e3 * lasts,
+            1e3 * Threshold::INTEGRATION_S
+        ));
+    }
+    let holds = "the threshold of touch is that of vibration that lasts, and levels as felt do not hold here";
+    (!why.is_empty()).then(|| Note { topic: FELT, text: format!("{holds}: {}", why.join("; ")) })
 }
 
 /// Notes on what linear theory cannot say of a field with a displacement of `largest` metres.

@@ -2,6 +2,7 @@
 
 mod act_oracle;
 mod act_readouts;
+mod act_report;
 #[path = "../bench/mod.rs"]
 mod bench;
 mod contrast_map_oracle;

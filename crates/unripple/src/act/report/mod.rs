@@ -62,9 +62,6 @@ pub struct Report {
     /// Level of the drive relative to its limits, and what decided it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub level: Option<Strength>,
-    /// Band of the drive, in hertz.
-    #[serde(skip)]
-    pub band: [f64; 2],
     /// Thickness of the sheet, in metres.
     #[serde(skip)]
     pub thickness: f64,
@@ -122,7 +119,6 @@ impl Report {
             linearity: judged.linearity,
             drive: measured.drive.clone(),
             level: None,
-            band: surface.emission.band,
             thickness: surface.sheet.thickness,
             lambda_min_m: measured.lambda_min_m,
             focal_radius_m: measured.focal_radius_m,

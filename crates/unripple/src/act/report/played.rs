@@ -1,6 +1,6 @@
 //! Part of a report on waveforms and strokes.
 
-use crate::field::{SilenceFigures, WaveformFigures};
+use crate::field::{SilenceFigures, TargetFigures, WaveformFigures};
 use serde::Serialize;
 
 /// A target that follows a waveform: what was prescribed, and how well it is followed.
@@ -36,27 +36,63 @@ pub struct Stroked {
     pub peak_range_db: [f64; 2],
 }
 
-/// Motion of each target and point of silence, a line each.
+/// Motion of each target and point of silence, a line each; `targets` are those of the waveforms, in their order, or the middle of
+/// the path of a stroke.
 pub(super) fn lines(
     waveforms: &[Followed],
     silent: &[SilenceFigures],
     stroke: Option<&Stroked>,
+    targets: &[TargetFigures],
 ) -> Vec<String> {
-    let mm = |at: &[f64; 2]| format!("({:.2}, {:.2}) mm", at[0] * 1e3, at[1] * 1e3);
-    let follow = |f: &Followed| {
-        let w = &f.figures;
+    let waveforms = waveforms.iter().enumerate().map(|(i, followed)| followed.line(targets.get(i)));
+    let still = |s: &SilenceFigures| format!("silence {}: {:.1} dB", place(&s.at_m), s.level_db);
+    let middle = stroke.and(targets.first()).map(middle);
+    let stroke = stroke.map(Stroked::line);
+    waveforms.chain(silent.iter().map(still)).chain(stroke).chain(middle).collect()
+}
+
+impl Followed {
+    /// How well the waveform was followed, and how its target was felt and stands out.
+    fn line(&self, target: Option<&TargetFigures>) -> String {
+        let w = &self.figures;
         let others = w.crosstalk_db.map_or(String::new(), |db| format!(", others {db:.1} dB"));
-        let (at, asked) = (mm(&w.at_m), f.asked_peak_m * 1e6);
-        format!("waveform {at}: {asked:.3} µm asked, gain {:.4}, error {:.1} dB{others}", w.gain, w.error_db)
-    };
-    let still = |s: &SilenceFigures| format!("silence {}: {:.1} dB", mm(&s.at_m), s.level_db);
-    let along = |s: &Stroked| {
-        let [low, high] = s.level_range_db;
-        let (ms, v) = (s.duration_s * 1e3, s.asked_m_s * 1e3);
+        let felt = target.and_then(|t| t.felt_level_db);
+        let felt = felt.map_or(String::new(), |db| format!("; felt {db:.1} dB above threshold"));
+        let elsewhere = target.and_then(|t| t.displacement_worst_spot);
+        let elsewhere = elsewhere.map_or(String::new(), |ratio| {
+            format!("; strongest elsewhere: {:.0} % of its largest displacement", 100.0 / ratio)
+        });
         format!(
-            "stroke: {} pulses in {ms:.1} ms, {v:.3} mm/s asked, level along the path {low:.2} to {high:.2} dB",
-            s.pulses
+            "waveform {}: {:.3} µm asked, gain {:.4}, error {:.1} dB{others}{felt}{elsewhere}",
+            place(&w.at_m),
+            self.asked_peak_m * 1e6,
+            w.gain,
+            w.error_db
         )
-    };
-    waveforms.iter().map(follow).chain(silent.iter().map(still)).chain(stroke.map(along)).collect()
+    }
+}
+
+impl Stroked {
+    /// How even the level was along the path.
+    fn line(&self) -> String {
+        let ([low, high], [least, most]) = (self.level_range_db, self.peak_range_db);
+        format!(
+            "stroke: {} pulses in {:.1} ms, {:.3} mm/s asked, level along the path {low:.2} to {high:.2} dB, largest velocity in \
+             passing {least:.2} to {most:.2} dB",
+            self.pulses,
+            self.duration_s * 1e3,
+            self.asked_m_s * 1e3
+        )
+    }
+}
+
+/// The focus in the middle of a stroke's path.
+fn middle(target: &TargetFigures) -> String {
+    let contrast = target.contrast.map_or(String::new(), |ratio| format!(", contrast {ratio:.2}"));
+    let spot = target.spot_diameter_m.map_or(String::new(), |m| format!(", spot diameter {:.3} mm", m * 1e3));
+    format!("pulse in the middle of the path, {}{contrast}{spot}", place(&target.at_m))
+}
+
+fn place(at: &[f64; 2]) -> String {
+    format!("({:.2}, {:.2}) mm", at[0] * 1e3, at[1] * 1e3)
 }

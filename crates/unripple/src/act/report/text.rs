@@ -2,15 +2,16 @@
 
 use super::{Report, played};
 use crate::Touch;
-use crate::act::Felt;
+use crate::act::{Felt, note};
 use crate::field::{TakenOn, TargetFigures, Threshold};
 use std::fmt::Write;
 
 impl Report {
-    /// The report as text for a terminal: one block of metrics per target, then drive and notes.
+    /// The report as text for a terminal: one block of metrics per target, or how waveforms were followed and a stroke kept its
+    /// level, then drive and notes.
     pub fn text(&self) -> String {
         let mut text = format!("{}{}\n", self.surface, self.how());
-        for target in &self.targets {
+        for target in self.foci() {
             let [x, y] = target.at_m;
             let many = if target.points > 1 { format!(", {} points", target.points) } else { String::new() };
             let _ = writeln!(
@@ -20,15 +21,14 @@ impl Report {
                 y * 1e3,
                 target.instant_s * 1e3
             );
-            for [name, velocity, displacement, felt] in rows(target) {
-                let _ = writeln!(text, "  {name:<22}{velocity:>16}{displacement:>18}{felt:>14}");
-            }
             if let Some(line) = self.elsewhere(target) {
                 let _ = writeln!(text, "  {line}");
             }
+            for [name, velocity, displacement, felt] in rows(target) {
+                let _ = writeln!(text, "  {name:<22}{velocity:>16}{displacement:>18}{felt:>14}");
+            }
         }
-        let played = played::lines(&self.waveforms, &self.silent, self.stroke.as_ref());
-        played.iter().for_each(|line| text.extend(["\n", line, "\n"]));
+        self.played().iter().for_each(|line| text.extend(["\n", line, "\n"]));
         for finger in &self.fingers {
             let _ = writeln!(text, "\n{}", finger_line(finger));
         }
@@ -48,11 +48,8 @@ impl Report {
     /// The report as Markdown, with links to its pictures.
     pub fn markdown(&self) -> String {
         let mut text = format!("# {}{}\n\n", self.surface, self.how());
-        for target in &self.targets {
-            self.target(target, &mut text);
-        }
-        let played = played::lines(&self.waveforms, &self.silent, self.stroke.as_ref());
-        played.iter().for_each(|line| text.extend([line, "\n\n"]));
+        self.foci().iter().for_each(|target| self.target(target, &mut text));
+        self.played().iter().for_each(|line| text.extend([line, "\n\n"]));
         for finger in &self.fingers {
             let _ = writeln!(text, "{}\n", finger_line(finger));
         }
@@ -84,6 +81,9 @@ impl Report {
         for file in self.files.iter().filter(|file| file.ends_with(".png")) {
             let _ = write!(text, "\n![{}]({file})\n", file.trim_end_matches(".png"));
         }
+        if self.foci().is_empty() {
+            return text;
+        }
         text += "\nContrast: the peak over the rms outside every focal disc at the same instant. Background contrast: the peak \
             over the rms there during the whole time evaluated. Worst spot: the peak over the largest magnitude there during \
             that time. As felt: displacement weighted by the threshold of touch, in dB above it; ratios in dB.\n";
@@ -103,14 +103,25 @@ impl Report {
         if target.points > 1 {
             let _ = writeln!(text, "{} points; levels are means over them.\n", target.points);
         }
+        if let Some(line) = self.elsewhere(target) {
+            let _ = writeln!(text, "{line}\n");
+        }
         *text += "| | velocity | displacement | as felt |\n|---|---:|---:|---:|\n";
         for [name, velocity, displacement, felt] in rows(target).into_iter().skip(1) {
             let _ = writeln!(text, "| {name} | {velocity} | {displacement} | {felt} |");
         }
         text.push('\n');
-        if let Some(line) = self.elsewhere(target) {
-            let _ = writeln!(text, "{line}\n");
-        }
+    }
+
+    /// The targets whose metrics are those of a focus: none where waveforms or a stroke were asked for.
+    fn foci(&self) -> &[TargetFigures] {
+        let played = self.stroke.is_some() || !self.waveforms.is_empty();
+        if played { &[] } else { &self.targets }
+    }
+
+    /// The lines on waveforms, silence and a stroke.
+    fn played(&self) -> Vec<String> {
+        played::lines(&self.waveforms, &self.silent, self.stroke.as_ref(), &self.targets)
     }
 
     fn how(&self) -> String {
@@ -139,27 +150,28 @@ impl Report {
         ))
     }
 
-    /// The line on sensations elsewhere than at the targets.
+    /// The line on sensations elsewhere than at the targets; none of a stroke, whose other pulses are elsewhere.
     fn felt_line(&self) -> Option<String> {
-        let outside = self.felt_outside_db?;
-        let [low, _] = self.band;
-        if low >= Threshold::MEASURED_TO_HZ {
+        let outside = self.felt_outside_db.filter(|_| self.stroke.is_none())?;
+        let level = match outside > 0.0 {
+            true => format!("up to {outside:.0} dB above"),
+            false => format!("at least {:.0} dB below", -outside),
+        };
+        let of = "felt outside the focal discs";
+        if self.notes.iter().any(|told| told.topic == note::FELT) {
             return Some(format!(
-                "what is felt is not known: the threshold of touch was measured up to {:.0} Hz, with vibration that lasts, and the band begins \
-                 at {low:.0} Hz; levels above threshold are a continuation, and short pulses may be felt in other ways",
-                Threshold::MEASURED_TO_HZ
+                "{of}: {level} the threshold of vibration that lasts, which does not hold here (see the note)"
             ));
         }
         let reached = self.targets.iter().any(|target| target.felt_level_db.is_some_and(|level| level > 0.0));
-        let what = if outside > 0.0 {
-            format!("up to {outside:.0} dB above threshold: it may be felt elsewhere than at the foci")
-        } else {
-            let but = if reached { " except at the foci" } else { ", not even at the foci" };
-            format!("at least {:.0} dB below threshold: nothing is felt{but}", -outside)
+        let what = match (outside > 0.0, reached) {
+            (true, _) => "it may be felt elsewhere than at the targets",
+            (false, true) => "nothing is felt except at the targets",
+            (false, false) => "nothing is felt, not even at the targets",
         };
         let persons = Threshold::BETWEEN_PERSONS_DB;
         Some(format!(
-            "felt outside the focal discs: {what} (thresholds differ between persons by about ±{persons} dB)"
+            "{of}: {level} threshold: {what} (thresholds differ between persons by about ±{persons} dB)"
         ))
     }
 
