@@ -32,7 +32,7 @@ pub use level::Level;
 pub use model::{accuracy, model};
 pub use note::{Note, nearby};
 pub use readouts::{CELLS, Readouts};
-pub use report::{Channel, Followed, Report, Stroked, unit};
+pub use report::{Channel, CoilHeat, Followed, Report, Stroked, unit};
 pub use send::Sent;
 pub use strength::{DecidedBy, Headroom, Strength};
 pub use window::{chosen_window, lasting, recommended_window};

@@ -1,9 +1,11 @@
 //! The report of a drive on a surface, in SI units.
 
+mod heat;
 mod played;
 mod text;
 mod unscaled;
 
+pub use heat::CoilHeat;
 pub use played::{Followed, Stroked};
 
 use super::{Felt, Judged, Note, Strength};
@@ -59,6 +61,9 @@ pub struct Report {
     pub linearity: Option<Linearity>,
     /// Metrics of the drive itself.
     pub drive: DriveFigures,
+    /// Mean heat in the coils; only if the surface has some.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coil_heat: Option<CoilHeat>,
     /// Level of the drive relative to its limits, and what decided it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub level: Option<Strength>,
@@ -117,6 +122,7 @@ impl Report {
             stroke: None,
             fingers: Vec::new(),
             linearity: judged.linearity,
+            coil_heat: CoilHeat::of(surface, drive, measured.drive.duration_s),
             drive: measured.drive.clone(),
             level: None,
             thickness: surface.sheet.thickness,

@@ -1,6 +1,6 @@
 //! Reports as text and as Markdown.
 
-use super::{Report, played};
+use super::{CoilHeat, Report, played};
 use crate::Touch;
 use crate::act::{Felt, note};
 use crate::field::{TakenOn, TargetFigures, Threshold};
@@ -183,14 +183,25 @@ impl Report {
     fn drive_line(&self) -> String {
         let unit = self.actuators.first().map_or("", |a| a.unit);
         let d = &self.drive;
+        let heat = self.coil_heat.map_or(String::new(), |heat| format!(", {}", heat_text(heat)));
         format!(
-            "drive: peak {}{unit}, rms {}{unit}, energy {:.4e} {unit}²s, {:.2} % of it above the band",
+            "drive: peak {}{unit}, rms {}{unit}, energy {:.4e} {unit}²s, {:.2} % of it above the band{heat}",
             prefixed(d.peak),
             prefixed(d.rms),
             d.energy,
             100.0 * d.share_above_band
         )
     }
+}
+
+/// Mean heat in the coils, in words.
+fn heat_text(heat: CoilHeat) -> String {
+    let most = if heat.at_most { "at most " } else { "" };
+    format!(
+        "{most}{}W of heat in the coils on average, {}W in the one that takes most",
+        prefixed(heat.total_w),
+        prefixed(heat.largest_w)
+    )
 }
 
 /// A number with the prefix of the unit that follows it.
