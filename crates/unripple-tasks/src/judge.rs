@@ -5,7 +5,7 @@ use unripple::act;
 use unripple::core::{Contact, Responses, Surface};
 use unripple::field::{Aim, Field};
 
-pub use unripple::act::{CELLS, Judged, Note, accuracy};
+pub use unripple::act::{CELLS, JUDGED_BANDS, Judged, Judging, Note, accuracy, judged_hz};
 
 /// A field longer than this, in seconds, takes long enough to measure that people should see it.
 const LONG: f64 = 0.2;
@@ -16,6 +16,37 @@ const LONG: f64 = 0.2;
 /// Those of [`act::model`].
 pub fn model(surface: &Surface, max_hz: Option<f64>, contacts: &[Contact]) -> Result<Responses, TaskError> {
     Ok(act::model(surface, max_hz, contacts)?)
+}
+
+/// Responses of a surface that a drive is evaluated on, all from modes up to the same frequency.
+pub struct Models {
+    /// Those without fingers on the surface.
+    pub free: Responses,
+    /// Those under the resting fingers, if there are any.
+    pub under: Option<Responses>,
+}
+
+/// The responses that a drive is evaluated on, and how far their modes go: up to `asked` (Hz), or by default as [`Judging::of`] says.
+/// `known` are the responses of the surface from the modes of its band, where they have been computed.
+///
+/// # Errors
+/// Those of [`act::model`].
+pub fn models(
+    surface: &Surface,
+    asked: Option<f64>,
+    contacts: &[Contact],
+    known: Option<&Responses>,
+) -> Result<(Models, Judging), TaskError> {
+    let solved = Judging::of(surface, asked, |hz| {
+        let free = match known.filter(|_| hz == surface.emission.band[1]) {
+            Some(known) => known.clone(),
+            None => act::model(surface, Some(hz), &[])?,
+        };
+        let touched = !contacts.is_empty();
+        let under = touched.then(|| act::model(surface, Some(hz), contacts)).transpose()?;
+        Ok(Models { free, under })
+    });
+    Ok(solved?)
 }
 
 /// Evaluates the field of a drive at the aims, which are places and instants. `period` (s) is that of a repeated drive. Traces end at

@@ -269,7 +269,8 @@ pub struct FocusOptions {
     /// Simulate the drive on this surface instead of the surface or library that it was computed for.
     #[arg(long, value_name = "SURFACE", help_heading = heading::SIMULATION)]
     pub on: Option<String>,
-    /// Simulate the drive with modes up to this frequency, in Hz; by default those of the band.
+    /// Simulate the drive with modes up to this frequency, in Hz; by default up to twice the top of the band (for waveforms three
+    /// times), at most 0.45 of the sample rate.
     #[arg(long, value_name = "HZ", allow_negative_numbers = true, help_heading = heading::SIMULATION)]
     pub judge_hz: Option<f64>,
     /// Write no pictures.
@@ -292,7 +293,8 @@ pub struct CompareOptions {
     /// Window T in ms; by default the one that `design` recommends.
     #[arg(long, value_name = "MS", allow_negative_numbers = true, help_heading = heading::TIME)]
     pub window_ms: Option<f64>,
-    /// Simulate drives with modes up to this frequency, in Hz; by default twice the top of the band.
+    /// Simulate drives with modes up to this frequency, in Hz; by default up to twice the top of the band, at most 0.45 of the
+    /// sample rate.
     #[arg(long, value_name = "HZ", allow_negative_numbers = true, help_heading = heading::SIMULATION)]
     pub judge_hz: Option<f64>,
     /// Write no pictures.
@@ -326,7 +328,8 @@ pub struct FieldOptions {
     /// Period of a repeated drive, in ms; results are then those of the last full period.
     #[arg(long, value_name = "MS", allow_negative_numbers = true, help_heading = heading::SIMULATION)]
     pub period_ms: Option<f64>,
-    /// Simulate the field with modes up to this frequency, in Hz; by default those of the band.
+    /// Simulate the field with modes up to this frequency, in Hz; by default up to twice the top of the band, at most 0.45 of the
+    /// sample rate.
     #[arg(long, value_name = "HZ", allow_negative_numbers = true, help_heading = heading::SIMULATION)]
     pub judge_hz: Option<f64>,
     /// Write no pictures.

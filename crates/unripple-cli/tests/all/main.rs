@@ -15,6 +15,7 @@ mod doubtful;
 mod elsewhere;
 mod export;
 mod fit;
+mod judged;
 mod level;
 mod library;
 mod main_job;

@@ -57,8 +57,9 @@ fn field_on_the_drive_gives_the_figures_of_focus() {
 fn figures_agree_with_an_independent_computation() {
     let scratch = Scratch::new("independent");
     let out = scratch.join("out");
-    let focus =
-        json(&["focus", "hudin-2012", "--at", "62,90", "--window-ms", "30", "--full-limit", "-o", &out]);
+    // On the modes of the band, as there.
+    let own = ["--judge-hz", "3000", "--full-limit", "-o", &out];
+    let focus = json(&[&["focus", "hudin-2012", "--at", "62,90", "--window-ms", "30"], &own[..]].concat());
     for (key, expected) in [
         ("peak_velocity_m_s", 171.672_134),
         ("peak_displacement_m", 0.014_285_589_9),
@@ -163,7 +164,7 @@ fn two_fingers_at_their_own_rates_keep_their_gains() {
 }
 
 #[test]
-fn shapes_and_other_plants_are_judged_too() {
+fn shapes_are_targets_too() {
     let scratch = Scratch::new("shapes");
     let out = scratch.join("out");
     let svg = scratch.file(
@@ -176,20 +177,6 @@ fn shapes_and_other_plants_are_judged_too() {
         assert!(number(&report, "/targets/0/points") > 20.0);
         assert!(number(&report, "/targets/0/contrast") > 3.0, "{report}");
     }
-    let wide = json(&[
-        "focus",
-        "hudin-2012",
-        "--at",
-        "62,90",
-        "--window-ms",
-        "30",
-        "--judge-hz",
-        "6000",
-        "-o",
-        &out,
-    ]);
-    assert!((number(&wide, "/targets/0/contrast") - 25.0).abs() < 2.0);
-    assert!(wide["judged_on"].as_str().unwrap().contains("6000"));
 }
 
 #[test]
@@ -249,7 +236,8 @@ fn a_drive_may_know_of_the_finger() {
     let out = scratch.join("out");
     let common =
         ["focus", "hudin-2012", "--at", "62,90", "--window-ms", "20", "--finger", "62,90", "-o", &out];
-    let common = [&common[..], &["--full-limit"]].concat();
+    // This is about the drive, and modes under a finger take long where there are many.
+    let common = [&common[..], &["--full-limit", "--judge-hz", "3000"]].concat();
     let peak = |report: &Value| number(report, "/targets/0/peak_velocity_m_s").abs();
     let unaware = json(&common);
     let aware = json(&[&common[..], &["--finger-aware"]].concat());

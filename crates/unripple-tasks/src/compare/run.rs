@@ -56,7 +56,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     progress.stage("responses");
     let known = judge::model(&surface, None, &[])?;
     let targets = targets(&ask.points, &ask.shapes, known.conditions().lambda_min)?;
-    let judged_to = ask.judge_hz.unwrap_or(2.0 * surface.emission.band[1]);
+    let judged_to = ask.judge_hz.unwrap_or_else(|| judge::judged_hz(&surface, judge::JUDGED_BANDS));
     let plant = judge::model(&surface, Some(judged_to), &[])?;
     let asked = ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
     let chosen = asked.is_none().then(|| chosen_window(&surface, &known));

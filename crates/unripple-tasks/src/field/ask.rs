@@ -44,7 +44,8 @@ pub struct Ask {
     pub fingers_m: Vec<Place>,
     /// Period of a repeated drive, in s: figures are then those of the last full period.
     pub period_s: Option<f64>,
-    /// Compute the field with modes up to this frequency, in Hz; by default those of the band.
+    /// Compute the field with modes up to this frequency, in Hz; by default up to twice the top of the band, at most 0.45 of the
+    /// sample rate.
     pub judge_hz: Option<f64>,
     /// Folder for the report, snapshot, map of peaks and animation; by default no file is written.
     pub output: Option<PathBuf>,

@@ -2,7 +2,7 @@
 
 use super::{Ask, DriveAsk, Made, Report, write};
 use crate::figures::{self, MOST_FRAMES};
-use crate::judge::{self, CELLS};
+use crate::judge::{self, CELLS, Models};
 use crate::numbers::above_zero;
 use crate::{Progress, TaskError, fingers, folder, go_on, point, source};
 use unripple::act;
@@ -47,17 +47,21 @@ fn measured(
     let unscaled = source.without_scale().is_some();
     go_on(progress)?;
     progress.stage("responses");
-    let (surface, responses, stored) = match source.stored {
-        Some(_) => source.respond(&places, ask.between)?,
+    let (surface, (models, judging), stored) = match source.stored {
+        Some(_) => {
+            let (surface, free, stored) = source.respond(&places, ask.between)?;
+            (surface, (Models { free, under: None }, None), stored)
+        }
         None => {
-            let responses = judge::model(&source.surface, ask.judge_hz, &contacts)?;
-            (source.surface, responses, None)
+            let (models, judging) = judge::models(&source.surface, ask.judge_hz, &contacts, None)?;
+            (source.surface, (models, Some(judging)), None)
         }
     };
+    let responses = models.under.as_ref().unwrap_or(&models.free);
     let period = ask.period_s.map(|period| above_zero(period, "period_s", "s")).transpose()?;
     go_on(progress)?;
     progress.stage("field");
-    let field = Field::new(&responses, &drive, CELLS).map_err(TaskError::input)?;
+    let field = Field::new(responses, &drive, CELLS).map_err(TaskError::input)?;
     if animated {
         figures::room(&field, ask.frames, ask.movie_s)?;
     }
@@ -77,13 +81,12 @@ fn measured(
         report.notes.extend(notes);
         report.judged_on = Some(told);
     }
-    if !contacts.is_empty() {
-        let without = judge::model(&surface, ask.judge_hz, &[])?;
-        report.fingers = act::felt(&contacts, &surface, [&responses, &without], &drive, until)?;
-    }
+    judging.iter().for_each(|judging| judging.tell(&surface, &mut report));
+    report.fingers = act::felt(&contacts, &surface, [responses, &models.free], &drive, until)?;
     if unscaled {
         report = report.without_scale();
     }
+    let responses = models.under.unwrap_or(models.free);
     Ok((Made { report, drive, judged, aims, surface, responses, scaled: !unscaled }, movie))
 }
 

@@ -67,26 +67,26 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     go_on(progress)?;
 
     let judged_surface = plant.as_ref().unwrap_or(&surface);
-    let other = plant.is_some() || ask.judge_hz.is_some();
-    let free = other.then(|| judge::model(judged_surface, ask.judge_hz, &[])).transpose()?;
-    let free = free.as_ref().unwrap_or(&responses);
     let contacts = fingers::contacts(&ask.fingers_m, "fingers_m", judged_surface)?;
-    let touched = !contacts.is_empty();
-    let under = touched.then(|| judge::model(judged_surface, ask.judge_hz, &contacts)).transpose()?;
-    let judging = under.as_ref().unwrap_or(free);
+    // A library is evaluated on itself.
+    let modelled = plant.is_some() || stored.is_none();
+    let known = plant.is_none().then_some(&responses);
+    let solved =
+        modelled.then(|| judge::models(judged_surface, ask.judge_hz, &contacts, known)).transpose()?;
+    let free = solved.as_ref().map_or(&responses, |(models, _)| &models.free);
+    let under = solved.as_ref().and_then(|(models, _)| models.under.as_ref()).unwrap_or(free);
     let level = ask.level.level_on(unscaled.as_deref())?;
-    let act =
-        Act { surface: judged_surface, responses: judging, targets: &targets, options: &settings, level };
+    let act = Act { surface: judged_surface, responses: under, targets: &targets, options: &settings, level };
     let on = act.readouts();
     let sent = act.send(&focuser, focused, &on)?;
     let judged = judge::seen(sent.until, progress, || act.judge(&sent, &on))?;
     let (focused, drive) = (sent.focused, sent.drive);
     let mut report = Report::of_focus(&surface, &focused, settings.window, &drive, &judged);
     report.level = Some(sent.strength);
-    report.fingers = act::felt(&contacts, judged_surface, [judging, free], &drive, judged.until)?;
+    report.fingers = act::felt(&contacts, judged_surface, [under, free], &drive, judged.until)?;
     report.notes.extend(chosen.map(|chosen| Note { topic: "window", text: chosen.text() }));
     report.notes.extend(restored);
-    report.judged_on = other.then(|| judged_on(judged_surface, ask.judge_hz));
+    solved.iter().for_each(|(_, judging)| judging.tell(judged_surface, &mut report));
     if let Some((told, notes)) = stored {
         report.notes.extend(notes.into_iter().chain(act::nearby(&focused, &targets)));
         report.judged_on.get_or_insert(told);
@@ -159,10 +159,4 @@ fn aware(ask: &Ask, surface: &Surface) -> Result<Aware, TaskError> {
     }
     let more = fingers::contacts(&ask.bear_fingers_m, "bear_fingers_m", surface)?;
     Ok(Aware::of(surface, known, ask.bear_tension, &more)?)
-}
-
-/// Names what the drive was evaluated on, where that is not what it was computed for.
-fn judged_on(surface: &Surface, hz: Option<f64>) -> String {
-    let modes = hz.map_or(String::new(), |hz| format!(", modes up to {hz} Hz"));
-    format!("{}{modes}", surface.name)
 }

@@ -45,7 +45,7 @@ pub(crate) struct Common<'a> {
     pub out: Option<(OutputDir, Record)>,
     /// Name of the field that needs a surface, for the error if a library is given.
     pub needs: &'static str,
-    /// Multiples of the band up to which modes are planned with, and evaluated on by default.
+    /// Multiples of the band up to which modes are planned with, and evaluated on by default; at most 0.45 of the sample rate.
     pub bands: [f64; 2],
 }
 
@@ -67,8 +67,8 @@ pub(crate) fn judge<T>(
     go_on(progress)?;
     progress.stage("responses");
     let [planned, judged] = common.bands;
-    let model = judge::model(&surface, Some(planned * surface.emission.band[1]), &[])?;
-    let judge_hz = common.judge_hz.unwrap_or(judged * plant.emission.band[1]);
+    let model = judge::model(&surface, Some(judge::judged_hz(&surface, planned)), &[])?;
+    let judge_hz = common.judge_hz.unwrap_or_else(|| judge::judged_hz(plant, judged));
     let judging = judge::model(plant, Some(judge_hz), &[])?;
     go_on(progress)?;
     progress.stage("drive");

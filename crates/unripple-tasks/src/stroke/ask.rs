@@ -22,7 +22,8 @@ pub struct Ask {
     pub window_s: Option<f64>,
     /// Evaluate the drive on this surface instead of the one that it was computed for.
     pub on: Option<SurfaceAsk>,
-    /// Evaluate the drive with modes up to this frequency, in Hz; by default up to twice the top of the band.
+    /// Evaluate the drive with modes up to this frequency, in Hz; by default up to twice the top of the band, at most
+    /// 0.45 of the sample rate.
     pub judge_hz: Option<f64>,
     /// Folder for drive.wav, report.json, report.md and figures. An existing folder is replaced only if it
     /// holds nothing but the unchanged files of an earlier run.

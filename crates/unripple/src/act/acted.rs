@@ -1,7 +1,7 @@
 //! The result of an act: the steps that compute it, and its report.
 
 use super::{Act, ActError, Judged, Note, Readouts, Report, Sent, Strength, carries, judge, loss};
-use crate::core::{Drive, Surface};
+use crate::core::{Drive, Responses, Surface};
 use crate::focus::{Focused, Focuser, Options};
 
 /// Result of an [`Act`]: the drive, its level and its evaluation.
@@ -37,8 +37,17 @@ impl<'a> Act<'a> {
     /// # Errors
     /// Those of [`Act::run`].
     pub fn run_on(&self, on: &Readouts<'_>) -> Result<Acted, ActError> {
-        carries(self.responses.conditions(), self.options.window)?;
-        let focuser = Focuser::new(self.responses, self.options)?;
+        self.run_from(self.responses, on)
+    }
+
+    /// As [`Act::run_on`], with the drive computed from `known`, other responses of the surface than the act's own, on which
+    /// it is brought to its level and evaluated.
+    ///
+    /// # Errors
+    /// Those of [`Act::run`].
+    pub fn run_from(&self, known: &Responses, on: &Readouts<'_>) -> Result<Acted, ActError> {
+        carries(known.conditions(), self.options.window)?;
+        let focuser = Focuser::new(known, self.options)?;
         let sent = self.send(&focuser, focuser.focus(self.targets)?, on)?;
         let judged = self.judge(&sent, on)?;
         Ok(Acted { focused: sent.focused, drive: sent.drive, strength: sent.strength, judged })
@@ -63,7 +72,10 @@ impl<'a> Act<'a> {
 }
 
 impl Acted {
-    /// The report of `unripple focus` on `surface` with these options, without names of files.
+    /// The report of `unripple focus` on `surface` with these options, without names of files; [`Judging::tell`] adds the modes
+    /// that it was evaluated on.
+    ///
+    /// [`Judging::tell`]: super::Judging::tell
     pub fn report(&self, surface: &Surface, options: &Options) -> Report {
         let report = Report::of_focus(surface, &self.focused, options.window, &self.drive, &self.judged);
         Report { level: Some(self.strength.clone()), ..report }

@@ -2,7 +2,9 @@
 //! what it does to the surface, and reports.
 //!
 //! [`Act`] does what `unripple focus` does, without its files. Every program that shows metrics of a focus uses it, so
-//! that they are the same everywhere.
+//! that they are the same everywhere. A drive looks better on the modes that it was computed from than on a sheet, which has
+//! more: [`Judging`] says up to which frequency modes count where a drive is evaluated, and [`Act::run_from`] evaluates it
+//! on other responses than those that it is computed from.
 
 mod acted;
 mod aimed;
@@ -12,6 +14,7 @@ mod carries;
 mod error;
 mod fingers;
 mod judge;
+mod judging;
 mod level;
 mod loss;
 mod model;
@@ -28,6 +31,7 @@ pub use carries::carries;
 pub use error::{ActError, LevelKind};
 pub use fingers::{Felt, felt};
 pub use judge::{Judged, judge, known};
+pub use judging::{JUDGED_BANDS, Judging, judged_hz};
 pub use level::Level;
 pub use model::{accuracy, model};
 pub use note::{Note, nearby};

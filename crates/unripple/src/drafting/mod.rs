@@ -7,7 +7,7 @@ mod spot;
 pub use figures::{Figure, figures};
 pub use spot::Spot;
 
-use crate::act::{Act, ActError, Acted, Level, accuracy};
+use crate::act::{Act, ActError, Acted, Judging, Level, accuracy, model};
 use crate::contrast_map::{ContrastMap, MapOptions, contrast_map};
 use crate::core::{Point, Responses, Surface};
 use crate::focus::{Options, Target};
@@ -42,6 +42,7 @@ pub struct Draft {
     design: Design,
     modes: Result<Arc<Modes>, PhysicsError>,
     responses: OnceLock<Result<Arc<Responses>, ActError>>,
+    judged: OnceLock<Result<(Arc<Responses>, Judging), ActError>>,
 }
 
 impl Draft {
@@ -63,7 +64,8 @@ impl Draft {
             Ok(modes) => design_on(surface, modes)?,
             Err(error) => design_by_law(surface, error.to_string())?,
         };
-        Ok(Self { surface: surface.clone(), design, modes, responses: OnceLock::new() })
+        let (responses, judged) = (OnceLock::new(), OnceLock::new());
+        Ok(Self { surface: surface.clone(), design, modes, responses, judged })
     }
 
     /// The surface of this draft.
@@ -94,8 +96,26 @@ impl Draft {
         found.as_ref().map_err(Clone::clone)
     }
 
-    /// Time reversal at one point (m), evaluated at its focal instant only: the contrast of `unripple focus` there,
-    /// with a window of `window` seconds or the recommended one.
+    /// The responses that drives on the surface are evaluated on by `unripple focus`, and how far their modes go
+    /// ([`Judging::of`]). The first call computes them; later calls return the same ones.
+    ///
+    /// # Errors
+    /// Those of [`model`] and [`Draft::responses`].
+    pub fn judged(&self) -> Result<&(Arc<Responses>, Judging), ActError> {
+        let found = self.judged.get_or_init(|| {
+            Judging::of(&self.surface, None, |hz| {
+                if hz > self.surface.emission.band[1] {
+                    return Ok(Arc::new(model(&self.surface, Some(hz), &[])?));
+                }
+                self.responses().cloned()
+            })
+        });
+        found.as_ref().map_err(Clone::clone)
+    }
+
+    /// Time reversal at one point (m), evaluated at its focal instant only and on the modes of the band, as a map is: the
+    /// contrast of `unripple focus` there with `--judge-hz` at the top of the band. The window has `window` seconds, or is
+    /// the recommended one.
     ///
     /// # Errors
     /// Those of [`Draft::responses`], [`focus`](crate::focus::focus()) and [`Field::snapshots`](crate::field::Field::snapshots).
@@ -107,11 +127,12 @@ impl Draft {
     /// recommended one.
     ///
     /// # Errors
-    /// Those of [`Draft::responses`] and [`Act::run`].
+    /// Those of [`Draft::responses`], [`Draft::judged`] and [`Act::run_from`].
     pub fn focus(&self, at: Point, window: Option<f64>) -> Result<Acted, ActError> {
         let (targets, options) = (&[Target::at(at)], &self.options(window));
-        let (surface, responses) = (&self.surface, self.responses()?);
-        Act { surface, responses, targets, options, level: Level::default() }.run()
+        let (known, (responses, _)) = (self.responses()?, self.judged()?);
+        let act = Act { surface: &self.surface, responses, targets, options, level: Level::default() };
+        act.run_from(known, &act.readouts())
     }
 
     fn options(&self, window: Option<f64>) -> Options {

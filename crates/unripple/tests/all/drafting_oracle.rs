@@ -75,6 +75,27 @@ fn a_spot_has_the_contrast_of_the_act() {
 }
 
 #[test]
+fn a_focus_is_evaluated_on_modes_up_to_twice_the_band() {
+    let mut film = papers_surface();
+    film.emission.band[1] = 1000.0;
+    let at = Point::from_mm(47.0, 60.0);
+    let draft = Draft::of(&film).unwrap();
+    let found = draft.focus(at, Some(0.02)).unwrap();
+    assert_eq!(draft.judged().unwrap().1.hz, 2000.0);
+    let [known, wide] = [None, Some(2000.0)].map(|hz| model(&film, hz, &[]).unwrap());
+    let options = Options { window: 0.02, limit: film.emission.limit, ..Options::default() };
+    let (surface, targets, level) = (&film, &[Target::at(at)], Level::default());
+    let act = Act { surface, responses: &wide, targets, options: &options, level };
+    let alone = act.run_from(&known, &act.readouts()).unwrap();
+    assert_eq!(found.drive, alone.drive);
+    assert_eq!(found.judged.measured.targets, alone.judged.measured.targets);
+    // On its own modes the drive is the same but for its level, and other figures come of it.
+    let own = Act { responses: &known, ..act }.run().unwrap();
+    assert_eq!(own.focused.drive, found.focused.drive);
+    assert_ne!(own.judged.measured.targets, found.judged.measured.targets);
+}
+
+#[test]
 fn modes_are_solved_for_once() {
     let draft = Draft::of(&disc()).unwrap();
     let first = Arc::clone(draft.responses().unwrap());
