@@ -49,7 +49,7 @@ fn first_mode(surface: &Surface) -> Result<f64, TaskError> {
 
 fn waves(surface: &Surface, design: &Design) -> Vec<Compared> {
     let medium = Medium::of(&surface.sheet);
-    let wavelength = design.table1.first().map_or(0.0, |touch| touch.wavelength_m);
+    let wavelength = design.paper.as_ref().and_then(|paper| paper.table1.first()).map_or(0.0, |touch| touch.wavelength_m);
     let hz = medium.omega(TAU / wavelength) / TAU;
     let slack = Medium { tension: PRINTED_TENSION, ..medium };
     vec![
@@ -72,7 +72,7 @@ fn waves(surface: &Surface, design: &Design) -> Vec<Compared> {
         Compared::new(
             format!("phase velocity at {:.0} mm", wavelength * 1e3),
             "43 m/s",
-            format!("{:.2} m/s", design.celerity_at_15mm_m_s),
+            format!("{:.2} m/s", design.paper.as_ref().map_or(0.0, |paper| paper.celerity_at_15mm_m_s)),
             format!("agrees; at the top of the band it is {:.2} m/s", design.celerity_max_m_s),
         ),
         Compared::new(
@@ -107,10 +107,10 @@ fn modes(surface: &Surface, design: &Design, [vacuum, one, both]: [f64; 3]) -> V
         Compared::new(
             "window T",
             "30 ms",
-            format!("{:.1} ms", design.window_paper_s * 1e3),
+            format!("{:.1} ms", design.paper.as_ref().map_or(0.0, |paper| paper.window_s) * 1e3),
             format!(
                 "the paper's formula with its c_min gives {:.1} ms, rounded down there; nine tenths of the largest contrast take {:.1} ms",
-                design.window_paper_s * 1e3,
+                design.paper.as_ref().map_or(0.0, |paper| paper.window_s) * 1e3,
                 design.window_recommended_s * 1e3
             ),
         ),
@@ -126,8 +126,8 @@ fn modes(surface: &Surface, design: &Design, [vacuum, one, both]: [f64; 3]) -> V
 /// Every error of the paper in a line.
 fn slips(design: &Design) -> Vec<Vec<String>> {
     let headings = row(["slip of the paper", "printed", "what holds"]);
-    let notes =
-        design.notes.iter().map(|note| vec![note.topic.clone(), note.paper.clone(), note.here.clone()]);
+    let remarks = design.paper.iter().flat_map(|paper| &paper.remarks);
+    let notes = remarks.map(|found| vec![found.topic.clone(), found.printed.clone(), found.remark.clone()]);
     let foci = row([
         "names of the foci",
         "D and E in the caption of Fig. 4, E and F in the text",

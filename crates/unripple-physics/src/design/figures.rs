@@ -1,16 +1,15 @@
 //! All figures of a design, in SI units.
 
 use super::ground::Ground;
-use super::paper::WAVELENGTH;
-use super::tradeoffs::{by_band, by_noise, by_rate, by_window};
-use super::{ByBand, ByNoise, ByRate, ByWindow, Deformation, Note, Touch, Wave, closed, table1};
+use super::tradeoffs::{actuator_counts, by_band, by_noise, by_rate, by_window};
+use super::{ByBand, ByNoise, ByRate, ByWindow, Deformation, Note, PaperFigures, Touch, Wave, closed};
 use super::{deformation::deformation, touch::own_touches, waves::waves};
 use std::f64::consts::TAU;
 
 /// Rows of the dispersion table, evenly spaced in frequency. Doubled, it has twice the rows.
 const WAVES: usize = 12;
 
-/// The design figures of a surface, which `unripple design` prints, in SI units. "The paper" is Hudin et al. (2012).
+/// The design figures of a surface, which `unripple design` prints, in SI units.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Design {
     /// Name of the surface, for people.
@@ -23,8 +22,6 @@ pub struct Design {
     pub celerity_min_m_s: f64,
     /// Phase velocity at the top of the band, in m/s.
     pub celerity_max_m_s: f64,
-    /// Phase velocity at a wavelength of 15 mm, in m/s.
-    pub celerity_at_15mm_m_s: f64,
     /// Shortest wavelength of the band, in metres.
     pub lambda_min_m: f64,
     /// Coincidence frequency, above which waves are faster than sound in air and radiate, in Hz; `None` if there is none.
@@ -45,8 +42,6 @@ pub struct Design {
     pub heisenberg_time_top_s: f64,
     /// Decay time of the amplitude, averaged over modes, in seconds.
     pub decay_time_s: f64,
-    /// Window by the paper's formula (2S k_max + P)/(2 N c_min) with k_max = 2π/15 mm, in seconds.
-    pub window_paper_s: f64,
     /// Recommended window: the shortest that reaches nine tenths of the largest contrast ([`Windows`](super::Windows)), in seconds.
     pub window_recommended_s: f64,
     /// Why this window is recommended, in words.
@@ -59,16 +54,15 @@ pub struct Design {
     pub contrast_plain: f64,
     /// Predicted contrast as in `contrast_predicted`, but at the window of the largest contrast.
     pub contrast_endless: f64,
-    /// Predicted contrast against window and number of actuators.
+    /// Numbers of actuators that are compared, ascending and without repetition: 1, N/4, N/2 (both rounded up), N, 2N and 4N, with N the
+    /// surface's own number.
+    pub actuator_counts: Vec<usize>,
+    /// Predicted contrast against window, from a quarter of the recommended one to four times that, and number of actuators.
     pub contrast_by_window: Vec<ByWindow>,
     /// Predicted contrast against bandwidth, for the surface's number of actuators and the recommended window.
     pub contrast_by_band: Vec<ByBand>,
     /// Predicted contrast against noise, for the surface's number of actuators and the recommended window.
     pub contrast_by_noise: Vec<ByNoise>,
-    /// The decay time T/N that section 3.2 of the paper recommends, in seconds.
-    pub decay_time_paper_s: f64,
-    /// Predicted contrast of a single focus with the decay time `decay_time_paper_s`.
-    pub contrast_at_papers_decay: f64,
     /// Predicted contrast against rate of repetition, for the surface's number of actuators and the recommended window.
     pub contrast_by_rate: Vec<ByRate>,
     /// Full width at half maximum of a focus in space, in metres.
@@ -79,12 +73,12 @@ pub struct Design {
     pub pulse_duration_s: f64,
     /// Bending, strain and the limits of linear theory.
     pub deformation: Deformation,
-    /// Power to move a finger by 10 µm, for the strips of the paper's table 1.
-    pub table1: Vec<Touch>,
-    /// Power to move a finger by 10 µm, for a strip of this sheet at a wavelength of 15 mm and at its shortest.
+    /// Power to move a finger by 10 µm, for a strip of this sheet at its shortest wavelength and at twice that.
     pub touch: Vec<Touch>,
-    /// Where numbers of the paper contradict each other or these figures.
+    /// How far these figures reach, and what they leave out on this surface.
     pub notes: Vec<Note>,
+    /// What the paper (Hudin et al. 2012) says about this surface; `None` for every surface but its film.
+    pub paper: Option<PaperFigures>,
 }
 
 impl Design {
@@ -94,21 +88,20 @@ impl Design {
         format!("{ms} ms, {}", self.window_recommended_why)
     }
 
-    /// All figures except the notes, which comment on the others.
+    /// All figures except the notes and those of the paper, which comment on the others.
     pub(super) fn on(ground: &Ground) -> Self {
         let Ground { surface, medium, cavity, actuators: n, window, .. } = ground;
         let (n, chosen, window) = (*n, window, window.seconds);
         let lambda_min = TAU / ground.k_top;
         let [low, top] = surface.emission.band;
-        let paper_decay = window / n;
         let contrast = cavity.contrast(n, window);
+        let counts = actuator_counts(surface.actuators.len());
         Self {
             surface: surface.name.clone(),
             actuators: surface.actuators.len(),
             band_hz: [low, top],
             celerity_min_m_s: ground.celerity_min(),
             celerity_max_m_s: medium.phase_celerity(ground.k_top),
-            celerity_at_15mm_m_s: medium.phase_celerity(TAU / WAVELENGTH),
             lambda_min_m: lambda_min,
             coincidence_hz: medium.coincidence_hz(),
             dispersion: waves(surface, WAVES),
@@ -119,26 +112,24 @@ impl Design {
             heisenberg_time_s: cavity.modes() / (top - low),
             heisenberg_time_top_s: ground.density_at_top(),
             decay_time_s: cavity.decay_time(),
-            window_paper_s: ground.window_paper(),
             window_recommended_s: window,
             window_recommended_why: chosen.why.clone(),
             window_exponent: ground.exponent(),
             contrast_predicted: contrast,
             contrast_plain: closed::contrast(n, top - low, cavity.decay_time(), window, cavity.modes()),
             contrast_endless: contrast * chosen.largest / chosen.contrast,
-            contrast_by_window: by_window(cavity),
+            contrast_by_window: by_window(cavity, window, &counts),
+            actuator_counts: counts,
             contrast_by_band: by_band(surface, ground.scale, n, window),
             contrast_by_noise: by_noise(cavity, n, window),
-            decay_time_paper_s: paper_decay,
-            contrast_at_papers_decay: cavity.clone().with_decay_time(paper_decay).contrast(n, window),
-            contrast_by_rate: by_rate(cavity, n, window, paper_decay),
+            contrast_by_rate: by_rate(cavity, n, window),
             spot_diameter_m: closed::spot_diameter(lambda_min),
             spot_diameter_one_frequency_m: closed::spot_of_one_frequency(lambda_min),
             pulse_duration_s: closed::pulse_duration(top - low, cavity.growth()),
             deformation: deformation(surface),
-            table1: table1(),
             touch: own_touches(surface, lambda_min),
             notes: Vec::new(),
+            paper: None,
         }
     }
 }

@@ -31,6 +31,9 @@ pub(super) struct Ground<'a> {
     pub actuators: f64,
     /// The recommended window.
     pub window: Recommended,
+    /// Contrast with that window from the modes coupled to all that is attached to the sheet; `None` where the window is chosen by
+    /// statistics.
+    pub loaded_contrast: Option<f64>,
 }
 
 impl<'a> Ground<'a> {
@@ -58,6 +61,8 @@ impl<'a> Ground<'a> {
         let modes = scale * by_law.modes();
         let cavity = by_law.counted(modes);
         let actuators = surface.actuators.len() as f64;
+        let windows = windows();
+        let window = windows.recommended();
         Ok(Self {
             surface,
             medium,
@@ -66,7 +71,8 @@ impl<'a> Ground<'a> {
             first_mode_hz,
             k_top: medium.wavenumber(TAU * top),
             actuators,
-            window: windows().recommended(),
+            loaded_contrast: windows.is_modal().then_some(window.contrast).filter(|c| c.is_finite()),
+            window,
             cavity,
         })
     }

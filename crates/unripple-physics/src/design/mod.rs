@@ -2,18 +2,22 @@
 //! finger.
 //!
 //! "The paper" is C. Hudin, J. Lozada, M. Wiertlewski and V. Hayward, *Tradeoffs in the Application of Time-Reversed Acoustics to Tactile
-//! Stimulation*, EuroHaptics 2012, whose figures are compared with these.
+//! Stimulation*, EuroHaptics 2012, whose numbers about its own film are compared with these.
 
 mod cavity;
 pub mod closed;
 mod deformation;
+mod digits;
 mod figures;
 mod ground;
+mod left_out;
 mod linear_level;
 mod linearity;
 mod note;
 mod notes;
 mod paper;
+mod printed;
+mod remarks;
 mod strip;
 mod text;
 mod touch;
@@ -28,9 +32,10 @@ pub use linear_level::{LinearBound, LinearLevel};
 pub use linearity::{Linearity, linearity};
 pub use note::Note;
 pub use paper::{film_strip, glass_strip, papers_surface};
+pub use printed::{Nature, PaperFigures, Remark};
 pub use strip::{Scattering, Strip, finger_impedance};
 pub use touch::{Touch, table1};
-pub use tradeoffs::{ACTUATORS, ByBand, ByNoise, ByRate, ByWindow, WINDOWS};
+pub use tradeoffs::{ByBand, ByNoise, ByRate, ByWindow};
 pub use waves::Wave;
 pub use window::{Recommended, Windows, milliseconds};
 
@@ -46,7 +51,8 @@ use unripple_core::Surface;
 /// ```
 /// let design = unripple_physics::design(&unripple_physics::design::papers_surface())?;
 /// assert!((design.celerity_max_m_s - 43.65).abs() < 0.01);
-/// assert!((design.window_paper_s - 0.0360).abs() < 1e-4);
+/// // The window by the formula of the paper, on its own film.
+/// assert!(design.paper.as_ref().is_some_and(|paper| (paper.window_s - 0.0360).abs() < 1e-4));
 /// println!("{design}");
 /// # Ok::<(), unripple_physics::PhysicsError>(())
 /// ```
@@ -74,6 +80,7 @@ pub fn design_by_law(surface: &Surface, reason: impl Into<String>) -> Result<Des
 
 fn on(ground: &ground::Ground<'_>) -> Result<Design, PhysicsError> {
     let mut design = Design::on(ground);
-    design.notes = notes::notes(ground.surface, &design);
+    design.notes = notes::notes(ground, &design);
+    design.paper = paper::is_papers_film(ground.surface).then(|| remarks::paper_figures(ground, &design));
     Ok(design)
 }

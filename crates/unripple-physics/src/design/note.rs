@@ -1,12 +1,10 @@
-//! An error in the paper (Hudin et al. 2012), beside the right value.
+//! A note on the figures of a design.
 
-/// An error in the paper (Hudin et al. 2012), and the right value.
+/// A statement on what the figures of a design mean on this surface, or leave out.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Note {
-    /// What the error concerns.
+    /// What the note concerns.
     pub topic: String,
-    /// The statement of the paper.
-    pub paper: String,
-    /// The right value, for this surface.
-    pub here: String,
+    /// The statement, in words.
+    pub text: String,
 }

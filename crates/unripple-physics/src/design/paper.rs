@@ -5,6 +5,9 @@ use unripple_core::{
     Actuator, ActuatorKind, Air, Decay, Emission, Finger, Outline, Point, Shape, Sheet, Surface, Uneven,
 };
 
+/// Relative difference up to which two dimensions or constants are the same: far above rounding, far below any change made on purpose.
+const SAME: f64 = 1e-6;
+
 /// Wavelength for which the paper's table 1 and window are computed, in metres. Doubled, celerities of the
 /// table would differ from those printed.
 pub(super) const WAVELENGTH: f64 = 15e-3;
@@ -59,6 +62,27 @@ pub fn papers_surface() -> Surface {
         finger: Finger::default(),
         actuators,
     }
+}
+
+/// Whether a surface is the paper's film in its frame with eight actuators, under any tension and with any losses: the only one
+/// that the paper's numbers are about.
+pub(super) fn is_papers_film(surface: &Surface) -> bool {
+    let own = papers_surface();
+    let same = |a: f64, b: f64| (a / b - 1.0).abs() < SAME;
+    let ((width, height), (own_width, own_height)) = (surface.outline.extent(), own.outline.extent());
+    let (sheet, film) = (&surface.sheet, &own.sheet);
+    matches!(surface.outline.shape, Shape::Rectangle { .. })
+        && same(width, own_width)
+        && same(height, own_height)
+        && surface.outline.edges == own.outline.edges
+        && surface.outline.holes.is_empty()
+        && same(sheet.young, film.young)
+        && same(sheet.density, film.density)
+        && same(sheet.poisson, film.poisson)
+        && same(sheet.thickness, film.thickness)
+        && sheet.tension > 0.0
+        && sheet.uneven.is_nothing()
+        && surface.actuators.len() == own.actuators.len()
 }
 
 /// The glass strip of the paper's table 1: 69 GPa, 2300 kg/m³, 1 mm thick, 10 mm wide, without tension.

@@ -1,6 +1,7 @@
 //! The design figures as text for people.
 
-use super::{ACTUATORS, Design};
+use super::digits::rounded;
+use super::{Design, PaperFigures, Touch, milliseconds};
 use std::fmt::{Display, Formatter, Result};
 
 impl Display for Design {
@@ -17,7 +18,8 @@ impl Display for Design {
         repetition(self, f)?;
         deformation(self, f)?;
         touch(self, f)?;
-        notes(self, f)
+        notes(self, f)?;
+        self.paper.as_ref().map_or(Ok(()), |paper| remarks(paper, f))
     }
 }
 
@@ -34,7 +36,9 @@ fn waves(d: &Design, f: &mut Formatter<'_>) -> Result {
     section(f, "Waves")?;
     let (low, top) = (d.celerity_min_m_s, d.celerity_max_m_s);
     line(f, "phase velocity, bottom to top", &format!("{low:.2} to {top:.2} m/s"))?;
-    line(f, "at a wavelength of 15 mm", &format!("{:.2} m/s", d.celerity_at_15mm_m_s))?;
+    if let Some(paper) = &d.paper {
+        line(f, "at a wavelength of 15 mm", &format!("{:.2} m/s", paper.celerity_at_15mm_m_s))?;
+    }
     line(f, "shortest wavelength", &format!("{:.2} mm", d.lambda_min_m * 1e3))?;
     if let Some(hz) = d.coincidence_hz {
         line(f, "coincidence with sound in air", &format!("{hz:.0} Hz"))?;
@@ -81,7 +85,9 @@ fn modes(d: &Design, f: &mut Formatter<'_>) -> Result {
 fn contrast(d: &Design, f: &mut Formatter<'_>) -> Result {
     section(f, "Window and contrast")?;
     line(f, "window recommended", &d.window_text())?;
-    line(f, "window by the paper's formula", &format!("{:.1} ms", d.window_paper_s * 1e3))?;
+    if let Some(paper) = &d.paper {
+        line(f, "window by the paper's formula", &format!("{:.1} ms", paper.window_s * 1e3))?;
+    }
     let (here, endless) = (d.contrast_predicted, d.contrast_endless);
     line(
         f,
@@ -89,10 +95,10 @@ fn contrast(d: &Design, f: &mut Formatter<'_>) -> Result {
         &format!("{here:.1} with it, at the best window {endless:.1}; plain form {:.1}", d.contrast_plain),
     )?;
     write!(f, "  {:>8}", "T ms \\ N")?;
-    ACTUATORS.iter().try_for_each(|n| write!(f, " {n:>7}"))?;
+    d.actuator_counts.iter().try_for_each(|n| write!(f, " {n:>7}"))?;
     writeln!(f)?;
     for row in &d.contrast_by_window {
-        write!(f, "  {:>8.0}", row.window_s * 1e3)?;
+        write!(f, "  {:>8}", rounded(row.window_s * 1e3, 3))?;
         row.contrast.iter().try_for_each(|c| write!(f, " {c:>7.1}"))?;
         writeln!(f)?;
     }
@@ -120,17 +126,24 @@ fn contrast(d: &Design, f: &mut Formatter<'_>) -> Result {
 
 fn repetition(d: &Design, f: &mut Formatter<'_>) -> Result {
     section(f, "Repetition")?;
-    let aim = d.decay_time_paper_s * 1e3;
-    line(f, "reverberation the paper aims for", &format!("T/N = {aim:.1} ms"))?;
-    writeln!(
-        f,
-        "  {:>8} {:>18} {:>18}",
-        "Hz",
-        format!("contrast, {:.0} ms", d.decay_time_s * 1e3),
-        format!("contrast, {aim:.1} ms")
-    )?;
-    for row in &d.contrast_by_rate {
-        writeln!(f, "  {:>8.0} {:>18.1} {:>18.1}", row.rate_hz, row.contrast, row.contrast_at_papers_decay)?;
+    let mut columns = vec![(d.decay_time_s, &d.contrast_by_rate)];
+    if let Some(paper) = &d.paper {
+        let aim = paper.decay_time_s * 1e3;
+        line(f, "reverberation the paper aims for", &format!("T/N = {aim:.1} ms"))?;
+        columns.push((paper.decay_time_s, &paper.contrast_by_rate));
+    }
+    write!(f, "  {:>8}", "Hz")?;
+    for (decay_time, _) in &columns {
+        write!(f, " {:>18}", format!("contrast, {} ms", milliseconds(*decay_time)))?;
+    }
+    writeln!(f)?;
+    for (i, row) in d.contrast_by_rate.iter().enumerate() {
+        write!(f, "  {:>8.0}", row.rate_hz)?;
+        let here = columns.iter().filter_map(|(_, rows)| rows.get(i));
+        for row in here {
+            write!(f, " {:>18.1}", row.contrast)?;
+        }
+        writeln!(f)?;
     }
     Ok(())
 }
@@ -166,16 +179,21 @@ fn deformation(d: &Design, f: &mut Formatter<'_>) -> Result {
 
 fn touch(d: &Design, f: &mut Formatter<'_>) -> Result {
     section(f, "Power to move a finger by 10 µm")?;
-    writeln!(
+    write!(
         f,
-        "  {:<24} {:>7} {:>8} {:>8} {:>9} {:>8} {:>8} {:>9}",
-        "strip", "λ mm", "c m/s", "Hz", "Z_S", "Z_F", "P W", "printed"
+        "  {:<24} {:>7} {:>8} {:>8} {:>9} {:>8} {:>8}",
+        "strip", "λ mm", "c m/s", "Hz", "Z_S", "Z_F", "P W"
     )?;
-    for row in d.table1.iter().chain(&d.touch) {
-        let printed = row.printed_power_w.map_or("-".into(), |p| format!("{p}"));
+    let papers: &[Touch] = match &d.paper {
+        Some(paper) => &paper.table1,
+        None => &[],
+    };
+    writeln!(f, "{}", if papers.is_empty() { "" } else { "   printed" })?;
+    for row in papers.iter().chain(&d.touch) {
+        let printed = row.printed_power_w.map(|p| format!(" {p:>9}")).unwrap_or_default();
         writeln!(
             f,
-            "  {:<24} {:>7.2} {:>8.1} {:>8.0} {:>9.4} {:>8.2} {:>8.3} {:>9}",
+            "  {:<24} {:>7.2} {:>8.1} {:>8.0} {:>9.4} {:>8.2} {:>8.3}{printed}",
             row.strip,
             row.wavelength_m * 1e3,
             row.celerity_m_s,
@@ -183,13 +201,20 @@ fn touch(d: &Design, f: &mut Formatter<'_>) -> Result {
             row.impedance_n_s_per_m,
             row.finger_impedance_n_s_per_m,
             row.power_w,
-            printed
         )?;
     }
     Ok(())
 }
 
 fn notes(d: &Design, f: &mut Formatter<'_>) -> Result {
-    section(f, "Where this model differs from the paper")?;
-    d.notes.iter().try_for_each(|n| writeln!(f, "  {}: the paper has {}; {}", n.topic, n.paper, n.here))
+    section(f, "Notes")?;
+    d.notes.iter().try_for_each(|note| writeln!(f, "  {}: {}", note.topic, note.text))
+}
+
+fn remarks(paper: &PaperFigures, f: &mut Formatter<'_>) -> Result {
+    section(f, "Remarks on the paper, Hudin et al. (2012)")?;
+    paper.remarks.iter().try_for_each(|remark| {
+        let (topic, nature) = (&remark.topic, remark.nature.name());
+        writeln!(f, "  {topic} ({nature}): printed {}; {}", remark.printed, remark.remark)
+    })
 }

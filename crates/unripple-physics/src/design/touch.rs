@@ -6,6 +6,10 @@ use super::strip::finger_impedance;
 use std::f64::consts::TAU;
 use unripple_core::{Finger, Surface};
 
+/// Wavelengths for which a surface's own figures are given, as multiples of its shortest: power falls fast with wavelength. A
+/// third would tell little more.
+const MULTIPLES: [f64; 2] = [1.0, 2.0];
+
 /// Power of a wave on a strip of sheet as wide as the contact that moves a finger by 10 µm, and the impedances involved
 /// (Hudin et al. 2012, section 3.5 and table 1).
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -27,6 +31,7 @@ pub struct Touch {
     /// Share of that power that the finger absorbs.
     pub absorbed_power: f64,
     /// The power printed in the paper, in W; `None` for strips that are not in its table 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub printed_power_w: Option<f64>,
 }
 
@@ -40,17 +45,15 @@ pub fn table1() -> Vec<Touch> {
     ]
 }
 
-/// The same figures for the surface's own sheet and finger, at wavelengths of 15 mm and of `lambda_min` (m), with the contact of
-/// that finger.
+/// The same figures for the surface's own sheet and finger, at its shortest wavelength `lambda_min` (m) and at twice that, with
+/// the contact of that finger.
 pub(super) fn own_touches(surface: &Surface, lambda_min: f64) -> Vec<Touch> {
     let sheet = &surface.sheet;
     let width =
         if surface.finger.contact_radius > 0.0 { 2.0 * surface.finger.contact_radius } else { CONTACT };
     let strip = Strip::of_sheet(sheet.young, sheet.density, sheet.thickness, sheet.tension, width);
     let name = format!("{} {} mm", sheet.material, sheet.thickness * 1e3);
-    [WAVELENGTH, lambda_min]
-        .map(|wavelength| touch(&name, &strip, &surface.finger, TAU / wavelength))
-        .to_vec()
+    MULTIPLES.map(|times| touch(&name, &strip, &surface.finger, TAU / (times * lambda_min))).to_vec()
 }
 
 /// The figures of one strip at the wavenumber `k` (rad/m).

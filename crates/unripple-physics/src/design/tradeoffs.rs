@@ -2,14 +2,16 @@
 
 use super::Cavity;
 use super::closed;
+use super::digits::rounded;
 use crate::Medium;
 use unripple_core::Surface;
 
-/// Numbers of actuators in the table of contrast, in powers of two, since contrast grows with their square root.
-pub const ACTUATORS: [usize; 6] = [1, 2, 4, 8, 16, 32];
+/// Steps of √2 from the recommended window to the shortest and to the longest in the table of contrast: from a quarter of it
+/// to four times. Twice as many would span a factor of 256, where contrast is flat at one end and useless at the other.
+const STEPS: i32 = 4;
 
-/// Windows in the table of contrast, in seconds: from too short for most surfaces to longer than the decay of most.
-pub const WINDOWS: [f64; 8] = [0.005, 0.010, 0.020, 0.030, 0.050, 0.075, 0.100, 0.150];
+/// Significant digits of the other windows in that table, as many as steps of √2 need. One more is harder to read.
+const DIGITS: i32 = 2;
 
 /// Bandwidths in the table, as shares of the surface's band; 1 is the band itself, more shows what a wider one would give.
 const BANDS: [f64; 6] = [0.125, 0.25, 0.5, 0.75, 1.0, 1.5];
@@ -26,7 +28,7 @@ const NOISES: [f64; 5] = [0.01, 0.1, 0.3, 1.0, 3.0];
 pub struct ByWindow {
     /// Window T, in seconds.
     pub window_s: f64,
-    /// Contrast for each number of actuators in [`ACTUATORS`].
+    /// Contrast for each number of actuators in [`Design::actuator_counts`](super::Design).
     pub contrast: Vec<f64>,
 }
 
@@ -52,10 +54,8 @@ pub struct ByBand {
 pub struct ByRate {
     /// Repetitions per second.
     pub rate_hz: f64,
-    /// Contrast with the decay times of the surface.
+    /// Predicted contrast, a ratio of amplitudes.
     pub contrast: f64,
-    /// Contrast with the decay time T/N that the paper recommends.
-    pub contrast_at_papers_decay: f64,
 }
 
 /// A row of the table of predicted contrast against noise in recording or emission.
@@ -67,10 +67,25 @@ pub struct ByNoise {
     pub contrast: f64,
 }
 
-/// Contrast (a ratio) for every tabulated window and number of actuators.
-pub(super) fn by_window(cavity: &Cavity) -> Vec<ByWindow> {
-    let row = |window: f64| ACTUATORS.map(|n| cavity.contrast(n as f64, window)).to_vec();
-    WINDOWS.iter().map(|&window_s| ByWindow { window_s, contrast: row(window_s) }).collect()
+/// Numbers of actuators to compare, ascending: one, a quarter and half of the surface's own number, that number, twice and
+/// four times it.
+pub(super) fn actuator_counts(own: usize) -> Vec<usize> {
+    let mut counts = vec![1, own.div_ceil(4), own.div_ceil(2), own, 2 * own, 4 * own];
+    counts.dedup();
+    counts
+}
+
+/// Contrast (a ratio) for windows around the recommended one (s), which is among them, and for each number of actuators.
+pub(super) fn by_window(cavity: &Cavity, recommended: f64, counts: &[usize]) -> Vec<ByWindow> {
+    let window = |step: i32| match step {
+        0 => recommended,
+        _ => rounded(recommended * 2f64.powf(0.5 * f64::from(step)), DIGITS),
+    };
+    let row = |window_s: f64| {
+        let contrast = counts.iter().map(|n| cavity.contrast(*n as f64, window_s)).collect();
+        ByWindow { window_s, contrast }
+    };
+    (-STEPS..=STEPS).map(window).map(row).collect()
 }
 
 /// Contrast for bands of other widths, below half the sample rate, with a window in s; `scale` is the exact
@@ -97,17 +112,11 @@ pub(super) fn by_band(surface: &Surface, scale: f64, actuators: f64, window: f64
         .collect()
 }
 
-/// Contrast for the tabulated rates, with the surface's decay and with another; window and decay time in s.
-pub(super) fn by_rate(cavity: &Cavity, actuators: f64, window: f64, decay_time: f64) -> Vec<ByRate> {
-    let dead = cavity.clone().with_decay_time(decay_time);
-    RATES
-        .iter()
-        .map(|&rate_hz| ByRate {
-            rate_hz,
-            contrast: cavity.repeated(actuators, window, 1.0 / rate_hz),
-            contrast_at_papers_decay: dead.repeated(actuators, window, 1.0 / rate_hz),
-        })
-        .collect()
+/// Contrast (a ratio) for the tabulated rates, with a window in s.
+pub(super) fn by_rate(cavity: &Cavity, actuators: f64, window: f64) -> Vec<ByRate> {
+    let row =
+        |&rate_hz: &f64| ByRate { rate_hz, contrast: cavity.repeated(actuators, window, 1.0 / rate_hz) };
+    RATES.iter().map(row).collect()
 }
 
 /// Contrast (a ratio) for the tabulated levels of noise, with a window in s.
@@ -115,4 +124,32 @@ pub(super) fn by_noise(cavity: &Cavity, actuators: f64, window: f64) -> Vec<ByNo
     let row =
         |&noise_ratio: &f64| ByNoise { noise_ratio, contrast: cavity.noisy(actuators, window, noise_ratio) };
     NOISES.iter().map(row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::papers_surface;
+
+    #[test]
+    fn counts_are_about_the_own_number() {
+        assert_eq!(actuator_counts(1), [1, 2, 4]);
+        assert_eq!(actuator_counts(3), [1, 2, 3, 6, 12]);
+        assert_eq!(actuator_counts(8), [1, 2, 4, 8, 16, 32]);
+        assert_eq!(actuator_counts(48), [1, 12, 24, 48, 96, 192]);
+    }
+
+    #[test]
+    fn windows_are_about_the_recommended_one() {
+        let cavity = Cavity::of(&papers_surface(), 3000.0);
+        let windows = |recommended: f64| -> Vec<f64> {
+            by_window(&cavity, recommended, &[8]).iter().map(|row| 1e3 * row.window_s).collect()
+        };
+        let close = |found: Vec<f64>, expected: [f64; 9]| {
+            assert_eq!(found.len(), expected.len());
+            assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9), "{found:?}");
+        };
+        close(windows(0.0287), [7.2, 10.0, 14.0, 20.0, 28.7, 41.0, 57.0, 81.0, 110.0]);
+        close(windows(0.00112), [0.28, 0.4, 0.56, 0.79, 1.12, 1.6, 2.2, 3.2, 4.5]);
+    }
 }

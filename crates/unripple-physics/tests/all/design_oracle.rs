@@ -1,8 +1,11 @@
 //! Design figures against the paper's numbers and against values worked out apart.
 
-use std::f64::consts::PI;
-use unripple_core::{Decay, Edge, Edges, Outline, Shape, Surface};
-use unripple_physics::design::{Cavity, Windows, closed, papers_surface};
+use std::f64::consts::{PI, TAU};
+use unripple_core::{
+    ActuatorKind, CoilDrive, Decay, Edge, Edges, Finger, Outline, Patch, Point, Scatterer, ScattererKind,
+    Shape, Surface,
+};
+use unripple_physics::design::{Cavity, Nature, Windows, closed, design_by_law, film_strip, papers_surface};
 use unripple_physics::{Design, Modes, PhysicsError, design};
 
 fn close(found: f64, expected: f64, tolerance: f64) {
@@ -30,7 +33,7 @@ fn celerities_are_the_papers() {
     let d = paper();
     // Section 4: 34 m/s for long waves, 43 m/s at 15 mm; 43.65 at 3 kHz solves 0.175 ω² = 200 k² + 7.154e-4 k⁴.
     close(d.celerity_min_m_s, 33.806, 1e-4);
-    close(d.celerity_at_15mm_m_s, 43.13, 1e-4);
+    close(d.paper.as_ref().unwrap().celerity_at_15mm_m_s, 43.13, 1e-4);
     close(d.celerity_max_m_s, 43.65, 1e-4);
     close(d.lambda_min_m, 14.55e-3, 1e-3);
     assert_eq!(d.dispersion.len(), 12);
@@ -41,7 +44,7 @@ fn celerities_are_the_papers() {
 fn windows_are_worked_out_by_hand() {
     let d = paper();
     // (2 · 0.0225 · 418.88 + 0.6) / (2 · 8 · 33.806) s.
-    close(d.window_paper_s, 0.03596, 1e-3);
+    close(d.paper.as_ref().unwrap().window_s, 0.03596, 1e-3);
     // Nine tenths of the largest contrast over T, by simulation as by the modes' closed form; three quarters is the window of live play.
     let windows = Windows::of(&papers_surface());
     let (patient, prompt) = (windows.recommended(), windows.shortest(0.75));
@@ -104,15 +107,13 @@ fn weyl_counts_fixed_and_free_rims() {
     // Supported and free membranes of no stiffness are counted by their exact wavenumbers π√((m/a)² + (n/b)²).
     let (a, b, k) = (0.15, 0.11, 600.0);
     for (edge, first) in [(Edge::Supported, 1), (Edge::Free, 0)] {
-        let below = |m: i32, n: i32| {
-            (f64::from(m) / a).hypot(f64::from(n) / b) * std::f64::consts::PI < k && m + n > 0
-        };
+        let below = |m: i32, n: i32| (f64::from(m) / a).hypot(f64::from(n) / b) * PI < k && m + n > 0;
         let exact =
             (first..100).flat_map(|m| (first..100).map(move |n| (m, n))).filter(|(m, n)| below(*m, *n));
         let mut surface = papers_surface();
         surface.outline = Outline::new(Shape::Rectangle { width: a, height: b }).with_edges(Edges::All(edge));
         surface.sheet.young = 1.0;
-        surface.emission.band = [0.0, k * 33.806 / std::f64::consts::TAU];
+        surface.emission.band = [0.0, k * 33.806 / TAU];
         surface.emission.rate = 96e3;
         close(design(&surface).unwrap().mode_count_weyl, exact.count() as f64, 0.01);
     }
@@ -121,16 +122,20 @@ fn weyl_counts_fixed_and_free_rims() {
 #[test]
 fn table_1_is_the_papers_to_one_per_cent() {
     let d = paper();
+    let table1 = &d.paper.as_ref().unwrap().table1;
     let rows: Vec<_> =
-        d.table1.iter().map(|r| (r.celerity_m_s, r.frequency_hz, r.impedance_n_s_per_m, r.power_w)).collect();
+        table1.iter().map(|r| (r.celerity_m_s, r.frequency_hz, r.impedance_n_s_per_m, r.power_w)).collect();
     for (found, expected) in rows.iter().zip([(662.0, 44_155.0, 15.2, 514.0), (42.4, 2825.0, 0.0742, 1.44)]) {
         close(found.0, expected.0, 1e-2);
         close(found.1, expected.1, 1e-2);
         close(found.2, expected.2, 1e-2);
         close(found.3, expected.3, 1e-2);
     }
-    // The same film under the same tension and finger, as wide as the contact.
-    close(d.touch[0].power_w, d.table1[1].power_w, 1e-9);
+    // The same film under the same tension and finger, as wide as the contact, at wavelengths of its own.
+    for (touch, wavelength) in d.touch.iter().zip([d.lambda_min_m, 2.0 * d.lambda_min_m]) {
+        close(touch.wavelength_m, wavelength, 1e-12);
+        close(touch.power_w, film_strip().power(&Finger::default(), TAU / wavelength, 10e-6), 1e-9);
+    }
 }
 
 #[test]
@@ -179,7 +184,7 @@ fn decay_may_depend_on_frequency() {
     surface.sheet.decay = Decay::LossFactor(0.015);
     let lossy = design(&surface).unwrap();
     // σ = η ω Dk²/2(R + Dk²) at the top of the band.
-    let sigma = 0.015 * std::f64::consts::TAU * 3000.0 * 0.4 / 2.0;
+    let sigma = 0.015 * TAU * 3000.0 * 0.4 / 2.0;
     close(lossy.dispersion.last().unwrap().decay_time_s, 1.0 / sigma, 0.01);
     assert!(lossy.contrast_predicted < paper().contrast_predicted);
 }
@@ -228,7 +233,7 @@ fn every_figure_is_a_number() {
         let optional = [
             "coincidence_hz",
             "mode_count_exact_reason",
-            "printed_power_w",
+            "paper",
             "yield_strain",
             "share_of_yield",
             "yield_amplitude_m",
@@ -264,5 +269,95 @@ fn the_text_fits_two_screens() {
     assert!(text.lines().count() < 90);
     for part in ["43.13 m/s", "36.0 ms", "306", "513.88", "1.436", "past linear theory"] {
         assert!(text.contains(part), "{part} is missing from\n{text}");
+    }
+}
+
+#[test]
+fn only_the_papers_film_speaks_of_the_paper() {
+    let film = paper();
+    let remarks = &film.paper.as_ref().unwrap().remarks;
+    let misprints = remarks.iter().take_while(|remark| remark.nature == Nature::Misprint).count();
+    let topics: Vec<&str> = remarks.iter().map(|remark| remark.topic.as_str()).collect();
+    assert_eq!(topics[..misprints], ["tension", "window", "reflected wave"]);
+    assert!(remarks[misprints..].iter().all(|remark| remark.nature == Nature::Model) && remarks.len() == 9);
+    // (2 · 0.0225 · 418.88 + 0.6) / (2 · 8 · c) with the velocities that are printed.
+    assert!(remarks[1].remark.contains("35.8 ms") && remarks[1].remark.contains("28.3 ms"), "{remarks:?}");
+
+    // The same film in another frame, on other edges, with fewer actuators; and a plate.
+    let mut others = [papers_surface(), papers_surface(), papers_surface(), plate_band(plate())];
+    others[0].outline = Outline::new(Shape::Stadium { straight: 0.11226, radius: 0.05613 });
+    others[1].outline.edges = Edges::All(Edge::Supported);
+    others[2].actuators.pop();
+    for surface in others {
+        let d = design_by_law(&surface, "asked for").unwrap();
+        assert_eq!(d.paper, None);
+        let (text, json) = (d.to_string(), serde_json::to_string(&d.notes).unwrap());
+        for word in ["paper", "Hudin", "printed", "15 mm", "T/N"] {
+            assert!(!text.contains(word) && !json.contains(word), "{word} in\n{text}");
+        }
+    }
+}
+
+#[test]
+fn the_axes_are_the_surfaces_own() {
+    let mut surface = plate_band(plate());
+    surface.actuators.truncate(3);
+    let d = design_by_law(&surface, "asked for").unwrap();
+    assert_eq!(d.actuator_counts, [1, 2, 3, 6, 12]);
+    let windows: Vec<f64> = d.contrast_by_window.iter().map(|row| row.window_s).collect();
+    assert!(windows.is_sorted() && windows.len() == 9, "{windows:?}");
+    let own = &d.contrast_by_window[4];
+    assert_eq!(own.window_s, d.window_recommended_s);
+    assert_eq!(own.contrast[2], d.contrast_predicted);
+    // Two digits are within a twentieth.
+    close(windows[0], d.window_recommended_s / 4.0, 0.05);
+    close(windows[8], d.window_recommended_s * 4.0, 0.05);
+}
+
+/// The note on what is left out, if there is one.
+fn left_out(design: &Design) -> Option<&str> {
+    design.notes.iter().find(|note| note.topic == "left out").map(|note| note.text.as_str())
+}
+
+/// The paper's film up to 1 kHz with magnets in coils, one of them lighter.
+fn with_coils(driven_by: CoilDrive) -> Surface {
+    let mut surface = papers_surface();
+    surface.emission.band = [0.0, 1000.0];
+    for (actuator, moving_mass) in surface.actuators.iter_mut().zip([20e-6].into_iter().chain([60e-6; 7])) {
+        let (force_constant, resistance, inductance) = (1.0, 8.0, 0.1e-3);
+        actuator.contact_radius = 0.75e-3;
+        actuator.kind =
+            ActuatorKind::MovingMagnet { force_constant, resistance, inductance, moving_mass, driven_by };
+    }
+    surface
+}
+
+#[test]
+fn what_the_closed_forms_leave_out_is_named() {
+    assert_eq!(left_out(&paper()), None);
+    let loaded = design(&with_coils(CoilDrive::Voltage)).unwrap();
+    let text = left_out(&loaded).unwrap();
+    for part in ["20 to 60 mg (8 actuators)", "0.125 N·s/m", "0.1 mH of coils", "mean contrast of"] {
+        assert!(text.contains(part), "{part} is missing from {text}");
+    }
+    // The figures themselves are those without coils.
+    let mut bare = papers_surface();
+    bare.emission.band = [0.0, 1000.0];
+    assert_eq!(loaded.mode_count_exact, design(&bare).unwrap().mode_count_exact);
+    // A held current leaves the mass alone.
+    let held = design_by_law(&with_coils(CoilDrive::Current), "asked for").unwrap();
+    let text = left_out(&held).unwrap();
+    assert!(text.contains("mg") && !text.contains("mH") && text.contains("leaves it out as well"), "{text}");
+
+    let mut patched = papers_surface();
+    patched.actuators[0].kind =
+        ActuatorKind::Piezo { patch: Patch::Round { radius: 5e-3 }, moment: 1e-3, mass: 0.0 };
+    patched.actuators[1].contact_radius = 2e-3;
+    let (at, kind) = (Point::from_mm(70.0, 60.0), ScattererKind::Mass(1e-4));
+    patched.sheet.uneven.scatterers.push(Scatterer { at, kind });
+    let patched = design_by_law(&patched, "asked for").unwrap();
+    let text = left_out(&patched).unwrap();
+    for part in ["act by moments (1 actuator)", "2 mm radius (1 actuator)", "fixed to it"] {
+        assert!(text.contains(part), "{part} is missing from {text}");
     }
 }

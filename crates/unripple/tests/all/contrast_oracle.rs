@@ -8,7 +8,11 @@ use unripple_paper::study::{
     Bench, CELLS, Compared, Replay, Sampling, against_band, against_noise, against_period, against_window,
     size,
 };
-use unripple_physics::design::{ACTUATORS, WINDOWS, papers_surface};
+use unripple_physics::design::papers_surface;
+
+/// Windows simulated, in s, from too short to longer than the decay, and numbers of actuators, in powers of two.
+const WINDOWS: [f64; 8] = [0.005, 0.010, 0.020, 0.030, 0.050, 0.075, 0.100, 0.150];
+const ACTUATORS: [usize; 6] = [1, 2, 4, 8, 16, 32];
 
 static PAPER: LazyLock<Bench> = LazyLock::new(|| Bench::of(&papers_surface(), CELLS).unwrap());
 

@@ -151,6 +151,11 @@ impl Windows {
         Self { curve, statistics }
     }
 
+    /// Whether the contrasts are computed from the modes coupled to all that is attached to the sheet, rather than from statistics.
+    pub fn is_modal(&self) -> bool {
+        self.statistics.is_none()
+    }
+
     /// The window that `unripple design` recommends: the shortest that reaches nine tenths of the largest contrast.
     pub fn recommended(&self) -> Recommended {
         self.shortest(WORTHWHILE)

@@ -1,0 +1,111 @@
+//! What the closed forms of a design leave out on a surface: masses, coils, patches and contacts of its actuators, an uneven sheet.
+
+use super::Note;
+use super::digits::rounded;
+use super::ground::Ground;
+use unripple_core::{Actuator, ActuatorKind, CoilDrive, Surface};
+
+/// What the closed forms leave out, with the contrast that the modes with it have; `None` for ideal forces at points of a
+/// uniform sheet, of which nothing is left out.
+pub(super) fn left_out(ground: &Ground<'_>) -> Option<Note> {
+    let surface = ground.surface;
+    let parts = [masses(surface), coils(surface), patches(surface), contacts(surface), uneven(surface)];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    if parts.is_empty() {
+        return None;
+    }
+    let window = match ground.loaded_contrast {
+        Some(contrast) => {
+            format!("the window alone is computed with all of that, for a mean contrast of {contrast:.1}")
+        }
+        None => "the window, computed from statistics here, leaves it out as well".into(),
+    };
+    Some(Note {
+        topic: "left out".into(),
+        text: format!(
+            "modes, decay time and contrasts by closed forms are those of ideal forces at points of a uniform sheet, without \
+             {}; {window}",
+            parts.join(", ")
+        ),
+    })
+}
+
+/// Masses that move with the sheet at its actuators.
+fn masses(surface: &Surface) -> Option<String> {
+    let mass = |actuator: &Actuator| match actuator.kind {
+        ActuatorKind::Force => 0.0,
+        ActuatorKind::MovingMagnet { moving_mass, .. } => moving_mass,
+        ActuatorKind::Piezo { mass, .. } => mass,
+    };
+    let found = all(surface, mass);
+    (!found.is_empty()).then(|| format!("moving masses of {} mg ({})", range(&found, 1e6), actuators(&found)))
+}
+
+/// Damping and inductance of coils that are driven by a voltage; a current is what it is, whatever the coil.
+fn coils(surface: &Surface) -> Option<String> {
+    let held = |actuator: &Actuator| match actuator.kind {
+        ActuatorKind::MovingMagnet {
+            force_constant,
+            resistance,
+            inductance,
+            driven_by: CoilDrive::Voltage,
+            ..
+        } => [force_constant * force_constant / resistance, inductance],
+        _ => [0.0; 2],
+    };
+    let damping = all(surface, |actuator| held(actuator)[0]);
+    let inductance = all(surface, |actuator| held(actuator)[1]);
+    if damping.is_empty() {
+        return None;
+    }
+    let mut text = format!("the damping (bl)²/R = {} N·s/m", range(&damping, 1.0));
+    if !inductance.is_empty() {
+        text += &format!(" and the inductance of {} mH", range(&inductance, 1e3));
+    }
+    Some(format!("{text} of coils driven by a voltage ({})", actuators(&damping)))
+}
+
+/// Patches, which bend the sheet instead of pushing it.
+fn patches(surface: &Surface) -> Option<String> {
+    let found =
+        all(surface, |actuator| f64::from(u8::from(matches!(actuator.kind, ActuatorKind::Piezo { .. }))));
+    (!found.is_empty()).then(|| format!("piezo patches, which act by moments ({})", actuators(&found)))
+}
+
+/// Discs over which forces are spread, so that short waves are driven less.
+fn contacts(surface: &Surface) -> Option<String> {
+    let radius = |actuator: &Actuator| match actuator.kind {
+        ActuatorKind::Force | ActuatorKind::MovingMagnet { .. } => actuator.contact_radius,
+        ActuatorKind::Piezo { .. } => 0.0,
+    };
+    let found = all(surface, radius);
+    (!found.is_empty())
+        .then(|| format!("contact discs of {} mm radius ({})", range(&found, 1e3), actuators(&found)))
+}
+
+/// What makes the sheet uneven.
+fn uneven(surface: &Surface) -> Option<String> {
+    let even = surface.sheet.uneven.is_nothing();
+    (!even).then(|| {
+        "the grain of the sheet, its profiles and what is fixed to it (which the number of modes, where counted, includes)"
+            .into()
+    })
+}
+
+/// A property of every actuator that has it: positive values.
+fn all(surface: &Surface, of: impl Fn(&Actuator) -> f64) -> Vec<f64> {
+    surface.actuators.iter().map(of).filter(|value| *value > 0.0).collect()
+}
+
+/// How many actuators these are.
+fn actuators(values: &[f64]) -> String {
+    if values.len() == 1 { "1 actuator".into() } else { format!("{} actuators", values.len()) }
+}
+
+/// The one value, or the least and the greatest, times `unit`, with three digits.
+fn range(values: &[f64], unit: f64) -> String {
+    let ends = (f64::INFINITY, 0.0);
+    let (low, high) = values.iter().fold(ends, |(l, h): (f64, f64), value| (l.min(*value), h.max(*value)));
+    let [low, high] = [low, high].map(|value| rounded(unit * value, 3));
+    if low == high { low.to_string() } else { format!("{low} to {high}") }
+}
