@@ -6,6 +6,9 @@ use common::{Scratch, json, refused};
 use serde_json::Value;
 use std::fs;
 
+/// The guide that shows tables of this page.
+const GUIDE: &str = include_str!("../../../../docs/any-surface.md");
+
 fn list(value: &Value) -> &Vec<Value> {
     value.as_array().unwrap()
 }
@@ -25,6 +28,8 @@ fn makes_a_whole_page() {
     every_section_is_there(&folder, &report);
     every_figure_is_there(&folder, &report);
     table_1_is_right(&report);
+    slips_are_apart_from_models(&report);
+    the_guide_has_these_rows(&report);
     contrast_is_near_its_closed_form(&report);
 }
 
@@ -54,12 +59,21 @@ fn every_section_is_there(folder: &Scratch, report: &Value) {
         }
     }
     for section in list(&report["sections"]) {
-        assert!(!list(&section["compared"]).is_empty(), "{}", section["title"]);
-        for row in list(&section["compared"]) {
-            for key in ["what", "paper", "here", "why"] {
-                let text = row[key].as_str().unwrap();
-                assert!(!text.is_empty() && !text.contains("NaN") && !text.contains("inf "), "{row}");
-            }
+        let (compared, predicted) = (list(&section["compared"]), list(&section["predicted"]));
+        assert!(compared.len() + predicted.len() > 0, "{}", section["title"]);
+        full(compared, &["what", "paper", "here", "why"]);
+        full(predicted, &["what", "here", "why"]);
+        // A quantity for which the paper has no figure is no reproduction.
+        assert!(compared.iter().all(|row| !row["paper"].as_str().unwrap().contains("no figure")));
+    }
+}
+
+/// Rows with these keys, each with a text that says something.
+fn full(rows: &[Value], keys: &[&str]) {
+    for row in rows {
+        for key in keys {
+            let text = row[key].as_str().unwrap();
+            assert!(!text.is_empty() && !text.contains("NaN") && !text.contains("inf "), "{row}");
         }
     }
 }
@@ -87,9 +101,37 @@ fn every_figure_is_there(folder: &Scratch, report: &Value) {
     assert!(!page.contains("http"), "the page stands alone");
 }
 
-fn data<'a>(report: &'a Value, title: &str) -> &'a Value {
+fn section<'a>(report: &'a Value, title: &str) -> &'a Value {
     let section = list(&report["sections"]).iter().find(|s| s["title"].as_str().unwrap().starts_with(title));
-    &section.unwrap()["data"]
+    section.unwrap()
+}
+
+fn data<'a>(report: &'a Value, title: &str) -> &'a Value {
+    &section(report, title)["data"]
+}
+
+/// Cells of a table's row.
+fn cells(row: &Value) -> Vec<&str> {
+    list(row).iter().map(|cell| cell.as_str().unwrap()).collect()
+}
+
+/// Misprints, which can be shown from the paper alone, come first, then differences of model.
+fn slips_are_apart_from_models(report: &Value) {
+    let table = &list(&section(report, "Section 4: the numbers")["table"])[1..];
+    let natures: Vec<&str> = table.iter().map(|row| cells(row)[1]).collect();
+    let misprints = natures.iter().take_while(|nature| **nature == "misprint or arithmetic").count();
+    assert_eq!((misprints, natures.len()), (4, 10));
+    assert!(natures[misprints..].iter().all(|nature| *nature == "model or assumption"), "{natures:?}");
+}
+
+/// The guide has the table of coils row for row, and each outline with its number of modes; its contrasts are means over more placements.
+fn the_guide_has_these_rows(report: &Value) {
+    for (title, columns) in [("Section 4: coils", 4), ("Section 2", 2)] {
+        for row in list(&section(report, title)["table"]) {
+            let line = format!("| {} |", cells(row)[..columns].join(" | "));
+            assert!(GUIDE.contains(&line), "{line} is not in the guide");
+        }
+    }
 }
 
 fn table_1_is_right(report: &Value) {

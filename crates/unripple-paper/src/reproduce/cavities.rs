@@ -2,7 +2,7 @@
 
 use super::contrast::{Statistic, statistics};
 use super::section::row;
-use super::{Bed, Compared, Picture, Section};
+use super::{Bed, Picture, Predicted, Section};
 use crate::study::{Bench, CELLS, against_window, cavities};
 use serde_json::json;
 use unripple::core::{Outline, Surface};
@@ -57,9 +57,10 @@ pub fn section(bed: &Bed, placements: usize) -> Result<Section, TaskError> {
                 bed.surface.outline.area() * 1e4
             ),
         )],
-        compared: compared(&all, bed.window),
+        predicted: predicted(&all, bed.window),
         table: table(&all, bed.window),
         data: json!({ "outlines": data.collect::<Vec<_>>() }),
+        ..Section::default()
     })
 }
 
@@ -90,23 +91,24 @@ fn figure(all: &[Cavity]) -> Figure {
     }
 }
 
-/// Text on the outlines and the paper's chaotic cavity.
+/// Text on the outlines, and on the chaotic cavities from which the paper takes its law.
 fn text(all: &[Cavity], window: f64) -> String {
     let long = WINDOWS[WINDOWS.len() - 1];
     let of =
         |name: &str, n: usize, t: f64| all.iter().find(|c| c.name == name).map_or(f64::NAN, |c| c.mean(n, t));
     let (polygon, rectangle) = ("irregular polygon", "rectangle 3:2");
     format!(
-        "The paper asks for a chaotic cavity, in which the echoes of one actuator reach the target from everywhere. With one \
-         actuator and {:.0} ms the contrast is {:.1} on the rectangle, {:.1} on the irregular polygon, {:.1} on the stadium, \
+        "For one actuator the paper takes its law, contrast that grows as √T, from chaotic cavities and scattering media. With \
+         one actuator and {:.0} ms the contrast is {:.1} on the rectangle, {:.1} on the irregular polygon, {:.1} on the stadium, \
          {:.1} on the square and {:.1} on the circle. Symmetry does cost: a square and a circle have modes in pairs of one \
          frequency, of which one actuator drives a single combination, and cannot excite the other, however long it plays. But \
-         of these five outlines the chaotic ones gain nothing. Once no two modes share a frequency, what matters is how evenly \
-         the modes are excited: the mode shapes of a chaotic cavity are like random waves, and an actuator excites some of \
-         them hardly at all, while those of a rectangle are products of sines, whose squares have a relative variance of 5/4 \
-         instead of 2. So the plain rectangle, whose longer side is no multiple of the shorter, is the best of the five. With \
-         eight actuators and {:.0} ms all lie within {:.1} (circle) and {:.1} (rectangle): places without symmetry, as the \
-         paper's, do what an irregular outline would.",
+         of these five outlines the two irregular ones, the stadium (a chaotic cavity) and the polygon, do not surpass the \
+         rectangle. Once no two modes share a frequency, what matters is how evenly the modes are excited: the mode shapes of a \
+         chaotic cavity are like random waves, and an actuator excites some of them hardly at all, while those of a rectangle \
+         are products of sines, whose squares have a relative variance of 5/4 instead of 2. So the plain rectangle, whose \
+         longer side is no multiple of the shorter, is the best of the five. With eight actuators and {:.0} ms all lie between \
+         {:.1} (circle) and {:.1} (rectangle): at places without symmetry, as the paper's, they excite both modes of a pair, and \
+         square and circle come nearer to the irregular outlines.",
         long * 1e3,
         of(rectangle, 1, long),
         of(polygon, 1, long),
@@ -119,24 +121,22 @@ fn text(all: &[Cavity], window: f64) -> String {
     )
 }
 
-fn compared(all: &[Cavity], window: f64) -> Vec<Compared> {
+fn predicted(all: &[Cavity], window: f64) -> Vec<Predicted> {
     let share = |n: usize, t: f64| {
         let means: Vec<f64> = all.iter().map(|c| c.mean(n, t)).collect();
         let (low, high) = means.iter().fold((f64::MAX, 0.0), |(l, h): (f64, f64), m| (l.min(*m), h.max(*m)));
-        format!("{low:.1} to {high:.1} over five outlines")
+        format!("{low:.1} to {high:.1} over these five outlines")
     };
     vec![
-        Compared::new(
+        Predicted::new(
             format!("contrast of one actuator, {:.0} ms", WINDOWS[WINDOWS.len() - 1] * 1e3),
-            "best in a chaotic cavity; no figure",
             share(1, WINDOWS[WINDOWS.len() - 1]),
-            "modes of one frequency cost; chaos as such gains nothing",
+            "modes of one frequency cost; of these five, the stadium and the polygon gain nothing over the rectangle",
         ),
-        Compared::new(
+        Predicted::new(
             format!("contrast of eight actuators, {:.0} ms", window * 1e3),
-            "best in a chaotic cavity; no figure",
             share(8, window),
-            "eight places without symmetry make up for the outline",
+            "eight actuators at places without symmetry excite both modes of a pair",
         ),
     ]
 }
@@ -156,4 +156,27 @@ fn table(all: &[Cavity], window: f64) -> Vec<Vec<String>> {
             cells
         };
     std::iter::once(headings).chain(all.iter().map(cells)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::reproduce::Ask;
+
+    /// The guide with this table.
+    const GUIDE: &str = include_str!("../../../../docs/any-surface.md");
+
+    /// Square and rectangle, whose modes are quick to compute, with as many placements as `reproduce` takes by default.
+    #[test]
+    fn the_guide_has_these_contrasts() {
+        let bed = Bed::new().unwrap();
+        let quick = cavities(bed.surface.outline.area()).into_iter().take(2);
+        let placements = Ask::default().placements;
+        let found: Vec<Cavity> =
+            quick.map(|(name, outline)| Cavity::of(&bed, name, outline, placements).unwrap()).collect();
+        for row in table(&found, bed.window) {
+            let line = format!("| {} |", row.join(" | "));
+            assert!(GUIDE.contains(&line), "{line} is not in the guide");
+        }
+    }
 }

@@ -25,7 +25,7 @@ pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let kinds = kinds();
     let parts: Vec<Coils> = kinds.iter().map(|(_, coils)| *coils).collect();
     let rows = coils(&bed.surface, &parts, CONTACT, (bed.target, bed.window))?;
-    let numbers = credibility(&parts[2], MAGNET, &Medium::of(&bed.surface.sheet), HZ);
+    let numbers = judged(bed);
     let named = || kinds.iter().map(|(name, _)| *name).zip(&rows);
     let data = named().map(|(name, r)| {
         json!({
@@ -43,6 +43,11 @@ pub fn section(bed: &Bed) -> Result<Section, TaskError> {
         table: table(named()),
         ..Section::default()
     })
+}
+
+/// Numbers by which the printed force constant is judged.
+pub(super) fn judged(bed: &Bed) -> Credibility {
+    credibility(&Coils::papers(CoilDrive::Voltage), MAGNET, &Medium::of(&bed.surface.sheet), HZ)
 }
 
 fn kinds() -> Vec<(&'static str, Coils)> {
@@ -88,15 +93,16 @@ fn text(rows: &[Coiled]) -> String {
     )
 }
 
-/// Text on why a force constant of 6 N/A is not credible.
+/// Text on how a force constant of 6 N/A stands beside the other values.
 fn doubt(c: &Credibility) -> String {
     format!(
         "The printed force constant of 6 N/A is hard to reconcile with actuators that drive a film. With voltage drive it \
          would be a damper of {} N·s/m, where the mechanical impedance of the film at a point is {} N·s/m at {HZ:.0} Hz: eight \
-         of them would hold the film still at eight places and reflect what comes there, a poor way to drive it. In a field of \
-         half a good magnet's remanence, 6 N/A takes {:.0} m of wire, {:.0} g of copper at 6.2 Ω. And 1.9 mH at the size of a \
-         magnet of {:.1} mm makes some {:.0} turns, which reach about {} N/A with it. A misplaced decimal point (0.6 N/A), or \
-         a force per volt or per ampere of all coils in series, would fit the rest of the paper.",
+         of them would hold the film nearly still at eight places and reflect what arrives there. In a field of half a good \
+         magnet's remanence, 6 N/A takes {:.0} m of wire, {:.0} g of copper at 6.2 Ω. And 1.9 mH at the size of a magnet of \
+         {:.1} mm makes some {:.0} turns, which reach about {} N/A with it. This rests on a model of coil and magnet, not on \
+         the paper alone; a misplaced decimal point (0.6 N/A), or a force per volt or per ampere of all coils in series, would \
+         fit the rest of the paper.",
         three(c.coil_damping),
         three(c.sheet_resistance),
         c.wire_length_m,
@@ -123,7 +129,7 @@ fn table<'a>(rows: impl Iterator<Item = (&'a str, &'a Coiled)>) -> Vec<Vec<Strin
             name.to_owned(),
             format!("{:.1}", r.decay_time_s * 1e3),
             format!("{:.1}", r.contrast),
-            format!("{:.3}", r.peak_velocity_m_s),
+            three(r.peak_velocity_m_s),
         ]
     };
     std::iter::once(headings).chain(rows.map(cells)).collect()

@@ -1,16 +1,18 @@
 //! Contrast against window, bandwidth, number of actuators and noise (the paper's tradeoffs).
 
 use super::section::row;
-use super::{Bed, Compared, Picture, Section};
+use super::{Bed, Compared, Picture, Predicted, Section};
 use crate::study::{self, Bench, CELLS, Sampling, StudyError, against_band, against_noise, against_window};
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 use unripple::core::{FOCAL_RADIUS, Surface};
 use unripple::physics::Medium;
-use unripple::physics::design::{ACTUATORS, Cavity};
+use unripple::physics::design::Cavity;
 use unripple_plot::{Axis, Dash, Figure, Ink, Layer, Line, Mark, Plot, Points, Rgb, Rule};
 use unripple_tasks::TaskError;
 
+/// Numbers of actuators simulated, in powers of two, since contrast grows with their square root.
+const ACTUATORS: [usize; 6] = [1, 2, 4, 8, 16, 32];
 /// Windows simulated, in seconds: from before the contrast settles to where it no longer grows, about evenly in their
 /// logarithm.
 const WINDOWS: [f64; 8] = [0.005, 0.0075, 0.0125, 0.020, 0.030, 0.050, 0.085, 0.150];
@@ -116,10 +118,10 @@ pub fn section(bed: &Bed, placements: usize) -> Result<Section, TaskError> {
         ],
         compared: [
             exponents(&windows, bed.window, bench.modes() as f64 / top),
-            departures(&windows, &bands, surface),
             vec![halving(&windows, &noises, bed.window)],
         ]
         .concat(),
+        predicted: departures(&windows, &bands, surface),
         table: table(&windows, bed.window),
         data: data(&windows, &bands, &noises),
     })
@@ -259,20 +261,18 @@ pub fn departure(rows: &[Statistic], pick: fn(&Statistic) -> f64) -> f64 {
     departures.fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a })
 }
 
-fn departures(windows: &[Statistic], bands: &[Statistic], surface: &Surface) -> Vec<Compared> {
+fn departures(windows: &[Statistic], bands: &[Statistic], surface: &Surface) -> Vec<Predicted> {
     let refined = |rows: &[Statistic]| departure(rows, |r| r.predicted);
     let narrow = bands.first().map_or(f64::NAN, |r| r.varied);
     let disc = PI * (FOCAL_RADIUS * Medium::of(&surface.sheet).lambda_min(narrow)).powi(2);
     vec![
-        Compared::new(
+        Predicted::new(
             "closed form from simulation, over T and N",
-            "no figure",
             format!("{:+.1} % at most", refined(windows)),
             format!("{} conditions; nothing in it is fitted", windows.len()),
         ),
-        Compared::new(
+        Predicted::new(
             "closed form from simulation, over the band",
-            "no figure",
             format!("{:+.1} % at most", refined(bands)),
             format!(
                 "it speaks of many modes and a small disc; in a band to {narrow:.0} Hz the disc is as large as {:.0} % of the sheet",

@@ -10,7 +10,7 @@ use super::bed::Bed;
 use super::fields::first;
 use super::modes::{FORCE, actuator, closed_contrast, modal};
 use super::places::named;
-use super::section::{Compared, Picture, Section};
+use super::section::{Compared, Picture, Predicted, Section};
 use serde_json::json;
 use unripple::core::{ModalResponses, Port};
 use unripple::field::{Aim, Field};
@@ -39,6 +39,11 @@ pub fn section(bed: &Bed) -> Result<Section, TaskError> {
         title: "Fig. 1: record, crop, reverse, refocus".into(),
         figures,
         compared: compared(bed, modal, &recording, &refocus, all),
+        predicted: vec![Predicted::new(
+            "contrast with one actuator",
+            format!("{:.1}", refocus.figures.contrast.unwrap_or(f64::NAN)),
+            format!("closed form, a mean over places: {}", form(bed, modal, 1)),
+        )],
         data: json!({
             "reciprocity_mismatch": refocus.mismatch,
             "peak_of_equation_2": refocus.figures.peak_velocity_m_s / refocus.predicted,
@@ -85,6 +90,11 @@ fn contrast_of_all(bed: &Bed) -> Result<f64, TaskError> {
     Ok(first(measured.targets)?.contrast.unwrap_or(f64::NAN))
 }
 
+/// Contrast by the closed form with so many actuators, in words.
+fn form(bed: &Bed, modal: &ModalResponses, actuators: usize) -> String {
+    closed_contrast(bed, modal, actuators).map_or("-".into(), |contrast| format!("{contrast:.1}"))
+}
+
 fn compared(
     bed: &Bed,
     modal: &ModalResponses,
@@ -94,7 +104,6 @@ fn compared(
 ) -> Vec<Compared> {
     let count = modal.ports.len();
     let one = refocus.figures.contrast.unwrap_or(f64::NAN);
-    let form = |n| closed_contrast(bed, modal, n).map_or("-".into(), |c| format!("{c:.1}"));
     let [_, noise_a, noise_c] = refocus.levels(bed);
     vec![
         Compared::new(
@@ -120,18 +129,12 @@ fn compared(
             ),
         ),
         Compared::new(
-            "contrast with one actuator",
-            "no figure",
-            format!("{one:.1}"),
-            format!("closed form, a mean over places: {}", form(1)),
-        ),
-        Compared::new(
             format!("contrast with {count} actuators"),
             "∝ √N",
             format!("{all:.1}, {:.2} times that with one", all / one),
             format!(
                 "closed form: {}; √N would be {:.2} times, with one actuator as good as another and a window too short to tell modes apart",
-                form(count),
+                form(bed, modal, count),
                 (count as f64).sqrt()
             ),
         ),

@@ -12,7 +12,7 @@ use super::bed::Bed;
 use super::fields::{cells, first};
 use super::modes::{FORCE, actuator, driven_at, modal};
 use super::places::place;
-use super::section::{Compared, Picture, Section};
+use super::section::{Compared, Picture, Predicted, Section};
 use serde_json::{Value, json};
 use unripple::core::{ModalResponses, Pole, window_samples};
 use unripple::field::{self, Aim, Field, Snapshot, TargetFigures};
@@ -126,6 +126,13 @@ pub fn one_actuator(bed: &Bed) -> Result<Section, TaskError> {
         title: "Fig. 2a: one actuator in a highly reverberant cavity".into(),
         figures,
         compared: alone_compared(bed, modal, &papers, &ringing),
+        predicted: vec![Predicted::new(
+            "largest noise anywhere outside, from 0 to 2T",
+            both([&papers, &ringing], |film| {
+                film.figures.worst_spot.map_or("-".into(), |w| format!("peak / {w:.1}"))
+            }),
+            "a maximum, which the rms of contrast does not show",
+        )],
         text: vec![text],
         data: json!([papers.data(bed), ringing.data(bed)]),
         ..Section::default()
@@ -227,24 +234,21 @@ fn tail_caption(bed: &Bed, papers: &Alone, ringing: &Alone) -> String {
     )
 }
 
+/// A figure of both films, each with its decay time.
+fn both(films: [&Alone; 2], of: impl Fn(&Alone) -> String) -> String {
+    films.map(|film| format!("{} (τ = {:.0} ms)", of(film), film.tau * 1e3)).join(", ")
+}
+
 fn alone_compared(bed: &Bed, modal: &ModalResponses, papers: &Alone, ringing: &Alone) -> Vec<Compared> {
     let band = modal.conditions.band;
     let form =
         |window| closed::contrast(1.0, band[1] - band[0], ringing.tau, window, modal.poles.len() as f64);
-    let both = |of: &dyn Fn(&Alone) -> String| {
-        format!(
-            "{} (τ = {:.0} ms), {} (τ = {:.0} ms)",
-            of(papers),
-            papers.tau * 1e3,
-            of(ringing),
-            ringing.tau * 1e3
-        )
-    };
+    let films = [papers, ringing];
     vec![
         Compared::new(
             "focus of one actuator: contrast",
             "good",
-            both(&|film| ratio(film.figures.contrast)),
+            both(films, |film| ratio(film.figures.contrast)),
             format!(
                 "closed form for the longer ringing: {:.1} with this T, {:.1} with ten times it; a short recording gives most of what \
                  there is to gain, ringing longer hardly any",
@@ -253,15 +257,9 @@ fn alone_compared(bed: &Bed, modal: &ModalResponses, papers: &Alone, ringing: &A
             ),
         ),
         Compared::new(
-            "largest noise anywhere outside, from 0 to 2T",
-            "no figure",
-            both(&|film| film.figures.worst_spot.map_or("-".into(), |w| format!("peak / {w:.1}"))),
-            "reported since rms hides it",
-        ),
-        Compared::new(
             format!("tail above {:.0} % of the peak", OVER * 100.0),
             "long",
-            both(&|film| shown(film.over_after(bed))),
+            both(films, |film| shown(film.over_after(bed))),
             "the waves ring on after the focus and die out with τ: a focus repeated sooner meets what is left of the one before",
         ),
     ]

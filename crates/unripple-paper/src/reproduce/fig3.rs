@@ -1,6 +1,6 @@
 //! Figure 3: power against frequency for film and glass.
 
-use super::{Bed, Compared, Picture, Section};
+use super::{Bed, Compared, Picture, Predicted, Section};
 use serde_json::json;
 use std::f64::consts::TAU;
 use unripple::core::Finger;
@@ -52,6 +52,7 @@ pub fn section(bed: &Bed) -> Result<Section, TaskError> {
             ),
         ],
         compared: compared(bed, &strips.map(|(_, strip)| strip), &finger),
+        predicted: vec![most_taken(&strips[1].1, &finger)],
         data: json!({ "glass": every(&swept[0]), "film": every(&swept[1]) }),
         ..Section::default()
     })
@@ -127,8 +128,7 @@ fn power(strips: &[(&str, Strip)], marks: &[f64], finger: &Finger) -> Figure {
 }
 
 fn compared(bed: &Bed, [glass, film]: &[Strip; 2], finger: &Finger) -> Vec<Compared> {
-    let best = frequencies().map(|hz| film.scattering(finger, hz)).fold(None, larger);
-    let resonance = (finger.stiffness / finger.mass).sqrt() / TAU;
+    let resonance = resonance(finger);
     let top = bed.surface.emission.band[1];
     let muffled = |hz: f64| 1.0 / film.scattering(finger, hz).transmission;
     let impedance = |strip: &Strip, hz: f64| strip.impedance(strip.wavenumber(hz));
@@ -137,14 +137,14 @@ fn compared(bed: &Bed, [glass, film]: &[Strip; 2], finger: &Finger) -> Vec<Compa
             "reflected wave",
             "A_R e^{j(ωt - kx)}",
             "A_R e^{j(ωt + kx)}",
-            "a reflected wave travels back; equation 3 is right with that sign only",
+            "a misprint: the reflected wave travels back, and equation 3 follows with this sign only",
         ),
         Compared::new(
             "impedance for least muffling",
             "Z_S larger than Z_F",
             format!("film: {:.3} against {:.0} N·s/m and more", impedance(film, top), finger.damping),
             format!(
-                "the paper's own film fails its rule; glass at {top:.0} Hz has {:.1} N·s/m",
+                "the film of section 4 does not meet this condition; glass at {top:.0} Hz has {:.1} N·s/m",
                 impedance(glass, top)
             ),
         ),
@@ -152,16 +152,8 @@ fn compared(bed: &Bed, [glass, film]: &[Strip; 2], finger: &Finger) -> Vec<Compa
             "impedance for most power",
             "Z_F = Z_S",
             "Z_F = 2 Z_S",
-            "waves leave the contact on both sides, so the finger sees twice the strip's impedance, and takes half the \
-             power at best",
-        ),
-        Compared::new(
-            "most power the finger takes from the film",
-            "no figure",
-            best.map_or("-".into(), |s| {
-                format!("{:.0} % at {:.0} Hz", 100.0 * s.absorbed_power, s.frequency_hz)
-            }),
-            format!("near the finger's resonance, {resonance:.0} Hz, where mass and spring cancel"),
+            "Z_F = Z_S is the match of a load at the end of a strip; here, by equation 3, waves leave the contact on both sides: \
+             the finger sees twice the strip's impedance, and takes half the power at best",
         ),
         Compared::new(
             "attenuation by a finger on the film",
@@ -170,6 +162,20 @@ fn compared(bed: &Bed, [glass, film]: &[Strip; 2], finger: &Finger) -> Vec<Compa
             "a strip lets no wave pass round the finger, a membrane does",
         ),
     ]
+}
+
+/// Resonance of the finger's mass on its spring, in Hz.
+fn resonance(finger: &Finger) -> f64 {
+    (finger.stiffness / finger.mass).sqrt() / TAU
+}
+
+fn most_taken(film: &Strip, finger: &Finger) -> Predicted {
+    let best = frequencies().map(|hz| film.scattering(finger, hz)).fold(None, larger);
+    Predicted::new(
+        "most power the finger takes from the film",
+        best.map_or("-".into(), |s| format!("{:.0} % at {:.0} Hz", 100.0 * s.absorbed_power, s.frequency_hz)),
+        format!("near the finger's resonance, {:.0} Hz, where mass and spring cancel", resonance(finger)),
+    )
 }
 
 fn larger(best: Option<Scattering>, s: Scattering) -> Option<Scattering> {

@@ -8,7 +8,7 @@ use self::repeated::{AMPLITUDE, Pulse, RATES, Repeated, Tracked, mean};
 use super::bed::Bed;
 use super::fields::largest;
 use super::modes::{closed_contrast, modal};
-use super::section::{Compared, Picture, Section};
+use super::section::{Compared, Picture, Predicted, Section};
 use serde_json::json;
 use unripple::physics::design::closed;
 use unripple_dsp::rms;
@@ -29,7 +29,8 @@ pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     Ok(Section {
         title: "Fig. 4: two foci, at 5 Hz and at 2 Hz".into(),
         figures,
-        compared: compared(bed, &repeated)?,
+        compared: compared(bed, &repeated),
+        predicted: predicted(bed, &repeated)?,
         table: table(bed, &repeated),
         data: json!({ "period_s": repeated.period, "largest_force_n": repeated.drive.peak(), "pulses": repeated.pulses, "points": points }),
         text: vec![
@@ -43,8 +44,8 @@ pub fn section(bed: &Bed) -> Result<Section, TaskError> {
                 repeated.period,
                 AMPLITUDE * 1e6
             ),
-            "The paper calls the foci D and E in the figure's caption (5 Hz in E, 2 Hz in D) but E and F in the text, with the rates exchanged \
-             (2 Hz in E, 5 Hz in F). Its caption is followed. Where its five points lay is not given; these are our own."
+            "The caption of the paper's figure names the foci E (5 Hz) and D (2 Hz), its text E (2 Hz) and F (5 Hz). The caption is followed \
+             here. Where the five points lay is not given; these are our own."
                 .into(),
         ],
     })
@@ -78,7 +79,7 @@ fn table(bed: &Bed, repeated: &Repeated) -> Vec<Vec<String>> {
     std::iter::once(headings).chain(repeated.points.iter().map(row)).collect()
 }
 
-fn compared(bed: &Bed, repeated: &Repeated) -> Result<Vec<Compared>, TaskError> {
+fn compared(bed: &Bed, repeated: &Repeated) -> Vec<Compared> {
     let heights: Vec<String> =
         repeated.foci().map(|p| format!("{} in {}", um(mean(&p.pulses(bed))), p.name)).collect();
     let noise = |points: &mut dyn Iterator<Item = &Tracked>| {
@@ -87,18 +88,7 @@ fn compared(bed: &Bed, repeated: &Repeated) -> Result<Vec<Compared>, TaskError> 
     };
     let [rms_foci, _] = noise(&mut repeated.foci());
     let [rms_others, peak_others] = noise(&mut repeated.others());
-    let contrasts = |of: fn(&Pulse) -> f64| {
-        let when = |together| {
-            let pulses = repeated.pulses.iter().filter(|p| p.together == together);
-            pulses.map(|p| format!("{:.1} in {}", of(p), p.name)).collect::<Vec<_>>().join(", ")
-        };
-        format!("alone {}; together {}", when(false), when(true))
-    };
-    let count = bed.surface.actuators.len();
-    let single = closed_contrast(bed, modal(&bed.responses)?, count);
-    let form = single
-        .map_or("-".into(), |c| format!("{c:.1} for one focus, {:.1} for two at once", closed::foci(c, 2.0)));
-    Ok(vec![
+    vec![
         Compared::new(
             "pulses (displacement), µm",
             "40",
@@ -113,21 +103,34 @@ fn compared(bed: &Bed, repeated: &Repeated) -> Result<Vec<Compared>, TaskError> 
             ),
             "agrees: noise is everywhere of about one size; rms over all of the steady part, quieter spells between pulses included",
         ),
-        Compared::new(
+    ]
+}
+
+fn predicted(bed: &Bed, repeated: &Repeated) -> Result<Vec<Predicted>, TaskError> {
+    let contrasts = |of: fn(&Pulse) -> f64| {
+        let when = |together| {
+            let pulses = repeated.pulses.iter().filter(|p| p.together == together);
+            pulses.map(|p| format!("{:.1} in {}", of(p), p.name)).collect::<Vec<_>>().join(", ")
+        };
+        format!("alone {}; together {}", when(false), when(true))
+    };
+    let count = bed.surface.actuators.len();
+    let single = closed_contrast(bed, modal(&bed.responses)?, count);
+    let form = single
+        .map_or("-".into(), |c| format!("{c:.1} for one focus, {:.1} for two at once", closed::foci(c, 2.0)));
+    Ok(vec![
+        Predicted::new(
             "contrast of a pulse, velocity",
-            "no figure",
             contrasts(|p| p.contrast),
             format!("once steady; closed form {form}"),
         ),
-        Compared::new(
+        Predicted::new(
             "contrast of a pulse, displacement",
-            "no figure",
             contrasts(|p| p.displacement_contrast),
             "lower than in velocity: displacement favours the lowest modes, of which there are few to cancel each other",
         ),
-        Compared::new(
+        Predicted::new(
             "largest force, mN",
-            "no figure",
             format!("{:.1}", repeated.drive.peak() * 1e3),
             "per actuator, ideal forces without moving mass",
         ),

@@ -1,7 +1,7 @@
 //! Section 4: displacement and electric power of the focus.
 
 use super::section::{row, three};
-use super::{Bed, Compared, Picture, Section};
+use super::{Bed, Compared, Picture, Predicted, Section, coils};
 use serde::Serialize;
 use serde_json::json;
 use std::f64::consts::{PI, TAU};
@@ -36,8 +36,10 @@ struct Level {
     displacement_m: f64,
     peak_force_n: f64,
     rms_force_n: f64,
-    /// Mean heat in all coils over the window, in W.
-    mean_coil_heat_w: f64,
+    /// Mean heat in all coils over the window with the printed force constant, in W.
+    mean_coil_heat_printed_w: f64,
+    /// The same with the force constant within reach of such coils, in W.
+    mean_coil_heat_reachable_w: f64,
     /// Mean mechanical power over the window, in W.
     mean_mechanical_power_w: f64,
     contrast: Option<f64>,
@@ -48,20 +50,22 @@ pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let played = [Method::TimeReversal, Method::OneBit].map(|method| play(bed, method));
     let [reversed, one_bit] = played;
     let played = [reversed?, one_bit?];
-    let levels: Vec<Level> = played.iter().flat_map(|p| LEVELS.map(|level| p.at(level))).collect();
+    let reachable = coils::judged(bed).reachable;
+    let levels: Vec<Level> = played.iter().flat_map(|p| LEVELS.map(|level| p.at(level, reachable))).collect();
     let limits = deformation(&bed.surface);
     Ok(Section {
         title: "Section 4: 40 µm and 200 µm".into(),
-        text: text(bed),
+        text: vec![scaling(bed, reachable), powers(bed)],
         figures: vec![Picture::still(
             "levels",
             figure(&played, &limits),
             "Peak displacement against the peak force of each actuator, a single focus. Above the film's thickness the \
              lines are what linear theory would say. Yield is that of a wave of the shortest wavelength.",
         )],
-        compared: compared(bed, &levels, &limits, &played[0]),
-        table: table(&levels),
-        data: json!({ "levels": levels, "deformation": limits }),
+        compared: compared(&limits, &played[0]),
+        predicted: predicted(bed, &levels, &limits),
+        table: table(&levels, reachable),
+        data: json!({ "levels": levels, "deformation": limits, "force_constant_reachable_n_per_a": reachable }),
     })
 }
 
@@ -88,17 +92,20 @@ impl Played {
         self.measured.targets.first().map_or(f64::NAN, |t| t.peak_displacement_m.abs())
     }
 
-    /// The same drive scaled to a displacement in metres.
-    fn at(&self, level: f64) -> Level {
+    /// The same drive scaled to a displacement in metres, with the heat of coils of the printed force constant and of the `reachable`
+    /// one (N/A).
+    fn at(&self, level: f64, reachable: f64) -> Level {
         let scale = level / self.displacement();
-        let coil = |force: f64| RESISTANCE * (force / FORCE_CONSTANT).powi(2);
         let (peak, rms) = (self.drive.peak() * scale, self.drive.rms() * scale);
+        let channels = self.drive.channels().len() as f64;
+        let heat = |force_constant: f64| channels * RESISTANCE * (rms / force_constant).powi(2);
         Level {
             method: self.method.name(),
             displacement_m: level,
             peak_force_n: peak,
             rms_force_n: rms,
-            mean_coil_heat_w: coil(rms) * self.drive.channels().len() as f64,
+            mean_coil_heat_printed_w: heat(FORCE_CONSTANT),
+            mean_coil_heat_reachable_w: heat(reachable),
             mean_mechanical_power_w: self.work * scale * scale / self.drive.duration(),
             contrast: self.measured.targets.first().and_then(|t| t.displacement_contrast),
         }
@@ -111,13 +118,14 @@ fn shown(value: f64, unit: &str) -> String {
     format!("{} {unit}", three(value * multiplier))
 }
 
-fn table(levels: &[Level]) -> Vec<Vec<String>> {
+fn table(levels: &[Level], reachable: f64) -> Vec<Vec<String>> {
     let headings = row([
         "peak",
         "method",
         "peak force",
         "rms force",
-        "heat in all coils, mean",
+        &format!("heat in all coils with the printed {FORCE_CONSTANT} N/A, mean"),
+        &format!("heat in all coils with {} N/A, within reach, mean", three(reachable)),
         "mechanical power, mean",
         "contrast (displacement)",
     ]);
@@ -127,7 +135,8 @@ fn table(levels: &[Level]) -> Vec<Vec<String>> {
             l.method.to_owned(),
             shown(l.peak_force_n, "N"),
             shown(l.rms_force_n, "N"),
-            shown(l.mean_coil_heat_w, "W"),
+            shown(l.mean_coil_heat_printed_w, "W"),
+            shown(l.mean_coil_heat_reachable_w, "W"),
             shown(l.mean_mechanical_power_w, "W"),
             l.contrast.map_or("-".into(), |c| format!("{c:.1}")),
         ]
@@ -135,20 +144,23 @@ fn table(levels: &[Level]) -> Vec<Vec<String>> {
     std::iter::once(headings).chain(levels.iter().map(cells)).collect()
 }
 
-fn compared(bed: &Bed, levels: &[Level], limits: &Deformation, reversed: &Played) -> Vec<Compared> {
-    let mut rows: Vec<Compared> = Vec::new();
+fn predicted(bed: &Bed, levels: &[Level], limits: &Deformation) -> Vec<Predicted> {
+    let mut rows: Vec<Predicted> = Vec::new();
     for level in levels.iter().filter(|l| l.method == Method::TimeReversal.name()) {
         let um = level.displacement_m * 1e6;
-        rows.push(Compared::new(
+        rows.push(Predicted::new(
             format!("{um:.0} µm: force of each actuator"),
-            "no figure",
             format!("{} peak, {} rms", shown(level.peak_force_n, "N"), shown(level.rms_force_n, "N")),
-            "the paper prints no drive; a bare sheet, no finger on it, ideal actuators",
+            "a bare sheet, no finger on it, ideal actuators",
         ));
         rows.push(touch(bed, level.displacement_m));
         rows.extend(strain(limits, level.displacement_m));
     }
-    rows.push(Compared::new(
+    rows
+}
+
+fn compared(limits: &Deformation, reversed: &Played) -> Vec<Compared> {
+    let scaled = Compared::new(
         "200 µm by scaling up",
         "same contrast",
         format!("linear up to {:.0} µm at most", end_of_linear(limits) * 1e6),
@@ -157,35 +169,37 @@ fn compared(bed: &Bed, levels: &[Level], limits: &Deformation, reversed: &Played
              displacement, and the focus comes early and weaker than the scaled one",
             limits.linear_limit_thickness_m * 1e6
         ),
-    ));
-    rows.extend(area(reversed));
-    rows
+    );
+    std::iter::once(scaled).chain(area(reversed)).collect()
+}
+
+/// A strip of the film as wide as the finger's contact, and the wavenumber of its shortest waves, in rad/m.
+fn strip(bed: &Bed) -> (Strip, f64) {
+    let sheet = &bed.surface.sheet;
+    let width = 2.0 * bed.surface.finger.contact_radius;
+    let strip = Strip::of_sheet(sheet.young, sheet.density, sheet.thickness, sheet.tension, width);
+    (strip, TAU / bed.responses.conditions().lambda_min)
 }
 
 /// Power of a wave of the shortest wavelength that moves the finger by `amplitude` metres (equation 4).
-fn touch(bed: &Bed, amplitude: f64) -> Compared {
-    let (sheet, finger) = (&bed.surface.sheet, &bed.surface.finger);
-    let width = 2.0 * finger.contact_radius;
-    let strip = Strip::of_sheet(sheet.young, sheet.density, sheet.thickness, sheet.tension, width);
-    let k = TAU / bed.responses.conditions().lambda_min;
+fn touch(bed: &Bed, amplitude: f64) -> Predicted {
+    let (finger, (strip, k)) = (&bed.surface.finger, strip(bed));
     let power = strip.power(finger, k, amplitude);
     let taken = power * strip.scattering(finger, k * strip.celerity(k) / TAU).absorbed_power;
-    Compared::new(
+    Predicted::new(
         format!("{:.0} µm under a finger: power at the shortest wavelength", amplitude * 1e6),
-        "no figure",
         format!("{} W to it, {} W into it", three(power), three(taken)),
         "equation 4; it grows with the square of the amplitude, and falls fast with wavelength",
     )
 }
 
-fn strain(limits: &Deformation, amplitude: f64) -> Option<Compared> {
+fn strain(limits: &Deformation, amplitude: f64) -> Option<Predicted> {
     let bend = limits.rows.iter().find(|bend| (bend.amplitude_m / amplitude - 1.0).abs() < 1e-9)?;
     let share =
         bend.share_of_yield.map_or("yield unknown".into(), |s| format!("{:.0} % of yield", 100.0 * s));
     let linear = if bend.linear { "linear theory holds" } else { "linear theory does not hold" };
-    Some(Compared::new(
+    Some(Predicted::new(
         format!("{:.0} µm: strain of the film", amplitude * 1e6),
-        "no figure",
         format!("{:.3} %, {share}", 100.0 * bend.strain),
         format!(
             "tension, bending to {:.0} mm and stretching of a wave of the shortest wavelength, an upper bound; {linear}",
@@ -238,18 +252,31 @@ fn figure(played: &[Played], limits: &Deformation) -> Figure {
     }
 }
 
-fn text(bed: &Bed) -> Vec<String> {
+/// Text on what scales with the level, and for what drive.
+fn scaling(bed: &Bed, reachable: f64) -> String {
     let [low, high] = LEVELS.map(|level| level * 1e6);
-    vec![
-        format!(
-            "The paper measured pulses of {low:.0} µm and says that {high:.0} µm follow by scaling up. In linear theory a drive scales \
-             as it is, and so do force, strain and background; power goes with the square."
-        ),
-        format!(
-            "Forces are for one pulse on the bare film, {} actuators and a window of {:.0} ms. The heat in coils takes the paper's \
-             {RESISTANCE} Ω and {FORCE_CONSTANT} N/A.",
-            bed.surface.actuators.len(),
-            bed.window * 1e3
-        ),
-    ]
+    format!(
+        "The paper measured pulses of {low:.0} µm and says that {high:.0} µm follow by scaling up. In linear theory a drive scales \
+         as it is, and so do force, strain and background; power goes with the square. Forces are for one pulse on the bare \
+         film, {} actuators and a window of {:.0} ms. The heat in coils takes the paper's {RESISTANCE} Ω, and is given twice: with \
+         the {FORCE_CONSTANT} N/A that the paper prints, and with the {} N/A that such a coil and magnet can reach (see the section \
+         on coils), for the same forces.",
+        bed.surface.actuators.len(),
+        bed.window * 1e3,
+        three(reachable)
+    )
+}
+
+/// Text on the two powers, and why they differ by orders of magnitude.
+fn powers(bed: &Bed) -> String {
+    let (finger, (strip, k)) = (&bed.surface.finger, strip(bed));
+    let passed = strip.scattering(finger, k * strip.celerity(k) / TAU).transmission;
+    format!(
+        "The power of equation 4 is the crest of a steady wave of the shortest wavelength under a finger, which moves with \
+         {passed:.2} of the wave's amplitude, while the mechanical power is the mean over the window of what all actuators give to \
+         the bare film; they differ by orders of magnitude since the finger alone costs a factor of {:.0}, and since the film \
+         stores what it is given for {:.0} ms and returns it in one short pulse, most of whose displacement is of longer waves.",
+        passed.powi(-2),
+        bed.window * 1e3
+    )
 }

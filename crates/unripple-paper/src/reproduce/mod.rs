@@ -24,6 +24,6 @@ mod table1;
 
 pub use ask::Ask;
 pub(crate) use bed::Bed;
-pub use report::{ComparedReport, FigureReport, Report, SectionReport};
+pub use report::{ComparedReport, FigureReport, PredictedReport, Report, SectionReport};
 pub use run::run;
-pub(crate) use section::{Compared, Picture, Section};
+pub(crate) use section::{Compared, Picture, Predicted, Section};

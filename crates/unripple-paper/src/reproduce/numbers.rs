@@ -5,6 +5,7 @@ use super::{Bed, Compared, Section};
 use serde_json::json;
 use std::f64::consts::TAU;
 use unripple::core::{Air, Surface};
+use unripple::physics::design::{Nature, PaperFigures};
 use unripple::physics::{Design, Medium, Modes, design};
 use unripple_tasks::TaskError;
 
@@ -15,10 +16,12 @@ const ACCURACY: f64 = 1e-6;
 /// The tension that the paper prints, in N/m.
 const PRINTED_TENSION: f64 = 30.0;
 
-/// Section 4: the numbers printed for the paper's membrane, and errors in them.
+/// Section 4: the numbers printed for the paper's membrane, and remarks on its text.
 pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     let surface = &bed.surface;
     let design = design(surface).map_err(TaskError::input)?;
+    let missing = || TaskError::Work("the bed: expected the paper's film, found another surface".into());
+    let paper = design.paper.as_ref().ok_or_else(missing)?;
     let firsts = [Air::None, Air::OneSide, Air::BothSides].map(|air| {
         let mut aired = surface.clone();
         aired.sheet.air = air;
@@ -26,16 +29,21 @@ pub fn section(bed: &Bed) -> Result<Section, TaskError> {
     });
     let [vacuum, one, both] = firsts;
     let firsts = [vacuum?, one?, both?];
-    let mut compared = waves(surface, &design);
-    compared.extend(modes(surface, &design, firsts));
+    let mut compared = waves(surface, &design, paper);
+    compared.extend(modes(surface, &design, paper, firsts));
     Ok(Section {
         title: "Section 4: the numbers of the membrane".into(),
-        text: vec![format!(
-            "The paper's film with {:.0} N/m. What is printed beside it, and what follows from the sheet's data.",
-            surface.sheet.tension
-        )],
+        text: vec![
+            format!(
+                "The paper's film with {:.0} N/m. What is printed beside it, and what follows from the sheet's data.",
+                surface.sheet.tension
+            ),
+            "Remarks on the text tell apart misprints and slips of arithmetic, which can be shown from the paper alone, and \
+             differences of model, assumption or convention, in which the paper need not be wrong."
+                .into(),
+        ],
         compared,
-        table: slips(&design),
+        table: remarks(paper),
         data: json!({ "design": design, "first_mode_hz": { "vacuum": firsts[0], "air_one_side": firsts[1], "air_both_sides": firsts[2] } }),
         ..Section::default()
     })
@@ -47,9 +55,9 @@ fn first_mode(surface: &Surface) -> Result<f64, TaskError> {
     first.ok_or_else(|| TaskError::Work(format!("no mode below {LOW} Hz")))
 }
 
-fn waves(surface: &Surface, design: &Design) -> Vec<Compared> {
+fn waves(surface: &Surface, design: &Design, paper: &PaperFigures) -> Vec<Compared> {
     let medium = Medium::of(&surface.sheet);
-    let wavelength = design.paper.as_ref().and_then(|paper| paper.table1.first()).map_or(0.0, |touch| touch.wavelength_m);
+    let wavelength = paper.table1.first().map_or(0.0, |touch| touch.wavelength_m);
     let hz = medium.omega(TAU / wavelength) / TAU;
     let slack = Medium { tension: PRINTED_TENSION, ..medium };
     vec![
@@ -58,8 +66,8 @@ fn waves(surface: &Surface, design: &Design) -> Vec<Compared> {
             format!("{PRINTED_TENSION:.0} N/m"),
             format!("{:.0} N/m", surface.sheet.tension),
             format!(
-                "{PRINTED_TENSION:.0} N/m would make long waves run at {:.1} m/s, against every other number of the paper; it \
-                 may be the total force on a side",
+                "a misprint: {PRINTED_TENSION:.0} N/m would make long waves run at {:.1} m/s, not at the velocity printed beside it; \
+                 as a force, {PRINTED_TENSION:.0} N on a side of 150 mm is 200 N/m",
                 slack.phase_celerity(0.0)
             ),
         ),
@@ -72,7 +80,7 @@ fn waves(surface: &Surface, design: &Design) -> Vec<Compared> {
         Compared::new(
             format!("phase velocity at {:.0} mm", wavelength * 1e3),
             "43 m/s",
-            format!("{:.2} m/s", design.paper.as_ref().map_or(0.0, |paper| paper.celerity_at_15mm_m_s)),
+            format!("{:.2} m/s", paper.celerity_at_15mm_m_s),
             format!("agrees; at the top of the band it is {:.2} m/s", design.celerity_max_m_s),
         ),
         Compared::new(
@@ -84,7 +92,12 @@ fn waves(surface: &Surface, design: &Design) -> Vec<Compared> {
     ]
 }
 
-fn modes(surface: &Surface, design: &Design, [vacuum, one, both]: [f64; 3]) -> Vec<Compared> {
+fn modes(
+    surface: &Surface,
+    design: &Design,
+    paper: &PaperFigures,
+    [vacuum, one, both]: [f64; 3],
+) -> Vec<Compared> {
     let k = TAU / design.lambda_min_m;
     let edge = surface.outline.perimeter() * k / (2.0 * TAU);
     let exact = design.mode_count_exact.map_or("-".into(), |count| format!("{count}"));
@@ -102,15 +115,15 @@ fn modes(surface: &Surface, design: &Design, [vacuum, one, both]: [f64; 3]) -> V
             format!("modes below {:.0} Hz", design.band_hz[1]),
             format!("+Pf/2c, which gives {:.0}", design.mode_count_weyl + 2.0 * edge),
             format!("{exact} counted, {:.0} with -Pf/2c", design.mode_count_weyl),
-            "the sign + is for free edges; the paper's sheet is glued to a frame",
+            "another assumption: the sign + is that of free edges, and the paper's sheet is glued to a frame",
         ),
         Compared::new(
             "window T",
             "30 ms",
-            format!("{:.1} ms", design.paper.as_ref().map_or(0.0, |paper| paper.window_s) * 1e3),
+            format!("{:.1} ms", paper.window_s * 1e3),
             format!(
-                "the paper's formula with its c_min gives {:.1} ms, rounded down there; nine tenths of the largest contrast take {:.1} ms",
-                design.paper.as_ref().map_or(0.0, |paper| paper.window_s) * 1e3,
+                "arithmetic: the paper's formula with its own values does not give 30 ms (see the remarks); nine tenths of the largest \
+                 contrast take {:.1} ms",
                 design.window_recommended_s * 1e3
             ),
         ),
@@ -123,15 +136,22 @@ fn modes(surface: &Surface, design: &Design, [vacuum, one, both]: [f64; 3]) -> V
     ]
 }
 
-/// Every error of the paper in a line.
-fn slips(design: &Design) -> Vec<Vec<String>> {
-    let headings = row(["slip of the paper", "printed", "what holds"]);
-    let remarks = design.paper.iter().flat_map(|paper| &paper.remarks);
-    let notes = remarks.map(|found| vec![found.topic.clone(), found.printed.clone(), found.remark.clone()]);
-    let foci = row([
+/// Every remark on the paper's text in a line, misprints first.
+fn remarks(paper: &PaperFigures) -> Vec<Vec<String>> {
+    let foci = line(
         "names of the foci",
-        "D and E in the caption of Fig. 4, E and F in the text",
-        "D (2 Hz) and E (5 Hz)",
-    ]);
-    std::iter::once(headings).chain(notes).chain(std::iter::once(foci)).collect()
+        Nature::Misprint,
+        "D and E in the caption of Fig. 4, E and F in the text, with the rates exchanged",
+        "the two contradict each other; the caption is followed here: E at 5 Hz, D at 2 Hz",
+    );
+    let of = |nature: Nature| {
+        let remarks = paper.remarks.iter().filter(move |r| r.nature == nature);
+        remarks.map(|r| line(&r.topic, r.nature, &r.printed, &r.remark))
+    };
+    let headings = row(["remark on", "nature", "printed", "remark"]);
+    std::iter::once(headings).chain(of(Nature::Misprint)).chain([foci]).chain(of(Nature::Model)).collect()
+}
+
+fn line(topic: &str, nature: Nature, printed: &str, remark: &str) -> Vec<String> {
+    row([topic, nature.name(), printed, remark])
 }

@@ -1,14 +1,16 @@
 //! The page of `reproduce`, as Markdown and HTML.
 
-use super::{Compared, Picture, Section};
+use super::{Compared, Picture, Predicted, Section};
 use std::fmt::Write;
 
-/// Style of the page, its title, the paper's own reference, and the headings of its comparisons.
+/// Style of the page, its title, the paper's own reference, and the headings of its comparisons and predictions.
 const STYLE: &str = include_str!("page.css");
 const TITLE: &str = "Time-reversed touch, reproduced";
 const PAPER: &str = "C. Hudin, J. Lozada, M. Wiertlewski and V. Hayward, “Tradeoffs in the application of time-reversed \
                      acoustics to tactile stimulation”, EuroHaptics 2012";
-const COLUMNS: [&str; 4] = ["Quantity", "Paper", "Here", "Why they differ"];
+const COMPARED: (&str, [&str; 4]) = ("Beside the paper", ["Quantity", "Paper", "Here", "Why they differ"]);
+const PREDICTED: (&str, [&str; 3]) =
+    ("Predictions, for which the paper has no figure", ["Quantity", "Here", "How it comes about"]);
 
 /// Least and greatest width on a screen of a millimetre of figure, in rem. Below the least letters are too small for
 /// a screen; above the greatest figures do not fit one.
@@ -18,7 +20,8 @@ const MOST: f64 = 0.31;
 fn opening() -> String {
     format!(
         "The table and figures of {PAPER}, computed again on the built-in surface hudin-2012: the paper's film, clamped, \
-         in vacuum, with ideal force actuators. What is under “Here” was computed for this page from the data of that surface."
+         in vacuum, with ideal force actuators. What is under “Here” was computed for this page from the data of that surface. \
+         Where the paper has no figure, what is computed is a prediction, in a table of its own."
     )
 }
 
@@ -34,8 +37,11 @@ pub fn markdown(sections: &[Section]) -> String {
             let file = picture.files().pop().unwrap_or_default();
             let _ = write!(text, "\n![{}]({file})\n\n*{}*\n", cell(picture.alternative()), picture.caption);
         }
-        markdown_table(&mut text, &compared(&section.compared));
         markdown_table(&mut text, &section.table);
+        for (heading, _, rows) in facing(section) {
+            let _ = write!(text, "\n### {heading}\n");
+            markdown_table(&mut text, &rows);
+        }
     }
     text
 }
@@ -71,8 +77,11 @@ pub fn html(sections: &[Section]) -> String {
             let _ = writeln!(body, "<p>{}</p>", escaped(paragraph));
         }
         section.figures.iter().for_each(|picture| body += &figure(picture));
-        html_table(&mut body, "compared", &compared(&section.compared));
         html_table(&mut body, "", &section.table);
+        for (heading, class, rows) in facing(section) {
+            let _ = writeln!(body, "<h3>{}</h3>", escaped(heading));
+            html_table(&mut body, class, &rows);
+        }
         body += "</section>\n";
     }
     body += "</main>\n";
@@ -119,11 +128,24 @@ fn html_table(body: &mut String, class: &str, rows: &[Vec<String>]) {
     *body += "</tbody></table></div>\n";
 }
 
-/// The comparisons as a table, headings first; empty without any.
-fn compared(rows: &[Compared]) -> Vec<Vec<String>> {
-    let headings = (!rows.is_empty()).then(|| COLUMNS.map(str::to_owned).to_vec());
-    let cells = |r: &Compared| vec![r.what.clone(), r.paper.clone(), r.here.clone(), r.why.clone()];
-    headings.into_iter().chain(rows.iter().map(cells)).collect()
+/// Comparisons and predictions of a section, where it has them: heading, class and table, whose first row are its headings.
+fn facing(section: &Section) -> Vec<(&'static str, &'static str, Vec<Vec<String>>)> {
+    let table = |columns: &[&str], rows: Vec<Vec<String>>| {
+        let columns: Vec<String> = columns.iter().map(|column| (*column).to_owned()).collect();
+        std::iter::once(columns).chain(rows).collect::<Vec<Vec<String>>>()
+    };
+    let compared = |r: &Compared| vec![r.what.clone(), r.paper.clone(), r.here.clone(), r.why.clone()];
+    let predicted = |r: &Predicted| vec![r.what.clone(), r.here.clone(), r.why.clone()];
+    let compared: Vec<_> = section.compared.iter().map(compared).collect();
+    let predicted: Vec<_> = section.predicted.iter().map(predicted).collect();
+    let mut tables = Vec::new();
+    if !compared.is_empty() {
+        tables.push((COMPARED.0, "compared", table(&COMPARED.1, compared)));
+    }
+    if !predicted.is_empty() {
+        tables.push((PREDICTED.0, "predicted", table(&PREDICTED.1, predicted)));
+    }
+    tables
 }
 
 /// A title as the name of a place in the page.
@@ -144,6 +166,7 @@ mod tests {
         Section {
             title: "Fig. 9: a | b".into(),
             compared: vec![Compared::new("|A|", "< 1", "0.5", "\"so\" & [so]")],
+            predicted: vec![Predicted::new("B", "0.7", "so")],
             ..Section::default()
         }
     }
@@ -158,5 +181,22 @@ mod tests {
         assert!(page.contains("href=\"#fig-9-a-b\"") && page.contains("id=\"fig-9-a-b\""));
         let text = markdown(&[section()]);
         assert!(text.contains("| \\|A\\| | < 1 | 0.5 | \"so\" & \\[so\\] |"), "{text}");
+    }
+
+    #[test]
+    fn predictions_are_apart_from_comparisons() {
+        let (page, text) = (html(&[section()]), markdown(&[section()]));
+        let parts = |page: &str, between: &str| page.split(between).map(str::to_owned).collect::<Vec<_>>();
+        for (found, row) in [
+            (parts(&text, "\n### "), "| B | 0.7 | so |"),
+            (parts(&page, "<h3>"), "data-heading=\"Here\">0.7</td>"),
+        ] {
+            let [_, compared, predicted] = &found[..] else { panic!("{found:?}") };
+            assert!(compared.starts_with(COMPARED.0) && compared.contains("0.5"), "{compared}");
+            assert!(predicted.starts_with(PREDICTED.0) && predicted.contains(row), "{predicted}");
+            assert!(!compared.contains("0.7") && !predicted.contains("Paper"), "{found:?}");
+        }
+        let bare = Section { predicted: Vec::new(), ..section() };
+        assert!(!markdown(&[bare]).contains(PREDICTED.0));
     }
 }

@@ -1,7 +1,7 @@
 //! Contrast of a repeated focus against its period.
 
 use super::contrast::{Statistic, curve, departure, of, series, statistics};
-use super::{Bed, Compared, Picture, Section};
+use super::{Bed, Compared, Picture, Predicted, Section};
 use crate::study::{self, Bench, CELLS, Sampling, against_period};
 use serde_json::json;
 use unripple::core::{Decay, Surface};
@@ -52,7 +52,8 @@ pub fn section(bed: &Bed, placements: usize) -> Result<Section, TaskError> {
                 ms(bed.window)
             ),
         )],
-        compared: compared(&slow, &quick),
+        compared: vec![compared(&slow, &quick)],
+        predicted: vec![predicted(&slow, &quick)],
         data: json!({
             "decay_time_s": long,
             "against_period_s": slow.rows,
@@ -103,7 +104,7 @@ fn figure(cases: [&Case; 2], window: f64, n: f64) -> Figure {
     }
 }
 
-fn compared(slow: &Case, quick: &Case) -> Vec<Compared> {
+fn compared(slow: &Case, quick: &Case) -> Compared {
     let ends = |rows: &[Statistic]| [rows.first(), rows.last()].map(|r| r.map_or(f64::NAN, |r| r.simulated));
     let [[fast_slow, rare_slow], [fast_quick, rare_quick]] = [slow, quick].map(|case| ends(&case.rows));
     let [fast, rare] = [slow.rows.first(), slow.rows.last()].map(|r| ms(r.map_or(f64::NAN, |r| r.varied)));
@@ -112,25 +113,25 @@ fn compared(slow: &Case, quick: &Case) -> Vec<Compared> {
     let better = pairs.find(|(own, damped)| own.simulated >= damped.simulated);
     let from =
         better.map_or("no period tried".into(), |(own, _)| format!("periods from {} on", ms(own.varied)));
+    Compared::new(
+        "decay time to aim for",
+        format!("about T/N ({short})"),
+        format!("{long} is better for {from}"),
+        format!(
+            "every {fast}, contrast is {fast_slow:.1} with {long} and {fast_quick:.1} with T/N; every {rare}, {rare_slow:.1} and \
+             {rare_quick:.1}. T/N pays only where foci follow each other within the window"
+        ),
+    )
+}
+
+fn predicted(slow: &Case, quick: &Case) -> Predicted {
     let refined = |case: &Case| departure(&case.rows, |r| r.predicted);
-    vec![
-        Compared::new(
-            "decay time to aim for",
-            format!("about T/N ({short})"),
-            format!("{long} is better for {from}"),
-            format!(
-                "every {fast}, contrast is {fast_slow:.1} with {long} and {fast_quick:.1} with T/N; every {rare}, \
-                 {rare_slow:.1} and {rare_quick:.1}. T/N pays only where foci follow each other within the window"
-            ),
+    Predicted::new(
+        "closed form from simulation, over the period",
+        format!("{:+.1} % at most; {:+.1} % with T/N", refined(slow), refined(quick)),
+        format!(
+            "the plain closed form, which counts every earlier and later pulse in full: {:+.1} % at most",
+            departure(&slow.rows, |r| r.plain)
         ),
-        Compared::new(
-            "closed form from simulation, over the period",
-            "no figure",
-            format!("{:+.1} % at most; {:+.1} % with T/N", refined(slow), refined(quick)),
-            format!(
-                "the plain form counts every earlier and later pulse in full: {:+.1} %",
-                departure(&slow.rows, |r| r.plain)
-            ),
-        ),
-    ]
+    )
 }

@@ -1,11 +1,11 @@
 //! Report of the task `reproduce`.
 
-use super::{Compared, Picture, Section};
+use super::{Compared, Picture, Predicted, Section};
 use serde::Serialize;
 use serde_json::Value;
 use std::fmt::Write;
 
-pub use super::section::Compared as ComparedReport;
+pub use super::section::{Compared as ComparedReport, Predicted as PredictedReport};
 
 /// Report of `reproduce`: the paper's results beside the computed ones.
 #[derive(Clone, Debug, Serialize)]
@@ -25,6 +25,8 @@ pub struct SectionReport {
     pub text: Vec<String>,
     /// Numbers of the paper beside the computed ones.
     pub compared: Vec<Compared>,
+    /// Computed numbers for which the paper has none.
+    pub predicted: Vec<Predicted>,
     /// A table of computed results, as rows of cells; headings first.
     pub table: Vec<Vec<String>>,
     /// Figures of this part.
@@ -61,6 +63,7 @@ impl Report {
             title: section.title.clone(),
             text: section.text.clone(),
             compared: section.compared.clone(),
+            predicted: section.predicted.clone(),
             table: section.table.clone(),
             figures: section.figures.iter().map(FigureReport::of).collect(),
             data: section.data.clone(),
@@ -76,6 +79,9 @@ impl unripple_tasks::Report for Report {
             let _ = writeln!(text, "{}", section.title);
             for Compared { what, paper, here, .. } in &section.compared {
                 let _ = writeln!(text, "  {what}: paper {paper}, here {here}");
+            }
+            for Predicted { what, here, .. } in &section.predicted {
+                let _ = writeln!(text, "  {what}: {here} (predicted; the paper has no figure)");
             }
         }
         text

@@ -11,6 +11,8 @@ pub struct Section {
     pub figures: Vec<Picture>,
     /// Numbers of the paper beside the computed ones.
     pub compared: Vec<Compared>,
+    /// Computed numbers for which the paper has none.
+    pub predicted: Vec<Predicted>,
     /// A table of computed results, as rows of cells; headings first.
     pub table: Vec<Vec<String>>,
     /// Paragraphs, in plain words.
@@ -70,6 +72,24 @@ impl Compared {
         why: impl Into<String>,
     ) -> Self {
         Self { what: what.into(), paper: paper.into(), here: here.into(), why: why.into() }
+    }
+}
+
+/// A quantity as computed here, for which the paper has no figure.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Predicted {
+    /// Name of the quantity.
+    pub what: String,
+    /// Value found here.
+    pub here: String,
+    /// How it comes about, or what to compare it with.
+    pub why: String,
+}
+
+impl Predicted {
+    /// One row: the quantity, the computed value, and how it comes about.
+    pub fn new(what: impl Into<String>, here: impl Into<String>, why: impl Into<String>) -> Self {
+        Self { what: what.into(), here: here.into(), why: why.into() }
     }
 }
 

@@ -4,7 +4,7 @@ use super::focus::focused;
 use super::ratio::ratio;
 use crate::reproduce::fields::{cells, first, largest};
 use crate::reproduce::modes::FORCE;
-use crate::reproduce::{Bed, Compared, Picture, Section};
+use crate::reproduce::{Bed, Picture, Predicted, Section};
 use serde_json::json;
 use unripple::core::Point;
 use unripple::field::{self, Aim, Field, Measured, TargetFigures, Trace};
@@ -74,14 +74,13 @@ pub fn triangle(bed: &Bed) -> Result<Section, TaskError> {
     ];
     let [low, high] = drawn.velocities();
     let [low_u, high_u] = drawn.displacements();
-    let row = |what: &str, here: String, why: &str| Compared::new(what, "no figure", here, why);
-    let compared = vec![
-        row(
+    let predicted = vec![
+        Predicted::new(
             "triangle: velocity along it at T",
             format!("mean {:.0} mm/s, {low:.2} to {high:.2} of it", drawn.figures.peak_velocity_m_s * 1e3),
             "its points have equal weights and their waves overlap, most at the corners, over noise",
         ),
-        row(
+        Predicted::new(
             "triangle: displacement along it",
             format!(
                 "mean {:.1} µm, {low_u:.2} to {high_u:.2} of it",
@@ -89,7 +88,7 @@ pub fn triangle(bed: &Bed) -> Result<Section, TaskError> {
             ),
             "at the extreme of the mean: displacement follows velocity by a part of the pulse",
         ),
-        row(
+        Predicted::new(
             "triangle: contrast",
             format!(
                 "{} in velocity, {} in displacement",
@@ -102,7 +101,7 @@ pub fn triangle(bed: &Bed) -> Result<Section, TaskError> {
     Ok(Section {
         title: "Fig. 2b: a triangle from eight impulse responses".into(),
         figures,
-        compared,
+        predicted,
         data: json!({ "figures": drawn.figures, "least_and_greatest_velocity_of_mean": drawn.velocities() }),
         text: vec![format!(
             "An equilateral triangle of {:.0} mm is sampled at {} points, a quarter of the shortest wavelength apart; their reversed responses \
