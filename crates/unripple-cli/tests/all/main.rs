@@ -14,6 +14,7 @@ mod doubtful;
 #[path = "../common/elsewhere.rs"]
 mod elsewhere;
 mod export;
+mod figures;
 mod fit;
 mod judged;
 mod level;

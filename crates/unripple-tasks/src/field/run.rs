@@ -16,10 +16,9 @@ use unripple_store::read_wav;
 /// [`TaskError::Ask`] of numbers that make no sense; those of reading and writing files; [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
     let out = folder::begin(ask.output.as_deref(), ask)?;
-    let drawn = !ask.no_figures;
-    let (mut made, movie) = measured(ask, drawn && out.is_some(), progress)?;
+    let (mut made, movie) = measured(ask, !ask.no_figures && out.is_some(), progress)?;
     if let Some(out) = out {
-        write::write(out, &mut made, movie, drawn, progress)?;
+        write::write(ask, out, &mut made, movie, progress)?;
     }
     Ok(made.report)
 }

@@ -1,11 +1,12 @@
 //! The folder of a field: report, figures and animation.
 
 use super::{Ask, Made};
-use crate::figures::{self, Scene};
+use crate::figures::{self, Scene, When};
 use crate::{Progress, Record, TaskError, folder, go_on};
 use unripple::act::Judged;
 use unripple::core::{Point, Surface};
 use unripple::field::{Aim, Field};
+use unripple_plot::Figure;
 use unripple_store::OutputDir;
 
 /// What the animation shows before the instant of the first figure, and after it, in s.
@@ -13,25 +14,17 @@ const AROUND: [f64; 2] = [6e-3, 3e-3];
 
 /// Writes report, figures and animation, names the files in the report, and puts the folder in its place.
 pub(super) fn write(
+    ask: &Ask,
     (out, record): (OutputDir, Record),
     made: &mut Made,
     movie: Option<Vec<u8>>,
-    drawn: bool,
     progress: &mut dyn Progress,
 ) -> Result<(), TaskError> {
     go_on(progress)?;
     progress.stage("figures");
-    let measured = &made.judged.measured;
-    let scene = scene(&made.surface, &made.aims, &made.judged);
-    let mut figures = Vec::new();
     // They are drawn in m/s and µm, which nobody knows without a scale.
-    if drawn && made.scaled {
-        let rate = made.drive.rate();
-        figures.push(("traces", figures::traces(&measured.targets, &made.judged.traces, rate)));
-        figures.extend(figures::snapshots(&scene, measured).map(|figure| ("snapshot", figure)));
-        figures.extend(figures::peaks(&scene, measured).map(|figure| ("peaks", figure)));
-        figures.extend(figures::felt(&scene, measured).map(|figure| ("felt", figure)));
-    }
+    let drawn = made.scaled && !ask.no_figures;
+    let figures = if drawn { figures(ask, made) } else { Vec::new() };
     made.report.files = figures::write(&out, &figures)?;
     if let Some(movie) = movie {
         out.write("animation.png", &movie)?;
@@ -40,6 +33,17 @@ pub(super) fn write(
     record.write(&out, &made.report)?;
     out.write("report.md", made.report.markdown().as_bytes())?;
     folder::finish(out, progress)
+}
+
+fn figures(ask: &Ask, made: &Made) -> Vec<(&'static str, Figure)> {
+    let (measured, rate) = (&made.judged.measured, made.drive.rate());
+    let scene = scene(&made.surface, &made.aims, &made.judged);
+    let when = if ask.instants_s.is_empty() { When::Fastest } else { When::Asked };
+    let mut figures = vec![("traces", figures::traces(&measured.targets, &made.judged.traces, rate, when))];
+    figures.extend(figures::snapshots(&scene, measured, when).map(|figure| ("snapshot", figure)));
+    figures.extend(figures::peaks(&scene, measured).map(|figure| ("peaks", figure)));
+    figures.extend(figures::felt(&scene, measured).map(|figure| ("felt", figure)));
+    figures
 }
 
 /// The animation, if there are to be frames.

@@ -1,5 +1,6 @@
 //! Maps of the surface with its rim, actuators and targets.
 
+use super::When;
 use unripple::core::{Point, Surface};
 use unripple::field::{self, Maps, Measured};
 use unripple_plot::{ColourMap, Colours, Figure, Grid, Map, Marker, Ring, Symbol, prefixed};
@@ -94,17 +95,42 @@ fn displacement(map: ColourMap, values: &[f32]) -> Colours {
     scale("Displacement", "m", map, values)
 }
 
-/// Maps of velocity at the first target's focal instant, and of displacement at the instant of its extreme; `None`
-/// without a grid.
-pub fn snapshots(scene: &Scene, measured: &Measured) -> Option<Figure> {
+/// A time (s) in ms, which no title is broken within.
+fn milliseconds(seconds: f64) -> String {
+    format!("{:.2}\u{a0}ms", seconds * 1e3)
+}
+
+/// An instant (s) as titles give it.
+fn time(instant: f64) -> String {
+    format!("t\u{a0}=\u{a0}{}", milliseconds(instant))
+}
+
+/// Differences of time below this, in s, are none: half of the last digit that titles give.
+const AT_ONCE: f64 = 5e-6;
+
+/// Maps of velocity at the first target's instant, and of displacement when that of the first target is largest, with both instants in
+/// their titles; `None` without targets or a grid.
+pub fn snapshots(scene: &Scene, measured: &Measured, when: When) -> Option<Figure> {
     let maps = &measured.maps;
     let (v, u) = (maps.at_peak.first()?, maps.at_displacement_peak.first()?);
-    let title = |t: f64| format!("t = {:.3} ms", t * 1e3);
-    let left =
-        scene.map(grid(maps, &v.velocity)?, title(v.instant), velocity(ColourMap::Diverging, &v.velocity));
-    let colours = displacement(ColourMap::Diverging, &u.displacement);
-    let right = scene.map(grid(maps, &u.displacement)?, title(u.instant), colours);
-    Some(side_by_side(left, right, "Velocity and displacement of the surface when the waves meet"))
+    let (instant, apart) = (when.words(&measured.targets), u.instant - v.instant);
+    let target = if measured.targets.len() > 1 { "first target" } else { "target" };
+    let then = if apart.abs() < AT_ONCE {
+        format!("at the {instant}")
+    } else {
+        let side = if apart > 0.0 { "after" } else { "before" };
+        format!("{} {side} the {instant}", milliseconds(apart.abs()))
+    };
+    let left = format!("at the {instant}, {}", time(v.instant));
+    let right = format!("when largest at the {target}, {}, {then}", time(u.instant));
+    let described = format!(
+        "Velocity of the surface at the {instant}, and displacement when it is largest at the {target}"
+    );
+    let velocity = velocity(ColourMap::Diverging, &v.velocity);
+    let displacement = displacement(ColourMap::Diverging, &u.displacement);
+    let left = scene.map(grid(maps, &v.velocity)?, left, velocity);
+    let right = scene.map(grid(maps, &u.displacement)?, right, displacement);
+    Some(side_by_side(left, right, &described))
 }
 
 /// Maps of the largest velocity and displacement at each place over the whole time measured; `None` without a grid.

@@ -4,11 +4,13 @@ mod drive;
 mod maps;
 mod movie;
 mod traces;
+mod when;
 
 pub use drive::channels;
 pub use maps::{Scene, drawn, felt, peaks, snapshots};
 pub use movie::{MOST_FRAMES, movie, room};
 pub use traces::traces;
+pub use when::When;
 
 use crate::TaskError;
 use unripple_plot::{Figure, PRINT_DPI, pngs};

@@ -1,21 +1,29 @@
 //! Velocity and displacement at the targets against time.
 
+use super::When;
 use unripple::field::{TargetFigures, Trace};
 use unripple_plot::{Axis, Figure, Ink, Rule, Traces, prefixed};
 
 /// Most targets whose traces are drawn: the palette has seven colours, and more lines cannot be followed.
 const MOST: usize = 8;
 
-/// Velocity and displacement of the targets against time; for a target of several points, of its first point.
-pub fn traces(targets: &[TargetFigures], traces: &[Trace], rate: f64) -> Figure {
+/// Velocity and displacement of the targets against time, sampled at `rate` (Hz), with the instant of the first target as a dashed line;
+/// for a target of several points, of its first point.
+pub fn traces(targets: &[TargetFigures], traces: &[Trace], rate: f64, when: When) -> Figure {
     let units = |pick: fn(&Trace) -> &Vec<f64>, unit: &str| {
         let largest = traces.iter().flat_map(pick).fold(0.0, |m: f64, v| m.max(v.abs()));
         prefixed(largest, unit)
     };
-    let panel = |pick: fn(&Trace) -> &Vec<f64>, title: &str, (multiplier, unit): (f64, String)| {
+    let instant = targets.first().map(|target| Rule {
+        at: target.instant_s,
+        label: when.words(targets).to_owned(),
+        ..Rule::default()
+    });
+    let at = place(targets);
+    let panel = |pick: fn(&Trace) -> &Vec<f64>, quantity: &str, (multiplier, unit): (f64, String)| {
         let named = traces.iter().zip(targets).take(MOST).enumerate();
         let lines = named.map(|(i, (trace, target))| unripple_plot::Trace {
-            label: format!("({:.0}, {:.0})", target.at_m[0] * 1e3, target.at_m[1] * 1e3),
+            label: name(target),
             values: pick(trace).clone(),
             ink: Ink::Palette(i),
         });
@@ -25,9 +33,9 @@ pub fn traces(targets: &[TargetFigures], traces: &[Trace], rate: f64) -> Figure 
             traces: lines.collect(),
             unit,
             multiplier,
-            rules: targets.first().map(|t| Rule { at: t.instant_s, ..Rule::default() }).into_iter().collect(),
+            rules: instant.clone().into_iter().collect(),
             lane_mm: (traces.len() < 3).then_some(20.0),
-            title: title.into(),
+            title: format!("{quantity} {at}"),
             ..Traces::default()
         }
     };
@@ -35,10 +43,24 @@ pub fn traces(targets: &[TargetFigures], traces: &[Trace], rate: f64) -> Figure 
         width_mm: 178.0,
         columns: 2,
         panels: vec![
-            panel(|t| &t.velocity, "velocity at the targets", units(|t| &t.velocity, "m/s")).into(),
-            panel(|t| &t.displacement, "displacement at the targets", units(|t| &t.displacement, "m")).into(),
+            panel(|t| &t.velocity, "velocity", units(|t| &t.velocity, "m/s")).into(),
+            panel(|t| &t.displacement, "displacement", units(|t| &t.displacement, "m")).into(),
         ],
         description: "Velocity and displacement at the targets against time".into(),
         ..Figure::default()
     }
+}
+
+/// Where the motion is that all traces show.
+fn place(targets: &[TargetFigures]) -> String {
+    let target = if targets.len() == 1 { "at the target" } else { "at the targets" };
+    let shapes = targets.iter().any(|target| target.points > 1);
+    format!("{target}{}", if shapes { ", of a shape at its first point" } else { "" })
+}
+
+/// What the trace of a target is called: its place, to a tenth of a millimetre.
+fn name(target: &TargetFigures) -> String {
+    let [x, y] = target.at_m.map(|m| (m * 1e4).round() / 10.0);
+    let shape = if target.points > 1 { "shape " } else { "" };
+    format!("{shape}({x}, {y}) mm")
 }

@@ -1,7 +1,7 @@
 //! The folder of a focus: drive, report and figures.
 
 use super::Made;
-use crate::figures::{self, Scene};
+use crate::figures::{self, Scene, When};
 use crate::{Record, TaskError};
 use unripple::act;
 use unripple::core::ActuatorKind;
@@ -27,9 +27,9 @@ fn figures(made: &Made) -> Vec<(&'static str, Figure)> {
     let mut figures = vec![("drive", figures::channels(&made.drive, unit))];
     // The others are drawn in m/s and µm, which nobody knows without a scale.
     if made.scaled {
-        let traces = figures::traces(&measured.targets, &made.judged.traces, made.drive.rate());
-        figures.insert(0, ("traces", traces));
-        figures.extend(figures::snapshots(&scene, measured).map(|figure| ("focus", figure)));
+        let (rate, when) = (made.drive.rate(), When::Focus);
+        figures.insert(0, ("traces", figures::traces(&measured.targets, &made.judged.traces, rate, when)));
+        figures.extend(figures::snapshots(&scene, measured, when).map(|figure| ("focus", figure)));
         figures.extend(figures::peaks(&scene, measured).map(|figure| ("peaks", figure)));
         figures.extend(figures::felt(&scene, measured).map(|figure| ("felt", figure)));
     }

@@ -1,7 +1,7 @@
 //! The folder of what is played: drive, report and figures.
 
 use crate::TaskError;
-use crate::figures::{self, Scene};
+use crate::figures::{self, Scene, When};
 use unripple::act::{Judged, Report, unit};
 use unripple::core::{ActuatorKind, Drive, Point, Surface};
 use unripple_plot::Figure;
@@ -18,20 +18,21 @@ pub(super) fn write(
     write_wav(out.path().join("drive.wav"), drive)?;
     report.files = vec!["drive.wav".into()];
     if let Some(surface) = drawn {
-        report.files.extend(figures::write(out, &figures(surface, drive, judged))?);
+        let when = if report.stroke.is_some() { When::Stroke } else { When::Waveform };
+        report.files.extend(figures::write(out, &figures(surface, drive, judged, when))?);
     }
     out.write("report.md", report.markdown().as_bytes())?;
     Ok(())
 }
 
-fn figures(surface: &Surface, drive: &Drive, judged: &Judged) -> Vec<(&'static str, Figure)> {
+fn figures(surface: &Surface, drive: &Drive, judged: &Judged, when: When) -> Vec<(&'static str, Figure)> {
     let measured = &judged.measured;
     let points: Vec<Vec<Point>> =
         measured.targets.iter().map(|t| vec![Point::new(t.at_m[0], t.at_m[1])]).collect();
     let scene = Scene::new(surface, &points, measured.focal_radius_m);
     let unit = unit(&surface.actuators.first().map_or(ActuatorKind::Force, |a| a.kind));
     let mut figures = vec![
-        ("traces", figures::traces(&measured.targets, &judged.traces, drive.rate())),
+        ("traces", figures::traces(&measured.targets, &judged.traces, drive.rate(), when)),
         ("drive", figures::channels(drive, unit)),
     ];
     figures.extend(figures::peaks(&scene, measured).map(|figure| ("peaks", figure)));
