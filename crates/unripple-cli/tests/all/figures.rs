@@ -37,3 +37,40 @@ fn figures_say_what_they_show() {
     holds(&shown, "snapshot.svg", ">at the instant asked for, t\u{a0}=\u{a0}19.00\u{a0}ms</text>");
     holds(&shown, "traces.svg", ">instant asked for</text>");
 }
+
+#[test]
+fn a_library_is_drawn_at_its_points() {
+    let scratch = Scratch::new("scatter");
+    let (file, library, out) =
+        (scratch.file("film.toml", FILM), scratch.join("library"), scratch.join("out"));
+    let made = json(&["respond", &file, "--grid-mm", "15", "--length-ms", "40", "-o", &library]);
+    let points = number(&made, "/points") as usize;
+    let report = json(&["focus", &library, "--at", "60,90", "--window-ms", "20", "-o", &out]);
+    assert_eq!(report["taken_on"], "library");
+    for (name, what) in [
+        ("focus-a", "Velocity ("),
+        ("focus-b", "Displacement ("),
+        ("peaks-a", "Velocity ("),
+        ("peaks-b", "Displacement ("),
+        ("felt", "Felt (dB above threshold)"),
+    ] {
+        let table = text(&out, &format!("{name}.csv"));
+        assert!(table.starts_with(&format!("x (mm),y (mm),{what}")), "{name}: {table}");
+        assert_eq!(table.lines().count(), points + 1, "{name}: {table}");
+    }
+    // The target is one of them, and its largest velocity at least that at the focal instant.
+    let peaks = text(&out, "peaks-a.csv");
+    let unit = [("(m/s)", 1.0), ("(mm/s)", 1e-3), ("(µm/s)", 1e-6)]
+        .into_iter()
+        .find(|(unit, _)| peaks.contains(unit));
+    let there = peaks.lines().find_map(|line| line.strip_prefix("60,90,")).unwrap();
+    let largest = there.parse::<f64>().unwrap() * unit.unwrap().1;
+    assert!(largest > 0.999 * number(&report, "/targets/0/peak_velocity_m_s").abs(), "{largest}");
+    for name in ["focus", "peaks", "felt"] {
+        assert!(text(&out, &format!("{name}.svg")).matches("<circle").count() >= points, "{name}");
+        for ending in ["png", "pdf"] {
+            let file = format!("{name}.{ending}");
+            assert!(report["files"].as_array().unwrap().iter().any(|known| *known == *file), "{file}");
+        }
+    }
+}

@@ -41,7 +41,7 @@ fn figures(ask: &Ask, made: &Made) -> Vec<(&'static str, Figure)> {
     let when = if ask.instants_s.is_empty() { When::Fastest } else { When::Asked };
     let mut figures = vec![("traces", figures::traces(&measured.targets, &made.judged.traces, rate, when))];
     figures.extend(figures::snapshots(&scene, measured, when).map(|figure| ("snapshot", figure)));
-    figures.extend(figures::peaks(&scene, measured).map(|figure| ("peaks", figure)));
+    figures.push(("peaks", figures::peaks(&scene, measured)));
     figures.extend(figures::felt(&scene, measured).map(|figure| ("felt", figure)));
     figures
 }

@@ -3,7 +3,7 @@
 use super::When;
 use unripple::core::{Point, Surface};
 use unripple::field::{self, Maps, Measured};
-use unripple_plot::{ColourMap, Colours, Figure, Grid, Map, Marker, Ring, Symbol, prefixed};
+use unripple_plot::{ColourMap, Colours, Figure, Grid, Map, Marker, Panel, Ring, Scatter, Symbol, prefixed};
 
 /// Pieces that a full turn of a round rim is drawn in. At the size of a page a circle of so many looks round.
 const TURN: usize = 240;
@@ -62,11 +62,23 @@ impl Scene {
             ..Map::default()
         }
     }
-}
 
-/// One value per point of the maps as a grid to draw; `None` on a library's own points.
-fn grid(maps: &Maps, values: &[f32]) -> Option<Grid> {
-    maps.grid.as_ref().map(|cells| drawn(cells, values))
+    /// A panel of one value per point of the maps: a field on a grid, discs at a library's own points.
+    fn panel(&self, maps: &Maps, values: &[f32], title: impl Into<String>, colours: Colours) -> Panel {
+        if let Some(cells) = &maps.grid {
+            return self.map(drawn(cells, values), title, colours).into();
+        }
+        Scatter {
+            points: maps.points.iter().map(|point| [point.x, point.y]).collect(),
+            values: values.iter().map(|value| f64::from(*value)).collect(),
+            outline: self.outline.clone(),
+            markers: self.markers.clone(),
+            colours,
+            title: title.into(),
+            ..Scatter::default()
+        }
+        .into()
+    }
 }
 
 /// One value per point of a field's grid as a grid to draw.
@@ -109,7 +121,7 @@ fn time(instant: f64) -> String {
 const AT_ONCE: f64 = 5e-6;
 
 /// Maps of velocity at the first target's instant, and of displacement when that of the first target is largest, with both instants in
-/// their titles; `None` without targets or a grid.
+/// their titles; `None` without targets.
 pub fn snapshots(scene: &Scene, measured: &Measured, when: When) -> Option<Figure> {
     let maps = &measured.maps;
     let (v, u) = (maps.at_peak.first()?, maps.at_displacement_peak.first()?);
@@ -128,33 +140,30 @@ pub fn snapshots(scene: &Scene, measured: &Measured, when: When) -> Option<Figur
     );
     let velocity = velocity(ColourMap::Diverging, &v.velocity);
     let displacement = displacement(ColourMap::Diverging, &u.displacement);
-    let left = scene.map(grid(maps, &v.velocity)?, left, velocity);
-    let right = scene.map(grid(maps, &u.displacement)?, right, displacement);
+    let left = scene.panel(maps, &v.velocity, left, velocity);
+    let right = scene.panel(maps, &u.displacement, right, displacement);
     Some(side_by_side(left, right, &described))
 }
 
-/// Maps of the largest velocity and displacement at each place over the whole time measured; `None` without a grid.
-pub fn peaks(scene: &Scene, measured: &Measured) -> Option<Figure> {
+/// Maps of the largest velocity and displacement at each place over the whole time measured.
+pub fn peaks(scene: &Scene, measured: &Measured) -> Figure {
     let maps = &measured.maps;
     let title = "largest over time";
     let marked = scene.with_worst_spots(measured);
-    let left = marked.map(
-        grid(maps, &maps.peak_velocity)?,
-        title,
-        velocity(ColourMap::Sequential, &maps.peak_velocity),
-    );
+    let colours = velocity(ColourMap::Sequential, &maps.peak_velocity);
+    let left = marked.panel(maps, &maps.peak_velocity, title, colours);
     let colours = displacement(ColourMap::Sequential, &maps.peak_displacement);
-    let right = scene.map(grid(maps, &maps.peak_displacement)?, title, colours);
+    let right = scene.panel(maps, &maps.peak_displacement, title, colours);
     let described = "Largest velocity and displacement of the surface over the time measured; small circles mark the largest velocity \
         elsewhere, as a share of the peak";
-    Some(side_by_side(left, right, described))
+    side_by_side(left, right, described)
 }
 
 /// Decibels below the largest value at which the map of what is felt ends.
 const FELT_RANGE: f64 = 30.0;
 
 /// Map of the largest vibration at each place over the whole time measured, as felt, in dB above the threshold of
-/// touch; `None` without a grid, or where nothing moves.
+/// touch; `None` where nothing moves.
 pub fn felt(scene: &Scene, measured: &Measured) -> Option<Figure> {
     let maps = &measured.maps;
     let most = maps.felt_peak.iter().copied().fold(0.0, f32::max);
@@ -172,10 +181,10 @@ pub fn felt(scene: &Scene, measured: &Measured) -> Option<Figure> {
         high: Some(high),
         ..Colours::default()
     };
-    let map = scene.map(grid(maps, &levels)?, "largest over time, as felt", colours);
+    let panel = scene.panel(maps, &levels, "largest over time, as felt", colours);
     Some(Figure {
         width_mm: 89.0,
-        panels: vec![map.into()],
+        panels: vec![panel],
         description:
             "Largest vibration of the surface over the time measured, in dB above the threshold of touch"
                 .into(),
@@ -183,11 +192,11 @@ pub fn felt(scene: &Scene, measured: &Measured) -> Option<Figure> {
     })
 }
 
-fn side_by_side(left: Map, right: Map, description: &str) -> Figure {
+fn side_by_side(left: Panel, right: Panel, description: &str) -> Figure {
     Figure {
         width_mm: 178.0,
         columns: 2,
-        panels: vec![left.into(), right.into()],
+        panels: vec![left, right],
         description: description.into(),
         ..Figure::default()
     }

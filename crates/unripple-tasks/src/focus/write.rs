@@ -30,7 +30,7 @@ fn figures(made: &Made) -> Vec<(&'static str, Figure)> {
         let (rate, when) = (made.drive.rate(), When::Focus);
         figures.insert(0, ("traces", figures::traces(&measured.targets, &made.judged.traces, rate, when)));
         figures.extend(figures::snapshots(&scene, measured, when).map(|figure| ("focus", figure)));
-        figures.extend(figures::peaks(&scene, measured).map(|figure| ("peaks", figure)));
+        figures.push(("peaks", figures::peaks(&scene, measured)));
         figures.extend(figures::felt(&scene, measured).map(|figure| ("felt", figure)));
     }
     figures

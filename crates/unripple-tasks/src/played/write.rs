@@ -31,10 +31,9 @@ fn figures(surface: &Surface, drive: &Drive, judged: &Judged, when: When) -> Vec
         measured.targets.iter().map(|t| vec![Point::new(t.at_m[0], t.at_m[1])]).collect();
     let scene = Scene::new(surface, &points, measured.focal_radius_m);
     let unit = unit(&surface.actuators.first().map_or(ActuatorKind::Force, |a| a.kind));
-    let mut figures = vec![
+    vec![
         ("traces", figures::traces(&measured.targets, &judged.traces, drive.rate(), when)),
         ("drive", figures::channels(drive, unit)),
-    ];
-    figures.extend(figures::peaks(&scene, measured).map(|figure| ("peaks", figure)));
-    figures
+        ("peaks", figures::peaks(&scene, measured)),
+    ]
 }
