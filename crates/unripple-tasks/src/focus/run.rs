@@ -83,7 +83,7 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<Made, TaskError> {
     let (focused, drive) = (sent.focused, sent.drive);
     let mut report = Report::of_focus(&surface, &focused, settings.window, &drive, &judged);
     report.level = Some(sent.strength);
-    report.fingers = act::felt(&contacts, judged_surface, [under, free], &drive, judged.until)?;
+    report.fingers = act::felt(&contacts, judged_surface, [under, free], &drive, sent.until)?;
     report.notes.extend(chosen.map(|chosen| Note { topic: "window", text: chosen.text() }));
     report.notes.extend(restored);
     solved.iter().for_each(|(_, judging)| judging.tell(judged_surface, &mut report));

@@ -21,6 +21,8 @@ pub(crate) struct Played {
     pub drive: Drive,
     /// Places and instants at which the drive is evaluated.
     pub aims: Vec<Aim>,
+    /// How long the traces go on after the drive, in s: half a window, in which the last waves pass.
+    pub after: f64,
     /// Name of the method that made it.
     pub method: &'static str,
     /// How the targets followed their waveforms.
@@ -76,7 +78,7 @@ pub(crate) fn judge<T>(
     crate::window::carries(model.conditions(), played.drive.duration(), "window_s")?;
     go_on(progress)?;
     let field = Field::new(&judging, &played.drive, CELLS).map_err(TaskError::input)?;
-    let until = played.drive.duration() - 1.0 / played.drive.rate();
+    let until = played.drive.duration() - 1.0 / played.drive.rate() + played.after;
     let period = Some(played.drive.duration());
     let judged = judge::judge(plant, &field, &played.aims, period, until, progress)?;
     drop(field);

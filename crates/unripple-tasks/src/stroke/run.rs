@@ -98,6 +98,7 @@ fn stroked(
     Ok(Played {
         drive,
         aims,
+        after: settings.window / 2.0,
         method: "stroke",
         waveforms: Vec::new(),
         silent: Vec::new(),

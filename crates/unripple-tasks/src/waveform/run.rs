@@ -87,5 +87,6 @@ fn followed(
         lost: played.lost[i],
     });
     let waveforms = told.collect();
-    Ok(Played { drive, aims, method: "waveforms", waveforms, silent, stroke: None })
+    let after = settings.lead[1] / 2.0;
+    Ok(Played { drive, aims, after, method: "waveforms", waveforms, silent, stroke: None })
 }

@@ -65,7 +65,7 @@ impl<'a> Act<'a> {
     /// Those of [`Readouts::fine`] and [`judge()`].
     pub fn judge(&self, sent: &Sent, on: &Readouts<'_>) -> Result<Judged, ActError> {
         let field = on.fine()?.field(&sent.drive)?;
-        let mut judged = judge(self.surface, &field, &sent.aims, sent.period, sent.until)?;
+        let mut judged = judge(self.surface, &field, &sent.aims, sent.period, sent.traced)?;
         judged.notes.extend(self.notes(sent));
         Ok(judged)
     }

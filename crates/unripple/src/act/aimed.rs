@@ -1,7 +1,7 @@
 //! Places and instants at which a drive is evaluated.
 
 use crate::field::Aim;
-use crate::focus::{Focused, Target};
+use crate::focus::{Focused, Target, Timing};
 
 /// Places and instants at which a drive is evaluated.
 #[derive(Clone, Debug)]
@@ -12,12 +12,14 @@ pub(super) struct Aimed {
     pub period: Option<usize>,
     /// End of the time that is evaluated, in seconds.
     pub until: f64,
+    /// End of the traces, in seconds.
+    pub traced: f64,
     rate: f64,
 }
 
 impl Aimed {
-    /// Those of a focus on some targets.
-    pub fn of(targets: &[Target], focused: &Focused) -> Self {
+    /// Those of a focus on some targets, made with a window of `window` seconds.
+    pub fn of(targets: &[Target], focused: &Focused, window: f64) -> Self {
         let rate = focused.drive.rate();
         let seconds = |samples: usize| samples as f64 / rate;
         let timed = targets.iter().zip(focused.instants());
@@ -27,11 +29,22 @@ impl Aimed {
             Some(_) => seconds(focused.drive.samples().saturating_sub(1)),
             None => 2.0 * seconds(last),
         };
-        Self { aims, period: focused.period, until, rate }
+        let traced = until.max(seconds(last_focus(focused)) + window / 2.0);
+        Self { aims, period: focused.period, until, traced, rate }
     }
 
     /// The period, in seconds.
     pub fn seconds(&self) -> Option<f64> {
         self.period.map(|samples| samples as f64 / self.rate)
     }
+}
+
+/// The last sample of a drive at which a target is in focus.
+fn last_focus(focused: &Focused) -> usize {
+    let end = focused.drive.samples().saturating_sub(1);
+    let last = |timing: &Timing| {
+        let repeats = timing.period.map_or(0, |period| end.saturating_sub(timing.instant) / period * period);
+        timing.instant + repeats
+    };
+    focused.timing.iter().map(last).max().unwrap_or(0)
 }

@@ -27,6 +27,8 @@ pub struct Sent {
     pub period: Option<f64>,
     /// End of the time that is evaluated, in seconds: twice the last focal instant, or the end of a repeated drive.
     pub until: f64,
+    /// End of the traces, in seconds: as `until`, but at least half a window past the last focus of a repeated drive.
+    pub traced: f64,
     /// Level of the drive relative to its limits, and what decided it.
     pub strength: Strength,
     /// Notes on how the level affects the method.
@@ -52,7 +54,7 @@ impl Act<'_> {
     /// [`ActError::Level`] for levels that are not legal numbers or are above what the drive limit gives, and for a
     /// target that does not move; those of [`Focuser::focus_at`] and of the field.
     pub fn send(&self, focuser: &Focuser<'_>, focused: Focused, on: &Readouts<'_>) -> Result<Sent, ActError> {
-        let aimed = Aimed::of(self.targets, &focused);
+        let aimed = Aimed::of(self.targets, &focused, self.options.window);
         let full = focused.drive.clone().as_emitted();
         let step = self.step(on, &full, &aimed)?;
         step.map_or(Ok(()), |step| self.level.within(step))?;
@@ -70,7 +72,7 @@ impl Act<'_> {
         focused: Focused,
         on: &Readouts<'_>,
     ) -> Result<Sent, ActError> {
-        let aimed = Aimed::of(self.targets, &focused);
+        let aimed = Aimed::of(self.targets, &focused, self.options.window);
         let full = focused.drive.clone().as_emitted();
         let step = self.step(on, &full, &aimed)?;
         let Some(beyond) = step.and_then(|step| self.level.beyond(step)) else {
@@ -111,7 +113,8 @@ impl Act<'_> {
         }
         let period = aimed.seconds();
         let Levelled { focused, drive, .. } = levelled;
-        Ok(Sent { focused, drive, aims: aimed.aims, period, until: aimed.until, strength, notes })
+        let Aimed { aims, until, traced, .. } = aimed;
+        Ok(Sent { focused, drive, aims, period, until, traced, strength, notes })
     }
 
     fn level(

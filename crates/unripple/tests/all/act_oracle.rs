@@ -136,6 +136,36 @@ fn each_limit_has_its_headroom() {
     assert!(text.contains("below the rms limit of 0.02 N"), "{text}");
 }
 
+/// The traces of a repeated drive show its last pulse whole. What is evaluated ends with the drive, as before.
+#[test]
+fn a_repeated_drive_is_traced_until_half_a_window_after_its_last_focus() {
+    let (surface, responses) = paper();
+    let pulsed = |x: f64, y: f64, hz: f64| Target::at(Point::from_mm(x, y)).repeated(hz);
+    let targets = [pulsed(62.0, 90.0, 50.0), pulsed(100.0, 60.0, 20.0)];
+    let options = Options { window: 20e-3, ..Options::default() };
+    let level = Level::Limit;
+    let act = Act { surface: &surface, responses: &responses, targets: &targets, options: &options, level };
+    let focuser = Focuser::new(&responses, &options).unwrap();
+    let on = act.readouts();
+    let sent = act.send(&focuser, focuser.focus(&targets).unwrap(), &on).unwrap();
+    let (rate, last) = (sent.drive.rate(), sent.drive.samples() - 1);
+    // The second target is in focus at the drive's last sample.
+    let [window, period] = [20e-3 * rate, rate / 20.0].map(|samples| samples.round() as usize);
+    assert_eq!((last - window) % period, 0);
+    assert_eq!(sent.until, last as f64 / rate);
+    let judged = act.judge(&sent, &on).unwrap();
+    for trace in &judged.traces {
+        assert_eq!(trace.velocity.len(), last + window / 2 + 1);
+    }
+    let span = judged.measured.targets[1].span_s;
+    assert!((span[1] - sent.until).abs() < 0.5 / rate, "{span:?}");
+    // A single pulse is traced as long as it is evaluated.
+    let once = [Target::at(Point::from_mm(62.0, 90.0))];
+    let act = Act { targets: &once, ..act };
+    let sent = act.send(&focuser, focuser.focus(&once).unwrap(), &on).unwrap();
+    assert_eq!((sent.until, sent.traced), (40e-3, 40e-3));
+}
+
 /// Contrast and other ratios do not depend on the level; rounding to float32 is all that differs, and is left out here.
 #[test]
 fn ratios_do_not_depend_on_the_level() {
