@@ -19,6 +19,7 @@ pub fn run(options: &CompareOptions, common: &Common) -> Result<(), CliError> {
         // They take half of the time, and no table shows them.
         no_tradeoffs: !(common.json || options.output.is_some()),
         no_figures: options.no_figures,
+        columns: options.columns,
         output: options.output.clone(),
     };
     output::perform(common.json, &ask, compare::run)

@@ -19,6 +19,7 @@ pub fn run(options: &FieldOptions, common: &Common) -> Result<(), CliError> {
         judge_hz: options.judge_hz,
         output: options.output.clone(),
         no_figures: options.no_figures,
+        columns: options.columns,
         movie_s: options.movie_ms.as_deref().map(movie).transpose()?,
         frames: options.frames,
         between: options.between.interpolation(),

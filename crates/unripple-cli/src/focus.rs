@@ -58,6 +58,7 @@ fn ask(common: &Common, options: &FocusOptions) -> Result<focus::Ask, CliError> 
         judge_hz: options.judge_hz,
         output: Some(options.output.clone()),
         no_figures: options.no_figures,
+        columns: options.columns,
     })
 }
 
@@ -71,6 +72,7 @@ fn waveform_ask(common: &Common, options: &FocusOptions) -> Result<waveform::Ask
         judge_hz: options.judge_hz,
         output: Some(options.output.clone()),
         no_figures: options.no_figures,
+        columns: options.columns,
     })
 }
 
@@ -86,5 +88,6 @@ fn stroke_ask(common: &Common, options: &FocusOptions, path: &str) -> Result<str
         judge_hz: options.judge_hz,
         output: Some(options.output.clone()),
         no_figures: options.no_figures,
+        columns: options.columns,
     })
 }

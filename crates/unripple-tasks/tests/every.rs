@@ -54,6 +54,7 @@ fn asks_go_through_json() {
         level: target::LevelAsk::FeltDb(12.0),
         method: unripple::focus::Method::Concentrate,
         losses: focus::Losses::PerMode,
+        columns: Some(1),
         ..focus::Ask::default()
     });
     through_json(&waveform::Ask {
@@ -125,6 +126,8 @@ fn an_ask_names_the_field_that_is_wrong() {
     assert_eq!(field(focus::run(&ask, &mut Silent).unwrap_err()), "points, shapes");
     let ask = focus::Ask { points: vec![target::PointAsk::at(0.05, 0.05)], window_s: Some(-1.0), ..ask };
     assert_eq!(field(focus::run(&ask, &mut Silent).unwrap_err()), "window_s");
+    let ask = compare::Ask { columns: Some(0), ..compare::Ask::default() };
+    assert_eq!(field(compare::run(&ask, &mut Silent).unwrap_err()), "columns");
     let ask = drift::Ask { seconds: 0.1, ..drift::Ask::default() };
     assert_eq!(field(drift::run(&ask, &mut Silent).unwrap_err()), "seconds");
     let ask = drift::Ask { range: f64::NAN, ..drift::Ask::default() };

@@ -276,6 +276,9 @@ pub struct FocusOptions {
     /// Write no pictures.
     #[arg(long, help_heading = heading::RESULTS)]
     pub no_figures: bool,
+    /// Columns of a page that pictures are as wide as: 1 (86 mm) or 2 (178 mm); by default each has a width of its own.
+    #[arg(long, value_name = "1|2", help_heading = heading::RESULTS)]
+    pub columns: Option<usize>,
     /// Folder for drive.wav, report.json, report.md and pictures. An existing folder is replaced only if it holds nothing but
     /// the unchanged files of an earlier run.
     #[arg(short, long, value_name = "DIR", help_heading = heading::RESULTS)]
@@ -300,6 +303,9 @@ pub struct CompareOptions {
     /// Write no pictures.
     #[arg(long, help_heading = heading::RESULTS)]
     pub no_figures: bool,
+    /// Columns of a page that the picture is as wide as: 1 (86 mm) or 2 (178 mm, the default).
+    #[arg(long, value_name = "1|2", help_heading = heading::RESULTS)]
+    pub columns: Option<usize>,
     /// Folder for the report and picture; without it only the table is printed.
     #[arg(short, long, value_name = "DIR", help_heading = heading::RESULTS)]
     pub output: Option<PathBuf>,
@@ -335,6 +341,9 @@ pub struct FieldOptions {
     /// Write no pictures.
     #[arg(long, help_heading = heading::RESULTS)]
     pub no_figures: bool,
+    /// Columns of a page that pictures are as wide as: 1 (86 mm) or 2 (178 mm); by default each has a width of its own.
+    #[arg(long, value_name = "1|2", help_heading = heading::RESULTS)]
+    pub columns: Option<usize>,
     /// Folder for the report, snapshot, map of peaks and animation; without it only the report is printed.
     #[arg(short, long, value_name = "DIR", help_heading = heading::RESULTS)]
     pub output: Option<PathBuf>,

@@ -39,6 +39,32 @@ fn figures_say_what_they_show() {
 }
 
 #[test]
+fn figures_are_as_wide_as_columns_of_a_page() {
+    let scratch = Scratch::new("columns");
+    let (file, out) = (scratch.file("film.toml", FILM), scratch.join("out"));
+    let names = ["traces", "drive", "focus", "peaks", "felt"];
+    let focus = ["focus", &file, "--at", "62,90", "--window-ms", "20", "-o", &out];
+    for (columns, widths) in [
+        (&[][..], [178, 120, 178, 178, 89]),
+        (&["--columns", "1"][..], [86; 5]),
+        (&["--columns", "2"][..], [178; 5]),
+    ] {
+        json(&[&focus[..], columns].concat());
+        for (name, width) in names.iter().zip(widths) {
+            let drawn = text(&out, &format!("{name}.svg"));
+            assert!(
+                drawn.contains(&format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\"")),
+                "{name}"
+            );
+        }
+    }
+    for command in ["focus", "compare"] {
+        let refusal = refused(&[command, &file, "--at", "62,90", "--columns", "3", "-o", &out], 2);
+        assert!(refusal.contains("--columns: expected 1 or 2, found 3"), "{refusal}");
+    }
+}
+
+#[test]
 fn a_library_is_drawn_at_its_points() {
     let scratch = Scratch::new("scatter");
     let (file, library, out) =

@@ -26,6 +26,8 @@ pub struct Ask {
     pub no_tradeoffs: bool,
     /// Write no figure.
     pub no_figures: bool,
+    /// Columns of a page that the figure is as wide as: 1 (86 mm) or 2 (178 mm); by default 2.
+    pub columns: Option<usize>,
     /// Folder for the report and figure; by default no file is written.
     pub output: Option<PathBuf>,
 }

@@ -4,6 +4,7 @@ use super::failed::survived;
 use super::ground::Ground;
 use super::row::{self, Row};
 use super::{Ask, Failed, Report, figure, front};
+use crate::figures::Columns;
 use crate::numbers::above_zero;
 use crate::target::targets;
 use crate::window::{carries, of_window};
@@ -50,6 +51,7 @@ fn rows(
 /// # Errors
 /// [`TaskError::Ask`] of options that make no sense; those of reading and writing files; those of the methods; [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    let columns = Columns::of(ask.columns)?;
     let surface = ask.surface.load()?;
     let out = folder::begin(ask.output.as_deref(), ask)?;
     go_on(progress)?;
@@ -100,7 +102,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
     if let Some((out, record)) = out {
         if !(ask.no_figures || ask.no_tradeoffs) {
             let drawn = figure::draw(&found.methods, &found.fronts, &found.felt);
-            found.files = figures::write(&out, &[("compare", drawn)])?;
+            found.files = figures::write(&out, &columns.fit(vec![("compare", drawn)]))?;
         }
         record.write(&out, &found)?;
         let page = row::markdown(&found.surface, &found.methods, found.conditions());

@@ -51,6 +51,8 @@ pub struct Ask {
     pub output: Option<PathBuf>,
     /// Write no figures and no animation.
     pub no_figures: bool,
+    /// Columns of a page that figures are as wide as: 1 (86 mm) or 2 (178 mm); by default each has a width of its own.
+    pub columns: Option<usize>,
     /// Start and end of the animation in s; by default the last 6 ms before the instant and 3 ms after.
     pub movie_s: Option<[f64; 2]>,
     /// Frames of the animation, at most 5000; 0 for none.
@@ -72,6 +74,7 @@ impl Default for Ask {
             judge_hz: None,
             output: None,
             no_figures: false,
+            columns: None,
             movie_s: None,
             frames: 60,
             between: Interpolation::default(),

@@ -1,7 +1,7 @@
 //! The field of a drive, measured.
 
 use super::{Ask, DriveAsk, Made, Report, write};
-use crate::figures::{self, MOST_FRAMES};
+use crate::figures::{self, Columns, MOST_FRAMES};
 use crate::judge::{self, CELLS, Models};
 use crate::numbers::above_zero;
 use crate::{Progress, TaskError, fingers, folder, go_on, point, source};
@@ -15,6 +15,7 @@ use unripple_store::read_wav;
 /// # Errors
 /// [`TaskError::Ask`] of numbers that make no sense; those of reading and writing files; [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    Columns::of(ask.columns)?;
     let out = folder::begin(ask.output.as_deref(), ask)?;
     let (mut made, movie) = measured(ask, !ask.no_figures && out.is_some(), progress)?;
     if let Some(out) = out {

@@ -1,7 +1,7 @@
 //! The folder of a field: report, figures and animation.
 
 use super::{Ask, Made};
-use crate::figures::{self, Scene, When};
+use crate::figures::{self, Columns, Scene, When};
 use crate::{Progress, Record, TaskError, folder, go_on};
 use unripple::act::Judged;
 use unripple::core::{Point, Surface};
@@ -24,7 +24,7 @@ pub(super) fn write(
     progress.stage("figures");
     // They are drawn in m/s and µm, which nobody knows without a scale.
     let drawn = made.scaled && !ask.no_figures;
-    let figures = if drawn { figures(ask, made) } else { Vec::new() };
+    let figures = if drawn { Columns::of(ask.columns)?.fit(figures(ask, made)) } else { Vec::new() };
     made.report.files = figures::write(&out, &figures)?;
     if let Some(movie) = movie {
         out.write("animation.png", &movie)?;

@@ -1,11 +1,13 @@
 //! Figures of a drive and its field, from measured data.
 
+mod columns;
 mod drive;
 mod maps;
 mod movie;
 mod traces;
 mod when;
 
+pub use columns::Columns;
 pub use drive::channels;
 pub use maps::{Scene, drawn, felt, peaks, snapshots};
 pub use movie::{MOST_FRAMES, movie, room};

@@ -1,6 +1,7 @@
 //! Computes a drive that focuses, and evaluates it.
 
 use super::{Ask, Losses, Made, Report, write};
+use crate::figures::Columns;
 use crate::numbers::above_zero;
 use crate::target::targets;
 use crate::window::{carries, of_window};
@@ -26,10 +27,11 @@ use unripple::physics::Medium;
 /// [`TaskError::Ask`] of options that make no sense; those of reading surfaces and drawings and of writing the folder; those of the
 /// methods; [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
+    let drawn = (!ask.no_figures).then_some(Columns::of(ask.columns)?);
     let out = folder::begin(ask.output.as_deref(), ask)?;
     let mut made = make(ask, progress)?;
     if let Some((out, record)) = out {
-        write::write(&out, &mut made, &record, !ask.no_figures)?;
+        write::write(&out, &mut made, &record, drawn)?;
         folder::finish(out, progress)?;
     }
     Ok(made.report)

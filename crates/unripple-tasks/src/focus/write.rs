@@ -1,19 +1,24 @@
 //! The folder of a focus: drive, report and figures.
 
 use super::Made;
-use crate::figures::{self, Scene, When};
+use crate::figures::{self, Columns, Scene, When};
 use crate::{Record, TaskError};
 use unripple::act;
 use unripple::core::ActuatorKind;
 use unripple_plot::Figure;
 use unripple_store::{OutputDir, write_wav};
 
-/// Writes all of it, figures where they are wanted, and names the files in the report.
-pub(super) fn write(out: &OutputDir, made: &mut Made, record: &Record, drawn: bool) -> Result<(), TaskError> {
+/// Writes all of it, figures of some width where they are wanted, and names the files in the report.
+pub(super) fn write(
+    out: &OutputDir,
+    made: &mut Made,
+    record: &Record,
+    drawn: Option<Columns>,
+) -> Result<(), TaskError> {
     write_wav(out.path().join("drive.wav"), &made.drive)?;
     made.report.files = vec!["drive.wav".into()];
-    if drawn {
-        made.report.files.extend(figures::write(out, &figures(made))?);
+    if let Some(columns) = drawn {
+        made.report.files.extend(figures::write(out, &columns.fit(figures(made)))?);
     }
     record.write(out, &made.report)?;
     out.write("report.md", made.report.markdown().as_bytes())?;

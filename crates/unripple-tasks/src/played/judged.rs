@@ -1,6 +1,7 @@
 //! Evaluation of drives for waveforms and strokes, over their whole length.
 
 use super::write;
+use crate::figures::Columns;
 use crate::{Progress, Record, SurfaceAsk, TaskError, folder, go_on, judge, source};
 use unripple::act::{DecidedBy, Followed, Report, Strength, Stroked};
 use unripple::core::{Drive, Responses, Surface};
@@ -41,8 +42,8 @@ pub(crate) struct Common<'a> {
     pub on: Option<&'a SurfaceAsk>,
     /// Highest frequency of the modes that the drive is evaluated on, in Hz.
     pub judge_hz: Option<f64>,
-    /// Whether figures are written.
-    pub drawn: bool,
+    /// How wide figures are, where they are written.
+    pub drawn: Option<Columns>,
     /// Where results go, and the record that goes with them.
     pub out: Option<(OutputDir, Record)>,
     /// Name of the field that needs a surface, for the error if a library is given.
@@ -94,7 +95,8 @@ pub(crate) fn judge<T>(
     report.silent = played.silent;
     report.stroke = played.stroke;
     if let Some((out, record)) = common.out {
-        write::write(&out, &mut report, common.drawn.then_some(plant), &played.drive, &judged)?;
+        let drawn = common.drawn.map(|columns| (plant, columns));
+        write::write(&out, &mut report, drawn, &played.drive, &judged)?;
         record.write(&out, &report)?;
         folder::finish(out, progress)?;
     }

@@ -1,25 +1,26 @@
 //! The folder of what is played: drive, report and figures.
 
 use crate::TaskError;
-use crate::figures::{self, Scene, When};
+use crate::figures::{self, Columns, Scene, When};
 use unripple::act::{Judged, Report, unit};
 use unripple::core::{ActuatorKind, Drive, Point, Surface};
 use unripple_plot::Figure;
 use unripple_store::{OutputDir, write_wav};
 
-/// Writes all of it but the report as JSON, and names the files in the report; figures are of a surface, where one is given.
+/// Writes all of it but the report as JSON, and names the files in the report; figures are of a surface and
+/// a width, where these are given.
 pub(super) fn write(
     out: &OutputDir,
     report: &mut Report,
-    drawn: Option<&Surface>,
+    drawn: Option<(&Surface, Columns)>,
     drive: &Drive,
     judged: &Judged,
 ) -> Result<(), TaskError> {
     write_wav(out.path().join("drive.wav"), drive)?;
     report.files = vec!["drive.wav".into()];
-    if let Some(surface) = drawn {
+    if let Some((surface, columns)) = drawn {
         let when = if report.stroke.is_some() { When::Stroke } else { When::Waveform };
-        report.files.extend(figures::write(out, &figures(surface, drive, judged, when))?);
+        report.files.extend(figures::write(out, &columns.fit(figures(surface, drive, judged, when)))?);
     }
     out.write("report.md", report.markdown().as_bytes())?;
     Ok(())

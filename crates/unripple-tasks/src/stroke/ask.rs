@@ -30,6 +30,8 @@ pub struct Ask {
     pub output: Option<PathBuf>,
     /// Write no figures.
     pub no_figures: bool,
+    /// Columns of a page that figures are as wide as: 1 (86 mm) or 2 (178 mm); by default each has a width of its own.
+    pub columns: Option<usize>,
 }
 
 impl Default for Ask {
@@ -44,6 +46,7 @@ impl Default for Ask {
             judge_hz: None,
             output: None,
             no_figures: false,
+            columns: None,
         }
     }
 }

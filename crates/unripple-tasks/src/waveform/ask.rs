@@ -82,6 +82,8 @@ pub struct Ask {
     pub output: Option<PathBuf>,
     /// Write no figures.
     pub no_figures: bool,
+    /// Columns of a page that figures are as wide as: 1 (86 mm) or 2 (178 mm); by default each has a width of its own.
+    pub columns: Option<usize>,
 }
 
 impl Request for Ask {

@@ -1,6 +1,7 @@
 //! Computes a drive by which targets follow waveforms, and evaluates it.
 
 use super::{Ask, Report, sound};
+use crate::figures::Columns;
 use crate::numbers::above_zero;
 use crate::played::{Common, Played, judge};
 use crate::{Progress, TaskError, folder, point};
@@ -35,7 +36,7 @@ pub fn make(ask: &Ask, progress: &mut dyn Progress) -> Result<(Report, Drive), T
         surface: &ask.surface,
         on: ask.on.as_ref(),
         judge_hz: ask.judge_hz,
-        drawn: !ask.no_figures,
+        drawn: (!ask.no_figures).then_some(Columns::of(ask.columns)?),
         out: folder::begin(ask.output.as_deref(), ask)?,
         needs: "waveforms and path",
         bands: BANDS,
