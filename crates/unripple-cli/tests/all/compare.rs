@@ -84,6 +84,35 @@ fn a_table_needs_no_folder() {
     assert!(errors.contains("strength: expected 0 to 1, found 1.5"), "{errors}");
 }
 
+/// The drive of `felt` goes on for 4 ms after its focus, which a shorter window has no room for.
+#[test]
+fn methods_go_on_without_one_that_fails() {
+    let scratch = Scratch::new("compare-failed");
+    let (file, out) = (scratch.file("film.toml", FILM), scratch.join("out"));
+    let compare = ["compare", &file, "--at", "62,90", "--window-ms", "3.5"];
+    let report = json(&[&compare[..], &["-o", &out]].concat());
+    let rows = |key: &str| report[key].as_array().unwrap().clone();
+    let names = |key: &str| -> Vec<String> {
+        rows(key).iter().map(|row| row["method"].as_str().unwrap().to_owned()).collect()
+    };
+    let methods = names("methods");
+    for method in ["time-reversal", "one-bit", "inverse", "concentrate", "robust"] {
+        assert!(methods.iter().any(|name| name == method), "{method}: {methods:?}");
+    }
+    assert!(!methods.iter().any(|name| name == "felt"), "{methods:?}");
+    let failed = rows("failed");
+    let felt: Vec<&Value> = failed.iter().filter(|row| row["method"] == "felt").collect();
+    let why = "lead (s): expected 0 to less than the window, 0.0035, found 0.004";
+    assert!(felt.len() == 1 && felt[0]["why"] == why, "{failed:?}");
+    assert_eq!(names("felt"), ["time-reversal"], "nothing to hold against it");
+    let page = std::fs::read_to_string(scratch.join("out/report.md")).unwrap();
+    assert!(page.contains(&format!("\n**felt** failed: {why}\n")), "{page}");
+    assert!(page.contains("](compare.png)"), "{page}");
+    let text = String::from_utf8(run(&compare).stdout).unwrap();
+    assert!(text.contains(&format!("\nfelt failed: {why}\n")), "{text}");
+    assert!(text.contains("concentrate"), "{text}");
+}
+
 /// A level that some methods do not reach is theirs at their limit, and the others' as asked for.
 #[test]
 fn a_method_that_cannot_reach_a_level_is_shown_at_its_limit() {

@@ -4,7 +4,7 @@ use super::front::Front;
 use super::row::Row;
 use unripple::field::TargetFigures;
 use unripple::focus::Method;
-use unripple_plot::{Axis, Figure, Ink, Layer, Line, Plot, Points};
+use unripple_plot::{Axis, Figure, Ink, Layer, Line, Panel, Plot, Points};
 
 /// Abscissae and ordinates of a front, as drawn.
 type Drawn = fn(&Front) -> (Vec<f64>, Vec<f64>);
@@ -29,10 +29,15 @@ pub fn draw(rows: &[Row], fronts: &[Front], felt: &[Row]) -> Figure {
         |front| (front.peak.clone(), front.contrast.clone()),
         rows.iter().map(|row| (row.peak_at_limit, row.contrast_at_limit)).unzip(),
     );
+    let mut panels: Vec<Panel> = vec![energy.into(), level.into()];
+    // Where `felt` failed, time reversal stands alone.
+    if felt.len() > 1 {
+        panels.push(quiet(felt).into());
+    }
     Figure {
         width_mm: 178.0,
         columns: 2,
-        panels: vec![energy.into(), level.into(), quiet(felt).into()],
+        panels,
         letters: true,
         description: "Contrast of every method against the energy that the same peak takes and against the peak that the drive \
             limit allows, with the parameter of each method varied from end to end; what is felt elsewhere against the drive \

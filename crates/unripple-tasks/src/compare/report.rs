@@ -1,6 +1,6 @@
 //! Report of the task `compare`.
 
-use super::row::{Conditions, table};
+use super::row::{Conditions, markdown, table};
 use super::{Failed, Front, Row};
 use serde::Serialize;
 use unripple::act::Level;
@@ -46,6 +46,18 @@ impl Report {
     /// What all rows have in common.
     pub(super) fn conditions(&self) -> Conditions {
         Conditions { window: self.window_s, judged_to: self.judged_to_hz, level: self.level }
+    }
+
+    /// The report as Markdown, with a link to its picture if there is one.
+    pub(super) fn markdown(&self) -> String {
+        let mut text = markdown(&self.surface, &self.methods, self.conditions());
+        for Failed { method, why } in &self.failed {
+            text += &format!("\n**{method}** failed: {why}\n");
+        }
+        if self.files.iter().any(|file| file == "compare.png") {
+            text += "\n![Contrast against energy, and against the peak at the drive limit](compare.png)\n";
+        }
+        text
     }
 }
 

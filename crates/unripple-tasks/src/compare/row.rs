@@ -183,7 +183,6 @@ pub fn markdown(surface: &str, rows: &[Row], conditions: Conditions) -> String {
         let _ = write!(text, "\n- **{}**: {}", row.method, note.text);
     }
     text.push('\n');
-    text.push_str("\n![Contrast against energy, and against the peak at the drive limit](compare.png)\n");
     text
 }
 

@@ -105,7 +105,7 @@ pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> 
             found.files = figures::write(&out, &columns.fit(vec![("compare", drawn)]))?;
         }
         record.write(&out, &found)?;
-        let page = row::markdown(&found.surface, &found.methods, found.conditions());
+        let page = found.markdown();
         out.write("report.md", page.as_bytes())?;
         folder::finish(out, progress)?;
     }
