@@ -5,6 +5,13 @@ use crate::error::CliError;
 use std::collections::BTreeMap;
 use unripple_tasks::SurfaceAsk;
 
+/// A key and the text behind its `=`, neither with spaces around it; `None` without a key or without `=`.
+pub fn key_and_value(text: &str) -> Option<(&str, &str)> {
+    let (key, value) = text.split_once('=')?;
+    let (key, value) = (key.trim(), value.trim());
+    (!key.is_empty()).then_some((key, value))
+}
+
 /// The options that are common to all commands.
 pub struct Common {
     /// Whether the report is printed as one JSON object.
@@ -21,11 +28,9 @@ impl Common {
         let mut set = BTreeMap::new();
         for text in &arguments.set {
             let refused = |expected: &str| CliError::Input(format!("--set {text}: expected {expected}"));
-            let (key, value) = text
-                .split_once('=')
-                .filter(|(key, _)| !key.trim().is_empty())
-                .ok_or_else(|| refused("KEY=VALUE, as in sheet.tension_n_per_m=220"))?;
-            if set.insert(key.trim().to_owned(), value.trim().to_owned()).is_some() {
+            let (key, value) =
+                key_and_value(text).ok_or_else(|| refused("KEY=VALUE, as in sheet.tension_n_per_m=220"))?;
+            if set.insert(key.to_owned(), value.to_owned()).is_some() {
                 return Err(refused("each key once"));
             }
         }
@@ -38,6 +43,13 @@ impl Common {
             true => SurfaceAsk::Name(name.into()),
             false => SurfaceAsk::Set { name: name.into(), set: self.set.clone() },
         }
+    }
+
+    /// The surface of this name, with the changed keys and one more; `None` if that is among them.
+    pub fn surface_with(&self, name: &str, key: &str, value: &str) -> Option<SurfaceAsk> {
+        let mut set = self.set.clone();
+        let before = set.insert(key.to_owned(), value.to_owned());
+        before.is_none().then(|| SurfaceAsk::Set { name: name.into(), set })
     }
 
     /// Refuses `--set` for a command that reads no surface file.

@@ -18,12 +18,39 @@ pub mod method {
     /// # Errors
     /// If no method has that name.
     pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Method, D::Error> {
-        let name = String::deserialize(from)?;
+        named(&String::deserialize(from)?)
+    }
+
+    /// The method of a name, or the error that there is none.
+    pub(super) fn named<E: Error>(name: &str) -> Result<Method, E> {
         let found = Method::ALL.into_iter().find(|method| method.name() == name);
         found.ok_or_else(|| {
             let names = Method::ALL.map(Method::name).join(", ");
-            D::Error::custom(format!("expected one of {names}, found `{name}`"))
+            E::custom(format!("expected one of {names}, found `{name}`"))
         })
+    }
+}
+
+/// Reads and writes a list of focusing methods by their names, for `#[serde(with)]`.
+pub mod methods {
+    use super::method::named;
+    use serde::{Deserialize, Deserializer, Serializer};
+    use unripple::focus::Method;
+
+    /// Writes the names.
+    ///
+    /// # Errors
+    /// Those of the serializer.
+    pub fn serialize<S: Serializer>(methods: &[Method], to: S) -> Result<S::Ok, S::Error> {
+        to.collect_seq(methods.iter().map(|method| method.name()))
+    }
+
+    /// Reads a list of names.
+    ///
+    /// # Errors
+    /// If no method has one of those names.
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Method>, D::Error> {
+        Vec::<String>::deserialize(from)?.iter().map(|name| named(name)).collect()
     }
 }
 

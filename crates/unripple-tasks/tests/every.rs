@@ -42,7 +42,12 @@ fn asks_go_through_json() {
     through_json(&fit::Ask::default());
     through_json(&calibrate::Ask { by: calibrate::By::Tap, ..calibrate::Ask::default() });
     through_json(&play::Ask::default());
-    through_json(&compare::Ask { level: target::LevelAsk::PeakM(1e-5), ..compare::Ask::default() });
+    through_json(&compare::Ask {
+        others: vec!["drum".into()],
+        methods: vec![unripple::focus::Method::Felt, unripple::focus::Method::OneBit],
+        level: target::LevelAsk::PeakM(1e-5),
+        ..compare::Ask::default()
+    });
     through_json(&field::Ask {
         drive: field::DriveAsk::Samples { channels: vec![vec![0.5, 1.0]], rate_hz: 48e3 },
         ..field::Ask::default()
@@ -128,6 +133,8 @@ fn an_ask_names_the_field_that_is_wrong() {
     assert_eq!(field(focus::run(&ask, &mut Silent).unwrap_err()), "window_s");
     let ask = compare::Ask { columns: Some(0), ..compare::Ask::default() };
     assert_eq!(field(compare::run(&ask, &mut Silent).unwrap_err()), "columns");
+    let ask = compare::Ask { labels: vec!["a".into(), "b".into()], ..compare::Ask::default() };
+    assert_eq!(field(compare::run(&ask, &mut Silent).unwrap_err()), "labels");
     let ask = drift::Ask { seconds: 0.1, ..drift::Ask::default() };
     assert_eq!(field(drift::run(&ask, &mut Silent).unwrap_err()), "seconds");
     let ask = drift::Ask { range: f64::NAN, ..drift::Ask::default() };

@@ -36,10 +36,14 @@ pub const FOCUS: &str = "Examples:
   A burst at one place while another stays still:
     unripple focus hudin-2012 --waveform 62,90,burst:250,5 --silent 100,60 -o out";
 
-/// For `compare`: the table alone, and files at a level.
+/// For `compare`: methods on one surface, and several surfaces.
 pub const COMPARE: &str = "Examples:
-  unripple compare hudin-2012 --at 62,90
-  unripple compare my-surface.toml --at 62,90 --peak-um 5 -o out";
+  All methods, in a table and in a folder:
+    unripple compare hudin-2012 --at 62,90
+    unripple compare my-surface.toml --at 62,90 --peak-um 5 -o out
+  Two surfaces, and one whose tension is varied:
+    unripple compare film.toml glass.toml --at 62,90 --method concentrate --method felt -o out
+    unripple compare hudin-2012 --vary sheet.tension_n_per_m=200,300,400 --at 62,90 -o out";
 
 /// For `field`: the drive that `focus` wrote.
 pub const FIELD: &str = "Examples:

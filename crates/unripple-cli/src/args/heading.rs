@@ -2,6 +2,8 @@
 
 /// Options that every command has.
 pub const EVERY: &str = "For every command";
+/// Of which surfaces something is asked.
+pub const SURFACES: &str = "Surfaces";
 /// What is to be in focus, or looked at.
 pub const TARGETS: &str = "Targets";
 /// How strong a drive is.

@@ -73,7 +73,7 @@ pub enum Command {
     Respond(RespondOptions),
     /// Compute a drive that focuses on points or shapes, and simulate it; with report and pictures.
     Focus(FocusOptions),
-    /// Compare all methods on the same targets, in one table and one picture.
+    /// Compare methods on the same targets, on one surface or several, in one table and one picture.
     Compare(CompareOptions),
     /// Simulate what a given drive does to a surface.
     Field(FieldOptions),
@@ -289,11 +289,18 @@ pub struct FocusOptions {
 #[derive(Debug, Args)]
 #[command(after_help = examples::COMPARE)]
 pub struct CompareOptions {
-    /// A surface file, or the name of a built-in surface.
-    pub surface: String,
+    /// Surface files, or names of built-in surfaces.
+    #[arg(required = true)]
+    pub surface: Vec<String>,
+    /// Compare each surface once for each of several values of a key, as in sheet.tension_n_per_m=200,300,400.
+    #[arg(long, value_name = "KEY=VALUE,VALUE", help_heading = heading::SURFACES)]
+    pub vary: Option<String>,
     #[command(flatten)]
     pub targets: TargetOptions,
-    /// Window T in ms; by default the one that `design` recommends.
+    /// Method to compare with time reversal; by default all on one surface, and `concentrate` on several. Repeatable.
+    #[arg(long, value_enum, help_heading = heading::METHOD)]
+    pub method: Vec<MethodName>,
+    /// Window T in ms; by default the one that `design` recommends for each surface.
     #[arg(long, value_name = "MS", allow_negative_numbers = true, help_heading = heading::TIME)]
     pub window_ms: Option<f64>,
     /// Simulate drives with modes up to this frequency, in Hz; by default up to twice the top of the band, at most 0.45 of the

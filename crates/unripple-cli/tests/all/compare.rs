@@ -160,3 +160,92 @@ fn a_method_that_cannot_reach_a_level_is_shown_at_its_limit() {
     let focus = ["focus", &file, "--at", "62,90", "--window-ms", "30", "--method", "inverse", "-o", &out];
     assert!(refused(&[&focus[..], &["--peak-um", &peak]].concat(), 2).contains("at most"));
 }
+
+/// The rows of one surface without what the clock says.
+fn timeless(on: &Value) -> Vec<Value> {
+    let mut rows = on["methods"].as_array().unwrap().clone();
+    for row in &mut rows {
+        let row = row.as_object_mut().unwrap();
+        assert!(row.remove("plan_s").is_some() && row.remove("drive_s").is_some());
+    }
+    rows
+}
+
+#[test]
+fn surfaces_are_compared_as_each_would_be_alone() {
+    let scratch = Scratch::new("compare-surfaces");
+    let stiff =
+        FILM.replace("A film", "A stiff film").replace("tension_n_per_m = 200", "tension_n_per_m = 300");
+    let (film, stiff) = (scratch.file("film.toml", FILM), scratch.file("stiff.toml", stiff));
+    let at = ["--at", "62,90"];
+    let both = json(&[&["compare", &film, &stiff][..], &at].concat());
+    let varied = ["compare", &film, "--vary", "sheet.tension_n_per_m=200, 300"];
+    let varied = json(&[&varied[..], &at].concat());
+    let set = ["compare", &film, "--set", "sheet.tension_n_per_m=300", "--method", "concentrate"];
+    let set = json(&[&set[..], &at].concat());
+    assert!(both["failed"].is_null() && varied["failed"].is_null());
+    for (place, (file, name)) in [(&film, "A film"), (&stiff, "A stiff film")].into_iter().enumerate() {
+        let alone = json(&[&["compare", file, "--method", "concentrate"][..], &at].concat());
+        let on = &both["surfaces"][place];
+        assert_eq!(on["label"], name);
+        for key in ["surface", "window_s", "window_why", "modes", "judged_to_hz"] {
+            assert_eq!(on[key], alone[key], "{key}");
+        }
+        let rows = timeless(on);
+        let names: Vec<&str> = rows.iter().map(|row| row["method"].as_str().unwrap()).collect();
+        assert_eq!(names, ["time-reversal", "concentrate"]);
+        assert_eq!(rows, timeless(&alone), "{name}");
+        // Only the method asked for has a tradeoff.
+        let fronts = alone["fronts"].as_array().unwrap();
+        assert!(fronts.len() == 1 && fronts[0]["method"] == "concentrate", "{fronts:?}");
+        assert_eq!(alone["felt"].as_array().unwrap().len(), 1);
+    }
+    let tighter = &varied["surfaces"][1];
+    assert_eq!(tighter["label"], "sheet.tension_n_per_m=300");
+    assert_eq!((&tighter["window_s"], &tighter["modes"]), (&set["window_s"], &set["modes"]));
+    assert_eq!(timeless(tighter), timeless(&set));
+    assert_eq!(varied["run"]["surfaces"][1]["asked"]["set"]["sheet.tension_n_per_m"], "300");
+    assert!(number(tighter, "/modes") < number(&varied["surfaces"][0], "/modes"));
+    let twice =
+        ["compare", &film, "--set", "sheet.tension_n_per_m=300", "--vary", "sheet.tension_n_per_m=200"];
+    assert!(refused(&[&twice[..], &at].concat(), 2).contains("a key that --set does not set"));
+    let bare = ["compare", &film, "--vary", "sheet.tension_n_per_m"];
+    assert!(refused(&[&bare[..], &at].concat(), 2).contains("expected KEY=VALUE,VALUE"));
+}
+
+#[test]
+fn a_surface_without_the_target_fails_alone() {
+    let scratch = Scratch::new("compare-outside");
+    let small = FILM.replace("A film", "A small film").replace("[150, 150]", "[100, 100]");
+    let small = small.replace("[140, 44]", "[90, 44]").replace("[40, 140]", "[40, 90]");
+    let (film, small) = (scratch.file("film.toml", FILM), scratch.file("small.toml", small));
+    let out = scratch.join("out");
+    let asked = ["--at", "62,120", "--window-ms", "20"];
+    let compare = [&["compare", &small, &film][..], &asked].concat();
+    let report = json(&[&compare[..], &["--columns", "1", "-o", &out]].concat());
+    let labels = |key: &str| -> Vec<String> {
+        let all = report[key].as_array().unwrap().iter();
+        all.map(|one| one["label"].as_str().unwrap().to_owned()).collect()
+    };
+    assert_eq!(
+        (labels("surfaces"), labels("failed")),
+        (vec!["A film".to_owned()], vec!["A small film".to_owned()])
+    );
+    let why = report["failed"][0]["why"].as_str().unwrap();
+    assert!(why.starts_with("target 1: (62.0000, 120.0000) mm is outside the surface"), "{why}");
+    let page = std::fs::read_to_string(format!("{out}/report.md")).unwrap();
+    assert!(page.contains(&format!("\n**A small film** failed: {why}\n")), "{page}");
+    assert!(page.contains("| surface | method | window ms | modes | contrast |"), "{page}");
+    assert!(page.contains("| A film | concentrate | 20.0 |") && page.contains("](compare.png)"), "{page}");
+    let drawn = std::fs::read_to_string(format!("{out}/compare.svg")).unwrap();
+    assert!(drawn.contains("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"86mm\""));
+    assert!(drawn.contains(">A film</text>") && drawn.contains(">concentrate</text>"));
+    let table = std::fs::read_to_string(format!("{out}/compare-a.csv")).unwrap();
+    assert!(table.starts_with("series,Contrast,Surface\r\ntime-reversal,"), "{table}");
+    assert!(table.lines().skip(1).all(|line| line.ends_with(",A film")), "{table}");
+    let text = String::from_utf8(run(&compare).stdout).unwrap();
+    assert!(text.contains(&format!("\nA small film failed: {why}\n")), "{text}");
+    // Where all fail, there is nothing to show.
+    let none = refused(&[&["compare", &small, &small][..], &asked].concat(), 2);
+    assert!(none.contains(&format!("small.toml: {why}")), "{none}");
+}

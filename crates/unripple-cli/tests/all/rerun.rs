@@ -85,7 +85,7 @@ fn run_in(folder: &Path, threads: &str, arguments: &[&str]) -> Value {
 
 /// Commands that compute, as typed in a folder with film.toml, tone.wav, mark.svg, drive.wav and the library `lib`; OUT stands for where
 /// results go.
-const COMMANDS: [&str; 20] = [
+const COMMANDS: [&str; 21] = [
     "check film.toml",
     "design film.toml",
     "modes film.toml --max-hz 600 --accuracy 1e-5",
@@ -102,6 +102,7 @@ const COMMANDS: [&str; 20] = [
     "field film.toml --drive drive.wav --at 62,90 --frames 0 -o OUT",
     "field lib --drive drive.wav",
     "compare film.toml --at 62,90 --window-ms 20 -o OUT",
+    "compare film.toml --vary sheet.tension_n_per_m=150,200 --at 62,90 --method one-bit -o OUT",
     "respond film.toml --grid-mm 50 --length-ms 10 -o OUT",
     "calibrate film.toml --device virtual --unknowns 3 --grid-mm 70 -o OUT",
     "export lib -o OUT",

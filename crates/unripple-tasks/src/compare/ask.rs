@@ -2,27 +2,36 @@
 
 use crate::record::{Request, Visit};
 use crate::target::{LevelAsk, PointAsk, ShapeAsk};
-use crate::{SurfaceAsk, TaskError};
+use crate::{SurfaceAsk, TaskError, names};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
+use unripple::focus::Method;
 
-/// Where every method is to focus, and how strongly.
+/// Where every method is to focus, how strongly, and on which surfaces.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ask {
     /// A surface file, or the name of a built-in surface.
     pub surface: SurfaceAsk,
+    /// Further surfaces, on which the same is done.
+    pub others: Vec<SurfaceAsk>,
+    /// What all surfaces are called in the report, one text for each; by default each has its own name.
+    pub labels: Vec<String>,
+    /// Methods to be compared with time reversal; by default all on one surface, and `concentrate` on several.
+    #[serde(with = "names::methods")]
+    pub methods: Vec<Method>,
     /// Points to be in focus.
     pub points: Vec<PointAsk>,
     /// Shapes to be in focus.
     pub shapes: Vec<ShapeAsk>,
     /// How strong each drive is to be.
     pub level: LevelAsk,
-    /// Window T in s; by default the one that `design` recommends.
+    /// Window T in s; by default the one that `design` recommends for each surface.
     pub window_s: Option<f64>,
     /// Evaluate drives on modes up to this frequency, in Hz; by default up to twice the top of the band.
     pub judge_hz: Option<f64>,
-    /// Leave out the tradeoffs of each method's parameter, which take half of the time, and the figure that shows them.
+    /// Leave out the tradeoffs of each method's parameter, which take half of the time, and the figure that shows them. On several
+    /// surfaces they are always left out, and the figure shows the methods alone.
     pub no_tradeoffs: bool,
     /// Write no figure.
     pub no_figures: bool,
@@ -32,11 +41,33 @@ pub struct Ask {
     pub output: Option<PathBuf>,
 }
 
+/// Methods that are compared on several surfaces by default: the reference, and the one of most contrast. A table of all methods on all
+/// surfaces would be too long to read.
+const ON_SEVERAL: [Method; 2] = [Method::TimeReversal, Method::Concentrate];
+
+impl Ask {
+    /// All surfaces, in the order of the report.
+    pub(super) fn all(&self) -> impl Iterator<Item = &SurfaceAsk> {
+        std::iter::once(&self.surface).chain(&self.others)
+    }
+
+    /// The methods in the order of the report: time reversal, to which the others are related, and those asked for.
+    pub(super) fn chosen(&self) -> impl Iterator<Item = Method> {
+        let asked: &[Method] = match (self.methods.as_slice(), self.others.as_slice()) {
+            ([], []) => &Method::ALL,
+            ([], _) => &ON_SEVERAL,
+            (asked, _) => asked,
+        };
+        let among = move |method: &Method| *method == Method::TimeReversal || asked.contains(method);
+        Method::ALL.into_iter().filter(among)
+    }
+}
+
 impl Request for Ask {
     const COMMAND: &'static str = "compare";
 
     fn surfaces(&mut self) -> Vec<&mut SurfaceAsk> {
-        vec![&mut self.surface]
+        std::iter::once(&mut self.surface).chain(&mut self.others).collect()
     }
 
     fn inputs(&mut self, visit: &mut Visit<'_>) -> Result<(), TaskError> {

@@ -1,4 +1,4 @@
-//! Methods of a comparison that failed, and why.
+//! Methods and surfaces of a comparison that failed, and why.
 
 use crate::TaskError;
 use serde::Serialize;
@@ -10,6 +10,15 @@ pub struct Failed {
     /// Name of the method.
     pub method: &'static str,
     /// Reason in words; for a tradeoff curve it names the value of the method's parameter.
+    pub why: String,
+}
+
+/// A surface on which nothing could be compared, and why.
+#[derive(Clone, Debug, Serialize)]
+pub struct FailedSurface {
+    /// What the surface is called among those compared.
+    pub label: String,
+    /// Reason in words, such as a target outside the surface.
     pub why: String,
 }
 

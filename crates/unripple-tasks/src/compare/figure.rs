@@ -1,10 +1,11 @@
-//! The figure of a comparison.
+//! The figure of a comparison: of methods on one surface, or of several surfaces.
 
+use super::compared::Compared;
 use super::front::Front;
 use super::row::Row;
 use unripple::field::TargetFigures;
 use unripple::focus::Method;
-use unripple_plot::{Axis, Figure, Ink, Layer, Line, Panel, Plot, Points};
+use unripple_plot::{Along, Axis, Dash, Figure, Ink, Layer, Line, Mark, Panel, Plot, Points, Rule, Scale};
 
 /// Abscissae and ordinates of a front, as drawn.
 type Drawn = fn(&Front) -> (Vec<f64>, Vec<f64>);
@@ -84,4 +85,72 @@ fn quiet(felt: &[Row]) -> Plot {
         layers,
         ..Plot::default()
     }
+}
+
+/// A figure of a row.
+type Quantity = fn(&Row) -> Option<f64>;
+
+/// Marks of the methods, each with its own on every panel.
+const MARKS: [Mark; 7] =
+    [Mark::Disc, Mark::Square, Mark::Ring, Mark::Triangle, Mark::Diamond, Mark::Cross, Mark::Plus];
+
+/// Height of a surface's line in mm: that of its name and some room.
+const LINE_MM: f64 = 5.0;
+
+/// Least and greatest height of all lines in mm, so that a frame is not flat and a figure fits a page.
+const HEIGHT_MM: [f64; 2] = [20.0, 160.0];
+
+/// Draws contrast, felt contrast and energy of every method, a line for each surface; nothing if none of them is known.
+pub fn beside(surfaces: &[Compared]) -> Option<Figure> {
+    let quantities: [(Axis, Quantity); 3] = [
+        (Axis::log("Contrast"), |row| row.targets.first()?.contrast),
+        (Axis::new("Felt contrast (dB)"), |row| row.targets.first()?.felt_contrast_db),
+        (Axis::log("Energy, time reversal = 1"), |row| Some(row.energy_for_peak)),
+    ];
+    let panels: Vec<Panel> = quantities
+        .into_iter()
+        .filter_map(|(axis, quantity)| Some(dots(surfaces, axis, quantity)?.into()))
+        .collect();
+    (!panels.is_empty()).then(|| Figure {
+        width_mm: 178.0,
+        columns: 2,
+        panels,
+        letters: true,
+        description:
+            "Contrast, felt contrast and energy for the same peak of every method, a line for each surface"
+                .into(),
+        ..Figure::default()
+    })
+}
+
+/// One quantity, a mark for each method on the line of each surface, the first surface at the top.
+fn dots(surfaces: &[Compared], axis: Axis, quantity: Quantity) -> Option<Plot> {
+    let upwards = || surfaces.iter().rev().enumerate();
+    let names = upwards().map(|(_, on)| on.label.clone()).collect();
+    let line = |(place, _): (usize, &Compared)| {
+        let (at, dash) = (place as f64, Dash::Dotted);
+        Layer::from(Rule { at, along: Along::X, dash, ..Rule::default() })
+    };
+    let mut layers: Vec<Layer> = upwards().map(line).collect();
+    let drawable = |value: &f64| value.is_finite() && (axis.scale == Scale::Linear || *value > 0.0);
+    for (i, method) in Method::ALL.into_iter().enumerate() {
+        let found = upwards().filter_map(|(place, on)| {
+            let row = on.methods.iter().find(|row| row.method == method.name())?;
+            Some((quantity(row).filter(drawable)?, place as f64))
+        });
+        let (x, y): (Vec<f64>, Vec<f64>) = found.unzip();
+        if !x.is_empty() {
+            let (label, ink) = (method.name().into(), Ink::Palette(i));
+            layers.push(Points { x, y, label, ink, mark: MARKS[i], ..Points::default() }.into());
+        }
+    }
+    let height = (LINE_MM * surfaces.len() as f64).clamp(HEIGHT_MM[0], HEIGHT_MM[1]);
+    let y = Axis::named("Surface", names);
+    (layers.len() > surfaces.len()).then(|| Plot {
+        x: axis,
+        y,
+        layers,
+        height_mm: Some(height),
+        ..Plot::default()
+    })
 }

@@ -34,15 +34,22 @@ const ROBUST: [f64; 4] = [0.0, 0.7, 0.95, 0.99];
 const ECONOMIES: [[f64; 2]; 5] = [[0.01, 0.04], [0.06, 0.04], [0.2, 0.05], [0.5, 0.06], [1.5, 0.08]];
 const PUSHES: [f64; 6] = [0.1, 0.3, 0.5, 0.7, 0.85, 0.95];
 
-/// The tradeoff curves of all methods that have a parameter, and the rows of what is felt elsewhere.
+/// The tradeoff curves of those methods among `rows` that have a parameter, and the rows of what is felt elsewhere.
 pub(super) fn both(
     ground: &Ground<'_>,
+    rows: &[Row],
     reversal: Row,
     failed: &mut Vec<Failed>,
     progress: &mut dyn Progress,
 ) -> Result<(Vec<Front>, Vec<Row>), TaskError> {
-    let fronts = all(ground, reversal.trade, failed, progress)?;
-    Ok((fronts, felt(ground, reversal, failed, progress)?))
+    // What was not asked for has no row, and what fails with its default would be told twice.
+    let has_row = |method: Method| rows.iter().any(|row| row.method == method.name());
+    let fronts = all(ground, has_row, reversal.trade, failed, progress)?;
+    let felt = match has_row(Method::Felt) {
+        true => felt(ground, reversal, failed, progress)?,
+        false => vec![reversal],
+    };
+    Ok((fronts, felt))
 }
 
 /// Rows of `felt` for increasing weights of energy, after the row of time reversal: level felt outside the target
@@ -54,9 +61,6 @@ fn felt(
     progress: &mut dyn Progress,
 ) -> Result<Vec<Row>, TaskError> {
     let mut rows = vec![reversal];
-    if has_failed(failed, Method::Felt) {
-        return Ok(rows);
-    }
     for [economy, worst] in ECONOMIES {
         go_on(progress)?;
         let options = Options { method: Method::Felt, economy, worst, ..ground.options.clone() };
@@ -66,9 +70,10 @@ fn felt(
     Ok(rows)
 }
 
-/// The tradeoff curves of all methods that have a parameter, relative to time reversal.
+/// The tradeoff curves of all methods that have a row and a parameter, relative to time reversal.
 fn all(
     ground: &Ground<'_>,
+    has_row: impl Fn(Method) -> bool,
     reversal: Trade,
     failed: &mut Vec<Failed>,
     progress: &mut dyn Progress,
@@ -81,18 +86,11 @@ fn all(
     ];
     progress.stage("the tradeoffs of the methods' parameters");
     let mut fronts = Vec::new();
-    for (method, knob, values) in KNOBS {
-        // What fails with its default would be told twice.
-        if !has_failed(failed, method) {
-            let found = front(ground, reversal, method, knob, values, progress);
-            fronts.extend(survived(found, method, failed)?);
-        }
+    for (method, knob, values) in KNOBS.into_iter().filter(|(method, ..)| has_row(*method)) {
+        let found = front(ground, reversal, method, knob, values, progress);
+        fronts.extend(survived(found, method, failed)?);
     }
     Ok(fronts)
-}
-
-fn has_failed(failed: &[Failed], method: Method) -> bool {
-    failed.iter().any(|failed| failed.method == method.name())
 }
 
 fn front(

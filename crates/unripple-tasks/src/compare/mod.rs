@@ -1,6 +1,7 @@
-//! `compare`: compares all focusing methods on the same targets.
+//! `compare`: compares focusing methods on the same targets, on one surface or several.
 
 mod ask;
+mod compared;
 mod failed;
 mod figure;
 mod front;
@@ -8,11 +9,13 @@ mod ground;
 mod report;
 mod row;
 mod run;
+mod table;
 mod trade;
 
 pub use ask::Ask;
-pub use failed::Failed;
+pub use compared::Compared;
+pub use failed::{Failed, FailedSurface};
 pub use front::Front;
-pub use report::Report;
+pub use report::{On, Report};
 pub use row::Row;
 pub use run::run;

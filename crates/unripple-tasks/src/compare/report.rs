@@ -1,11 +1,12 @@
 //! Report of the task `compare`.
 
-use super::row::{Conditions, markdown, table};
-use super::{Failed, Front, Row};
+use super::table::Table;
+use super::{Compared, FailedSurface};
 use serde::Serialize;
+use std::fmt::Write;
 use unripple::act::Level;
 
-/// Results of all methods, one row each, and the tradeoff curves of their parameters.
+/// Results of all methods on each surface.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// Name of the program.
@@ -14,48 +15,82 @@ pub struct Report {
     pub version: &'static str,
     /// Name of the task.
     pub command: &'static str,
-    /// The surface's own name.
-    pub surface: String,
-    /// Window T, in s.
-    pub window_s: f64,
-    /// Reason for the default window; absent if the ask gave a window.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub window_why: Option<String>,
-    /// Highest frequency of the modes that drives were evaluated on, in Hz.
-    pub judged_to_hz: f64,
-    /// Results of every method that did not fail, time reversal first.
-    pub methods: Vec<Row>,
-    /// Methods that failed, each with the reason.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub failed: Vec<Failed>,
-    /// Tradeoff curves of the methods that have a parameter; empty if the ask has `no_tradeoffs`.
-    pub fronts: Vec<Front>,
-    /// Results of the method `felt` for increasing weights of the drive's energy, after those of time reversal; empty if the ask has
-    /// `no_tradeoffs`.
-    pub felt: Vec<Row>,
+    /// Results on one surface, or on several.
+    #[serde(flatten)]
+    pub on: On,
     /// Files in the output folder.
     pub files: Vec<String>,
     #[serde(skip)]
     pub(super) level: Level,
-    /// The line on the window, where the caller gave none.
-    #[serde(skip)]
-    pub(super) window_text: Option<String>,
+}
+
+/// Results on one surface, or on several; as JSON those on one stand in the report itself.
+#[derive(Clone, Debug, Serialize)]
+#[serde(untagged)]
+pub enum On {
+    /// Results on the only surface.
+    One(Box<Compared>),
+    /// Results on several surfaces.
+    Several {
+        /// Results on each surface that did not fail, in the order of the ask.
+        surfaces: Vec<Compared>,
+        /// Surfaces that failed, each with the reason.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        failed: Vec<FailedSurface>,
+    },
 }
 
 impl Report {
-    /// What all rows have in common.
-    pub(super) fn conditions(&self) -> Conditions {
-        Conditions { window: self.window_s, judged_to: self.judged_to_hz, level: self.level }
+    /// Results on each surface that did not fail, in the order of the ask.
+    pub fn surfaces(&self) -> &[Compared] {
+        match &self.on {
+            On::One(on) => std::slice::from_ref(&**on),
+            On::Several { surfaces, .. } => surfaces,
+        }
+    }
+
+    /// Whether surfaces have to be told apart.
+    fn has_several(&self) -> bool {
+        matches!(self.on, On::Several { .. })
+    }
+
+    fn table(&self) -> Table<'_> {
+        Table { surfaces: self.surfaces(), several: self.has_several(), level: self.level }
+    }
+
+    /// What failed, and why: surfaces first, then methods.
+    fn failed(&self) -> Vec<(String, &str)> {
+        let mut all = Vec::new();
+        if let On::Several { failed, .. } = &self.on {
+            all.extend(failed.iter().map(|failed| (failed.label.clone(), failed.why.as_str())));
+        }
+        for on in self.surfaces() {
+            let name = |method: &str| match self.has_several() {
+                true => format!("{}, {method}", on.label),
+                false => method.to_owned(),
+            };
+            all.extend(on.failed.iter().map(|failed| (name(failed.method), failed.why.as_str())));
+        }
+        all
     }
 
     /// The report as Markdown, with a link to its picture if there is one.
     pub(super) fn markdown(&self) -> String {
-        let mut text = markdown(&self.surface, &self.methods, self.conditions());
-        for Failed { method, why } in &self.failed {
-            text += &format!("\n**{method}** failed: {why}\n");
+        let (title, picture) = match &self.on {
+            On::One(on) => (
+                format!("{}: methods compared", on.surface),
+                "Contrast against energy, and against the peak at the drive limit",
+            ),
+            On::Several { .. } => {
+                ("Surfaces compared".to_owned(), "Contrast, felt contrast and energy on each surface")
+            }
+        };
+        let mut text = format!("# {title}\n\n{}", self.table().markdown());
+        for (name, why) in self.failed() {
+            let _ = writeln!(text, "\n**{name}** failed: {why}");
         }
         if self.files.iter().any(|file| file == "compare.png") {
-            text += "\n![Contrast against energy, and against the peak at the drive limit](compare.png)\n";
+            let _ = writeln!(text, "\n![{picture}](compare.png)");
         }
         text
     }
@@ -63,12 +98,13 @@ impl Report {
 
 impl crate::Report for Report {
     fn text(&self) -> String {
-        let mut text = table(&self.methods, self.conditions());
-        for Failed { method, why } in &self.failed {
-            text += &format!("\n{method} failed: {why}\n");
+        let mut text = self.table().text();
+        for (name, why) in self.failed() {
+            text += &format!("\n{name} failed: {why}\n");
         }
-        if let Some(window) = &self.window_text {
-            text += &format!("\nwindow {window}\n");
+        for on in self.surfaces() {
+            let of = if self.has_several() { format!("{}: ", on.label) } else { String::new() };
+            text.extend(on.window_text.iter().map(|window| format!("\n{of}window {window}\n")));
         }
         text
     }

@@ -1,113 +1,125 @@
-//! Comparison of all focusing methods on the same targets.
+//! Comparison of focusing methods on the same targets, on one surface or several.
 
-use super::failed::survived;
-use super::ground::Ground;
-use super::row::{self, Row};
-use super::{Ask, Failed, Report, figure, front};
+use super::{Ask, FailedSurface, On, Report, compared, figure};
 use crate::figures::Columns;
-use crate::numbers::above_zero;
-use crate::target::targets;
-use crate::window::{carries, of_window};
-use crate::{Progress, TaskError, figures, folder, go_on, judge};
-use unripple::act::{Readouts, chosen_window};
+use crate::{Progress, TaskError, figures, folder, go_on};
 use unripple::core::Surface;
-use unripple::focus::{Method, Options};
+use unripple_plot::Figure;
 
-/// Options of all methods: the window (s) and the surface's limits.
-fn settings(surface: &Surface, window: f64) -> Options {
-    let (limit, rms_limit) = (surface.emission.limit, surface.emission.rms_limit);
-    Options { window, limit, rms_limit, ..Options::default() }
-}
-
-/// The row of time reversal, to which tradeoff curves are related, as it is before it is divided by itself.
-fn reversal(rows: &[Row]) -> Result<Row, TaskError> {
-    let found = rows.iter().find(|row| row.method == Method::TimeReversal.name());
-    found
-        .cloned()
-        .ok_or_else(|| TaskError::Work("time reversal: expected among the methods, found none".into()))
-}
-
-/// The row of every method, time reversal first, and the methods that failed; errors say whether the window was asked for.
-fn rows(
-    ground: &Ground<'_>,
-    asked: bool,
-    progress: &mut dyn Progress,
-) -> Result<(Vec<Row>, Vec<Failed>), TaskError> {
-    let (mut rows, mut failed) = (Vec::new(), Vec::new());
-    for method in Method::ALL {
-        go_on(progress)?;
-        progress.stage(method.name());
-        match row::judge(ground, method).map_err(|error| of_window(error, asked)) {
-            // All others are held against it.
-            Err(error) if method == Method::TimeReversal => return Err(error),
-            judged => rows.extend(survived(judged, method, &mut failed)?),
-        }
-    }
-    Ok((rows, failed))
-}
-
-/// Computes and evaluates the drive of every method on the same targets, and the tradeoff curves of the methods' parameters.
+/// Computes and evaluates the drive of every method on the same targets, on each surface; on one surface also the tradeoff curves of the
+/// methods' parameters.
+///
+/// ```
+/// use unripple_tasks::compare::{Ask, run};
+/// use unripple_tasks::{Silent, SurfaceAsk, target};
+///
+/// // Two films that differ in tension, in a band narrow enough for an example.
+/// let film = |tension: &str| {
+///     let keys = [("sheet.tension_n_per_m", tension), ("drive.band_hz", "[0, 1000]")];
+///     let set = keys.map(|(key, value)| (key.to_owned(), value.to_owned())).into();
+///     SurfaceAsk::Set { name: "hudin-2012".into(), set }
+/// };
+/// let ask = Ask {
+///     surface: film("200"),
+///     others: vec![film("300")],
+///     labels: vec!["200 N/m".into(), "300 N/m".into()],
+///     points: vec![target::PointAsk::at(0.062, 0.09)],
+///     ..Ask::default()
+/// };
+/// let report = run(&ask, &mut Silent)?;
+/// let modes: Vec<usize> = report.surfaces().iter().map(|on| on.modes).collect();
+/// assert!(modes[0] > modes[1], "a tighter film has fewer modes in the same band: {modes:?}");
+/// # Ok::<(), unripple_tasks::TaskError>(())
+/// ```
 ///
 /// # Errors
-/// [`TaskError::Ask`] of options that make no sense; those of reading and writing files; those of the methods; [`TaskError::Cancelled`].
+/// [`TaskError::Ask`] of options that make no sense; those of reading and writing files; that of the first surface if all of them fail;
+/// [`TaskError::Cancelled`].
 pub fn run(ask: &Ask, progress: &mut dyn Progress) -> Result<Report, TaskError> {
-    let columns = Columns::of(ask.columns)?;
-    let surface = ask.surface.load()?;
-    let out = folder::begin(ask.output.as_deref(), ask)?;
-    go_on(progress)?;
-    progress.stage("responses");
-    let known = judge::model(&surface, None, &[])?;
-    let targets = targets(&ask.points, &ask.shapes, known.conditions().lambda_min)?;
-    let judged_to = ask.judge_hz.unwrap_or_else(|| judge::judged_hz(&surface, judge::JUDGED_BANDS));
-    let plant = judge::model(&surface, Some(judged_to), &[])?;
-    let asked = ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
-    let chosen = asked.is_none().then(|| chosen_window(&surface, &known));
-    let window = asked.or(chosen.as_ref().map(|chosen| chosen.seconds)).unwrap_or_default();
-    carries(known.conditions(), window, "window_s")?;
-    let settings = settings(&surface, window);
+    let surfaces = ask.all().map(|surface| surface.load()).collect::<Result<Vec<Surface>, TaskError>>()?;
+    let (columns, labels) = (Columns::of(ask.columns)?, labels(ask, &surfaces)?);
     let level = ask.level.level()?;
-    let ground = Ground {
-        surface: &surface,
-        known: &known,
-        plant: &plant,
-        on: &Readouts::of(&plant),
-        targets: &targets,
-        options: &settings,
-        level,
-    };
-    let (mut rows, mut failed) = rows(&ground, asked.is_some(), progress)?;
-    let reversal = reversal(&rows)?;
-    row::relate(&mut rows);
-    let (fronts, felt) = match ask.no_tradeoffs {
-        true => (Vec::new(), Vec::new()),
-        false => front::both(&ground, reversal, &mut failed, progress)?,
-    };
-
+    let out = folder::begin(ask.output.as_deref(), ask)?;
+    let on = each(ask, &surfaces, labels, progress)?;
     let mut found = Report {
         program: "unripple",
         version: env!("CARGO_PKG_VERSION"),
         command: "compare",
-        surface: surface.name.clone(),
-        window_s: window,
-        window_why: chosen.as_ref().map(|chosen| chosen.why.clone()),
-        judged_to_hz: judged_to,
-        methods: rows,
-        failed,
-        fronts,
-        felt,
+        on,
         files: Vec::new(),
         level,
-        window_text: chosen.map(|chosen| chosen.text()),
     };
     if let Some((out, record)) = out {
-        if !(ask.no_figures || ask.no_tradeoffs) {
-            let drawn = figure::draw(&found.methods, &found.fronts, &found.felt);
+        if let Some(drawn) = drawn(&found.on, ask) {
             found.files = figures::write(&out, &columns.fit(vec![("compare", drawn)]))?;
         }
         record.write(&out, &found)?;
-        let page = found.markdown();
-        out.write("report.md", page.as_bytes())?;
+        out.write("report.md", found.markdown().as_bytes())?;
         folder::finish(out, progress)?;
     }
     Ok(found)
+}
+
+/// What each surface is called: as the ask says, by its own name, or as it was asked for where two have the same name.
+fn labels(ask: &Ask, surfaces: &[Surface]) -> Result<Vec<String>, TaskError> {
+    let (given, count) = (ask.labels.len(), surfaces.len());
+    if given == count {
+        return Ok(ask.labels.clone());
+    }
+    if given > 0 {
+        return Err(TaskError::ask("labels", format!("{count}, one for each surface"), given));
+    }
+    let is_shared = |name: &str| surfaces.iter().filter(|surface| surface.name == name).count() > 1;
+    let called = surfaces.iter().zip(ask.all()).map(|(surface, asked)| match is_shared(&surface.name) {
+        true => asked.to_string(),
+        false => surface.name.clone(),
+    });
+    Ok(called.collect())
+}
+
+/// Compares the methods on each surface. Of several, those that fail are named and the others go on.
+fn each(
+    ask: &Ask,
+    surfaces: &[Surface],
+    labels: Vec<String>,
+    progress: &mut dyn Progress,
+) -> Result<On, TaskError> {
+    let (mut done, mut failed) = (Vec::new(), Vec::new());
+    let alone = surfaces.len() == 1;
+    for (surface, label) in surfaces.iter().zip(labels) {
+        go_on(progress)?;
+        let of = if alone { String::new() } else { format!("{label}: ") };
+        progress.stage(&format!("{of}responses"));
+        match compared::on(ask, surface, label.clone(), progress) {
+            Ok(on) if alone => return Ok(On::One(Box::new(on))),
+            Ok(on) => done.push(on),
+            Err(error) if alone || matches!(error, TaskError::Cancelled) => return Err(error),
+            Err(error) => failed.push((label, error)),
+        }
+    }
+    if done.is_empty() {
+        return Err(first(failed));
+    }
+    let failed = failed.into_iter().map(|(label, error)| FailedSurface { label, why: error.to_string() });
+    Ok(On::Several { surfaces: done, failed: failed.collect() })
+}
+
+/// The error of the first of the surfaces, all of which failed, with its name.
+fn first(failed: Vec<(String, TaskError)>) -> TaskError {
+    match failed.into_iter().next() {
+        Some((label, TaskError::Input(text))) => TaskError::Input(format!("{label}: {text}")),
+        Some((label, TaskError::Work(text))) => TaskError::Work(format!("{label}: {text}")),
+        Some((_, error)) => error,
+        None => TaskError::ask("surface", "at least one surface", "none"),
+    }
+}
+
+/// The figure of a report; none if it was not asked for, or if there is nothing to draw.
+fn drawn(on: &On, ask: &Ask) -> Option<Figure> {
+    match on {
+        _ if ask.no_figures => None,
+        On::One(_) if ask.no_tradeoffs => None,
+        On::One(on) => Some(figure::draw(&on.methods, &on.fronts, &on.felt)),
+        On::Several { surfaces, .. } => figure::beside(surfaces),
+    }
 }

@@ -1,0 +1,133 @@
+//! What methods do on one of the surfaces that are compared.
+
+use super::Ask;
+use super::failed::{Failed, survived};
+use super::front::{self, Front};
+use super::ground::Ground;
+use super::row::{self, Row};
+use crate::numbers::above_zero;
+use crate::target::targets;
+use crate::window::{carries, of_window};
+use crate::{Progress, TaskError, go_on, judge};
+use serde::Serialize;
+use unripple::act::{Readouts, chosen_window};
+use unripple::core::{Responses, Surface};
+use unripple::focus::{Method, Options};
+
+/// Results of all methods on one surface, one row each, and the tradeoff curves of their parameters.
+#[derive(Clone, Debug, Serialize)]
+pub struct Compared {
+    /// What the surface is called among those compared.
+    pub label: String,
+    /// The surface's own name.
+    pub surface: String,
+    /// Window T, in s.
+    pub window_s: f64,
+    /// Reason for the default window; absent if the ask gave a window.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub window_why: Option<String>,
+    /// Number of modes that drives were computed from: those of the band.
+    pub modes: usize,
+    /// Highest frequency of the modes that drives were evaluated on, in Hz.
+    pub judged_to_hz: f64,
+    /// Results of every method that did not fail, time reversal first.
+    pub methods: Vec<Row>,
+    /// Methods that failed, each with the reason.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub failed: Vec<Failed>,
+    /// Tradeoff curves of the methods that have a parameter; empty on several surfaces, and if the ask has `no_tradeoffs`.
+    pub fronts: Vec<Front>,
+    /// Results of the method `felt` for increasing weights of the drive's energy, after those of time reversal; empty where `fronts` is.
+    pub felt: Vec<Row>,
+    /// The line on the window, where the caller gave none.
+    #[serde(skip)]
+    pub(super) window_text: Option<String>,
+}
+
+/// Computes and evaluates the drive of every method on a surface, and where there is no other surface the tradeoff curves of the methods'
+/// parameters.
+pub(super) fn on(
+    ask: &Ask,
+    surface: &Surface,
+    label: String,
+    progress: &mut dyn Progress,
+) -> Result<Compared, TaskError> {
+    let known = judge::model(surface, None, &[])?;
+    let targets = targets(&ask.points, &ask.shapes, known.conditions().lambda_min)?;
+    let judged_to = ask.judge_hz.unwrap_or_else(|| judge::judged_hz(surface, judge::JUDGED_BANDS));
+    let plant = judge::model(surface, Some(judged_to), &[])?;
+    let asked = ask.window_s.map(|window| above_zero(window, "window_s", "s")).transpose()?;
+    let chosen = asked.is_none().then(|| chosen_window(surface, &known));
+    let window = asked.or(chosen.as_ref().map(|chosen| chosen.seconds)).unwrap_or_default();
+    carries(known.conditions(), window, "window_s")?;
+    let ground = Ground {
+        surface,
+        known: &known,
+        plant: &plant,
+        on: &Readouts::of(&plant),
+        targets: &targets,
+        options: &settings(surface, window),
+        level: ask.level.level()?,
+    };
+    let (mut methods, mut failed) = rows(&ground, ask, progress)?;
+    let reversal = reversal(&methods)?;
+    row::relate(&mut methods);
+    let (fronts, felt) = match ask.no_tradeoffs || !ask.others.is_empty() {
+        true => (Vec::new(), Vec::new()),
+        false => front::both(&ground, &methods, reversal, &mut failed, progress)?,
+    };
+    Ok(Compared {
+        label,
+        surface: surface.name.clone(),
+        window_s: window,
+        window_why: chosen.as_ref().map(|chosen| chosen.why.clone()),
+        modes: modes(&known),
+        judged_to_hz: judged_to,
+        methods,
+        failed,
+        fronts,
+        felt,
+        window_text: chosen.map(|chosen| chosen.text()),
+    })
+}
+
+/// Options of all methods: the window (s) and the surface's limits.
+fn settings(surface: &Surface, window: f64) -> Options {
+    let (limit, rms_limit) = (surface.emission.limit, surface.emission.rms_limit);
+    Options { window, limit, rms_limit, ..Options::default() }
+}
+
+/// The row of every method, time reversal first, and the methods that failed.
+fn rows(
+    ground: &Ground<'_>,
+    ask: &Ask,
+    progress: &mut dyn Progress,
+) -> Result<(Vec<Row>, Vec<Failed>), TaskError> {
+    let (mut rows, mut failed) = (Vec::new(), Vec::new());
+    for method in ask.chosen() {
+        go_on(progress)?;
+        progress.stage(method.name());
+        match row::judge(ground, method).map_err(|error| of_window(error, ask.window_s.is_some())) {
+            // All others are held against it.
+            Err(error) if method == Method::TimeReversal => return Err(error),
+            judged => rows.extend(survived(judged, method, &mut failed)?),
+        }
+    }
+    Ok((rows, failed))
+}
+
+/// The row of time reversal, to which tradeoff curves are related, as it is before it is divided by itself.
+fn reversal(rows: &[Row]) -> Result<Row, TaskError> {
+    let found = rows.iter().find(|row| row.method == Method::TimeReversal.name());
+    found
+        .cloned()
+        .ok_or_else(|| TaskError::Work("time reversal: expected among the methods, found none".into()))
+}
+
+/// Number of modes of a surface's responses; samples have none.
+fn modes(responses: &Responses) -> usize {
+    match responses {
+        Responses::Modal(modal) => modal.poles.len(),
+        Responses::Sampled(_) => 0,
+    }
+}

@@ -1,0 +1,181 @@
+//! The table of a comparison: a line for each method on each surface.
+
+use super::compared::Compared;
+use super::row::Row;
+use std::fmt::Write;
+use unripple::act::{Level, Note};
+use unripple::field::TargetFigures;
+use unripple::physics::design::milliseconds;
+
+/// Headings of the columns that say what is compared: of several surfaces the surface too, its window and its modes.
+const METHOD: [&str; 1] = ["method"];
+const SURFACE: [&str; 4] = ["surface", "method", "window ms", "modes"];
+
+/// Headings of the figures, in the order of `figures`.
+const FIGURES: [&str; 14] = [
+    "contrast",
+    "background",
+    "worst spot",
+    "spot mm",
+    "peak m/s",
+    "energy for peak",
+    "peak at limit",
+    "felt dB",
+    "felt contrast",
+    "felt background",
+    "felt worst",
+    "drive for felt",
+    "plan ms",
+    "drive ms",
+];
+
+/// Rows of all surfaces, as text.
+pub(super) struct Table<'a> {
+    /// The surfaces, each with its rows.
+    pub surfaces: &'a [Compared],
+    /// Whether they have to be told apart.
+    pub several: bool,
+    /// The level that was asked for.
+    pub level: Level,
+}
+
+impl Table<'_> {
+    /// The table for a terminal, with its notes.
+    pub fn text(&self) -> String {
+        let mut text = format!("{self}\n\n");
+        let all: Vec<Vec<String>> = std::iter::once(self.headings()).chain(self.cells()).collect();
+        // Names are read from the left, numbers from the right.
+        let names = if self.several { 2 } else { 1 };
+        for row in &all {
+            for (i, cell) in row.iter().enumerate() {
+                let width = all.iter().map(|row| row[i].chars().count()).max().unwrap_or(0);
+                let space = if i == 0 { "" } else { "  " };
+                let _ = match i < names {
+                    true => write!(text, "{space}{cell:<width$}"),
+                    false => write!(text, "{space}{cell:>width$}"),
+                };
+            }
+            text.push('\n');
+        }
+        for (name, note) in self.notes() {
+            let _ = write!(text, "\nnote ({name}): {}", note.text);
+        }
+        text
+    }
+
+    /// The table as Markdown, with its notes.
+    pub fn markdown(&self) -> String {
+        let mut text = format!("{self}\n\n");
+        let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
+        let headings = self.headings();
+        let rule = vec!["---".to_owned(); headings.len()];
+        text.push_str(&line(&headings));
+        text.push_str(&line(&rule));
+        self.cells().for_each(|row| text.push_str(&line(&row)));
+        for (name, note) in self.notes() {
+            let _ = write!(text, "\n- **{name}**: {}", note.text);
+        }
+        text.push('\n');
+        text
+    }
+
+    fn headings(&self) -> Vec<String> {
+        let names: &[&str] = if self.several { &SURFACE } else { &METHOD };
+        names.iter().chain(&FIGURES).map(|heading| (*heading).to_owned()).collect()
+    }
+
+    fn rows(&self) -> impl Iterator<Item = (&Compared, &Row)> {
+        self.surfaces.iter().flat_map(|on| on.methods.iter().map(move |row| (on, row)))
+    }
+
+    /// The cells of each row, in the order of the headings.
+    fn cells(&self) -> impl Iterator<Item = Vec<String>> {
+        self.rows().map(move |(on, row)| {
+            let method = row.method.to_owned();
+            let mut cells = match self.several {
+                true => vec![on.label.clone(), method, milliseconds(on.window_s), on.modes.to_string()],
+                false => vec![method],
+            };
+            cells.extend(figures(row));
+            cells
+        })
+    }
+
+    /// Notes on all drives, each with the name of what it is on.
+    fn notes(&self) -> impl Iterator<Item = (String, &Note)> {
+        self.rows().flat_map(move |(on, row)| {
+            let name = match self.several {
+                true => format!("{}, {}", on.label, row.method),
+                false => row.method.to_owned(),
+            };
+            row.notes.iter().map(move |note| (name.clone(), note))
+        })
+    }
+
+    /// Highest frequency of the modes that drives are evaluated on, in Hz: the least and the most of all surfaces if they differ.
+    fn judged_to(&self) -> String {
+        let tops = || self.surfaces.iter().map(|on| on.judged_to_hz);
+        let [least, most] =
+            [tops().fold(f64::INFINITY, f64::min), tops().fold(0.0, f64::max)].map(|hz| format!("{hz:.0}"));
+        if least == most { most } else { format!("{least} to {most}") }
+    }
+}
+
+/// What all rows have in common, in words.
+impl std::fmt::Display for Table<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.surfaces {
+            [on] if !self.several => {
+                write!(f, "Window {} ms, first target, ", milliseconds(on.window_s))?;
+            }
+            _ => f.write_str("First target, ")?,
+        }
+        match self.level {
+            Level::Linear => f.write_str("each as strong as linear theory and the drive limit allow")?,
+            Level::Limit => f.write_str("at the drive limit")?,
+            Level::Peak(metres) => {
+                write!(f, "each moving it by {} µm if the drive limit lets it", three(metres * 1e6))?;
+            }
+            Level::Felt(db) => {
+                write!(f, "each felt there {db:.1} dB above threshold if the drive limit lets it")?;
+            }
+        }
+        let of = if self.several { " on the same surface" } else { "" };
+        write!(
+            f,
+            ", simulated with modes up to {} Hz. Energy for the same peak and peak at the drive limit are relative to time \
+             reversal's{of}; felt: dB above threshold, and below the target's level; drive for the same felt level in dB over time \
+             reversal's.",
+            self.judged_to()
+        )
+    }
+}
+
+/// The figures of a row, of its first target.
+fn figures(row: &Row) -> [String; 14] {
+    let number = |x: Option<f64>, digits: usize| x.map_or("-".into(), |x| format!("{x:.digits$}"));
+    let target = row.targets.first();
+    let of = |figure: fn(&TargetFigures) -> Option<f64>| target.and_then(figure);
+    [
+        number(of(|t| t.contrast), 1),
+        number(of(|t| t.background_contrast), 1),
+        number(of(|t| t.worst_spot), 2),
+        number(of(|t| t.spot_diameter_m.map(|d| d * 1e3)), 2),
+        target.map_or("-".into(), |t| three(t.peak_velocity_m_s)),
+        format!("{:.2}", row.energy_for_peak),
+        three(row.peak_at_limit),
+        number(of(|t| t.felt_level_db), 1),
+        number(of(|t| t.felt_contrast_db), 1),
+        number(of(|t| t.felt_background_db), 1),
+        number(of(|t| t.felt_worst_spot_db), 1),
+        format!("{:.1}", row.drive_for_level_db),
+        format!("{:.1}", row.plan_s * 1e3),
+        format!("{:.2}", row.drive_s * 1e3),
+    ]
+}
+
+/// Three digits, as many as a level is worth.
+fn three(value: f64) -> String {
+    let digits = (2.0 - value.abs().max(1e-9).log10().floor()).clamp(0.0, 6.0) as usize;
+    format!("{value:.digits$}")
+}
