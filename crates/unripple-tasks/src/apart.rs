@@ -3,15 +3,24 @@
 use crate::{Progress, TaskError};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
-use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::sync::{Arc, Condvar, LazyLock, Mutex, PoisonError};
 use std::time::Duration;
 
 /// Interval at which the caller checks for a cancellation: a tenth of the 0.2 s after which people take a program for stuck.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// How many tasks that were given up still run: the next begins when none does, since each holds its memory and cores until its longest
+/// The lane of [`apart`]: a task begins when none that was given up still runs, since each holds its memory and cores until its longest
 /// call is over.
-static GIVEN_UP: (Mutex<usize>, Condvar) = (Mutex::new(0), Condvar::new());
+static TASKS: LazyLock<Lane> = LazyLock::new(|| Lane::new(0));
+
+/// A lane of tasks, each on its own thread. A task that is given up runs on until its longest call is over; the next begins while at
+/// most so many of them still run.
+#[derive(Clone, Debug)]
+pub struct Lane {
+    /// How many tasks that were given up still run.
+    given_up: Arc<(Mutex<usize>, Condvar)>,
+    beside: usize,
+}
 
 /// What a task on its own thread says.
 enum Said<R> {
@@ -63,6 +72,81 @@ impl<R> Progress for Relay<R> {
     }
 }
 
+impl Lane {
+    /// A lane in which a task begins while at most `beside` tasks, a number, that were given up still run.
+    pub fn new(beside: usize) -> Self {
+        Self { given_up: Arc::default(), beside }
+    }
+
+    /// Runs `work` on its own thread and returns its result, or [`TaskError::Cancelled`] within 0.2 s after `progress` reports a
+    /// cancellation. If the work has begun to put its results in place by then, its own result is awaited and returned.
+    ///
+    /// ```
+    /// use unripple_tasks::{Lane, Silent};
+    ///
+    /// assert_eq!(Lane::new(1).run(|_| Ok(2 + 2), &mut Silent)?, 4);
+    /// # Ok::<(), unripple_tasks::TaskError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of the work; [`TaskError::Cancelled`]; [`TaskError::Work`] if the work panicked or no thread can be had.
+    pub fn run<R: Send + 'static>(
+        &self,
+        work: impl FnOnce(&mut dyn Progress) -> Result<R, TaskError> + Send + 'static,
+        progress: &mut dyn Progress,
+    ) -> Result<R, TaskError> {
+        self.wait(progress)?;
+        let (to, from) = channel();
+        let shared = Arc::new(Shared::default());
+        let mut relay = Relay { to, shared: shared.clone() };
+        let work = move || {
+            let over = work(&mut relay);
+            // Whoever cancelled it is not informed of how it ended.
+            let _ = relay.to.send(Said::Over(over));
+        };
+        let thread = std::thread::Builder::new().name("task".into()).spawn(work).map_err(TaskError::work)?;
+        match follow(&from, &shared, progress) {
+            Some(result) => result,
+            None => {
+                self.give_up(thread);
+                Err(TaskError::Cancelled)
+            }
+        }
+    }
+
+    /// Waits in the background for a task that nobody wants.
+    fn give_up(&self, thread: std::thread::JoinHandle<()>) {
+        self.count(|running| running + 1);
+        let lane = self.clone();
+        let wait = move || {
+            // A panic of what nobody waits for has said so already.
+            let _ = thread.join();
+            lane.count(|running| running - 1);
+        };
+        if std::thread::Builder::new().name("given up".into()).spawn(wait).is_err() {
+            self.count(|running| running - 1);
+        }
+    }
+
+    fn count(&self, change: impl Fn(usize) -> usize) {
+        let mut running = self.given_up.0.lock().unwrap_or_else(PoisonError::into_inner);
+        *running = change(*running);
+        drop(running);
+        self.given_up.1.notify_all();
+    }
+
+    /// Waits until few enough of the tasks that were given up still run, or this one is cancelled too.
+    fn wait(&self, progress: &dyn Progress) -> Result<(), TaskError> {
+        let mut running = self.given_up.0.lock().unwrap_or_else(PoisonError::into_inner);
+        while *running > self.beside {
+            crate::go_on(progress)?;
+            let woken = self.given_up.1.wait_timeout(running, LOOK);
+            running = woken.unwrap_or_else(PoisonError::into_inner).0;
+        }
+        Ok(())
+    }
+}
+
 /// Runs a task on its own thread and returns its result, or [`TaskError::Cancelled`] within 0.2 s after `progress` reports a cancellation.
 /// If the task has begun to put its results in place by then, its own result is awaited and returned. A cancelled task ends in the
 /// background when it next checks its progress; the next call waits until then.
@@ -86,23 +170,7 @@ where
     A: Send + 'static,
     R: Send + 'static,
 {
-    wait_for_the_last(progress)?;
-    let (to, from) = channel();
-    let shared = Arc::new(Shared::default());
-    let mut relay = Relay { to, shared: shared.clone() };
-    let work = move || {
-        let over = run(&ask, &mut relay);
-        // Whoever cancelled it is not informed of how it ended.
-        let _ = relay.to.send(Said::Over(over));
-    };
-    let thread = std::thread::Builder::new().name("task".into()).spawn(work).map_err(TaskError::work)?;
-    match follow(&from, &shared, progress) {
-        Some(result) => result,
-        None => {
-            give_up(thread);
-            Err(TaskError::Cancelled)
-        }
-    }
+    TASKS.run(move |progress| run(&ask, progress), progress)
 }
 
 /// Passes on what the task says until it is over; nothing if it is to be given up.
@@ -132,35 +200,4 @@ fn follow<R>(
             }
         }
     }
-}
-
-/// Waits in the background for a task that nobody wants.
-fn give_up(thread: std::thread::JoinHandle<()>) {
-    count(|running| running + 1);
-    let wait = move || {
-        // A panic of what nobody waits for has said so already.
-        let _ = thread.join();
-        count(|running| running - 1);
-    };
-    if std::thread::Builder::new().name("given up".into()).spawn(wait).is_err() {
-        count(|running| running - 1);
-    }
-}
-
-fn count(change: impl Fn(usize) -> usize) {
-    let mut running = GIVEN_UP.0.lock().unwrap_or_else(PoisonError::into_inner);
-    *running = change(*running);
-    drop(running);
-    GIVEN_UP.1.notify_all();
-}
-
-/// Waits until the task that was given up last is over, or this one is cancelled too.
-fn wait_for_the_last(progress: &dyn Progress) -> Result<(), TaskError> {
-    let mut running = GIVEN_UP.0.lock().unwrap_or_else(PoisonError::into_inner);
-    while *running > 0 {
-        crate::go_on(progress)?;
-        let woken = GIVEN_UP.1.wait_timeout(running, LOOK);
-        running = woken.unwrap_or_else(PoisonError::into_inner).0;
-    }
-    Ok(())
 }

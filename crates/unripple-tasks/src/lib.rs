@@ -65,7 +65,7 @@ pub mod target;
 pub mod waveform;
 mod window;
 
-pub use apart::apart;
+pub use apart::{Lane, apart};
 pub use device::{DeviceAsk, DeviceKind};
 pub use error::TaskError;
 pub use names::{interpolation, method};

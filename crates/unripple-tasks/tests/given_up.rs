@@ -8,7 +8,7 @@ use std::cell::RefCell;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
-use unripple_tasks::{Progress, TaskError, apart};
+use unripple_tasks::{Lane, Progress, Silent, TaskError, apart};
 
 /// Cancels after some time, and keeps when it was looked at.
 struct Until {
@@ -85,9 +85,26 @@ fn whoever_gives_up_is_back_at_once() {
     }
     assert!(!ask.placed.load(Ordering::SeqCst), "what was given up puts nothing in place");
     // One that nobody gives up begins after those that were, and its result is placed.
-    apart(ask.clone(), stubborn, &mut unripple_tasks::Silent).unwrap();
+    apart(ask.clone(), stubborn, &mut Silent).unwrap();
     assert!(ask.placed.load(Ordering::SeqCst));
     assert_eq!(ask.most.load(Ordering::SeqCst), 1);
+}
+
+#[test]
+fn a_lane_goes_on_beside_as_many_as_it_is_told() {
+    let (lane, ask) = (Lane::new(1), Ask::default());
+    let run = |progress: &mut dyn Progress| {
+        let ask = ask.clone();
+        lane.run(move |progress| stubborn(&ask, progress), progress)
+    };
+    assert!(matches!(run(&mut Until::soon()), Err(TaskError::Cancelled)));
+    assert_eq!(lane.run(|_| Ok(7), &mut Silent).unwrap(), 7);
+    // A second one that is given up is one too many for a third to begin.
+    assert!(matches!(run(&mut Until::soon()), Err(TaskError::Cancelled)));
+    assert!(matches!(lane.run(|_| Ok(7), &mut Until::soon()), Err(TaskError::Cancelled)));
+    assert_eq!(ask.living.load(Ordering::SeqCst), 2);
+    ask.released.store(true, Ordering::SeqCst);
+    assert_eq!(lane.run(|_| Ok(7), &mut Silent).unwrap(), 7);
 }
 
 #[test]
@@ -95,6 +112,6 @@ fn a_panic_is_an_error() {
     fn falls(_: &(), _: &mut dyn Progress) -> Result<(), TaskError> {
         panic!("on purpose")
     }
-    let error = apart((), falls, &mut unripple_tasks::Silent).unwrap_err();
+    let error = apart((), falls, &mut Silent).unwrap_err();
     assert!(error.to_string().contains("panic"), "{error}");
 }
