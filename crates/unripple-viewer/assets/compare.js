@@ -19,7 +19,7 @@ class Comparison {
   constructor(app) {
     this.app = app;
     this.result = null;
-    this.waiting = false;
+    this.waiting = null;
     this.figures = new CompareFigures();
     this.state = el('p', { role: 'status', class: 'quiet' }, 'Choose two methods and run them.');
     this.makeForm();
@@ -29,6 +29,7 @@ class Comparison {
     app.state.subscribe('place', ({ at_mm: at, all_mm: all }) => this.showTouches(all?.length ? all : [at]));
     app.state.subscribe('status', (status) => this.showFingers(status.fingers ?? []));
     app.state.subscribe('compare', (result) => this.show(result));
+    app.state.subscribe('stopped', ({ id }) => id === this.waiting && this.refused('Stopped.'));
     app.state.subscribe('fault', ({ text }) => this.refused(text));
     app.state.subscribe('connection', ({ open }) => !open && this.refused('The connection broke: run it again.'));
   }
@@ -46,6 +47,7 @@ class Comparison {
     this.touchText = el('span', {}, 'the last touch (none yet)');
     for (const input of [this.x, this.y]) input.addEventListener('input', () => this.typed());
     this.run = el('button', { type: 'submit', class: 'button primary' }, 'Run both');
+    this.stop = el('button', { type: 'button', class: 'button', hidden: true, 'aria-label': 'Stop comparing', on: { click: () => this.giveUp() } }, 'Stop');
     this.form = el('form', { class: 'stack', on: { submit: (event) => { event.preventDefault(); this.start(); } } },
       el('div', { class: 'pair' },
         el('label', { class: 'field' }, el('span', {}, 'First'), this.first),
@@ -55,7 +57,7 @@ class Comparison {
         el('div', { class: 'row' },
           el('label', { class: 'check' }, this.byPlace, ' at'),
           el('label', { class: 'check xy' }, 'x ', this.x), el('label', { class: 'check xy' }, 'y ', this.y), el('span', { class: 'quiet' }, 'mm'))),
-      el('div', { class: 'row' }, this.run));
+      el('div', { class: 'row' }, this.run, this.stop));
   }
 
   makeResult() {
@@ -144,14 +146,21 @@ class Comparison {
       return;
     }
     this.app.state.ui.compare_methods = methods;
-    if (!this.app.link.send({ do: 'compare', at, methods, window_ms: null })) return;
-    this.wait(true);
+    const id = this.app.nextId();
+    if (!this.app.link.send({ do: 'compare', id, at, methods, window_ms: null })) return;
+    this.wait(id);
     this.say(`Computing ${methods.join(' and ')}…`);
   }
 
-  wait(on) {
-    this.waiting = on;
-    this.run.disabled = on;
+  giveUp() {
+    if (this.app.link.send({ do: 'stop', id: this.waiting })) this.say('Stopping…');
+  }
+
+  // Waits for the answer to a request of this number, or for none any more.
+  wait(id) {
+    this.waiting = id;
+    this.run.disabled = id !== null;
+    this.stop.hidden = id === null;
   }
 
   say(text) {
@@ -159,13 +168,13 @@ class Comparison {
   }
 
   refused(text) {
-    if (!this.waiting) return;
-    this.wait(false);
+    if (this.waiting === null) return;
+    this.wait(null);
     this.say(text);
   }
 
   show(result) {
-    this.wait(false);
+    if (result.id === this.waiting) this.wait(null);
     const panes = result.panes ?? [];
     if (result.off || panes.length < 2) {
       this.close();
@@ -175,7 +184,7 @@ class Comparison {
     this.seenTwo = false;
     this.resultNode.hidden = false;
     this.figures.show(panes);
-    this.say(this.figures.sentence());
+    if (this.waiting === null) this.say(this.figures.sentence());
     const { from_s: from, to_s: to, focus_s: focus } = result;
     this.instants.textContent = `The waves run for ${seconds(to - from)}, the focus is ${seconds(focus - from)} after their start.`;
   }
@@ -200,6 +209,6 @@ class Comparison {
   close() {
     this.result = null;
     this.resultNode.hidden = true;
-    this.say('Choose two methods and run them.');
+    if (this.waiting === null) this.say('Choose two methods and run them.');
   }
 }

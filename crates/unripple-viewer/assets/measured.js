@@ -34,8 +34,8 @@ function figures(report) {
   return table;
 }
 
-/** The form: where, how strong, and the button. */
-function form(app, busy) {
+/** The form: where, how strong, and the buttons; `begun(id)` is called for what is asked, `stop()` to give it up. */
+function form(app, begun, stop) {
   const peak = el('input', { type: 'number', min: '0.001', step: 'any', placeholder: 'as linear theory allows', inputmode: 'decimal' });
   const where = el('p', { class: 'quiet' });
   let places = [];
@@ -44,14 +44,16 @@ function form(app, busy) {
     on: {
       click: () => {
         const settings = app.state.last('settings');
+        const id = app.nextId();
         const sent = app.link.send({
-          do: 'measure', id: app.nextId(), at: places, method: settings?.method ?? 'time-reversal',
+          do: 'measure', id, at: places, method: settings?.method ?? 'time-reversal',
           window_ms: settings?.window_ms ?? null, peak_um: peak.value === '' ? null : Number(peak.value),
         });
-        if (sent) busy(true);
+        if (sent) begun(id);
       },
     },
   });
+  const stopper = el('button', { type: 'button', class: 'button', hidden: true, 'aria-label': 'Stop measuring', text: 'Stop', on: { click: stop } });
   const round = ([x, y]) => [Math.round(x * 100) / 100, Math.round(y * 100) / 100];
   app.state.subscribe('surface', ({ extent_mm: [w, h] }) => {
     if (places.length === 0) places = [round([w / 2, h / 2])];
@@ -61,7 +63,8 @@ function form(app, busy) {
     places = (all_mm ?? [at_mm]).slice(0, 8).map(round);
     setText(where, `At ${places.map(place).join('; ')} (the places pressed last).`);
   });
-  return { button, parts: [where, el('div', { class: 'row' }, button), el('label', { class: 'field' }, el('span', {}, 'Peak wanted ', el('i', { text: 'µm' })), peak)] };
+  const wanted = el('label', { class: 'field' }, el('span', {}, 'Peak wanted ', el('i', { text: 'µm' })), peak);
+  return { button, stopper, parts: [where, el('div', { class: 'row' }, button, stopper), wanted] };
 }
 
 /** Charts of a measured act: motion at targets, drive, spectrum. */
@@ -110,14 +113,16 @@ function charts() {
 /** Measuring, in the panel Touch. */
 export function mount(root, app) {
   const busyText = el('p', { class: 'quiet', role: 'status' });
-  let timer = null;
-  const busy = (on) => {
-    clearTimeout(timer);
-    button.disabled = on;
-    setText(busyText, on ? 'Measuring …' : '');
-    if (on) timer = setTimeout(() => busy(false), 60000);
+  let asked = null;
+  const busy = (id, text) => {
+    asked = id;
+    button.disabled = id !== null;
+    stopper.hidden = id === null;
+    setText(busyText, text);
   };
-  const { button, parts } = form(app, busy);
+  const over = (text) => asked !== null && busy(null, text);
+  const stop = () => app.link.send({ do: 'stop', id: asked }) && setText(busyText, 'Stopping …');
+  const { button, stopper, parts } = form(app, (id) => busy(id, 'Measuring …'), stop);
   const table = el('div');
   const code = el('code');
   const command = el('div', { class: 'command' }, code,
@@ -135,7 +140,6 @@ export function mount(root, app) {
     notes, drawn.parts, el('p', { class: 'quiet', text: 'Spectrum: thin lines are the drives, thick lines the motion at the targets.' }), links);
   root.append(el('h2', { text: 'Measure' }), ...parts, busyText, found);
   app.state.subscribe('measured', (message) => {
-    busy(false);
     found.hidden = false;
     of = message.edit ?? null;
     compared();
@@ -144,9 +148,11 @@ export function mount(root, app) {
     setText(code, message.command ?? '');
     notes.replaceChildren(...(message.report?.notes ?? []).map((note) => el('li', { text: `${note.topic}: ${note.text}` })));
     drawn.draw(message);
-    setText(busyText, `Measured in ${seconds(message.seconds)}.`);
+    // Others are shown what somebody has measured; what was asked for here still comes.
+    if (asked === null || asked === message.id) busy(null, `Measured in ${seconds(message.seconds)}.`);
   });
+  app.state.subscribe('stopped', ({ id }) => id === asked && over('Stopped.'));
   app.state.subscribe('surface', compared);
-  app.state.subscribe('fault', () => busy(false));
-  app.state.subscribe('connection', ({ open }) => !open && busy(false));
+  app.state.subscribe('fault', () => over(''));
+  app.state.subscribe('connection', ({ open }) => !open && over(''));
 }

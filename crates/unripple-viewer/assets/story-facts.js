@@ -15,23 +15,67 @@ export class StoryFacts {
     this.answers = new Map();
     this.compared = null;
     this.waiting = new Map();
+    this.later = [];
+    this.running = null;
     this.focusPeak = null;
   }
 
-  /** Asks for a measurement under a name. */
+  /** Asks for a measurement under a name, after those that were asked for before: a newer one would take their place. */
   measure(name, request) {
+    this.later.push([name, request]);
+    this.next();
+  }
+
+  next() {
+    if (this.running !== null || !this.later.length || !this.app.link.open) return;
     const id = this.app.nextId();
-    this.waiting.set(id, name);
+    const [name, request] = this.later.shift();
+    this.waiting.set(id, [name, request]);
+    this.running = id;
     this.app.link.send({ do: 'measure', id, method: 'time-reversal', window_ms: null, peak_um: null, ...request });
   }
 
   /** Takes a `measured` message; returns whether it was asked for here. */
   take(message) {
-    const name = this.waiting.get(message.id);
-    if (!name) return false;
-    this.waiting.delete(message.id);
-    this.answers.set(name, message);
-    return true;
+    const asked = this.waiting.get(message.id);
+    if (asked) this.answers.set(asked[0], message);
+    this.over(message.id);
+    return Boolean(asked);
+  }
+
+  /** Takes a `stopped` message: what another request of this page took the place of is asked for again after that one. */
+  stopped(id) {
+    const asked = this.waiting.get(id);
+    if (asked) this.later.unshift(asked);
+    this.over(id, !asked);
+  }
+
+  /** Asks again for what a lost connection has left open. */
+  reconnect() {
+    this.later = [...this.waiting.values(), ...this.later];
+    this.waiting.clear();
+    this.running = null;
+    this.next();
+  }
+
+  /** Asks for nothing more, and gives up what is computed. */
+  leave() {
+    this.later = [];
+    if (this.running !== null && this.app.link.open) this.app.link.send({ do: 'stop', id: this.running });
+    this.waiting.clear();
+    this.running = null;
+  }
+
+  /** Goes on after a refusal, which may be that of the last request. */
+  refused() {
+    this.running = null;
+    this.next();
+  }
+
+  over(id, more = true) {
+    this.waiting.delete(id);
+    if (id === this.running) this.running = null;
+    if (more) this.next();
   }
 
   has(name) {

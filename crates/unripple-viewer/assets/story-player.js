@@ -51,10 +51,17 @@ export class StoryPlayer {
     const { state } = this.app;
     state.subscribe('measured', (message) => this.facts.take(message) && this.tell());
     state.subscribe('compare', (message) => this.compared(message));
+    state.subscribe('stopped', ({ id }) => this.stopped(id));
     for (const kind of ['surface', 'settings', 'design']) state.subscribe(kind, () => this.tell());
-    state.subscribe('connection', ({ open }) => open && this.story && this.scene.reconnect());
+    state.subscribe('connection', ({ open }) => {
+      if (!open || !this.story) return;
+      this.scene.reconnect();
+      this.facts.reconnect();
+    });
     state.subscribe('fault', ({ text }) => {
-      if (this.story) this.state.textContent = text;
+      if (!this.story) return;
+      this.facts.refused();
+      this.state.textContent = text;
     });
     window.addEventListener('pagehide', () => this.story && this.leave());
   }
@@ -79,6 +86,7 @@ export class StoryPlayer {
     this.story = null;
     this.moment.stop();
     this.moment.pin(null);
+    this.facts.leave();
     this.scene.leave();
     this.node.hidden = true;
     this.left(story);
@@ -188,6 +196,14 @@ export class StoryPlayer {
     this.answered?.();
     this.answered = null;
     this.tell();
+  }
+
+  // The page has compared something else meanwhile: the step computes it again when it is entered again.
+  stopped(id) {
+    this.facts.stopped(id);
+    if (!this.story || id !== this.scene.comparing) return;
+    this.scene.compared = null;
+    this.say('Stopped.');
   }
 
   say(text) {

@@ -16,6 +16,7 @@ export class StoryScene {
     this.fingers = [];
     this.beats = [];
     this.compared = null;
+    this.comparing = null;
     this.alive = 0;
   }
 
@@ -62,11 +63,13 @@ export class StoryScene {
   /** Starts a comparison; the answer comes as a `compare` message. */
   compare(at, methods) {
     this.compared = methods;
-    this.app.link.send({ do: 'compare', at, methods, window_ms: null });
+    this.comparing = this.app.nextId();
+    this.app.link.send({ do: 'compare', id: this.comparing, at, methods, window_ms: null });
   }
 
   leaveComparison() {
     this.compared = null;
+    this.comparing = null;
     this.app.link.send({ do: 'compare', off: true });
   }
 

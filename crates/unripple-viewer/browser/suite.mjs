@@ -10,5 +10,6 @@ import './malformed.test.mjs';
 import './narrow.test.mjs';
 import './opens.test.mjs';
 import './return.test.mjs';
+import './stop.test.mjs';
 import './stories.test.mjs';
 import './viewers.test.mjs';

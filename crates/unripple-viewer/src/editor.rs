@@ -6,6 +6,7 @@ use crate::edition::{Edition, Editions};
 use crate::messages::{Settled, settings, surface};
 use crate::outbox::Outbox;
 use crate::simulation::{Instrument, Spec, check_effect};
+use crate::stop::{Stop, Underway};
 use crate::wire::{Edit, Settings};
 use serde_json::Value;
 use std::sync::Arc;
@@ -24,8 +25,8 @@ pub struct Editor {
     /// Whether another specification is to be built, and whether the surface was edited since it was last sent.
     stale: bool,
     edited: bool,
-    /// Whether an instrument is being built.
-    building: bool,
+    /// The build of an instrument, while there is one.
+    building: Option<Underway>,
 }
 
 impl Editor {
@@ -35,7 +36,7 @@ impl Editor {
         let spec = instrument.spec.clone();
         let played = spec.clone();
         // The first surface has been sent to nobody yet.
-        Self { draft, spec, played, told, edits: 0, stale: false, edited: true, building: false }
+        Self { draft, spec, played, told, edits: 0, stale: false, edited: true, building: None }
     }
 
     /// The settings of an instrument as a message for pages.
@@ -131,25 +132,37 @@ impl Editor {
         Ok(())
     }
 
-    /// The specification to build now, if it differs from the one that is played and none is being built.
-    pub fn wanted(&mut self) -> Option<Box<Spec>> {
-        if self.building || !std::mem::take(&mut self.stale) {
+    /// The specification to build now, if it differs from the one that is played and none is being built, with the flag by which the
+    /// build is given up. A build that a newer specification waits for gets no more time than most surfaces take.
+    pub fn wanted(&mut self) -> Option<(Box<Spec>, Stop)> {
+        if let Some(underway) = &self.building {
+            if self.stale {
+                underway.hurry();
+            }
             return None;
         }
-        self.building = true;
-        Some(Box::new(self.spec.clone()))
+        if !std::mem::take(&mut self.stale) {
+            return None;
+        }
+        let stop = self.building.insert(Underway::default()).stop();
+        Some((Box::new(self.spec.clone()), stop))
     }
 
     /// Notes that an instrument of this specification has been built.
     pub fn built(&mut self, spec: &Spec, out: &mut Outbox) {
-        self.building = false;
+        self.building = None;
         self.played = spec.clone();
         out.withdraw("notice");
     }
 
+    /// Notes that a build was given up for a newer specification.
+    pub fn given_up(&mut self) {
+        self.building = None;
+    }
+
     /// Notes that the specification could not be built, and tells pages why.
     pub fn failed(&mut self, why: &str, out: &mut Outbox) {
-        self.building = false;
+        self.building = None;
         if !self.stale {
             // What cannot be played is not what the next change starts from; the surface stays as it was drawn.
             let Spec { surface, stored, without_scale, .. } =

@@ -19,6 +19,9 @@ pub enum ViewError {
         /// Reason, as far as it is known.
         why: String,
     },
+    /// Work that was given up before it was done.
+    #[error("stopped")]
+    Stopped,
     /// A value is not accepted.
     #[error("{what}: expected {expected}, found {found}")]
     Range {

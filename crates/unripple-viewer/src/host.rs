@@ -8,6 +8,7 @@ use crate::notices::{Notice, Notices};
 use crate::outbox::{Measured, Out};
 use crate::session::{Done, Errand, Session};
 use crate::simulation::{Instrument, Spec};
+use crate::stop::Stop;
 use crate::wire::Command;
 use crate::{View, ViewError};
 use std::collections::BTreeMap;
@@ -15,6 +16,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
+use unripple_tasks::{Lane, Silent};
 
 /// Pictures per second: as many as most screens show smoothly. Each costs a product of matrices.
 const FRAMES: f64 = 30.0;
@@ -26,6 +28,10 @@ const BUSY: f64 = 0.8;
 /// Least time between two pictures, so that what pages say is heard between them.
 const BREATH: Duration = Duration::from_millis(2);
 
+/// How many builds that were given up may still run while the next begins, each with its memory and cores: it must not wait for the modes of
+/// a surface that nobody wants any more.
+const BESIDE: usize = 1;
+
 /// Messages to the session's thread.
 enum Word {
     Come,
@@ -36,7 +42,7 @@ enum Word {
     Stop,
 }
 
-/// The links of pages, by number, to say why something is refused.
+/// The links of pages, by number, for answers to one page alone.
 type Links = Arc<Mutex<BTreeMap<u64, tokio::sync::mpsc::Sender<String>>>>;
 
 /// The running session: its threads, and the notices and links by which pages reach it.
@@ -59,24 +65,28 @@ impl SessionHost {
     /// # Errors
     /// Those of [`Instrument::build`]; [`ViewError::Gone`] if a thread cannot be started.
     pub fn open(view: &View, elsewhere: Option<String>) -> Result<Arc<Self>, ViewError> {
-        let instrument = Instrument::build(view.spec())?;
+        let instrument = Instrument::build(view.spec(), &mut Silent)?;
         let told =
             Settled { source: view.source.clone(), device: view.device_name.clone(), address: elsewhere };
         let session = Session::new(instrument, told);
         let known = (view.source.clone(), view.respond.clone(), view.without_scale.clone());
         let mut compute = session.compute(known);
         let (words, heard) = channel();
-        let (building, specs) = channel::<Box<Spec>>();
-        let (computing, tasks) = channel::<Task>();
+        let (building, specs) = channel::<(Box<Spec>, Stop)>();
+        let (computing, tasks) = channel::<(Task, Stop)>();
         // Whoever has gone is at the program's end.
         let say = words.clone();
         thread("builder", move || {
-            specs.iter().for_each(|spec| drop(say.send(Word::Done(Errand::build(spec)))))
+            let lane = Lane::new(BESIDE);
+            for (spec, stop) in specs {
+                let _ = say.send(Word::Done(Errand::build(spec, &stop, &lane)));
+            }
         })?;
         let say = words.clone();
         thread("compute", move || {
-            for task in tasks {
-                compute.work(task, &mut |found| drop(say.send(Word::Done(Done::Found(found)))));
+            for (task, stop) in tasks {
+                let hear = &mut |found| drop(say.send(Word::Done(Done::Found(found))));
+                compute.work(task, &mut stop.watch(), hear);
                 let _ = say.send(Word::Done(Done::Computed));
             }
         })?;
@@ -98,13 +108,13 @@ impl SessionHost {
         Ok(Arc::new(Self { notices, words, links, jobs, measured, playing, quiet: view.quiet }))
     }
 
-    /// Adds a page. `told` receives the reasons for which its requests are refused.
+    /// Adds a page. `told` receives what is for this page alone, such as the reasons for which its requests are refused.
     pub fn come(&self, page: u64, told: tokio::sync::mpsc::Sender<String>) {
         lock(&self.links).insert(page, told);
         self.say(Word::Come);
     }
 
-    /// Removes a page; its fingers are lifted.
+    /// Removes a page; its fingers are lifted, and what it asked for is given up.
     pub fn leave(&self, page: u64) {
         lock(&self.links).remove(&page);
         self.say(Word::Leave(page));
@@ -135,7 +145,7 @@ impl SessionHost {
         toml(&self.notices)
     }
 
-    /// Files of the last focus that was computed on a page's request.
+    /// Files of the newest measurement that a page has requested: a focus, computed and evaluated.
     pub fn measured(&self) -> Option<Measured> {
         lock(&self.measured).clone()
     }
@@ -171,19 +181,23 @@ fn toml(notices: &Notices) -> String {
     value.get("toml").and_then(|toml| toml.as_str()).unwrap_or_default().to_owned()
 }
 
-/// Tells a page why something is refused, unless so much waits to be told that it would be no use.
+/// Tells a page why something is refused.
 fn refuse(links: &Links, page: u64, why: &str) {
-    let text = serde_json::json!({ "is": "fault", "text": why }).to_string();
+    answer(links, page, &serde_json::json!({ "is": "fault", "text": why }));
+}
+
+/// Answers one page, unless so much waits to be told that it would be no use.
+fn answer(links: &Links, page: u64, message: &serde_json::Value) {
     if let Some(told) = lock(links).get(&page) {
-        let _ = told.try_send(text);
+        let _ = told.try_send(message.to_string());
     }
 }
 
 /// The thread on which the session runs.
 struct Stage {
     session: Session,
-    building: Sender<Box<Spec>>,
-    computing: Sender<Task>,
+    building: Sender<(Box<Spec>, Stop)>,
+    computing: Sender<(Task, Stop)>,
     notices: Arc<Notices>,
     links: Links,
     measured: Arc<Mutex<Option<Measured>>>,
@@ -248,8 +262,8 @@ impl Stage {
         while let Some(errand) = self.session.errand() {
             // Whoever has gone is at the program's end.
             let _ = match errand {
-                Errand::Build(spec) => self.building.send(spec).is_ok(),
-                Errand::Compute(task) => self.computing.send(task).is_ok(),
+                Errand::Build(spec, stop) => self.building.send((spec, stop)).is_ok(),
+                Errand::Compute(task, stop) => self.computing.send((task, stop)).is_ok(),
             };
         }
         for out in self.session.take() {
@@ -260,6 +274,9 @@ impl Stage {
                 }
                 Out::Withdraw(kind) => self.notices.withdraw(&kind),
                 Out::Refuse(page, why) => refuse(&self.links, page, &why),
+                Out::Stopped(page, id) => {
+                    answer(&self.links, page, &serde_json::json!({ "is": "stopped", "id": id }));
+                }
                 Out::Measured(files) => *lock(&self.measured) = Some(*files),
             }
         }

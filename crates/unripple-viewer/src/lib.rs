@@ -11,8 +11,9 @@
 //! Inside, `wire` is the protocol of pages. `door` accepts connections, `lobby` limits their number; `server` answers requests that `guard` allows,
 //! and `link` serves a page's WebSocket. `host` runs the `session`, a state machine: it takes the pages' commands and the time that passes,
 //! and gives messages and pictures. The session consists of the `simulation`, which plays the surface, and the `editor`, which changes it;
-//! `compute` does beside it what takes longer than a picture may wait. Results leave through the `outbox` to the `notices`, from which each
-//! page takes those that it has not seen, as fast as it can. `jobs` are long tasks, such as a calibration or the doctor.
+//! `compute` does beside it what takes longer than a picture may wait, unless a `stop` gives it up. Results leave through the `outbox` to
+//! the `notices`, from which each page takes those that it has not seen, as fast as it can. `jobs` are long tasks, such as a calibration
+//! or the doctor.
 //!
 //! ```
 //! use std::time::Duration;
@@ -54,6 +55,7 @@ mod server;
 mod session;
 mod simulation;
 mod spectrum;
+mod stop;
 pub mod task;
 mod view;
 mod viewer;

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// Files of the last focus that was computed on a page's request.
+/// Files of the newest measurement that a page has requested: a focus, computed and evaluated.
 #[derive(Clone, Debug, Default)]
 pub struct Measured {
     /// The page's own number for the request.
@@ -26,6 +26,8 @@ pub enum Out {
     Withdraw(String),
     /// Number of a page, and the reason for which its request is refused.
     Refuse(u64, String),
+    /// Number of a page, and its own number for a request that is computed no more.
+    Stopped(u64, u64),
     /// Files of a focus that was computed on a page's request.
     Measured(Box<Measured>),
 }
@@ -56,6 +58,11 @@ impl Outbox {
     /// Tells one page, given by its number, why its request is refused.
     pub fn refuse(&mut self, page: u64, why: impl Into<String>) {
         self.0.push(Out::Refuse(page, why.into()));
+    }
+
+    /// Tells one page, given by its number, that its request of number `id` is computed no more.
+    pub fn stopped(&mut self, page: u64, id: u64) {
+        self.0.push(Out::Stopped(page, id));
     }
 
     /// Adds a message.

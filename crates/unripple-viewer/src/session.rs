@@ -2,28 +2,34 @@
 //! and work to be done beside it. It uses no thread, clock or network: whoever runs it provides them.
 
 use crate::ViewError;
-use crate::compute::{ComputeWorker, Found, Queue, Responder, Task};
+use crate::compute::{Asked, ComputeWorker, Found, Kind, Queue, Responder, Task};
 use crate::edition::{Edition, Editions};
 use crate::editor::Editor;
 use crate::messages::Settled;
 use crate::outbox::{Out, Outbox};
 use crate::simulation::{Instrument, Order, Simulation, Spec};
+use crate::stop::Stop;
 use crate::wire::Command;
 use std::sync::Arc;
 use unripple::core::Point;
+use unripple_tasks::{Lane, TaskError};
 
-/// Work that takes longer than a picture may wait. It is done on other threads, one of each kind at a time.
+#[cfg(test)]
+mod tests;
+
+/// Work that takes longer than a picture may wait, with the flag by which it is given up. It is done on other threads, one of each kind
+/// at a time.
 pub enum Errand {
     /// Build the instrument that plays a surface: [`build`](Self::build) does it.
-    Build(Box<Spec>),
+    Build(Box<Spec>, Stop),
     /// Compute figures, by the session's [`ComputeWorker`].
-    Compute(Task),
+    Compute(Task, Stop),
 }
 
 /// Result of an errand.
 pub enum Done {
-    /// An instrument that was built, or the reason why it cannot be.
-    Built(Result<Box<Instrument>, String>),
+    /// An instrument that was built, or the reason why it cannot be; [`ViewError::Stopped`] if its build was given up.
+    Built(Result<Box<Instrument>, ViewError>),
     /// One result of a computation.
     Found(Found),
     /// The computation is complete.
@@ -31,9 +37,14 @@ pub enum Done {
 }
 
 impl Errand {
-    /// Builds the instrument of a specification.
-    pub fn build(spec: Box<Spec>) -> Done {
-        Done::Built(Instrument::build(*spec).map(Box::new).map_err(|error| error.to_string()))
+    /// Builds the instrument of a specification in a lane, until the build is given up.
+    pub fn build(spec: Box<Spec>, stop: &Stop, lane: &Lane) -> Done {
+        let built = lane.run(move |progress| Ok(Instrument::build(*spec, progress)), &mut stop.watch());
+        let built = built.unwrap_or_else(|error| match error {
+            TaskError::Cancelled => Err(ViewError::Stopped),
+            error => Err(ViewError::Gone { why: error.to_string() }),
+        });
+        Done::Built(built.map(Box::new))
     }
 }
 
@@ -43,8 +54,6 @@ pub struct Session {
     editor: Editor,
     editions: Editions,
     tasks: Queue,
-    /// Whether figures are being computed.
-    computing: bool,
     out: Outbox,
 }
 
@@ -57,7 +66,7 @@ impl Session {
         let mut simulation = Simulation::new(instrument);
         simulation.begin(&mut out);
         let (editions, tasks) = (Editions::default(), Queue::default());
-        let mut session = Self { simulation, editor, editions, tasks, computing: false, out };
+        let mut session = Self { simulation, editor, editions, tasks, out };
         session.renew();
         session
     }
@@ -73,9 +82,10 @@ impl Session {
         self.simulation.obey(Order::Look, &mut self.out);
     }
 
-    /// Notes that a page went; its fingers are lifted.
+    /// Notes that a page went; its fingers are lifted, and what it asked for is given up.
     pub fn leave(&mut self, page: u64) {
         self.simulation.obey(Order::Leave(page), &mut self.out);
+        self.give_up(|asked| asked.page == page);
     }
 
     /// Carries out a command of a page; pages are numbered from 1. Commands for the link or for jobs are ignored here.
@@ -115,11 +125,18 @@ impl Session {
                 self.ask(page, measure.edit, |of| Task::Measure { measure, of, page });
             }
             Command::Compare { off: true, .. } => {
+                self.give_up(|asked| asked.page == page && asked.kind == Kind::Compare);
                 self.out.withdraw("compare");
                 self.order(Order::Replay(None));
             }
-            Command::Compare { at, methods, window_ms, edit, .. } => {
-                self.ask(page, edit, |of| Task::Compare { at, methods, window_ms, of, page });
+            Command::Compare { id, at, methods, window_ms, edit, .. } => {
+                self.ask(page, edit, |of| Task::Compare { id, at, methods, window_ms, of, page });
+            }
+            Command::Stop { id } => {
+                // Of what has ended there is nothing left to compute either.
+                if !self.give_up(|asked| asked.page == page && asked.id == id) {
+                    self.out.stopped(page, id);
+                }
             }
             Command::Job(_) | Command::Seen { .. } => {}
         }
@@ -145,12 +162,10 @@ impl Session {
     /// The next work to be done beside the session, if there is any.
     pub fn errand(&mut self) -> Option<Errand> {
         self.renew();
-        if let Some(spec) = self.editor.wanted() {
-            return Some(Errand::Build(spec));
+        if let Some((spec, stop)) = self.editor.wanted() {
+            return Some(Errand::Build(spec, stop));
         }
-        let task = if self.computing { None } else { self.tasks.next() };
-        self.computing |= task.is_some();
-        task.map(Errand::Compute)
+        self.tasks.next().map(|(task, stop)| Errand::Compute(task, stop))
     }
 
     /// Takes in the result of an errand.
@@ -161,10 +176,11 @@ impl Session {
                 let told = self.editor.settings(&instrument);
                 self.order(Order::Play(instrument, told));
             }
-            Done::Built(Err(why)) => self.editor.failed(&why, &mut self.out),
+            Done::Built(Err(ViewError::Stopped)) => self.editor.given_up(),
+            Done::Built(Err(error)) => self.editor.failed(&error.to_string(), &mut self.out),
             Done::Found(Found::Out(out)) => self.out.push(out),
             Done::Found(Found::Replay(replay)) => self.order(Order::Replay(Some(replay))),
-            Done::Computed => self.computing = false,
+            Done::Computed => self.tasks.done(),
         }
     }
 
@@ -188,9 +204,25 @@ impl Session {
         // What was edited just before can be asked about.
         self.renew();
         match self.editions.find(edit) {
-            Ok(of) => self.wait(task(of)),
+            Ok(of) => {
+                let task = task(of);
+                let wanted = task.asked();
+                // Whoever asks for something newer wants the older no more.
+                self.give_up(|asked| {
+                    wanted.is_some_and(|wanted| (asked.page, asked.kind) == (wanted.page, wanted.kind))
+                });
+                self.wait(task);
+            }
             Err(why) => self.out.refuse(page, why),
         }
+    }
+
+    /// Gives up the computations that answer some requests; pages are told of each. Returns whether there was one.
+    fn give_up(&mut self, which: impl Fn(&Asked) -> bool) -> bool {
+        let (removed, runs) = self.tasks.give_up(which);
+        // The worker answers for the one that runs.
+        removed.iter().for_each(|asked| self.out.stopped(asked.page, asked.id));
+        runs || !removed.is_empty()
     }
 
     fn wait(&mut self, task: Task) {
@@ -204,124 +236,5 @@ impl Session {
         if let Some(edition) = self.editor.renew(&mut self.editions, &mut self.out) {
             self.wait(Task::Design(edition));
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::simulation::PULSES;
-    use serde_json::Value;
-    use unripple::focus::Method;
-    use unripple::physics::design::papers_surface;
-
-    fn session() -> Session {
-        let mut surface = papers_surface();
-        surface.emission.band[1] = 700.0;
-        let spec = Spec {
-            surface,
-            stored: None,
-            without_scale: false,
-            method: Method::TimeReversal,
-            effect: PULSES.into(),
-            window: None,
-            rate: 10.0,
-            load: false,
-            device: None,
-            follow: None,
-        };
-        let told = Settled { source: "small".into(), device: "virtual".into(), address: None };
-        Session::new(Instrument::build(spec).unwrap(), told)
-    }
-
-    /// A page's words, as its link reads them.
-    fn hear(session: &mut Session, page: u64, words: &str) {
-        session.hear(page, Command::read(words).unwrap());
-    }
-
-    /// So many seconds in pictures, with time for everything.
-    fn pass(session: &mut Session, seconds: f64) {
-        (0..(seconds * 30.0) as usize).for_each(|_| session.advance(1.0 / 30.0, 1, &mut || true));
-    }
-
-    /// The messages of a kind.
-    fn told(out: &[Out], kind: &str) -> Vec<Value> {
-        let text = |out: &Out| match out {
-            Out::Text(of, text) if of == kind => Some(serde_json::from_str(text).unwrap()),
-            _ => None,
-        };
-        out.iter().filter_map(text).collect()
-    }
-
-    #[test]
-    fn fingers_of_a_page_that_goes_are_lifted_and_no_others() {
-        let mut session = session();
-        for page in [1, 2] {
-            hear(&mut session, page, r#"{"do":"touch","finger":0,"phase":"down","at_mm":[62,90]}"#);
-        }
-        pass(&mut session, 0.4);
-        let fingers = |out: &[Out]| told(out, "status").pop().unwrap()["fingers"].as_array().unwrap().len();
-        assert_eq!(fingers(&session.take()), 2);
-        session.leave(1);
-        pass(&mut session, 0.4);
-        assert_eq!(fingers(&session.take()), 1);
-    }
-
-    #[test]
-    fn what_is_edited_while_something_is_built_is_built_next_and_once() {
-        let mut session = session();
-        assert!(matches!(session.errand(), Some(Errand::Compute(Task::Design(of))) if of.edit == 0));
-        session.take();
-        let thicker = |mm: f64| format!(r#"{{"do":"edit","thickness_mm":{mm}}}"#);
-        hear(&mut session, 1, &thicker(0.2));
-        let Some(Errand::Build(first)) = session.errand() else { panic!("nothing to build") };
-        for mm in [0.21, 0.22, 0.23] {
-            hear(&mut session, 1, &thicker(mm));
-            assert!(session.errand().is_none(), "two are built at once");
-        }
-        session.done(Errand::build(first));
-        let Some(Errand::Build(last)) = session.errand() else { panic!("the last edit is lost") };
-        assert!((last.surface.sheet.thickness - 0.23e-3).abs() < 1e-12);
-        session.done(Errand::build(last));
-        assert!(session.errand().is_none());
-        let out = session.take();
-        let surfaces = told(&out, "surface");
-        assert_eq!(surfaces.last().unwrap()["values"]["thickness_mm"], 0.23);
-        assert_eq!(told(&out, "settings").len(), 2);
-        // Of the figures that were asked for, only the newest surface's are left to do.
-        session.done(Done::Computed);
-        let edit = surfaces.last().unwrap()["edit"].as_u64().unwrap();
-        assert!(matches!(session.errand(), Some(Errand::Compute(Task::Design(of))) if of.edit == edit));
-    }
-
-    #[test]
-    fn what_a_page_asks_for_is_refused_to_that_page() {
-        let mut session = session();
-        session.take();
-        hear(&mut session, 7, r#"{"do":"open","name":"nowhere"}"#);
-        hear(&mut session, 8, r#"{"do":"measure","id":1,"at":[[62,90]],"edit":99}"#);
-        let refused = |out: &Out| match out {
-            Out::Refuse(page, why) => Some((*page, why.clone())),
-            _ => None,
-        };
-        let refused: Vec<_> = session.take().iter().filter_map(refused).collect();
-        assert_eq!(refused.iter().map(|(page, _)| *page).collect::<Vec<_>>(), [7, 8]);
-        assert!(refused[0].1.contains("hudin-2012") && refused[1].1.contains("found 99"), "{refused:?}");
-    }
-
-    #[test]
-    fn the_same_words_and_times_give_the_same_pictures() {
-        let pictures = || {
-            let mut session = session();
-            hear(&mut session, 1, r#"{"do":"touch","finger":0,"phase":"down","at_mm":[62,90]}"#);
-            pass(&mut session, 0.3);
-            let frames = session.take().into_iter().filter_map(|out| match out {
-                Out::Frame(_, bytes, _) => Some(bytes),
-                _ => None,
-            });
-            frames.collect::<Vec<_>>()
-        };
-        let (one, other) = (pictures(), pictures());
-        assert!(one.len() > 5 && one == other);
     }
 }

@@ -9,7 +9,9 @@ use tungstenite::{Message, WebSocket};
 use unripple::core::Point;
 use unripple::drafting::Draft;
 use unripple::physics::design::papers_surface;
-use unripple_tasks::{Silent, rerun};
+use unripple_store::to_toml;
+use unripple_tasks::target::PointAsk;
+use unripple_tasks::{Silent, SurfaceAsk, focus, rerun};
 
 type Page = WebSocket<TcpStream>;
 
@@ -44,11 +46,37 @@ fn contrast(tension: f64) -> f64 {
     surface.emission.band[1] = 700.0;
     surface.sheet.tension = tension;
     let draft = Draft::of(&surface).unwrap();
-    draft.spot(Point::from_mm(62.0, 90.0), None).unwrap().contrast.unwrap()
+    let acted = draft.focus(Point::from_mm(62.0, 90.0), None).unwrap();
+    acted.judged.measured.targets[0].contrast.unwrap()
 }
 
 fn assert_alike(found: f64, expected: f64) {
     assert!((found / expected - 1.0).abs() < 1e-6, "{found}, not {expected}");
+}
+
+#[test]
+fn what_is_measured_is_what_focus_finds_up_to_twice_the_band() {
+    let served = Served::new(None);
+    let mut page = served.page();
+    until(&mut page, "surface");
+    say(&mut page, json!({ "do": "measure", "id": 1, "at": [[62, 90]], "window_ms": 20 }));
+    let found = &until(&mut page, "measured")["report"];
+    assert_eq!(found["judged_on"], "hudin-2012, modes up to 1400 Hz");
+    let mut surface = papers_surface();
+    surface.emission.band[1] = 700.0;
+    let at = Point::from_mm(62.0, 90.0);
+    let ask = focus::Ask {
+        surface: SurfaceAsk::Text { toml: to_toml(&surface), name: None },
+        points: vec![PointAsk::at(at.x, at.y)],
+        window_s: Some(20.0 * 1e-3),
+        judge_hz: Some(1400.0),
+        ..focus::Ask::default()
+    };
+    let wanted = serde_json::to_string(&focus::run(&ask, &mut Silent).unwrap()).unwrap();
+    let wanted: Value = serde_json::from_str(&wanted).unwrap();
+    for key in ["judged_on", "targets", "drive", "level", "notes"] {
+        assert_eq!(found[key], wanted[key], "{key}");
+    }
 }
 
 #[test]

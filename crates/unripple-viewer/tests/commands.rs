@@ -6,7 +6,7 @@ use unripple_store::{parse_surface, to_toml};
 use unripple_viewer::{Command, Draft, Edit};
 
 /// Messages that are right, to be bent.
-const RIGHT: [&str; 9] = [
+const RIGHT: [&str; 10] = [
     r#"{"do":"touch","finger":0,"phase":"down","at_mm":[62,90]}"#,
     r#"{"do":"transport","speed":0.01,"paused":true,"step":-3,"shown_s":1.25}"#,
     r#"{"do":"settings","method":"inverse","effect":"purr","window_ms":null,"rate_hz":5,"load":true}"#,
@@ -14,7 +14,8 @@ const RIGHT: [&str; 9] = [
     r#"{"do":"edit","stadium_mm":[60,40],"actuators":5,"edge":"free","material":"glass","settled":false}"#,
     r#"{"do":"edit","actuator":2,"at_mm":[30,40],"thickness_mm":0.2,"tension_n_per_m":1e3}"#,
     r#"{"do":"measure","id":1,"at":[[62,90],[1,2]],"method":"inverse","window_ms":null,"peak_um":40}"#,
-    r#"{"do":"compare","at":[[62,90]],"methods":["one-bit","inverse"],"off":false}"#,
+    r#"{"do":"compare","id":2,"at":[[62,90]],"methods":["one-bit","inverse"],"off":false}"#,
+    r#"{"do":"stop","id":2}"#,
     r#"{"do":"job","start":"calibrate","unknowns":7,"grid_mm":15,"name":"film"}"#,
 ];
 

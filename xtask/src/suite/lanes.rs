@@ -36,6 +36,7 @@ pub const ALONE: &[Alone] = &[
     ("unripple-viewer", "asking", CLOCK),
     ("unripple-viewer", "clocks", CLOCK),
     ("unripple-viewer", "serving", CLOCK),
+    ("unripple-viewer", "stopping", CLOCK),
     ("unripple-tasks", "given_up", CLOCK),
 ];
 

@@ -1,13 +1,14 @@
 //! The design figures of a surface, sent stage by stage as they follow an edit.
 
-use super::{ComputeWorker, Hear, tell};
+use super::{ComputeWorker, Hear, Unfinished, tell};
 use crate::edition::Edition;
 use serde_json::{Map, Value, json};
+use std::sync::Arc;
 use std::time::Instant;
-use unripple::act::ActError;
 use unripple::contrast_map::ContrastMap;
 use unripple::core::{Point, Surface};
 use unripple::drafting::{Draft, Spot};
+use unripple_tasks::{Progress, TaskError};
 
 /// Cells of the map along the longer side. Twice as many take four times as long.
 const ACROSS: usize = 24;
@@ -17,8 +18,8 @@ const PLACE: [f64; 2] = [62.0 / 150.0, 0.6];
 
 impl ComputeWorker {
     /// Computes the design figures of a surface and sends them, the quickest first; stops when a newer edit has been
-    /// made.
-    pub(super) fn design(&mut self, edition: &Edition, hear: &mut Hear) {
+    /// made, or when `progress` reports a cancellation.
+    pub(super) fn design(&mut self, edition: &Arc<Edition>, progress: &mut dyn Progress, hear: &mut Hear) {
         let surface = &edition.surface;
         let mut told = Stage::new(edition.edit);
         if let Ok(figures) = Draft::by_law(surface) {
@@ -27,9 +28,8 @@ impl ComputeWorker {
         }
         let place = self.place.filter(|place| surface.outline.contains(*place));
         let place = place.unwrap_or_else(|| usual(surface));
-        let found = self.stages(&mut told, edition, place, hear);
-        if let Err(error) = found {
-            told.add("fault", json!(error.to_string()));
+        if let Err(Unfinished::Refused(why)) = self.stages(&mut told, edition, place, progress, hear) {
+            told.add("fault", json!(why));
         }
         told.add("done", json!(true));
         show(&told, hear);
@@ -38,22 +38,26 @@ impl ComputeWorker {
     fn stages(
         &mut self,
         told: &mut Stage,
-        edition: &Edition,
+        edition: &Arc<Edition>,
         place: Point,
+        progress: &mut dyn Progress,
         hear: &mut Hear,
-    ) -> Result<(), ActError> {
-        let draft = self.draft(edition)?;
+    ) -> Result<(), Unfinished> {
+        let draft = self.draft(edition, progress)?;
         told.add("figures", json!(draft.figures()));
         show(told, hear);
         if self.is_overtaken(edition) {
             return Ok(());
         }
-        told.add("act", spot(&draft.spot(place, None)?));
+        let same = draft.clone();
+        let found = self.aside(progress, move |_| same.spot(place, None).map_err(TaskError::work))?;
+        told.add("act", spot(&found));
         show(told, hear);
         if self.is_overtaken(edition) {
             return Ok(());
         }
-        told.add("map", map(&draft.map(None, ACROSS)?));
+        let found = self.aside(progress, move |_| draft.map(None, ACROSS).map_err(TaskError::work))?;
+        told.add("map", map(&found));
         Ok(())
     }
 }

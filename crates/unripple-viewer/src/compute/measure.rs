@@ -1,11 +1,12 @@
 //! Computation and evaluation of a focus, with every figure that the command line has.
 
-use super::{ComputeWorker, Found, Hear, given, method, options, places, tell, text};
+use super::{ComputeWorker, Found, Hear, Unfinished, given, method, options, places, tell};
 use crate::edition::Edition;
 use crate::outbox::{Measured, Out};
 use crate::spectrum::spectrum;
 use crate::wire::Measure;
 use serde_json::{Value, json};
+use std::sync::Arc;
 use std::time::Instant;
 use unripple::act::{Act, Acted, Level};
 use unripple::core::{Drive, Surface};
@@ -13,37 +14,40 @@ use unripple::field::Trace;
 use unripple::focus::{Method, Target};
 use unripple_store::{Library, encode_wav, to_toml};
 use unripple_tasks::target::{LevelAsk, PointAsk};
-use unripple_tasks::{Record, SurfaceAsk, focus, folder};
+use unripple_tasks::{Progress, Record, SurfaceAsk, TaskError, focus, folder};
 
 /// Points of a drive or trace that are drawn. One for each pixel of a panel.
 const DRAWN: usize = 480;
 
 impl ComputeWorker {
     /// Computes and evaluates a focus, and sends all figures of it.
-    pub(super) fn measure(&mut self, measure: &Measure, of: &Edition, hear: &mut Hear) -> Result<(), String> {
+    pub(super) fn measure(
+        &mut self,
+        measure: &Measure,
+        of: &Arc<Edition>,
+        progress: &mut dyn Progress,
+        hear: &mut Hear,
+    ) -> Result<(), Unfinished> {
         let began = Instant::now();
         let places = places(&measure.at);
-        let (surface, responses) = (&of.surface, self.known(of, &places)?);
+        let (surface, responses) = (&of.surface, self.known(of, &places, progress)?);
         let method = measure.method.as_deref().map_or(Ok(Method::default()), method)?;
         let asked = given(measure.window_ms).map(|ms| ms * 1e-3);
-        let (window, note) = self.window(of, &responses, asked);
+        let (window, note) = self.window(of, &responses, asked, progress)?;
         let options = options(surface, method, window);
         let targets: Vec<Target> = places.into_iter().map(Target::at).collect();
-        let unscaled = self.unscaled(of);
-        let level = match (given(measure.peak_um), unscaled) {
-            (Some(_), Some(why)) => {
-                return Err(format!(
-                    "peak in µm: expected a library whose level is known, found one without: {why}"
-                ));
-            }
-            (Some(um), None) => Level::Peak(um * 1e-6),
-            (None, Some(_)) => Level::Limit,
-            (None, None) => Level::default(),
-        };
-        let act = Act { surface, responses: &responses, targets: &targets, options: &options, level };
-        let acted = act.run().map_err(text)?;
+        let level = level(given(measure.peak_um), self.unscaled(of))?;
+        let judged = self.judged(of, progress)?;
+        let on = judged.as_ref().map_or(&responses, |(judged, _)| judged).clone();
+        let (edition, settings) = (of.clone(), options.clone());
+        let acted = self.aside(progress, move |_| {
+            let (surface, options) = (&edition.surface, &settings);
+            let act = Act { surface, responses: &on, targets: &targets, options, level };
+            act.run_from(&responses, &act.readouts()).map_err(TaskError::work)
+        })?;
         let mut report = self.known_of(acted.report(surface, &options), of);
         report.notes.extend(note);
+        judged.iter().for_each(|(_, judging)| judging.tell(surface, &mut report));
         let value = serde_json::to_value(&report).map_err(|error| error.to_string())?;
         let message = json!({
             "is": "measured",
@@ -70,6 +74,18 @@ impl ComputeWorker {
         hear(Found::Out(Out::Measured(Box::new(files))));
         tell(hear, "measured", &message);
         Ok(())
+    }
+}
+
+/// The level of the drive, from the peak in µm that is asked for and the reason why the scale is unknown, if it is.
+fn level(peak: Option<f64>, unscaled: Option<&str>) -> Result<Level, String> {
+    match (peak, unscaled) {
+        (Some(_), Some(why)) => {
+            Err(format!("peak in µm: expected a library whose level is known, found one without: {why}"))
+        }
+        (Some(um), None) => Ok(Level::Peak(um * 1e-6)),
+        (None, Some(_)) => Ok(Level::Limit),
+        (None, None) => Ok(Level::default()),
     }
 }
 

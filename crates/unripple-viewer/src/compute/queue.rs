@@ -1,15 +1,17 @@
-//! Tasks that wait to be computed.
+//! Tasks that wait to be computed, and the one that is.
 
-use super::Task;
+use super::{Asked, Task};
+use crate::stop::{Stop, Underway};
 use std::collections::VecDeque;
 
 /// Largest number of computations of a focus that may wait. Design figures are not counted: of these one waits at most.
 const MOST: usize = 16;
 
-/// Tasks to be computed, in the order in which they were asked for.
+/// Tasks to be computed, in the order in which they were asked for, and the one that is being computed.
 #[derive(Default)]
 pub struct Queue {
     waiting: VecDeque<Task>,
+    running: Option<(Option<Asked>, Underway)>,
 }
 
 impl Queue {
@@ -19,12 +21,17 @@ impl Queue {
     /// # Errors
     /// The page that asked for the refused task, and the reason.
     pub fn push(&mut self, task: Task) -> Result<(), (u64, &'static str)> {
-        match &task {
-            Task::Design(_) => self.waiting.retain(|other| !matches!(other, Task::Design(_))),
-            Task::Measure { page, .. } | Task::Compare { page, .. } => {
-                let acts = self.waiting.iter().filter(|other| !matches!(other, Task::Design(_)));
+        match task.asked() {
+            None => {
+                self.waiting.retain(|other| other.asked().is_some());
+                if let Some((None, underway)) = &self.running {
+                    underway.hurry();
+                }
+            }
+            Some(Asked { page, .. }) => {
+                let acts = self.waiting.iter().filter(|other| other.asked().is_some());
                 if acts.count() >= MOST {
-                    return Err((*page, "measuring: expected one after the other, found too many at once"));
+                    return Err((page, "measuring: expected one after the other, found too many at once"));
                 }
             }
         }
@@ -32,9 +39,40 @@ impl Queue {
         Ok(())
     }
 
-    /// Removes the next task from the queue.
-    pub fn next(&mut self) -> Option<Task> {
-        self.waiting.pop_front()
+    /// Removes the next task from the queue, to be computed now; `None` while another one is.
+    pub fn next(&mut self) -> Option<(Task, Stop)> {
+        if self.running.is_some() {
+            return None;
+        }
+        let task = self.waiting.pop_front()?;
+        let underway = Underway::default();
+        let stop = underway.stop();
+        self.running = Some((task.asked(), underway));
+        Some((task, stop))
+    }
+
+    /// Notes that the task which was being computed has ended.
+    pub fn done(&mut self) {
+        self.running = None;
+    }
+
+    /// Gives up the tasks that answer some requests. Returns the requests of those that waited, which are answered by nobody else, and
+    /// whether the task that is being computed is one of them.
+    pub fn give_up(&mut self, which: impl Fn(&Asked) -> bool) -> (Vec<Asked>, bool) {
+        let mut removed = Vec::new();
+        self.waiting.retain(|task| {
+            let asked = task.asked().filter(&which);
+            removed.extend(asked);
+            asked.is_none()
+        });
+        let runs = match &self.running {
+            Some((Some(asked), underway)) if which(asked) => {
+                underway.give_up();
+                true
+            }
+            _ => false,
+        };
+        (removed, runs)
     }
 }
 
@@ -45,6 +83,7 @@ mod tests {
     use crate::wire::Measure;
     use std::sync::Arc;
     use unripple::physics::design::papers_surface;
+    use unripple_tasks::Progress;
 
     fn edition(edit: u64) -> Arc<Edition> {
         Arc::new(Edition { edit, surface: papers_surface() })
@@ -56,7 +95,11 @@ mod tests {
             Task::Design(edition) => edition.edit,
             Task::Measure { of, .. } | Task::Compare { of, .. } => 100 + of.edit,
         };
-        std::iter::from_fn(|| queue.next()).map(name).collect()
+        let next = || {
+            queue.done();
+            queue.next()
+        };
+        std::iter::from_fn(next).map(|(task, _)| name(task)).collect()
     }
 
     #[test]
@@ -77,5 +120,24 @@ mod tests {
             queue.push(task).unwrap();
         }
         assert_eq!(drained(&mut queue), [104, 5, 105]);
+    }
+
+    #[test]
+    fn what_is_asked_for_no_more_is_given_up() {
+        let act = |page, id| {
+            let measure = Measure { id, ..Measure::default() };
+            Task::Measure { measure, of: edition(id), page }
+        };
+        let mut queue = Queue::default();
+        for task in [act(7, 1), Task::Design(edition(2)), act(8, 3), act(7, 4)] {
+            queue.push(task).unwrap();
+        }
+        let (_, stop) = queue.next().unwrap();
+        assert!(queue.next().is_none(), "two are computed at once");
+        let (removed, runs) = queue.give_up(|asked| asked.page == 8);
+        assert!(matches!(removed[..], [Asked { page: 8, id: 3, .. }]) && !runs && !stop.watch().cancelled());
+        let (removed, runs) = queue.give_up(|asked| asked.page == 7);
+        assert!(matches!(removed[..], [Asked { page: 7, id: 4, .. }]) && runs && stop.watch().cancelled());
+        assert_eq!(drained(&mut queue), [2]);
     }
 }

@@ -6,6 +6,7 @@ use super::past::stride;
 use super::playback::{Away, Playback};
 use super::tape::Tape;
 use crate::ViewError;
+use crate::stop::wanted;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 use unripple::core::{Responses, SampledResponses, Surface};
@@ -17,6 +18,7 @@ use unripple_devices::{Feeler, Handle, Virtual, VirtualOptions};
 use unripple_effects::EffectSet;
 use unripple_live::{Engine, FocusWorker, Follower, Level, LiveOptions, Window};
 use unripple_store::{builtin_effect, builtin_effects, parse_effects};
+use unripple_tasks::Progress;
 use unripple_tasks::play::Opener;
 use unripple_touch::Sources;
 
@@ -73,7 +75,7 @@ pub struct Spec {
 
 /// A surface that is ready to be played and shown.
 pub struct Instrument {
-    /// The specification that it was made from.
+    /// The specification from which the instrument was built.
     pub spec: Spec,
     /// The engine, with the device or the simulated surface that it plays.
     pub playback: Playback,
@@ -99,8 +101,9 @@ impl Instrument {
     /// Builds the instrument. This takes some tenths of a second, or seconds for a sheet that needs a mesh.
     ///
     /// # Errors
-    /// Those of building the model, the device, the engine and the other parts.
-    pub fn build(spec: Spec) -> Result<Self, ViewError> {
+    /// Those of building the model, the device, the engine and the other parts; [`ViewError::Stopped`] if `progress` reports a
+    /// cancellation.
+    pub fn build(spec: Spec, progress: &mut dyn Progress) -> Result<Self, ViewError> {
         let surface = &spec.surface;
         let accuracy = unripple::act::accuracy(surface);
         let lasting =
@@ -109,19 +112,22 @@ impl Instrument {
         let (suggested, window) = Window::prompt_and(surface, longest, spec.window);
         let mut options = LiveOptions::new(surface, window.seconds);
         options.focus.method = spec.method;
+        wanted(progress)?;
         let maker = maker(&spec, accuracy, &options)?;
         let level = match spec.without_scale {
             true => Level::without_scale(surface, &maker)?,
             false => Level::of(surface, &maker, false)?,
         };
         options.full = level.full;
+        wanted(progress)?;
+        let modes = Arc::new(Modes::solve(surface, surface.emission.band[1], accuracy)?);
+        wanted(progress)?;
 
         let stepper = StepperOptions { max_fingers: BORNE, ..StepperOptions::default() };
         let made = VirtualOptions { block: BLOCK, stepper, accuracy, ..VirtualOptions::default() };
         let device = spec.device.as_ref().map(|open| open(surface)).transpose();
         let device = device.map_err(|why| ViewError::Device { why })?;
         let block = device.as_ref().map_or(BLOCK, |device| device.layout().block);
-        let modes = Arc::new(Modes::solve(surface, surface.emission.band[1], accuracy)?);
         let shadow = Virtual::with_modes(surface, modes, &VirtualOptions { block, ..made })?;
         let handle = shadow.handle();
         let plant = handle.plant();

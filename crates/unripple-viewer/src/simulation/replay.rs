@@ -4,11 +4,13 @@ use super::lens::{Lens, weights};
 use super::past::{Past, stride};
 use super::transport::Transport;
 use crate::ViewError;
+use crate::stop::wanted;
 use crate::wire::{Frame, Head, Strip};
 use std::sync::Arc;
 use unripple::core::{Drive, Point, Surface};
 use unripple::physics::Modes;
 use unripple::physics::stepper::{History, Plant, StepperOptions, VirtualSurface};
+use unripple_tasks::Progress;
 
 /// Cells along the longer side of each picture: two of these are no more than one of the live surface's.
 const CELLS: usize = 88;
@@ -22,6 +24,10 @@ const SPAN: f64 = 0.02;
 
 /// Time for which it goes on after the focus, in s, so that the waves are seen to part again.
 const AFTER: f64 = 6e-3;
+
+/// Samples that are simulated between two looks whether the acts are still wanted. With 10 000 modes they take some tens of
+/// milliseconds.
+const LOOKED: usize = 512;
 
 /// One simulated act: the motion caused by a drive on a surface that nobody touches.
 pub struct Pane {
@@ -45,15 +51,17 @@ impl Replay {
     /// (m) are the targets.
     ///
     /// # Errors
-    /// [`ViewError::Physics`] for drives that do not fit the surface.
+    /// [`ViewError::Physics`] for drives that do not fit the surface; [`ViewError::Stopped`] if `progress` reports a
+    /// cancellation.
     pub fn record(
         surface: &Surface,
         modes: Arc<Modes>,
         drives: &[Drive],
         focus: f64,
         places: &[Point],
+        progress: &dyn Progress,
     ) -> Result<Self, ViewError> {
-        let panes = drives.iter().map(|drive| Pane::record(surface, modes.clone(), drive, focus));
+        let panes = drives.iter().map(|drive| Pane::record(surface, modes.clone(), drive, focus, progress));
         let panes = panes.collect::<Result<Vec<Pane>, ViewError>>()?;
         let plant = Plant::of(surface, modes)?;
         let lens = Lens::new(&plant, &surface.outline, CELLS);
@@ -94,7 +102,7 @@ impl Replay {
         Transport { now: self.from(), ..Transport::default() }
     }
 
-    /// The instant `now` (s), or the first instant if `now` lies past the last one: the acts are shown over and over.
+    /// The instant `now` (s), or the first instant if `now` lies past the last one: the replay then starts over.
     pub fn wrapped(&self, now: f64) -> f64 {
         if now > self.to() { self.from() } else { now }
     }
@@ -138,18 +146,28 @@ fn strip((number, (at, _)): (usize, &(Point, Vec<f32>))) -> Strip {
 }
 
 impl Pane {
-    fn record(surface: &Surface, modes: Arc<Modes>, drive: &Drive, focus: f64) -> Result<Self, ViewError> {
+    fn record(
+        surface: &Surface,
+        modes: Arc<Modes>,
+        drive: &Drive,
+        focus: f64,
+        progress: &dyn Progress,
+    ) -> Result<Self, ViewError> {
         let mut stepped = VirtualSurface::of(surface, modes, &StepperOptions::default())?;
         let (rate, channels) = (surface.emission.rate, drive.channels());
         let frames = ((focus + AFTER) * rate).ceil() as usize;
         let stride = stride(surface);
         stepped.remember(stride, (frames / stride).max(1))?;
-        let padded = |channel: &Vec<f64>| {
-            let silence = std::iter::repeat(0.0);
-            channel.iter().copied().chain(silence).take(frames).collect::<Vec<f64>>()
-        };
-        let planes: Vec<f64> = channels.iter().flat_map(padded).collect();
-        stepped.process(frames, &planes, &mut [], &mut [])?;
+        for first in (0..frames).step_by(LOOKED) {
+            wanted(progress)?;
+            let count = LOOKED.min(frames - first);
+            let part = |channel: &Vec<f64>| {
+                let silence = std::iter::repeat(0.0);
+                channel.iter().copied().skip(first).chain(silence).take(count).collect::<Vec<f64>>()
+            };
+            let planes: Vec<f64> = channels.iter().flat_map(part).collect();
+            stepped.process(count, &planes, &mut [], &mut [])?;
+        }
         let history = stepped.history().cloned().ok_or(ViewError::Gone { why: "no history".into() })?;
         let share = |x: &f64| (x / surface.emission.limit) as f32;
         let drive = channels.iter().map(|channel| channel.iter().map(share).collect()).collect();

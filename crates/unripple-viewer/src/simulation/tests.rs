@@ -6,6 +6,7 @@ use serde_json::json;
 use unripple::core::Surface;
 use unripple::focus::Method;
 use unripple::physics::design::papers_surface;
+use unripple_tasks::Silent;
 
 fn spec() -> Spec {
     let mut surface: Surface = papers_surface();
@@ -54,7 +55,8 @@ fn order(said: &[Out]) -> Vec<&str> {
 
 /// A simulation that has run for a while, with a page that looks, and what it said.
 fn running() -> (Simulation, Vec<Out>) {
-    let (mut simulation, mut out) = (Simulation::new(Instrument::build(spec()).unwrap()), Outbox::default());
+    let (mut simulation, mut out) =
+        (Simulation::new(Instrument::build(spec(), &mut Silent).unwrap()), Outbox::default());
     simulation.begin(&mut out);
     for _ in 0..50 {
         simulation.advance(0.02, 1, &mut some(20), &mut out);
@@ -67,7 +69,7 @@ fn the_clock_of_another_surface_is_told_before_how_it_is_played() {
     let (mut simulation, said) = running();
     let before = told(&said, "status")["head_s"].as_f64().unwrap();
     assert!(before > 0.01 && order(&said).contains(&"frame"), "{before}");
-    let other = Instrument::build(Spec { load: true, ..spec() }).unwrap();
+    let other = Instrument::build(Spec { load: true, ..spec() }, &mut Silent).unwrap();
     let mut out = Outbox::default();
     simulation.obey(Order::Play(Box::new(other), json!({ "is": "settings", "load": true })), &mut out);
     let said = out.take();
@@ -83,7 +85,7 @@ fn a_surface_that_is_played_otherwise_is_seen_while_time_stands_still() {
     let mut out = Outbox::default();
     let slowly = wire::Transport { speed: Some(0.02), paused: Some(true), ..wire::Transport::default() };
     simulation.obey(Order::Transport(slowly), &mut out);
-    let other = Instrument::build(spec()).unwrap();
+    let other = Instrument::build(spec(), &mut Silent).unwrap();
     simulation.obey(Order::Play(Box::new(other), json!({ "is": "settings" })), &mut out);
     simulation.advance(0.1, 1, &mut some(20), &mut out);
     assert!(simulation.transport.paused && simulation.head() > 0.0);
@@ -95,9 +97,9 @@ fn a_surface_that_is_played_otherwise_is_seen_while_time_stands_still() {
 
 #[test]
 fn without_a_scale_the_limit_alone_sets_the_level() {
-    let known = Instrument::build(spec()).unwrap();
+    let known = Instrument::build(spec(), &mut Silent).unwrap();
     assert!(known.level.full.is_some() && known.level.to_string().contains("threshold of touch"));
-    let unknown = Instrument::build(Spec { without_scale: true, ..spec() }).unwrap();
+    let unknown = Instrument::build(Spec { without_scale: true, ..spec() }, &mut Silent).unwrap();
     assert!(unknown.level.full.is_none());
     assert!(unknown.level.to_string().ends_with("its displacement is unknown"), "{}", unknown.level);
 }

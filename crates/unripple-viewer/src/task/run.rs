@@ -25,6 +25,7 @@ impl From<ViewError> for TaskError {
         match error {
             ViewError::Store(error) => error.into(),
             ViewError::Live(error) => error.into(),
+            ViewError::Stopped => Self::Cancelled,
             error @ (ViewError::Address { .. } | ViewError::Gone { .. } | ViewError::Device { .. }) => {
                 Self::work(error)
             }

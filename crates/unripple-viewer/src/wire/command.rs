@@ -57,6 +57,9 @@ pub enum Command {
     Measure(Measure),
     /// Show two focusing methods on the same targets side by side, or the live surface again.
     Compare {
+        /// The page's own number for the request.
+        #[serde(default)]
+        id: u64,
         /// Places of the targets, in mm.
         #[serde(default)]
         at: Vec<[f64; 2]>,
@@ -72,6 +75,11 @@ pub enum Command {
         /// Whether to show the live surface again.
         #[serde(default)]
         off: bool,
+    },
+    /// Give up what this page has asked to be measured or compared.
+    Stop {
+        /// The page's own number for the request.
+        id: u64,
     },
     /// Start or stop a long task, such as a calibration or the doctor.
     Job(Job),
@@ -273,7 +281,7 @@ impl Command {
                 some("grid_mm", job.grid_mm, [0.1, 1000.0])?;
                 job.start.iter().chain(&job.name).try_for_each(|name| short("job", name))
             }
-            Self::Undo | Self::Redo | Self::Seen { .. } => Ok(()),
+            Self::Undo | Self::Redo | Self::Stop { .. } | Self::Seen { .. } => Ok(()),
         }
     }
 }

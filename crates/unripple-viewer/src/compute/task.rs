@@ -1,0 +1,68 @@
+//! The tasks of the worker, and the requests of pages that they answer.
+
+use crate::edition::Edition;
+use crate::wire::Measure;
+use std::sync::Arc;
+
+/// A computation that a page asks for. A focus is computed for the surface that the page showed, even if it has been edited since.
+pub enum Task {
+    /// The design figures of a surface.
+    Design(Arc<Edition>),
+    /// A focus, computed and evaluated with all figures.
+    Measure {
+        /// Targets, method and level.
+        measure: Measure,
+        /// The surface that the page showed.
+        of: Arc<Edition>,
+        /// The page that asked.
+        page: u64,
+    },
+    /// Two focusing methods on the same targets.
+    Compare {
+        /// The page's own number for the request.
+        id: u64,
+        /// Places of the targets, in mm.
+        at: Vec<[f64; 2]>,
+        /// Names of the two methods.
+        methods: Vec<String>,
+        /// The window, in ms; 0 or `None` for the recommended one.
+        window_ms: Option<f64>,
+        /// The surface that the page showed.
+        of: Arc<Edition>,
+        /// The page that asked.
+        page: u64,
+    },
+}
+
+/// Kinds of computations that a page asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A focus with all figures.
+    Measure,
+    /// Two methods side by side.
+    Compare,
+}
+
+/// The request of a page that a task answers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Asked {
+    /// The page that asked.
+    pub page: u64,
+    /// The page's own number for the request.
+    pub id: u64,
+    /// Kind of the computation.
+    pub kind: Kind,
+}
+
+impl Task {
+    /// The request that the task answers; `None` for design figures, which every edit brings about.
+    pub fn asked(&self) -> Option<Asked> {
+        match self {
+            Self::Design(_) => None,
+            Self::Measure { measure, page, .. } => {
+                Some(Asked { page: *page, id: measure.id, kind: Kind::Measure })
+            }
+            Self::Compare { id, page, .. } => Some(Asked { page: *page, id: *id, kind: Kind::Compare }),
+        }
+    }
+}
