@@ -185,8 +185,10 @@ class Comparison {
     this.resultNode.hidden = false;
     this.figures.show(panes);
     if (this.waiting === null) this.say(this.figures.sentence());
-    const { from_s: from, to_s: to, focus_s: focus } = result;
-    this.instants.textContent = `The waves run for ${seconds(to - from)}, the focus is ${seconds(focus - from)} after their start.`;
+    const { from_s: from, to_s: to, focus_s: focus, dropped_s: dropped } = result;
+    this.instants.textContent = dropped > 0
+      ? `The last ${seconds(to - from)} of the waves are shown, the focus is ${seconds(focus - from)} after their beginning. The ${seconds(dropped)} before would take too much memory.`
+      : `The waves run for ${seconds(to - from)}, the focus is ${seconds(focus - from)} after their start.`;
   }
 
   jump() {

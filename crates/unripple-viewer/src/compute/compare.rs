@@ -45,6 +45,7 @@ impl ComputeWorker {
             "from_s": replay.from(),
             "to_s": replay.to(),
             "focus_s": replay.focus(),
+            "dropped_s": replay.dropped(),
         });
         tell(hear, "compare", &message);
         hear(Found::Replay(Box::new(replay)));

@@ -2,7 +2,7 @@
 
 use super::lens::Lens;
 use super::page_touches::{PageTouches, Pressed};
-use super::past::stride;
+use super::past::{room, stride};
 use super::playback::{Away, Playback};
 use super::tape::Tape;
 use crate::ViewError;
@@ -35,10 +35,8 @@ const BORNE: usize = 24;
 /// block stays small.
 const BLOCK: usize = 64;
 
-/// Duration of the past states that are stored, in s, and most bytes that they may take. Longer than waves ring on the
-/// paper's film.
+/// Duration of the past states that are stored, in s. Longer than waves ring on the paper's film.
 const REMEMBERED: f64 = 1.0;
-const MOST_BYTES: usize = 256 << 20;
 
 /// Name of the default effect: pulses at the finger while it rests.
 pub const PULSES: &str = "pulses";
@@ -187,8 +185,7 @@ fn maker(spec: &Spec, accuracy: f64, options: &LiveOptions) -> Result<FocusWorke
 fn remember(handle: &Handle, surface: &Surface, modes: usize) -> Result<(), ViewError> {
     let rate = surface.emission.rate;
     let stride = stride(surface);
-    let room = MOST_BYTES / (8 * modes.max(1));
-    let states = ((REMEMBERED * rate) as usize / stride).min(room).max(1);
+    let states = ((REMEMBERED * rate) as usize / stride).min(room(modes)).max(1);
     Ok(handle.remember(stride, states)?)
 }
 

@@ -8,6 +8,14 @@ use unripple::physics::stepper::History;
 /// trace smooth. Twice as many take twice the memory.
 const STATES: f64 = 4.0;
 
+/// Most bytes that the stored states of what is shown may take: a second of 2800 modes up to 3 kHz. Doubled, twice the time or modes.
+pub const MOST_BYTES: usize = 256 << 20;
+
+/// Number of states of `modes` modes within these bytes: each has a displacement and a velocity of four bytes for every mode.
+pub fn room(modes: usize) -> usize {
+    MOST_BYTES / (8 * modes.max(1))
+}
+
 /// Interval of the stored states of a surface, in samples.
 pub fn stride(surface: &Surface) -> usize {
     (surface.emission.rate / (STATES * surface.emission.band[1])).floor().max(1.0) as usize

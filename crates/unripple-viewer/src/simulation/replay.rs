@@ -1,7 +1,7 @@
 //! Two simulated acts, each a drive on a surface that nobody touches, shown side by side.
 
 use super::lens::{Lens, weights};
-use super::past::{Past, stride};
+use super::past::{Past, room, stride};
 use super::transport::Transport;
 use crate::ViewError;
 use crate::stop::wanted;
@@ -48,7 +48,8 @@ pub struct Replay {
 
 impl Replay {
     /// Simulates the surface under each drive, from rest until shortly after the focal instant `focus` (s); `places`
-    /// (m) are the targets.
+    /// (m) are the targets. If the states of all that time are too many for the memory that the live surface may take,
+    /// only the last of them are kept.
     ///
     /// # Errors
     /// [`ViewError::Physics`] for drives that do not fit the surface; [`ViewError::Stopped`] if `progress` reports a
@@ -61,11 +62,25 @@ impl Replay {
         places: &[Point],
         progress: &dyn Progress,
     ) -> Result<Self, ViewError> {
-        let panes = drives.iter().map(|drive| Pane::record(surface, modes.clone(), drive, focus, progress));
-        let panes = panes.collect::<Result<Vec<Pane>, ViewError>>()?;
-        let plant = Plant::of(surface, modes)?;
-        let lens = Lens::new(&plant, &surface.outline, CELLS);
-        let targets = places.iter().map(|at| (*at, weights(&plant, &[*at]))).collect();
+        let plant = Plant::of(surface, modes.clone())?;
+        let most = room(plant.modes()) / drives.len().max(1);
+        Self::within(most, surface, (modes, &plant), (drives, focus), places, progress)
+    }
+
+    /// As [`Replay::record`], of a surface whose plant is known, with at most `most` states of each act.
+    fn within(
+        most: usize,
+        surface: &Surface,
+        (modes, plant): (Arc<Modes>, &Plant),
+        (drives, focus): (&[Drive], f64),
+        places: &[Point],
+        progress: &dyn Progress,
+    ) -> Result<Self, ViewError> {
+        let frames = ((focus + AFTER) * surface.emission.rate).ceil() as usize;
+        let record = |drive| Pane::record(surface, modes.clone(), drive, [frames, most], progress);
+        let panes = drives.iter().map(record).collect::<Result<Vec<Pane>, ViewError>>()?;
+        let lens = Lens::new(plant, &surface.outline, CELLS);
+        let targets = places.iter().map(|at| (*at, weights(plant, &[*at]))).collect();
         Ok(Self { panes, lens, rate: surface.emission.rate, focus, targets })
     }
 
@@ -75,6 +90,15 @@ impl Replay {
             pane.history.newest() as usize - pane.history.stride() * pane.history.len().saturating_sub(1)
         };
         self.panes.first().map_or(0.0, |pane| oldest(pane) as f64 / self.rate)
+    }
+
+    /// Duration at the beginning that is not kept, in s, since it would take too much memory.
+    pub fn dropped(&self) -> f64 {
+        let dropped = |pane: &Pane| {
+            let states = pane.history.newest() as usize / pane.history.stride();
+            states.saturating_sub(pane.history.len()) * pane.history.stride()
+        };
+        self.panes.first().map_or(0.0, |pane| dropped(pane) as f64 / self.rate)
     }
 
     /// The last instant that can be shown, in s.
@@ -146,18 +170,18 @@ fn strip((number, (at, _)): (usize, &(Point, Vec<f32>))) -> Strip {
 }
 
 impl Pane {
+    /// Simulates the first `frames` samples under a drive, and keeps at most the last `most` states.
     fn record(
         surface: &Surface,
         modes: Arc<Modes>,
         drive: &Drive,
-        focus: f64,
+        [frames, most]: [usize; 2],
         progress: &dyn Progress,
     ) -> Result<Self, ViewError> {
         let mut stepped = VirtualSurface::of(surface, modes, &StepperOptions::default())?;
-        let (rate, channels) = (surface.emission.rate, drive.channels());
-        let frames = ((focus + AFTER) * rate).ceil() as usize;
+        let channels = drive.channels();
         let stride = stride(surface);
-        stepped.remember(stride, (frames / stride).max(1))?;
+        stepped.remember(stride, (frames / stride).min(most).max(1))?;
         for first in (0..frames).step_by(LOOKED) {
             wanted(progress)?;
             let count = LOOKED.min(frames - first);
@@ -172,5 +196,57 @@ impl Pane {
         let share = |x: &f64| (x / surface.emission.limit) as f32;
         let drive = channels.iter().map(|channel| channel.iter().map(share).collect()).collect();
         Ok(Self { history, drive })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulation::past::MOST_BYTES;
+    use unripple::physics::design::papers_surface;
+    use unripple_tasks::Silent;
+
+    /// Two acts on a small surface, of a focus after 50 ms, with at most so many states of each, or as many as there is room for.
+    fn recorded(most: Option<usize>) -> Replay {
+        let mut film = papers_surface();
+        film.emission.band[1] = 700.0;
+        let modes = Arc::new(Modes::solve(&film, 700.0, 1e-3).unwrap());
+        let mut channels = vec![vec![0.0; 2400]; film.actuators.len()];
+        channels[0][0] = 1.0;
+        let names = film.actuators.iter().map(|actuator| actuator.name.clone()).collect();
+        let drive = Drive::new(film.emission.rate, names, channels).unwrap();
+        let (drives, focus, places) = ([drive.clone(), drive], 0.05, [Point::from_mm(62.0, 90.0)]);
+        let recorded = match most {
+            None => Replay::record(&film, modes, &drives, focus, &places, &Silent),
+            Some(most) => {
+                let plant = Plant::of(&film, modes.clone()).unwrap();
+                Replay::within(most, &film, (modes, &plant), (&drives, focus), &places, &Silent)
+            }
+        };
+        recorded.unwrap()
+    }
+
+    #[test]
+    fn what_there_is_no_room_for_is_dropped_from_the_beginning() {
+        let whole = recorded(None);
+        assert_eq!(whole.dropped(), 0.0);
+        assert!(whole.from() < 1e-3, "{}", whole.from());
+        let cut = recorded(Some(100));
+        assert!(cut.panes.iter().all(|pane| pane.history.len() == 100));
+        assert!((cut.from() - cut.dropped() - whole.from()).abs() < 1e-9 && cut.dropped() > 0.01);
+        assert!(cut.from() < cut.focus() && cut.focus() < cut.to() && cut.to() == whole.to());
+        // What is kept is the same.
+        let picture = |replay: &Replay| replay.frames(replay.focus(), false).pop().unwrap().cells;
+        assert_eq!(picture(&cut), picture(&whole));
+    }
+
+    #[test]
+    fn states_take_no_more_bytes_than_they_may() {
+        for modes in [0, 1, 300, 20_000, 1 << 24] {
+            assert!(8 * modes * room(modes) <= MOST_BYTES, "{modes} modes");
+        }
+        let whole = recorded(None);
+        let bytes = |pane: &Pane| 8 * pane.history.len() * pane.history.state(0).unwrap().0.len();
+        assert!(whole.panes.iter().map(bytes).sum::<usize>() <= MOST_BYTES);
     }
 }
