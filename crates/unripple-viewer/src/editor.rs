@@ -27,6 +27,10 @@ pub struct Editor {
     edited: bool,
     /// The build of an instrument, while there is one.
     building: Option<Underway>,
+    /// Whether the instrument that is played is to be built again, since its device was taken for one that could not be built; and
+    /// whether it is being built.
+    lost: bool,
+    restoring: bool,
 }
 
 impl Editor {
@@ -36,7 +40,8 @@ impl Editor {
         let spec = instrument.spec.clone();
         let played = spec.clone();
         // The first surface has been sent to nobody yet.
-        Self { draft, spec, played, told, edits: 0, stale: false, edited: true, building: None }
+        let (stale, edited, building, lost, restoring) = (false, true, None, false, false);
+        Self { draft, spec, played, told, edits: 0, stale, edited, building, lost, restoring }
     }
 
     /// The settings of an instrument as a message for pages.
@@ -141,18 +146,24 @@ impl Editor {
             }
             return None;
         }
-        if !std::mem::take(&mut self.stale) {
+        self.restoring = !self.stale && self.lost;
+        if !self.stale && !self.lost {
             return None;
         }
+        (self.stale, self.lost) = (false, false);
+        let spec = if self.restoring { &self.played } else { &self.spec };
         let stop = self.building.insert(Underway::default()).stop();
-        Some((Box::new(self.spec.clone()), stop))
+        Some((Box::new(spec.clone()), stop))
     }
 
     /// Notes that an instrument of this specification has been built.
     pub fn built(&mut self, spec: &Spec, out: &mut Outbox) {
         self.building = None;
         self.played = spec.clone();
-        out.withdraw("notice");
+        // What could not be built instead is still to be read.
+        if !self.restoring {
+            out.withdraw("notice");
+        }
     }
 
     /// Notes that a build was given up for a newer specification.
@@ -160,9 +171,12 @@ impl Editor {
         self.building = None;
     }
 
-    /// Notes that the specification could not be built, and tells pages why.
-    pub fn failed(&mut self, why: &str, out: &mut Outbox) {
+    /// Notes that the specification could not be built, and tells pages why. If its build has taken the device from the instrument that is
+    /// played (`lost`), that one is built again.
+    pub fn failed(&mut self, why: &str, lost: bool, out: &mut Outbox) {
         self.building = None;
+        // One that cannot be built again either is not tried for ever.
+        self.lost = lost && !self.restoring;
         if !self.stale {
             // What cannot be played is not what the next change starts from; the surface stays as it was drawn.
             let Spec { surface, stored, without_scale, .. } =

@@ -177,7 +177,9 @@ impl Session {
                 self.order(Order::Play(instrument, told));
             }
             Done::Built(Err(ViewError::Stopped)) => self.editor.given_up(),
-            Done::Built(Err(error)) => self.editor.failed(&error.to_string(), &mut self.out),
+            Done::Built(Err(error)) => {
+                self.editor.failed(&error.to_string(), self.simulation.rests(), &mut self.out);
+            }
             Done::Found(Found::Out(out)) => self.out.push(out),
             Done::Found(Found::Replay(replay)) => self.order(Order::Replay(Some(replay))),
             Done::Computed => self.tasks.done(),

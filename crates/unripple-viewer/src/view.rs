@@ -1,7 +1,7 @@
 //! Options of the viewer, and the instrument that they specify.
 
 use crate::compute::Responder;
-use crate::simulation::{Follow, PULSES, Spec};
+use crate::simulation::{Follow, PULSES, RealDevice, Spec};
 use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -27,7 +27,7 @@ pub struct View {
     pub source: String,
     /// Focusing method to begin with; pages can change it.
     pub method: Method,
-    /// Function that opens a real device; the surface is simulated where `None`.
+    /// Function that opens a real device, which is never open twice at once; the surface is simulated where `None`.
     pub device: Option<Opener>,
     /// Function that makes the follower of the sheet's tension, if it is to be followed.
     pub follow: Option<Follow>,
@@ -55,7 +55,7 @@ impl View {
             window: None,
             rate: RATE,
             load: false,
-            device: self.device.clone(),
+            device: self.device.clone().map(RealDevice::new),
             follow: self.follow.clone(),
         }
     }

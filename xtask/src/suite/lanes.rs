@@ -37,6 +37,7 @@ pub const ALONE: &[Alone] = &[
     ("unripple-viewer", "clocks", CLOCK),
     ("unripple-viewer", "serving", CLOCK),
     ("unripple-viewer", "stopping", CLOCK),
+    ("unripple-viewer", "exclusive", CLOCK),
     ("unripple-tasks", "given_up", CLOCK),
 ];
 

@@ -4,12 +4,13 @@ use super::lens::Lens;
 use super::page_touches::{PageTouches, Pressed};
 use super::past::{room, stride};
 use super::playback::{Away, Playback};
+use super::real_device::RealDevice;
 use super::tape::Tape;
 use crate::ViewError;
 use crate::stop::wanted;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
-use unripple::core::{Responses, SampledResponses, Surface};
+use unripple::core::{Device, Responses, SampledResponses, Surface};
 use unripple::focus::Method;
 use unripple::physics::stepper::{Plant, StepperOptions};
 use unripple::physics::{Medium, Modes, ResponseOptions, responses};
@@ -19,7 +20,6 @@ use unripple_effects::EffectSet;
 use unripple_live::{Engine, FocusWorker, Follower, Level, LiveOptions, Window};
 use unripple_store::{builtin_effect, builtin_effects, parse_effects};
 use unripple_tasks::Progress;
-use unripple_tasks::play::Opener;
 use unripple_touch::Sources;
 
 /// Cells along the longer side of the picture. A picture is 32 kB then; twice as many are four times as much, and
@@ -65,8 +65,8 @@ pub struct Spec {
     pub rate: f64,
     /// Whether resting fingers load the simulated surface.
     pub load: bool,
-    /// Function that opens a real device; the surface is simulated where `None`.
-    pub device: Option<Opener>,
+    /// The real device; the surface is simulated where `None`.
+    pub device: Option<RealDevice>,
     /// Function that makes the follower of the sheet's tension, if it is to be followed.
     pub follow: Option<Follow>,
 }
@@ -96,7 +96,8 @@ pub struct Instrument {
 }
 
 impl Instrument {
-    /// Builds the instrument. This takes some tenths of a second, or seconds for a sheet that needs a mesh.
+    /// Builds the instrument. This takes some tenths of a second, or seconds for a sheet that needs a mesh. A real device is taken from
+    /// the instrument that plays it when all else is ready.
     ///
     /// # Errors
     /// Those of building the model, the device, the engine and the other parts; [`ViewError::Stopped`] if `progress` reports a
@@ -121,12 +122,10 @@ impl Instrument {
         let modes = Arc::new(Modes::solve(surface, surface.emission.band[1], accuracy)?);
         wanted(progress)?;
 
+        let block = spec.device.as_ref().map_or(Ok(BLOCK), |real| ready(real, surface, progress))?;
         let stepper = StepperOptions { max_fingers: BORNE, ..StepperOptions::default() };
-        let made = VirtualOptions { block: BLOCK, stepper, accuracy, ..VirtualOptions::default() };
-        let device = spec.device.as_ref().map(|open| open(surface)).transpose();
-        let device = device.map_err(|why| ViewError::Device { why })?;
-        let block = device.as_ref().map_or(BLOCK, |device| device.layout().block);
-        let shadow = Virtual::with_modes(surface, modes, &VirtualOptions { block, ..made })?;
+        let made = VirtualOptions { block, stepper, accuracy, ..VirtualOptions::default() };
+        let shadow = Virtual::with_modes(surface, modes, &made)?;
         let handle = shadow.handle();
         let plant = handle.plant();
         remember(&handle, surface, plant.modes())?;
@@ -134,27 +133,12 @@ impl Instrument {
         let (page_touches, source) = PageTouches::new(&surface.outline)?;
         let mut sources = Sources::new(&surface.outline);
         sources.push(Box::new(source));
-        let set = effect(&spec)?;
         let feeler = Feeler::new(handle.clone(), surface, FINGERS)?;
         let feeler = if spec.load { feeler } else { feeler.weightless() };
-        let playback = match device {
-            None => {
-                let engine = Engine::new(surface, maker, &set, sources, Box::new(shadow), &options)?;
-                Playback::Here(Box::new(engine.with_feeler(feeler)))
-            }
-            Some(device) => {
-                let (device, drive) = Away::listen(device);
-                let mut engine = Engine::new(surface, maker, &set, sources, device, &options)?;
-                if let Some(follow) = &spec.follow {
-                    let (follower, ping) =
-                        follow(surface, &options, block).map_err(|why| ViewError::Device { why })?;
-                    engine = engine.with_follower(follower, &ping)?;
-                }
-                Playback::Away(Box::new(Away::start(engine.with_feeler(feeler), shadow, drive)?))
-            }
-        };
         let lens = Lens::new(&plant, &surface.outline, CELLS);
         let tape = Tape::new(surface.actuators.len(), (REMEMBERED * surface.emission.rate) as usize);
+        let parts = Parts { options, maker, set: effect(&spec)?, sources, shadow, feeler };
+        let playback = parts.join(&spec, block, progress)?;
         Ok(Self { playback, handle, plant, lens, page_touches, tape, window, suggested, level, spec })
     }
 
@@ -162,6 +146,67 @@ impl Instrument {
     pub fn rate(&self) -> f64 {
         self.spec.surface.emission.rate
     }
+}
+
+/// What an instrument consists of but for its device.
+struct Parts {
+    options: LiveOptions,
+    maker: FocusWorker,
+    set: EffectSet,
+    sources: Sources,
+    /// The simulated surface.
+    shadow: Virtual,
+    feeler: Feeler,
+}
+
+impl Parts {
+    /// Joins the parts to the simulated surface, or to the real device, whose blocks have `block` samples.
+    fn join(self, spec: &Spec, block: usize, progress: &mut dyn Progress) -> Result<Playback, ViewError> {
+        let Self { options, maker, set, sources, shadow, feeler } = self;
+        let surface = &spec.surface;
+        let Some(real) = &spec.device else {
+            let engine = Engine::new(surface, maker, &set, sources, Box::new(shadow), &options)?;
+            return Ok(Playback::Here(Box::new(engine.with_feeler(feeler))));
+        };
+        let follower = spec.follow.as_ref().map(|follow| follow(surface, &options, block)).transpose();
+        let follower = follower.map_err(|why| ViewError::Device { why })?;
+        once(progress, || {
+            let lent = real.take(surface)?;
+            let found = lent.layout().block;
+            if found != block {
+                let why = format!("expected blocks of {block} samples, found {found}");
+                return Err(ViewError::Device { why });
+            }
+            let (device, drive) = Away::listen(Box::new(lent));
+            let mut engine = Engine::new(surface, maker, &set, sources, device, &options)?;
+            if let Some((follower, ping)) = follower {
+                engine = engine.with_follower(follower, &ping)?;
+            }
+            let away = Away::start(engine.with_feeler(feeler), shadow, drive)?;
+            real.played_by(away.player.clone());
+            Ok(Playback::Away(Box::new(away)))
+        })
+    }
+}
+
+/// Samples per block of the real device, which is opened for the surface unless it is open for it.
+fn ready(real: &RealDevice, surface: &Surface, progress: &mut dyn Progress) -> Result<usize, ViewError> {
+    match real.block(surface) {
+        Some(block) => Ok(block),
+        None => once(progress, || real.take(surface).map(|lent| lent.layout().block)),
+    }
+}
+
+/// Does something to the real device unless the build has been given up; one that is given up later is waited for.
+fn once<T>(progress: &mut dyn Progress, act: impl FnOnce() -> Result<T, ViewError>) -> Result<T, ViewError> {
+    let (mut act, mut done) = (Some(act), Err(ViewError::Stopped));
+    let placed = progress.place(&mut || {
+        if let Some(act) = act.take() {
+            done = act();
+        }
+        Ok(())
+    });
+    placed.map_err(|_| ViewError::Stopped).and(done)
 }
 
 /// The worker that computes drives; from a library, also at places between its points.

@@ -7,6 +7,7 @@ mod messages;
 mod page_touches;
 mod past;
 mod playback;
+mod real_device;
 mod replay;
 mod tape;
 mod transport;
@@ -16,6 +17,7 @@ mod tests;
 
 pub use instrument::{CELLS, Follow, Instrument, PULSES, Spec, check_effect};
 pub use lens::Cells;
+pub use real_device::RealDevice;
 pub use replay::Replay;
 pub use transport::Transport;
 
@@ -95,6 +97,15 @@ pub struct Simulation {
     wrong: Option<String>,
 }
 
+impl Drop for Simulation {
+    fn drop(&mut self) {
+        // An instrument that is still being built must not keep it open.
+        if let Some(device) = &self.instrument.spec.device {
+            device.close();
+        }
+    }
+}
+
 impl Simulation {
     /// A simulation that plays an instrument.
     pub fn new(instrument: Instrument) -> Self {
@@ -141,6 +152,11 @@ impl Simulation {
         if self.untold >= TOLD {
             self.tell(out);
         }
+    }
+
+    /// Whether the real device has been taken from the instrument that is played.
+    pub fn rests(&self) -> bool {
+        matches!(&self.instrument.playback, Playback::Away(away) if away.player.is_ended())
     }
 
     /// Carries out a request.

@@ -1,11 +1,11 @@
 //! Playing of the surface: simulated here, or by a real device whose surface is simulated along with it.
 
+use super::real_device::Player;
 use crate::ViewError;
 use crate::lock::lock;
 use rtrb::{Consumer, Producer, RingBuffer};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
-use std::thread::JoinHandle;
 use unripple::core::{Device, DeviceError, Layout, Point, State, Status};
 use unripple_calibrate::Drift;
 use unripple_devices::{Feeling, Virtual};
@@ -54,8 +54,8 @@ pub struct Away {
     shadow: Virtual,
     drive: Consumer<f32>,
     known: Arc<Mutex<Known>>,
-    stop: Arc<AtomicBool>,
-    thread: Option<JoinHandle<()>>,
+    /// The thread that plays the device, which is ended when the next instrument takes the device over.
+    pub player: Arc<Player>,
     /// Blocks of drive and of sensor signals of the simulated surface.
     block: Vec<f32>,
     heard: Vec<f32>,
@@ -98,7 +98,8 @@ impl Away {
         let layout = shadow.layout();
         let block = vec![0.0; layout.block * layout.outputs.len()];
         let heard = vec![0.0; layout.block * layout.inputs.len()];
-        Ok(Self { shadow, drive, known, stop, thread: Some(thread), block, heard })
+        let player = Arc::new(Player::new(stop, thread));
+        Ok(Self { shadow, drive, known, player, block, heard })
     }
 
     /// Steps the simulated surface by a block of the device's drive, and returns that block; `None` if there is none
@@ -113,11 +114,7 @@ impl Away {
 
 impl Drop for Away {
     fn drop(&mut self) {
-        self.stop.store(true, Ordering::Relaxed);
-        if let Some(thread) = self.thread.take() {
-            // It has said already what went wrong.
-            let _ = thread.join();
-        }
+        self.player.end();
     }
 }
 
