@@ -52,6 +52,7 @@ const OTHERWISE: &[(&str, &str)] = &[
     ("method", "--method"),
     ("tuio", "--tuio"),
     ("websocket", "--websocket"),
+    ("listen", "--listen"),
     ("screen", "--screen"),
     ("real_time", "--real-time"),
     ("record", "--record"),

@@ -56,6 +56,23 @@ fn what_cannot_be_played_is_refused() {
 }
 
 #[test]
+fn ports_that_others_can_reach_are_warned_of() {
+    let errors = |more: &[&str]| {
+        let output = run(&[&["play", "hudin-2012", "--seconds", "0.1"][..], more].concat());
+        let errors = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success(), "{more:?}: {errors}");
+        errors
+    };
+    let open = ["--listen", "0.0.0.0"];
+    for port in [["--tuio", "0"], ["--websocket", "0"]] {
+        let (own, others) = (errors(&port), errors(&[port, open].concat()));
+        assert!(own.contains("touches from ") && !own.contains("warning"), "{own}");
+        assert!(others.contains("warning: --listen 0.0.0.0: whoever can reach this address"), "{others}");
+    }
+    assert!(!errors(&open).contains("warning"), "no port is open");
+}
+
+#[test]
 fn the_doctor_looks_at_every_stage() {
     let found = json(&["doctor", "hudin-2012", "--tuio", "0"]);
     let named = |name: &str| {

@@ -82,6 +82,7 @@ impl Touches {
             touches.told.push(format!("touches from {}", source.name()));
             sources.push(source);
         }
+        touches.told.extend(exposed(options));
         if let Some(path) = &options.record {
             let (file, unused) = new_file(path)?;
             let recorder = Some(Recorder::new(BufWriter::new(file), 0.0)?);
@@ -113,5 +114,41 @@ impl Touches {
         let Some(tape) = self.recording.take() else { return Ok(()) };
         let finished = tape.lock().map_err(TaskError::work)?.finish();
         finished.map_err(TaskError::work)
+    }
+}
+
+/// Warning that other machines can touch the surface, where a port is open to them.
+fn exposed(options: &TouchAsk) -> Option<String> {
+    // IPv6 may write an address of IPv4, the loopback one too.
+    let open = !options.listen.to_canonical().is_loopback();
+    (open && (options.tuio.is_some() || options.websocket.is_some())).then(|| {
+        format!(
+            "warning: `listen` {}: whoever can reach this address over the network can move fingers on this surface; leave `listen` out to \
+             take touches from this machine alone, or let a firewall admit only the machines that send them",
+            options.listen
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ports_that_others_can_reach_are_warned_of() {
+        let warned = |listen: &str, tuio: Option<u16>, websocket: Option<u16>| {
+            let listen = listen.parse().unwrap();
+            exposed(&TouchAsk { tuio, websocket, listen, ..TouchAsk::default() })
+        };
+        for listen in ["0.0.0.0", "192.0.2.7", "::", "2001:db8::7", "::ffff:192.0.2.7"] {
+            for (tuio, websocket) in [(Some(3333), None), (None, Some(8765)), (Some(3333), Some(8765))] {
+                let warning = warned(listen, tuio, websocket).unwrap();
+                assert!(warning.starts_with(&format!("warning: `listen` {listen}: ")), "{warning}");
+            }
+            assert_eq!(warned(listen, None, None), None, "no port is open at {listen}");
+        }
+        for listen in ["127.0.0.1", "127.8.0.1", "::1", "::ffff:127.0.0.1"] {
+            assert_eq!(warned(listen, Some(3333), Some(8765)), None, "{listen}");
+        }
     }
 }
