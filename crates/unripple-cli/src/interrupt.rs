@@ -1,9 +1,6 @@
 //! Handling of Ctrl+C and other signals that end the program, so that nothing unfinished is left behind.
 
 use crate::error::CliError;
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-use signal_hook::iterator::Signals;
-use signal_hook::low_level::emulate_default_handler;
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
 use std::sync::{Arc, OnceLock};
 
@@ -17,21 +14,53 @@ static FIRST: AtomicI32 = AtomicI32::new(0);
 /// then ends as the signal would have ended it, so that shells see status 128 and the signal's number. If a command uses [`wished`], the
 /// first signal only sets that flag.
 pub fn watch() -> Result<(), CliError> {
-    let wishes =
-        [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| *signal != SIGHUP || !is_ignored(SIGHUP));
-    let mut signals = Signals::new(wishes).map_err(CliError::work)?;
-    let watch = move || {
-        for signal in signals.forever() {
-            // The first one is a wish to stop; whoever sends another does not want to wait.
-            if let Some(wished) = WISHED.get().filter(|wished| !wished.load(Ordering::Relaxed)) {
+    each(|signal| {
+        // The first one is a wish to stop; whoever sends another does not want to wait.
+        match WISHED.get().filter(|wished| !wished.load(Ordering::Relaxed)) {
+            Some(wished) => {
                 FIRST.store(signal, Ordering::Relaxed);
                 wished.store(true, Ordering::Release);
-                continue;
             }
-            end(signal);
+            None => end(signal),
         }
-    };
-    std::thread::Builder::new().name("signals".into()).spawn(watch).map_err(CliError::work)?;
+    })
+}
+
+/// Calls `act` with each signal that is to end the program.
+#[cfg(unix)]
+fn each(act: impl FnMut(i32) + Send + 'static) -> Result<(), CliError> {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    let wishes =
+        [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| *signal != SIGHUP || !is_ignored(SIGHUP));
+    let mut signals = signal_hook::iterator::Signals::new(wishes).map_err(CliError::work)?;
+    beside(move || signals.forever().for_each(act))
+}
+
+/// How often a system that can only count signals is asked for them: too short a wait to be noticed.
+#[cfg(not(unix))]
+const LOOK: std::time::Duration = std::time::Duration::from_millis(50);
+
+/// Calls `act` with each signal that is to end the program.
+#[cfg(not(unix))]
+fn each(mut act: impl FnMut(i32) + Send + 'static) -> Result<(), CliError> {
+    use signal_hook::consts::{SIGINT, SIGTERM};
+    let came = Arc::new(std::sync::atomic::AtomicUsize::new(0));
+    for signal in [SIGINT, SIGTERM] {
+        signal_hook::flag::register_usize(signal, came.clone(), signal as usize).map_err(CliError::work)?;
+    }
+    beside(move || {
+        loop {
+            match came.swap(0, Ordering::Relaxed) {
+                0 => std::thread::sleep(LOOK),
+                signal => act(signal as i32),
+            }
+        }
+    })
+}
+
+/// Does `work` on a thread of its own, which nothing waits for.
+fn beside(work: impl FnOnce() + Send + 'static) -> Result<(), CliError> {
+    std::thread::Builder::new().name("signals".into()).spawn(work).map_err(CliError::work)?;
     Ok(())
 }
 
@@ -39,7 +68,8 @@ pub fn watch() -> Result<(), CliError> {
 fn end(signal: i32) -> ! {
     let _abandoned = unripple_store::abandon_all();
     unripple_devices::jack::shut();
-    let _ = emulate_default_handler(signal);
+    #[cfg(unix)]
+    let _ = signal_hook::low_level::emulate_default_handler(signal);
     std::process::exit(128 + signal);
 }
 
@@ -57,6 +87,7 @@ pub fn wished() -> Arc<AtomicBool> {
 }
 
 /// Whether whoever started this program wants it to go on without a terminal, as `nohup` does. Only Linux shows that.
+#[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

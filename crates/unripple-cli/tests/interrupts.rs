@@ -1,6 +1,7 @@
 //! Ctrl+C at any moment of any command: nothing is left that nobody asked for, nothing of anybody's is touched.
 //!
 //! `UNRIPPLE_INTERRUPTS` sets how often each command is interrupted, `UNRIPPLE_SEED` the moments.
+#![cfg(unix)]
 
 mod common;
 

@@ -3,7 +3,6 @@
 use crate::{Percentiles, Timeline};
 use assert_no_alloc::assert_no_alloc;
 use rtrb::Producer;
-use rustix::time::{ClockId, clock_gettime};
 use std::sync::Arc;
 use std::thread::Thread;
 use unripple_core::{Cycle, Work};
@@ -182,10 +181,21 @@ impl Work for Beats {
     }
 }
 
-/// Processor time of this thread, in s.
+/// Processor time of this thread, in s: what other threads take of the processor meanwhile is not the player's load.
+#[cfg(unix)]
 fn thread_time() -> f64 {
+    use rustix::time::{ClockId, clock_gettime};
     let time = clock_gettime(ClockId::ThreadCPUTime);
     time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
+}
+
+/// Time since the first call, in s, on systems without that clock: there, what interrupts this thread counts as well.
+#[cfg(not(unix))]
+fn thread_time() -> f64 {
+    use std::sync::OnceLock;
+    use std::time::Instant;
+    static FIRST: OnceLock<Instant> = OnceLock::new();
+    FIRST.get_or_init(Instant::now).elapsed().as_secs_f64()
 }
 
 #[cfg(test)]

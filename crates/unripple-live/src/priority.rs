@@ -1,9 +1,6 @@
 //! Real-time priorities of the threads, below the sound server's own.
 
-use thread_priority::{
-    RealtimeThreadSchedulePolicy, ThreadPriority, ThreadPriorityValue, ThreadSchedulePolicy,
-    set_thread_priority_and_policy, thread_native_id,
-};
+use thread_priority::{Error, ThreadPriority, ThreadPriorityValue};
 use unripple_core::Device;
 
 /// Real-time priority that is requested, of 1 to 99, where no server states that of its own threads. Above everything
@@ -12,6 +9,9 @@ const WANTED: u8 = 60;
 
 /// Real-time priority of the other threads in the same case. Far enough below the audio thread never to delay it.
 const BESIDE: u8 = 40;
+
+/// What a granted priority is called. Windows ranks the threads of ordinary programs among themselves, and has no policy of real time.
+const GRANTED: &str = if cfg!(unix) { "real time" } else { "among ordinary programs" };
 
 /// Real-time priorities, of 1 to 99, of the threads of live play. They are lower than that of a sound server's own
 /// thread.
@@ -65,12 +65,26 @@ pub(crate) fn at(priority: Option<u8>) -> Result<String, String> {
         return Ok("ordinary, as the server's own threads are".into());
     };
     let value = ThreadPriorityValue::try_from(priority).map_err(|e| e.to_string())?;
-    let policy = ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::Fifo);
-    let wanted = ThreadPriority::Crossplatform(value);
-    match set_thread_priority_and_policy(thread_native_id(), wanted, policy) {
-        Ok(()) => Ok(format!("real time, {priority} of 99")),
+    match request(ThreadPriority::Crossplatform(value)) {
+        Ok(()) => Ok(format!("{GRANTED}, {priority} of 99")),
         Err(error) => Err(format!(
             "ordinary: real time was refused ({error:?}); a line `@audio - rtprio 95` in /etc/security/limits.d allows it"
         )),
     }
+}
+
+/// Requests a priority for this thread under the real-time policy that runs it until it waits (FIFO).
+#[cfg(unix)]
+fn request(priority: ThreadPriority) -> Result<(), Error> {
+    use thread_priority::unix::{
+        RealtimeThreadSchedulePolicy, ThreadSchedulePolicy, set_thread_priority_and_policy, thread_native_id,
+    };
+    let policy = ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::Fifo);
+    set_thread_priority_and_policy(thread_native_id(), priority, policy)
+}
+
+/// Requests a priority for this thread among those of ordinary programs.
+#[cfg(not(unix))]
+fn request(priority: ThreadPriority) -> Result<(), Error> {
+    thread_priority::set_current_thread_priority(priority)
 }

@@ -138,9 +138,12 @@ fn what_somebody_put_into_a_folder_of_ours_is_kept() {
     fs::create_dir(place.join("lib")).unwrap();
     refuse("`lib`");
     fs::remove_dir(place.join("lib")).unwrap();
-    std::os::unix::fs::symlink("/", place.join("root")).unwrap();
-    refuse("`root`");
-    fs::remove_file(place.join("root")).unwrap();
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("/", place.join("root")).unwrap();
+        refuse("`root`");
+        fs::remove_file(place.join("root")).unwrap();
+    }
     fs::write(place.join("report.md"), b"# Rapport").unwrap();
     refuse("`report.md`");
     fs::remove_file(place.join("report.md")).unwrap();
@@ -183,6 +186,7 @@ fn folders_of_others_with_a_temporary_name_stay() {
     }
 }
 
+#[cfg(unix)]
 #[test]
 fn devices_and_links_are_not_replaced_by_files() {
     let scratch = Scratch::new("links");

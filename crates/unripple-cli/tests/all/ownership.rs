@@ -119,11 +119,14 @@ fn what_a_command_reads_is_never_replaced() {
         kept(&scratch, if option == "--path" { &arguments } else { &less }, 2, &["focus.svg", "read"]);
     }
     // Through a link, and by another way to the same folder.
-    std::os::unix::fs::symlink(&out, scratch.path().join("link")).unwrap();
-    let link = scratch.join("link");
-    kept(&scratch, &["field", &film, "--drive", &drive, "-o", &link], 2, &words);
-    let linked = scratch.join("link/drive.wav");
-    kept(&scratch, &["field", &film, "--drive", &linked, "-o", &format!("{out}/")], 2, &words);
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink(&out, scratch.path().join("link")).unwrap();
+        let link = scratch.join("link");
+        kept(&scratch, &["field", &film, "--drive", &drive, "-o", &link], 2, &words);
+        let linked = scratch.join("link/drive.wav");
+        kept(&scratch, &["field", &film, "--drive", &linked, "-o", &format!("{out}/")], 2, &words);
+    }
 }
 
 #[test]
@@ -220,6 +223,7 @@ fn two_outputs_are_two_files() {
     );
 }
 
+#[cfg(unix)]
 #[test]
 fn two_outputs_by_two_ways_to_one_place_are_one() {
     let scratch = Scratch::new("one-place");
@@ -250,6 +254,7 @@ fn a_drive_that_cannot_be_kept_is_refused_before_anything_is_made() {
     }
 }
 
+#[cfg(unix)]
 #[test]
 fn a_place_that_is_taken_is_refused_before_drives_are_prepared() {
     let scratch = Scratch::new("taken");

@@ -56,10 +56,23 @@ impl Screen {
         Self::new(found.name, Box::new(found.kernel), found.axes, found.pressure, options)
     }
 
+    /// Refuses the device file: screens are read on Linux alone.
+    #[cfg(not(target_os = "linux"))]
+    pub fn open(path: &std::path::Path, _: Options) -> Result<Self, TouchError> {
+        let what = "screens are read on Linux alone; send its touches over TUIO, OSC or WebSocket".to_owned();
+        Err(TouchError::Screen { device: path.display().to_string(), what })
+    }
+
     /// The multi-touch screens that this user may read: device files and names.
     #[cfg(target_os = "linux")]
     pub fn list() -> Vec<(std::path::PathBuf, String)> {
         super::linux::list()
+    }
+
+    /// No screens: they are read on Linux alone.
+    #[cfg(not(target_os = "linux"))]
+    pub fn list() -> Vec<(std::path::PathBuf, String)> {
+        Vec::new()
     }
 
     fn take(&mut self, heard: &mut Heard) {

@@ -152,7 +152,6 @@ fn impossible_events_do_no_harm() {
     assert!(Screen::new("flat", Box::new(Tape::default()), (flat, flat), None, options()).is_err());
 }
 
-#[cfg(target_os = "linux")]
 #[test]
 fn what_is_no_screen_is_refused() {
     for path in ["/dev/null", "/no/such/device"] {
