@@ -28,7 +28,7 @@ pub use view::ViewOptions;
 ///
 /// SURFACE is a TOML file or the name of a built-in surface, such as hudin-2012. LIBRARY is a folder of responses.
 #[derive(Debug, Parser)]
-#[command(version = version(), propagate_version = true, after_help = EXITS)]
+#[command(name = "unripple", version = version(), propagate_version = true, after_help = EXITS)]
 pub struct Arguments {
     /// Print the report as one JSON object (SI units) on standard output, everything else on standard error.
     #[arg(long, global = true, help_heading = heading::EVERY)]
