@@ -17,6 +17,7 @@ mod export;
 mod figures;
 mod fit;
 mod judged;
+mod keys;
 mod level;
 mod library;
 mod main_job;

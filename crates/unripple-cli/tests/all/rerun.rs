@@ -80,7 +80,9 @@ fn run_in(folder: &Path, threads: &str, arguments: &[&str]) -> Value {
         .unwrap();
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{arguments:?}: {errors}");
-    serde_json::from_slice(&output.stdout).unwrap()
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    common::hold(arguments, &report);
+    report
 }
 
 /// Commands that compute, as typed in a folder with film.toml, tone.wav, mark.svg, drive.wav and the library `lib`; OUT stands for where

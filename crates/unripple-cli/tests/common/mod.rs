@@ -1,6 +1,8 @@
 //! Running the binary as a user would.
 #![allow(dead_code)] // Each test file uses its own part of this.
 
+pub mod guide;
+
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -54,8 +56,21 @@ pub fn program() -> Command {
     program
 }
 
+/// A run of the program; a report that it prints as JSON is [held](hold) to what is published of reports.
 pub fn run(arguments: &[&str]) -> Output {
-    program().args(arguments).output().unwrap()
+    let output = program().args(arguments).output().unwrap();
+    if arguments.contains(&"--json")
+        && let Ok(report) = serde_json::from_slice(&output.stdout)
+    {
+        hold(arguments, &report);
+    }
+    output
+}
+
+/// Fails unless the guide defines every key of a report.
+pub fn hold(arguments: &[&str], report: &Value) {
+    let undefined = guide::undefined(report);
+    assert!(undefined.is_empty(), "{arguments:?}: {undefined:?} are not defined in docs/json.md");
 }
 
 /// Standard output of a run that must succeed, as JSON.
