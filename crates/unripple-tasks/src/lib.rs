@@ -72,6 +72,6 @@ pub use names::{interpolation, method};
 pub use place::{Place, point};
 pub use progress::{Progress, Silent, go_on};
 pub use record::Record;
-pub use report::Report;
+pub use report::{REPORT_SCHEMA, Report};
 pub use source::Source;
 pub use surface::SurfaceAsk;

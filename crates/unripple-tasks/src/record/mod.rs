@@ -2,6 +2,7 @@
 
 mod hash;
 
+use crate::report::SCHEMA_NAME;
 use crate::{SurfaceAsk, TaskError, source};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -75,6 +76,9 @@ pub struct FileRead {
 /// How a report was made: the program, the ask with the text of its surfaces, and what was read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Record {
+    /// Name of the JSON schema that the report holds to; empty where an earlier program did not say it.
+    #[serde(default)]
+    pub schema: String,
     /// Name of the program.
     pub program: String,
     /// Version of the program.
@@ -156,6 +160,7 @@ impl Record {
             Ok(())
         })?;
         Ok(Self {
+            schema: SCHEMA_NAME.into(),
             program: "unripple".into(),
             version: env!("CARGO_PKG_VERSION").into(),
             commit: COMMIT.get().filter(|commit| !commit.is_empty()).map(|commit| (*commit).to_owned()),
