@@ -26,6 +26,7 @@ mod ownership;
 mod python;
 mod recordings;
 mod refusal;
+mod report_schema;
 mod reproduce;
 mod rerun;
 mod short_drives;

@@ -201,6 +201,11 @@ fn the_report_in_the_folder_repeats_the_run() {
         serde_json::from_slice(&std::fs::read(format!("{again}/report.json")).unwrap()).unwrap();
     assert_eq!(after["run"]["ask"]["surface"], run["ask"]["surface"]);
     assert!(common::run(&["rerun", &format!("{again}/report.json")]).status.success());
+    // So does the report of a program that did not say which schema it holds to.
+    let mut older = before.clone();
+    assert_eq!(older["run"].as_object_mut().unwrap().remove("schema"), Some("report-1".into()));
+    let older = scratch.file("older.json", older.to_string());
+    assert!(common::run(&["rerun", &older]).status.success());
 }
 
 #[test]

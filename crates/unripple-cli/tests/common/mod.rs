@@ -2,6 +2,7 @@
 #![allow(dead_code)] // Each test file uses its own part of this.
 
 pub mod guide;
+pub mod schema;
 
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -67,10 +68,12 @@ pub fn run(arguments: &[&str]) -> Output {
     output
 }
 
-/// Fails unless the guide defines every key of a report.
+/// Fails unless the guide defines every key of a report, and the schema allows all of it.
 pub fn hold(arguments: &[&str], report: &Value) {
     let undefined = guide::undefined(report);
     assert!(undefined.is_empty(), "{arguments:?}: {undefined:?} are not defined in docs/json.md");
+    let faults = schema::faults(report);
+    assert!(faults.is_empty(), "{arguments:?}: not as report-1.json describes: {faults:#?}");
 }
 
 /// Standard output of a run that must succeed, as JSON.
