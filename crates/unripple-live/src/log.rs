@@ -101,3 +101,65 @@ impl Log {
         std::mem::take(&mut self.began).into()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use unripple_player::Voice;
+
+    /// Names and drives beyond the bound.
+    const MORE: u64 = 5;
+
+    /// Sends the start of a drive under a name, once or repeated.
+    fn send(log: &mut Log, name: u64, period: Option<f64>) {
+        let drive = Arc::new(Prepared::new(1, vec![0.5]).unwrap());
+        log.send(&Command::Start { voice: Voice(name), drive, at: At::Now, gain: 1.0, period }, 0);
+    }
+
+    /// Samples at which drives began since this was last asked.
+    fn began(log: &mut Log) -> Vec<u64> {
+        log.take().iter().map(|began| began.sample).collect()
+    }
+
+    fn start(log: &mut Log, name: u64) {
+        log.hear(&Report::Started { voice: Voice(name), sample: name, gain: 1.0 });
+    }
+
+    #[test]
+    fn the_newest_drives_are_kept() {
+        let (mut log, last) = (Log::default(), MOST as u64 + MORE);
+        for name in 0..last {
+            send(&mut log, name, None);
+            start(&mut log, name);
+        }
+        assert_eq!(log.playing.len(), 0, "what is played once is over for the log when it begins");
+        assert_eq!(began(&mut log), (MORE..last).collect::<Vec<_>>());
+        assert!(began(&mut log).is_empty());
+    }
+
+    #[test]
+    fn the_newest_names_are_kept() {
+        let (mut log, last) = (Log::default(), MOST as u64 + MORE);
+        (0..last).for_each(|name| send(&mut log, name, Some(64.0)));
+        assert_eq!(log.playing.len(), MOST);
+        (0..last).for_each(|name| start(&mut log, name));
+        assert_eq!(began(&mut log), (MORE..last).collect::<Vec<_>>());
+        // Only what is repeated may begin again, and a name that has ended may not.
+        log.hear(&Report::Ended { voice: Voice(MORE), sample: last });
+        (0..last).for_each(|name| start(&mut log, name));
+        assert_eq!(began(&mut log), (MORE + 1..last).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn what_is_repeated_outlives_lost_reports() {
+        let mut log = Log::default();
+        send(&mut log, 1, None);
+        send(&mut log, 2, Some(64.0));
+        log.miss();
+        [1, 2].into_iter().for_each(|name| start(&mut log, name));
+        assert_eq!(began(&mut log), [2]);
+        log.forget(2);
+        start(&mut log, 2);
+        assert!(began(&mut log).is_empty());
+    }
+}

@@ -21,6 +21,7 @@ mod keys;
 mod level;
 mod library;
 mod main_job;
+mod no_figures;
 mod ownership;
 #[path = "../../../unripple-core/tests/shared/python.rs"]
 mod python;

@@ -333,3 +333,20 @@ impl crate::Report for Report {
         text
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Report;
+    use crate::Report as _;
+
+    #[test]
+    fn only_a_virtual_surface_says_what_is_felt() {
+        let unknown = "\nfelt: unknown, since only a virtual surface can simulate it\n";
+        let text = Report::default().text();
+        assert!(text.contains(unknown), "{text}");
+        let text = Report { tells_feelings: true, ..Report::default() }.text();
+        assert!(text.contains("\nfelt: - dB above threshold (largest -), contrast -\n"), "{text}");
+        let report = Report { tells_feelings: true, without_scale: true, ..Report::default() };
+        assert!(report.text().contains("\nfelt: level unknown, contrast -\n"), "{}", report.text());
+    }
+}
