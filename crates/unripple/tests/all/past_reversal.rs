@@ -4,7 +4,9 @@
 use crate::bench;
 
 use bench::*;
-use unripple::focus::{Method, Options, Target};
+use unripple::core::Point;
+use unripple::field::{Aim, Field};
+use unripple::focus::{Focuser, Method, Options, Target};
 use unripple::physics::design::papers_surface;
 use unripple_paper::study::Random;
 
@@ -97,7 +99,7 @@ fn repetition_at_the_decay_time() {
     let (comb, periodic) = (plan(Method::TimeReversal), plan(Method::Concentrate));
     let (mut ratios, mut costs) = (Vec::new(), Vec::new());
     for at in few(5) {
-        let judge = |plan: &unripple::focus::Focuser| {
+        let judge = |plan: &Focuser| {
             let focused = plan.focus(&[Target::at(at).repeated(1.0 / 0.070)]).unwrap();
             let drive = focused.drive.as_emitted();
             let instant = focused.timing[0].instant as f64 / drive.rate();
@@ -110,4 +112,56 @@ fn repetition_at_the_decay_time() {
     let [ratio, cost] = [&ratios, &costs].map(|values| spread(values));
     println!("repeated every 70 ms: ratio {ratio:.2?}, energy {cost:.2?}");
     assert!(ratio[0] >= 4.0 && cost[0] <= 1.0);
+}
+
+/// A focus, its background contrast and worst spot, and contrast, background and worst spot as felt, in dB.
+fn told(bench: &Bench, plan: &Focuser, at: Point) -> (Focus, [f64; 5]) {
+    let focused = plan.focus(&[Target::at(at)]).unwrap();
+    let drive = focused.drive.as_emitted();
+    let instant = focused.timing[0].instant as f64 / drive.rate();
+    let field = Field::new(&bench.plant, &drive, 8.0).unwrap();
+    let measured = field.measure(&[Aim::at(at, instant)], None).unwrap();
+    let figures = &measured.targets[0];
+    let (peak, contrast) = (figures.peak_velocity_m_s, figures.contrast.unwrap());
+    let more = [
+        figures.background_contrast,
+        figures.worst_spot,
+        figures.felt_contrast_db,
+        figures.felt_background_db,
+        figures.felt_worst_spot_db,
+    ];
+    (Focus { peak, contrast, energy: measured.drive.energy }, more.map(Option::unwrap))
+}
+
+/// The rows of the table of methods in docs/methods.md: means over targets.
+#[test]
+fn every_method_by_every_figure() {
+    let bench = Bench::new();
+    let pushed = |push| Options { push, ..Options::default() };
+    let mut plans = Vec::from(Method::ALL.map(|method| (method.name(), bench.plan(method, pushed(0.55)))));
+    plans.push(("limited, push 0.75", bench.plan(Method::Limited, pushed(0.75))));
+    let places = few(1);
+    let all: Vec<Vec<(Focus, [f64; 5])>> =
+        plans.iter().map(|(_, plan)| places.iter().map(|at| told(&bench, plan, *at)).collect()).collect();
+    let mut rows = Vec::new();
+    for ((name, _), own) in plans.iter().zip(&all) {
+        let mean = |figure: &dyn Fn(usize) -> f64| {
+            let each: Vec<f64> = (0..places.len()).map(figure).collect();
+            spread(&each)[0]
+        };
+        let reversal = |i: usize| &all[0][i].0;
+        let [background, worst, felt_contrast, felt_background, felt_worst] =
+            [0, 1, 2, 3, 4].map(|k| mean(&|i| own[i].1[k]));
+        let contrast = mean(&|i| own[i].0.contrast);
+        let energy = mean(&|i| own[i].0.cost(reversal(i)));
+        let peak = mean(&|i| (own[i].0.peak / reversal(i).peak).abs());
+        println!(
+            "{name}: contrast {contrast:.1}, background {background:.1}, worst spot {worst:.2}, energy {energy:.2}, peak {peak:.2}; felt \
+             contrast {felt_contrast:.1} dB, background {felt_background:.1} dB, worst spot {felt_worst:.1} dB"
+        );
+        rows.push([contrast, peak, felt_background, felt_worst]);
+    }
+    let [reversal, hard, _, concentrate, _, _, felt, _] = rows[..] else { panic!("{} methods", rows.len()) };
+    assert!(concentrate[0] >= 3.5 * reversal[0] && hard[1] >= 2.0);
+    assert!(felt[2] >= reversal[2] + 4.0 && felt[3] >= reversal[3] + 3.0);
 }
