@@ -1,5 +1,8 @@
 //! Tests of unripple-cli that share one program: a file a kind of truth. What needs a process of its own is beside it.
 
+mod any_command;
+#[path = "../../../unripple-tasks/tests/any_surface/file.rs"]
+mod any_file;
 #[path = "../common/bench.rs"]
 mod bench;
 mod bounds;
