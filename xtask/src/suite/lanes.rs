@@ -16,6 +16,7 @@ const CROWD: &str = "it opens as many connections as the machine grants";
 #[rustfmt::skip]
 pub const ALONE: &[Alone] = &[
     ("unripple-cli", "interrupts", CLOCK),
+    ("unripple-cli", "sitting", REGISTRY),
     ("unripple-devices", "jack_server", REGISTRY),
     ("unripple-viewer", "crowds", CROWD),
     ("unripple-cli", "jack_lock", REGISTRY),

@@ -14,6 +14,8 @@ pub const NONE: &str = "there is no jackd here (Debian: apt install jackd2)";
 pub struct Server {
     child: Child,
     pub name: String,
+    /// Samples in a cycle, as it was started.
+    pub period: usize,
 }
 
 impl Server {
@@ -43,7 +45,7 @@ impl Server {
             .stderr(Stdio::null())
             .spawn()
             .ok()?;
-        Some(Self { child, name: name.to_owned() })
+        Some(Self { child, name: name.to_owned(), period })
     }
 
     /// Lets the server stand still, as on a machine that is overloaded, or go on.
@@ -75,6 +77,13 @@ impl Server {
             let _ = Command::new("kill").args(["-CONT", &self.child.id().to_string()]).status();
             let _ = self.child.wait();
         }
+    }
+
+    /// Ends the server as a crash does: it tells nobody.
+    pub fn crash(&mut self) {
+        // One that has ended cannot be ended.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
     }
 
     /// Runs a device as a client of the server, as soon as that answers.
