@@ -80,7 +80,8 @@ impl Default for Perturbation {
     }
 }
 
-/// The true surface behind a surface file, with the gains of its channels and its noise.
+/// The surface that a virtual device simulates: the nominal one of a surface file with perturbations, and with the gains of its channels
+/// and its noise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truth {
     /// The true surface, with the true places of actuators and masses.
@@ -96,7 +97,7 @@ pub struct Truth {
 }
 
 impl Perturbation {
-    /// Draws the true surface behind a surface file.
+    /// Draws the perturbations of a nominal surface at random, and returns the true surface with them.
     ///
     /// # Errors
     /// [`DevicesError::Range`] for shares, distances, masses or factors out of range.

@@ -22,9 +22,9 @@ const FIRST: [f64; 5] = [1.0 / 12.0, -8.0 / 12.0, 0.0, 8.0 / 12.0, -1.0 / 12.0];
 const SECOND: [f64; 5] = [-1.0 / 12.0, 16.0 / 12.0, -30.0 / 12.0, 16.0 / 12.0, -1.0 / 12.0];
 
 impl Steepness {
-    /// The largest values over the snapshots at the extremes of displacement, by finite differences on the grid: within
-    /// about 1 % for waves of eight cells. `None` for sampled responses, which are on no grid. Cells within two of the
-    /// edge are left out.
+    /// Slope, mean square slope and curvature, each the largest over the snapshots in which the displacement of a target peaks. They are
+    /// computed by finite differences on the grid, with an error of about 1 % at a wavelength of eight cells. `None` for sampled
+    /// responses, which have no grid. Cells whose stencil of 5 x 5 cells reaches beyond the edge are left out.
     pub fn of(maps: &Maps) -> Option<Self> {
         let each = maps.at_displacement_peak.iter().map(|snapshot| one(maps, snapshot));
         let worst = |a: Self, b: Self| Self {

@@ -92,14 +92,15 @@ impl Inputs {
         self.leaving.is_empty() && self.free.iter().all(|free| *free)
     }
 
-    /// Returns an input that no waveform uses any more.
+    /// Frees an input that no waveform uses any more.
     pub fn give(&mut self, input: usize) {
         if let Some(free) = self.free.get_mut(input) {
             *free = true;
         }
     }
 
-    /// Returns an input, by its number, once the stopped waveform through it is over.
+    /// Notes that the waveform through an input, given by its number, was stopped: [`Self::settle`] frees the input once the waveform's
+    /// handle `hold` reports that it is over.
     pub fn leave(&mut self, input: usize, hold: Hold) {
         self.leaving.push((input, hold));
     }

@@ -79,7 +79,7 @@ impl OutputDir {
         self.building.path()
     }
 
-    /// Path that the folder gets in the end.
+    /// Path of the destination, where [`OutputDir::commit`] puts the finished folder.
     pub fn place(&self) -> &Path {
         &self.place
     }

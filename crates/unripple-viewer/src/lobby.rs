@@ -48,7 +48,7 @@ pub struct Seat {
 }
 
 impl Lobby {
-    /// Adds a connection from an address, and closes another if there are too many.
+    /// Adds a connection from an address. If there are too many that have not been admitted, the oldest of that address or of all is closed.
     pub fn enter(self: &Arc<Self>, address: IpAddr) -> Seat {
         let (network, cut) = (network(address), Arc::new(Notify::new()));
         let mut seats = lock(&self.seats);

@@ -10,12 +10,13 @@ use crate::CalibrateError;
 use rayon::prelude::*;
 use unripple_linalg::{Mat, c64};
 
-/// Model less measurement, in standard deviations of the noise, and its derivatives by the unknowns in units of their spreads.
+/// Model less measurement, in standard deviations of the noise, and its derivatives by the unknowns, each in standard deviations
+/// of its prior.
 #[derive(Clone, Debug)]
 pub(super) struct Residual {
     /// Model less measurement, whitened: in standard deviations of the noise.
     pub values: Vec<f64>,
-    /// Derivatives of `values` by the unknowns in units of their spreads, values x unknowns; empty unless asked for.
+    /// Derivatives of `values` by the unknowns, each in standard deviations of its prior: values x unknowns; empty unless asked for.
     pub slopes: Mat<f64>,
     /// Number of independent real data, before the number of unknowns is subtracted.
     pub data: f64,

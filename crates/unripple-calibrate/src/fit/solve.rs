@@ -104,7 +104,7 @@ impl Case<'_> {
         (system, downhill)
     }
 
-    /// Variances of the unknowns in units of the squares of their spreads.
+    /// Variances of the fitted unknowns, each as a share (at most 1) of the variance of the unknown's prior.
     ///
     /// The largest of three estimates counts: from the noise, as if the residual were white; from the scatter between responses; and
     /// from the scatter between frequencies. The latter two are H⁻¹ (Σ g_b g_bᵀ) H⁻¹, with H the normal matrix and g_b = J_bᵀ r_b the

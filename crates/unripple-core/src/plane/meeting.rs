@@ -52,7 +52,7 @@ pub fn within(sides: &[Side]) -> Option<Met> {
     }
 }
 
-/// For each pair of rims that meet (also of a rim with itself): two sides that meet, numbered through all rims, and the place.
+/// For each pair of rims that meet (also of a rim with itself): the indices of two sides that meet, counted over all rims, and the place.
 pub(super) type Meetings = BTreeMap<[usize; 2], ([usize; 2], Point)>;
 
 /// The search exceeded one of the limits above.
@@ -105,7 +105,7 @@ impl Search<'_> {
         self.work.is_done() || self.found.len() > MOST_MEETINGS
     }
 
-    /// Notes that two sides, counted through all rims, meet at a place.
+    /// Notes that two sides, given by their indices over all rims, meet at a place.
     fn add(&mut self, one: usize, other: usize, at: Point) {
         let sides = [one.min(other), one.max(other)];
         let pair = sides.map(|side| self.rims.rim_of(side));

@@ -17,7 +17,7 @@ const DEEPEST: u32 = 24;
 /// A short piece of a side, which lies within `sagitta` of its chord.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece {
-    /// Index of its side, numbered through all rims.
+    /// Index of the side that it is a piece of, counted over all rims.
     pub side: usize,
     /// Curve parameters of the side at the start and the end of the piece, each 0 to 1.
     pub span: [f64; 2],
@@ -30,7 +30,7 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// The piece of a side between two parameters (0 to 1); `index` is the index of the side, numbered through all rims.
+    /// The piece of a side between two parameters (0 to 1); `index` is the index of the side, counted over all rims.
     pub fn new(side: &Side, index: usize, span: [f64; 2]) -> Self {
         let ends = span.map(|t| side.at(t));
         let (sagitta, turn) = match *side {
@@ -92,7 +92,7 @@ fn hull(side: &Side, span: [f64; 2], ends: [Point; 2]) -> (f64, f64) {
     (inner.iter().map(|p| from_segment(*p, ends[0], ends[1])).fold(0.0, f64::max), turn)
 }
 
-/// A side cut into pieces whose tangents each turn by at most 0.1 rad; `index` is the index of the side, numbered through all rims.
+/// A side cut into pieces whose tangents each turn by at most 0.1 rad; `index` is the index of the side, counted over all rims.
 pub fn pieces(side: &Side, index: usize) -> Vec<Piece> {
     match *side {
         Side::Line { .. } => vec![Piece::new(side, index, [0.0, 1.0])],

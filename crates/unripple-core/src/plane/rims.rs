@@ -9,7 +9,7 @@ use std::ops::Range;
 
 /// All rims (closed boundary curves) of an outline: the outer one and those of the holes, with the sheet to their left.
 ///
-/// Sides and pieces are numbered through all rims, in order.
+/// Sides and pieces are numbered consecutively over all rims, in order.
 #[derive(Clone, Debug)]
 pub struct Rims {
     /// All sides and their edge conditions, rim by rim.

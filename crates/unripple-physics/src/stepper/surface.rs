@@ -31,7 +31,7 @@ pub struct Snapshot {
 /// Motion of a finger on a running surface, with the force on it and the power into it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FingerMotion {
-    /// Factor of the fade, 0 to 1: 0 when the finger is just put down, 1 when it is fully in contact.
+    /// Factor of the finger's coupling to the sheet: rises smoothly from 0, when the finger is just put down, to 1 in full contact.
     pub grip: f64,
     /// Force on the finger over the next step, in N.
     pub force: f64,

@@ -46,7 +46,7 @@ impl Touch {
         self.lifted && self.coming <= 0.0
     }
 
-    /// Factor of the fade, 0 to 1: a function of the progress with two continuous derivatives.
+    /// Factor of the finger's coupling to the sheet, 0 to 1: a function of the fade's progress with two continuous derivatives.
     #[inline(always)]
     pub(super) fn grip(&self) -> f64 {
         let x = self.coming;

@@ -85,7 +85,7 @@ impl Header {
         self.message(LINK, &body.u64(address).0)
     }
 
-    /// Makes the object a dataset, whose values are together at an address.
+    /// Makes the object a dataset with contiguous storage: its values lie one after another, from byte `address` of the file on.
     pub fn dataset(self, kind: Kind, shape: &[u64], address: u64) -> Self {
         let size = shape.iter().product::<u64>() * kind.size();
         let layout = Bytes::default().u8(3).u8(1).u64(address).u64(size);

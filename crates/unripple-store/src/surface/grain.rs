@@ -51,7 +51,10 @@ fn bounded(section: &Section, stuff: &MaterialProperties, across: f64, faults: &
     if stuff.young < of::GRAIN_YOUNG.least * 1e9 {
         let span = section.get("young_gpa").map_or(section.span.clone(), |entry| entry.span);
         let found = format!("{} GPa", of::YOUNG.text(stuff.young));
-        let expected = format!("{}: a sheet with grain needs stiffness along it", of::GRAIN_YOUNG.expected());
+        let expected = format!(
+            "{}: a sheet with grain needs a Young's modulus along the grain",
+            of::GRAIN_YOUNG.expected()
+        );
         let nearest = of::GRAIN_YOUNG.nearest(0.0);
         faults.add(&format!("{}.young_gpa", section.key), span, found, expected, nearest);
         return None;

@@ -93,7 +93,7 @@ fn arc(item: &Entry, faults: &mut Faults) -> Option<Side> {
     let sweep = entry.and_then(|entry| {
         let sweep = entry.number(&of::SWEEP, faults)?;
         if sweep == 0.0 {
-            entry.refuse("another number than 0: positive anticlockwise, negative clockwise", None, faults);
+            entry.refuse("a number other than 0: positive anticlockwise, negative clockwise", None, faults);
         }
         (sweep != 0.0).then_some(sweep)
     });

@@ -107,7 +107,7 @@ fn paths() {
         ),
         (
             "{ centre_mm = [60, 0], radius_mm = 60, start_deg = 180, sweep_deg = 0 }",
-            "expected another number than 0",
+            "expected a number other than 0",
         ),
         ("{ centre_mm = [60, 0], radius_mm = 60, start_deg = 900, sweep_deg = 9 }", "(nearest: 720)"),
         ("[[0, 0], [0, 0]]", "expected a side with a length"),

@@ -5,7 +5,8 @@ use crate::TaskError;
 use crate::grid;
 use unripple::core::{Point, Surface};
 
-/// The points of a grid, then single points, then the actuators' own places, which their own sensors measure.
+/// The points at which responses are measured: those of a grid, then single points, then the positions of the actuators, where the
+/// actuators' sensors measure.
 #[derive(Clone, Debug, Default)]
 pub struct Places {
     /// All points, the actuators' own last, in m.

@@ -20,7 +20,7 @@ pub struct LineAsk {
     pub closed: bool,
 }
 
-/// A shape or a path.
+/// A shape as it is requested: as a target, or as the path of a moving focus.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum ShapeAsk {

@@ -13,7 +13,7 @@ pub(super) enum Verdict {
     Next,
     /// A later frame was accepted already.
     Late,
-    /// Its sender counts from the beginning again.
+    /// The sender has restarted: its frame numbers begin anew.
     Restart,
 }
 

@@ -37,7 +37,7 @@ pub(super) struct Slot {
     lost: bool,
 }
 
-/// State of a screen's report after an event.
+/// State of a touch screen's report, the group of events up to a `SYN_REPORT`, after one of its events.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Report {
     /// The report is not complete.
