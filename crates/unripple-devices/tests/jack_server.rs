@@ -50,7 +50,7 @@ fn bridge(server: &Server) -> Result<Bridge, DevicesError> {
     let layout = Layout {
         device: "loop".into(),
         rate: 48e3,
-        block: PERIOD,
+        block: server.period,
         outputs: names(3),
         inputs: names(3),
         full_scale: 1.0,
@@ -105,8 +105,32 @@ fn samples_pass_a_real_server_unchanged_and_latency_stays() {
     lost(&mut server, device);
 }
 
-/// Too few channels, ports that there are not, and a device of another block.
+#[test]
+fn blocks_of_any_length_pass_a_server_of_any_period() {
+    let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    for period in [64, PERIOD, 1024] {
+        let Some(server) = Server::start(period) else {
+            return skip(common::server::NONE);
+        };
+        let bridge = bridge(&server).unwrap();
+        let client = JackOptions { freewheel: true, ..options(&server, Links::Client(bridge.name())) };
+        let mut behind = Vec::new();
+        for block in [48, 64, PERIOD, 441, 1024] {
+            let mut device = Jack::open(&JackOptions { block: Some(block), ..client.clone() }).unwrap();
+            let waiting = device.status().waiting as usize;
+            behind.extend([(); 2].map(|()| latency(&mut device) - waiting));
+            assert!(waiting >= 2 * block.max(period), "{period} {block}: {waiting}");
+            assert_eq!((device.layout().block, device.status().lost), (block, 0));
+        }
+        // What lies behind the ports takes as long whatever the blocks.
+        assert!(behind.iter().all(|late| *late == behind[0]), "{period}: {behind:?}");
+    }
+}
+
+/// No samples in a block, too few channels, and ports that there are not.
 fn refusals(server: &Server) {
+    let none = Jack::open(&JackOptions { block: Some(0), ..options(server, Links::None) }).unwrap_err();
+    assert!(none.to_string().contains("samples of a block: expected 1 to 65536, found 0"), "{none}");
     let refused = |links| Jack::open(&options(server, links)).unwrap_err().to_string();
     let few = refused(Links::System);
     assert!(few.contains("expected at least 3 playback ports, found 2; start the server on"), "{few}");

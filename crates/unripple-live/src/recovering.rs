@@ -17,7 +17,8 @@ const LONGEST_WAIT: Duration = Duration::from_secs(4);
 /// given; then the device stays lost. Meanwhile each block takes its normal duration, so that the caller needs no
 /// special case. A device that returns with other channels or another rate is refused. So is one with another block
 /// length, unless it [calls](Device::employ) its work by itself; meanwhile that work is called here, at the normal
-/// pace.
+/// pace. A sound server may return with another period, so its opener asks for the first device's block length each
+/// time after ([`JackOptions::block`](unripple_devices::JackOptions::block)).
 ///
 /// ```
 /// use unripple_core::*;

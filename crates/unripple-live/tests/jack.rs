@@ -1,5 +1,5 @@
 //! A film that is played through a real JACK server with its dummy driver: freewheeling, nothing is lost; killed and started again,
-//! it is found again.
+//! it is found again, and with another period it gets blocks as before.
 //!
 //! Needs `jackd` and libjack (Debian: jackd2). Without them the tests are skipped, and fail in CI.
 
@@ -57,11 +57,11 @@ fn names() -> Vec<String> {
     FILM.actuators.iter().map(|actuator| actuator.name.clone()).collect()
 }
 
-fn listening(ear: &Ear) -> Box<dyn Device> {
+fn listening(ear: &Ear, block: usize) -> Box<dyn Device> {
     let layout = Layout {
         device: "ear".into(),
         rate: RATE,
-        block: PERIOD,
+        block,
         outputs: names(),
         inputs: names(),
         full_scale: 1.0,
@@ -99,7 +99,7 @@ fn freewheeling_nothing_is_lost() {
         return skip(server::NONE);
     };
     let ear = Ear::default();
-    let bridge = server.bridge("ear", || listening(&ear)).unwrap();
+    let bridge = server.bridge("ear", || listening(&ear, PERIOD)).unwrap();
     let device = Jack::open(&options(&server.name, true)).unwrap();
     let mut engine = with_device(&one(grains(), Level::Share(0.2)), sources(fingers(10)), Box::new(device));
     let began = ear.blocks.load(Relaxed);
@@ -126,7 +126,7 @@ fn a_server_that_was_killed_is_found_again() {
     };
     let name = server.name.clone();
     let ear = Ear::default();
-    let bridge = server.bridge("ear", || listening(&ear)).unwrap();
+    let bridge = server.bridge("ear", || listening(&ear, PERIOD)).unwrap();
     let known = options(&name, false);
     let open = move || {
         let opened = Jack::open(&known).map(|device| Box::new(device) as Box<dyn Device>);
@@ -149,7 +149,7 @@ fn a_server_that_was_killed_is_found_again() {
             } else if server.is_none() && pulse.state != State::Running {
                 away = true;
                 server = Server::named(&name, PERIOD);
-                bridge = Some(server.as_ref().unwrap().bridge("ear", || listening(&ear)).unwrap());
+                bridge = Some(server.as_ref().unwrap().bridge("ear", || listening(&ear, PERIOD)).unwrap());
                 ear.peak.store(0, Relaxed);
             } else if away && peak > 0.0 {
                 return false;
@@ -161,4 +161,50 @@ fn a_server_that_was_killed_is_found_again() {
     println!("peak {before} before, {after} after, back within {:.1?}", start.elapsed());
     assert!(away && before > 0.01 && after > 0.01);
     assert_eq!(engine.heart().device().status().state, State::Running);
+}
+
+/// A device that opens again in the blocks that it had at first.
+fn in_same_blocks(server: &str) -> Recovering {
+    let mut known = options(server, false);
+    let open = move || -> Result<Box<dyn Device>, String> {
+        let device = Jack::open(&known).map_err(|error| error.to_string())?;
+        known.block = Some(device.layout().block);
+        Ok(Box::new(device))
+    };
+    Recovering::open(Box::new(open), 1000).unwrap()
+}
+
+/// Exchanges blocks until a device is as wanted.
+fn pass(device: &mut Recovering, wanted: impl Fn(&Recovering) -> bool) {
+    let samples = names().len() * device.layout().block;
+    let (drive, mut heard, start) = (vec![0.5; samples], vec![0.0; samples], Instant::now());
+    while !wanted(device) {
+        assert!(start.elapsed() < Duration::from_secs(60), "{:?}", device.status());
+        device.exchange(&drive, &mut heard).unwrap();
+    }
+}
+
+#[test]
+fn a_server_that_comes_back_with_another_period_gets_the_same_blocks() {
+    let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let name = format!("unripple-periods-{}", std::process::id());
+    let (ear, mut device) = (Ear::default(), None);
+    for (returns, period) in (0..).zip([PERIOD, 1024, 64, PERIOD]) {
+        let Some(server) = Server::named(&name, period) else {
+            return skip(server::NONE);
+        };
+        let bridge = server.bridge("ear", || listening(&ear, period)).unwrap();
+        let device = device.get_or_insert_with(|| in_same_blocks(&name));
+        pass(device, |_| f32::from_bits(ear.peak.load(Relaxed)) == 0.5);
+        let status = device.status();
+        assert_eq!((device.returns(), device.layout().block), (returns, PERIOD));
+        assert_eq!((status.state, status.server.map(|server| server.period)), (State::Running, Some(period)));
+        // Two periods of drive wait, or two blocks: as few as before once the old period is back.
+        assert_eq!(status.waiting as usize, 2 * period.max(PERIOD));
+        drop(server);
+        drop(bridge);
+        // Until the device is let go of: nobody joins a server before all clients of the one that is gone have left.
+        pass(device, |device| matches!(device.status().state, State::Stalled(_)));
+        ear.peak.store(0, Relaxed);
+    }
 }

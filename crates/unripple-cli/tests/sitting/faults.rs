@@ -22,8 +22,11 @@ const STANDS: [f64; 2] = [0.1, 3.0];
 /// Longest time that a server is away, in s, so that it comes back between the first and the fourth time that it is looked for.
 const AWAY: f64 = 2.0;
 
-/// Periods that the server changes to, in samples; from them it goes back to its own.
+/// Periods that the server changes to, or comes back with, in samples; from them it goes back to that of the first.
 const PERIODS: [usize; 2] = [64, 1024];
+
+/// Of so many servers that come back, one has the period of the first: both have to be found again, and another one is harder.
+const SAME: usize = 3;
 
 /// Sockets and datagrams of a flood, many times what the system keeps for the program.
 const SOCKETS: usize = 8;
@@ -54,7 +57,7 @@ const GUESTS_ASK: u64 = 1_000_000_000;
 pub enum Fault {
     /// The server stands still, and a finger is lifted meanwhile.
     Frozen,
-    /// The server ends, and comes back; a finger is lifted meanwhile.
+    /// The server ends, and comes back, with another period or the same; a finger is lifted meanwhile.
     Killed,
     /// The server changes its period, and changes it back.
     Period,
@@ -138,8 +141,11 @@ impl Sitting {
         self.stroke(&mut hand, half);
         hand.lift();
         std::thread::sleep(Duration::from_secs_f64(half));
+        // The first has another, so that each short sitting has one of these.
+        let same = self.tally.count(Fault::Killed).is_multiple_of(SAME);
+        let period = if same { PERIOD } else { PERIODS[self.one_of(PERIODS.len())] };
         let name = self.server.name.clone();
-        self.server = Server::named(&name, PERIOD).unwrap();
+        self.server = Server::named(&name, period).unwrap();
     }
 
     fn change_period(&mut self) {

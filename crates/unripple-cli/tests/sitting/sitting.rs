@@ -12,7 +12,7 @@ use std::net::TcpStream;
 use std::time::{Duration, Instant};
 use unripple_core::Random;
 
-/// Samples in a cycle of a server that has just been started.
+/// Samples in a cycle of the first server, to which those that change come back.
 pub const PERIOD: usize = 256;
 
 /// How long it may take until all is well again. A lost server is looked for every four seconds, fingers that nothing is heard of are lifted

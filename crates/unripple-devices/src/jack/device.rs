@@ -17,11 +17,12 @@ const ROOM: usize = 32768;
 /// Longest wait for a block before looking again: a server that is gone wakes nobody.
 const NAP: Duration = Duration::from_millis(100);
 
-/// A JACK server as a device. Its block is the server's period, as it was when it was opened.
+/// A JACK server as a device. Its block is the one asked for, or the server's period as it was when it was opened.
 ///
 /// [`Work`] that is given to [`Device::employ`] is called in the server's own cycle, whatever the period is at the moment. Otherwise
-/// blocks are exchanged by [`Device::exchange`] through a ring in which `lead` of them wait; if the period grows, more of them wait,
-/// and that counts as a lost block.
+/// blocks are exchanged by [`Device::exchange`] through a ring in which `lead` of them wait, more where the period is longer than they
+/// are. The period need not be a multiple of the block, nor the block one of it. If the period grows meanwhile, more blocks wait from
+/// then on, and each of these counts as a lost block.
 ///
 /// In real time the server's thread neither waits nor allocates: where drive is late, it plays silence, records nothing, and counts
 /// the missed block. Missed blocks, those of a pause between exchanges included, are in [`Status::lost`] as soon as the first block
@@ -84,7 +85,8 @@ impl Jack {
         let wires = wires(&client, options)?;
         options.outputs.iter().try_for_each(|name| client.add(&format!("out_{name}"), false))?;
         options.inputs.iter().try_for_each(|name| client.add(&format!("in_{name}"), true))?;
-        let (block, rate) = (client.period(), client.rate());
+        let (block, rate) = (options.block.unwrap_or_else(|| client.period()), client.rate());
+        require("samples of a block", (1..=65_536).contains(&block), "1 to 65536", block as f64)?;
         let (outputs, inputs) = (options.outputs.len(), options.inputs.len());
         let room = ((options.lead + 2) * block).max(ROOM);
         let (crossing, shore) = Crossing::new(outputs, inputs, room, client.events.clone());
@@ -108,7 +110,7 @@ impl Jack {
             client.events.settle(patience);
         }
         let frames = Vec::with_capacity(block * (outputs.max(inputs) + 1));
-        let server = Server { period: block, priority: client.priority(), ..Server::default() };
+        let server = Server { period: client.period(), priority: client.priority(), ..Server::default() };
         let status = Status { server: Some(server), ..Status::default() };
         let mut jack = Self {
             client,
@@ -126,6 +128,7 @@ impl Jack {
             frames,
             status,
         };
+        jack.lead = jack.needed();
         jack.ask();
         Ok(jack)
     }
@@ -139,7 +142,9 @@ impl Jack {
         }
     }
 
-    /// Blocks that must be under way so that every cycle finds its drive: those asked for, or two cycles' worth.
+    /// Blocks that must be under way so that every cycle finds its drive: those asked for, or two cycles' worth. While one more is
+    /// waited for, less than a block of what came back is still here, so all of these are ahead of the server: one cycle takes its
+    /// drive, and the program has until the next to send more.
     fn needed(&self) -> u64 {
         let (block, period) = (self.layout.block, self.client.events.period.load(Ordering::Acquire));
         if period <= block { self.lead } else { self.lead.max((2 * period).div_ceil(block) as u64) }
@@ -262,7 +267,7 @@ impl Device for Jack {
         }
         if let Some(server) = &mut status.server {
             let period = events.period.load(Ordering::Acquire);
-            server.period = if period > 0 { period } else { self.layout.block };
+            server.period = if period > 0 { period } else { server.period };
             server.late = events.xruns.load(Ordering::Relaxed);
             server.skipped = events.skipped.load(Ordering::Relaxed);
             server.own_late = events.own_late.load(Ordering::Relaxed);

@@ -15,10 +15,12 @@ pub struct JackOptions {
     pub inputs: Vec<String>,
     /// What the client's ports are connected to.
     pub links: Links,
+    /// Samples per block that is exchanged, 1 to 65536, whatever the server's period; that period where `None`.
+    pub block: Option<usize>,
     /// Drive that a sample of 1 stands for, in the actuators' unit.
     pub full_scale: f64,
     /// Number of blocks by which the drive is ahead of the server: the program may be late by them, and all latencies are longer by
-    /// them.
+    /// them. As many as last two periods, if these are longer than blocks and that is more.
     pub lead: usize,
     /// Time without a cycle after which the server counts as stalled, in s.
     pub patience: f64,
@@ -35,6 +37,7 @@ impl Default for JackOptions {
             outputs: Vec::new(),
             inputs: Vec::new(),
             links: Links::System,
+            block: None,
             full_scale: 1.0,
             lead: 4,
             patience: 3.0,

@@ -114,8 +114,13 @@ fn truth(options: &DeviceAsk, surface: &Surface) -> Result<Box<dyn Device>, Task
 
 fn jack(options: &DeviceAsk, surface: &Surface, heard: Vec<String>) -> Result<Opened, TaskError> {
     let usual = device::jack(options, surface, heard);
-    let known = JackOptions { lead: LEAD, ..usual };
-    recovering(move || Ok(Box::new(Jack::open(&known)?)))
+    let mut known = JackOptions { lead: LEAD, ..usual };
+    recovering(move || {
+        let device = Jack::open(&known)?;
+        // A server may come back with another period; whoever exchanges blocks goes on with those of the first.
+        known.block = Some(device.layout().block);
+        Ok(Box::new(device))
+    })
 }
 
 #[cfg(feature = "cards")]
