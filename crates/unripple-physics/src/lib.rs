@@ -42,7 +42,7 @@ pub mod stepper;
 pub use actuators::{Entry, Sensor, Transducer, sensed, sensors, transducers};
 pub use coupled::{Loaded, Oscillations};
 pub use design::{Design, design};
-pub use loads::{Circuit, Footprint, Load};
+pub use loads::{Circuit, Footprint, Housing, Load};
 pub use responses::{ResponseOptions, response_modes, responses, responses_on, sample, stepped_hz};
 pub use stepper::{Channel, Plant, StepperOptions, VirtualSurface};
 pub use unripple_plates::{AIR_CELERITY, AIR_DENSITY, Medium, Modes, PhysicsError};

@@ -25,6 +25,7 @@ fn coil(at: Point) -> Channel {
         damping: 0.0,
         stiffness: 0.0,
         circuit: Some(circuit),
+        housing: None,
     };
     Channel { footprint, gain: 1.0, load: Some(load), voltage: true }
 }

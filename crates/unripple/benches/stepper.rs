@@ -134,7 +134,14 @@ fn channels(responses: &ModalResponses, kind: Kind) -> Vec<Channel> {
         let footprint = Footprint::point(at);
         let coil = Circuit { force_constant: 6.0, resistance: 6.2, inductance: 1.9e-3 };
         let circuit = (kind == Kind::Voltage).then_some(coil);
-        let load = Load { footprint: footprint.clone(), mass: 1e-4, damping: 0.0, stiffness: 0.0, circuit };
+        let load = Load {
+            footprint: footprint.clone(),
+            mass: 1e-4,
+            damping: 0.0,
+            stiffness: 0.0,
+            circuit,
+            housing: None,
+        };
         let gain = if kind == Kind::Current { 6.0 } else { 1.0 };
         Channel {
             footprint,

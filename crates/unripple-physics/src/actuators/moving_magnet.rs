@@ -2,7 +2,7 @@
 
 use super::{Entry, Transducer};
 use crate::{Circuit, Footprint, Load};
-use unripple_core::{Actuator, ActuatorKind, CoilDrive, Outline};
+use unripple_core::{Actuator, ActuatorKind, Outline};
 
 /// A magnet that is attached to the sheet and moves in a fixed coil: force bl·i, electromotive force bl·v, coil impedance R + Ls
 /// (Beranek, *Acoustics*, 1954, chapter 3, for a coil that moves in a fixed magnet's field, which has the same equations).
@@ -17,11 +17,15 @@ pub(super) fn transducer(actuator: &Actuator, outline: &Outline) -> Transducer {
         return super::force::transducer(actuator, outline);
     };
     let footprint = Footprint::disc(actuator.at, actuator.contact_radius, outline);
-    let (entry, unit, circuit) = match driven_by {
-        CoilDrive::Current => (Entry::Force, "A", None),
-        CoilDrive::Voltage => (Entry::Voltage, "V", Some(Circuit { force_constant, resistance, inductance })),
+    let (entry, unit, circuit) =
+        Entry::of_coil(driven_by, Circuit { force_constant, resistance, inductance });
+    let load = Load {
+        footprint: footprint.clone(),
+        mass: moving_mass,
+        damping: 0.0,
+        stiffness: 0.0,
+        circuit,
+        housing: None,
     };
-    let load =
-        Load { footprint: footprint.clone(), mass: moving_mass, damping: 0.0, stiffness: 0.0, circuit };
     Transducer { footprint, gain: force_constant, entry, load: Some(load), unit }
 }

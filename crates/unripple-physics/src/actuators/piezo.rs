@@ -38,8 +38,14 @@ pub(super) fn transducer(actuator: &Actuator, outline: &Outline) -> Result<Trans
             Footprint::rectangle_slope(actuator.at, sides, angle),
         ),
     };
-    let load =
-        (mass != 0.0).then_some(Load { footprint: area, mass, damping: 0.0, stiffness: 0.0, circuit: None });
+    let load = (mass != 0.0).then_some(Load {
+        footprint: area,
+        mass,
+        damping: 0.0,
+        stiffness: 0.0,
+        circuit: None,
+        housing: None,
+    });
     Ok(Transducer { footprint, gain: moment, entry: Entry::Force, load, unit: "V" })
 }
 

@@ -11,14 +11,17 @@ impl Loaded {
     /// By Woodbury's identity from the admittances Y of the sheet without loads: Y_ba - Y_bL (1 + Z Y_LL)⁻¹ Z Y_La.
     pub fn admittance(&self, transducer: usize, at: &Footprint, s: c64) -> c64 {
         let read = at.weights(self.shapes.as_ref());
+        // What of the drive's force reaches a sheet that is held still, past a housing.
+        let through =
+            self.own[transducer].map_or(c64::new(1.0, 0.0), |load| self.loads[load].transmission(s));
         let source: Vec<c64> = match self.driven_coil(transducer) {
             Some(load) => {
                 let force = self.loads[load]
                     .circuit
                     .map_or(c64::new(0.0, 0.0), |circuit| circuit.admittance(s) * circuit.force_constant);
-                self.felt.row(load).iter().map(|w| force * *w).collect()
+                self.felt.row(load).iter().map(|w| force * through * *w).collect()
             }
-            None => self.driven.row(transducer).iter().map(|w| c64::new(*w, 0.0)).collect(),
+            None => self.driven.row(transducer).iter().map(|w| through * *w).collect(),
         };
         let mobility = self.mobilities(s);
         let moved: Vec<c64> = source.iter().zip(&mobility).map(|(f, y)| f * y).collect();

@@ -2,7 +2,8 @@
 //!
 //! The displacement is u = Σ_m φ_m q_m with q̈ + 2Σq̇ + Ω²q = Φ_Aᵀ f - Wᵀ F. Loads move with the velocities W q̇ at their footprints
 //! and react with the forces F = Z(s) W q̇. Masses and springs only change the frequencies and shapes; dampers and coils make
-//! them complex. Responses follow in two ways, which share only the modes: [`Loaded::admittance`], at one frequency, by Woodbury's
+//! them complex. The housing of an exciter moves by itself: at one frequency it is part of the impedance Z, for all times a
+//! coordinate beside the modes ([`coordinates`]). Responses follow in two ways, which share only the modes: [`Loaded::admittance`], at one frequency, by Woodbury's
 //! identity, and [`Loaded::oscillations`], for all times, from the eigenvalues of the coupled system.
 //!
 //! Modes far above the band contribute their compliance at the loads, though they do not resonate there, since the disc of a
@@ -15,6 +16,7 @@ mod active;
 mod admittance;
 mod basis;
 mod conservative;
+mod coordinates;
 mod mixed;
 mod oscillations;
 mod remainder;

@@ -4,6 +4,7 @@ use super::Loaded;
 use super::active::Active;
 use super::basis::{Shape, split};
 use super::conservative::Conservative;
+use super::coordinates::Coordinates;
 use super::mixed::Mixed;
 use super::state::{Drives, Root, proportional, roots};
 use crate::PhysicsError;
@@ -71,26 +72,27 @@ impl Loaded {
     /// [`PhysicsError::TooLarge`] if more than 4 GiB of memory would be needed; [`PhysicsError::NotConverged`] if an eigenvalue
     /// problem fails.
     pub fn oscillations(&self, dynamic_hz: f64, band: [f64; 2]) -> Result<Oscillations, PhysicsError> {
-        let (active, passive) = split(&self.poles, self.felt.as_ref());
+        let system = self.coordinates();
+        let (active, passive) = split(&system.poles, system.felt.as_ref());
         let coupled = active.iter().filter(|shape| shape.pole.omega <= TAU * dynamic_hz).count();
-        guard(coupled, passive.len() * self.poles.len(), band[1])?;
+        guard(coupled, passive.len() * system.poles.len(), band[1])?;
         let mut parts = Parts::default();
         let [low, high] = band.map(|hz| TAU * hz);
         // A mode exactly at the top stays in, whatever the rounding.
         let within = move |omega: f64| omega >= low && omega <= high * (1.0 + 1e-9);
         for shape in passive.iter().filter(|shape| within(shape.pole.omega)) {
-            parts.alone(shape, self);
+            parts.alone(shape, &system);
         }
-        let active = Active::of(&active, self.felt.as_ref(), TAU * dynamic_hz);
-        let modes = Conservative::of(&active, &self.loads, dynamic_hz)?;
-        let drives = self.drives(&active, &modes);
+        let active = Active::of(&active, system.felt.as_ref(), TAU * dynamic_hz);
+        let modes = Conservative::of(&active, &system.loads, dynamic_hz)?;
+        let drives = system.drives(&active, &modes);
         let kept = parts.columns.len();
-        if proportional(&modes, &self.loads) {
+        if proportional(&modes, &system.loads) {
             for m in (0..modes.omegas.len()).filter(|m| within(modes.omegas[*m])) {
                 parts.real(m, &modes, &drives);
             }
         } else {
-            for root in roots(&modes, &self.loads, &drives, dynamic_hz)? {
+            for root in roots(&modes, &system.loads, &drives, dynamic_hz)? {
                 let real = root.s.im == 0.0;
                 if (real && root.s.norm() >= low) || within(root.s.norm()) {
                     parts.complex(root);
@@ -100,13 +102,14 @@ impl Loaded {
         let basis = product(active.map.as_ref(), modes.shapes.as_ref());
         Ok(parts.whole(self, kept, &basis))
     }
+}
 
+impl Coordinates {
     /// How each transducer's drive acts: as forces on the modes, or as the voltage on its coil.
     fn drives(&self, active: &Active, modes: &Conservative) -> Drives {
         let basis = product(active.map.as_ref(), modes.shapes.as_ref());
         let mut forces = product(self.driven.as_ref(), basis.as_ref());
-        let coils: Vec<Option<usize>> = (0..self.transducers.len()).map(|t| self.driven_coil(t)).collect();
-        for (drive, load) in coils.iter().enumerate() {
+        for (drive, load) in self.coils.iter().enumerate() {
             let Some(load) = *load else { continue };
             // A coil of negligible inductance gives a force at once; otherwise its current has to build up first.
             let direct = self.loads[load].direct_coil_force();
@@ -114,7 +117,7 @@ impl Loaded {
                 forces[(drive, m)] = direct * modes.felt[(load, m)];
             }
         }
-        Drives { forces, coils }
+        Drives { forces, coils: self.coils.clone() }
     }
 }
 
@@ -137,13 +140,13 @@ fn guard(coupled: usize, readouts: usize, max_hz: f64) -> Result<(), PhysicsErro
 
 impl Parts {
     /// Adds an oscillation that does not couple to the loads.
-    fn alone(&mut self, shape: &Shape, loaded: &Loaded) {
-        let mut column = vec![0.0; loaded.poles.len()];
+    fn alone(&mut self, shape: &Shape, system: &Coordinates) {
+        let mut column = vec![0.0; system.poles.len()];
         shape.parts.iter().for_each(|(mode, part)| column[*mode] = *part);
-        let input = (0..loaded.transducers.len())
-            .map(|t| match loaded.driven_coil(t) {
+        let input = (0..system.coils.len())
+            .map(|t| match system.coils[t] {
                 Some(_) => 0.0,
-                None => shape.weight(loaded.driven.row(t)),
+                None => shape.weight(system.driven.row(t)),
             })
             .collect();
         self.parts.push(Part { pole: shape.pole, column: self.columns.len(), input });
@@ -203,12 +206,12 @@ impl Parts {
         }
     }
 
-    /// All oscillations in order of frequency. Columns below `kept` are coefficients of the sheet's modes, the others of the columns
-    /// of `basis` (modes x coordinates).
+    /// All oscillations in order of frequency. Columns below `kept` are coefficients of the modes, the others of the columns of `basis`
+    /// (modes x coordinates); of both, what is beyond the modes of the sheet moves nothing of it.
     fn whole(mut self, loaded: &Loaded, kept: usize, basis: &Mat<f64>) -> Oscillations {
         let made = Mat::from_fn(basis.ncols(), self.columns.len() - kept, |i, c| self.columns[kept + c][i]);
         let made = basis * made;
-        let mixing = Mat::from_fn(basis.nrows(), self.columns.len(), |m, c| {
+        let mixing = Mat::from_fn(loaded.poles.len(), self.columns.len(), |m, c| {
             if c < kept { self.columns[c][m] } else { made[(m, c - kept)] }
         });
         self.parts.sort_by(|a, b| a.pole.omega.total_cmp(&b.pole.omega));

@@ -12,8 +12,9 @@ use unripple_linalg::c64;
 /// this is a relative error of 2e-5 of the coil's force. Doubled, the error is half as large.
 const AT_ONCE: f64 = 1e9;
 
-/// A lumped load on the sheet: a mass, a damper and a spring to the ground, and optionally a coil, all moving with the sheet at
-/// one contact. Its mechanical impedance is Z(s) = μs + β + κ/s + (bl)²/(R + Ls), which is passive for non-negative values.
+/// A lumped load on the sheet at one contact: a mass that moves with it, a damper and a spring to the ground, and optionally a coil and
+/// a housing. Its mechanical impedance is Z(s) = μs + β + κ/s + X(s), with X that of coil and housing ([`Load::reaction`]), which is
+/// passive for non-negative values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Load {
     /// Contact with the sheet, as points and weights.
@@ -24,8 +25,23 @@ pub struct Load {
     pub damping: f64,
     /// Stiffness κ to the ground, in N/m.
     pub stiffness: f64,
-    /// A coil closed by a voltage source, in which the motion drives a current; `None` for no coil.
+    /// A coil closed by a voltage source, in which the motion of the contact, relative to the housing if there is one, drives a
+    /// current; `None` for no coil.
     pub circuit: Option<Circuit>,
+    /// A housing that hangs on the contact. The coil, and the force of the actuator that has this load, then act between it and the
+    /// contact, over the load's footprint; `None` where they act against the ground.
+    pub housing: Option<Housing>,
+}
+
+/// The housing of an inertial exciter: a mass that a spring and a damper connect to the sheet, and that is otherwise free.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Housing {
+    /// Mass M of the housing with the magnet, in kg; positive.
+    pub mass: f64,
+    /// Damping c between the housing and the sheet, in N·s/m.
+    pub damping: f64,
+    /// Stiffness k of the spring between them, in N/m.
+    pub stiffness: f64,
 }
 
 /// The electrical circuit of a coil in a magnet's field whose terminals are held at a voltage.
@@ -49,26 +65,51 @@ impl Load {
             damping: finger.damping,
             stiffness: finger.stiffness,
             circuit: None,
+            housing: None,
         }
     }
 
     /// Mechanical impedance Z(s), force over velocity, at the complex frequency `s` (1/s), in N·s/m.
     pub fn impedance(&self, s: c64) -> c64 {
-        let coil = self.circuit.map_or(c64::new(0.0, 0.0), |circuit| {
-            circuit.admittance(s) * (circuit.force_constant * circuit.force_constant)
-        });
-        s * self.mass + self.damping + s.inv() * self.stiffness + coil
+        s * self.mass + self.damping + s.inv() * self.stiffness + self.reaction(s)
+    }
+
+    /// Mechanical impedance of coil and housing alone at the complex frequency `s` (1/s), in N·s/m: (bl)²/(R + Ls) of a coil on the
+    /// ground, and 1/(1/Ms + 1/T), T = c + k/s + (bl)²/(R + Ls), of a housing.
+    pub fn reaction(&self, s: c64) -> c64 {
+        let coil = Circuit::reaction(self.circuit.as_ref(), s);
+        self.housing.map_or(coil, |housing| housing.reaction(coil, s))
+    }
+
+    /// Share of the force between housing and contact that acts on a contact held still, at the complex frequency `s` (1/s),
+    /// dimensionless: Ms/(Ms + T) with T as in [`Load::reaction`], since spring, damper and coil pass the motion of the housing back;
+    /// 1 without a housing. It is also the velocity of a moving contact relative to the housing, as a share of its own.
+    pub fn transmission(&self, s: c64) -> c64 {
+        let coil = Circuit::reaction(self.circuit.as_ref(), s);
+        self.housing.map_or(c64::new(1.0, 0.0), |housing| housing.transmission(coil, s))
     }
 
     /// Whether the load has any effect on the sheet.
     pub(crate) fn acts(&self) -> bool {
         let coil = self.circuit.is_some_and(|circuit| circuit.force_constant != 0.0);
-        self.mass != 0.0 || self.damping != 0.0 || self.stiffness != 0.0 || coil
+        let tied = self.housing.is_some_and(|housing| housing.damping != 0.0 || housing.stiffness != 0.0);
+        self.mass != 0.0 || self.damping != 0.0 || self.stiffness != 0.0 || coil || tied
+    }
+
+    /// The load as two without a housing: the one between contact and ground, and the one between contact and housing. The first is
+    /// `None` if there is nothing of it beside a housing, the second if there is no housing.
+    pub(crate) fn split(&self) -> [Option<Self>; 2] {
+        let Some(Housing { damping, stiffness, .. }) = self.housing else {
+            return [Some(self.clone()), None];
+        };
+        let ground = Self { circuit: None, housing: None, ..self.clone() };
+        let tied = Self { mass: 0.0, damping, stiffness, housing: None, ..self.clone() };
+        [Some(ground).filter(Self::acts), Some(tied)]
     }
 
     /// The coil, if its inductance is not negligible.
     pub(crate) fn inductive_coil(&self) -> Option<Circuit> {
-        self.circuit.filter(|circuit| circuit.resistance < AT_ONCE * circuit.inductance)
+        self.circuit.filter(Circuit::is_inductive)
     }
 
     /// Damping (bl)²/R by a coil of negligible inductance, in N·s/m; 0 for any other.
@@ -91,6 +132,11 @@ impl Load {
         require("mass of a load in kg", self.mass >= 0.0, none, self.mass)?;
         require("damping of a load in N·s/m", self.damping >= 0.0, none, self.damping)?;
         require("stiffness of a load in N/m", self.stiffness >= 0.0, none, self.stiffness)?;
+        if let Some(Housing { mass, damping, stiffness }) = self.housing {
+            require("mass of a housing in kg", mass > 0.0, "a positive finite number", mass)?;
+            require("damping of a housing in N·s/m", damping >= 0.0, none, damping)?;
+            require("stiffness of a housing's spring in N/m", stiffness >= 0.0, none, stiffness)?;
+        }
         let Some(Circuit { force_constant, resistance, inductance }) = self.circuit else { return Ok(()) };
         require("force constant of a coil in N/A", true, "a finite number", force_constant)?;
         require("resistance of a coil in Ω", resistance > 0.0, "a positive finite number", resistance)?;
@@ -98,7 +144,43 @@ impl Load {
     }
 }
 
+impl Housing {
+    /// Weight of the housing's coordinate, √M times its displacement, in the extension of its spring, in 1/√kg.
+    pub(crate) fn weight(&self) -> f64 {
+        -1.0 / self.mass.sqrt()
+    }
+
+    /// Mechanical impedance (N·s/m) of the housing as the contact feels it, for that of the coil, `coil`.
+    fn reaction(&self, coil: c64, s: c64) -> c64 {
+        let (inert, tie) = (s * s * self.mass, self.tie(coil, s));
+        s * self.mass * tie / (inert + tie)
+    }
+
+    /// [`Load::transmission`], dimensionless, for the mechanical impedance `coil` (N·s/m) of the coil.
+    pub(crate) fn transmission(&self, coil: c64, s: c64) -> c64 {
+        let inert = s * s * self.mass;
+        inert / (inert + self.tie(coil, s))
+    }
+
+    /// Force per displacement between contact and housing, in N/m; in this form nothing is divided by s.
+    fn tie(&self, coil: c64, s: c64) -> c64 {
+        s * (coil + self.damping) + self.stiffness
+    }
+}
+
 impl Circuit {
+    /// Mechanical impedance (bl)²/(R + Ls) of a coil whose other side is held still, in N·s/m; 0 without a coil.
+    pub(crate) fn reaction(coil: Option<&Self>, s: c64) -> c64 {
+        coil.map_or(c64::new(0.0, 0.0), |coil| {
+            coil.admittance(s) * (coil.force_constant * coil.force_constant)
+        })
+    }
+
+    /// Whether the inductance is not negligible.
+    pub(crate) fn is_inductive(&self) -> bool {
+        self.resistance < AT_ONCE * self.inductance
+    }
+
     /// Electrical admittance 1/(R + Ls) of the coil at rest, at the complex frequency `s` (1/s), in A/V.
     pub fn admittance(&self, s: c64) -> c64 {
         (s * self.inductance + self.resistance).inv()

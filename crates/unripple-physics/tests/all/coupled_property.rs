@@ -56,14 +56,23 @@ fn circuit() -> impl Strategy<Value = Option<Circuit>> {
     prop_oneof![2 => Just(None), 1 => coil.prop_map(Some)]
 }
 
+fn housing() -> impl Strategy<Value = Option<Housing>> {
+    let mass = (1e-3_f64.ln()..1e-1_f64.ln()).prop_map(f64::exp);
+    let housing = (mass, amount(1e-3, 1.0), amount(10.0, 1e4))
+        .prop_map(|(mass, damping, stiffness)| Housing { mass, damping, stiffness });
+    prop_oneof![2 => Just(None), 1 => housing.prop_map(Some)]
+}
+
 fn loads() -> impl Strategy<Value = Vec<Load>> {
-    let load = (footprint(), amount(1e-6, 1e-2), amount(1e-3, 10.0), amount(1.0, 1e5), circuit()).prop_map(
-        |(footprint, mass, damping, stiffness, circuit)| Load {
+    let values = (amount(1e-6, 1e-2), amount(1e-3, 10.0), amount(1.0, 1e5));
+    let load = (footprint(), values, circuit(), housing()).prop_map(
+        |(footprint, (mass, damping, stiffness), circuit, housing)| Load {
             footprint,
             mass,
             damping,
             stiffness,
             circuit,
+            housing,
         },
     );
     proptest::collection::vec(load, 1..4)

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use stepper_common::*;
 use unripple_core::*;
 use unripple_physics::stepper::*;
-use unripple_physics::{Circuit, Footprint, Load};
+use unripple_physics::{Circuit, Footprint, Housing, Load};
 
 /// Shapes without any order: every place has numbers of its own.
 #[derive(Debug)]
@@ -50,23 +50,37 @@ fn circuit() -> impl Strategy<Value = Circuit> {
     })
 }
 
-/// Loads whose values reach from 10^-reach to 10^reach.
+/// Housings of 10 g to 100 kg, seldom one.
+fn housing() -> impl Strategy<Value = Option<Housing>> {
+    let mass = (-2.0..2.0).prop_map(|x| 10f64.powf(x));
+    let housing = (mass, wide(-2.0, 2.0), wide(-2.0, 2.0)).prop_map(|(mass, damping, stiffness)| Housing {
+        mass,
+        damping,
+        stiffness,
+    });
+    prop_oneof![3 => Just(None), 1 => housing.prop_map(Some)]
+}
+
+/// Loads whose values reach from 10^-reach to 10^reach, some with a housing.
 fn any_load(reach: f64) -> impl Strategy<Value = Load> {
     let values = (wide(-reach, reach), wide(-reach, reach), wide(-reach, reach));
-    (place(), values, proptest::option::of(circuit())).prop_map(|(at, values, circuit)| Load {
-        footprint: Footprint::point(at),
-        mass: values.0,
-        damping: values.1,
-        stiffness: values.2,
-        circuit,
-    })
+    (place(), values, proptest::option::of(circuit()), housing()).prop_map(
+        |(at, values, circuit, housing)| Load {
+            footprint: Footprint::point(at),
+            mass: values.0,
+            damping: values.1,
+            stiffness: values.2,
+            circuit,
+            housing,
+        },
+    )
 }
 
 fn channel(reach: f64) -> impl Strategy<Value = Channel> {
     (place(), proptest::option::of(any_load(reach)), any::<[bool; 2]>()).prop_map(
         |(at, load, [same, voltage])| {
             let footprint = match &load {
-                Some(load) if same => load.footprint.clone(),
+                Some(load) if same || load.housing.is_some() => load.footprint.clone(),
                 _ => Footprint::point(at),
             };
             let voltage = voltage && load.as_ref().is_some_and(|load| load.circuit.is_some());

@@ -41,7 +41,7 @@ pub fn force(at: Point) -> Transducer {
 
 /// A load at a footprint, of mass, damping and stiffness.
 pub fn load(footprint: Footprint, mass: f64, damping: f64, stiffness: f64) -> Load {
-    Load { footprint, mass, damping, stiffness, circuit: None }
+    Load { footprint, mass, damping, stiffness, circuit: None, housing: None }
 }
 
 /// Modes ready to be loaded.

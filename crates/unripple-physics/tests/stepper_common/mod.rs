@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 use unripple_core::*;
 use unripple_physics::stepper::*;
-use unripple_physics::{Circuit, Footprint, Load};
+use unripple_physics::{Circuit, Footprint, Housing, Load};
 
 /// Side of the square sheets, in m.
 pub const SIDE: f64 = 0.15;
@@ -61,13 +61,19 @@ pub fn force(x: f64, y: f64) -> Channel {
 
 /// A load on a point.
 pub fn load(x: f64, y: f64, [mass, damping, stiffness]: [f64; 3], circuit: Option<Circuit>) -> Load {
-    Load { footprint: Footprint::point(mm(x, y)), mass, damping, stiffness, circuit }
+    Load { footprint: Footprint::point(mm(x, y)), mass, damping, stiffness, circuit, housing: None }
 }
 
 /// A moving magnet driven by a voltage.
 pub fn coil(x: f64, y: f64, mass: f64, circuit: Circuit) -> Channel {
     let load = load(x, y, [mass, 0.0, 0.0], Some(circuit));
     Channel { footprint: load.footprint.clone(), gain: 1.0, load: Some(load), voltage: true }
+}
+
+/// An exciter on a current, or on a voltage if it has a circuit: a housing that hangs on a coil of some mass.
+pub fn exciter(x: f64, y: f64, mass: f64, housing: Housing, circuit: Option<Circuit>) -> Channel {
+    let load = Load { housing: Some(housing), ..load(x, y, [mass, 0.0, 0.0], circuit) };
+    Channel { footprint: load.footprint.clone(), gain: 1.0, load: Some(load), voltage: circuit.is_some() }
 }
 
 /// A fingertip touching at a point.
